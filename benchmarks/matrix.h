@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The matrix: one scene of medium size, drawn under every state that changes how fragments are produced, one state at a time. A row of the
-// table describes a state completely; halfspace-bench and its OpenGL twin draw the same rows.
+// The matrix: one scene of medium size, drawn with many different draw states, one per row. A row describes its state completely, and
+// halfspace-bench and halfspace-bench-gl draw the same rows.
 #pragma once
 
 #include <span>
@@ -16,13 +16,13 @@ namespace halfspace {
 
 enum class MatrixMesh : uint8_t {
   sheets,     ///< three wavy sheets that cross each other, 200,000 triangles that cover the image three times
-  near,       ///< the same from so near that the near plane clips triangles
+  near,       ///< the sheets from so close that the near plane clips triangles
   tiles,      ///< 98 instances of one sheet of 2048 triangles
-  edges,      ///< the lines of the sheets in one direction
+  edges,      ///< the grid lines of the sheets in one direction
   strips,     ///< the sheets as triangle strips with restarts
   points,     ///< the vertices of the sheets
-  triangles,  ///< `count` random triangles of `pixels` pixels, without shared vertices
-  quad        ///< one quad over the whole image; no depth buffer
+  triangles,  ///< `count` random triangles of size `pixels`, without shared vertices
+  quad        ///< a full-screen quad without a depth buffer
 };
 enum class MatrixOrder : uint8_t { ordered, shuffled_triangles, shuffled_vertices };
 enum class MatrixTexture : uint8_t {
@@ -30,24 +30,24 @@ enum class MatrixTexture : uint8_t {
   odd,        ///< 1000 x 602, rgba8
   half_float  ///< 1024 x 1024, rgba16f
 };
-/// Fragment functions. The ones called `visible` also have a visibility function.
+/// Fragment functions. Those with the suffix `visible` also have a visibility function.
 enum class MatrixShader : uint8_t {
   lit,    ///< diffuse light times the mean of `textures` lookups
-  alpha,  ///< lit, with the alpha of the texture
+  alpha,  ///< lit, with the alpha of the textures
   tint,   ///< an interpolated color with an alpha of 0.5
   dual,   ///< alpha, with a second color for dual source blending
   holes,  ///< lit; discards fragments with an alpha below `threshold`
   holes_visible,
-  depth,  ///< lit; moves the depth
+  depth,  ///< lit; changes the depth
   depth_visible,
   varyings,  ///< the mean of `varyings` floats
-  constant,  ///< one color
+  constant,  ///< a constant color
   color,     ///< an interpolated color
   texture,   ///< one texture
-  tone       ///< the tone curve of the workload tonemap, from a half-float texture of the size of the image
+  tone       ///< the tone curve of the workload `tonemap`, applied to a half-float texture of the size of the image
 };
 
-/// A row of the matrix. The defaults are the plain row, which all others are compared with.
+/// A row of the matrix. The defaults are the row `plain`, which all other rows are compared with.
 struct MatrixRow {
   std::string_view name, what;
   MatrixMesh mesh = MatrixMesh::sheets;
@@ -56,25 +56,25 @@ struct MatrixRow {
   MatrixTexture texels = MatrixTexture::square;
   int textures = 1;     ///< 1, 2, 4 or 8
   int varyings = 0;     ///< 0, 4, 8 or 16
-  int count = 0;        ///< of random triangles
-  float pixels = 0;     ///< size of random triangles in an image 1080 pixels high
-  float threshold = 0;  ///< of holes
+  int count = 0;        ///< number of random triangles
+  float pixels = 0;     ///< diameter of the circumscribed circle of random triangles, in pixels of an image 1080 pixels high
+  float threshold = 0;  ///< alpha threshold of holes
   int draws = 3;        ///< draw calls that the indices are divided into; each uses the next texture
   ColorFormat color = ColorFormat::rgba8;
   DepthFormat depth = DepthFormat::d32f;
   int samples = 1;
-  bool half_scissor = false;  ///< scissor test with the middle half of the image in each direction
+  bool half_scissor = false;  ///< scissor rectangle: the center of the image with half of its width and height
   DrawState state{};
   Sampler sampler{};
-  /// The row draws opaque triangles with one sample, so that its truth can be computed in double precision.
+  /// The row draws opaque triangles with one sample, so its picture can be compared with one in double precision.
   bool is_exact = false;
-  /// The picture can be compared with OpenGL, which leaves no choice to the implementation.
+  /// The picture can be compared with OpenGL. False if OpenGL leaves the result to the implementation.
   bool is_comparable = true;
 };
 
 /// Returns the rows of the matrix in display order.
 std::span<const MatrixRow> matrix_rows();
-/// Returns a workload for each row, drawn by Halfspace.
+/// Returns a workload for each row, rendered by Halfspace.
 std::span<const WorkloadKind> matrix_workloads();
 
 }  // namespace halfspace

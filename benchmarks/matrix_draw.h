@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Draws a row of the matrix to a pass, or to the target of the naive pipeline for its truth.
+// Draws a row of the matrix in a pass, or with the naive pipeline in double precision as the reference.
 #pragma once
 
 #include "halfspace/raster/pass.h"
@@ -9,7 +9,7 @@
 
 namespace halfspace {
 
-/// A row with everything that its draw calls need.
+/// A row and the data of its draw calls.
 struct MatrixJob {
   const MatrixRow& row;
   const MatrixScene& scene;
@@ -17,7 +17,7 @@ struct MatrixJob {
   DrawState state;
 };
 
-/// These add the draw calls of a row. Each accepts some of the fragment functions.
+/// These functions add the draw calls of a row. Each of them supports some of the fragment functions.
 void draw_matrix_lit(Pass& pass, const MatrixJob& job);
 void draw_matrix_blended(Pass& pass, const MatrixJob& job);  ///< alpha, tint and dual
 void draw_matrix_decided(Pass& pass, const MatrixJob& job);  ///< holes and depth, with and without visibility
@@ -39,7 +39,7 @@ void draw_part(WorkloadTruth& truth, const S& shader, const V& vertices, const I
   draw_naive(truth, shader, vertices, indices, state);
 }
 
-/// Draws all parts with a shader that derives from MatrixUniforms. Part i uses the textures from i on.
+/// Draws all parts with a shader that derives from MatrixUniforms. Part i uses the textures starting with texture i.
 template <class S, class Target>
 void draw_textured(Target& target, const MatrixJob& job) {
   const std::vector<MatrixVertex>& v = job.scene.vertices;

@@ -17,7 +17,7 @@ DrawState blending(const BlendState& blend) {
   state.blend = blend;
   return state;
 }
-// The same equation and factors for color and alpha.
+// Returns a blend state with the same equation and factors for color and alpha.
 BlendState equation(BlendEquation e, BlendFactor source, BlendFactor destination) {
   return {.color_equation = e,
           .source_color = source,
@@ -62,20 +62,20 @@ void add_targets(std::vector<MatrixRow>& rows) {
        .depth = DepthFormat::d24s8,
        .state = stencil({.compare = CompareOp::not_equal, .reference = 1})});
   row({.name = "stencil_write",
-       .what = "each pixel is drawn once, by stencil",
+       .what = "the stencil test draws each pixel only once",
        .depth = DepthFormat::d24s8,
        .state = stencil({.compare = CompareOp::equal, .pass = StencilOp::increment_clamp})});
   row({.name = "msaa2", .what = "2 samples", .samples = 2});
   row({.name = "msaa4", .what = "4 samples", .samples = 4});
   row({.name = "msaa8", .what = "8 samples", .samples = 8});
-  row({.name = "sample_shading", .what = "4 samples, shaded one by one", .samples = 4, .state = sample_shading});
+  row({.name = "sample_shading", .what = "4 samples, each shaded separately", .samples = 4, .state = sample_shading});
   row({.name = "alpha_to_coverage",
-       .what = "4 samples, alpha decides how many are drawn",
+       .what = "4 samples, alpha to coverage",
        .shader = Shader::alpha,
        .samples = 4,
        .state = to_coverage,
        .is_comparable = false});
-  row({.name = "scissor", .what = "a scissor rectangle of a quarter of the image", .half_scissor = true, .is_exact = true});
+  row({.name = "scissor", .what = "a scissor rectangle that covers a quarter of the image", .half_scissor = true, .is_exact = true});
   row({.name = "color_mask", .what = "only red and blue are written", .state = mask({true, false, true, false})});
 }
 
@@ -87,21 +87,21 @@ void add_blending(std::vector<MatrixRow>& rows) {
   };
   row("blend_over", "straight alpha", kAlphaBlend);
   row("blend_premultiplied", "premultiplied alpha", add(one, one_minus_src_alpha));
-  row("blend_additive", "source times alpha is added", kAdditiveBlend);
+  row("blend_additive", "adds source times alpha", kAdditiveBlend);
   row("blend_multiply", "source times destination", add(dst_color, zero));
-  row("blend_min", "the smaller one", equation(BlendEquation::min, one, one));
+  row("blend_min", "minimum of source and destination", equation(BlendEquation::min, one, one));
   row("blend_subtract", "destination minus source times alpha", equation(BlendEquation::reverse_subtract, src_alpha, one));
-  row("blend_constant", "a constant color is the factor", add(constant_color, one_minus_constant_color));
-  row("blend_dual", "the second color of the shader is the factor", add(one, src1_color), Shader::dual);
+  row("blend_constant", "constant blend factors", add(constant_color, one_minus_constant_color));
+  row("blend_dual", "dual-source blending", add(one, src1_color), Shader::dual);
   const auto triangles_row = [&](std::string_view name, std::string_view what, int count, float pixels) {
     rows.push_back(
         {.name = name, .what = what, .mesh = triangles, .shader = Shader::alpha, .count = count, .pixels = pixels, .state = over});
   };
-  triangles_row("blend_small", "200,000 blended triangles of 8 pixels", 200'000, 8);
-  triangles_row("blend_medium", "20,000 blended triangles of 100 pixels", 20'000, 100);
+  triangles_row("blend_small", "200,000 blended triangles, 8 pixels in diameter", 200'000, 8);
+  triangles_row("blend_medium", "20,000 blended triangles, 100 pixels in diameter", 20'000, 100);
   triangles_row("blend_medium_tint", "blend_medium without a texture", 20'000, 100);
   rows.back().shader = Shader::tint;
-  triangles_row("blend_large", "200 blended triangles of 800 pixels", 200, 800);
+  triangles_row("blend_large", "200 blended triangles, 800 pixels in diameter", 200, 800);
 }
 
 void add_shaders(std::vector<MatrixRow>& rows) {
@@ -116,7 +116,7 @@ void add_shaders(std::vector<MatrixRow>& rows) {
   row({.name = "varyings_4", .what = "4 floats of varyings", .shader = Shader::varyings, .varyings = 4, .is_exact = true});
   row({.name = "varyings_8", .what = "8 floats of varyings", .shader = Shader::varyings, .varyings = 8, .is_exact = true});
   row({.name = "varyings_16", .what = "16 floats of varyings", .shader = Shader::varyings, .varyings = 16, .is_exact = true});
-  row({.name = "pass_constant", .what = "a full-screen quad in one color", .mesh = quad, .shader = Shader::constant, .draws = 1});
+  row({.name = "pass_constant", .what = "a full-screen quad with a constant color", .mesh = quad, .shader = Shader::constant, .draws = 1});
   row({.name = "pass_color", .what = "a full-screen quad with an interpolated color", .mesh = quad, .shader = Shader::color, .draws = 1});
   row({.name = "pass_texture", .what = "a full-screen quad with a texture", .mesh = quad, .shader = Shader::texture, .draws = 1});
   row({.name = "pass_tone",
@@ -131,14 +131,14 @@ void add_geometry(std::vector<MatrixRow>& rows) {
   DrawState wireframe = kWireframeState, instances;
   instances.instances = 98;
   const auto row = [&](const MatrixRow& r) { rows.push_back(r); };
-  row({.name = "wireframe", .what = "outlines of all triangles", .state = wireframe});
+  row({.name = "wireframe", .what = "wireframe of all triangles", .state = wireframe});
   row({.name = "lines", .what = "100,000 lines", .mesh = edges, .state = topology(Topology::lines)});
   row({.name = "points", .what = "100,000 points of 6 x 6 pixels", .mesh = points, .state = topology(Topology::points)});
   row({.name = "strips", .what = "triangle strips with restarts", .mesh = strips, .draws = 1, .state = topology(Topology::triangle_strip)});
   row({.name = "shuffled_triangles", .what = "triangles in random order", .order = MatrixOrder::shuffled_triangles, .is_exact = true});
   row({.name = "shuffled_vertices", .what = "vertices in random order", .order = MatrixOrder::shuffled_vertices, .is_exact = true});
   row({.name = "unshared",
-       .what = "200,000 random triangles of 20 pixels, no shared vertices",
+       .what = "200,000 random triangles, 20 pixels in diameter, without shared vertices",
        .mesh = triangles,
        .count = 200'000,
        .pixels = 20,
@@ -160,13 +160,13 @@ void add_textures(std::vector<MatrixRow>& rows) {
   row({.name = "textures_8", .what = "8 textures", .textures = 8});
   row({.name = "texture_odd", .what = "textures of 1000 x 602 texels", .texels = MatrixTexture::odd});
   row({.name = "texture_half", .what = "half-float textures", .texels = MatrixTexture::half_float});
-  row({.name = "nearest", .what = "nearest texel", .sampler = filter(Filter::nearest)});
-  row({.name = "bilinear", .what = "bilinear, without mip levels", .sampler = filter(Filter::bilinear)});
+  row({.name = "nearest", .what = "nearest filtering", .sampler = filter(Filter::nearest)});
+  row({.name = "bilinear", .what = "bilinear filtering, without mip levels", .sampler = filter(Filter::bilinear)});
   row({.name = "mirrored", .what = "mirrored repeat", .sampler = wrap(Wrap::mirrored)});
   row({.name = "border", .what = "a border color", .sampler = wrap(Wrap::border)});
-  row({.name = "anisotropy_2", .what = "2 times anisotropic", .sampler = {.anisotropy = 2}});
-  row({.name = "anisotropy_8", .what = "8 times anisotropic", .sampler = {.anisotropy = 8}});
-  row({.name = "anisotropy_16", .what = "16 times anisotropic", .sampler = {.anisotropy = 16}});
+  row({.name = "anisotropy_2", .what = "2x anisotropic filtering", .sampler = {.anisotropy = 2}});
+  row({.name = "anisotropy_8", .what = "8x anisotropic filtering", .sampler = {.anisotropy = 8}});
+  row({.name = "anisotropy_16", .what = "16x anisotropic filtering", .sampler = {.anisotropy = 16}});
 }
 
 }  // namespace

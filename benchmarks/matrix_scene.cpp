@@ -18,7 +18,7 @@ constexpr int kSheets = 3, kColumns = 258, kRows = 129, kTextures = 8;
 constexpr double kEyeZ = 3.5, kNearEyeZ = 0.75;
 constexpr uint32_t kRestart = 0xffffffffu;
 
-// A wavy sheet of columns x rows quads that is wider than the view at its distance.
+// Adds a wavy sheet of columns x rows quads that is wider than the view at its distance.
 void add_sheet(MatrixScene& scene, int sheet, int columns, int rows, double aspect) {
   const double z0 = 0.7 * (1 - sheet), half_height = 1.15 * kTanHalfAngle * (kEyeZ - z0 + 0.4), half_width = half_height * aspect;
   for (int j = 0; j <= rows; ++j) {
@@ -80,7 +80,7 @@ void use_strips(MatrixScene& scene) {
 
 void add_triangles(MatrixScene& scene, int count, float pixels, double aspect) {
   WorkloadRandom random;
-  const float side = pixels / 1080.0f;  // of the height, which is 2 in clip space
+  const float radius = pixels / 1080.0f;  // of the circumscribed circle; clip space is 2 units high
   for (int t = 0; t < count; ++t) {
     const glm::vec3 center(2 * random.unit() - 1, 2 * random.unit() - 1, 1.8f * random.unit() - 0.9f);
     const float turn = 6.2831853f * random.unit();
@@ -89,7 +89,7 @@ void add_triangles(MatrixScene& scene, int count, float pixels, double aspect) {
       const glm::vec2 corner(std::cos(angle), std::sin(angle));
       const glm::vec3 at(corner.x / static_cast<float>(aspect), corner.y, 0.1f * corner.x);
       scene.indices.push_back(static_cast<uint32_t>(scene.vertices.size()));
-      scene.vertices.push_back({center + side * at, glm::normalize(glm::vec3(0.5f * corner, 1.0f)), glm::vec2(center) + side * corner});
+      scene.vertices.push_back({center + radius * at, glm::normalize(glm::vec3(0.5f * corner, 1.0f)), glm::vec2(center) + radius * corner});
     }
   }
 }
@@ -121,7 +121,7 @@ void shuffle_vertices(MatrixScene& scene) {
   for (uint32_t& i : scene.indices) i = place[i];
 }
 
-// Sine and cosine of k periods over `size` texels.
+// Returns the sine and cosine of k periods over `size` texels.
 struct Waves {
   Waves(int k, int size) {
     for (int i = 0; i < size; ++i) {
@@ -133,7 +133,7 @@ struct Waves {
   std::vector<float> sine, cosine;
 };
 
-// Smooth waves of color between 0.1 and 0.9 in all four channels; `index` shifts them.
+// Returns a texture with smooth waves between 0.1 and 0.9 in all four channels. `index` shifts the waves.
 Image<glm::vec4> wave_image(int width, int height, int index) {
   constexpr std::array<std::array<int, 2>, 4> periods{{{3, 1}, {-1, 2}, {4, -2}, {5, 4}}};
   Image<glm::vec4> image(width, height);

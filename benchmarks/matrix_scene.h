@@ -18,28 +18,28 @@ struct MatrixVertex {
   glm::vec2 uv;
 };
 
-/// What all draw calls of a row share. The positions are in world space; for MatrixMesh::triangles and quad that is clip space.
+/// Data that all draw calls of a row share. The positions are in world space; for MatrixMesh::triangles and quad, in clip space.
 struct MatrixScene {
   std::vector<MatrixVertex> vertices;
-  std::vector<uint32_t> indices;  ///< 0xffffffff restarts a strip
+  std::vector<uint32_t> indices;  ///< 0xffffffff is the restart index
   glm::mat4 clip_from_world{1.0f};
-  std::vector<std::shared_ptr<const Texture2D>> textures;  ///< as many as the row uses, at most eight
+  std::vector<std::shared_ptr<const Texture2D>> textures;  ///< the textures that the row uses, at most eight
 
-  /// Part i of n of the indices.
+  /// Returns part i of the indices, which are divided into n parts.
   std::span<const uint32_t> part(int i, int n) const;
 };
 
 MatrixScene matrix_scene(const MatrixRow& row, WorkloadSize size);
 
-/// A half-float image of the size of the target with colors from 0 to 8, without mip levels.
+/// Returns a half-float texture of the size of the target with colors from 0 to 8, without mip levels.
 std::shared_ptr<const Texture2D> matrix_light(WorkloadSize size);
 
-/// The scissor rectangle of a row with half_scissor.
+/// Returns the scissor rectangle of rows with half_scissor.
 Rect matrix_scissor(WorkloadSize size);
 
 /// Direction to the light.
 inline constexpr glm::vec3 kMatrixLight{0.48f, 0.6f, 0.64f};
-/// Texture i of a row with several is repeated 1 + i · kMatrixRepeat times as often as the first one.
+/// Texture i of a row is repeated 1 + i · kMatrixRepeat times as often as texture 0.
 inline constexpr float kMatrixRepeat = 0.25f;
 /// Columns and rows of the instances in MatrixMesh::tiles, and their scale.
 inline constexpr int kMatrixColumns = 14, kMatrixRows = 7;

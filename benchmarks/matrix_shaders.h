@@ -10,7 +10,7 @@
 
 namespace halfspace {
 
-/// Base class of the shaders that light a textured surface.
+/// Base class of shaders for lit, textured surfaces.
 struct MatrixUniforms {
   glm::mat4 clip_from_world;
   std::array<const Texture2D*, 8> maps;
@@ -41,7 +41,7 @@ struct MatrixUniforms {
   HS_INLINE vec4<R> texel(const Varyings<R>& in, const Pixel<R>& px) const {
     return maps[0]->sample(sampler, in.uv, px.ddx(&Varyings<R>::uv), px.ddy(&Varyings<R>::uv));
   }
-  /// The lit color of the texture, with its alpha.
+  /// Returns the lit color of the texture, with the alpha of the texture.
   template <class R>
   HS_INLINE vec4<R> lit_texel(const Varyings<R>& in, const Pixel<R>& px) const {
     const vec4<R> color = texel(in, px);
@@ -49,7 +49,7 @@ struct MatrixUniforms {
   }
 };
 
-/// N textures.
+/// A lit surface with N textures.
 template <int N>
 struct MatrixLit : MatrixUniforms {
   template <class R>
@@ -64,7 +64,7 @@ struct MatrixLit : MatrixUniforms {
   }
 };
 
-/// The instances are small copies in a grid.
+/// A lit surface whose instances are small copies in a grid.
 struct MatrixInstanced : MatrixLit<1> {
   template <class R>
   vec4<R> vertex(const Attributes<R>& in, const VertexId<R>& id, Varyings<R>& out) const {
@@ -105,7 +105,7 @@ struct MatrixHolesVisible : MatrixHoles {
   }
 };
 
-/// Moves the surface towards the eye, in waves along u.
+/// Moves the depth toward the eye, in waves along u.
 struct MatrixDepth : MatrixUniforms {
   template <class R>
   HS_INLINE R depth_at(const Varyings<R>& in, const Pixel<R>& px) const {

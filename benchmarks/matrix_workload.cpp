@@ -10,7 +10,7 @@ namespace halfspace {
 
 namespace {
 
-// Returns the scene of a row, in which full-screen tone mapping reads a picture instead of the textures.
+// Returns the scene of a row. Full-screen tone mapping reads a half-float picture instead of the textures.
 MatrixScene scene_of(const MatrixRow& row, WorkloadSize size) {
   MatrixScene scene = matrix_scene(row, size);
   if (row.shader == MatrixShader::tone) scene.textures.assign(1, matrix_light(size));
@@ -77,7 +77,7 @@ class MatrixWorkload final : public Workload {
     target.clear_value = kBackground;
     return target;
   }
-  // Depth is only stored where it is compared, as it is in a program that does not use it after drawing.
+  // Depth is stored only if it is compared with a reference. Programs do not store it either if they do not use it after drawing.
   DepthTarget depth_target() {
     if (row_.mesh == MatrixMesh::quad) return {};
     if (row_.depth == DepthFormat::d32f && row_.samples == 1) return d32f_target(depth_);

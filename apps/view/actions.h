@@ -42,7 +42,7 @@ enum class Action : uint8_t {
 };
 inline constexpr std::size_t kActions = 28;
 
-/// Whether the action moves the camera for as long as its key is held.
+/// Returns true if the action moves the camera as long as its key is held.
 constexpr bool is_movement(Action a) { return a <= Action::pitch_down; }
 
 struct KeyBinding {
@@ -51,10 +51,10 @@ struct KeyBinding {
   std::string_view help;
 };
 
-/// Returns all keys, in the order in which help lists them.
+/// Returns all keys, in the order of the help text.
 std::span<const KeyBinding> key_bindings();
 
-/// Returns the action of a key, if it has one. `key` is SDL's name of the key, in any case.
+/// Returns the action of a key, or nullopt if it has none. `key` is SDL's name of the key, in upper or lower case.
 std::optional<Action> action_of(std::string_view key);
 
 }  // namespace halfspace

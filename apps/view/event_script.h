@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Events that are pushed at given frames, for tests and recordings.
+// A script of input events for tests and recordings.
 #pragma once
 
 #include <filesystem>
@@ -11,14 +11,14 @@
 
 namespace halfspace {
 
-/// A file with lines of the form FRAME EVENT ARGUMENTS, in order of frames:
-///   3 key n            press and release a key, named as SDL does; with "shift+": with shift
+/// A script has lines of the form FRAME EVENT ARGUMENTS, sorted by frame:
+///   3 key n            press and release a key, given by SDL's name; the prefix "shift+" holds shift
 ///   3 down w           press a key
 ///   9 up w             release a key
 ///   3 text abc         type text into the widget that has the focus
-///   3 mouse 40 50      move the mouse to a pixel, except for widgets, which ask where the mouse is
+///   3 mouse 40 50      move the mouse to a pixel; widgets ignore this event, because they query the position of the real mouse
 ///   3 button 1 down    press or release (up) a mouse button: 1 left, 2 middle, 3 right
-///   3 wheel -1         turn the mouse wheel
+///   3 wheel -1         scroll the mouse wheel
 ///   3 size 640 360     resize the window
 ///   3 drop FILE        drop a file
 ///   3 close            close the window
@@ -28,7 +28,7 @@ class EventScript {
   /// Throws InputError.
   explicit EventScript(const std::filesystem::path& file);
 
-  /// Pushes the events of a frame. Frames must be passed in order.
+  /// Pushes the events of a frame. Must be called with increasing frame numbers.
   void push(int frame, SDL_Window* window);
 
  private:

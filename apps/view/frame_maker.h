@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Renders the frames that are shown: in full quality, or coarse while something moves and a frame takes long.
+// Renders frames in full quality, or with fewer pixels while something moves and frames are slow.
 #pragma once
 
 #include <functional>
@@ -17,15 +17,15 @@ namespace halfspace {
 
 struct OpenedScene;
 
-/// Chooses how coarse frames are.
+/// Selects the resolution of frames.
 class CoarseControl {
  public:
   static constexpr double kLongFrameMs = 50.0;
   static constexpr int kCoarsest = 4;
 
-  /// Returns by what the width and height of the next frame are divided. moving: whether something moves.
+  /// Returns the divisor for the width and height of the next frame. moving: the camera moves or an animation runs.
   int divisor(bool moving) const;
-  /// Reports the time of a frame.
+  /// Records the time of a frame.
   void add_frame(int divisor, double milliseconds);
 
  private:
@@ -44,18 +44,18 @@ class FrameMaker {
   /// warn: called with one line for each problem that does not prevent a picture.
   FrameMaker(const Workers& workers, std::function<void(const std::string&)> warn) : workers_(workers), warn_(std::move(warn)) {}
 
-  /// Forgets the maps and meshes of the previous scene.
+  /// Starts a new scene and releases the maps and meshes of the previous one.
   void open(const OpenedScene& opened);
 
-  /// Renders to the frame, whose size is that of the picture. With a divisor greater than 1, renders fewer pixels with one sample and
-  /// enlarges them. Throws InputError.
+  /// Renders a picture of the size of `frame`. With a divisor greater than 1, renders fewer pixels with one sample each and enlarges them.
+  /// Throws InputError.
   void render(const SceneDescription& scene, int divisor, Overlay overlay, Image<glm::u8vec4>& frame);
 
-  /// Returns the history of a pixel of the last frame. There must have been one. Its first line is `title`.
+  /// Returns the history of a pixel of the last frame, which must exist. Its first line starts with `title`.
   PickedPixel pick(const glm::ivec2& pixel, const std::string& title) const;
 
   const FrameTimes& times() const { return times_; }
-  /// Sum over the passes of the last frame and its shadow maps.
+  /// Returns the sum over the passes of the last frame, including those of shadow maps.
   const PassStatistics& statistics() const { return statistics_; }
   const std::string& overlay_text() const { return overlay_text_; }
 
@@ -63,10 +63,10 @@ class FrameMaker {
   const Workers& workers_;
   std::function<void(const std::string&)> warn_;
   std::unique_ptr<SceneAssets> assets_;
-  SceneDescription description_;  // of the last frame
+  SceneDescription description_;  // scene of the last frame
   std::optional<PreparedScene> scene_;
   int divisor_ = 1;
-  Image<glm::u8vec4> small_;  // of a coarse frame
+  Image<glm::u8vec4> small_;  // coarse frame before it is enlarged
   FrameTimes times_;
   PassStatistics statistics_;
   std::string overlay_text_;

@@ -14,13 +14,13 @@ struct ImFontAtlas;
 
 namespace halfspace {
 
-/// Renders the triangles of ImGui: blended, with scissor rectangles and one texture, which contains the fonts.
+/// Renders ImGui's triangles with blending, scissor rectangles and one texture, the font atlas.
 class ImGuiPass {
  public:
-  /// Builds the atlas. All fonts must have been added.
+  /// Builds the font atlas. All fonts must have been added.
   explicit ImGuiPass(ImFontAtlas& fonts);
 
-  /// Draws over the frame, whose size must be the display size. Blends the codes of colors, as ImGui expects.
+  /// Draws over the frame, which must have the display size. Blends sRGB codes, not linear colors, as ImGui expects.
   void draw(const ImDrawData& data, Image<glm::u8vec4>& frame, const Workers& workers);
 
  private:
@@ -29,7 +29,7 @@ class ImGuiPass {
     glm::vec4 color;
   };
 
-  // From pixels to NDC.
+  // Transform from pixels to NDC.
   struct Placement {
     glm::vec2 scale, offset;
   };
@@ -39,8 +39,8 @@ class ImGuiPass {
   void add_list(Pass& pass, const ImDrawList& list, const ImDrawData& data, std::span<const Vertex> vertices, int height) const;
 
   Texture2D fonts_;
-  glm::vec2 white_uv_;            // of a white texel, which triangles without text use
-  std::vector<Vertex> vertices_;  // of all lists of a frame
+  glm::vec2 white_uv_;            // texture coordinates of a white texel, for triangles without text
+  std::vector<Vertex> vertices_;  // vertices of all draw lists of a frame
 };
 
 }  // namespace halfspace

@@ -20,8 +20,8 @@ namespace {
 constexpr ImGuiWindowFlags kLabelFlags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_AlwaysAutoResize |
                                          ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav;
 
-// Opens a window for text. x and y: position in the display, 0 to 1; the window is inside and `above` pixels above it. ImGui::End() must
-// follow.
+// Begins a text window. x and y: position of the window in the display, from 0 to 1; the window is moved up by `above` pixels. The caller
+// must call ImGui::End().
 void begin_label(const char* name, float x, float y, float above = 0.0f) {
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos({x * display.x, y * display.y - above}, ImGuiCond_Always, {x, y});
@@ -47,7 +47,7 @@ void draw_picked(const PickedPixel& picked, float scale) {
                ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_AlwaysAutoResize |
                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav |
                    ImGuiWindowFlags_HorizontalScrollbar);
-  if (picked.is_outdated) ImGui::TextUnformatted("of an earlier frame; stop time with the space bar");
+  if (picked.is_outdated) ImGui::TextUnformatted("history of an earlier frame; press space to pause the animation");
   ImGui::TextUnformatted(picked.history.c_str());
   ImGui::End();
   const ImVec2 at(static_cast<float>(picked.pixel.x) + 0.5f, static_cast<float>(picked.pixel.y) + 0.5f);
@@ -60,7 +60,7 @@ void draw_picked(const PickedPixel& picked, float scale) {
 Interface::Context::Context(double scale) {
   ImGui::CreateContext();
   ImGuiIO& io = ImGui::GetIO();
-  io.IniFilename = nullptr;  // no file with the positions of windows
+  io.IniFilename = nullptr;  // do not store the positions of windows in a file
   ImFontConfig font;
   font.SizePixels = static_cast<float>(std::floor(13.0 * scale));
   io.Fonts->AddFontDefault(&font);
@@ -72,7 +72,7 @@ Interface::Context::Context(double scale) {
 Interface::Context::~Context() { ImGui::DestroyContext(); }
 
 Interface::Interface(SDL_Window* window, double scale) : context_(scale), scale_(scale), pass_(*ImGui::GetIO().Fonts) {
-  ImGui_ImplSDL2_InitForVulkan(window);  // any function will do: only the input is used, and this one has no other arguments
+  ImGui_ImplSDL2_InitForVulkan(window);  // only input is used, so any backend will do; this one needs no other arguments
 }
 
 Interface::~Interface() { ImGui_ImplSDL2_Shutdown(); }
@@ -100,7 +100,7 @@ void Interface::draw_statistics(const Viewer& viewer, const Contents& c) const {
                                      s.primitives_in, s.triangles_binned, s.vertices_shaded, s.samples_passed, s.fragments_shaded)
                              .c_str());
   ImGui::TextUnformatted(fmt::format("time {:.2f} s{}{}", viewer.seconds(), viewer.is_paused() ? ", paused" : "",
-                                     c.divisor > 1 ? fmt::format("; coarse: 1/{} of the width and height", c.divisor) : std::string())
+                                     c.divisor > 1 ? fmt::format("; reduced to 1/{} of the width and height", c.divisor) : std::string())
                              .c_str());
   ImGui::End();
 }
@@ -108,7 +108,8 @@ void Interface::draw_statistics(const Viewer& viewer, const Contents& c) const {
 void Interface::draw_help() const {
   std::vector<std::pair<std::string, std::string>> lines;
   for (const KeyBinding& b : key_bindings()) lines.emplace_back(b.key, b.help);
-  lines.insert(lines.end(), {{"drag", "left button: orbit; others: pan"}, {"wheel", "zoom"}, {"drop", "a model or scene file: open it"}});
+  lines.insert(lines.end(),
+               {{"drag", "left button: orbit; other buttons: pan"}, {"wheel", "zoom"}, {"drop", "open a model or scene file"}});
   const float fitting = ImGui::GetIO().DisplaySize.y / ImGui::GetTextLineHeightWithSpacing() - 1.0f;
   const std::size_t rows = std::clamp(static_cast<std::size_t>(std::max(fitting, 1.0f)), std::size_t{8}, lines.size());
   begin_label("Keys", 0.5f, 0.5f);

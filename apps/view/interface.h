@@ -20,14 +20,14 @@ namespace halfspace {
 
 /// Times of the last frame, in milliseconds.
 struct WindowTimes {
-  double frame = 0.0;      ///< from the start of a frame to that of the next
+  double frame = 0.0;      ///< from the start of one frame to the start of the next
   double interface = 0.0;  ///< drawing the user interface
   double present = 0.0;    ///< copying the frame to the window
 };
 
 class Interface {
  public:
-  /// scale: 1 for text that is 13 pixels high.
+  /// scale: scale of text and panels. 1 means that text is 13 pixels high.
   Interface(SDL_Window* window, double scale);
   ~Interface();
   Interface(const Interface&) = delete;
@@ -35,8 +35,8 @@ class Interface {
 
   /// Passes an event to the widgets.
   void handle(const SDL_Event& event);
-  bool takes_keyboard() const;  ///< a text field has the focus
-  bool takes_mouse() const;     ///< the mouse is over a panel
+  bool takes_keyboard() const;  ///< returns true if a text field has the focus
+  bool takes_mouse() const;     ///< returns true if the mouse is over a panel
 
   /// Shows or hides help, panels or statistics.
   void toggle(Action action);
@@ -45,13 +45,12 @@ class Interface {
   struct Contents {
     const FrameMaker& frames;
     const WindowTimes& times;
-    int divisor;                               ///< of the last frame
-    const std::optional<PickedPixel>& picked;  ///< nothing: no pixel is picked
+    int divisor;                               ///< divisor of the last frame's width and height
+    const std::optional<PickedPixel>& picked;  ///< the picked pixel, if any
     bool show_message;
   };
 
-  /// Draws the user interface over the frame, whose size is that of the window. Returns false if nothing is shown and the frame is
-  /// unchanged.
+  /// Draws the user interface over the frame, which must have the size of the window. Returns false if there was nothing to draw.
   bool draw(Viewer& viewer, const Contents& contents, Image<glm::u8vec4>& frame, const Workers& workers);
 
  private:

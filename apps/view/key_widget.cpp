@@ -18,7 +18,7 @@ using Changed = std::optional<std::string>;
 
 std::string text_of(const glm::dvec3& v) { return fmt::format("{},{},{}", v.x, v.y, v.z); }
 
-// Returns how far a number changes when the mouse moves by a pixel.
+// Returns the change of a number for one pixel of mouse movement.
 float drag_speed(double value) { return static_cast<float>(std::max(std::fabs(value), 0.1) * 0.005); }
 
 bool drag_numbers(const Key& key, double* values, int count) {
@@ -58,7 +58,7 @@ Changed draw_choice(const Key& key, uint8_t value) {
   return chosen;
 }
 
-// Text that is set when the user presses the enter key.
+// A text field whose value is set when the user presses enter.
 Changed draw_text(const Key& key, std::string text) {
   return ImGui::InputText(key.name, &text, ImGuiInputTextFlags_EnterReturnsTrue) ? Changed(text) : std::nullopt;
 }

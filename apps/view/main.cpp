@@ -36,10 +36,10 @@ void add_options(CLI::App& program, ViewArguments& args) {
   program.add_option("--size", args.size, "Size of the window in pixels (default 1280x720)")->type_name("WxH");
   program.add_option("--ui-scale", args.ui_scale, "Scale of text and panels (default: Xft.dpi / 96)")->type_name("F");
   program.add_option("--threads", args.threads, "Threads (default: one per core)")->type_name("N");
-  program.add_option("--frames", args.frames, "Show N frames, 1/30 s apart, print their times and exit")->type_name("N");
-  program.add_flag("--no-window", args.no_window, "With --frames: the same frames without a window");
-  program.add_option("--events", args.events, "Push the events that the file lists; for tests")->type_name("FILE");
-  program.add_option("--record", args.record, "Write each shown frame to the folder; for tests")->type_name("DIR");
+  program.add_option("--frames", args.frames, "Show N frames at intervals of 1/30 s, print the mean times and exit")->type_name("N");
+  program.add_flag("--no-window", args.no_window, "With --frames: render the same frames without a window");
+  program.add_option("--events", args.events, "Push the input events listed in the file; for tests")->type_name("FILE");
+  program.add_option("--record", args.record, "Write all frames to the folder; for tests")->type_name("DIR");
   program.footer(
       "Press h in the window for the list of keys.\n\n"
       "Examples:\n"
@@ -61,7 +61,7 @@ ViewOptions options_of(const ViewArguments& args) {
     if (frames < 1) throw UsageError("--frames is '" + args.frames + "'; expected a number of frames of at least 1");
     options.frames = frames;
   }
-  if (args.no_window && !options.frames) throw UsageError("--no-window applies only to timed runs; expected --frames N as well");
+  if (args.no_window && !options.frames) throw UsageError("--no-window requires --frames; expected --frames N as well");
   options.events = args.events;
   options.record = args.record;
   return options;

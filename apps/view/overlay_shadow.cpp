@@ -10,12 +10,12 @@ namespace halfspace {
 
 #if HALFSPACE_HAS_RAYS
 std::string draw_shadow_error_overlay(OverlayFrame frame) {
-  constexpr int kRays = 16;  // for lights that have a size
+  constexpr int kRays = 16;  // per pixel, for area lights
   const Validation result =
       validate("view", frame.description, {frame.picture.width(), frame.picture.height(), kRays}, frame.assets, frame.workers);
-  if (result.lights.empty()) return "no light of this scene casts a shadow";
+  if (result.lights.empty()) return "no light of this scene casts shadows";
   frame.picture = difference_picture(result.lights.front());
-  return fmt::format("shadow of '{}' against ray tracing: red wrongly dark, blue wrongly lit; mean error {:.4f}",
+  return fmt::format("shadow of '{}' compared with ray tracing: red wrongly dark, blue wrongly lit; mean error {:.4f}",
                      result.lights.front().score.light, result.lights.front().score.error);
 }
 #else

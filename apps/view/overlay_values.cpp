@@ -11,9 +11,9 @@ namespace halfspace {
 
 namespace {
 
-// What selects the mip level of the color map of a draw.
+// The values that select the mip level of a draw's color map.
 struct ColorMap {
-  glm::vec2 size{0.0f};  // texels; 0: no map
+  glm::vec2 size{0.0f};  // texels; 0 if there is no map
   int levels = 0;
   float anisotropy = 1.0f;
   glm::mat2 uv_transform{1.0f};
@@ -39,7 +39,7 @@ ColorMap color_map_of(const PreparedDraw& draw) {
       draw.shader);
 }
 
-// Returns the level for the changes of texel coordinates in x and y, as in shading/footprint.h but rounded.
+// Returns the rounded mip level for the derivatives of the texel coordinates in x and y. The formula is that of shading/footprint.h.
 int level_of(const ColorMap& map, const glm::vec2& dx, const glm::vec2& dy) {
   const float a = glm::length(map.uv_transform * dx * map.size), b = glm::length(map.uv_transform * dy * map.size);
   const float longer = std::max(a, b), shorter = std::max(std::min(a, b), 1e-6f);
@@ -54,7 +54,7 @@ glm::u8vec4 level_color(int level) {
   return {kColors[static_cast<std::size_t>(level) % kColors.size()], 255};
 }
 
-// Images of the values that identify the surface of a pixel.
+// Images of the values that identify the surface at each pixel.
 struct SurfaceImages {
   Image<uint32_t> object, instance;
   Image<glm::vec2> uv;
@@ -102,7 +102,7 @@ std::string draw_mip_level_overlay(OverlayFrame frame) {
       pixel = glm::u8vec4(glm::u8vec3(color * (128 + light) / 383), 255);
     }
   }
-  return "level of the color map: red 0, orange 1, yellow 2, green 3, cyan 4, blue 5, purple 6, pink 7; gray: no map";
+  return "mip level of the color map: red 0, orange 1, yellow 2, green 3, cyan 4, blue 5, purple 6, pink 7; gray: no color map";
 }
 
 std::string draw_normals_overlay(OverlayFrame frame) {

@@ -8,7 +8,7 @@ namespace halfspace {
 
 namespace {
 
-// Moves edges towards the eye, so that the surfaces that they belong to do not hide them. Depth is reversed.
+// Moves edges toward the eye, so that their own surfaces do not hide them. Depth is reversed.
 constexpr DepthOffset kBehindLines{.slope = -1.5f, .constant = -4.0f};
 
 }  // namespace
@@ -34,7 +34,7 @@ std::string draw_wireframe_overlay(OverlayFrame frame) {
     }
   }
   pass.run(frame.workers);
-  return "green: edges of triangles";
+  return "green: visible edges of triangles";
 }
 
 }  // namespace halfspace

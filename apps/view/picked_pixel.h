@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What was drawn at one pixel of a frame.
+// The history of one pixel of a frame.
 #pragma once
 
 #include <string>
@@ -11,13 +11,13 @@ namespace halfspace {
 
 /// A pixel that the user picked.
 struct PickedPixel {
-  glm::ivec2 pixel{0};       ///< of the window, from the upper left corner
-  std::string object;        ///< name of the object that is visible there; empty: none
-  std::string history;       ///< as `halfspace explain --text` prints it; empty until a frame was rendered
-  bool is_outdated = false;  ///< of an earlier frame than the one that is shown
+  glm::ivec2 pixel{0};       ///< position in the window, from the upper left corner
+  std::string object;        ///< name of the visible object; empty if there is none
+  std::string history;       ///< output of `halfspace explain --text`; empty until a frame was rendered
+  bool is_outdated = false;  ///< the history is that of an earlier frame
 };
 
-/// Traces a frame and returns the history of one of its pixels. `title` is its first line.
+/// Traces a frame and returns the history of one of its pixels. `title` starts the first line of the history.
 PickedPixel picked_pixel(const std::string& title, const PreparedScene& scene, const SceneDescription& description, const glm::ivec2& pixel,
                          const Workers& workers);
 

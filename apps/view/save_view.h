@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Saves what is shown: a scene file, and the picture that `halfspace render` makes of it.
+// Saves the view as a scene file, together with the picture that `halfspace render` renders from it.
 #pragma once
 
 #include <filesystem>
@@ -14,12 +14,12 @@ struct ViewFiles {
   std::filesystem::path picture, scene;
 };
 
-/// Returns the scene as a scene file that shows at time 0 what this one shows at a time. Throws OutputError if that is not possible,
-/// because the playback is before time 0.
+/// Returns a scene file that starts at the given time of `scene`. Throws OutputError if this is not possible because the animation's own
+/// time is negative.
 std::string scene_text_at(const SceneFile& scene, double seconds);
 
-/// Renders and writes both files to the folder, with the first number that is not in use: NAME-view-1.png and NAME-view-1.json. The picture
-/// has the bits of `halfspace render NAME-view-1.json --size WIDTHxHEIGHT`. Throws InputError and OutputError.
+/// Renders the picture and writes both files to the folder, with the first unused number: NAME-view-1.png and NAME-view-1.json. The picture
+/// is bit-identical to that of `halfspace render NAME-view-1.json --size WIDTHxHEIGHT`. Throws InputError and OutputError.
 ViewFiles save_view(const SceneFile& scene, double seconds, const std::string& name, int width, int height, int threads,
                     const std::filesystem::path& folder);
 

@@ -30,7 +30,7 @@ std::string objects_text(int count) { return count == 1 ? "1 object" : fmt::form
 enum class Relief { none, map, bump };
 
 bool has_detail(const ObjectDescription& o) { return is_map(o.surface.normal_map) || is_map(o.surface.bump_map); }
-// Whether the object has a key for the normals of its displacement.
+// Returns true if the object has a key for the normals of its displacement.
 bool is_displaced(ObjectDescription o) { return is_map(o.height) && find_field(section_of(o), "normals").key != nullptr; }
 bool has_relief(const ObjectDescription& o) { return o.shape != Shape::file && (has_detail(o) || is_displaced(o)); }
 
@@ -51,7 +51,7 @@ bool offers(const ObjectDescription& o, Relief relief) {
   return is_map(relief == Relief::map ? o.surface.normal_map : o.surface.bump_map);
 }
 
-// Returns the setting of an object for a relief. An object that lacks the map has none.
+// Returns the setting that gives an object a relief, or no relief if the object does not have the map.
 std::string relief_setting(const std::string& name, const ObjectDescription& o, Relief relief) {
   static constexpr const char* kDetail[] = {"none", "map", "bump"};
   static constexpr const char* kNormals[] = {"undisplaced", "pixel", "vertex"};
@@ -73,7 +73,7 @@ std::string try_set(SceneFile& scene, const std::string& setting) {
 
 std::string set_shading_rate(SceneFile& scene, const std::string& rate) {
   const int accepted = set_for_objects(scene, "shading", [&](const ObjectDescription& o) { return o.shape == Shape::file ? "" : rate; });
-  if (accepted == 0) return "no object of this scene has a shading rate";
+  if (accepted == 0) return "no object of this scene has a `shading` key";
   return fmt::format("shading {}: {}", rate, objects_text(accepted));
 }
 
@@ -99,7 +99,7 @@ std::string toggle_color_maps(SceneFile& scene) {
   const bool on = std::ranges::any_of(objects, [&](const auto& e) { return has_color_map(e.second) && e.second.surface.textured; });
   const char* value = on ? "false" : "true";
   const int accepted = set_for_objects(scene, "textured", [&](const ObjectDescription& o) { return has_color_map(o) ? value : ""; });
-  if (accepted == 0) return "no object of this scene has a texture that can be switched off";
+  if (accepted == 0) return "no object of this scene has a color map";
   return fmt::format("textures {}: {}", on ? "off" : "on", objects_text(accepted));
 }
 

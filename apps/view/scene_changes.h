@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Changes of a scene that a key makes. All of them set keys of the scene file, so that a saved scene has them. Each function returns a line
-// that says what was changed, or why nothing was.
+// Changes of a scene by keyboard shortcuts. All of them set keys of the scene file, so a saved scene contains them. Each function returns a
+// line that says what was changed, or why nothing was changed.
 #pragma once
 
 #include <string>
@@ -11,30 +11,30 @@
 
 namespace halfspace {
 
-/// Sets a key if the scene accepts the value. Returns an empty string, or the reason why it does not.
+/// Sets a key if the scene accepts the value. Returns an empty string on success, otherwise the reason.
 std::string try_set(SceneFile& scene, const std::string& setting);
 
 /// Sets the shading rate of all objects that accept it.
 std::string set_shading_rate(SceneFile& scene, const std::string& rate);
 
-/// Switches the relief of all objects: none, normal map, bump map. Displaced objects have normals that are undisplaced, per pixel, per
-/// vertex instead.
+/// Switches the relief of all objects to the next of: none, normal map, bump map. For displaced objects: no displacement, normals per
+/// pixel, normals per vertex.
 std::string cycle_relief(SceneFile& scene);
 
 /// Switches the color maps of all objects on or off.
 std::string toggle_color_maps(SceneFile& scene);
 
-/// Hides or shows things.
+/// Hides and shows objects and particles.
 class VisibilityToggle {
  public:
   /// Toggles the object with this name, or all objects and particles if it is empty.
   std::string toggle(SceneFile& scene, const std::string& object);
 
  private:
-  std::vector<std::string> hidden_particles_;  // settings that show them again
+  std::vector<std::string> hidden_particles_;  // settings that show the particles again
 };
 
-/// Switches shadows off, or on with the method that they had before.
+/// Switches shadows off, or on with the method that was set before.
 class ShadowToggle {
  public:
   std::string toggle(SceneFile& scene);
@@ -43,13 +43,13 @@ class ShadowToggle {
   std::string method_ = "pcf3";
 };
 
-/// Multiplies the exposure. A scene that is shown without exposure is changed to one with exposure and without a tone curve.
+/// Multiplies the exposure by `factor`. If the scene does not use post.hdr, turns it on without a tone curve.
 std::string change_exposure(SceneFile& scene, double factor);
 
 /// Sets all keys of a camera of the scene.
 void set_camera_keys(SceneFile& scene, const std::string& name, CameraDescription camera);
 
-/// Returns whether an animation changes a key of this camera.
+/// Returns true if an animation changes a key of this camera.
 bool is_animated_camera(const SceneFile& scene, const std::string& name);
 
 /// Adds a camera to the scene and selects it. Returns its name.

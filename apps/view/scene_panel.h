@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A panel with all keys of a scene, made from the key table that the command line uses.
+// A panel with all keys of a scene, generated from the same key table as the command line.
 #pragma once
 
 #include <optional>
@@ -14,7 +14,7 @@ namespace halfspace {
 
 class ScenePanel {
  public:
-  /// Draws the panel at the right side of the display. Sets changed keys.
+  /// Draws the panel at the right side of the display, and sets the keys that the user changes.
   void draw(Viewer& viewer, double ui_scale);
   /// Returns its width in pixels.
   static float width(double ui_scale);
@@ -22,12 +22,12 @@ class ScenePanel {
  private:
   void read_scene(const Viewer& viewer);
 
-  std::optional<int> revision_;  // of the scene that was read
+  std::optional<int> revision_;  // revision of scene_
   SceneDescription scene_;
   std::vector<NamedSection> sections_;  // refer to scene_
 };
 
-/// Draws a widget for a key. Returns the text for --set if the user changed the value.
+/// Draws a widget for a key. If the user changed the value, returns the new value in the form that --set accepts.
 std::optional<std::string> draw_key(const Field& field);
 
 }  // namespace halfspace

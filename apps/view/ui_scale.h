@@ -3,7 +3,7 @@
 
 namespace halfspace {
 
-/// Returns the scale of the user interface that the X server's resource Xft.dpi asks for: 1 for 96, and 1 if there is no such resource.
+/// Returns the scale of the user interface: the X resource Xft.dpi divided by 96, or 1 if it is not set.
 double default_ui_scale();
 
 }  // namespace halfspace

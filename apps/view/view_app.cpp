@@ -53,7 +53,7 @@ ViewApp::ViewApp(Viewer viewer, ViewOptions options)
       message_time_(Clock::now()),
       frame_time_(Clock::now()) {
   frames_.open(viewer_.opened());
-  viewer_.set_message("h: list of keys");
+  viewer_.set_message("press h for the list of keys");
 }
 
 void ViewApp::open_dropped(const std::string& file) {
@@ -112,7 +112,7 @@ void ViewApp::handle_events() {
   }
 }
 
-// Lets time pass since the last frame. Returns it, in seconds.
+// Advances the animation by the time since the last frame. Returns this time in seconds.
 double ViewApp::advance() {
   constexpr double kLongest = 0.25;
   const Clock::time_point now = Clock::now();
@@ -122,7 +122,7 @@ double ViewApp::advance() {
   return step;
 }
 
-// Traces the picked pixel, but not in every frame while something moves.
+// Traces the picked pixel, but not in every frame while the camera moves or an animation runs.
 void ViewApp::update_history(bool moving) {
   if (!picked_) return;
   if (moving && !picked_->history.empty()) {
@@ -175,7 +175,7 @@ void ViewApp::show_frame() {
   if (!options_.record.empty()) write_png(options_.record / fmt::format("frame_{:04}.png", frame_number_), frame_);
 }
 
-// Limits the frame rate, and waits for events while nothing changes.
+// Limits the frame rate. Waits for events while nothing changes.
 void ViewApp::wait_for_change() {
   constexpr double kShortestFrameMs = 1000.0 / 60.0, kIdleMs = 200.0;
   const bool busy = input_.is_moving() || viewer_.is_running() || (shown_ && shown_->divisor > 1);

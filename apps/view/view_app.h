@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The program without its command line: the loop over frames, with and without a window.
+// The frame loop of the program, with and without a window.
 #pragma once
 
 #include <chrono>
@@ -18,12 +18,12 @@
 namespace halfspace {
 
 struct ViewOptions {
-  std::string name;  ///< of the scene, for the title and saved files
+  std::string name;  ///< name of the scene, for the title and for saved files
   int width = 1280, height = 720;
   int threads = 1;
   double ui_scale = 1.0;
-  std::optional<int> frames;             ///< end after this many frames, which are 1/30 s apart and all in full quality
-  std::filesystem::path events, record;  ///< empty: none
+  std::optional<int> frames;             ///< number of frames of a timed run, in full quality at intervals of 1/30 s
+  std::filesystem::path events, record;  ///< file of events and folder for frames; empty if not used
 };
 
 /// Times of a run of frames, in milliseconds per frame.
@@ -69,7 +69,7 @@ class ViewApp {
   Input input_;
   CoarseControl coarse_;
 
-  /// What the scene's frame depends on.
+  /// The state that determines the picture of the scene.
   struct Shown {
     int revision;
     double seconds;
@@ -78,7 +78,7 @@ class ViewApp {
     int divisor;
     friend bool operator==(const Shown&, const Shown&) = default;
   };
-  std::optional<Shown> shown_;  // nothing: the next frame must be rendered
+  std::optional<Shown> shown_;  // state of scene_frame_; nullopt: the next frame must be rendered
   Image<glm::u8vec4> scene_frame_, frame_;
   std::optional<PickedPixel> picked_;
   WindowTimes times_;

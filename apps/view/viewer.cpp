@@ -28,7 +28,7 @@ std::string Viewer::camera_name() const {
   return d.cameras.front().first;
 }
 
-// Calls a function that changes the scene and returns a message. The message of an error is shown instead.
+// Calls a function that changes the scene and returns a message. On errors, returns the error message instead.
 std::string Viewer::change(const std::function<std::string()>& function) {
   ++revision_;
   try {
@@ -43,7 +43,7 @@ void Viewer::change_camera(const std::function<void(CameraDescription&)>& functi
     const SceneDescription now = description();
     std::string name = camera_name();
     const CameraDescription* found = find_named(now.cameras, name);
-    if (found == nullptr) return std::string("this scene has no camera that could move");
+    if (found == nullptr) return std::string("this scene has no camera to move");
     CameraDescription camera = *found;
     if (is_animated_camera(scene_, name)) {
       base_camera_ = name;
@@ -121,7 +121,7 @@ void Viewer::press(Action action, bool shift) {
     case Action::brighter: message_ = change([&] { return change_exposure(scene_, kQuarterStop); }); return;
     case Action::pause:
       paused_ = !paused_;
-      message_ = paused_ ? fmt::format("paused at {:.2f} s", seconds_) : "time runs";
+      message_ = paused_ ? fmt::format("paused at {:.2f} s", seconds_) : "animation resumed";
       return;
     case Action::next_overlay:
       overlay_ = halfspace::next_overlay(overlay_, shift);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The state of halfspace-view without a window: the scene, its camera, the time, the overlay, and what keys and the mouse change.
+// The state of halfspace-view without its window: the scene, the camera, the time and the overlay, and their changes by keys and mouse.
 #pragma once
 
 #include <functional>
@@ -24,31 +24,31 @@ class Viewer {
   const SceneFile& scene() const { return scene_; }
   const OpenedScene& opened() const { return opened_; }
   double seconds() const { return seconds_; }
-  /// The same, but 0 if the picture does not change with time.
+  /// Returns seconds(), or 0 if the picture does not change with time.
   double animation_seconds() const { return is_animated() ? seconds_ : 0.0; }
-  /// Changes with every change of the scene file.
+  /// Returns a number that changes with every change of the scene file.
   int revision() const { return revision_; }
 
-  /// Handles a key press, except for those that the window handles itself: pick, save, and what it shows.
+  /// Handles a key press. The window handles the actions pick and save and those that show or hide panels.
   void press(Action action, bool shift = false);
-  /// Moves the camera as a held key does in some seconds.
+  /// Moves the camera like a key that is held for `seconds`.
   void move(Action movement, double seconds);
   void orbit(double yaw_degrees, double pitch_degrees);
   void pan(double right, double down);
   void zoom(double factor);
-  /// Sets keys as `--set` does. On errors, the message says what is wrong.
+  /// Sets keys like `--set`. On errors, sets the message.
   void set(const std::vector<std::string>& settings);
-  /// Lets time pass, unless it is paused.
+  /// Advances the time unless it is paused.
   void advance(double seconds);
 
   bool is_paused() const { return paused_; }
-  /// Returns true if the picture changes now that time passes.
+  /// Returns true if the picture changes with time and the time is not paused.
   bool is_running() const { return !paused_ && is_animated(); }
   Overlay overlay() const { return overlay_; }
-  /// Name of the object that `v` hides; empty: all.
+  /// Sets the name of the object that the key `v` hides; empty for all objects.
   void set_picked_object(const std::string& name) { picked_object_ = name; }
 
-  /// A line about the last action.
+  /// Returns a line about the last action.
   const std::string& message() const { return message_; }
   void set_message(std::string text) { message_ = std::move(text); }
 
@@ -60,15 +60,15 @@ class Viewer {
   void reset_or_next_camera();
   std::string change(const std::function<std::string()>& function);
 
-  OpenedScene opened_;  // as it was opened
-  SceneFile scene_;     // with all changes
+  OpenedScene opened_;  // original scene
+  SceneFile scene_;     // scene with all changes
   double seconds_;
   bool paused_ = false;
   int revision_ = 0;
   Overlay overlay_ = Overlay::none;
   ShadowToggle shadows_;
   VisibilityToggle visibility_;
-  std::string base_camera_;  // that a free camera was made from
+  std::string base_camera_;  // camera that the free camera was created from
   std::string picked_object_, message_;
 };
 

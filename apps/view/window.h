@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A window that shows images. SDL opens it and copies each image to it as a texture; it draws nothing else, and neither a GPU nor OpenGL is
-// used.
+// A window that shows images. SDL opens the window and copies each image to it as a texture. Neither a GPU nor OpenGL is needed.
 #pragma once
 
 #include <SDL.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Evaluates the fragment function of a shader at one fragment, with the shader's uniforms or with others.
+// Evaluates the fragment function of a shader for one fragment, with the shader's own uniforms or with changed ones.
 #pragma once
 
 #include <array>
@@ -9,10 +9,11 @@
 
 namespace halfspace {
 
-/// Returns the perspective-correct weights of the submitted vertices at a pixel whose shader receives `weights`.
+/// Returns the perspective-correct weights of the submitted vertices, given the weights that the shader receives, which refer to the
+/// clipped triangle.
 glm::vec3 submitted_weights(const InspectedTriangle& t, const Weights<float>& weights, const glm::dvec2& position_px);
 
-/// The shader computes colors at vertices or triangles, so its varyings depend on its lights.
+/// True if the shader computes lighting per vertex or per triangle, so that its varyings depend on its lights.
 template <class S>
 inline constexpr bool kLightsVertices = [] {
   if constexpr (requires { S::kByVertex; }) return S::kByVertex || HasPrimitive<S>;
@@ -91,7 +92,7 @@ class FragmentEvaluator {
     px_.z_source = &place_.depth;
   }
 
-  // Runs the vertex function for the submitted vertices.
+  // Runs the vertex function for the three submitted vertices.
   std::array<V, 3> vertices_of(const S& shader) const {
     using A = typename S::template Attributes<float>;
     const InspectedTriangle& t = place_.triangle;
@@ -110,7 +111,7 @@ class FragmentEvaluator {
     return out;
   }
 
-  // Interpolates the varyings that other uniforms have changed.
+  // Returns the varyings, with new values for those that depend on the changed uniforms.
   std::array<float, kCount> changed_varyings(const std::array<V, 3>& vertices) const {
     std::array<float, kCount> out = varyings_;
     std::array<std::array<float, kCount>, 3> before, after;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Runs a shader's own functions for one fragment, in float. Shading in float gives the same bits as shading in lanes.
+// Runs a shader's own functions for one fragment, in float. This gives the same bits as shading in SIMD lanes.
 #pragma once
 
 #include <span>
@@ -12,11 +12,11 @@
 
 namespace halfspace {
 
-/// Where and of what a fragment is.
+/// The triangle and the position of a fragment.
 struct FragmentPlace {
   const InspectedTriangle& triangle;
   glm::ivec2 pixel;   ///< in window coordinates, from the lower left
-  SamplePosition at;  ///< position within the pixel at which the shader is evaluated
+  SamplePosition at;  ///< position within the pixel where the shader is evaluated
   float depth;
 };
 
@@ -29,7 +29,7 @@ struct FragmentValues {
   glm::vec4 color{0.0f};
 };
 
-/// Instantiates all shaders. light_names: names of the lights of the scene, in order.
+/// Returns the values of a fragment. light_names: the names of the scene's lights, in order.
 FragmentValues fragment_values(const SceneShader& shader, const FragmentPlace& place, std::span<const std::string> light_names);
 
 }  // namespace halfspace

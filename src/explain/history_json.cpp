@@ -12,7 +12,7 @@ namespace {
 
 using OrderedJson = nlohmann::ordered_json;
 
-// A float whose decimal digits are the fewest that identify it.
+// Returns a number with the fewest decimal digits that identify the float.
 OrderedJson number_json(float x) { return std::strtod(fmt::format("{}", x).c_str(), nullptr); }
 
 template <int n>

@@ -30,32 +30,30 @@ std::string row_text(const std::string& name, const std::string& values, const s
 
 std::string alpha_text(const glm::vec4& c) { return c.w == 1.0f ? std::string() : fmt::format("alpha {}", number_text(c.w)); }
 
-// Returns how depths were compared, for example "depth 0.5 against 0.4".
+// Returns how depths were compared, for example "depth 0.5, compared with the stored depth 0.4".
 std::string depth_text(const TracedFragment& f, const char* primitive) {
   if (!f.is_tested) return fmt::format("depth {}, not tested", number_text(f.depth));
-  const char* stored = f.outcome == FragmentOutcome::block_rejected  ? "the farthest depth of the block"
-                       : f.outcome == FragmentOutcome::tile_rejected ? "the farthest depth of the tile"
-                                                                     : "the stored depth";
-  std::string out = fmt::format("depth {}", number_text(f.depth));
-  if (f.outcome <= FragmentOutcome::block_rejected)
-    out += fmt::format("; the nearest of the {}, {},", primitive, number_text(f.tested_depth));
-  return out + fmt::format(" compared with {} {}", stored, number_text(f.stored_depth));
+  const std::string depth = number_text(f.depth), stored = number_text(f.stored_depth);
+  if (f.outcome > FragmentOutcome::block_rejected) return fmt::format("depth {}, compared with the stored depth {}", depth, stored);
+  return fmt::format("depth {}; nearest depth of the {} {}, compared with the farthest depth in the {} {}", depth, primitive,
+                     number_text(f.tested_depth), f.outcome == FragmentOutcome::tile_rejected ? "tile" : "block", stored);
 }
 
 std::string outcome_sentence(FragmentOutcome outcome, const char* primitive) {
   switch (outcome) {
-    case FragmentOutcome::tile_rejected: return fmt::format("rejected with its tile, where nothing of the {} can be visible", primitive);
+    case FragmentOutcome::tile_rejected: return fmt::format("rejected with its tile, in which the {} cannot be visible", primitive);
     case FragmentOutcome::block_rejected:
-      return fmt::format("rejected with its block of 8x8 pixels, where nothing of the {} can be visible", primitive);
-    case FragmentOutcome::depth_failed: return "failed the depth test: something nearer was drawn before";
+      return fmt::format("rejected with its block of 8x8 pixels, in which the {} cannot be visible", primitive);
+    case FragmentOutcome::depth_failed: return "failed the depth test";
     case FragmentOutcome::stencil_failed: return "failed the stencil test";
     case FragmentOutcome::discarded: return "discarded by the shader";
-    case FragmentOutcome::hidden_before_shading: return "passed, but hidden by a later fragment before it was shaded";
+    case FragmentOutcome::hidden_before_shading: return "passed, but was hidden by a later fragment before it was shaded";
     case FragmentOutcome::depth_only: return "passed and wrote its depth";
     case FragmentOutcome::shaded: return "shaded; its color replaced the stored one";
     case FragmentOutcome::blended: return "shaded and blended";
     case FragmentOutcome::layered: return "shaded and kept as a transparent layer";
-    case FragmentOutcome::layer_merged: return "shaded and merged into the farthest transparent layer";
+    case FragmentOutcome::layer_merged:
+      return "shaded and kept as a transparent layer; the sample had too many layers, so its two farthest were merged";
   }
   return "";
 }
@@ -73,7 +71,7 @@ std::string darkness_text(const FragmentDetail& d, const NamedValue& term) {
   if (!term.name.starts_with(prefix) || std::ranges::any_of(term.values, [](float x) { return x != 0.0f; })) return {};
   const std::string shadow = fmt::format("shadow, light {}", term.name.substr(prefix.size()));
   const bool shadowed = std::ranges::any_of(d.factors, [&](const NamedValue& v) { return v.name == shadow && v.values[0] == 0.0f; });
-  return shadowed ? "in shadow" : "the surface faces away from the light, or reflects nothing diffusely";
+  return shadowed ? "in shadow" : "the surface faces away from the light or has no diffuse reflection";
 }
 
 std::string values_text(const std::vector<NamedValue>& values) {
@@ -86,12 +84,12 @@ std::string shader_text(const FragmentDetail& d) {
   std::string out = fmt::format("   shader: {}{}\n", d.shader, d.fragment.is_shaded ? "" : " (not shaded in this frame)");
   const bool is_outside = d.barycentrics.x < 0.0f || d.barycentrics.y < 0.0f || d.barycentrics.z < 0.0f;
   out += row_text("weights of the vertices", columns_text(&d.barycentrics.x, 3),
-                  is_outside ? "the center of the pixel, which is shaded, is outside of the triangle" : "");
+                  is_outside ? "evaluated at the pixel center, which is outside of the triangle" : "");
   out += row_text("1/w", columns_text(&d.inv_w, 1));
   out += values_text(d.varyings);
   out += values_text(d.factors);
   if (d.terms.size() > 1) {
-    out += "   linear light, term by term\n";
+    out += "   terms of the linear light\n";
     for (const NamedValue& t : d.terms) out += row_text(t.name, columns_text(t.values.data(), t.values.size()), darkness_text(d, t));
     out += row_text("sum: color", color_text(d.color), alpha_text(d.color));
   } else {
@@ -101,7 +99,7 @@ std::string shader_text(const FragmentDetail& d) {
   return out;
 }
 
-// The fragments of one primitive whose samples share a color.
+// Returns true if two fragments are samples of the same primitive with the same color; the text shows them together.
 bool shows_same(const FragmentDetail& a, const FragmentDetail& b) {
   return a.fragment.draw == b.fragment.draw && a.fragment.id == b.fragment.id && a.fragment.round == b.fragment.round &&
          a.fragment.is_shaded == b.fragment.is_shaded && a.color == b.color && a.barycentrics == b.barycentrics;
@@ -141,7 +139,7 @@ std::string result_text(const PixelHistory& h) {
 }  // namespace
 
 const char* storage_text(ColorFormat format) {
-  if (format == ColorFormat::srgb8a8) return "sRGB codes with 8 bits";
+  if (format == ColorFormat::srgb8a8) return "8-bit sRGB codes";
   return format == ColorFormat::rgba16f ? "half floats" : "floats";
 }
 
@@ -150,9 +148,9 @@ std::string history_text(const std::string& title, const PixelHistory& h, const 
                                 trace.height, h.pixel.x, h.pixel.y, h.window.x, h.window.y);
   const auto total = h.fragments.size() + h.others;
   out += fmt::format("{} fragment{} in submission order; depth 1 is near and 0 is far\n", total, total == 1 ? "" : "s");
-  out += fmt::format("stored colors are {}\n", storage_text(trace.format));
+  out += fmt::format("colors are stored as {}\n", storage_text(trace.format));
   if (trace.samples > 1) out += fmt::format("{} samples per pixel; each sample of a triangle is a fragment\n", trace.samples);
-  out += fmt::format("\n{}\n", row_text("color before the first one", color_text(h.clear_color), alpha_text(h.clear_color)));
+  out += fmt::format("\n{}\n", row_text("clear color", color_text(h.clear_color), alpha_text(h.clear_color)));
   std::size_t number = 0;
   for (std::size_t begin = 0; begin < h.fragments.size();) {
     std::size_t end = begin + 1;
@@ -160,7 +158,7 @@ std::string history_text(const std::string& title, const PixelHistory& h, const 
     out += fragments_text(++number, std::span(h.fragments).subspan(begin, end - begin), trace.samples);
     begin = end;
   }
-  if (h.others != 0) out += fmt::format("{} more fragments are left out.\n\n", h.others);
+  if (h.others != 0) out += fmt::format("{} more fragments are not listed.\n\n", h.others);
   return out + result_text(h);
 }
 

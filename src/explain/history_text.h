@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The history of a pixel for readers and for programs.
+// The history of a pixel as text and as JSON.
 #pragma once
 
 #include <string>
@@ -9,13 +9,13 @@
 
 namespace halfspace {
 
-/// Returns how a tile stores colors, for example "half floats".
+/// Returns a description of a color format, for example "half floats".
 const char* storage_text(ColorFormat format);
 
-/// Returns the history as text for readers. title: first line, for example the name of the scene.
+/// Returns the history as text. title: start of the first line, for example the name of the scene.
 std::string history_text(const std::string& title, const PixelHistory& history, const FrameTrace& trace);
 
-/// Returns the history as a JSON object. Numbers have as many digits as needed to read back the same float.
+/// Returns the history as a JSON object. Numbers have enough digits to reproduce the same floats when parsed.
 std::string history_json(const PixelHistory& history, const FrameTrace& trace);
 
 }  // namespace halfspace

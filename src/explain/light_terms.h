@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Splits the color of a fragment into the terms of its shader: the same functions are evaluated with all uniforms but one term's set to
-// zero. The terms add up to the color, because the shaders are linear in each of them.
+// Splits the color of a fragment into the terms of its shader. Each term is the result of the shader with the uniforms of all other terms
+// set to zero. The terms add up to the color because the shaders are linear in them.
 #pragma once
 
 #include <fmt/format.h>
@@ -41,7 +41,7 @@ class LightTerms {
 
   void add(const std::string& name, const glm::vec3& value) { out_.terms.push_back({name, {value.x, value.y, value.z}}); }
 
-  // Adds the color of a changed copy of the shader, unless it is black.
+  // Adds the result of a changed copy of the shader, unless it is black.
   template <class F>
   void add_seen(const std::string& name, const S& dark, const F& change) {
     S changed = dark;
@@ -69,7 +69,7 @@ class LightTerms {
     }
   }
 
-  // The shadow scales all light of a source, so its factor is the ratio of the color with and without it.
+  // A shadow scales all light of its source, so the factor is the ratio of the colors with and without the shadow.
   template <class F>
   void add_shadow(std::size_t i, const F& lit_by) {
     Light white = shader_.lights[i];

@@ -22,8 +22,8 @@ PageJson quotes_json() {
   return json;
 }
 
-// Returns the fragment that is visible at a pixel: the last one whose color replaced all others or, without one, the last one that was
-// shaded. Null if there is none.
+// Returns the fragment that is visible at a pixel: the last one that replaced the color or, if there is none, the last one that was shaded.
+// Returns null if no fragment was shaded.
 const TracedFragment* visible_fragment(const FrameTrace& trace, glm::ivec2 pixel) {
   const TracedFragment* best = nullptr;
   for (const TracedFragment& f : trace.at(pixel)) {

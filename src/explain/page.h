@@ -12,14 +12,14 @@
 namespace halfspace {
 
 struct PageOptions {
-  std::string scene;                ///< name or file, as given
-  std::string command;              ///< that makes the page again, without --pixel
-  std::string version;              ///< of the program
-  std::optional<glm::ivec2> pixel;  ///< the example pixel, from the upper left; default: the pixel with the most fragments
+  std::string scene;                ///< name or file of the scene, as given by the user
+  std::string command;              ///< command that generates this page, without --pixel
+  std::string version;              ///< version of the program
+  std::optional<glm::ivec2> pixel;  ///< example pixel, counted from the upper left; default: the pixel with the most fragments
 };
 
-/// Returns the page. All numbers except times are the same on every machine and for any number of threads, apart from the packets, which
-/// have the width of this build, and from which fragments are rejected with their block. description: of the scene at the time that is shown.
+/// Returns the page. Its numbers are the same on every machine and for any number of threads, except times, the size of packets (which
+/// depends on the build) and which fragments are rejected with their block. `scene` must have been created from `description`.
 std::string explain_page(const SceneDescription& description, const PreparedScene& scene, const PageOptions& options,
                          const Workers& workers);
 

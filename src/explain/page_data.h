@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The data of a page as JSON, one function per group of chapters. Private header of the page_*.cpp files.
+// Functions that return the data of a page as JSON. Private header of the page_*.cpp files.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -15,7 +15,7 @@ namespace halfspace {
 
 using PageJson = nlohmann::ordered_json;
 
-/// What the functions below read.
+/// The input of the functions below.
 struct PageInput {
   const SceneDescription& description;
   const PreparedScene& scene;
@@ -23,8 +23,8 @@ struct PageInput {
   const StageGeometry& geometry;
   const Image<glm::vec4>& light;
   const ValuePictures& values;
-  glm::ivec2 pixel;    ///< the example pixel, from the upper left
-  uint32_t primitive;  ///< the example primitive, visible at the pixel; kNoPrimitive: none
+  glm::ivec2 pixel;    ///< the example pixel, counted from the upper left
+  uint32_t primitive;  ///< the primitive that is visible at the example pixel, or kNoPrimitive
   const Workers& workers;
 };
 inline constexpr uint32_t kNoPrimitive = 0xffffffffu;

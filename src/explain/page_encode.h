@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Pictures and numbers in a form that a page can contain.
+// Encodes pictures and arrays for HTML pages.
 #pragma once
 
 #include <cstddef>
@@ -17,11 +17,11 @@ namespace halfspace {
 /// Returns a data URI of a PNG file.
 std::string picture_uri(const Image<glm::u8vec4>& picture);
 
-/// Returns bytes as base64 of a PNG file whose pixels are the bytes, three per pixel, padded with zeros. PNG compresses them, and pages can
-/// decompress it without a library.
+/// Returns a PNG file in base64 that contains the bytes, three per pixel, padded with zeros. PNG compresses them, and pages can decompress
+/// PNG files without a library.
 std::string packed_bytes(std::span<const std::byte> bytes);
 
-/// Returns the bytes of an array of numbers, as planes: the first byte of all elements, then the second, and so on. They compress better.
+/// Encodes an array of numbers as byte planes: the first byte of all elements, then the second, and so on. This compresses better.
 template <class T>
 std::string packed_planes(std::span<const T> values) {
   const std::span<const std::byte> bytes = std::as_bytes(values);
@@ -30,13 +30,13 @@ std::string packed_planes(std::span<const T> values) {
   return packed_bytes(planes);
 }
 
-/// Returns the color of a heat map for t in [0, 1]: from dark blue to light yellow. Its lightness rises with t.
+/// Returns the color of a heat map for t in [0, 1], from dark blue to light yellow. Lightness increases with t.
 glm::u8vec4 heat_color(float t);
 
 /// Returns 8-bit sRGB codes of linear light in [0, 1].
 glm::u8vec4 srgb_code(const glm::vec3& linear);
 
-/// Escapes a text for JSON inside of a <script> element: no "</" remains.
+/// Escapes JSON for use inside a <script> element, so that it does not contain "</".
 std::string script_safe(std::string_view json);
 
 }  // namespace halfspace

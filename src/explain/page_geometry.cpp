@@ -12,8 +12,8 @@ namespace halfspace {
 
 namespace {
 
-// Triangles that a page contains at most: in the wireframe of the example's draw and in that of all others, and clipped ones. Wireframes
-// consist of runs of consecutive triangles, which are usually neighbors.
+// Maximum number of triangles in the wireframe of the example's draw and in that of all other draws, and maximum number of clipped
+// triangles. A wireframe is sampled in runs of kWireRun consecutive triangles, which are usually neighbors.
 constexpr std::size_t kMaxWireTriangles = 4000, kWireRun = 32, kMaxClipped = 24;
 
 PageJson json_of_triangle(const PassContext& context, const Draw& draw, const Triangle& t) {
@@ -57,7 +57,7 @@ PageJson json_of_vertex(const StageVertex& v) {
 
 bool is_triangle(const Draw& draw) { return !draws_points(draw.state) && !is_lines(draw.state.topology); }
 
-// World-space positions of the corners of a primitive, or nothing if its draw has no mesh.
+// Returns the world-space positions of the corners of a primitive, or nullopt if its draw has no mesh.
 std::optional<std::array<glm::vec3, 3>> corners_ws(const PageInput& in, const StagePrimitive& p) {
   const PreparedDraw& draw = in.scene.draws[p.draw];
   const std::span<const glm::vec3> positions = draw.source.streams.positions;
@@ -68,7 +68,7 @@ std::optional<std::array<glm::vec3, 3>> corners_ws(const PageInput& in, const St
   return out;
 }
 
-// Twice the area of a triangle divided by its longest edge, in pixels.
+// Returns the height of a triangle above its longest edge, in pixels.
 double height_of(const Triangle& t) {
   double longest = 1.0;
   for (std::size_t i = 0; i < 3; ++i) longest = std::max(longest, std::hypot(t.x[(i + 1) % 3] - t.x[i], t.y[(i + 1) % 3] - t.y[i]));
@@ -76,7 +76,7 @@ double height_of(const Triangle& t) {
   return std::fabs(area) / longest / kSubPixels;
 }
 
-// How far affine interpolation moves a value along the edge between two vertices of a triangle, at most, in pixels.
+// Returns the largest distance by which affine interpolation displaces a value along an edge of a triangle, in pixels.
 double affine_error(const Triangle& t, const std::array<float, 3>& inv_w) {
   double error = 0.0;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -234,7 +234,7 @@ PageJson perspective_json(const PageInput& in) {
                            .z_max = 0,
                            .vertex = {},
                            .flags = 0};
-    const double error = affine_error(ordered, inv_w), visible = std::min(error, height_of(ordered));  // not of slivers
+    const double error = affine_error(ordered, inv_w), visible = std::min(error, height_of(ordered));  // avoids slivers
     if (!(visible > worst)) continue;
     worst = visible;
     json = {{"object", object_name(in.description, in.scene.draws[p.draw].source.object)},

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Pixel histories in a page: draw, primitive, depth and outcome of the fragments of every pixel, and all values of those of some pixels.
+// Pixel histories in a page: draw, primitive, depth and outcome of the fragments of all pixels, and all values for some pixels.
 #pragma once
 
 #include <vector>
@@ -10,15 +10,15 @@
 
 namespace halfspace {
 
-/// Limits that keep a page below 25 MB: fragments, and numbers of fragments with all values. If a frame has more, each pixel keeps fewer
-/// fragments; the number of the others is stored.
+/// Limits that keep a page below 25 MB: the number of fragments, and the number of values of the fragments with all values. If a frame
+/// exceeds a limit, the page contains fewer fragments per pixel and stores the number of the others.
 inline constexpr std::size_t kMaxPageFragments = 1'600'000, kMaxPageValues = 1'500'000;
 
-/// Returns the largest number of fragments per pixel, at most FrameTrace::kMaxFragments, with which a page has at most `most` fragments,
-/// or 1.
+/// Returns the largest limit of fragments per pixel with which the page has at most `most` fragments. The result is between 1 and
+/// FrameTrace::kMaxFragments.
 uint32_t fragments_per_pixel(const FrameTrace& trace, std::size_t most);
 
-/// Returns the indices of the fragments of a pixel that a page keeps, in order: the shaded ones, and then the first ones of the others.
+/// Returns the indices of at most `most` fragments of a pixel, in order. Shaded fragments take precedence, then earlier ones.
 std::vector<uint32_t> kept_fragments(std::span<const TracedFragment> fragments, uint32_t most);
 
 /// Returns the pixels with all values: 64x64 pixels around the center, and every eighth pixel in x and y. By row, without duplicates.

@@ -28,7 +28,8 @@ glm::dvec3 mean_of(const Image<glm::vec4>& light) {
   return sum / static_cast<double>(light.texels().size());
 }
 
-// The share of a light that arrives, from its diffuse light with and without shadows; 1 where the light does not reach.
+// Returns the shadow factors of a light as gray codes, from its diffuse light with and without shadows. Pixels that the light does not
+// reach are transparent.
 Image<glm::u8vec4> shadow_factors(const Image<glm::vec4>& with, const Image<glm::vec4>& without) {
   Image<glm::u8vec4> out(with.width(), with.height());
   std::ranges::transform(with.texels(), without.texels(), out.data(), [](const glm::vec4& a, const glm::vec4& b) {
@@ -53,7 +54,7 @@ const PreparedDraw* draw_at(const PageInput& in, int x, int y) {
   return nullptr;
 }
 
-// The surface at a pixel, if it is a mesh.
+// Returns the surface at a pixel, or nullopt if it is not part of a mesh.
 std::optional<SurfaceAt> surface_at(const PageInput& in, int x, int y) {
   const PreparedDraw* draw = draw_at(in, x, y);
   if (draw == nullptr || draw->state.topology != Topology::triangles) return std::nullopt;
@@ -76,8 +77,8 @@ std::optional<ShadowLookup> lookup_at(const PageInput& in, const Light& light, i
   return shadow_lookup(light, s->position_rws, s->face_ws, s->normal_ws, window);
 }
 
-// The pixel whose look-up a page shows: the example pixel if its shadow is partial; otherwise the nearest with a partial shadow among every
-// fourth pixel in x and y; otherwise the example pixel, or any that is in a view of the light.
+// Returns the pixel whose shadow lookup the page shows. Of every fourth pixel in x and y, this is the one nearest to the example pixel with
+// a partial shadow; if no shadow is partial, the nearest one in a view of the light.
 glm::ivec2 shadow_pixel(const PageInput& in, const Light& light) {
   glm::ivec2 best = in.pixel;
   int64_t nearest = INT64_MAX;

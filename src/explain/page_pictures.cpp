@@ -13,10 +13,10 @@ namespace {
 
 constexpr glm::u8vec4 kNothing(0, 0, 0, 0);
 
-// Times of tiles are the shortest of this many runs.
+// Number of runs; the shortest time of each tile counts.
 constexpr int kTimedRuns = 5;
 
-// Builds a picture from a function that returns the code of a pixel.
+// Returns a picture, given a function that returns the codes of a pixel.
 template <class F>
 std::string picture_of(const PageInput& in, const F& code_at) {
   Image<glm::u8vec4> out(in.scene.view.width_px, in.scene.view.height_px);
@@ -65,7 +65,7 @@ std::string albedo_picture(const PageInput& in) {
   return picture_of(in, [&](int x, int y) { return is_surface(in, x, y) ? srgb_code(in.values.albedo.at(x, y)) : kNothing; });
 }
 
-// A color per triangle, the same on every machine.
+// Returns a color for a triangle, the same on every machine.
 std::string triangle_picture(const PageInput& in) {
   return picture_of(in, [&](int x, int y) {
     uint32_t h = (in.values.object.at(x, y) * 31 + in.values.instance.at(x, y)) * 977 + in.values.triangle.at(x, y);
@@ -119,7 +119,7 @@ PageJson mip_json(const PageInput& in) {
     ++pixels;
   }
   if (pixels == 0) return nullptr;
-  const float range = std::max(high + 1.0f, 1.0f);  // from level −1 (magnified) to the highest
+  const float range = std::max(high + 1.0f, 1.0f);  // from level −1 (magnified) to the highest level
   const std::string picture = picture_of(in, [&](int x, int y) {
     const MipLookup& m = mips.at(x, y);
     return m.probes == 0.0f ? kNothing : heat_color((std::max(m.lod, -1.0f) + 1.0f) / range);

@@ -22,7 +22,7 @@ constexpr std::array<OutcomeWords, kFragmentOutcomes> kOutcomeWords{{
     {"shaded", "shaded"},
     {"blended", "blended"},
     {"layered", "kept as a transparent layer"},
-    {"layer_merged", "merged into the farthest transparent layer"},
+    {"layer_merged", "kept as a transparent layer; the two farthest layers were merged"},
 }};
 
 std::size_t index_of(const FrameTrace& trace, const glm::ivec2& pixel) {

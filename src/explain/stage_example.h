@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// One primitive on its way through the pipeline: its vertices in every space, what clipping leaves of it, and its setup.
+// One primitive in the stages of the pipeline: its vertices in every space, the clipped polygon, and its setup.
 #pragma once
 
 #include <optional>
@@ -11,11 +11,11 @@
 
 namespace halfspace {
 
-/// A vertex in every space. The renderer computes clip, window and outcode; the other positions are the same transform step by step, in
-/// double.
+/// A vertex in every space. clip, window and outcode are the renderer's values; the other positions are computed in double, one transform
+/// at a time.
 struct StageVertex {
   uint32_t index = 0;                                               ///< in the mesh
-  std::optional<glm::dvec3> position_os, position_ws, position_vs;  ///< not for the background, which has no mesh
+  std::optional<glm::dvec3> position_os, position_ws, position_vs;  ///< empty for the background, which has no mesh
   glm::vec4 clip{0.0f};
   glm::vec3 ndc{0.0f};  ///< clip / w
   ScreenVertex window{};
@@ -33,18 +33,18 @@ struct StageExample {
 /// Returns the values of a primitive.
 StageExample stage_example(const PreparedScene& scene, const PassContext& context, const StageGeometry& geometry, uint32_t primitive);
 
-/// The transforms from world to clip space, as the example shows them.
+/// The transforms from world to clip space.
 struct StageTransforms {
   glm::dmat4 view_from_world, clip_from_view;
 };
 StageTransforms stage_transforms(const View& view);
 
-/// What clipping leaves of a triangle.
+/// A triangle before and after clipping.
 struct StageClip {
   uint32_t primitive;
   std::array<glm::vec4, 3> clip;  ///< vertices in clip space
   ClipPolygon polygon;
-  std::vector<glm::dvec2> window;  ///< corners of the polygon in pixels
+  std::vector<glm::dvec2> window;  ///< corners of the polygon in window coordinates, in pixels
 };
 StageClip stage_clip(const PassContext& context, const StageGeometry& geometry, uint32_t primitive);
 

@@ -11,7 +11,7 @@ namespace {
 // Rows of texture coordinates that are bound to a mesh without them.
 constexpr std::array<float, 2> kNoUv{0, 0};
 
-// Computes the level of detail of a map, with the formulas of the texture unit.
+// Computes the level of detail with the formulas of the texture lookup.
 struct MipLevels {
   glm::mat4 clip_from_object;
   PlacedMap map;

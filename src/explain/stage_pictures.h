@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Pictures of the values in a frame that stages exchange.
+// Pictures of intermediate values of a frame: depth, surface values and mip levels.
 #pragma once
 
 #include "halfspace/core/image.h"
@@ -8,7 +8,7 @@
 
 namespace halfspace {
 
-/// Returns the window depth of the visible surfaces (sample 0), as the pass stores it: 1 is near, 0 is far.
+/// Returns the stored window depth of sample 0 of each pixel: 1 is near, 0 is far.
 Image<float> depth_buffer(const PreparedScene& scene, const Workers& workers);
 
 /// Values of the opaque surface at each pixel; 0 with alpha 0 where there is none.
@@ -20,13 +20,13 @@ struct ValuePictures {
 };
 ValuePictures value_pictures(const PreparedScene& scene, const Workers& workers);
 
-/// The look-up of the color map at a pixel.
+/// The lookup in the color map at a pixel.
 struct MipLookup {
-  float lod = 0;                   ///< level of detail; negative: the map is magnified
-  float probes = 0;                ///< number of probes of an anisotropic look-up; 0: there is no map here
-  float scale_x = 0, scale_y = 0;  ///< steps in texels of level 0 to the next pixel to the right and up
+  float lod = 0;                   ///< level of detail; negative if the map is magnified
+  float probes = 0;                ///< number of probes of an anisotropic lookup; 0 if the surface has no color map
+  float scale_x = 0, scale_y = 0;  ///< distance to the next pixel to the right and up, in texels of level 0
 };
-/// Returns the look-ups of the color maps of all opaque surfaces.
+/// Returns the lookup in the color map of the opaque surface at each pixel.
 Image<MipLookup> mip_levels(const PreparedScene& scene, const Workers& workers);
 
 }  // namespace halfspace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The light of a frame, term by term. A term is the frame rendered by the same shaders with the uniforms of all other terms set to zero.
+// The terms of the light of a frame. A term is rendered by the same shaders with the uniforms of all other terms set to zero.
 #pragma once
 
 #include <string>
@@ -20,7 +20,7 @@ struct LightTerm {
   std::string name;
 };
 
-/// Returns the terms of a scene. Terms that no shader of the scene can have are left out.
+/// Returns the terms of a scene, except those that no shader of the scene can have.
 std::vector<LightTerm> light_terms(const PreparedScene& scene);
 
 /// Whether surfaces receive the shadows of the lights.

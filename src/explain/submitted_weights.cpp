@@ -23,7 +23,8 @@ glm::vec3 weights_of_clipped(const InspectedTriangle& t, const glm::dvec2& posit
   return glm::vec3(b / (b.x + b.y + b.z));
 }
 
-// The nearest point of a line that has been turned into triangles. Lines that begin behind the eye count as their first vertex.
+// Returns the weights for a line that was converted to triangles: those of the nearest point on the line, or of its first vertex if the
+// line begins behind the eye.
 glm::vec3 weights_of_wide_line(const InspectedTriangle& t, const glm::dvec2& position_px) {
   const Viewport& v = t.draw->viewport;
   std::array<glm::dvec2, 2> p;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Names of the varyings of the shaders that a scene can use. They repeat the names in the headers of shading; a test compares them.
+// Names of the varyings of the shaders that scenes can use. A test compares them with the headers in shading/.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace halfspace {
 
-/// The members of S::Varyings in order, including those that a variant of the shader lacks.
+/// The members of S::Varyings in order, including members that some variants of the shader do not have.
 template <class S>
 inline constexpr std::array<std::string_view, 0> kVaryingNames{};
 

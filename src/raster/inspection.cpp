@@ -70,7 +70,7 @@ class VisitSetUp : public TileRunner {
   int round_ = 0;
 };
 
-// Runs the vertex function for the positions of three vertices of a draw.
+// Runs the vertex function for three vertices of a draw and returns their positions.
 std::array<glm::vec4, 3> clip_positions(const Draw& draw, uint32_t instance, const std::array<uint32_t, 3>& index) {
   alignas(64) std::array<float, 4 * kVertexBatch> rows{};
   StreamRoom room;

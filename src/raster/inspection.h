@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// For programs that show how a pass works: traces its fragments, or hands out what its stages have computed. Not installed. Functions of
-// the private folders that such programs need have a counterpart here, because a shared library only exports those of files at the top.
+// Inspection of a pass, for programs that visualize the pipeline: traces fragments, measures tiles, and gives access to the results of the
+// stages. Not installed. A shared library exports only functions of the files in src/raster itself, so this header wraps the functions of
+// subfolders that such programs need.
 #pragma once
 
 #include <functional>
@@ -18,7 +19,7 @@ namespace halfspace {
 
 inline namespace HS_LANES_NAMESPACE {
 
-/// Runs a pass like Pass::run(), with other work in place of the tiles. Calls tiles.run() for each round.
+/// Runs a pass like Pass::run(), but calls tiles.run() in each round instead of drawing the tiles.
 PassStatistics run_with(Pass& pass, TileRunner& tiles, const Workers& workers);
 
 }  // namespace HS_LANES_NAMESPACE
@@ -26,19 +27,19 @@ PassStatistics run_with(Pass& pass, TileRunner& tiles, const Workers& workers);
 /// Runs a pass and traces its fragments. Images and statistics are the same as with Pass::run().
 PassStatistics run_traced(Pass& pass, const Workers& workers, PassTrace& trace);
 
-/// Runs a pass and measures its tiles: ms receives the time of each tile in milliseconds, row by row from the lower left, over all rounds.
-/// It is 0 for tiles that are filled together with others because they have a constant color.
+/// Runs a pass and measures its tiles. ms receives the time of each tile in milliseconds, row by row from the lower left, summed over all
+/// rounds. It is 0 for tiles of a constant color, which are not drawn individually.
 PassStatistics run_timed(Pass& pass, const Workers& workers, std::vector<float>& ms);
 
-/// Runs the stages of a pass up to binning and calls visit(context, round) in each round. Nothing is drawn.
+/// Runs the stages of a pass up to binning and calls visit(context, round) in each round. Does not draw anything.
 void visit_set_up(Pass& pass, const Workers& workers, const std::function<void(const PassContext& context, int round)>& visit);
 
 /// A triangle of a pass, and the primitive that it was created from.
 struct InspectedTriangle {
   TriangleSource source;
   const Draw* draw;
-  uint32_t primitive, instance;          ///< of the draw
-  std::array<uint32_t, 3> slot;          ///< slots of the submitted vertices, as in Triangle::vertex if it was not clipped
+  uint32_t primitive, instance;          ///< indices of the primitive and the instance in the draw
+  std::array<uint32_t, 3> slot;          ///< slots of the submitted vertices; equal to Triangle::vertex if the triangle was not clipped
   std::array<uint32_t, 3> index;         ///< indices of the submitted vertices, without DrawState::base_vertex
   std::array<glm::vec4, 3> position_cs;  ///< clip-space positions of the submitted vertices
 };
@@ -48,12 +49,12 @@ class TriangleInspector {
  public:
   explicit TriangleInspector(const PassContext& context);
 
-  /// `out` contains pointers to itself and to the context.
+  /// Finds a triangle. `out` must not be moved or copied, because it contains pointers to itself. It also points to the context.
   void find(TriangleId id, InspectedTriangle& out) const;
 
  private:
   const PassContext& context_;
-  std::vector<std::vector<SubmittedPrimitive>> primitives_;  // of each chunk
+  std::vector<std::vector<SubmittedPrimitive>> primitives_;  // for each chunk
 };
 
 }  // namespace halfspace

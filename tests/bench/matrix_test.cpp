@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Draws every row of the matrix once. Rows that are opaque triangles with one sample are compared with double precision; peers_test.cpp
-// compares the others with OpenGL.
+// Draws every row of the matrix once. Rows with opaque triangles and one sample are compared with double precision; peers_test.cpp compares
+// the others with OpenGL.
 #include "matrix.h"
 
 #include <gtest/gtest.h>
@@ -31,7 +31,7 @@ TEST_P(MatrixPictures, MatchDoublePrecision) {
   workload->frame(Workers(3));
   EXPECT_TRUE(*workload->picture().color == first) << "depends on the number of threads";
   if (!workload->has_truth()) return;
-  // At this size, triangles are smaller than a pixel, and a vertex that is snapped differently in double precision changes which of them
+  // At this size, triangles are smaller than a pixel. A vertex that is snapped differently in double precision can change which triangle
   // covers a pixel center.
   const PictureErrors errors = picture_errors(workload->picture(), workload->truth(), 1e-4);
   EXPECT_GT(errors.covered, kMatrixSize.width * kMatrixSize.height / 5);

@@ -205,6 +205,20 @@ class Page(unittest.TestCase):
         own, expected = self.run_script("return [countCovered(), DATA.example.triangles[0].covered]")
         self.assertEqual(own, expected)
 
+    def test_the_bar_of_the_example_contains_its_luminance(self):
+        for name in SCENES:
+            self.open(name)
+            light, bins, low, bars, edges = self.run_script(
+                "const all = [...TONE.histogram.keys()]; return [TONE.pixel.light, TONE.bins, TONE.low, all.filter(isExampleBin), all.map(binLow)]")
+            luminance = 0.2126 * light[0] + 0.7152 * light[1] + 0.0722 * light[2]
+            for edge, number in ((edges[0], low), (edges[bins], low + 1)):
+                self.assertEqual(edge, 2.0 ** number, name)
+            if not edges[0] <= luminance < edges[-1]:
+                continue
+            self.assertEqual(len(bars), 1, name)
+            self.assertLessEqual(edges[bars[0]], luminance, name)
+            self.assertLess(luminance, edges[bars[0] + 1], name)
+
     def show_pixel(self, x, y):
         """Types a pixel into the form of the history, and returns the text that is shown, with all details open."""
         fields = self.driver.find_elements(By.CSS_SELECTOR, "form.pixel input")

@@ -95,7 +95,7 @@ class GlMatrix final : public Workload {
     depth_ = target_.read_depth();
     return {&color_, &depth_};
   }
-  bool has_truth() const override { return false; }  // Halfspace is compared with the truth, and this picture with Halfspace's
+  bool has_truth() const override { return false; }  // Halfspace's picture is compared with the truth, and this one with Halfspace's
   WorkloadTruth truth() const override { return make_twin()->truth(); }
   std::unique_ptr<Workload> twin() const override { return row_.is_comparable ? make_twin() : nullptr; }
 

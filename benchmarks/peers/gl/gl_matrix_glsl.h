@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// GLSL versions of the shaders in matrix_shaders.h. Macros select the parts of a row.
+// GLSL versions of the shaders in matrix_shaders.h. Macros select the parts that a row uses.
 #pragma once
 
 #include <string_view>

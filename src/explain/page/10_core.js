@@ -1,4 +1,4 @@
-// Data, numbers and elements.
+// The data of the page, number formatting, and helpers to create elements.
 const DATA = JSON.parse(document.getElementById("data").textContent);
 const W = DATA.width, H = DATA.height, SUB = 256;
 
@@ -37,7 +37,7 @@ const vec = (v, digits = 5) => `(${v.map((x) => fmt(x, digits)).join(", ")})`;
 const plural = (n, one, many = one + "s") => `${fmt(n)} ${n === 1 ? one : many}`;
 const css = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
-// Decodes the PNG files in which a page packs its numbers (page_encode.h).
+// Decodes the PNG files in which a page stores its arrays (page_encode.h).
 async function unpack(base64, bytes) {
   const file = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
   const view = new DataView(file.buffer), parts = [];
@@ -52,7 +52,7 @@ async function unpack(base64, bytes) {
   return unfilter(new Uint8Array(await new Response(stream).arrayBuffer()), width * 3, height).subarray(0, bytes);
 }
 
-// Undoes the filters of PNG rows with three bytes per pixel (PNG specification, section 9).
+// Reverses the filters of PNG rows with three bytes per pixel (PNG specification, section 9).
 function unfilter(raw, row, height) {
   const out = new Uint8Array(row * height);
   for (let y = 0; y < height; ++y) {
@@ -73,7 +73,7 @@ function predicted(filter, left, up, corner) {
   return a <= b && a <= c ? left : b <= c ? up : corner;
 }
 
-// Decodes an array of `count` elements that is stored as planes of bytes. `size`: bytes per element.
+// Decodes an array of `count` elements that is stored as byte planes. size: bytes per element.
 async function unpackArray(base64, Type, count, size = Type.BYTES_PER_ELEMENT) {
   if (!base64 || count === 0) return new Type(0);
   const planes = await unpack(base64, count * size), bytes = new Uint8Array(count * size);

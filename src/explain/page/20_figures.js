@@ -1,4 +1,4 @@
-// Pictures: canvases for pixels, SVG for geometry. Every picture has a name for screen readers.
+// Pictures: canvases for pixels, SVG for geometry. Every picture has a label for screen readers.
 
 function canvasFigure(width, height, label, pixelated = false) {
   const canvas = el("canvas", {width, height, role: "img", "aria-label": label, class: pixelated ? "pixels" : null});
@@ -50,7 +50,7 @@ function polygon(pen, points, {stroke = null, fill = null, width = 1} = {}) {
   if (stroke) { pen.strokeStyle = stroke; pen.lineWidth = width; pen.stroke(); }
 }
 
-// Cells that start with ¶ are texts; the others are numbers.
+// Cells that start with ¶ are text; the others are numbers.
 const isText = (cell) => typeof cell === "string" && cell.startsWith("¶");
 const tableOf = (head, rows, mark = -1) => el("div", {class: "table"}, el("table", {},
   el("thead", {}, el("tr", {}, ...head.map((h, i) => el("th", {scope: "col", html: h, class: isText(rows[0] && rows[0][i]) ? "text" : null})))),

@@ -1,7 +1,7 @@
 // Chapters: registration, steps, exercises and navigation.
 //
-// A chapter is {id, title, kicker, lead, arrives, leaves, steps, formula, body, exercises, absent}. Texts are HTML. steps: a list of
-// {name, caption, draw}, where draw() returns elements. absent(): null, or HTML that says why the frame does not have this stage.
+// A chapter is {id, title, kicker, lead, input, output, steps, formula, body, exercises, absent}. Texts are HTML. steps: a list of
+// {name, caption, draw}, where draw() returns elements. absent() returns null, or HTML that says why the frame does not have this stage.
 const CHAPTERS = [];
 const chapter = (c) => CHAPTERS.push(c);
 const state = {chapter: 0, step: 0};
@@ -9,7 +9,7 @@ const state = {chapter: 0, step: 0};
 function quotesOf(id) {
   const quotes = DATA.quotes[id] || [];
   if (quotes.length === 0) return [];
-  return [el("h3", {}, "The code that does it"), ...quotes.map((q, i) => el("details", {class: "quote", open: i === 0},
+  return [el("h3", {}, "Source code"), ...quotes.map((q, i) => el("details", {class: "quote", open: i === 0},
     el("summary", {}, `${q.file}, line ${q.line}`), el("pre", {tabindex: 0, "aria-label": `Source lines of ${q.file}`, html: colored(q.text)})))];
 }
 
@@ -21,7 +21,7 @@ function colored(text) {
   }).join("\n");
 }
 
-// An exercise: {ask, answer, tolerance, unit, hint, why}. The answer is a number, or a text in lower case.
+// An exercise is {ask, answer, tolerance, unit, hint, why}. The answer is a number or a string in lower case.
 function exercise(x, number) {
   const verdict = el("p", {class: "verdict", role: "status"});
   const input = el("input", {type: "text", "aria-label": `Your answer to exercise ${number}`, autocomplete: "off", inputmode: typeof x.answer === "number" ? "decimal" : null});
@@ -40,7 +40,7 @@ function isRight(x, text) {
 function judge(x, text, verdict) {
   const right = isRight(x, text);
   verdict.className = "verdict " + (right ? "right" : "wrong");
-  verdict.innerHTML = right ? `✓ Right. ${x.why}` : `✗ Not yet. ${x.hint}`;
+  verdict.innerHTML = right ? `✓ Correct. ${x.why}` : `✗ Not correct yet. ${x.hint}`;
 }
 
 function exercisesOf(c) {
@@ -54,7 +54,7 @@ const listOf = (title, items) => el("div", {}, el("h4", {}, title), el("ul", {},
 function stepsOf(c) {
   const steps = c.steps();
   const stage = el("div", {class: "step"}), caption = el("figcaption", {"aria-live": "polite"});
-  const range = el("input", {type: "range", min: 1, max: steps.length, value: 1, "aria-label": `Step of the chapter ${c.title}`, oninput: () => goToStep(Number(range.value) - 1)});
+  const range = el("input", {type: "range", min: 1, max: steps.length, value: 1, "aria-label": `Step of chapter “${c.title}”`, oninput: () => goToStep(Number(range.value) - 1)});
   const output = el("output");
   const back = el("button", {type: "button", "aria-label": "Previous step", onclick: () => move(-1)}, "←");
   const next = el("button", {type: "button", "aria-label": "Next step", onclick: () => move(1)}, "→");
@@ -82,7 +82,7 @@ function build(c, index) {
     c.stepCount = 1;
     c.showStep = () => {};
   } else {
-    if (c.arrives) parts.push(el("div", {class: "flow"}, listOf("What arrives", c.arrives()), listOf("What leaves", c.leaves())));
+    if (c.input) parts.push(el("div", {class: "flow"}, listOf("Input", c.input()), listOf("Output", c.output())));
     parts.push(stepsOf(c));
     for (const block of c.formula ? c.formula() : []) parts.push(el("div", {class: "formula", tabindex: 0, role: "math", "aria-label": "Formula with the numbers of this frame", html: block}));
     if (c.body) parts.push(...[c.body()].flat());

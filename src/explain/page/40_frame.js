@@ -1,4 +1,4 @@
-// Arrays of the frame, and terms that several chapters use.
+// Arrays of the frame, and values that several chapters use.
 const FRAME = {};
 
 async function unpackFrame() {
@@ -25,4 +25,5 @@ const inside = (t, x, y) => t.edges.every((e) => edgeAt(e, x, y) - e.bias >= 0);
 const center = (pixel) => pixel * SUB + SUB / 2;
 const covered = (t, x, y) => x >= t.box[0] && x < t.box[2] && y >= t.box[1] && y < t.box[3] && (t.edges ? inside(t, center(x), center(y)) : true);
 
-const OUTCOMES = ["set up as it is", "clipped", "outside the view", "culled by its facing", "no area", "covers no sample", "not finite"];
+// Outcomes of primitives in the order of StageOutcome, to be used after "primitives" or a number.
+const OUTCOMES = ["kept unchanged", "clipped", "outside the view", "culled by facing", "without area", "covering no sample", "with infinite or NaN positions"];

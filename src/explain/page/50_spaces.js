@@ -2,35 +2,35 @@
 
 chapter({
   id: "frame", title: "One frame", kicker: "Start",
-  lead: () => `This page opens up one frame of the scene <b>${escapeHtml(sceneName)}</b>${DATA.title ? ` (${escapeHtml(DATA.title)})` : ""}: ${W} × ${H} pixels, as Halfspace rendered them. Every number below was computed by the renderer itself for this very picture. Follow one ${isTriangle ? "triangle" : "primitive"} from its mesh to the screen.`,
+  lead: () => `This page explains how Halfspace rendered one frame of the scene <b>${escapeHtml(sceneName)}</b>${DATA.title ? ` (${escapeHtml(DATA.title)})` : ""} with ${W} × ${H} pixels. All numbers were computed by the renderer for this frame. Follow one ${isTriangle ? "triangle" : "primitive"} from its mesh to the screen.`,
   steps: () => [
-    {name: "The picture", caption: `The ring marks pixel (${PIXEL}), the example of this page. ${DATA.overdraw.most === 0 ? "Nothing is drawn in this frame." : `${plural(FRAME.fragments[PIXEL[1] * W + PIXEL[0]], "fragment competes", "fragments compete")} for it. The one that you see belongs to ${exampleName}.`}`,
+    {name: "The picture", caption: `The ring marks pixel (${PIXEL}), the example of this page. ${DATA.overdraw.most === 0 ? "Nothing is drawn in this frame." : `${plural(FRAME.fragments[PIXEL[1] * W + PIXEL[0]], "fragment competes", "fragments compete")} for it. The visible fragment belongs to ${exampleName}.`}`,
       draw: () => picture(DATA.pictures.final, "The rendered picture, with a ring around the example pixel", {overlay: (pen, s) => ring(pen, s, PIXEL)})},
-    {name: "Its triangles", caption: "The same picture with one color per triangle. The renderer never sees anything else: everything is made of these.",
-      draw: () => picture(DATA.pictures.triangles, "The picture with one color per triangle", {overlay: (pen, s) => ring(pen, s, PIXEL)})},
-    {name: "The pipeline", caption: "Work flows from left to right. Numbers are those of this frame. A tile is owned by one thread, so no pixel needs a lock, and the picture does not depend on the number of threads.",
+    {name: "Its primitives", caption: "The same picture with one color per primitive. Everything in the picture is made of triangles, lines and points.",
+      draw: () => picture(DATA.pictures.triangles, "The picture with one color per primitive", {overlay: (pen, s) => ring(pen, s, PIXEL)})},
+    {name: "The pipeline", caption: "The stages in order, with the numbers of this frame. Each tile is drawn by one thread, so pixels need no locks, and the picture does not depend on the number of threads.",
       draw: () => el("div", {class: "stage"}, pipelineDiagram())},
   ],
   body: () => [
-    el("p", {class: "keys", html: "<kbd>←</kbd> <kbd>→</kbd> go to the previous and next step, and on to the next chapter. The slider does the same within a chapter."}),
-    el("p", {class: "keys", html: `To follow another pixel: ${command(`${DATA.command} --pixel X,Y`)}`}),
-    el("h3", {}, "What is drawn"),
+    el("p", {class: "keys", html: "<kbd>←</kbd> <kbd>→</kbd> go to the previous or next step, also from chapter to chapter. The slider selects a step of the chapter."}),
+    el("p", {class: "keys", html: `To explain another pixel: ${command(`${DATA.command} --pixel X,Y`)}`}),
+    el("h3", {}, "Draw calls"),
     tableOf(["object", "kind", "vertices", "primitives", "culled faces"], DATA.draws.slice(0, 12).map((d) => [escapeHtml(d.object) + (d.copy ? ` (${d.copy})` : ""), `¶${d.kind}${d.layered ? ", transparent" : ""}`, d.vertices, d.primitives, `¶${d.cull}`])),
     DATA.draws.length > 12 ? el("p", {}, `… and ${DATA.draws.length - 12} more draws.`) : null],
   exercises: () => {
     const s = DATA.statistics;
     return [
       {ask: "How many pixels does this frame have?", answer: W * H, hint: "Multiply the width by the height.", why: `${W} · ${H} pixels.`},
-      {ask: "On average, how many fragments were drawn per pixel? (Two digits after the point.)", answer: DATA.overdraw.total / (W * H), tolerance: 0.01, hint: `There were ${fmt(DATA.overdraw.total)} fragments in all.`, why: `${fmt(DATA.overdraw.total)} fragments for ${fmt(W * H)} pixels.`},
-      {ask: "How many of the submitted primitives never reached a tile?", answer: s.culled_non_finite + s.culled_outside + s.culled_face + s.culled_degenerate + s.culled_no_sample, hint: "The chapter on culling lists the reasons. The diagram gives the number before and after.", why: "They were culled: outside, facing away, without area, or between the samples."},
+      {ask: "How many fragments does a pixel have on average? (Two decimal places.)", answer: DATA.overdraw.total / (W * H), tolerance: 0.01, hint: `The frame has ${fmt(DATA.overdraw.total)} fragments.`, why: `${fmt(DATA.overdraw.total)} fragments for ${fmt(W * H)} pixels.`},
+      {ask: "How many of the submitted primitives never reached a tile?", answer: s.culled_non_finite + s.culled_outside + s.culled_face + s.culled_degenerate + s.culled_no_sample, hint: "The chapter on culling gives the number for each reason.", why: "They were culled: outside the view, facing away, without area, or between the samples."},
     ];
   },
 });
 
 function pipelineDiagram() {
   const s = DATA.statistics;
-  const stages = [["vertices", s.vertices_shaded, "shaded"], ["primitives", s.primitives_in, "submitted"], ["set up", s.triangles_binned, "survive"], ["binned", s.bin_entries, "tile entries"], ["samples", s.samples_passed, "pass"], ["fragments", s.fragments_shaded, "shaded"]];
-  const narrow = innerWidth < 620, columns = narrow ? 3 : 6, root = svgFigure(24 + columns * 118, narrow ? 260 : 150, "Pipeline: " + stages.map(([a, n, b]) => `${fmt(n)} ${a} ${b}`).join(", "));
+  const stages = [["vertices", s.vertices_shaded, "shaded"], ["primitives", s.primitives_in, "submitted"], ["setup", s.triangles_binned, "kept"], ["bins", s.bin_entries, "entries"], ["samples", s.samples_passed, "passed"], ["fragments", s.fragments_shaded, "shaded"]];
+  const narrow = innerWidth < 620, columns = narrow ? 3 : 6, root = svgFigure(24 + columns * 118, narrow ? 260 : 150, "Pipeline. " + stages.map(([name, count, what]) => `${name}: ${fmt(count)} ${what}`).join(", "));
   stages.forEach(([name, count, what], i) => {
     const x = 12 + i % columns * 118, top = Math.floor(i / columns) * 116;
     root.append(svg("rect", {x, y: top + 32, width: 100, height: 84, rx: 10, fill: "var(--card)", stroke: i === 0 ? "var(--accent)" : "var(--line)", "stroke-width": 1.5}));
@@ -45,7 +45,7 @@ function pipelineDiagram() {
 
 // ---- wireframes ------------------------------------------------------------------------------------------------------
 
-// The positions of the wire triangles in one space. to(position, triangle) returns three coordinates, or null.
+// Returns the wireframe's triangles in one space. to(position, triangle) returns three coordinates, or null.
 function wireIn(to) {
   const out = [];
   for (let t = 0; t < DATA.wire.count; ++t) {
@@ -61,7 +61,7 @@ const toClip = (p) => transform(M.clip_from_view, toView(p));
 const toNdc = (c) => (c[3] > 1e-9 ? [c[0] / c[3], c[1] / c[3], c[2] / c[3]] : null);
 const toPixels = (n) => (n === null ? null : [(n[0] + 1) / 2 * W, (1 - n[1]) / 2 * H, 0]);
 
-// A view of a set of points from the front right and above; dragging turns it.
+// Returns a function that projects points to the canvas, as seen from the front right and above. Dragging changes ORBIT.
 const ORBIT = {yaw: 0.6, pitch: 0.42};
 function projector(points, width, height) {
   const [cy, sy, cp, sp] = [Math.cos(ORBIT.yaw), Math.sin(ORBIT.yaw), Math.cos(ORBIT.pitch), Math.sin(ORBIT.pitch)];
@@ -73,7 +73,7 @@ function projector(points, width, height) {
   return (p) => { const q = turn(p); return [width / 2 + (q[0] - cx) * scale, height / 2 - (q[1] - cyy) * scale, q[2]]; };
 }
 
-// Draws triangles and lines in three dimensions. The triangle of the example is filled.
+// Draws triangles and lines in 3D. The example triangle is filled.
 function wireCanvas(label, triangles, lines, example, points = []) {
   const width = 1000, height = 560, {canvas, pen} = canvasFigure(width, height, label);
   const all = [...triangles.flatMap((t) => t.corners), ...lines.flatMap((l) => l.points), ...points, ...(example || [])];
@@ -130,9 +130,9 @@ function draggable(canvas, draw) {
 }
 
 function turnControl(draw) {
-  const range = el("input", {type: "range", min: -180, max: 180, value: Math.round(ORBIT.yaw * 180 / Math.PI), "aria-label": "Turn the view, in degrees"});
+  const range = el("input", {type: "range", min: -180, max: 180, value: Math.round(ORBIT.yaw * 180 / Math.PI), "aria-label": "Rotate the view, in degrees"});
   range.addEventListener("input", () => { ORBIT.yaw = range.value * Math.PI / 180; draw(); });
-  return el("div", {class: "legend"}, el("span", {}, "turn"), range, el("span", {}, "or drag the picture"));
+  return el("div", {class: "legend"}, el("span", {}, "rotate"), range, el("span", {}, "or drag the picture"));
 }
 
 const axes = (length, at = [0, 0, 0]) => [["x", [1, 0, 0]], ["y", [0, 1, 0]], ["z", [0, 0, 1]]].map(([name, d]) => ({name, color: "--soft", points: [at, at.map((v, k) => v + d[k] * length)]}));
@@ -157,23 +157,23 @@ const viewToWorld = () => { const i = inverseAffine(M.view_from_world); return (
 const exampleCorners = (to) => (EX && EX.vertices[0].ws ? EX.vertices.map((v) => to(v.ws)).filter((p) => p !== null) : null);
 
 function spaceSteps() {
-  const some = (step) => (step > 1 ? ` One in ${step} primitives is shown.` : "");
+  const some = (step) => (step > 1 ? ` One of every ${step} primitives is shown.` : "");
   const back = viewToWorld(), object = EX ? DATA.draws[EX.draw].world_from_object : null;
   const toObject = (p) => transform(inverseAffine(object), p).slice(0, 3);
   const size = (list) => Math.max(...list.flatMap((t) => t.corners).flat().map(Math.abs), 0.1);
   return [
-    {name: "Object space", caption: `The mesh of <i>${escapeHtml(EX.object)}</i> as it was modeled, around its own origin.${some(DATA.wire.own_step)}`,
+    {name: "Object space", caption: `The mesh of <i>${escapeHtml(EX.object)}</i> in its own coordinates, as it was modeled.${some(DATA.wire.own_step)}`,
       draw: () => { const own = wireIn(toObject).filter((t) => t.draw === EX.draw); return wireCanvas("Wireframe of the mesh in object space", own, axes(size(own) * 1.2), exampleCorners(toObject)); }},
-    {name: "World space", caption: `Every object is scaled, turned and moved to its place. The lines are the view volume of the camera at ${vec(M.eye, 4)}.${some(DATA.wire.step)}`,
+    {name: "World space", caption: `Every object is scaled, rotated and moved to its position. The colored lines show the view volume of the camera at ${vec(M.eye, 4)}.${some(DATA.wire.step)}`,
       draw: () => wireCanvas("Wireframe of all objects in world space, with the camera", wireIn((p) => p), frustumLines().map((l) => ({...l, points: l.points.map(back)})), exampleCorners((p) => p))},
-    {name: "View space", caption: "The same, turned so that the camera is at the origin and looks along −z. x points to the right and y up.",
+    {name: "View space", caption: "The same scene, transformed so that the camera is at the origin and looks along −z. x points to the right and y up.",
       draw: () => wireCanvas("Wireframe in view space, with the camera at the origin", wireIn((p) => toView(p).slice(0, 3)), [...frustumLines(), ...axes(visibleDepth() / 4)], exampleCorners((p) => toView(p).slice(0, 3)))},
-    {name: "Clip space", caption: `Four coordinates. Drawn are x, y and w, upside down: ${M.perspective ? "w is the distance along the view axis, and the visible part is the cone |x| ≤ w, |y| ≤ w" : "w is 1 for all vertices in an orthographic view"}.`,
+    {name: "Clip space", caption: `Positions have four coordinates. The plot shows x, y and −w. ${M.perspective ? "w is the distance along the view axis, and the visible part is the pyramid |x| ≤ w, |y| ≤ w" : "w is 1 for all vertices in an orthographic view"}.`,
       draw: () => wireCanvas("Wireframe in clip space, with w as the third axis", wireIn((p) => { const c = toClip(p); return [c[0], c[1], -c[3]]; }), clipCone(), exampleCorners((p) => { const c = toClip(p); return [c[0], c[1], -c[3]]; }))},
-    {name: "Normalized device coordinates", caption: "After the division by w the view volume is a box: x and y from −1 to 1, depth from 0 (far) to 1 (near). Near things have grown and far things have shrunk.",
+    {name: "Normalized device coordinates", caption: "After the division by w, the view volume is a box: x and y from −1 to 1, depth from 0 (far) to 1 (near). Near objects have become larger and distant ones smaller.",
       draw: () => wireCanvas("Wireframe in normalized device coordinates", wireIn((p) => toNdc(toClip(p))).filter(isInBox), boxLines(), exampleCorners((p) => toNdc(toClip(p))))},
-    {name: "Window space", caption: "The box is stretched over the pixels, and positions are rounded to 1/256 of a pixel. From here on, x and y are integers.",
-      draw: () => picture(DATA.pictures.final, "Wireframe over the picture", {overlay: windowWires})},
+    {name: "Window space", caption: "The box is scaled to the size of the window, and positions are rounded to 1/256 pixel. From here on, x and y are integers.",
+      draw: () => picture(DATA.pictures.final, "The picture with the wireframe on top", {overlay: windowWires})},
   ];
 }
 const isInBox = (t) => t.corners.every(([x, y, z]) => Math.abs(x) < 1.6 && Math.abs(y) < 1.6 && z > -0.2 && z < 1.2);
@@ -210,18 +210,18 @@ function spaceFormulas() {
 
 chapter({
   id: "spaces", title: "From the mesh to the window", kicker: "Vertex stage",
-  lead: () => "A vertex is a point in the coordinates of its mesh. Three matrices and one division bring it to the window. The renderer multiplies the matrices once per object, in double precision, and applies the product to each vertex.",
-  absent: () => (EX === null ? `Nothing is visible at the example pixel of this frame. Try ${command("halfspace explain earth")}.` : DATA.wire.count === 0 ? `This frame has no mesh: ${EX.corners === 1 ? "it is made of points, each a sphere that is drawn inside of a rectangle" : "the background is a single triangle over the whole window"}. A scene with meshes: ${command("halfspace explain earth")}.` : null),
-  arrives: () => [plural(DATA.statistics.vertices_in, "index", "indices"), plural(DATA.draws.length, "draw with a matrix", "draws, each with a matrix")],
-  leaves: () => [plural(DATA.statistics.vertices_shaded, "shaded vertex", "shaded vertices"), "for each: x and y in 1/256 pixel, depth, 1/w"],
+  lead: () => "A vertex is given in the coordinates of its mesh. Three matrices and one division transform it to the window. The renderer multiplies the matrices once per object, in double precision, and transforms each vertex with the product.",
+  absent: () => (EX === null ? `Nothing is visible at the example pixel of this frame. Try ${command("halfspace explain earth")}.` : DATA.wire.count === 0 ? `This frame has no mesh: ${EX.corners === 1 ? "it consists of points, and each point is drawn as a sphere inside a rectangle" : "the background is a single triangle that covers the window"}. A scene with meshes: ${command("halfspace explain earth")}.` : null),
+  input: () => [plural(DATA.statistics.vertices_in, "index", "indices"), plural(DATA.draws.length, "draw with a matrix", "draws, each with a matrix")],
+  output: () => [plural(DATA.statistics.vertices_shaded, "shaded vertex", "shaded vertices"), "for each: x and y in 1/256 pixel, depth, 1/w"],
   steps: spaceSteps,
   formula: spaceFormulas,
   exercises: () => {
     const v = EX.vertices[0];
     return [
       {ask: `The first vertex has clip coordinates x = ${num(v.clip[0])} and w = ${num(v.clip[3])}. What is x in normalized device coordinates?`, answer: v.ndc[0], tolerance: Math.abs(v.ndc[0]) * 1e-3 + 1e-6, hint: "Divide by w.", why: "x / w."},
-      {ask: `Its window position is x = ${num(v.x)} in 1/256 pixel. In which pixel column is it?`, answer: Math.floor(v.x / SUB), hint: "Divide by 256 and round down.", why: `${fmt(v.x)} / 256 = ${fmt(v.x / SUB, 9)}.`},
-      {ask: `Every vertex was shaded once, although ${fmt(DATA.statistics.vertices_in)} indices refer to them. How many vertices were shaded?`, answer: DATA.statistics.vertices_shaded, hint: "See “What leaves”.", why: "Vertices that several triangles share are not computed again."},
+      {ask: `Its window position is x = ${num(v.x)}, in units of 1/256 pixel. Which pixel column is it in?`, answer: Math.floor(v.x / SUB), hint: "Divide by 256 and round down.", why: `${fmt(v.x)} / 256 = ${fmt(v.x / SUB, 9)}.`},
+      {ask: `The ${fmt(DATA.statistics.vertices_in)} indices refer to fewer vertices, and each vertex was shaded once. How many vertices were shaded?`, answer: DATA.statistics.vertices_shaded, hint: "See “Output”.", why: "A vertex that several triangles share is computed only once."},
     ];
   },
 });

@@ -2,7 +2,7 @@
 
 const CLIPPED = DATA.clipped;
 
-// A triangle against the planes, seen from the side: w (the distance along the axis) to the right, x or y up.
+// Plots a triangle and the clip planes: w (the distance along the view axis) to the right, x or y up.
 function clipPicture(c, axis, after) {
   const name = "xy"[axis], points = [...c.before.map((p) => [p[3], p[axis]]), [0, 0]], shown = c.after.map((a) => [a.clip[3], a.clip[axis]]);
   const width = 720, height = 400, span = (k) => { const v = points.map((p) => p[k]); return [Math.min(...v), Math.max(...v)]; };
@@ -28,26 +28,26 @@ function clipFormula(c) {
   const cut = c.after.find((a) => a.vertex < 0);
   if (!cut) return [];
   const used = [0, 1, 2].filter((k) => cut.weights[k] !== 0);
-  return [`A corner on a plane is a weighted sum of the vertices. The first new corner of this triangle:\n\n<em>p</em> = ${used.map((k) => `${fmt(cut.weights[k], 6)} · <em>v</em><sub>${k}</sub>`).join(" + ")}\n  = ${used.map((k) => `${fmt(cut.weights[k], 6)} · ${vec(c.before[k], 5)}`).join("\n  + ")}\n  = <b>${vec(cut.clip, 6)}</b>`];
+  return [`A new corner on a clip plane is a weighted sum of the vertices. The first new corner of this triangle:\n\n<em>p</em> = ${used.map((k) => `${fmt(cut.weights[k], 6)} · <em>v</em><sub>${k}</sub>`).join(" + ")}\n  = ${used.map((k) => `${fmt(cut.weights[k], 6)} · ${vec(c.before[k], 5)}`).join("\n  + ")}\n  = <b>${vec(cut.clip, 6)}</b>`];
 }
 
 chapter({
   id: "clipping", title: "Clipping", kicker: "Primitive setup",
-  lead: () => "Points behind the eye cannot be divided by w. Triangles that cross the near plane, the far plane or the limits of the integer grid are cut to a polygon first. Triangles that only leave the window at its sides are not cut: the rasterizer just does not visit pixels outside.",
-  absent: () => (CLIPPED.length === 0 ? `No triangle of this frame crosses the near or far plane: ${fmt(DATA.outcomes[2])} of ${fmt(DATA.statistics.primitives_in)} primitives are outside of the view as a whole, the others need no cut. A frame with clipped triangles: ${command("halfspace explain shadow-plane --camera low")}.` : null),
-  arrives: () => [plural(DATA.statistics.primitives_in, "primitive"), "outcodes: one bit per plane that a vertex is outside of"],
-  leaves: () => [`${plural(DATA.statistics.clipped, "primitive")} cut`, `${plural(DATA.statistics.culled_outside, "primitive")} dropped, because they are entirely outside`],
+  lead: () => "Dividing by w gives wrong positions for points behind the eye. Triangles that cross the near plane, the far plane or the limits of the integer grid are therefore clipped to polygons first. Triangles that only cross the edges of the window are not clipped: the rasterizer skips the pixels outside.",
+  absent: () => (CLIPPED.length === 0 ? `No triangle of this frame crosses the near or far plane: ${fmt(DATA.outcomes[2])} of ${fmt(DATA.statistics.primitives_in)} primitives are entirely outside of the view, and the others need no clipping. A frame with clipped triangles: ${command("halfspace explain shadow-plane --camera low")}.` : null),
+  input: () => [plural(DATA.statistics.primitives_in, "primitive"), "outcodes: for each vertex, one bit for each plane that it is outside of"],
+  output: () => [`${plural(DATA.statistics.clipped, "primitive")} clipped`, `${plural(DATA.statistics.culled_outside, "primitive")} culled because of being entirely outside`],
   steps: () => CLIPPED.slice(0, 4).flatMap((c, i) => [
-    {name: `Triangle ${fmt(c.primitive)} of ${escapeHtml(c.object)}, before`, caption: `Seen from above: the eye is at the left end, where the dashed sides of the view volume meet. Vertices with w below ${fmt(M.near)} are in front of the near plane, and those with negative w behind the eye.`, draw: () => clipPicture(c, 0, false)},
-    {name: "After", caption: `${c.after.length} corners are left, ${c.after.filter((a) => a.vertex < 0).length} of them new. The polygon is drawn as a fan of ${plural(c.after.length - 2, "triangle")}.`, draw: () => clipPicture(c, 0, true)}]),
+    {name: `Triangle ${fmt(c.primitive)} of ${escapeHtml(c.object)}, before clipping`, caption: `Seen from above: the eye is at the left end, where the dashed sides of the view volume meet. Vertices with w below ${fmt(M.near)} are on the eye's side of the near plane, and vertices with negative w are behind the eye.`, draw: () => clipPicture(c, 0, false)},
+    {name: "After clipping", caption: `The polygon has ${c.after.length} corners, ${c.after.filter((a) => a.vertex < 0).length} of them new. It is drawn as a fan of ${plural(c.after.length - 2, "triangle")}.`, draw: () => clipPicture(c, 0, true)}]),
   formula: () => clipFormula(CLIPPED[0]),
-  body: () => [el("h3", {}, "Corners of the first polygon"), tableOf(["corner", "x", "y", "z", "w", "made of"], CLIPPED[0].after.map((a, i) => [String(i), ...a.clip.map((v) => fmt(v, 6)), a.vertex >= 0 ? `¶vertex ${a.vertex}` : `¶${a.weights.map((w) => fmt(w, 4)).join(" · ")}`]))],
+  body: () => [el("h3", {}, "Corners of the first polygon"), tableOf(["corner", "x", "y", "z", "w", "weights of the vertices"], CLIPPED[0].after.map((a, i) => [String(i), ...a.clip.map((v) => fmt(v, 6)), a.vertex >= 0 ? `¶vertex ${a.vertex}` : `¶${a.weights.map((w) => fmt(w, 4)).join(" · ")}`]))],
   exercises: () => {
     const c = CLIPPED[0];
     return [
       {ask: "How many corners does the polygon of the first clipped triangle have?", answer: c.after.length, hint: "Count them in the table.", why: "Each plane can add at most one corner to a triangle."},
-      {ask: "Into how many triangles is that polygon split?", answer: c.after.length - 2, hint: "A fan with n corners has n − 2 triangles.", why: "n corners make n − 2 triangles."},
-      {ask: "How many vertices of this triangle are outside the near plane (w smaller than the near distance)?", answer: c.before.filter((p) => p[2] > p[3]).length, hint: "Depth is reversed: a vertex is in front of the near plane if z > w.", why: "z > w there."},
+      {ask: "How many triangles is that polygon split into?", answer: c.after.length - 2, hint: "A fan with n corners has n − 2 triangles.", why: `${c.after.length} − 2.`},
+      {ask: "How many vertices of this triangle are outside the near plane?", answer: c.before.filter((p) => p[2] > p[3]).length, hint: "Depth is reversed: a vertex is outside the near plane if z > w.", why: "z > w for these vertices."},
     ];
   },
 });
@@ -55,7 +55,7 @@ chapter({
 // ---- culling ----------------------------------------------------------------------------------------------------------
 
 function cullPicture(outcome) {
-  return picture(DATA.pictures.final, `Triangles that are ${OUTCOMES[outcome]}, drawn over the picture`, {overlay: (pen, s) => {
+  return picture(DATA.pictures.final, `The picture with outlines of the primitives ${OUTCOMES[outcome]}`, {overlay: (pen, s) => {
     pen.fillStyle = css("--paper");
     pen.globalAlpha = 0.75;
     pen.fillRect(0, 0, W * s, H * s);
@@ -72,30 +72,30 @@ const submitted = () => ({x: EX.vertices.map((v) => v.x), y: EX.vertices.map((v)
 
 chapter({
   id: "culling", title: "Culling", kicker: "Primitive setup",
-  lead: () => "Most triangles that cannot be seen are dropped before any pixel is touched: those that show their back, those without area, and those that slip between the samples.",
-  arrives: () => [plural(DATA.statistics.primitives_in, "primitive"), "the winding that counts as front"],
-  leaves: () => [`${plural(DATA.statistics.triangles_binned, "primitive")} to draw`, "the reason for each of the others"],
+  lead: () => "Most invisible triangles are culled before any pixel is processed: those that face away, those without area, and those that cover no sample.",
+  input: () => [plural(DATA.statistics.primitives_in, "primitive"), "the winding of front faces"],
+  output: () => [`${plural(DATA.statistics.triangles_binned, "primitive")} to draw, including the pieces of clipped ones`],
   steps: () => [
-    {name: "What became of them", caption: OUTCOMES.map((name, i) => [name, DATA.outcomes[i]]).filter(([, n]) => n > 0).map(([name, n]) => `${fmt(n)} ${name}`).join(", ") + ".",
-      draw: () => bars(OUTCOMES.map((name, i) => ({value: DATA.outcomes[i], name, label: ["kept", "clipped", "outside", "back", "no area", "no sample", "NaN"][i], marked: i === 0})), "Number of primitives by outcome: " + OUTCOMES.map((n, i) => `${n} ${DATA.outcomes[i]}`).join(", "))},
-    ...[0, 3, 5].filter((i) => DATA.outcomes[i] > 0 && FRAME.outcomes.includes(i)).map((i) => ({name: `Primitives that are ${OUTCOMES[i]}`.replace("that are covers", "that cover").replace("are set", "were set"), caption: i === 3 ? "The far side of every closed surface. About half of all triangles of a solid object end here." : i === 5 ? "Triangles so small, or so thin, that they pass between the centers of the pixels." : "The triangles that go on to the rasterizer.", draw: () => cullPicture(i)})),
+    {name: "Outcomes", caption: OUTCOMES.map((name, i) => [name, DATA.outcomes[i]]).filter(([, n]) => n > 0).map(([name, n]) => `${fmt(n)} ${name}`).join(", ") + ".",
+      draw: () => bars(OUTCOMES.map((name, i) => ({value: DATA.outcomes[i], name, label: ["kept", "clipped", "outside", "facing", "no area", "no sample", "∞ or NaN"][i], marked: i === 0})), "Number of primitives by outcome: " + OUTCOMES.map((name, i) => `${DATA.outcomes[i]} ${name}`).join(", "))},
+    ...[0, 3, 5].filter((i) => DATA.outcomes[i] > 0 && FRAME.outcomes.includes(i)).map((i) => ({name: `Primitives ${OUTCOMES[i]}`, caption: i === 3 ? "The far sides of closed surfaces. About half of the triangles of a solid object are culled this way." : i === 5 ? "Triangles that are so small or thin that they cover no sample." : "These primitives are passed to the rasterizer.", draw: () => cullPicture(i)})),
   ],
   formula: () => (isTriangle ? [`2 · area = (<em>x</em><sub>1</sub> − <em>x</em><sub>0</sub>)(<em>y</em><sub>2</sub> − <em>y</em><sub>0</sub>) − (<em>y</em><sub>1</sub> − <em>y</em><sub>0</sub>)(<em>x</em><sub>2</sub> − <em>x</em><sub>0</sub>)\n\nfor ${exampleName}, in 1/256 pixel:\n\n= (${fmt(submitted().x[1] - submitted().x[0])}) · (${fmt(submitted().y[2] - submitted().y[0])}) − (${fmt(submitted().y[1] - submitted().y[0])}) · (${fmt(submitted().x[2] - submitted().x[0])}) = <b>${fmt(area2(submitted()))}</b>\n\n${area2(submitted()) > 0 ? "Positive: counter-clockwise." : "Negative: clockwise."} The area is ${fmt(Math.abs(area2(submitted())) / 131072, 6)} pixels.`] : []),
   exercises: () => [
-    {ask: "How many primitives were culled because they face away?", answer: DATA.statistics.culled_face, hint: "The bar “back”.", why: "They have the opposite winding in the window."},
-    {ask: "What percentage of the submitted primitives is drawn? (Rounded to a whole number.)", answer: Math.round((DATA.outcomes[0] + DATA.outcomes[1]) / Math.max(1, DATA.statistics.primitives_in) * 100), tolerance: 0.5, hint: "Kept and clipped primitives, divided by all of them.", why: `${fmt(DATA.outcomes[0] + DATA.outcomes[1])} of ${fmt(DATA.statistics.primitives_in)}.`},
-    isTriangle ? {ask: `The doubled area of the example is ${num(Math.abs(area2(submitted())))} in (1/256 pixel)². How many pixels is its area? (Two digits after the point.)`, answer: Math.abs(area2(submitted())) / 131072, tolerance: 0.0051, hint: "Divide by 2 and by 256².", why: "One pixel is 256 · 256 = 65 536 units."} : {ask: "How many primitives have no area?", answer: DATA.statistics.culled_degenerate, hint: "The bar “no area”.", why: "They are lines or points after snapping."},
+    {ask: "How many primitives were culled because of their facing?", answer: DATA.statistics.culled_face, hint: "See the bar “facing”.", why: "In the window, they have the winding of culled faces."},
+    {ask: "What percentage of the submitted primitives is drawn? (Rounded to an integer.)", answer: Math.round((DATA.outcomes[0] + DATA.outcomes[1]) / Math.max(1, DATA.statistics.primitives_in) * 100), tolerance: 0.5, hint: "Divide the number of kept and clipped primitives by the number of all primitives.", why: `${fmt(DATA.outcomes[0] + DATA.outcomes[1])} of ${fmt(DATA.statistics.primitives_in)}.`},
+    isTriangle ? {ask: `Twice the area of the example triangle is ${num(Math.abs(area2(submitted())))}, in units of (1/256 pixel)². What is its area in pixels? (Two decimal places.)`, answer: Math.abs(area2(submitted())) / 131072, tolerance: 0.0051, hint: "Divide by 2 and by 256².", why: "One pixel is 256 · 256 = 65 536 units."} : {ask: "How many primitives have no area?", answer: DATA.statistics.culled_degenerate, hint: "See the bar “no area”.", why: "After snapping, their vertices are on a line."},
   ],
 });
 
 // ---- setup ------------------------------------------------------------------------------------------------------------
 
-// Draws the edges of the example triangle on the grid of pixels around it.
+// Draws the edges of the example triangle on the pixel grid around it.
 function edgePicture(highlight) {
   const t = TRI, margin = 1.2, box = t.box, x0 = Math.min(...t.x) / SUB - margin, x1 = Math.max(...t.x) / SUB + margin, y0 = Math.min(...t.y) / SUB - margin, y1 = Math.max(...t.y) / SUB + margin;
   const size = Math.max(x1 - x0, (y1 - y0) * 1.6), scale = 720 / size, width = 720, height = Math.max(240, (y1 - y0) * scale), left = (width - (x1 - x0) * scale) / 2, top = (height - (y1 - y0) * scale) / 2;
   const to = (x, y) => [left + (x / SUB - x0) * scale, top + (y1 - y / SUB) * scale];
-  const root = svgFigure(width, height, "The example triangle with its three edges on the grid of pixels");
+  const root = svgFigure(width, height, "The example triangle and its three edges on the pixel grid");
   if (scale > 5) gridLines(root, to, Math.floor(x0), Math.ceil(x1), Math.floor(y0), Math.ceil(y1));
   root.append(svg("polygon", {points: t.x.map((x, i) => to(x, t.y[i]).join(",")).join(" "), fill: "var(--accent)", "fill-opacity": 0.16}));
   t.edges.forEach((e, i) => edgeArrow(root, to, e, i, highlight === i || highlight === 3));
@@ -124,25 +124,25 @@ const edgesAtPixel = () => TRI.edges.map((e) => edgeAt(e, center(WINDOW[0]), cen
 
 chapter({
   id: "setup", title: "Triangle setup", kicker: "Primitive setup",
-  lead: () => "Three straight lines bound a triangle. Each is an edge function: positive on the inside, zero on the line, negative outside. Because positions are integers, the functions are exact, and a pixel is never drawn twice or forgotten where triangles meet.",
-  absent: () => (isTriangle ? null : `The visible primitive of this frame's example pixel is ${EX === null ? "none" : "a point: it covers a rectangle, and needs no edges"}. A frame of triangles: ${command("halfspace explain earth")}.`),
-  arrives: () => ["three window positions in 1/256 pixel", "three depths"],
-  leaves: () => ["three edge functions", "depth as z₀ + E₁ · a + E₂ · b", TRI && TRI.small ? "marked as small: all values fit in 32 bits" : "large: values are shifted to fit in 32 bits"],
+  lead: () => "Three lines bound a triangle. Each line has an edge function that is positive inside, zero on the line and negative outside. Because positions are integers, the values are exact: where triangles meet, no pixel is missed or drawn twice.",
+  absent: () => (isTriangle ? null : `The primitive that is visible at the example pixel is ${EX === null ? "none" : "not a triangle, so it needs no edge functions"}. A frame with triangles: ${command("halfspace explain earth")}.`),
+  input: () => ["three window positions in 1/256 pixel", "three depths"],
+  output: () => ["three edge functions", "depth as z₀ + E₁ · a + E₂ · b", TRI && TRI.small ? "a small triangle: all values fit into 32 bits" : "a large triangle: values are shifted to fit into 32 bits"],
   steps: () => [
-    {name: "Three edges", caption: `${exampleName[0].toUpperCase() + exampleName.slice(1)}. Its vertices are put in counter-clockwise order, starting with the one that is farthest away (v0). Dots are the centers of the pixels.`, draw: () => edgePicture(3)},
-    ...TRI.edges.map((e, i) => ({name: `Edge E${i}`, caption: `From v${(i + 1) % 3} to v${(i + 2) % 3}, opposite of v${i}. ${e.bias ? "Samples exactly on this edge belong to the neighbor, so 1 is subtracted." : "Samples exactly on this edge belong to this triangle."}`, draw: () => edgePicture(i)})),
+    {name: "Three edges", caption: `${exampleName[0].toUpperCase() + exampleName.slice(1)}. Its vertices are in counter-clockwise order, starting with the farthest one (v0). The dots are pixel centers.`, draw: () => edgePicture(3)},
+    ...TRI.edges.map((e, i) => ({name: `Edge E${i}`, caption: `From v${(i + 1) % 3} to v${(i + 2) % 3}, opposite v${i}. ${e.bias ? "Samples exactly on this edge belong to the neighboring triangle, so 1 is subtracted." : "Samples exactly on this edge belong to this triangle."}`, draw: () => edgePicture(i)})),
   ],
   formula: () => {
     const at = edgesAtPixel();
-    return [`${TRI.edges.map(edgeLine).join("\n")}\n\nat the center of pixel (${WINDOW}), (${fmt(center(WINDOW[0]))}, ${fmt(center(WINDOW[1]))}) in 1/256 pixel:\n\n${TRI.edges.map((e, i) => `E<sub>${i}</sub> = ${fmt(at[i])}${e.bias ? " − 1" : ""} → <b>${at[i] - e.bias >= 0 ? "inside" : "outside"}</b>`).join("\n")}`,
+    return [`${TRI.edges.map(edgeLine).join("\n")}\n\nat the center of pixel (${WINDOW}), which is (${fmt(center(WINDOW[0]))}, ${fmt(center(WINDOW[1]))}) in units of 1/256 pixel:\n\n${TRI.edges.map((e, i) => `E<sub>${i}</sub> = ${fmt(at[i])}${e.bias ? " − 1" : ""} → <b>${at[i] - e.bias >= 0 ? "inside" : "outside"}</b>`).join("\n")}`,
       `<em>z</em>(x, y) = z<sub>0</sub> + E<sub>1</sub> · ${fmt(TRI.z_edge1, 9)} + E<sub>2</sub> · ${fmt(TRI.z_edge2, 9)}\n     = ${fmt(TRI.z0, 9)} + ${fmt(at[1])} · ${fmt(TRI.z_edge1, 5)} + ${fmt(at[2])} · ${fmt(TRI.z_edge2, 5)} = <b>${fmt(TRI.z0 + at[1] * TRI.z_edge1 + at[2] * TRI.z_edge2, 8)}</b>`];
   },
   exercises: () => {
     const at = edgesAtPixel();
     return [
-      {ask: "What is E₀ at the center of the example pixel, before the fill rule?", answer: at[0], hint: "The formula above has the numbers.", why: "Exact: no rounding anywhere."},
-      {ask: "What is E₀ + E₁ + E₂ at that pixel?", answer: at[0] + at[1] + at[2], hint: "It is the same at every point of the plane.", why: "The sum is the doubled area of the triangle, wherever the point is."},
-      {ask: "Which barycentric weight has v1 there? (E₁ divided by the doubled area, three digits.)", answer: at[1] / area2(TRI), tolerance: 0.0011, hint: "Divide E₁ by the sum of the previous exercise.", why: "Edge functions are barycentric coordinates that are not normalized."},
+      {ask: "What is E₀ at the center of the example pixel, before the fill rule?", answer: at[0], hint: "See the formula above.", why: "The value is exact; nothing was rounded."},
+      {ask: "What is E₀ + E₁ + E₂ at that pixel?", answer: at[0] + at[1] + at[2], hint: "It is the same at every point of the plane.", why: "The sum is twice the area of the triangle at every point."},
+      {ask: "What is the barycentric weight of v1 there? (Three decimal places.)", answer: at[1] / area2(TRI), tolerance: 0.0011, hint: "Divide E₁ by the sum from the previous exercise.", why: "The values of the edge functions are unnormalized barycentric coordinates."},
     ];
   },
 });

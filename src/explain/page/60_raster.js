@@ -14,7 +14,7 @@ function eachTile(f) {
 // Tiles over the picture. mode: "grid", "heat" or "example".
 function tilePicture(mode) {
   const read = (x, y) => { const tx = Math.floor(x / TILE), ty = Math.floor((H - 1 - y) / TILE); return `tile (${tx}, ${ty}): ${plural(binCount(tx, ty), "primitive")}`; };
-  return picture(DATA.pictures.final, `Tiles over the picture${mode === "heat" ? ", colored by their number of primitives" : ""}`, {read, overlay: (pen, s) => {
+  return picture(DATA.pictures.final, `The picture divided into tiles${mode === "heat" ? ", colored by their number of primitives" : mode === "example" ? ", with the tiles of the example highlighted" : ""}`, {read, overlay: (pen, s) => {
     eachTile((tx, ty, x, y, w, h) => {
       const n = binCount(tx, ty), marked = mode === "example" && touches(tx, ty);
       pen.globalAlpha = mode === "heat" ? 0.86 : 1;
@@ -35,7 +35,7 @@ function tilePicture(mode) {
   }});
 }
 
-// The largest value of an edge function over the sample positions of a tile, as bin.cpp computes it for one sample per pixel.
+// Returns the largest value of an edge function over the sample positions of a tile, like bin.cpp.
 function maxInTile(e, tx, ty) {
   const px = tx * TILE + (e.ey < 0 ? TILE - 1 : 0), py = ty * TILE + (e.ex > 0 ? TILE - 1 : 0);
   const at = DATA.sample_positions.flat(), low = Math.min(...at), high = Math.max(...at);
@@ -53,19 +53,19 @@ function touchedTiles() { const list = []; eachTile((tx, ty) => { if (touches(tx
 
 chapter({
   id: "binning", title: "Binning into tiles", kicker: "Tiles",
-  lead: () => `The window is cut into tiles of ${TILE} × ${TILE} pixels. Each primitive is listed in the bins of the tiles that it may touch. After that, tiles are independent: a thread takes a tile, and everything it needs fits into its cache.`,
-  arrives: () => [plural(DATA.statistics.triangles_binned, "primitive")],
-  leaves: () => [`${BINS.columns} × ${BINS.rows} bins`, plural(DATA.statistics.bin_entries, "entry", "entries") + ", in submission order"],
+  lead: () => `The window is divided into tiles of ${TILE} × ${TILE} pixels. Each tile has a bin: the list of the primitives that may overlap it. From here on, tiles are independent. A thread draws one tile at a time, and the pixels of the tile fit into its cache.`,
+  input: () => [plural(DATA.statistics.triangles_binned, "primitive")],
+  output: () => [`${BINS.columns} × ${BINS.rows} bins`, plural(DATA.statistics.bin_entries, "entry", "entries") + ", in submission order"],
   steps: () => [
-    {name: "Tiles", caption: `${BINS.columns * BINS.rows} tiles cover the window. Those at the top and at the right may be smaller. Rows are counted from below, as in OpenGL.`, draw: () => tilePicture("grid")},
-    {name: "Primitives per tile", caption: `The fullest tile has ${fmt(mostBinned)} primitives, and ${fmt(BINS.counts.filter((n) => n === 0).length)} tiles have none: they are filled with the background without looking at a pixel.`, draw: () => [tilePicture("heat"), legend("0", fmt(mostBinned))].flat()},
+    {name: "Tiles", caption: `${BINS.columns * BINS.rows} tiles cover the window. Tiles at the top and right edges may be smaller. Rows are counted from the bottom, as in OpenGL.`, draw: () => tilePicture("grid")},
+    {name: "Primitives per tile", caption: `The fullest tile has ${fmt(mostBinned)} primitives, and ${fmt(BINS.counts.filter((n) => n === 0).length)} tiles have none. Empty tiles are filled with the background color without processing their pixels one by one.`, draw: () => [tilePicture("heat"), legend("0", fmt(mostBinned))].flat()},
     {name: "The tiles of the example", caption: `The ${exampleName} is listed in ${plural(touchedTiles().length, "tile")}.`, draw: () => tilePicture("example")},
   ],
-  formula: () => (isTriangle ? [`A tile is skipped if an edge function is negative in its best corner.\n\nTile (${EXTILE}), with the example pixel:\n${TRI.edges.map((e, i) => `max E<sub>${i}</sub> = ${fmt(maxInTile(e, ...EXTILE))} → <b>${maxInTile(e, ...EXTILE) - e.bias >= 0 ? "may touch" : "cannot touch"}</b>`).join("\n")}`] : []),
+  formula: () => (isTriangle ? [`A tile is skipped if the maximum of an edge function over the tile is negative.\n\nTile (${EXTILE}), which contains the example pixel:\n${TRI.edges.map((e, i) => `max E<sub>${i}</sub> = ${fmt(maxInTile(e, ...EXTILE))} → <b>${maxInTile(e, ...EXTILE) - e.bias >= 0 ? "may overlap" : "cannot overlap"}</b>`).join("\n")}`] : []),
   exercises: () => [
-    {ask: "How many primitives are in the fullest tile?", answer: mostBinned, hint: "Look at the heat map.", why: "Its thread has the most to do."},
-    {ask: "In how many tiles is the average primitive listed? (Two digits after the point.)", answer: DATA.statistics.bin_entries / Math.max(1, DATA.statistics.triangles_binned), tolerance: 0.0051, hint: "Entries divided by primitives.", why: `${fmt(DATA.statistics.bin_entries)} entries for ${fmt(DATA.statistics.triangles_binned)} primitives.`},
-    {ask: `How many tiles does the ${exampleName} touch?`, answer: touchedTiles().length, hint: "The third step marks them.", why: "The same test as in the quoted code."},
+    {ask: "How many primitives does the fullest tile have?", answer: mostBinned, hint: "See the heat map.", why: "This is the largest number in the heat map."},
+    {ask: "How many tiles does a primitive overlap on average? (Two decimal places.)", answer: DATA.statistics.bin_entries / Math.max(1, DATA.statistics.triangles_binned), tolerance: 0.0051, hint: "Divide the number of entries by the number of primitives.", why: `${fmt(DATA.statistics.bin_entries)} entries for ${fmt(DATA.statistics.triangles_binned)} primitives.`},
+    {ask: `How many tiles does the ${exampleName} overlap?`, answer: touchedTiles().length, hint: "The third step highlights them.", why: "The page uses the same test as the source code above."},
   ],
 });
 
@@ -74,7 +74,7 @@ chapter({
 const PACKET = DATA.build.packet;
 const blockOf = (v) => Math.floor(v / 8) * 8;
 
-// Coverage of the 8x8 block whose lower left pixel is (x, y): "none", "some" or "whole", from the edge functions in its corners.
+// Returns the coverage of the 8x8 block whose lower left pixel is (x, y), from the edge functions at its corners: "none", "some" or "whole".
 function blockCoverage(t, x, y) {
   let whole = true;
   for (const e of t.edges) {
@@ -103,7 +103,7 @@ const corners = (t) => (t.edges ? t.x.map((x, i) => [x, t.y[i]]) : [[t.x[0], t.y
 
 function blocksPicture() {
   const [x0, y0] = EXTILE.map((t) => t * TILE), n = {none: 0, some: 0, whole: 0};
-  const g = gridPicture(x0 / 8, y0 / 8, TILE / 8, TILE / 8, "The blocks of the tile: outside, crossed by an edge, or whole", (bx, by) => {
+  const g = gridPicture(x0 / 8, y0 / 8, TILE / 8, TILE / 8, "The blocks of the tile: outside the triangle, crossed by an edge, or fully covered", (bx, by) => {
     const kind = blockCoverage(TRI, bx * 8, by * 8);
     ++n[kind];
     return {fill: kind === "none" ? "transparent" : "var(--accent)", opacity: kind === "whole" ? 0.75 : 0.3};
@@ -112,7 +112,7 @@ function blocksPicture() {
   const inner = svg("g", {"clip-path": "url(#tile)"});
   outline(inner, scaled, corners(TRI));
   g.root.append(clip, inner);
-  return [el("div", {class: "stage"}, g.root), el("div", {class: "readout"}, `${n.none} blocks outside · ${n.some} crossed by an edge · ${n.whole} whole`)];
+  return [el("div", {class: "stage"}, g.root), el("div", {class: "readout"}, `${n.none} blocks outside · ${n.some} crossed by an edge · ${n.whole} fully covered`)];
 }
 
 function packetPicture() {
@@ -128,11 +128,11 @@ function packetPicture() {
   return el("div", {class: "stage"}, g.root);
 }
 
-// Sample by sample: the values of the edges at the pixel under the pointer.
+// Shows the values of the edge functions at the pixel under the pointer.
 function samplePicture() {
   const [x0, y0] = WINDOW.map((v) => blockOf(v));
   const readout = el("div", {class: "readout", "aria-live": "polite"});
-  const show = (x, y) => { readout.innerHTML = `pixel (${x}, ${y}) from below: ` + (TRI.edges ? TRI.edges.map((e, i) => `E${i} = ${fmt(edgeAt(e, center(x), center(y)) - e.bias)}`).join(" · ") : "") + ` → ${covered(TRI, x, y) ? "covered" : "not covered"}`; };
+  const show = (x, y) => { readout.innerHTML = `pixel (${x}, ${y}) from the lower left: ` + (TRI.edges ? TRI.edges.map((e, i) => `E${i} = ${fmt(edgeAt(e, center(x), center(y)) - e.bias)}`).join(" · ") : "") + ` → ${covered(TRI, x, y) ? "covered" : "not covered"}`; };
   const g = gridPicture(x0, y0, 8, 8, "The samples of one block", (x, y) => ({fill: covered(TRI, x, y) ? "var(--accent)" : "transparent", opacity: 0.3}));
   for (let y = y0; y < y0 + 8; ++y) for (let x = x0; x < x0 + 8; ++x) {
     const [a, b] = g.to(center(x), center(y)), example = x === WINDOW[0] && y === WINDOW[1];
@@ -147,13 +147,13 @@ function samplePicture() {
   return [el("div", {class: "stage"}, g.root), readout];
 }
 
-// Two triangles that share an edge through sample positions, made up for the fill rule.
+// Two triangles that share an edge through sample positions, to demonstrate the fill rule.
 const SHARED = (() => {
   const p = [[128, 128], [1664, 128], [1664, 1664], [128, 1664]], make = (a, b, c) => ({x: [a, b, c].map((i) => p[i][0]), y: [a, b, c].map((i) => p[i][1])});
   return [make(0, 1, 2), make(0, 2, 3)].map((t) => ({...t, box: [0, 0, 7, 7], edges: [0, 1, 2].map((i) => { const a = (i + 1) % 3, b = (i + 2) % 3, ex = t.x[b] - t.x[a], ey = t.y[b] - t.y[a]; return {x0: t.x[a], y0: t.y[a], ex, ey, bias: ey < 0 || (ey === 0 && ex > 0) ? 0 : 1}; })}));
 })();
 function sharedPicture() {
-  const g = gridPicture(0, 0, 7, 7, "Two triangles that share an edge through the centers of pixels: each center belongs to exactly one of them", (x, y) => ({fill: covered(SHARED[0], x, y) ? "var(--accent)" : covered(SHARED[1], x, y) ? "var(--soft)" : "transparent", opacity: 0.55}));
+  const g = gridPicture(0, 0, 7, 7, "Two triangles that share an edge through pixel centers; each center belongs to exactly one of the triangles", (x, y) => ({fill: covered(SHARED[0], x, y) ? "var(--accent)" : covered(SHARED[1], x, y) ? "var(--soft)" : "transparent", opacity: 0.55}));
   for (const t of SHARED) outline(g.root, g.to, corners(t));
   for (let y = 0; y < 7; ++y) for (let x = 0; x < 7; ++x) { const [a, b] = g.to(center(x), center(y)); g.root.append(svg("circle", {cx: a, cy: b, r: 4.5, fill: "var(--ink)"})); }
   return el("div", {class: "stage"}, g.root);
@@ -168,27 +168,27 @@ const inBlock = () => { let n = 0; const [x0, y0] = WINDOW.map(blockOf); for (le
 
 chapter({
   id: "coverage", title: "Coverage", kicker: "Tiles",
-  lead: () => "Which samples are inside of the triangle? The answer is found from coarse to fine: tile, block of 8 × 8 pixels, packet, sample. Whole blocks need no test per pixel.",
-  absent: () => (TRI === null ? `No primitive is visible at the example pixel. A frame of triangles: ${command("halfspace explain earth")}.` : null),
-  arrives: () => ["a bin of primitives", "three edge functions each"],
-  leaves: () => [`packets of ${PACKET[0]} × ${PACKET[1]} pixels with a mask, one bit per lane`, `this build has ${DATA.build.lanes} lanes (${escapeHtml(DATA.build.description)})`],
+  lead: () => "Which samples are inside the triangle? The rasterizer works from coarse to fine: tile, block of 8 × 8 pixels, packet, sample. Blocks that are entirely inside or outside need no test per sample.",
+  absent: () => (TRI === null ? `No primitive is visible at the example pixel. A frame with triangles: ${command("halfspace explain earth")}.` : null),
+  input: () => ["the bin of the tile", "three edge functions per triangle"],
+  output: () => [`packets of ${PACKET[0]} × ${PACKET[1]} pixels with a coverage mask, one bit per lane`, `this build has ${DATA.build.lanes} lanes (${escapeHtml(DATA.build.description)})`],
   steps: () => [
-    ...(TRI.edges ? [{name: "Blocks of the tile", caption: `The tile of the example pixel, in blocks of 8 × 8 pixels. Only blocks that an edge crosses are looked at more closely.`, draw: blocksPicture}] : []),
-    {name: "Packets", caption: `The block of the example pixel. ${DATA.build.lanes} pixels are computed at once, in packets of ${PACKET[0]} × ${PACKET[1]}: this is how many numbers fit into a register of this build (${escapeHtml(DATA.build.description)}). Filled pixels are covered.`, draw: packetPicture},
-    {name: "Sample by sample", caption: "All three edge functions must not be negative, after the fill rule. Point at a sample to see its values.", draw: samplePicture},
-    {name: "A shared edge", caption: "A made-up square of two triangles, whose diagonal goes exactly through the centers of pixels. Each center belongs to one of them, never to both or none: to the one for which the edge is a left edge, or has the inside above it.", draw: sharedPicture},
+    ...(TRI.edges ? [{name: "Blocks of the tile", caption: `The tile of the example pixel, divided into blocks of 8 × 8 pixels. Only blocks that an edge crosses are tested further.`, draw: blocksPicture}] : []),
+    {name: "Packets", caption: `The block of the example pixel. This build (${escapeHtml(DATA.build.description)}) processes ${DATA.build.lanes} pixels at once, in packets of ${PACKET[0]} × ${PACKET[1]}, because a register holds ${DATA.build.lanes} floats. Filled pixels are covered.`, draw: packetPicture},
+    {name: "Samples", caption: "A sample is covered if no edge function is negative after the fill rule has been applied. Point at a sample to see its values.", draw: samplePicture},
+    {name: "A shared edge", caption: "Two triangles that form a square (not part of this frame). Their common edge goes exactly through pixel centers. Each of these centers belongs to exactly one triangle: the one for which the edge is a left edge, or a horizontal edge with the inside above it.", draw: sharedPicture},
   ],
   formula: () => (isTriangle ? [`covered = E<sub>0</sub> ≥ bias<sub>0</sub>  and  E<sub>1</sub> ≥ bias<sub>1</sub>  and  E<sub>2</sub> ≥ bias<sub>2</sub>\n\n${TRI.edges.map((e, i) => `${fmt(edgesAtPixel()[i])} ≥ ${e.bias} → <b>${edgesAtPixel()[i] >= e.bias}</b>`).join("\n")}\n\nbias = 0 if the edge goes down (e<sub>y</sub> &lt; 0), or to the right (e<sub>y</sub> = 0, e<sub>x</sub> &gt; 0); otherwise 1`] : []),
   exercises: () => [
-    {ask: `How many pixel centers does the ${exampleName} cover?`, answer: countCovered(), hint: "Count the filled pixels. Larger triangles reach beyond the block that is shown.", why: "Counted with the exact edge functions."},
-    {ask: "How many pixels of the block that is shown are covered?", answer: inBlock(), hint: "Count the filled squares of the packet step.", why: "At most 64."},
-    {ask: `How many packets has a block of 8 × 8 pixels in this build?`, answer: 64 / DATA.build.lanes, hint: `A packet has ${DATA.build.lanes} pixels.`, why: `64 / ${DATA.build.lanes}.`},
+    {ask: `How many pixel centers does the ${exampleName} cover?`, answer: countCovered(), hint: "Count the filled pixels. A large triangle may extend beyond the block that is shown.", why: "Counted with the exact edge functions."},
+    {ask: "How many pixels of the block in the step “Packets” are covered?", answer: inBlock(), hint: "Count the filled pixels in that step.", why: "At most 64 are possible."},
+    {ask: `How many packets does a block of 8 × 8 pixels have in this build?`, answer: 64 / DATA.build.lanes, hint: `A packet has ${DATA.build.lanes} pixels.`, why: `64 / ${DATA.build.lanes}.`},
   ],
 });
 
 // ---- depth --------------------------------------------------------------------------------------------------------------
 
-// Smallest and largest depth of each block of 8x8 pixels of the final depth buffer, counted from the lower left as tiles are.
+// Returns the smallest and largest depth of each block of 8x8 pixels in the final depth buffer. Blocks start at the lower left, like tiles.
 function hierarchicalZ() {
   const columns = Math.ceil(W / 8), rows = Math.ceil(H / 8), low = new Float32Array(columns * rows).fill(2), high = new Float32Array(columns * rows).fill(-1);
   for (let y = 0; y < H; ++y) for (let x = 0; x < W; ++x) {
@@ -213,23 +213,23 @@ const exampleBlock = () => { const z = hierarchicalZ(), b = Math.floor(WINDOW[1]
 
 chapter({
   id: "depth", title: "Depth", kicker: "Tiles",
-  lead: () => "Of all surfaces at a sample, the nearest wins. The depth buffer remembers its depth. Depth is reversed here: 1 is at the near plane and 0 far away, which gives distant surfaces the finest steps of a float.",
+  lead: () => "Of all surfaces at a sample, the nearest one is visible. The depth buffer stores its depth. Depth is reversed: 1 is at the near plane and 0 is far away, so distant surfaces benefit from the higher precision of floats near 0.",
   absent: () => (DATA.depth.high <= 0 ? `Nothing in this frame writes depth. A frame that does: ${command("halfspace explain earth")}.` : null),
-  arrives: () => ["covered packets", "a depth plane per triangle"],
-  leaves: () => [`${fmt(DATA.statistics.samples_passed)} of ${fmt(DATA.statistics.samples_tested)} tested samples pass`, "the identity of the visible triangle, per sample"],
+  input: () => ["covered packets", "a depth plane per triangle"],
+  output: () => [`${fmt(DATA.statistics.samples_passed)} of ${fmt(DATA.statistics.samples_tested)} tested samples passed`, "the id of the visible triangle for each sample"],
   steps: () => [
-    {name: "The depth buffer", caption: "After the last triangle, on a logarithmic scale. Point at it to read the exact value.", draw: () => [picture(DATA.depth.picture, "The depth buffer as a heat map", {read: (x, y) => `pixel (${x}, ${y}): depth ${fmt(depthAt(x, y), 9)}`, overlay: (pen, s) => ring(pen, s, PIXEL)}), legend(`far, ${fmt(DATA.depth.low, 4)}`, `near, ${fmt(DATA.depth.high, 4)}`)].flat()},
-    {name: "Farthest depth of each block", caption: "Hierarchical Z: a triangle whose nearest point is behind the farthest depth of a block cannot change any of its 64 pixels. One comparison rejects them all.", draw: () => hizPicture("low")},
-    {name: "Nearest depth of each block", caption: "The other bound: a triangle that is nearer than the nearest depth of a block passes everywhere, without a test per pixel.", draw: () => hizPicture("high")},
+    {name: "The depth buffer", caption: "The depth buffer of the finished frame, on a logarithmic scale. Point at the picture to read the exact values.", draw: () => [picture(DATA.depth.picture, "The depth buffer as a heat map", {read: (x, y) => `pixel (${x}, ${y}): depth ${fmt(depthAt(x, y), 9)}`, overlay: (pen, s) => ring(pen, s, PIXEL)}), legend(`far, ${fmt(DATA.depth.low, 4)}`, `near, ${fmt(DATA.depth.high, 4)}`)].flat()},
+    {name: "Farthest depth of each block", caption: "Hierarchical Z: if the nearest point of a triangle is behind the farthest depth of a block, the triangle is hidden in all 64 pixels of the block. One comparison rejects them all.", draw: () => hizPicture("low")},
+    {name: "Nearest depth of each block", caption: "The other bound: a triangle that is entirely in front of the nearest depth of a block passes in the whole block, without a depth test per pixel.", draw: () => hizPicture("high")},
   ],
   formula: () => {
     const b = exampleBlock(), z = depthAt(...PIXEL);
-    return [`pass = <em>z</em><sub>fragment</sub> &gt; <em>z</em><sub>stored</sub>\n\nstored at pixel (${PIXEL}): <b>${fmt(z, 9)}</b>\nits block of 8 × 8: farthest ${fmt(b.low, 9)}, nearest ${fmt(b.high, 9)}\n\nA triangle with <em>z</em><sub>max</sub> ≤ ${fmt(b.low, 7)} is rejected with the whole block.\nA triangle with <em>z</em><sub>0</sub> &gt; ${fmt(b.high, 7)} passes in the whole block.`];
+    return [`pass = <em>z</em><sub>fragment</sub> &gt; <em>z</em><sub>stored</sub>\n\nstored at pixel (${PIXEL}): <b>${fmt(z, 9)}</b>\nin its 8 × 8 block: farthest ${fmt(b.low, 9)}, nearest ${fmt(b.high, 9)}\n\nA triangle with <em>z</em><sub>max</sub> ≤ ${fmt(b.low, 7)} is rejected with the whole block.\nA triangle with <em>z</em><sub>0</sub> &gt; ${fmt(b.high, 7)} passes in the whole block.`];
   },
   exercises: () => {
     return [
-      {ask: `The depths of a triangle are between 0.25 and 0.5, those stored in a block between 0.6 and 0.9. Can any pixel of the block pass? (yes or no)`, answer: "no", hint: "Larger is nearer.", why: "Its nearest point is behind the farthest pixel of the block, so one comparison rejects 64 pixels."},
-      {ask: `What is the depth at the example pixel? (Three significant digits.)`, answer: depthAt(...PIXEL), tolerance: depthAt(...PIXEL) * 0.006 + 1e-9, hint: "Point at the ring in the first step.", why: "Read from the buffer."},
+      {ask: `The depths of a triangle are between 0.25 and 0.5, and the depths stored in a block are between 0.6 and 0.9. Can the triangle be visible in the block? (yes or no)`, answer: "no", hint: "A larger depth is nearer.", why: "The nearest point of the triangle is behind the farthest pixel of the block, so one comparison rejects 64 pixels."},
+      {ask: `What is the depth at the example pixel? (Three significant digits.)`, answer: depthAt(...PIXEL), tolerance: depthAt(...PIXEL) * 0.006 + 1e-9, hint: "Point at the center of the ring in the first step.", why: "This is the value in the depth buffer."},
       {ask: "How many blocks of 8 × 8 pixels does one tile have?", answer: (TILE / 8) ** 2, hint: `A tile has ${TILE} × ${TILE} pixels.`, why: `${TILE / 8} · ${TILE / 8}.`},
     ];
   },

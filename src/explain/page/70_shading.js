@@ -2,7 +2,7 @@
 
 const P = DATA.perspective;
 
-// Weights of a point of the triangle P, in window pixels from the lower left: linear and perspective-correct.
+// Returns the linear and the perspective-correct weights of a point of triangle P. x and y are pixels from the lower left.
 function weightsAt(x, y) {
   const [a, b, c] = P.xy.map(([px, py]) => [px / SUB, py / SUB]);
   const cross = (p, q, r) => (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]), area = cross(a, b, c), at = [x, y];
@@ -11,10 +11,10 @@ function weightsAt(x, y) {
   return {linear, perspective: scaled.map((v) => v / sum)};
 }
 
-// The triangle P with squares in its barycentric coordinates, magnified.
+// Draws triangle P, magnified, with a checkerboard in barycentric coordinates.
 function checkered(kind) {
   const xs = P.xy.map((p) => p[0] / SUB), ys = P.xy.map((p) => p[1] / SUB), x0 = Math.min(...xs), y0 = Math.min(...ys), w = Math.max(...xs) - x0, h = Math.max(...ys) - y0;
-  const width = 900, height = 460, scale = Math.min((width - 40) / w, (height - 40) / h), {canvas, pen} = canvasFigure(width, height, kind === "difference" ? "Difference between affine and perspective-correct interpolation" : `A triangle with squares, interpolated ${kind === "linear" ? "affinely" : "with perspective"}`);
+  const width = 900, height = 460, scale = Math.min((width - 40) / w, (height - 40) / h), {canvas, pen} = canvasFigure(width, height, kind === "difference" ? "Difference between affine and perspective-correct interpolation" : `A triangle with a checkerboard and ${kind === "linear" ? "affine" : "perspective-correct"} interpolation`);
   const image = pen.createImageData(width, height), ox = (width - w * scale) / 2, oy = (height - h * scale) / 2;
   for (let j = 0; j < height; ++j) for (let i = 0; i < width; ++i) {
     const {linear, perspective} = weightsAt(x0 + (i - ox) / scale, y0 + (height - 1 - j - oy) / scale);
@@ -34,24 +34,24 @@ const middle = () => { const c = [0, 1].map((k) => (P.xy[0][k] + P.xy[1][k] + P.
 
 chapter({
   id: "interpolation", title: "Perspective-correct interpolation", kicker: "Shading",
-  lead: () => "Vertices carry values: texture coordinates, normals, positions. Between them the values are interpolated, but not along straight lines of the screen: something twice as far away changes twice as fast per pixel.",
-  absent: () => (P === null ? `No triangle of this frame is entirely in the window. A frame that shows the difference: ${command("halfspace explain shadow-plane")}.` : null),
-  arrives: () => ["edge functions at a sample", "1/w of the three vertices"],
-  leaves: () => ["three weights that add up to 1"],
+  lead: () => "Vertices have values: texture coordinates, normals, positions. Between the vertices, the values are interpolated. The interpolation cannot be linear on the screen: where a surface is farther away, its values change faster from pixel to pixel.",
+  absent: () => (P === null ? `No triangle of this frame is entirely inside the window. A frame that shows the difference: ${command("halfspace explain shadow-plane")}.` : null),
+  input: () => ["edge functions at a sample", "1/w of the three vertices"],
+  output: () => ["three weights that add up to 1"],
   steps: () => [
-    {name: "Affine", caption: `Triangle ${fmt(P.primitive)} of <i>${escapeHtml(P.object)}</i>, one of those in this frame for which it is easiest to see. Its squares are interpolated with the edge functions alone: all have the same size on the screen.`, draw: () => checkered("linear")},
-    {name: "Perspective-correct", caption: `The same with the weights divided by w. 1/w is ${P.inv_w.map((v) => fmt(v, 4)).join(", ")} at the vertices.`, draw: () => checkered("perspective")},
-    {name: "Difference", caption: `Where the weights differ: black is 0, yellow is a quarter or more. Along an edge, a value is displaced by up to ${fmt(P.error, 3)} pixels.`, draw: () => [checkered("difference"), legend("0", "0.25")]},
+    {name: "Affine", caption: `Triangle ${fmt(P.primitive)} of <i>${escapeHtml(P.object)}</i>, for which the difference is easy to see. The weights are the normalized edge functions, so all squares have the same size on the screen.`, draw: () => checkered("linear")},
+    {name: "Perspective-correct", caption: `The weights are divided by w and normalized. 1/w is ${P.inv_w.map((v) => fmt(v, 4)).join(", ")} at the vertices.`, draw: () => checkered("perspective")},
+    {name: "Difference", caption: `The difference of the weights, from 0 (dark) to 0.25 or more (bright). Along an edge, affine interpolation displaces a value by up to ${fmt(P.error, 3)} pixels.`, draw: () => [checkered("difference"), legend("0", "0.25")]},
   ],
   formula: () => {
     const m = middle();
-    return [`<em>p</em><sub>i</sub> = E<sub>i</sub> q<sub>i</sub> / (E<sub>0</sub> q<sub>0</sub> + E<sub>1</sub> q<sub>1</sub> + E<sub>2</sub> q<sub>2</sub>)      q<sub>i</sub> = 1/w<sub>i</sub>\n\nin the middle of the triangle on the screen, where the linear weights are ⅓, ⅓, ⅓:\n\n${[0, 1, 2].map((i) => `p<sub>${i}</sub> = ⅓ · ${fmt(P.inv_w[i], 6)} / (⅓ · ${fmt(P.inv_w[0] + P.inv_w[1] + P.inv_w[2], 6)}) = <b>${fmt(m.perspective[i], 6)}</b>`).join("\n")}`];
+    return [`<em>p</em><sub>i</sub> = E<sub>i</sub> q<sub>i</sub> / (E<sub>0</sub> q<sub>0</sub> + E<sub>1</sub> q<sub>1</sub> + E<sub>2</sub> q<sub>2</sub>)      q<sub>i</sub> = 1/w<sub>i</sub>\n\nat the centroid of the triangle on the screen, where the linear weights are ⅓, ⅓, ⅓:\n\n${[0, 1, 2].map((i) => `p<sub>${i}</sub> = ⅓ · ${fmt(P.inv_w[i], 6)} / (⅓ · ${fmt(P.inv_w[0] + P.inv_w[1] + P.inv_w[2], 6)}) = <b>${fmt(m.perspective[i], 6)}</b>`).join("\n")}`];
   },
   exercises: () => {
     const m = middle().perspective;
     return [
-      {ask: "What is p₁ in the middle of the triangle? (Three digits.)", answer: m[1], tolerance: 0.0011, hint: "q₁ divided by the sum of all three.", why: "In the middle the linear weights cancel."},
-      {ask: "What do the three weights add up to?", answer: 1, tolerance: 1e-9, hint: "They are divided by their sum.", why: "Otherwise a constant would not stay constant."},
+      {ask: "What is p₁ at the centroid of the triangle? (Three decimal places.)", answer: m[1], tolerance: 0.0011, hint: "Divide q₁ by the sum of all three q.", why: "At the centroid, the linear weights are equal and cancel."},
+      {ask: "What do the three weights add up to?", answer: 1, tolerance: 1e-9, hint: "They are divided by their sum.", why: "A value that is equal at all vertices must be constant in the triangle."},
       {ask: "Which vertex is nearest to the eye: 0, 1 or 2?", answer: P.inv_w.indexOf(Math.max(...P.inv_w)), hint: "1/w is largest there.", why: "w is the distance along the view axis."},
     ];
   },
@@ -61,44 +61,44 @@ chapter({
 
 chapter({
   id: "varyings", title: "Varyings", kicker: "Shading",
-  lead: () => "What the fragment shader receives at each pixel, drawn as colors. Each picture is one interpolated value.",
-  arrives: () => ["weights per pixel", "values at three vertices"],
-  leaves: () => ["interpolated values, one lane per pixel", "exact derivatives, from the plane of the triangle"],
+  lead: () => "The values that the fragment shader receives at each pixel. Each picture shows one of them as colors.",
+  input: () => ["weights per pixel", "values at three vertices"],
+  output: () => ["interpolated values, one lane per pixel", "analytic derivatives, from the plane of the triangle"],
   steps: () => [
     ["barycentrics", "Barycentric coordinates", "Red, green and blue are the weights of the three vertices."],
-    ["normal", "Normal", "The unit normal that lighting uses, after normal and bump maps: x, y and z from −1 to 1 as red, green and blue."],
-    ["uv", "Texture coordinates", "u is red and v is green. Colors jump where a coordinate passes a whole number."],
-    ["position", "Position in world space", "Red, green and blue from the smallest to the largest x, y and z."],
-    ["albedo", "Color of the surface", "The color before lighting: factors, vertex colors and the color map."],
+    ["normal", "Normal", "The unit normal used for lighting, after normal and bump mapping. x, y and z from −1 to 1 are shown as red, green and blue."],
+    ["uv", "Texture coordinates", "u is red and v is green. Colors jump where a coordinate crosses an integer."],
+    ["position", "Position in world space", "Red, green and blue are x, y and z, scaled to the range of their values in this frame."],
+    ["albedo", "Surface color", "The color before lighting: the product of the material color, the vertex color and the color map."],
   ].map(([key, name, caption]) => ({name, caption, draw: () => picture(DATA.pictures[key], `${name} as colors`, {overlay: (pen, s) => ring(pen, s, PIXEL)})})),
   formula: () => ["value = a<sub>0</sub> + p<sub>1</sub> · (a<sub>1</sub> − a<sub>0</sub>) + p<sub>2</sub> · (a<sub>2</sub> − a<sub>0</sub>)"],
   exercises: () => [
     {ask: "A value is 2, 4 and 6 at the vertices, and the weights are 0.5, 0.25 and 0.25. What is it at the pixel?", answer: 3.5, tolerance: 1e-9, hint: "Use the formula: 2 + p₁ · 2 + p₂ · 4.", why: "2 + 0.25 · 2 + 0.25 · 4."},
-    {ask: "Which color has a normal that points along +z? Give red, green and blue from 0 to 255, separated by spaces.", answer: "128 128 255", hint: "(n + 1) / 2, times 255, rounded.", why: "(0.5, 0.5, 1)."},
-    {ask: "How many fragments ran the fragment shader in this frame?", answer: DATA.statistics.fragments_shaded, hint: "The chapter on statistics lists it.", why: "Opaque surfaces are shaded once per visible pixel, after depth is known everywhere in the tile."},
+    {ask: "In the picture of the normals, which color does a normal have that points along +z? Give red, green and blue from 0 to 255, separated by spaces.", answer: "128 128 255", hint: "(n + 1) / 2, times 255, rounded.", why: "(0.5, 0.5, 1)."},
+    {ask: "How many fragments were shaded in this frame?", answer: DATA.statistics.fragments_shaded, hint: "See the chapter on statistics.", why: "Opaque surfaces are shaded once per visible pixel, after the depth of the whole tile is known."},
   ],
 });
 
 // ---- mip levels -----------------------------------------------------------------------------------------------------------
 
 const lodAt = (x, y) => FRAME.lods[y * W + x];
-// The example pixel, or the first pixel with a map if it has none.
+// The example pixel or, if it has no color map, the first pixel with one.
 const MIP = DATA.mips ? DATA.mips.pixel : null;
 
 chapter({
   id: "mips", title: "Mip levels", kicker: "Shading",
-  lead: () => "A pixel that covers many texels must not pick one of them. Textures are stored at half, quarter, eighth of their size, and so on. The level is the one whose texels are about as large as the pixel.",
+  lead: () => "A pixel that covers many texels should show their average. Therefore, textures are also stored at 1/2, 1/4, 1/8 of their size, and so on. The renderer reads the level whose texels are about as large as the pixel.",
   absent: () => (DATA.mips === null ? `No opaque surface of this frame has a color map. A frame with textures: ${command("halfspace explain earth")}.` : null),
-  arrives: () => ["texture coordinates and their derivatives"],
-  leaves: () => ["a level of detail, and the two levels to read"],
+  input: () => ["texture coordinates and their derivatives"],
+  output: () => ["the level of detail and the two mip levels to read"],
   steps: () => [
-    {name: "Level of detail", caption: `Level 0 is the full texture; each level halves it. ${fmt(DATA.mips.pixels)} pixels read a color map. Point at the picture to read the level.`, draw: () => [picture(DATA.mips.picture, "The mip level of each pixel as a heat map", {read: (x, y) => `pixel (${x}, ${y}): ${lodAt(x, y) < -50 ? "no map" : "level " + fmt(lodAt(x, y), 4) + (lodAt(x, y) < 0 ? " (magnified)" : "")}`, overlay: (pen, s) => ring(pen, s, PIXEL)}), legend("magnified", `level ${fmt(DATA.mips.high, 3)}`)].flat()},
+    {name: "Level of detail", caption: `Level 0 is the full texture, and each level has half the size of the previous one. ${fmt(DATA.mips.pixels)} pixels use a color map. Point at the picture to read the levels.`, draw: () => [picture(DATA.mips.picture, "The mip level of each pixel as a heat map", {read: (x, y) => `pixel (${x}, ${y}): ${lodAt(x, y) < -50 ? "no color map" : "level " + fmt(lodAt(x, y), 4) + (lodAt(x, y) < 0 ? " (magnified)" : "")}`, overlay: (pen, s) => ring(pen, s, PIXEL)}), legend("magnified", `level ${fmt(DATA.mips.high, 3)}`)].flat()},
   ],
   formula: () => (MIP.probes === 0 ? ["λ = log<sub>2</sub> max(|∂(s,t)/∂x|, |∂(s,t)/∂y|)"] : [`λ = log<sub>2</sub> max(|∂(s,t)/∂x|, |∂(s,t)/∂y|), in texels of level 0\n\nat pixel (${PIXEL}):\n\nλ = log<sub>2</sub> max(${fmt(MIP.dx, 6)}, ${fmt(MIP.dy, 6)}) = ${fmt(Math.log2(Math.max(MIP.dx, MIP.dy)), 6)}${MIP.probes > 1 ? `\nwith ${fmt(MIP.probes)} probes along the longer axis: <b>${fmt(MIP.lod, 6)}</b>` : ` → <b>${fmt(MIP.lod, 6)}</b>`}`]),
   exercises: () => [
-    {ask: "A step to the next pixel moves 8 texels of level 0. Which level is read?", answer: 3, hint: "2 to which power is 8?", why: "2³ = 8."},
-    {ask: "What is the highest level in this frame? (One digit after the point.)", answer: DATA.mips.high, tolerance: 0.051, hint: "See the legend.", why: "At grazing angles and far away."},
-    {ask: "How many pixels are magnified, that is, have a level below 0?", answer: FRAME.lods.reduce((n, l) => n + (l < 0 && l > -50), 0), tolerance: 0, hint: "“Show answer” counts them.", why: "There a texel is larger than a pixel."},
+    {ask: "From one pixel to the next, the texture coordinates change by 8 texels of level 0. Which level is read?", answer: 3, hint: "Which power of 2 is 8?", why: "2³ = 8."},
+    {ask: "What is the highest level in this frame? (One decimal place.)", answer: DATA.mips.high, tolerance: 0.051, hint: "See the legend.", why: "Levels are high at grazing angles and far away."},
+    {ask: "How many pixels are magnified, that is, have a level below 0?", answer: FRAME.lods.reduce((n, l) => n + (l < 0 && l > -50), 0), tolerance: 0, hint: "There are too many to count; use “Show answer”.", why: "At these pixels, a texel is larger than a pixel."},
   ],
 });
 
@@ -110,20 +110,20 @@ const mean3 = (v) => 0.2126 * v[0] + 0.7152 * v[1] + 0.0722 * v[2];
 
 chapter({
   id: "lighting", title: "Light, term by term", kicker: "Shading",
-  lead: () => "The color of a surface is a sum. Each picture shows one term of it, rendered by the same shaders with all the others set to zero.",
-  arrives: () => ["position, normal and material per pixel", plural(DATA.terms.filter((t) => t.name.startsWith("diffuse")).length, "light")],
-  leaves: () => ["linear light, without an upper limit"],
+  lead: () => "The color of a surface is a sum of terms. Each picture shows one term, rendered by the same shaders with all other terms set to zero.",
+  input: () => ["position, normal and material per pixel", plural(DATA.terms.filter((t) => t.name.startsWith("diffuse")).length, "light")],
+  output: () => ["linear light, without an upper limit"],
   steps: () => [...TERMS.flatMap((t) => [
-    {name: t.name[0].toUpperCase() + t.name.slice(1), caption: `Mean luminance ${num(mean3(t.mean), 4)}; at the example pixel ${num(mean3(t.value), 4)}.`, draw: () => picture(t.picture, `The term ${t.name}`, {overlay: (pen, s) => ring(pen, s, PIXEL)})},
-    ...(t.shadow ? [{name: `Shadow factor of ${t.name.split(", ")[1]}`, caption: "The share of this light that arrives: white is all, black is none. Surfaces that face away are transparent here.", draw: () => picture(t.shadow, `The shadow factor of ${t.name.split(", ")[1]}`, {overlay: (pen, s) => ring(pen, s, PIXEL)})}] : []),
-  ]), {name: "All together", caption: "The sum of all terms, after exposure, tone curve and encoding: the picture.", draw: () => picture(DATA.pictures.final, "The sum of all terms", {overlay: (pen, s) => ring(pen, s, PIXEL)})}],
-  formula: () => [`color = Σ terms, at pixel (${PIXEL}):\n\n${TERMS.map((t) => `${t.name.padEnd(22)} ${t.value.map((v) => fmt(v, 5).padStart(11)).join(" ")}`).join("\n")}\n${"sum".padEnd(22)} <b>${sumOf(TERMS.map((t) => t.value)).map((v) => fmt(v, 5).padStart(11)).join(" ")}</b>\n${"rendered".padEnd(22)} ${DATA.tone.pixel.light.map((v) => fmt(v, 5).padStart(11)).join(" ")}`],
+    {name: t.name[0].toUpperCase() + t.name.slice(1), caption: `The mean luminance is ${num(mean3(t.mean), 4)}, and the luminance at the example pixel is ${num(mean3(t.value), 4)}.`, draw: () => picture(t.picture, `The term “${t.name}”`, {overlay: (pen, s) => ring(pen, s, PIXEL)})},
+    ...(t.shadow ? [{name: `Shadow factor of ${t.name.split(", ")[1]}`, caption: "The fraction of this light that reaches the surface: white is all, black is none. Surfaces that face away from the light are transparent in this picture.", draw: () => picture(t.shadow, `The shadow factor of ${t.name.split(", ")[1]}`, {overlay: (pen, s) => ring(pen, s, PIXEL)})}] : []),
+  ]), {name: "Sum", caption: "The sum of all terms, after exposure, tone curve and encoding, is the final picture.", draw: () => picture(DATA.pictures.final, "The sum of all terms", {overlay: (pen, s) => ring(pen, s, PIXEL)})}],
+  formula: () => [`color = sum of the terms, at pixel (${PIXEL}):\n\n${TERMS.map((t) => `${t.name.padEnd(22)} ${t.value.map((v) => fmt(v, 5).padStart(11)).join(" ")}`).join("\n")}\n${"sum".padEnd(22)} <b>${sumOf(TERMS.map((t) => t.value)).map((v) => fmt(v, 5).padStart(11)).join(" ")}</b>\n${"rendered".padEnd(22)} ${DATA.tone.pixel.light.map((v) => fmt(v, 5).padStart(11)).join(" ")}`],
   exercises: () => {
     const best = TERMS.reduce((a, b) => (mean3(b.mean) > mean3(a.mean) ? b : a)), sum = sumOf(TERMS.map((t) => t.value));
     return [
-      {ask: `Which of the terms contributes most to the picture: ${TERMS.map((t) => `“${escapeHtml(t.name)}”`).join(", ")}?`, answer: best.name, hint: "Compare the mean luminances.", why: `Its mean luminance is ${fmt(mean3(best.mean), 4)}.`},
-      {ask: "What is the red channel of the sum at the example pixel? (Three significant digits.)", answer: sum[0], tolerance: Math.abs(sum[0]) * 0.006 + 1e-6, hint: "The first number in the row “sum”.", why: "Light adds up."},
-      {ask: "How many terms does this frame have?", answer: TERMS.length, hint: "Count the rows of the formula.", why: "Ambient light, two per light, and what surfaces emit or reflect."},
+      {ask: `Which term contributes most to the picture: ${TERMS.map((t) => `“${escapeHtml(t.name)}”`).join(", ")}?`, answer: best.name, hint: "Compare the mean luminances.", why: `Its mean luminance is ${fmt(mean3(best.mean), 4)}.`},
+      {ask: "What is the red channel of the sum at the example pixel? (Three significant digits.)", answer: sum[0], tolerance: Math.abs(sum[0]) * 0.006 + 1e-6, hint: "See the first number in the row “sum”.", why: "The terms of a color are added."},
+      {ask: "How many terms does this frame have?", answer: TERMS.length, hint: "Count the rows of the formula.", why: "There are terms for ambient light, for the diffuse and specular light of each light source, and for emitted or reflected light."},
     ];
   },
 });
@@ -133,7 +133,7 @@ chapter({
 const SHADOW = DATA.shadow, LOOK = SHADOW && SHADOW.lookup && SHADOW.lookup.view >= 0 ? SHADOW.lookup : null;
 
 function mapPicture() {
-  const {canvas, pen} = canvasFigure(512, 512, "The shadow map as the light sees the scene"), box = el("div", {class: "stage"}, canvas);
+  const {canvas, pen} = canvasFigure(512, 512, "The shadow map: the depth of the scene, seen from the light"), box = el("div", {class: "stage"}, canvas);
   canvas.style.maxWidth = "512px";
   loadImage(SHADOW.map).then((image) => {
     pen.imageSmoothingEnabled = false;
@@ -144,7 +144,7 @@ function mapPicture() {
 }
 
 function lookupPicture() {
-  const n = LOOK.side, reach = (n - 1) / 2, g = gridPicture(0, 0, n, n, "Texels around the point: lit or occluding", (x, y) => ({fill: LOOK.lit[y * n + x] ? "var(--accent-soft)" : "var(--soft)", opacity: LOOK.lit[y * n + x] ? 1 : 0.75}));
+  const n = LOOK.side, reach = (n - 1) / 2, g = gridPicture(0, 0, n, n, "The texels around the point; gray texels occlude it", (x, y) => ({fill: LOOK.lit[y * n + x] ? "var(--accent-soft)" : "var(--soft)", opacity: LOOK.lit[y * n + x] ? 1 : 0.75}));
   const [px, py] = g.to((LOOK.x - LOOK.i + reach) * SUB, (LOOK.y - LOOK.j + reach) * SUB);
   g.root.append(svg("circle", {cx: px, cy: py, r: 6, fill: "var(--accent)", stroke: "var(--ink)", "stroke-width": 1.5}));
   const readout = el("div", {class: "readout"}, "Point at a texel to read its depth.");
@@ -158,20 +158,20 @@ function lookupPicture() {
 
 chapter({
   id: "shadows", title: "Shadow map", kicker: "Shading",
-  lead: () => "Before the picture is drawn, the scene is drawn from the light, and only depth is kept. A point is in shadow if the map has something nearer to the light at its place.",
+  lead: () => "Before the picture is rendered, the scene is rendered from the light, and only depth is stored: the shadow map. A point is in shadow if the map contains something nearer to the light at the same position.",
   absent: () => (SHADOW === null ? `No light of this frame casts shadows. A frame with shadows: ${command("halfspace explain shadow-knot")}.` : null),
-  arrives: () => [`a map of ${SHADOW.size} × ${SHADOW.size} texels${SHADOW.views > 1 ? `, ${SHADOW.views} of them` : ""}`, "the position of each pixel"],
-  leaves: () => ["a factor from 0 (shadow) to 1 (lit)", `filter: ${SHADOW.filter}`],
+  input: () => [`${SHADOW.views > 1 ? `${SHADOW.views} maps` : "a map"} of ${SHADOW.size} × ${SHADOW.size} texels`, "the position of each pixel"],
+  output: () => ["a factor from 0 (in shadow) to 1 (lit)", `filter: ${SHADOW.filter}`],
   steps: () => [
-    {name: "Seen from the light", caption: `The map of <i>${escapeHtml(SHADOW.light)}</i>${SHADOW.views > 1 ? `, view ${SHADOW.view + 1} of ${SHADOW.views}` : ""}: bright is near the light, black is empty.${LOOK ? " The ring marks the point of the next step." : ""}`, draw: mapPicture},
+    {name: "Seen from the light", caption: `The shadow map of <i>${escapeHtml(SHADOW.light)}</i>${SHADOW.views > 1 ? `, view ${SHADOW.view + 1} of ${SHADOW.views}` : ""}. Bright texels are near the light, and black texels are empty.${LOOK ? " The ring marks the point of the next step." : ""}`, draw: mapPicture},
     ...(LOOK ? [
-      {name: "One pixel", caption: `The look-up of pixel (${SHADOW.pixel}) is at texel (${LOOK.i}, ${LOOK.j}) of the map.`, draw: () => picture(DATA.pictures.final, "The picture, with a ring around the pixel of the look-up", {overlay: (pen, s) => ring(pen, s, SHADOW.pixel)})},
-      {name: "Its texels", caption: `Gray texels are nearer to the light than the plane of the surface there: they occlude it. The dot is the point. The filter ${SHADOW.filter} makes a factor of ${num(LOOK.factor, 5)} of them.`, draw: lookupPicture}] : []),
+      {name: "One pixel", caption: `Pixel (${SHADOW.pixel}) reads the map at texel (${LOOK.i}, ${LOOK.j}).`, draw: () => picture(DATA.pictures.final, "The picture, with a ring around the pixel whose shadow is looked up", {overlay: (pen, s) => ring(pen, s, SHADOW.pixel)})},
+      {name: "Its texels", caption: `Gray texels are nearer to the light than the plane of the surface, so they occlude it. The dot is the point. The filter ${SHADOW.filter} computes a shadow factor of ${num(LOOK.factor, 5)}.`, draw: lookupPicture}] : []),
   ],
   formula: () => (LOOK ? [`texel (${LOOK.i}, ${LOOK.j}), point at (${fmt(LOOK.x, 7)}, ${fmt(LOOK.y, 7)}):\n\n<em>d</em> = depth + bias = ${fmt(LOOK.depth, 8)} + ${fmt(LOOK.biased - LOOK.depth, 4)} = ${fmt(LOOK.biased, 8)}\nplane: ${fmt(LOOK.dx, 4)} per texel to the right, ${fmt(LOOK.dy, 4)} up\n\nlit = <em>d</em> + slope · distance to the center of the texel ≥ depth in the map\n\nmap: ${fmt(LOOK.texels[(LOOK.side * LOOK.side - 1) / 2], 8)} → <b>${LOOK.lit[(LOOK.side * LOOK.side - 1) / 2] ? "lit" : "in shadow"}</b>      after the filter: <b>${fmt(LOOK.factor, 6)}</b>`] : []),
   exercises: () => (LOOK ? [
-    {ask: "How many of the texels that are shown occlude the point?", answer: LOOK.lit.filter((l) => !l).length, hint: `Count the gray ones; there are ${LOOK.lit.length} in all.`, why: "Each is compared on its own; the filter averages the results."},
-    {ask: "What is the shadow factor of the pixel? (Two digits after the point.)", answer: LOOK.factor, tolerance: 0.0051, hint: "It is in the caption of the last step.", why: "The light's diffuse and specular terms are multiplied by it."},
-    {ask: "How many texels has the map?", answer: SHADOW.size ** 2, hint: "Its width, squared.", why: `${SHADOW.size} · ${SHADOW.size}.`},
-  ] : [{ask: "How many texels has the map?", answer: SHADOW.size ** 2, hint: "Its width, squared.", why: `${SHADOW.size} · ${SHADOW.size}.`}]),
+    {ask: "How many of the texels shown occlude the point?", answer: LOOK.lit.filter((l) => !l).length, hint: `Count the gray ones; ${LOOK.lit.length} texels are shown.`, why: "The depth of each texel is compared separately."},
+    {ask: "What is the shadow factor of the pixel? (Two decimal places.)", answer: LOOK.factor, tolerance: 0.0051, hint: "It is in the caption of the last step.", why: "The light's diffuse and specular terms are multiplied by it."},
+    {ask: "How many texels does the map have?", answer: SHADOW.size ** 2, hint: "Square its width.", why: `${SHADOW.size} · ${SHADOW.size}.`},
+  ] : [{ask: "How many texels does the map have?", answer: SHADOW.size ** 2, hint: "Square its width.", why: `${SHADOW.size} · ${SHADOW.size}.`}]),
 });

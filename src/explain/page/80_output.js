@@ -1,13 +1,17 @@
-// From light to codes, samples, layers, and pages about the whole frame.
+// From light to codes: tone curve, sRGB, samples and transparent layers.
 
 const TONE = DATA.tone;
 
 function histogramPicture() {
   const list = TONE.histogram, first = list.findIndex((n) => n > 0), last = list.length - 1 - [...list].reverse().findIndex((n) => n > 0);
   if (first < 0) return el("div", {class: "stage"}, svgFigure(720, 60, "All pixels are black", svg("text", {x: 360, y: 35, "text-anchor": "middle", "font-size": 15}, document.createTextNode("All pixels are black."))));
-  const from = Math.max(0, first - 4), shown = list.slice(from, last + 5), stop = (i) => TONE.low + (from + i) / TONE.bins;
-  return bars(shown.map((value, i) => ({value, name: `luminance from 2^${stop(i)}`, label: (from + i) % (TONE.bins * 2) === 0 ? stopName(stop(i)) : undefined, marked: isExampleBin(from + i)})), "Histogram of the luminance of all pixels, in eighths of a stop", {unit: " pixels"});
+  const from = Math.max(0, first - 4), shown = list.slice(from, last + 5);
+  const label = (bin) => (bin % (TONE.bins * 2) === 0 ? stopName(TONE.low + bin / TONE.bins) : undefined);
+  return bars(shown.map((value, i) => ({value, name: binName(from + i), label: label(from + i), marked: isExampleBin(from + i)})), `Histogram of the luminance of all pixels, with ${TONE.bins} bars per stop`, {unit: " pixels"});
 }
+// A stop has TONE.bins bins of equal width.
+const binLow = (bin) => 2 ** (TONE.low + Math.floor(bin / TONE.bins)) * (1 + bin % TONE.bins / TONE.bins);
+const binName = (bin) => `luminance from ${fmt(binLow(bin), 4)} to ${fmt(binLow(bin + 1), 4)}`;
 const stopName = (s) => (s < 0 ? (s < -6 ? `2^${s}` : `1/${2 ** -s}`) : String(2 ** s));
 function isExampleBin(bin) {
   const y = mean3(TONE.pixel.light), exponent = Math.floor(Math.log2(y));
@@ -15,7 +19,7 @@ function isExampleBin(bin) {
 }
 
 function curvePicture() {
-  const width = 720, height = 380, root = svgFigure(width, height, `The tone curve ${TONE.curve}: light on a logarithmic axis, display light from 0 to 1`);
+  const width = 720, height = 380, root = svgFigure(width, height, `The tone curve ${TONE.curve}: light to the right on a logarithmic axis, display light from 0 to 1 upwards`);
   const list = TONE.points.filter(([x]) => x * TONE.exposure > 2 ** -9 && x * TONE.exposure < 2 ** 7), [a, b] = [Math.log2(list[0][0]), Math.log2(list[list.length - 1][0])];
   const to = ([x, y]) => [50 + (Math.log2(x) - a) / (b - a) * (width - 70), height - 40 - y * (height - 70)];
   for (const y of [0, 0.5, 1]) { const p = to([list[0][0], y])[1]; root.append(svg("line", {x1: 50, x2: width - 20, y1: p, y2: p, stroke: "var(--line)"}), svg("text", {x: 42, y: p + 5, "font-size": 13, "text-anchor": "end"}, document.createTextNode(String(y)))); }
@@ -27,22 +31,22 @@ function curvePicture() {
 
 chapter({
   id: "tone", title: "High dynamic range and tone curve", kicker: "Output",
-  lead: () => (TONE.hdr ? "Light has no upper limit, but a display has. Exposure scales the light, and the tone curve bends it into the range from 0 to 1." : "This scene is displayed without a tone curve: light above 1 is cut off. The histogram shows how much that is."),
-  arrives: () => ["linear light per pixel"],
-  leaves: () => ["display light from 0 to 1"],
+  lead: () => (TONE.hdr ? "Light has no upper limit, but displays do. The exposure scales the light, and the tone curve maps it to the range from 0 to 1." : "This scene is displayed without a tone curve: light above 1 is clamped. The histogram shows how many pixels this affects."),
+  input: () => ["linear light per pixel"],
+  output: () => ["display light from 0 to 1"],
   steps: () => [
-    {name: "Histogram of the light", caption: `Luminance of all pixels, in eighths of a stop; the axis is logarithmic. ${fmt(TONE.dark)} pixels are darker than 2^${TONE.low}. The bar of the example pixel is marked.`, draw: histogramPicture},
-    {name: "Tone curve", caption: `${TONE.curve === "none" ? "No curve: a straight line, which looks bent on a logarithmic axis, cut at 1." : `The curve <i>${TONE.curve}</i>.`} The dots are red, green and blue of the example pixel.`, draw: curvePicture},
+    {name: "Histogram of the light", caption: `The luminance of all pixels, with ${TONE.bins} bars per stop. ${fmt(TONE.dark)} pixels are darker than 2<sup>${TONE.low}</sup>. The bar that contains the example pixel is highlighted.`, draw: histogramPicture},
+    {name: "Tone curve", caption: `${TONE.curve === "none" ? "Without a curve, values are only clamped to 1. The line looks curved because the horizontal axis is logarithmic." : `The tone curve <i>${TONE.curve}</i>.`} The dots are red, green and blue of the example pixel.`, draw: curvePicture},
   ],
   formula: () => {
     const p = TONE.pixel;
-    const exposure = TONE.auto ? `exposure = key / mean = ${fmt(TONE.key)} / ${fmt(TONE.log_average, 6)} → <b>${fmt(TONE.exposure, 7)}</b>\n(mean: exp of the mean logarithm of the luminance of all pixels)\n\n` : `exposure = ${fmt(TONE.exposure, 7)}\n\n`;
+    const exposure = TONE.auto ? `exposure = key / mean = ${fmt(TONE.key)} / ${fmt(TONE.log_average, 6)} → <b>${fmt(TONE.exposure, 7)}</b>\n(mean: the geometric mean of the luminance of all pixels)\n\n` : `exposure = ${fmt(TONE.exposure, 7)}\n\n`;
     return [`${exposure}at pixel (${PIXEL}):\n\nlight      ${p.light.map((v) => fmt(v, 6).padStart(12)).join("")}\n· exposure ${p.exposed.map((v) => fmt(v, 6).padStart(12)).join("")}\ncurve      <b>${p.display.map((v) => fmt(v, 6).padStart(12)).join("")}</b>`];
   },
   exercises: () => [
-    {ask: "Which exposure does this frame have? (Three significant digits.)", answer: TONE.exposure, tolerance: TONE.exposure * 0.006, hint: "The formula names it.", why: TONE.auto ? "Measured from the picture." : "As the scene says."},
-    {ask: "One stop more light: by which factor does the light grow?", answer: 2, hint: "Stops are powers of two.", why: "A stop doubles the light."},
-    {ask: "How many pixels are darker than the first bar can show?", answer: TONE.dark, hint: "See the caption of the histogram.", why: `Their luminance is below 2^${TONE.low}.`},
+    {ask: "What is the exposure of this frame? (Three significant digits.)", answer: TONE.exposure, tolerance: TONE.exposure * 0.006, hint: "See the formula.", why: TONE.auto ? "It was computed from the luminance of the frame." : "The scene sets it."},
+    {ask: "If the exposure is increased by one stop, by which factor does the light increase?", answer: 2, hint: "Stops are powers of two.", why: "A stop doubles the light."},
+    {ask: "How many pixels are too dark for the histogram?", answer: TONE.dark, hint: "See the caption of the histogram.", why: `Their luminance is below 2<sup>${TONE.low}</sup>.`},
   ],
 });
 
@@ -58,25 +62,25 @@ function srgbPicture() {
   return el("div", {class: "stage"}, root);
 }
 function rampPicture() {
-  const root = svgFigure(720, 200, "Two ramps of gray with the same steps: equal steps of light above, equal steps of code below");
+  const root = svgFigure(720, 200, "Two gray ramps: equal steps of light above, equal steps of code below");
   for (let i = 0; i < 16; ++i) for (const [row, code] of [encodeSrgb(i / 15), i / 15].entries()) root.append(svg("rect", {x: 20 + i * 42.5, y: 20 + row * 85, width: 42, height: 75, fill: `rgb(${[0, 1, 2].map(() => Math.round(code * 255)).join(" ")})`}));
   return el("div", {class: "stage"}, root);
 }
 
 chapter({
   id: "srgb", title: "Encoding as sRGB", kicker: "Output",
-  lead: () => "Eyes tell dark shades apart much better than bright ones. The sRGB curve spends the 256 codes accordingly.",
-  arrives: () => ["display light from 0 to 1"],
-  leaves: () => ["three codes from 0 to 255"],
+  lead: () => "The eye distinguishes dark shades much better than bright ones. The sRGB curve therefore assigns more of the 256 codes to dark shades.",
+  input: () => ["display light from 0 to 1"],
+  output: () => ["three codes from 0 to 255"],
   steps: () => [
-    {name: "The curve", caption: "A straight line close to 0, then a power of 1/2.4. The dots are the example pixel.", draw: srgbPicture},
-    {name: "Equal steps", caption: "Above, 16 equal steps of light: most look white. Below, 16 equal steps of code: they look equal.", draw: rampPicture},
+    {name: "The curve", caption: "Close to 0, the curve is a straight line; above, it is a power function with the exponent 1/2.4. The dots are red, green and blue of the example pixel.", draw: srgbPicture},
+    {name: "Equal steps", caption: "Above: 16 equal steps of light, most of which look almost white. Below: 16 equal steps of code, which look evenly spaced.", draw: rampPicture},
   ],
-  formula: () => [`${TONE.gamma ? `encoded = x<sup>1/${fmt(TONE.gamma)}</sup>` : "encoded = 12.92 x                   if x ≤ 0.0031308\n          1.055 x<sup>1/2.4</sup> − 0.055      otherwise"}\ncode    = round(255 · encoded)\n\nat pixel (${PIXEL}):\n\n${["red", "green", "blue"].map((n, k) => `${n.padEnd(6)} ${fmt(TONE.pixel.display[k], 6).padStart(10)} → ${fmt(TONE.pixel.encoded[k], 6).padStart(10)} → <b>${TONE.pixel.code[k]}</b>`).join("\n")}${TONE.dither ? "\n\nThis scene is dithered: codes are rounded up or down by a pattern." : ""}`],
+  formula: () => [`${TONE.gamma ? `encoded = x<sup>1/${fmt(TONE.gamma)}</sup>` : "encoded = 12.92 x                   if x ≤ 0.0031308\n          1.055 x<sup>1/2.4</sup> − 0.055      otherwise"}\ncode    = round(255 · encoded)\n\nat pixel (${PIXEL}):\n\n${["red", "green", "blue"].map((n, k) => `${n.padEnd(6)} ${fmt(TONE.pixel.display[k], 6).padStart(10)} → ${fmt(TONE.pixel.encoded[k], 6).padStart(10)} → <b>${TONE.pixel.code[k]}</b>`).join("\n")}${TONE.dither ? "\n\nThis scene is dithered: a pattern determines whether codes are rounded up or down." : ""}`],
   exercises: () => [
-    {ask: "Which code has the green channel of the example pixel?", answer: TONE.pixel.code[1], tolerance: TONE.dither ? 1 : 0, hint: "Last column, second row.", why: "Rounded to the nearest code."},
-    {ask: "Which code has light of 0.5?", answer: Math.round(encodeSrgb(0.5) * 255), hint: "1.055 · 0.5^(1/2.4) − 0.055, times 255.", why: "Half of the light takes about three quarters of the codes."},
-    {ask: "How much light is code 128? (Two digits after the point.)", answer: ((128 / 255 + 0.055) / 1.055) ** 2.4, tolerance: 0.0051, hint: "Undo the formula.", why: "Code 128 is about a fifth of the light of code 255."},
+    {ask: "What is the code of the green channel of the example pixel?", answer: TONE.pixel.code[1], tolerance: TONE.dither ? 1 : 0, hint: "See the last column of the second row.", why: TONE.dither ? "Rounded up or down by the dither pattern." : "Rounded to the nearest code."},
+    {ask: "What is the sRGB code of a light value of 0.5?", answer: Math.round(encodeSrgb(0.5) * 255), hint: "1.055 · 0.5^(1/2.4) − 0.055, times 255.", why: "The darker half of the range uses about three quarters of the codes."},
+    {ask: "What is the light value of sRGB code 128? (Two decimal places.)", answer: ((128 / 255 + 0.055) / 1.055) ** 2.4, tolerance: 0.0051, hint: "Invert the formula.", why: "Code 128 is about a fifth of the light of code 255."},
   ],
 });
 
@@ -90,44 +94,44 @@ function patternPicture() {
   return el("div", {class: "stage"}, root);
 }
 
-// Coverage of each sample around the example pixel.
+// Draws the coverage of the samples around the example pixel.
 function sampleCoverage() {
   const [x0, y0] = WINDOW.map(blockOf), list = DATA.sample_positions, hits = (x, y) => list.filter(([sx, sy]) => inside(TRI, x * SUB + sx, y * SUB + sy)).length;
-  const g = gridPicture(x0, y0, 8, 8, "The share of covered samples per pixel", (x, y) => ({fill: "var(--accent)", opacity: hits(x, y) / list.length * 0.8}));
+  const g = gridPicture(x0, y0, 8, 8, "The fraction of covered samples of each pixel", (x, y) => ({fill: "var(--accent)", opacity: hits(x, y) / list.length * 0.8}));
   for (let y = y0; y < y0 + 8; ++y) for (let x = x0; x < x0 + 8; ++x) for (const [sx, sy] of list) { const [a, b] = g.to(x * SUB + sx, y * SUB + sy); g.root.append(svg("circle", {cx: a, cy: b, r: 2.6, fill: inside(TRI, x * SUB + sx, y * SUB + sy) ? "var(--ink)" : "var(--soft)"})); }
   return el("div", {class: "stage"}, g.root);
 }
 
 chapter({
   id: "samples", title: "Samples and resolve", kicker: "Output",
-  lead: () => "With several samples per pixel, coverage and depth are decided for each of them. At the end, a pixel gets the mean of its samples, so that edges look smooth.",
-  absent: () => (DATA.samples === 1 ? `This frame has one sample per pixel, in its center. The same frame with four: ${command(`${DATA.command} --set samples=4`)}.` : null),
-  arrives: () => [`${DATA.samples} samples per pixel`],
-  leaves: () => ["one color per pixel"],
+  lead: () => "With several samples per pixel, coverage and depth are computed for each sample. At the end, the color of a pixel is the mean of its samples, which makes edges look smooth.",
+  absent: () => (DATA.samples === 1 ? `This frame has one sample per pixel, at its center. The same frame with four samples per pixel: ${command(`${DATA.command} --set samples=4`)}.` : null),
+  input: () => [`${DATA.samples} samples per pixel`],
+  output: () => ["one color per pixel"],
   steps: () => [
-    {name: "Where the samples are", caption: "No two samples share a row or a column, so that nearly horizontal and nearly vertical edges get as many steps as possible.", draw: patternPicture},
-    ...(isTriangle ? [{name: "Coverage", caption: "The block of the example pixel. The darker a pixel, the more of its samples are covered by the example triangle.", draw: sampleCoverage}] : []),
+    {name: "Sample positions", caption: "No two samples share a row or a column, so that nearly horizontal and nearly vertical edges get as many steps as possible.", draw: patternPicture},
+    ...(isTriangle ? [{name: "Coverage", caption: "The block of the example pixel. The stronger the color of a pixel, the more of its samples the example triangle covers.", draw: sampleCoverage}] : []),
   ],
   formula: () => [`color = (s<sub>0</sub> + … + s<sub>${DATA.samples - 1}</sub>) / ${DATA.samples}`],
   exercises: () => [
-    {ask: "A white triangle covers one sample of a black pixel. What is the pixel's light, from 0 to 1?", answer: 1 / DATA.samples, tolerance: 1e-9, hint: "The mean of all samples.", why: `1 / ${DATA.samples}.`},
-    {ask: "How many samples has the whole frame?", answer: W * H * DATA.samples, hint: "Pixels times samples.", why: `${W} · ${H} · ${DATA.samples}.`},
-    {ask: "How many different shades can an edge of that white triangle have, including black and white?", answer: DATA.samples + 1, hint: "0, 1, … covered samples.", why: "One for each number of covered samples."},
+    {ask: "A white triangle covers one sample of a black pixel. What is the pixel's light, from 0 to 1?", answer: 1 / DATA.samples, tolerance: 1e-9, hint: "Compute the mean of all samples.", why: `1 / ${DATA.samples}.`},
+    {ask: "How many samples does the whole frame have?", answer: W * H * DATA.samples, hint: "Multiply the number of pixels by the number of samples per pixel.", why: `${W} · ${H} · ${DATA.samples}.`},
+    {ask: "How many shades can the pixels at an edge of that white triangle have, including black and white?", answer: DATA.samples + 1, hint: "How many samples can be covered?", why: `From 0 to ${DATA.samples} samples can be covered.`},
   ],
 });
 
 const LAYERED = DATA.draws.filter((d) => d.layered);
 chapter({
   id: "layers", title: "Transparent layers", kicker: "Output",
-  lead: () => "Transparent surfaces do not hide what is behind them, so their order matters. Fragments of transparent surfaces are kept as layers per sample, sorted by depth, and blended from the farthest to the nearest when all are known.",
-  absent: () => (LAYERED.length === 0 ? `No surface of this frame is transparent. Model files are shown on a floor that only receives shadows, which is a transparent layer: ${command("halfspace explain MODEL")} with any .glb, .gltf, .obj, .ply or .stl file.` : null),
-  arrives: () => [plural(LAYERED.length, "transparent draw")],
-  leaves: () => [`${plural(DATA.statistics.layers_merged, "fragment")} merged, because their sample had 8 layers already`],
-  steps: () => [{name: "Transparent draws", caption: `Blended over the opaque picture: ${LAYERED.map((d) => `<i>${escapeHtml(d.object)}</i>`).join(", ")}.`, draw: () => picture(DATA.pictures.final, "The picture with its transparent surfaces", {overlay: (pen, s) => ring(pen, s, PIXEL)})}],
+  lead: () => "Transparent surfaces do not hide what is behind them, so they must be blended in the right order. Each sample keeps the fragments of transparent surfaces as layers, sorted by depth. When all layers are known, they are blended from the farthest to the nearest.",
+  absent: () => (LAYERED.length === 0 ? `No surface of this frame is transparent. The floor that receives the shadow of a model file is a transparent layer: ${command("halfspace explain MODEL")} with any .glb, .gltf, .obj, .ply or .stl file.` : null),
+  input: () => [plural(LAYERED.length, "transparent draw")],
+  output: () => [`${plural(DATA.statistics.layers_merged, "time")}, the two farthest layers of a sample were merged because it would have had more than 8`],
+  steps: () => [{name: "Transparent draws", caption: `These objects are blended over the opaque picture: ${LAYERED.map((d) => `<i>${escapeHtml(d.object)}</i>`).join(", ")}.`, draw: () => picture(DATA.pictures.final, "The picture with its transparent surfaces", {overlay: (pen, s) => ring(pen, s, PIXEL)})}],
   formula: () => ["for each layer, from the farthest to the nearest:\n\ncolor = α · layer + (1 − α) · color"],
   exercises: () => [
-    {ask: "A white layer with α = 0.25 lies over black. How much light is it?", answer: 0.25, tolerance: 1e-9, hint: "α · 1 + (1 − α) · 0.", why: "A quarter."},
-    {ask: "A second white layer with α = 0.25 lies over that. How much light is it now?", answer: 0.4375, tolerance: 1e-9, hint: "0.25 + 0.75 · 0.25.", why: "0.25 · 1 + 0.75 · 0.25."},
-    {ask: "How many draws of this frame are transparent?", answer: LAYERED.length, hint: "See “What arrives”.", why: "They are drawn after all opaque ones."},
+    {ask: "A white layer with α = 0.25 is blended over black. What is the resulting light value?", answer: 0.25, tolerance: 1e-9, hint: "α · 1 + (1 − α) · 0.", why: "0.25 · 1 + 0.75 · 0."},
+    {ask: "A second white layer with α = 0.25 is blended over the result. What is the light value now?", answer: 0.4375, tolerance: 1e-9, hint: "0.25 + 0.75 · 0.25.", why: "0.25 · 1 + 0.75 · 0.25."},
+    {ask: "How many draws of this frame are transparent?", answer: LAYERED.length, hint: "See “Input”.", why: "They are drawn after all opaque draws."},
   ],
 });

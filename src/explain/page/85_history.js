@@ -1,4 +1,4 @@
-// The history of a pixel: what the renderer did with each of its fragments.
+// The history of a pixel: what the renderer did with each fragment.
 
 const HISTORY = DATA.history;
 let historyReady = null;
@@ -8,7 +8,7 @@ async function unpackColumns(c) {
   return {draw: await of("draw", Uint16Array), instance: await of("instance", Uint32Array), primitive: await of("primitive", Uint32Array), sample: await of("sample", Uint8Array), outcome: await of("outcome", Uint8Array), depth: await of("depth", Float32Array)};
 }
 
-// Unpacks the fragments of all pixels when they are first needed.
+// Unpacks the fragments of all pixels when they are needed for the first time.
 function unpackHistory() {
   historyReady ||= (async () => {
     const d = HISTORY.details, counts = await unpackArray(HISTORY.counts, Uint8Array, W * H);
@@ -26,11 +26,11 @@ function offsets(counts) {
   return first;
 }
 
-// Numbers of a fragment before those that depend on its shader (page_history.cpp), and of a pixel.
+// The number of values that each fragment has before those of its shader, and the number of values of a pixel (page_history.cpp).
 const FIXED = 16, PIXEL_NUMBERS = 4 + 4 * DATA.samples + 12;
 const sizeOf = (kind) => FIXED + ["varyings", "terms", "factors"].flatMap((key) => kind[key]).reduce((n, [, size]) => n + size, 0);
 
-// Finds where the numbers of each detailed pixel begin.
+// Finds where the values of each pixel with details begin.
 function placeDetails(full, place) {
   const sizes = HISTORY.details.kinds.map(sizeOf);
   let at = 0, fragment = 0;
@@ -43,14 +43,14 @@ function placeDetails(full, place) {
 
 const rowOf = (columns, i) => ({draw: columns.draw[i], instance: columns.instance[i], primitive: columns.primitive[i], sample: columns.sample[i], outcome: HISTORY.outcomes[columns.outcome[i]], depth: columns.depth[i]});
 
-// The fragments of a pixel, without details.
+// Returns the fragments of a pixel, without details.
 function fragmentsOf(x, y) {
   const h = FRAME.history, p = y * W + x, list = [];
   for (let i = h.first[p]; i < h.first[p + 1]; ++i) list.push(rowOf(h.fragments, i));
   return {list, others: h.others[p]};
 }
 
-// All values of a pixel, or null if the page does not have them.
+// Returns all values of a pixel, or null if the page does not contain them.
 function detailsOf(x, y) {
   const full = FRAME.details, found = full.at.get(y * W + x);
   if (!found) return null;
@@ -92,13 +92,13 @@ const swatch = (c) => `<span class="swatch" style="background: rgb(${c.slice(0, 
 
 function testText(f) {
   if (!f.isTested) return "not tested";
-  const words = f.outcome.includes("block") || f.outcome.includes("tile") ? ["nearest depth of the primitive", "farthest stored there"] : ["its depth", "stored"];
+  const words = f.outcome.includes("block") || f.outcome.includes("tile") ? ["nearest depth of the primitive", `farthest depth in the ${f.outcome.includes("block") ? "block" : "tile"}`] : ["depth", "stored depth"];
   return `${words[0]} ${exactNumber(f.tested)}, ${words[1]} ${exactNumber(f.stored)}`;
 }
 
 function valueTable(f) {
-  const rows = [["barycentrics", f.barycentrics], ["1/w", [f.invW]], ...f.varyings, ...f.terms, ...f.factors, ["color, with alpha", f.color]];
-  if (f.isShaded) rows.push(["sample afterwards", f.value]);
+  const rows = [["barycentrics", f.barycentrics], ["1/w", [f.invW]], ...f.varyings, ...f.terms, ...f.factors, ["color and alpha", f.color]];
+  if (f.isShaded) rows.push(["sample after this fragment", f.value]);
   return el("div", {class: "table"}, el("table", {}, el("tbody", {}, ...rows.map(([name, v]) => el("tr", {}, el("th", {scope: "row"}, name), el("td", {html: exact(v)}))))));
 }
 
@@ -107,7 +107,7 @@ function fragmentItem(f, i, open) {
   if (!f.kind) return el("li", {html: head});
   return el("li", {}, el("details", {class: "quote", open}, el("summary", {html: (f.isShaded ? swatch(f.color) : "") + head}),
     el("div", {class: "values"}, el("p", {html: `${f.kind.shader}. Depth test: ${testText(f)}.${f.kind.blend ? ` Blended: ${escapeHtml(f.kind.blend)}.` : ""}`}),
-      f.isShaded ? null : el("p", {class: "keys"}, "Not shaded in this frame; the values below were computed by the same shader code."), valueTable(f))));
+      f.isShaded ? null : el("p", {class: "keys"}, "Not shaded in this frame. The values below were computed afterwards by the same shader code."), valueTable(f))));
 }
 
 function displayText(p) {
@@ -120,18 +120,18 @@ function historyPanel(x, y, go) {
   const last = list.map((f) => Boolean(f.isShaded)).lastIndexOf(true);
   return [
     el("h3", {}, `Pixel ${x}, ${y}`),
-    el("p", {html: `From the upper left; OpenGL window coordinates (${x + 0.5}, ${H - y - 0.5}). ${plural(list.length + others, "fragment")}${list.length + others ? ", in the order in which they were drawn" : ""}:`}),
+    el("p", {html: `From the upper left; OpenGL window coordinates (${x + 0.5}, ${H - y - 0.5}). ${plural(list.length + others, "fragment")}${list.length + others ? ", in drawing order" : ""}:`}),
     el("ol", {class: "fragments"}, ...list.map((f, i) => fragmentItem(f, i, i === last))),
-    others ? el("p", {}, `… and ${plural(others, "more fragment")} that this page has no room for.`) : null,
-    full ? el("div", {class: "formula", tabindex: 0, role: "group", "aria-label": "From the light of the pixel to its code", html: displayText(full)}) : null,
-    full ? null : el("p", {html: `All values of this pixel: ${command(`${DATA.command} --pixel ${x},${y} --text`)}`}),
-    nearest ? el("p", {}, el("button", {type: "button", onclick: () => go(...nearest)}, `Show pixel ${nearest.join(", ")}, the nearest one with all values in this page`)) : null,
+    others ? el("p", {}, `… and ${plural(others, "more fragment")} that this page does not contain.`) : null,
+    full ? el("div", {class: "formula", tabindex: 0, role: "group", "aria-label": "From the samples of the pixel to its code", html: displayText(full)}) : null,
+    full ? null : el("p", {html: `To print all values of this pixel: ${command(`${DATA.command} --pixel ${x},${y} --text`)}`}),
+    nearest ? el("p", {}, el("button", {type: "button", onclick: () => go(...nearest)}, `Show pixel ${nearest.join(", ")}, the nearest pixel with all values`)) : null,
   ];
 }
 
 function pixelForm(go) {
   const field = (label, max, value) => el("input", {type: "number", min: 0, max, value, "aria-label": label});
-  const x = field("x of the pixel, from the left", W - 1, PIXEL[0]), y = field("y of the pixel, from above", H - 1, PIXEL[1]);
+  const x = field("x of the pixel, counted from the left", W - 1, PIXEL[0]), y = field("y of the pixel, counted from the top", H - 1, PIXEL[1]);
   const submit = (e) => { e.preventDefault(); go(Math.min(W - 1, Math.max(0, Number(x.value))), Math.min(H - 1, Math.max(0, Number(y.value)))); };
   return {form: el("form", {class: "pixel", onsubmit: submit}, el("span", {}, "x"), x, el("span", {}, "y"), y, el("button", {type: "submit"}, "Show pixel")), set: (px, py) => { x.value = px; y.value = py; }};
 }
@@ -157,12 +157,12 @@ function historyPicture() {
 
 chapter({
   id: "history", title: "Pixel history", kicker: "Output",
-  lead: () => "Click a pixel to see every fragment that competed for it, in the order in which they were drawn, and what the renderer did with each: rejected with a whole block, failed the depth test, hidden before it was shaded, or shaded.",
-  steps: () => [{name: "Choose a pixel", caption: `Draw, primitive, depth and outcome are stored for every pixel${HISTORY.most < 64 ? `, at most ${HISTORY.most} fragments each` : ""}. All values are stored for the 64 × 64 pixels around the example and for every eighth pixel in x and y.`, draw: historyPicture}],
-  body: () => el("div", {id: "history-panel", "aria-live": "polite"}, el("p", {class: "loading"}, "Unpacking the fragments …")),
+  lead: () => "Click a pixel to see all of its fragments in drawing order, and what the renderer did with each of them. A fragment can be rejected together with its block, fail the depth test, be hidden before it is shaded, or be shaded.",
+  steps: () => [{name: "Choose a pixel", caption: `This page contains the draw, primitive, depth and outcome of the fragments of all pixels${HISTORY.most < 64 ? `, up to ${HISTORY.most} fragments per pixel` : ""}. It contains all values for the 64 × 64 pixels around the example pixel and for every eighth pixel in x and y.`, draw: historyPicture}],
+  body: () => el("div", {id: "history-panel", "aria-live": "polite"}, el("p", {class: "loading"}, "Loading the fragments …")),
   exercises: () => [
-    {ask: `How many fragments has the example pixel (${PIXEL})?`, answer: fragmentsAt(...PIXEL), hint: "Type its coordinates below the picture.", why: "The list above shows them."},
-    {ask: "How many fragments has the pixel in the upper left corner?", answer: fragmentsAt(0, 0), hint: "Pixel 0, 0.", why: "Its history lists them."},
-    {ask: `What is y of the example pixel in OpenGL's window coordinates? (The center, with one digit after the point.)`, answer: H - PIXEL[1] - 0.5, tolerance: 0.01, hint: "Window coordinates count from below, and centers are at halves.", why: `${H} − ${PIXEL[1]} − 0.5.`},
+    {ask: `How many fragments does the example pixel (${PIXEL}) have?`, answer: fragmentsAt(...PIXEL), hint: "Enter its coordinates below the picture.", why: "Its history lists them."},
+    {ask: "How many fragments does the pixel in the upper left corner have?", answer: fragmentsAt(0, 0), hint: "Enter the coordinates 0, 0.", why: "Its history lists them."},
+    {ask: `What is y of the center of the example pixel in OpenGL's window coordinates? (One decimal place.)`, answer: H - PIXEL[1] - 0.5, tolerance: 0.01, hint: "Window coordinates start at the bottom, and pixel centers are at half-integers.", why: `${H} − ${PIXEL[1]} − 0.5.`},
   ],
 });

@@ -64,7 +64,7 @@ HS_INLINE typename S::template Varyings<FragmentReal> begin_packets(const std::a
   return interpolate_all<V>(px.weights, t.components, std::make_index_sequence<N>());
 }
 
-/// Returns the identity of the primitives at the pixels with the given weights.
+/// Returns the PrimitiveId at the pixels with the given weights.
 template <std::size_t N>
 HS_INLINE PrimitiveId<FragmentReal> primitive_id(const PacketTriangles<N, kIdRow, true>& t, const Weights<FragmentReal>& weights) {
   using R = FragmentReal;
@@ -74,7 +74,7 @@ HS_INLINE PrimitiveId<FragmentReal> primitive_id(const PacketTriangles<N, kIdRow
   return {as_int(t.primitive[kIdPrimitive]), as_int(t.primitive[kIdInstance]), vec3<R>(R(1) - (second + third), second, third)};
 }
 
-/// Replaces the pixels of a packet; see FragmentBatch::codes.
+/// Writes the colors of a packet as rgba8; see FragmentBatch::codes.
 HS_INLINE void write_codes(int32_t* codes, PacketMask packet, Real r, Real g, Real b, Real a) {
   const Int packed = linear_to_unorm8(r) | linear_to_unorm8(g) << 8 | linear_to_unorm8(b) << 16 | linear_to_unorm8(a) << 24;
   int32_t* to = codes + static_cast<std::size_t>(packet.packet) * kLanes;
@@ -82,7 +82,7 @@ HS_INLINE void write_codes(int32_t* codes, PacketMask packet, Real r, Real g, Re
   store(to, select(mask_from_bits<Mask>(packet.lanes), packed, load<Int>(to)));
 }
 
-/// decides: the keep mask and the depth are needed as well.
+/// Runs the fragment function. decides: also return the keep mask and the depth.
 template <class S, bool decides>
 HS_FLATTEN void fragment_kernel(const void* shader, const FragmentBatch& batch) {
   using R = FragmentReal;

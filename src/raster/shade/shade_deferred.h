@@ -15,14 +15,15 @@ struct ShadingWork {
 
 /// Scratch memory for shade_deferred().
 struct DeferredShading {
-  FragmentOutput output;  ///< not on the stack, because a kernel with many colors needs most of a small one
+  FragmentOutput output;  ///< not on the stack, because a kernel with many colors needs most of a small stack
   std::array<ShadingWork, kMaxTilePixels> work;
-  std::array<PacketMask, kMaxTilePixels> packets;  ///< those of `work`
+  std::array<PacketMask, kMaxTilePixels> packets;  ///< the packets of `work`
   std::array<TriangleId, kMaxTilePixels> layer;    ///< one triangle of each multisampled pixel
-  std::array<uint8_t, kMaxTilePixels> taken;       ///< bit mask of the samples that have been in a layer
+  std::array<uint8_t, kMaxTilePixels> taken;       ///< bit mask of each pixel's samples that have been in a layer
 };
 
-/// Shades all pending pixels of the tile and writes their colors. Statistics: as in visibility/visibility.h.
+/// Shades all pixels of the tile that have a visible triangle but no color yet, and writes their colors. Statistics: see
+/// visibility/visibility.h.
 template <class Statistics>
 void shade_deferred(const PassContext& context, Tile& tile, DeferredShading& memory, Statistics& statistics);
 

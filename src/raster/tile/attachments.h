@@ -15,12 +15,12 @@ struct Attachments {
   DepthTarget depth;
   bool has_color = false;  ///< at least one color attachment has a format
   PostStep post;
-  // Values that images cannot hold between flushes, for attachments without an image or with several samples per pixel.
+  // Values between flushes of attachments that have no image or several samples per pixel.
   std::vector<std::vector<std::byte>> color_spills;
   std::vector<std::byte> depth_spill;
 };
 
-/// One run over all tiles. A pass has several rounds if the bins exceed their budget.
+/// One iteration over all tiles. A pass has several rounds if the bins exceed their budget.
 struct Round {
   bool first, last;
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Blend functions that are compiled for one format, and for common states also for the state. They return the same bits as the general code
-// in blend.cpp.
+// Blend functions that are specialized for a format and, for common blend states, also for the state. They return the same bits as the
+// general code in blend.cpp.
 #pragma once
 
 #include <span>
@@ -10,7 +10,7 @@
 
 namespace halfspace {
 
-/// Blends a color for each packet with the existing ones, in the order of the packets. src1: the second colors, for dual source blending.
+/// Blends one color per packet with the existing colors, in the order of the packets. src1: second colors, for dual-source blending.
 using BlendProgram = void (*)(ColorBuffer& buffer, std::span<const PacketMask> packets, const PacketColor* src, const PacketColor* src1,
                               const BlendState& state);
 

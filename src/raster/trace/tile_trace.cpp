@@ -20,7 +20,7 @@ void for_each_lane(int packet, uint32_t lanes, const F& f) {
 
 glm::vec4 color_of(const PacketColor& c, int i) { return {lane(c[0], i), lane(c[1], i), lane(c[2], i), lane(c[3], i)}; }
 
-// Position and sample that a slot of the tile's storage holds.
+// Returns the pixel and the sample that a slot of the tile's storage contains.
 struct SlotPixel {
   int x, y, sample;
 };
@@ -29,7 +29,7 @@ SlotPixel pixel_of(const Tile& tile, std::size_t slot) {
   const int x = block % kBlocksPerRow * kBlockSize + block_x(within), y = block / kBlocksPerRow * kBlockSize + block_y(within);
   if (tile.samples == 1) return {x, y, 0};
   const int columns = sample_plane(tile.samples, tile.samples - 1, tile.size).x / tile.size + 1;
-  if (x / tile.size >= columns) return {x % tile.size, y % tile.size, kMaxSamples};  // not used
+  if (x / tile.size >= columns) return {x % tile.size, y % tile.size, kMaxSamples};  // unused storage
   return {x % tile.size, y % tile.size, y / tile.size * columns + x / tile.size};
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Lists the packets of triangles whose visibility or color depends on the shader in a PacketQueue. Has the same interface as OpaqueWriter.
+// Adds packets whose visibility or color depends on the shader to a PacketQueue. Has the same interface as OpaqueWriter.
 #pragma once
 
 #include <bit>
@@ -14,8 +14,8 @@
 
 namespace halfspace {
 
-/// Lists packets of a draw with one sample per pixel. In VisibilityMode::early, packets are tested and their depth is written before they
-/// are listed. In all other modes, depth is tested after the shader. Lanes that fail the test now are not listed if they cannot pass later.
+/// Queues the packets of a draw with one sample per pixel. In VisibilityMode::early, depth is tested and written before a packet is queued.
+/// In all other modes, depth is tested after the shader. Lanes that already fail the test are dropped if they cannot pass it later.
 template <class S>
 class ListWriter {
  public:
@@ -77,7 +77,7 @@ class ListWriter {
   }
 
  private:
-  // Records fragments before they are tested and listed. What becomes of listed ones is recorded when the queue is emptied.
+  // Records fragments before they are tested and queued. The outcome of queued fragments is recorded when the queue is shaded.
   void trace(TriangleId id, int packet, uint32_t covered, Real z) {
     const Real old = load<Real>(&tile_.depth[static_cast<std::size_t>(packet) * kLanes]);
     const uint32_t passed = tests_ ? covered & bits(compare(compare_, z, old)) : covered;
@@ -85,7 +85,7 @@ class ListWriter {
     statistics_.trace->add(id, packet, covered & ~passed, FragmentOutcome::depth_failed, z, old, has_test_);
   }
 
-  /// Returns true if a sample that fails the test also fails after other samples of the draw have passed and were written.
+  /// Returns true if a fragment that fails the test would also fail it after other fragments of the draw have been written.
   static bool fails_for_good(CompareOp op) { return op != CompareOp::not_equal && op != CompareOp::always; }
 
   HS_INLINE void add(TriangleId id, int packet, uint32_t lanes, const Real& z) {
@@ -96,7 +96,7 @@ class ListWriter {
     if (lists_depth_) queue_.depth[i] = z;
     queue_.count += lanes != 0 ? 1 : 0;
   }
-  /// Adds a pixel to the last packet if it is the same one, otherwise as a new packet.
+  /// Adds a pixel to the last element of the queue if it has the same packet and triangle, otherwise as a new element.
   HS_INLINE void add_pixel(TriangleId id, int packet, int lane, float z) {
     if (is_final_) ++statistics_.samples_passed;
     const auto bit = static_cast<uint16_t>(1u << lane);
@@ -118,7 +118,7 @@ class ListWriter {
   Statistics& statistics_;
   CompareOp compare_;
   bool is_final_, tests_, writes_depth_, lists_depth_;
-  bool has_test_;  // there is a depth test, now or later
+  bool has_test_;  // depth is tested before or after the shader
 };
 
 }  // namespace halfspace

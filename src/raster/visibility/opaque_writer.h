@@ -41,7 +41,7 @@ class OpaqueWriter {
     return test_and_write(id, packet, covered, z_at);
   }
 
-  /// The same for lanes that the shader keeps, which have been counted as tested before. z: their depth.
+  /// The same for lanes that the shader keeps. A ListWriter has already counted them as tested. z: their depth.
   bool write_decided(TriangleId id, int packet, uint32_t kept, const Real& z) {
     if constexpr (kTraces<Statistics>) trace_decided(id, packet, kept, z);
     return test_and_write(id, packet, kept, [&] { return z; });

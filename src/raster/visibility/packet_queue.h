@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Packets of consecutive triangles of one draw in a tile, in submission order, that wait for the shader. Batches of the queue contain
-// packets of several triangles, so that the shader runs on full batches even if triangles are small.
+// Queue of packets to shade: packets of consecutive triangles of one draw in a tile, in submission order. A batch can contain packets of
+// several triangles, so the shader runs on full batches even if triangles are small.
 #pragma once
 
 #include "halfspace/raster/tile/tile.h"
 
 namespace halfspace {
 
-/// Used for draws with one sample per pixel. Whether the packets have passed the depth test depends on the VisibilityMode of the draw.
+/// Used for draws with one sample per pixel. The VisibilityMode of the draw determines whether the packets have passed the depth test.
 struct PacketQueue {
-  /// The queue must be shaded before a triangle is added to this many packets or more. It has room for one more triangle and the element
-  /// after the last one.
+  /// If the queue contains at least this many packets, it must be shaded before a triangle is added. The arrays have room for the packets
+  /// of one more triangle and for one element after the last one.
   static constexpr int kShadeAt = 64;
   static constexpr std::size_t kCapacity = kShadeAt + kPackets + 1;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Records fragments that hierarchical Z rejects together. The pipeline does not know which samples they cover, so this is found here.
+// Records fragments that hierarchical Z rejects together. The pipeline does not compute which samples they cover, so these functions do.
 #pragma once
 
 #include "halfspace/raster/pipeline/pixel_box.h"
@@ -20,13 +20,13 @@ struct RejectedPrimitive {
   float low, high;  ///< bounds of its depth
 };
 
-/// The block is rejected because of its depth bounds. It must not have been changed since.
+/// Records that a block was rejected because of its depth bounds, which must not have changed since then.
 void trace_rejected_block(const RejectedPrimitive& primitive, int block, TileTrace& trace);
 
-/// The tile is rejected. stored_low, stored_high: bounds of the depth in the tile.
+/// Records that the tile was rejected. stored_low, stored_high: depth bounds of the tile.
 void trace_rejected_tile(const RejectedPrimitive& primitive, float stored_low, float stored_high, TileTrace& trace);
 
-/// The same, where the bounds are those of all blocks.
+/// The same, with the bounds over all blocks of the tile.
 void trace_rejected_tile(const RejectedPrimitive& primitive, TileTrace& trace);
 
 }  // namespace halfspace

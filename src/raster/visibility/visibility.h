@@ -47,7 +47,7 @@ struct DrawInTile {
   Tile& tile;
   PixelBounds bounds;      ///< bounds of the draw in the tile
   bool needs_bounds_test;  ///< covered pixels of the tile can be outside bounds
-  bool tests;              ///< there is a depth test in this stage, unless it is postponed because of the stencil test
+  bool tests;              ///< depth is tested in this stage, unless the stencil test requires that it is tested later
   bool asks_shader;        ///< the shader's visibility function must be called
   bool fetches_vertices;   ///< prefetch vertices: they belong to points, or are shared by several triangles
   bool is_opaque;          ///< one sample per pixel, and only coverage and depth determine visibility
@@ -56,8 +56,8 @@ struct DrawInTile {
 
 // Statistics is PassStatistics, or TracedStatistics to trace fragments (raster/trace/tile_trace.h).
 
-/// Rasterizes triangle `index` of chunk `chunk` in the tile. list can only be null for VisibilityMode::deferred and depth_only. The draw
-/// must not be a queued one.
+/// Rasterizes triangle `index` of chunk `chunk` in the tile. list may only be null for VisibilityMode::deferred and depth_only. Must not be
+/// called for queued draws.
 template <class Statistics>
 void rasterize(const DrawInTile& d, uint32_t chunk, uint32_t index, CoverageList* list, Statistics& statistics);
 
