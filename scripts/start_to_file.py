@@ -3,11 +3,15 @@
 """Measures the time of `halfspace render earth --size 512x512` from start to file, compared with the minimum such an image needs.
 
   scripts/start_to_file.py [--bin DIR] [--rounds N]     default: build/release/bin, 15
+  scripts/start_to_file.py --before DIR [--scenes NAME,...] [--bin DIR] [--rounds N]
 
 The minimum is given by halfspace-least-earth (a build target): it links the same libraries, generates the maps of the scene, waits for
 the duration of an additional frame and writes the same pixels. It runs in two variants: with color and height maps, and with normal maps
 derived from them as well. The three programs are interleaved, and the minimum and median of each are printed. The time in which
 halfspace-least-earth reads the pixels is subtracted.
+
+With --before, the same time is measured for other scenes (default: day-night,shapes) at 1920x1080, with the program in --bin and the one in
+another folder, in turn.
 """
 import argparse
 import json
@@ -40,11 +44,28 @@ def frame_ms(program, folder):
     return min((render_ms(21) - render_ms(1)) / 20 for _ in range(3))
 
 
+def compare_builds(programs, scenes, rounds):
+    """Prints the times of two programs, (before, after), from start to file."""
+    with tempfile.TemporaryDirectory() as folder:
+        for scene in scenes:
+            times = [[], []]
+            for _ in range(rounds):
+                for program, list_of in zip(programs, times):
+                    list_of.append(wall_ms([program, "render", scene, "--size", "1920x1080", "-o", os.path.join(folder, "picture.png")])[0])
+            (low, middle), (new_low, new_middle) = ((min(t), statistics.median(t)) for t in times)
+            print(f"{scene:12} before: minimum {low:6.1f} ms, median {middle:6.1f} ms; after: minimum {new_low:6.1f} ms, median {new_middle:6.1f} ms; "
+                  f"{low / new_low:.2f} and {middle / new_middle:.2f} times as fast")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--bin", type=Path, default=Path(__file__).parent.parent / "build/release/bin")
     parser.add_argument("--rounds", type=int, default=15)
+    parser.add_argument("--before", type=Path, help="folder of a halfspace program to compare with")
+    parser.add_argument("--scenes", default="day-night,shapes", help="with --before: scenes to render")
     arguments = parser.parse_args()
+    if arguments.before:
+        return compare_builds([str(arguments.before / "halfspace"), str(arguments.bin / "halfspace")], arguments.scenes.split(","), arguments.rounds)
     program, least = str(arguments.bin / "halfspace"), str(arguments.bin / "halfspace-least-earth")
     with tempfile.TemporaryDirectory() as folder:
         picture, copy = os.path.join(folder, "earth.png"), os.path.join(folder, "copy.png")
