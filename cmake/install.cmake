@@ -226,18 +226,23 @@ function(halfspace_install_documents)
   endif()
   set(folder ${halfspace_BINARY_DIR}/share/generated)
   set(more "")
+  set(page halfspace.1)
+  if(HALFSPACE_PORTABLE)  # pages of packages are compressed
+    set(more --compress)
+    set(page halfspace.1.gz)
+  endif()
   if(TARGET halfspace-bench)
     list(APPEND more --bench $<TARGET_FILE:halfspace-bench>)
   endif()
   if(TARGET halfspace-view)
     list(APPEND more --view $<TARGET_FILE:halfspace-view>)
   endif()
-  add_custom_command(OUTPUT ${folder}/man/man1/halfspace.1
+  add_custom_command(OUTPUT ${folder}/man/man1/${page}
     COMMAND Python3::Interpreter ${halfspace_SOURCE_DIR}/scripts/generate_man.py --program $<TARGET_FILE:halfspace> ${more} ${folder}
     DEPENDS halfspace $<TARGET_NAME_IF_EXISTS:halfspace-bench> $<TARGET_NAME_IF_EXISTS:halfspace-view>
       ${halfspace_SOURCE_DIR}/scripts/generate_man.py
     COMMENT "Generating manual pages and completions" VERBATIM)
-  add_custom_target(halfspace_documents ALL DEPENDS ${folder}/man/man1/halfspace.1)
+  add_custom_target(halfspace_documents ALL DEPENDS ${folder}/man/man1/${page})
   install(DIRECTORY ${folder}/man/ DESTINATION ${CMAKE_INSTALL_MANDIR} COMPONENT runtime)
   install(DIRECTORY ${folder}/bash-completion ${folder}/fish DESTINATION ${CMAKE_INSTALL_DATADIR} COMPONENT runtime)
   set(zsh_folder site-functions)

@@ -3,11 +3,13 @@
 """Writes the manual pages and completion scripts that an installation contains, from the help of the built programs.
 
     generate_man.py --program build/release/bin/halfspace [--bench build/release/bin/halfspace-bench]
-                    [--view build/release/bin/halfspace-view] FOLDER
+                    [--view build/release/bin/halfspace-view] [--compress] FOLDER
 
-Writes FOLDER/man/man1/*.1 and the completions for bash, zsh and fish, in the folders where these shells search them below /usr/share.
+Writes FOLDER/man/man1/*.1, or *.1.gz with --compress, and the completions for bash, zsh and fish, in the folders where these shells search
+them below /usr/share.
 """
 import argparse
+import gzip
 import pathlib
 import re
 import subprocess
@@ -77,6 +79,13 @@ def write(path, text):
     path.write_text(text)
 
 
+def write_page(folder, compress, name, *contents):
+    """Writes the page that page(name, *contents) returns. The time is left out, so that the same page gives the same file."""
+    folder.mkdir(parents=True, exist_ok=True)
+    text = page(name, *contents).encode()
+    (folder / f"{name}.1{'.gz' if compress else ''}").write_bytes(gzip.compress(text, mtime=0) if compress else text)
+
+
 def write_view_completions(folder, help_text, scenes):
     """Writes completions of the options of halfspace-view and of scenes; other arguments are files."""
     options = re.findall(r"^  (?:-\w,)?--([\w-]+)(?: [A-Z=]\S*)?(?:  +(.*))?$", help_text, re.M)
@@ -95,25 +104,28 @@ def main():
     parser.add_argument("--program", required=True)
     parser.add_argument("--bench")
     parser.add_argument("--view")
+    parser.add_argument("--compress", action="store_true")
     parser.add_argument("folder", type=pathlib.Path)
     args = parser.parse_args()
 
-    man = args.folder / "man" / "man1"
+    def write_manual(*contents):
+        write_page(args.folder / "man" / "man1", args.compress, *contents)
+
     version = output_of(args.program, "--version").split()[-1]
     commands = output_of(args.program, "completion", "words").split()
     names = [f"halfspace-{command}" for command in commands]
-    write(man / "halfspace.1", page("halfspace", output_of(args.program, "--help"), version, names))
+    write_manual("halfspace", output_of(args.program, "--help"), version, names)
     for command, name in zip(commands, names):
         groups = []
         if command == "render":
             groups = [option_group("Options for model files", output_of(args.program, command, "--help-model")),
                       option_group("Options for what is written", output_of(args.program, command, "--help-output"))]
-        write(man / f"{name}.1", page(name, output_of(args.program, command, "--help"), version, ["halfspace"], groups))
+        write_manual(name, output_of(args.program, command, "--help"), version, ["halfspace"], groups)
     if args.bench:
-        write(man / "halfspace-bench.1", page("halfspace-bench", output_of(args.bench, "--help"), version, ["halfspace"]))
+        write_manual("halfspace-bench", output_of(args.bench, "--help"), version, ["halfspace"])
     if args.view:
         view_help = output_of(args.view, "--help")
-        write(man / "halfspace-view.1", page("halfspace-view", view_help, version, ["halfspace"]))
+        write_manual("halfspace-view", view_help, version, ["halfspace"])
         write_view_completions(args.folder, view_help, output_of(args.program, "list", "--names").split())
 
     write(args.folder / "bash-completion" / "completions" / "halfspace", output_of(args.program, "completion", "bash"))

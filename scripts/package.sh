@@ -13,7 +13,7 @@ configure() {
     -DHALFSPACE_PACKAGE_RELEASE="1~deb$release" "${@:2}" > "build/package-$1.log"
 }
 mkdir -p build/packages
-configure v4
+configure v4 -DCMAKE_SHARED_LINKER_FLAGS=-s -DCMAKE_MODULE_LINKER_FLAGS=-s  # CPack strips only what its own build links
 cmake --build build/package-v4 --target isa -- -j "$(nproc)"
 configure v3 -DHALFSPACE_SECOND_BUILD="$PWD/build/package-v4"
 cmake --build build/package-v3 --target installed -- -j "$(nproc)"

@@ -7,6 +7,7 @@
 The source tree is also added to a host project in both ways that CMake has. HALFSPACE_LONG_TESTS additionally builds that project, compiles
 every public header on its own and compiles with pkg-config.
 """
+import gzip
 import os
 import re
 import shlex
@@ -102,15 +103,15 @@ class Installation(unittest.TestCase):
 
     @unittest.skipUnless(shutil.which("man"), "man is not installed")
     def test_manual_pages_are_valid(self):
-        pages = list((PREFIX / "share" / "man" / "man1").glob("*.1"))
         if not (PREFIX / "bin" / "halfspace").exists():
             self.skipTest("the build has no programs")
-        self.assertIn("halfspace-render.1", [p.name for p in pages])
-        for page in pages:
-            result = run("man", "--warnings", "-E", "UTF-8", "-Tutf8", "-l", page, env={**os.environ, "LC_ALL": "C.UTF-8", "MANWIDTH": "80"})
-            self.assertEqual((result.returncode, result.stderr), (0, ""), page)
-            self.assertLessEqual(page.read_text().count(".SH OPTIONS\n"), 1, page)
-        self.assertIn(r"\-\-aov", (PREFIX / "share" / "man" / "man1" / "halfspace-render.1").read_text())
+        pages = {path.name.removesuffix(".gz"): path for path in (PREFIX / "share" / "man" / "man1").iterdir()}  # packages have compressed pages
+        texts = {name: (gzip.open if path.suffix == ".gz" else open)(path, "rt").read() for name, path in pages.items()}
+        self.assertIn(r"\-\-aov", texts["halfspace-render.1"])
+        for name, path in pages.items():
+            result = run("man", "--warnings", "-E", "UTF-8", "-Tutf8", "-l", path, env={**os.environ, "LC_ALL": "C.UTF-8", "MANWIDTH": "80"})
+            self.assertEqual((result.returncode, result.stderr), (0, ""), name)
+            self.assertLessEqual(texts[name].count(".SH OPTIONS\n"), 1, name)
 
 
 class Package(unittest.TestCase):
