@@ -126,7 +126,7 @@ class TileDraws {
     if (d.mode == VisibilityMode::deferred || d.mode == VisibilityMode::depth_only) {
       decide_queued(d, memory_.queue, statistics_);
     } else {
-      shade_queued(d, memory_.queue, memory_.layers, memory_.shading.output, statistics_);
+      shade_queued(d, memory_.queue, memory_.layers, memory_.shading.output, memory_.packed, statistics_);
     }
   }
 

@@ -25,7 +25,7 @@ struct ShaderKernels {
   void (*vertex)(const void* shader, const VertexBatch&) = nullptr;
   void (*position)(const void* shader, const VertexBatch&) = nullptr;      ///< same as vertex, without varyings
   void (*primitive)(const void* shader, const PrimitiveBatch&) = nullptr;  ///< null: no primitive stage
-  void (*visibility)(const void* shader, VisibilityBatch&) = nullptr;      ///< null: visibility does not depend on the shader
+  void (*visibility)(const void* shader, const VisibilityBatch&) = nullptr;  ///< null: visibility does not depend on the shader
   void (*fragment)(const void* shader, const FragmentBatch&) = nullptr;
   void (*color)(const void* shader, const FragmentBatch&) = nullptr;  ///< same as fragment, without keep masks and depths
   int varying_count = 0;                                              ///< floats per vertex

@@ -16,6 +16,7 @@ inline constexpr int kMaxSamples = 8;
 struct SamplePosition {
   int x, y;
 };
+inline constexpr SamplePosition kPixelCenter{kSubPixels / 2, kSubPixels / 2};
 
 /// Standard sample positions for 1, 2, 4 and 8 samples, as in Vulkan 1.3 ("Multisampling", in units of 1/16 px) and Mesa, but with y up.
 inline constexpr std::array<SamplePosition, 15> kSamplePositions{{

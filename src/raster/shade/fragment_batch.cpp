@@ -6,16 +6,9 @@
 namespace halfspace {
 
 void constant_colors(const Draw& draw, FragmentOutput& out) {
-  draw.kernels.fragment(draw.shader.get(), {.context = nullptr,
-                                            .tile_x0 = 0,
-                                            .tile_y0 = 0,
-                                            .position = {},
-                                            .ids = nullptr,
-                                            .packet_ids = nullptr,
-                                            .packets = nullptr,
-                                            .count = 1,
-                                            .centroids = nullptr,
-                                            .out = &out});
+  PacketBatch one{};
+  one.count = 1;
+  draw.kernels.fragment(draw.shader.get(), {one, &out});
 }
 
 void write_colors(const Draw& draw, const FragmentOutput& out, std::size_t i, std::span<const PacketMask> packets, Tile& tile) {

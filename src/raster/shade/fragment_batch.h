@@ -13,31 +13,28 @@
 
 namespace halfspace {
 
-/// Maximum number of packets per call of a fragment kernel.
-inline constexpr int kFragmentBatch = 16;
-static_assert(kFragmentBatch % 2 == 0, "packets are shaded in pairs");
-
 /// Colors of a batch, and keep masks and depths if the shader returns them.
 struct FragmentOutput {
-  alignas(64) std::array<PacketColor, kFragmentBatch * kMaxColorTargets> color;  ///< see packet_color()
-  alignas(64) std::array<Real, kFragmentBatch> depth;                            ///< if the shader writes depth
-  std::array<uint16_t, kFragmentBatch> keep;                                     ///< one bit per lane; if the shader discards
+  // Each array has one element more than a batch can fill, because unpack() reads past the last pixel.
+  alignas(64) std::array<PacketColor, kPacketBatch * kMaxColorTargets + 1> color;  ///< see packet_color()
+  alignas(64) std::array<Real, kPacketBatch + 1> depth;                            ///< if the shader writes depth
+  std::array<uint16_t, kPacketBatch + 1> keep;                                     ///< one bit per lane; if the shader discards
 
   /// Returns color n of packet i.
-  PacketColor& packet_color(std::size_t n, std::size_t i) { return color[n * kFragmentBatch + i]; }
-  const PacketColor& packet_color(std::size_t n, std::size_t i) const { return color[n * kFragmentBatch + i]; }
+  PacketColor& packet_color(std::size_t n, std::size_t i) { return color[n * kPacketBatch + i]; }
+  const PacketColor& packet_color(std::size_t n, std::size_t i) const { return color[n * kPacketBatch + i]; }
+  /// Returns component c of color n of all packets. Batches with `pixels` use the memory of the colors in this order.
+  float* color_plane(std::size_t n, std::size_t c) { return reinterpret_cast<float*>(color.data()) + plane_offset(n, c); }
+  const float* color_plane(std::size_t n, std::size_t c) const {
+    return reinterpret_cast<const float*>(color.data()) + plane_offset(n, c);
+  }
+
+ private:
+  static std::size_t plane_offset(std::size_t n, std::size_t c) { return (n * 4 + c) * std::size_t{kPacketBatch * kLanes}; }
 };
 
-/// Packets for a fragment kernel.
-struct FragmentBatch {
-  const PassContext* context;
-  int tile_x0, tile_y0;          ///< window coordinates of pixel (0, 0) of the tile's storage
-  SamplePosition position;       ///< position within the pixel at which the shader is evaluated
-  const TriangleId* ids;         ///< triangle of each pixel of the tile; null if each packet shows only one, see packet_ids
-  const TriangleId* packet_ids;  ///< triangle of each packet; only used if ids is null
-  const PacketMask* packets;
-  int count;                        ///< ≤ kFragmentBatch, unless `codes` is set
-  const SamplePosition* centroids;  ///< positions of centroid varyings, W for each packet; null if the same as position
+/// Packets for a fragment kernel. If `pixels` is set, colors are stored as color_plane().
+struct FragmentBatch : PacketBatch {
   FragmentOutput* out;
   /// If not null, the kernel encodes the first color of each packet as rgba8 and writes it here, indexed like the pixels of the tile's
   /// storage; there is no other output. Only for ShaderKernels::color.

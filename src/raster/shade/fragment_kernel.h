@@ -10,27 +10,45 @@
 
 namespace halfspace::detail {
 
-/// Window position of a packet, and the positions of its centroid varyings.
-struct PacketOrigin {
-  int x, y;                         ///< of the first pixel
-  const SamplePosition* centroids;  ///< one per lane; null if the same as for all other varyings
+/// Window coordinates of the pixels of two packets, and the positions of their centroid varyings.
+struct PacketPixels {
+  IntOf<FragmentReal> x, y;
+  /// For each packet, one position per lane. Null if the same as for all other varyings.
+  std::array<const SamplePosition*, 2> centroids;
 };
-/// Returns the origin of packet n of the batch, where `packet` is its index in the tile.
-template <class Batch>
-HS_INLINE PacketOrigin origin_of(const Batch& batch, int n, int packet) {
-  return {batch.tile_x0 + packet_x(packet), batch.tile_y0 + packet_y(packet),
-          batch.centroids == nullptr ? nullptr : batch.centroids + n * kLanes};
+/// Returns the pixels of packets a and b of a batch.
+HS_INLINE PacketPixels pixels_of(const PacketBatch& batch, int a, int b) {
+  using I = IntOf<FragmentReal>;
+  const auto at = [](int n) { return static_cast<std::size_t>(n) * kLanes; };
+  if (batch.pixels != nullptr) {
+    const I packed(load<Int>(batch.pixels + at(a)), load<Int>(batch.pixels + at(b)));
+    return {(packed & I(0xffff)) + I(batch.tile_x0), (packed >> 16) + I(batch.tile_y0), {}};
+  }
+  const int packet_a = batch.packets[a].packet, packet_b = batch.packets[b].packet;
+  PacketPixels pixels{
+      I(lane_x() + (batch.tile_x0 + packet_x(packet_a)), lane_x() + (batch.tile_x0 + packet_x(packet_b))),
+      I(lane_y() + (batch.tile_y0 + packet_y(packet_a)), lane_y() + (batch.tile_y0 + packet_y(packet_b))),
+      {}};
+  if (batch.centroids != nullptr) pixels.centroids = {batch.centroids + at(a), batch.centroids + at(b)};
+  return pixels;
+}
+
+/// Returns the triangles of packet n of a batch.
+HS_INLINE PacketTriangleIds triangle_ids_of(const PacketBatch& batch, int n) {
+  const PacketMask packet = batch.packets[n];
+  if (batch.ids == nullptr) return {batch.context, nullptr, batch.packet_ids[n], packet.lanes};
+  return {batch.context, batch.ids + static_cast<std::size_t>(packet.packet) * kLanes, kNoTriangle, packet.lanes};
 }
 
 /// Sets up the Pixel of two packets and interpolates their varyings. at: position within the pixels; ids: triangles for Pixel::z().
 template <class S, std::size_t N, std::size_t P, bool with_id>
-HS_INLINE typename S::template Varyings<FragmentReal> begin_packets(const std::array<PacketOrigin, 2>& origins, const SamplePosition& at,
+HS_INLINE typename S::template Varyings<FragmentReal> begin_packets(const PacketPixels& pixels, const SamplePosition& at,
                                                                     const PacketTriangles<N, P, with_id>& t,
                                                                     const std::array<PacketTriangleIds, 2>& ids, Pixel<FragmentReal>& px) {
   using R = FragmentReal;
   using I = IntOf<R>;
   using V = typename S::template Varyings<R>;
-  const I ix(lane_x() + origins[0].x, lane_x() + origins[1].x), iy(lane_y() + origins[0].y, lane_y() + origins[1].y);
+  const I ix = pixels.x, iy = pixels.y;
   const R x_sub = to_real<R>(ix * kSubPixels + at.x);
   const R y_sub = to_real<R>(iy * kSubPixels + at.y);
   px.dx = x_sub - t.lanes.x0;
@@ -49,10 +67,10 @@ HS_INLINE typename S::template Varyings<FragmentReal> begin_packets(const std::a
   px.z_source = &ids;
   px.front_facing = t.front;
   if constexpr (kUsesCentroid<typename S::template Varyings<float>>) {
-    if (origins[0].centroids != nullptr) {
+    if (pixels.centroids[0] != nullptr) {
       I cx(0), cy(0);
       for (int i = 0; i < kWidthOf<R>; ++i) {
-        const SamplePosition& c = origins[static_cast<std::size_t>(i / kLanes)].centroids[i % kLanes];
+        const SamplePosition& c = pixels.centroids[static_cast<std::size_t>(i / kLanes)][i % kLanes];
         set_lane(cx, i, c.x);
         set_lane(cy, i, c.y);
       }
@@ -80,6 +98,23 @@ HS_INLINE void write_codes(int32_t* codes, PacketMask packet, Real r, Real g, Re
   int32_t* to = codes + static_cast<std::size_t>(packet.packet) * kLanes;
   if (packet.lanes == kAllBits<Mask>) return store(to, packed);
   store(to, select(mask_from_bits<Mask>(packet.lanes), packed, load<Int>(to)));
+}
+
+/// Stores color n of packets i and i + 1 of the batch.
+HS_INLINE void write_color_pair(const FragmentBatch& batch, std::size_t n, std::size_t i, const vec4<FragmentReal>& color) {
+  const std::array<FragmentReal, 4> components{color.x, color.y, color.z, color.w};
+  if (batch.pixels != nullptr) {
+    for (std::size_t c = 0; c < 4; ++c) {
+      float* to = batch.out->color_plane(n, c) + i * kLanes;
+      store(to, components[c].low);
+      store(to + kLanes, components[c].high);
+    }
+    return;
+  }
+  for (std::size_t c = 0; c < 4; ++c) {
+    batch.out->packet_color(n, i)[c] = components[c].low;
+    batch.out->packet_color(n, i + 1)[c] = components[c].high;
+  }
 }
 
 /// Runs the fragment function. decides: also return the keep mask and the depth.
@@ -112,15 +147,9 @@ HS_FLATTEN void fragment_kernel(const void* shader, const FragmentBatch& batch) 
     const PacketMask a = batch.packets[first], b = batch.packets[second];
     find_triangles<0>(batch, first, recent, triangles);
     find_triangles<1>(batch, second, recent, triangles);
-    const auto ids_of = [&](int packet_index) {
-      const PacketMask packet = batch.packets[packet_index];
-      if (batch.ids == nullptr) return PacketTriangleIds{batch.context, nullptr, batch.packet_ids[packet_index], packet.lanes};
-      return PacketTriangleIds{batch.context, batch.ids + static_cast<std::size_t>(packet.packet) * kLanes, kNoTriangle, packet.lanes};
-    };
-    const std::array<PacketTriangleIds, 2> ids{ids_of(first), ids_of(second)};
+    const std::array<PacketTriangleIds, 2> ids{triangle_ids_of(batch, first), triangle_ids_of(batch, second)};
     Pixel<R> px;
-    const V in =
-        begin_packets<S>({origin_of(batch, first, a.packet), origin_of(batch, second, b.packet)}, batch.position, triangles, ids, px);
+    const V in = begin_packets<S>(pixels_of(batch, first, second), batch.position, triangles, ids, px);
     P face{};
     if constexpr (kUsesPrimitiveId<S>) {
       face = primitive_id(triangles, px.weights);
@@ -138,9 +167,7 @@ HS_FLATTEN void fragment_kernel(const void* shader, const FragmentBatch& batch) 
     }
     const auto i = static_cast<std::size_t>(first);
     for (std::size_t n_color = 0; n_color < kColors<S>; ++n_color) {
-      const vec4<R>& color = nth_color(fragment.color, n_color);
-      batch.out->packet_color(n_color, i) = {color.x.low, color.y.low, color.z.low, color.w.low};
-      batch.out->packet_color(n_color, i + 1) = {color.x.high, color.y.high, color.z.high, color.w.high};
+      write_color_pair(batch, n_color, i, nth_color(fragment.color, n_color));
     }
     if constexpr (decides && kDiscards<S>) {
       batch.out->keep[i] = static_cast<uint16_t>(bits(fragment.keep.low));
@@ -167,36 +194,45 @@ HS_INLINE Visibility<R> call_visibility(const S& s, const typename S::template V
   }
 }
 
+/// True if the shader's depth replaces that of the triangle. A shader without a fragment function, for depth only, cannot.
 template <class S>
-HS_FLATTEN void visibility_kernel(const void* shader, VisibilityBatch& batch) {
+inline constexpr bool kDecidesDepth = [] {
+  if constexpr (HasFragmentFunction<S>) return kWritesDepth<S>;
+  return false;
+}();
+
+template <class S>
+HS_FLATTEN void visibility_kernel(const void* shader, const VisibilityBatch& batch) {
   using R = FragmentReal;
   using V = typename S::template Varyings<R>;
   using F = typename S::template Varyings<float>;
   PacketTriangles<kComponents<V>, 0> triangles;
   RecentTriangles<F> recent;
-  // Initializes all values, which GCC 12 cannot derive from `only`.
-  triangles.only = {batch.ids[0], batch.ids[0]};
-  const auto& scalars = recent.first(*batch.context, batch.ids[0]);
-  spread_triangle<0>(scalars, triangles);
-  spread_triangle<1>(scalars, triangles);
+  if (batch.ids == nullptr) {  // initializes all values, which GCC 12 cannot derive from `only`
+    triangles.only = {batch.packet_ids[0], batch.packet_ids[0]};
+    const auto& scalars = recent.first(*batch.context, batch.packet_ids[0]);
+    spread_triangle<0>(scalars, triangles);
+    spread_triangle<1>(scalars, triangles);
+  }
   for (int first = 0; first < batch.count; first += 2) {
-    const int second = std::min(first + 1, batch.count - 1);
-    const auto a = static_cast<std::size_t>(first), b = static_cast<std::size_t>(second);
-    show_triangle<0>(*batch.context, batch.ids[a], recent, triangles);
-    show_triangle<1>(*batch.context, batch.ids[b], recent, triangles);
-    const std::array<PacketTriangleIds, 2> ids{PacketTriangleIds{batch.context, nullptr, batch.ids[a], kAllBits<Mask>},
-                                               PacketTriangleIds{batch.context, nullptr, batch.ids[b], kAllBits<Mask>}};
+    const int second = std::min(first + 1, batch.count - 1);  // if the count is odd, the last packet is evaluated twice
+    if (batch.ids != nullptr) {
+      find_packed(batch, first, second, recent, triangles);
+    } else {
+      show_triangle<0>(*batch.context, batch.packet_ids[first], recent, triangles);
+      show_triangle<1>(*batch.context, batch.packet_ids[second], recent, triangles);
+    }
+    const std::array<PacketTriangleIds, 2> ids{triangle_ids_of(batch, first), triangle_ids_of(batch, second)};
     Pixel<R> px;
-    const V in = begin_packets<S>({origin_of(batch, first, batch.packets[a]), origin_of(batch, second, batch.packets[b])}, batch.position,
-                                  triangles, ids, px);
+    const V in = begin_packets<S>(pixels_of(batch, first, second), batch.position, triangles, ids, px);
     const Visibility<R> v = call_visibility<S, R>(*static_cast<const S*>(shader), in, px);
-    if constexpr (kWritesDepth<S>) {
+    const auto a = static_cast<std::size_t>(first), b = static_cast<std::size_t>(second);
+    if constexpr (kDecidesDepth<S>) {
       batch.depth[a] = v.depth.low;
       batch.depth[b] = v.depth.high;
     }
-    const uint32_t low = bits(v.keep.low), high = bits(v.keep.high);
-    batch.lanes[a] &= low;
-    batch.lanes[b] &= high;
+    batch.keep[a] = static_cast<uint16_t>(bits(v.keep.low));
+    batch.keep[b] = static_cast<uint16_t>(bits(v.keep.high));
   }
 }
 

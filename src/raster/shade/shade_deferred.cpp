@@ -95,11 +95,11 @@ void shade_draw(const PassContext& context, Tile& tile, const Job& job, const Dr
                 FragmentOutput& out, Statistics& statistics) {
   const bool spreads = job.share == Share::per_pixel && tile.samples > 1;
   const bool needs_centroid = draw.kernels.uses_centroid && spreads;
-  std::array<SamplePosition, kFragmentBatch * kLanes> centroids;
-  FragmentBatch batch{&context, tile.x0 - job.plane.x, tile.y0 - job.plane.y, job.position, job.ids, nullptr, packets.data(), 0, nullptr,
-                      &out};
+  std::array<SamplePosition, kPacketBatch * kLanes> centroids;
+  FragmentBatch batch{
+      {&context, tile.x0 - job.plane.x, tile.y0 - job.plane.y, job.position, job.ids, nullptr, packets.data(), 0, nullptr, nullptr}, &out};
   if (!spreads) batch.codes = direct_codes<Statistics>(draw, tile);
-  const std::size_t most = batch.codes != nullptr ? packets.size() : static_cast<std::size_t>(kFragmentBatch);
+  const std::size_t most = batch.codes != nullptr ? packets.size() : static_cast<std::size_t>(kPacketBatch);
   for (; !packets.empty(); packets = packets.subspan(static_cast<std::size_t>(batch.count))) {
     batch.packets = packets.data();
     batch.count = static_cast<int>(std::min(packets.size(), most));
@@ -138,8 +138,6 @@ void run_job(const PassContext& context, Tile& tile, const Job& job, DeferredSha
                statistics);
   }
 }
-
-constexpr SamplePosition kPixelCenter{kSubPixels / 2, kSubPixels / 2};
 
 // Returns the number of the first pixel of a packet in the sample plane of sample s.
 std::size_t first_pixel(const Tile& tile, int packet, int s) {
@@ -230,23 +228,16 @@ void shade_full_tile(const PassContext& context, TriangleId id, Tile& tile, Defe
   statistics.fragments_shaded += kMaxTilePixels;
   std::fill_n(memory.layer.begin(), kPackets, id);
   for (std::size_t p = 0; p < kPackets; ++p) memory.packets[p] = {static_cast<uint16_t>(p), static_cast<uint16_t>(kAllBits<Mask>)};
-  FragmentBatch batch{&context,
-                      tile.x0,
-                      tile.y0,
-                      kPixelCenter,
-                      nullptr,
-                      memory.layer.data(),
-                      memory.packets.data(),
-                      kPackets,
-                      nullptr,
-                      &memory.output,
-                      direct_codes<Statistics>(draw, tile)};
+  FragmentBatch batch{
+      {&context, tile.x0, tile.y0, kPixelCenter, nullptr, memory.layer.data(), memory.packets.data(), kPackets, nullptr, nullptr},
+      &memory.output,
+      direct_codes<Statistics>(draw, tile)};
   if (batch.codes != nullptr) return draw.kernels.color(draw.shader.get(), batch);
-  batch.count = kFragmentBatch;
-  for (std::size_t first = 0; first < kPackets; first += kFragmentBatch) {
+  batch.count = kPacketBatch;
+  for (std::size_t first = 0; first < kPackets; first += kPacketBatch) {
     batch.packets = &memory.packets[first];
     draw.kernels.color(draw.shader.get(), batch);
-    const std::span<const PacketMask> packets = std::span(memory.packets).subspan(first, kFragmentBatch);
+    const std::span<const PacketMask> packets = std::span(memory.packets).subspan(first, kPacketBatch);
     write_colors(draw, memory.output, 0, packets, tile);
     if constexpr (kTraces<Statistics>) trace_visible(id, packets, memory.output, tile, *statistics.trace);
   }

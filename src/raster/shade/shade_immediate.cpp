@@ -2,6 +2,7 @@
 #include "halfspace/raster/shade/shade_immediate.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "halfspace/raster/trace/tile_trace.h"
 #include "halfspace/raster/visibility/centroid.h"
@@ -119,19 +120,20 @@ void count_fragments(const Shading& c, const PacketMask* packets, int count) {
 template <class Shading, class F>
 void shade_packets(const Shading& c, const PacketMask* packets, int count, const SamplePlane& plane, const SamplePosition& at, F finish) {
   FragmentOutput& out = c.output;
-  std::array<SamplePosition, kFragmentBatch * kLanes> centroids;
-  std::array<TriangleId, kFragmentBatch> ids;
+  std::array<SamplePosition, kPacketBatch * kLanes> centroids;
+  std::array<TriangleId, kPacketBatch> ids;
   ids.fill(c.id);
-  for (int begin = 0; begin < count; begin += kFragmentBatch) {
-    const int n = std::min(kFragmentBatch, count - begin);
+  for (int begin = 0; begin < count; begin += kPacketBatch) {
+    const int n = std::min(kPacketBatch, count - begin);
     const bool needs_centroid = c.draw.kernels.uses_centroid && c.tile.samples > 1 && !c.draw.shades_samples;
     for (int i = 0; needs_centroid && i < n; ++i) {
       const int p = packets[begin + i].packet;
       find_centroids(c.context, c.tile.x0 + packet_x(p), c.tile.y0 + packet_y(p), nullptr, c.id,
                      &centroids[static_cast<std::size_t>(i * kLanes)]);
     }
-    c.draw.kernels.fragment(c.draw.shader.get(), {&c.context, c.tile.x0 - plane.x, c.tile.y0 - plane.y, at, nullptr, ids.data(),
-                                                  packets + begin, n, needs_centroid ? centroids.data() : nullptr, &out});
+    const PacketBatch batch{&c.context, c.tile.x0 - plane.x, c.tile.y0 - plane.y, at, nullptr, ids.data(), packets + begin, n,
+                            needs_centroid ? centroids.data() : nullptr, nullptr};
+    c.draw.kernels.fragment(c.draw.shader.get(), {batch, &out});
     count_fragments(c, packets + begin, n);
     for (int i = 0; i < n; ++i) finish(out, static_cast<std::size_t>(i), packets[begin + i]);
   }
@@ -150,33 +152,51 @@ void shade_samples(const Shading& c) {
   }
 }
 
+// Packets of the tile's storage, one bit each.
+class PacketSet {
+ public:
+  void add(std::size_t packet) { words_[packet / 64] |= uint64_t{1} << packet % 64; }
+  bool has(std::size_t packet) const { return (words_[packet / 64] >> packet % 64 & 1) != 0; }
+  /// Calls f(packet) in increasing order.
+  template <class F>
+  void for_each(F f) const {
+    for (std::size_t i = 0; i < words_.size(); ++i) {
+      for (uint64_t rest = words_[i]; rest != 0; rest &= rest - 1) f(i * 64 + static_cast<std::size_t>(std::countr_zero(rest)));
+    }
+  }
+
+ private:
+  static_assert(kPackets % 64 == 0);
+  std::array<uint64_t, kPackets / 64> words_{};
+};
+
 // Shades each pixel that has a covered sample once.
 template <class Shading>
 void shade_pixels(const Shading& c) {
-  std::array<uint16_t, kPackets> covered{};  // per packet of the tile's storage
-  std::array<uint16_t, kPackets> any_sample{};
+  PacketSet listed, shaded;
+  std::array<uint16_t, kPackets> covered;     // lanes of the packets in `listed`, which are those of all samples
+  std::array<uint16_t, kPackets> any_sample;  // lanes of the packets in `shaded`, which are those of sample 0
   int begin = 0;
   for (int s = 0; s < c.tile.samples; ++s) {
     const int shift = packet_shift(sample_plane(c.tile.samples, s, c.tile.size));
     for (; begin < c.list.sample_end[static_cast<std::size_t>(s)]; ++begin) {
       const PacketMask& p = c.list.packets[static_cast<std::size_t>(begin)];
+      const auto pixels = static_cast<std::size_t>(p.packet - shift);
       covered[p.packet] = p.lanes;
-      uint16_t& pixels = any_sample[static_cast<std::size_t>(p.packet - shift)];
-      pixels = static_cast<uint16_t>(pixels | p.lanes);
+      any_sample[pixels] = static_cast<uint16_t>((shaded.has(pixels) ? any_sample[pixels] : 0) | p.lanes);
+      listed.add(p.packet);
+      shaded.add(pixels);
     }
   }
   std::array<PacketMask, kPackets> packets;
   int count = 0;
-  for (std::size_t p = 0; p < kPackets; ++p) {
-    if (any_sample[p] != 0) packets[static_cast<std::size_t>(count++)] = {static_cast<uint16_t>(p), any_sample[p]};
-  }
-  shade_packets(c, packets.data(), count, {0, 0}, {kSubPixels / 2, kSubPixels / 2},
-                [&](const FragmentOutput& out, std::size_t i, const PacketMask& p) {
-                  for (int s = 0; s < c.tile.samples; ++s) {
-                    const auto packet = static_cast<uint16_t>(p.packet + packet_shift(sample_plane(c.tile.samples, s, c.tile.size)));
-                    if (covered[packet] != 0) finish_sample(c, out, i, s, {packet, covered[packet]});
-                  }
-                });
+  shaded.for_each([&](std::size_t p) { packets[static_cast<std::size_t>(count++)] = {static_cast<uint16_t>(p), any_sample[p]}; });
+  shade_packets(c, packets.data(), count, {0, 0}, kPixelCenter, [&](const FragmentOutput& out, std::size_t i, const PacketMask& p) {
+    for (int s = 0; s < c.tile.samples; ++s) {
+      const auto packet = static_cast<uint16_t>(p.packet + packet_shift(sample_plane(c.tile.samples, s, c.tile.size)));
+      if (listed.has(packet)) finish_sample(c, out, i, s, {packet, covered[packet]});
+    }
+  });
 }
 
 // Runs the tests of packet i of a batch, which is packet k of the queue. Returns the lanes whose color must be written.
@@ -199,36 +219,67 @@ void write_traced(const Shading& c, std::span<const PacketMask> packets, const T
   }
 }
 
+// Runs the late tests of packets that were shaded as packets 0, 1, ... of the output, and writes them. begin: number of the first in the
+// queue.
+template <class Shading>
+void finish_batch(const Shading& c, PacketQueue& queue, std::size_t begin, std::size_t n) {
+  PacketMask* packets = &queue.packets[begin];
+  for (std::size_t i = 0; c.mode != VisibilityMode::early && i < n; ++i) packets[i].lanes = finish_queued(c, queue, begin + i, i);
+  if (c.draw.state.order_independent) return;
+  const std::span<const PacketMask> written(packets, n);
+  if constexpr (kTracesShading<Shading>) {
+    write_traced(c, written, &queue.ids[begin]);
+  } else {
+    write_colors(c.draw, c.output, 0, written, c.tile);
+  }
+}
+
+// Shades packets of the queue as they are. Returns their number.
+template <class Shading>
+std::size_t shade_batch(const Shading& c, PacketQueue& queue, std::size_t begin) {
+  const PacketMask* packets = &queue.packets[begin];
+  const int n = std::min(kPacketBatch, queue.count - static_cast<int>(begin));
+  const PacketBatch batch{&c.context, c.tile.x0, c.tile.y0, kPixelCenter, nullptr, &queue.ids[begin], packets, n, nullptr, nullptr};
+  c.draw.kernels.fragment(c.draw.shader.get(), {batch, &c.output});
+  count_fragments(c, packets, n);
+  if constexpr (kTracesShading<Shading>) {
+    for (std::size_t i = 0; i < static_cast<std::size_t>(n); ++i) trace_shaded(c, c.output, i, packets[i], queue.ids[begin + i]);
+  }
+  finish_batch(c, queue, begin, static_cast<std::size_t>(n));
+  return static_cast<std::size_t>(n);
+}
+
+// The same, but moves fragments together first. Returns 0, and shades nothing, if this does not save work.
+template <class Shading>
+std::size_t shade_packed(const Shading& c, PacketQueue& queue, std::size_t begin, PackedFragments& packed) {
+  const std::span<const PacketMask> packets(&queue.packets[begin], static_cast<std::size_t>(queue.count) - begin);
+  const std::size_t count = pays_to_pack(c.draw) ? pack(packets, &queue.ids[begin], packed.pixels) : 0;
+  if (count == 0) return 0;
+  c.draw.kernels.fragment(c.draw.shader.get(), {packed.pixels.batch(c.context, c.tile), &packed.output});
+  c.statistics.fragments_shaded += packed.pixels.count;
+  for (std::size_t done = 0, pixel = 0; done < count;) {
+    const std::size_t n = std::min(std::size_t{kPacketBatch}, count - done);
+    pixel = unpack(c.draw.kernels, packed.output, pixel, packets.subspan(done, n), c.output);
+    finish_batch(c, queue, begin + done, n);
+    done += n;
+  }
+  return count;
+}
+
 }  // namespace
 
 template <class Statistics>
-void shade_queued(const DrawInTile& d, PacketQueue& queue, TransparentLayers& layers, FragmentOutput& output, Statistics& statistics) {
+void shade_queued(const DrawInTile& d, PacketQueue& queue, TransparentLayers& layers, FragmentOutput& output, PackedFragments& packed,
+                  Statistics& statistics) {
   const ImmediateShading<Statistics> c{d.context, d.draw, d.mode, d.tile, layers, output, nullptr, true, statistics};
-  const SamplePosition center{kSubPixels / 2, kSubPixels / 2};
-  for (int begin = 0; begin < queue.count; begin += kFragmentBatch) {
-    PacketMask* packets = &queue.packets[static_cast<std::size_t>(begin)];
-    const int n = std::min(kFragmentBatch, queue.count - begin);
-    d.draw.kernels.fragment(d.draw.shader.get(), {&d.context, d.tile.x0, d.tile.y0, center, nullptr,
-                                                  &queue.ids[static_cast<std::size_t>(begin)], packets, n, nullptr, &output});
-    count_fragments(c, packets, n);
-    if constexpr (kTraces<Statistics>) {
-      for (int i = 0; i < n; ++i)
-        trace_shaded(c, output, static_cast<std::size_t>(i), packets[i], queue.ids[static_cast<std::size_t>(begin + i)]);
-    }
-    for (int i = 0; d.mode != VisibilityMode::early && i < n; ++i)
-      packets[i].lanes = finish_queued(c, queue, static_cast<std::size_t>(begin + i), static_cast<std::size_t>(i));
-    if (d.draw.state.order_independent) continue;
-    const std::span<const PacketMask> written(packets, static_cast<std::size_t>(n));
-    if constexpr (kTraces<Statistics>) {
-      write_traced(c, written, &queue.ids[static_cast<std::size_t>(begin)]);
-    } else {
-      write_colors(d.draw, output, 0, written, d.tile);
-    }
+  for (std::size_t begin = 0; begin < static_cast<std::size_t>(queue.count);) {
+    const std::size_t shaded = kTraces<Statistics> ? 0 : shade_packed(c, queue, begin, packed);
+    begin += shaded != 0 ? shaded : shade_batch(c, queue, begin);
   }
   queue.count = 0;
 }
-template void shade_queued(const DrawInTile&, PacketQueue&, TransparentLayers&, FragmentOutput&, PassStatistics&);
-template void shade_queued(const DrawInTile&, PacketQueue&, TransparentLayers&, FragmentOutput&, TracedStatistics&);
+template void shade_queued(const DrawInTile&, PacketQueue&, TransparentLayers&, FragmentOutput&, PackedFragments&, PassStatistics&);
+template void shade_queued(const DrawInTile&, PacketQueue&, TransparentLayers&, FragmentOutput&, PackedFragments&, TracedStatistics&);
 
 template <class Statistics>
 void shade_immediate(const PassContext& context, const Draw& draw, TriangleId id, VisibilityMode mode, const CoverageList& list, Tile& tile,

@@ -3,7 +3,7 @@
 // Immediate shading in submission order, for draws that blend or whose fragment function decides visibility.
 #pragma once
 
-#include "halfspace/raster/shade/fragment_batch.h"
+#include "halfspace/raster/shade/packed_fragments.h"
 #include "halfspace/raster/tile/layers.h"
 
 namespace halfspace {
@@ -14,8 +14,10 @@ template <class Statistics>
 void shade_immediate(const PassContext& context, const Draw& draw, TriangleId id, VisibilityMode mode, const CoverageList& list, Tile& tile,
                      TransparentLayers& layers, FragmentOutput& output, Statistics& statistics);
 
-/// The same for all packets of a queue, which is empty afterwards. d: the draw of the queue, which must be shaded immediately.
+/// The same for all packets of a queue, which is empty afterwards. d: the draw of the queue, which must be shaded immediately. packed: scratch
+/// memory.
 template <class Statistics>
-void shade_queued(const DrawInTile& d, PacketQueue& queue, TransparentLayers& layers, FragmentOutput& output, Statistics& statistics);
+void shade_queued(const DrawInTile& d, PacketQueue& queue, TransparentLayers& layers, FragmentOutput& output, PackedFragments& packed,
+                  Statistics& statistics);
 
 }  // namespace halfspace

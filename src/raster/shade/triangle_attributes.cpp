@@ -41,7 +41,6 @@ void find_slow_vertices(const PassContext& context, const Chunk& chunk, const Dr
     s.corners[2] = {t.x[2], t.y[2], s.vertex[0]->z, s.vertex[0]->inv_w};
     s.vertex[2] = &s.corners[2];
     s.varyings[2] = s.varyings[0];
-    s.z_low = std::clamp(t.z0, draw.depth_low, draw.depth_high);
   }
 }
 
@@ -78,7 +77,6 @@ void find_triangle(const PassContext& context, TriangleId id, TriangleSource& s)
   const Draw& draw = context.draws[range.draw];
   s.triangle = &t;
   s.primitive = nullptr;
-  s.z_low = draw.depth_low;
   if (t.is(kClipped | kPointSprite | kLine)) {
     find_slow_vertices(context, chunk, range, draw, s);
   } else {
@@ -102,15 +100,15 @@ Real packet_depth(Real x, Real y, const PacketTriangleIds& packet) {
     const TriangleId id = packet.ids == nullptr ? packet.uniform_id : packet.ids[std::countr_zero(rest)];
     const Mask shows = packet.ids == nullptr ? Mask(true) : load<Int>(packet.ids) == Int(std::bit_cast<int32_t>(id));
     rest &= ~bits(shows);
-    TriangleSource source;
-    find_triangle(*packet.context, id, source);
-    const Triangle& t = *source.triangle;
+    const Triangle& t = triangle_of(*packet.context, id);
+    const Draw& draw = draw_of(*packet.context, id);
     const auto edge = [](int32_t to, int32_t from) { return Real(static_cast<float>(to - from)); };
     const Real dx = x_sub - Real(static_cast<float>(t.x[0])), dy = y_sub - Real(static_cast<float>(t.y[0]));
     const Real e1 = difference_of_products(dx, edge(t.y[2], t.y[0]), dy, edge(t.x[2], t.x[0]));
     const Real e2 = difference_of_products(edge(t.x[1], t.x[0]), dy, edge(t.y[1], t.y[0]), dx);
-    const float z_high = clamp(t.z_max, draw_of(*packet.context, id).depth_low, draw_of(*packet.context, id).depth_high);
-    z = select(shows, clamp(fma(e1, Real(t.z_edge1), fma(e2, Real(t.z_edge2), Real(t.z0))), Real(source.z_low), Real(z_high)), z);
+    const float z_low = t.is(kLine) ? clamp(t.z0, draw.depth_low, draw.depth_high) : draw.depth_low;
+    const float z_high = clamp(t.z_max, draw.depth_low, draw.depth_high);
+    z = select(shows, clamp(fma(e1, Real(t.z_edge1), fma(e2, Real(t.z_edge2), Real(t.z0))), Real(z_low), Real(z_high)), z);
   }
   return z;
 }

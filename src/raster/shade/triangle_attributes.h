@@ -18,7 +18,6 @@ struct TriangleSource {
   std::array<const float*, 3> varyings;
   const float* flat_varyings;  ///< row of the provoking vertex
   const float* primitive;      ///< row of the primitive stage, or null
-  float z_low;                 ///< minimum depth in the window
 };
 /// Finds the data of a triangle.
 void find_triangle(const PassContext& context, TriangleId id, TriangleSource& out);

@@ -18,6 +18,14 @@ namespace {
 
 bool tests_depth(const DepthState& state, const Tile& tile) { return state.test && tile.depth_format != DepthFormat::none; }
 
+// Packets of one triangle that wait for the visibility function.
+struct PendingPackets {
+  int count = 0;
+  std::array<PacketMask, kPacketBatch> packets;  // lanes: the covered ones
+  /// Depth of the triangle; replaced by the shader's depth if it writes depth.
+  alignas(64) std::array<Real, kPacketBatch> depth;
+};
+
 // Values that all packets of a triangle share, for draws that are not opaque.
 template <class S>
 struct TriangleVisit {
@@ -38,7 +46,7 @@ struct TriangleVisit {
   bool rejects_blocks;         // skip blocks in which no depth can pass
   bool is_slow;                // the shader or the stencil test determines visibility
   bool needs_bounds_test;      // covered pixels can be outside the bounds of the primitive
-  VisibilityBatch& pending;    // packets for the visibility function
+  PendingPackets& pending;     // packets for the visibility function
   SampleGrid grid;             // the current sample
   const DrawInTile& draw_in_tile;
   float low = 0.0f, high = 1.0f;  // bounds of the triangle's depth
@@ -116,30 +124,38 @@ void test_and_finish(const Visit& c, int packet, Mask mask, Real z) {
 // Calls the visibility function for the pending packets, and finishes them. The function narrows their masks and may replace their depth.
 template <class Visit>
 void ask_shader(const Visit& c) {
-  VisibilityBatch& batch = c.pending;
-  if (batch.count == 0) return;
-  std::array<SamplePosition, kVisibilityBatch * kLanes> centroids;
+  PendingPackets& pending = c.pending;
+  if (pending.count == 0) return;
+  const auto count = static_cast<std::size_t>(pending.count);
+  std::array<SamplePosition, kPacketBatch * kLanes> centroids;
   const bool needs_centroid = c.draw.kernels.uses_centroid && c.tile.samples > 1 && !c.draw.shades_samples;
-  for (std::size_t i = 0; needs_centroid && i < static_cast<std::size_t>(batch.count); ++i) {
-    find_centroids(c.context, c.grid.x0 + packet_x(batch.packets[i]), c.grid.y0 + packet_y(batch.packets[i]), nullptr, c.id,
-                   &centroids[i * kLanes]);
+  for (std::size_t i = 0; needs_centroid && i < count; ++i) {
+    const int packet = pending.packets[i].packet;
+    find_centroids(c.context, c.grid.x0 + packet_x(packet), c.grid.y0 + packet_y(packet), nullptr, c.id, &centroids[i * kLanes]);
   }
-  batch.context = &c.context;
-  batch.ids.fill(c.id);
-  batch.tile_x0 = c.grid.x0;
-  batch.tile_y0 = c.grid.y0;
-  batch.position = c.draw.shades_samples ? c.grid.position : SamplePosition{kSubPixels / 2, kSubPixels / 2};
-  batch.centroids = needs_centroid ? centroids.data() : nullptr;
-  [[maybe_unused]] const std::array<uint32_t, kVisibilityBatch> covered = batch.lanes;
-  c.draw.kernels.visibility(c.draw.shader.get(), batch);
-  for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) {
-    Real z = batch.depth[i];
+  std::array<TriangleId, kPacketBatch> ids;
+  ids.fill(c.id);
+  std::array<uint16_t, kPacketBatch> keep;
+  const PacketBatch packets{&c.context,
+                            c.grid.x0,
+                            c.grid.y0,
+                            c.draw.shades_samples ? c.grid.position : kPixelCenter,
+                            nullptr,
+                            ids.data(),
+                            pending.packets.data(),
+                            pending.count,
+                            needs_centroid ? centroids.data() : nullptr,
+                            nullptr};
+  c.draw.kernels.visibility(c.draw.shader.get(), {packets, keep.data(), pending.depth.data()});
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto [packet, lanes] = pending.packets[i];
+    Real z = pending.depth[i];
     if constexpr (kTraces<typename Visit::Statistics>)
-      trace_packet(c, batch.packets[i], Mask(false), mask_from_bits<Mask>(covered[i] & ~batch.lanes[i]), FragmentOutcome::discarded, z);
+      trace_packet(c, packet, Mask(false), mask_from_bits<Mask>(lanes & ~keep[i]), FragmentOutcome::discarded, z);
     if (c.draw.kernels.writes_depth) z = depth_value(c.tile.depth_format, clamp(z, Real(c.draw.depth_low), Real(c.draw.depth_high)));
-    test_and_finish(c, batch.packets[i], mask_from_bits<Mask>(batch.lanes[i]), z);
+    test_and_finish(c, packet, mask_from_bits<Mask>(lanes & keep[i]), z);
   }
-  batch.count = 0;
+  pending.count = 0;
 }
 
 // Processes a packet if the shader or the stencil test determines visibility.
@@ -160,12 +176,11 @@ __attribute__((noinline)) void visit_packet_slowly(const Visit& c, int packet, M
   }
   const uint32_t lanes = bits(mask);
   if (lanes == 0) return;
-  VisibilityBatch& batch = c.pending;
-  const auto i = static_cast<std::size_t>(batch.count++);
-  batch.packets[i] = static_cast<uint16_t>(packet);
-  batch.lanes[i] = lanes;
-  batch.depth[i] = z;
-  if (batch.count == kVisibilityBatch) ask_shader(c);
+  PendingPackets& pending = c.pending;
+  const auto i = static_cast<std::size_t>(pending.count++);
+  pending.packets[i] = {static_cast<uint16_t>(packet), static_cast<uint16_t>(lanes)};
+  pending.depth[i] = z;
+  if (pending.count == kPacketBatch) ask_shader(c);
 }
 
 template <class Visit>
@@ -323,7 +338,7 @@ void rasterize(const DrawInTile& d, uint32_t chunk, uint32_t index, CoverageList
   const bool tests = !late && d.tests;
   const bool counts_failures = stencil != nullptr && (stencil->fail != StencilOp::keep || stencil->depth_fail != StencilOp::keep);
   const bool shader_writes_depth = d.asks_shader && d.draw.kernels.writes_depth;
-  VisibilityBatch pending;  // only the count is initialized
+  PendingPackets pending;  // only the count is initialized
   TriangleVisit<Statistics> c{
       .context = d.context,
       .draw = d.draw,

@@ -12,6 +12,7 @@
 
 #include "halfspace/raster/tile/tile.h"
 #include "halfspace/raster/visibility/depth_plane.h"
+#include "halfspace/raster/visibility/packet_batch.h"
 #include "halfspace/raster/visibility/packet_queue.h"
 
 namespace halfspace {
@@ -94,23 +95,5 @@ Mask depth_test(const DepthState& state, const Tile& tile, int packet, Real z, M
 
 /// Writes z to the lanes in mask if depth writes are enabled, and keeps the depth bounds of the block valid.
 void write_depth(const DepthState& state, Tile& tile, int packet, Real z, Mask mask);
-
-/// Maximum number of packets per call of a visibility kernel.
-inline constexpr int kVisibilityBatch = 16;
-
-/// Packets for a shader's visibility function. Each packet shows one triangle.
-struct VisibilityBatch {
-  const PassContext* context;
-  std::array<TriangleId, kVisibilityBatch> ids;
-  int tile_x0, tile_y0;     ///< window coordinates of pixel (0, 0) of the tile's storage
-  SamplePosition position;  ///< position within the pixel at which the shader is evaluated
-  int count = 0;            ///< ≤ kVisibilityBatch
-  std::array<uint16_t, kVisibilityBatch> packets;
-  const SamplePosition* centroids;  ///< as in FragmentBatch
-  /// In: depth of the triangle. Out, if the shader writes depth: the shader's depth. px.z() has the same value as in the fragment function,
-  /// so both functions return the same result.
-  alignas(64) std::array<Real, kVisibilityBatch> depth;
-  std::array<uint32_t, kVisibilityBatch> lanes;  ///< in: covered lanes; out: lanes that are kept
-};
 
 }  // namespace halfspace

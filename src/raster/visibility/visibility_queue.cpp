@@ -2,28 +2,57 @@
 //
 // Visibility of queued draws whose visibility function decides which pixels are drawn, or replaces their depth.
 #include <algorithm>
+#include <bit>
+#include <utility>
 
 #include "halfspace/raster/visibility/depth_bounds.h"
 #include "halfspace/raster/visibility/opaque_writer.h"
+#include "halfspace/raster/visibility/packed_pixels.h"
 
 namespace halfspace {
 
 namespace {
 
-// Tests and writes packet i of a batch.
+// Results of the visibility function. Each array has one element more than a batch can fill, because unpacking reads past the last pixel.
+struct Decisions {
+  std::array<uint16_t, kPacketBatch + 1> keep;
+  alignas(64) std::array<Real, kPacketBatch + 1> depth;  ///< if the shader writes depth
+};
+
+// Tests and writes a packet of which the shader keeps some lanes. z: depth from the triangle, or from the shader if it writes depth.
 template <class Writer>
-void write_decided(const DrawInTile& d, const VisibilityBatch& batch, std::size_t i, Writer& writer) {
+HS_INLINE void write_decided(const DrawInTile& d, TriangleId id, int packet, uint32_t kept, Real z, Writer& writer) {
   const Draw& draw = d.draw;
   const DepthFormat format = d.tile.depth_format;
-  Real z = batch.depth[i];
   if (draw.kernels.writes_depth) z = depth_value(format, clamp(z, Real(draw.depth_low), Real(draw.depth_high)));
-  if (!writer.write_decided(batch.ids[i], batch.packets[i], batch.lanes[i], z) || !writer.writes_depth()) return;
-  const int block = batch.packets[i] / kPacketsPerBlock;
+  if (!writer.write_decided(id, packet, kept, z) || !writer.writes_depth()) return;
+  const int block = packet / kPacketsPerBlock;
   if (draw.kernels.writes_depth) {
     widen_hiz(CompareOp::always, d.tile, block, depth_value(format, draw.depth_low), depth_value(format, draw.depth_high));
   } else {
-    const DepthBounds bounds = depth_bounds(triangle_of(d.context, batch.ids[i]), draw, format);
+    const DepthBounds bounds = depth_bounds(triangle_of(d.context, id), draw, format);
     widen_hiz(writer.compare_op(), d.tile, block, bounds.low, bounds.high);
+  }
+}
+
+// Calls the visibility function for n packets of the queue as they are.
+void decide_as_listed(const DrawInTile& d, const PacketQueue& queue, std::size_t begin, std::size_t n, Decisions& out) {
+  const PacketBatch packets{&d.context, d.tile.x0,           d.tile.y0,           kPixelCenter,        nullptr,
+                            &queue.ids[begin], &queue.packets[begin], static_cast<int>(n), nullptr, nullptr};
+  d.draw.kernels.visibility(d.draw.shader.get(), {packets, out.keep.data(), out.depth.data()});
+}
+
+// Finishes n packets of the queue. result(i, lanes) returns the keep mask and the depth of packet i.
+template <class Writer, class F>
+HS_INLINE void write_batch_decided(const DrawInTile& d, const PacketQueue& queue, std::size_t begin, std::size_t n, Writer& writer, F result) {
+  using Statistics = typename Writer::Statistics;
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto [packet, lanes] = queue.packets[begin + i];
+    const auto [keep, depth] = result(i, lanes);
+    const uint32_t kept = keep & lanes;
+    if constexpr (kTraces<Statistics>)
+      writer.statistics().trace->set_outcome(queue.ids[begin + i], packet, lanes & ~kept, FragmentOutcome::discarded);
+    write_decided(d, queue.ids[begin + i], packet, kept, d.draw.kernels.writes_depth ? depth : queue.depth[begin + i], writer);
   }
 }
 
@@ -32,29 +61,31 @@ void write_decided(const DrawInTile& d, const VisibilityBatch& batch, std::size_
 template <class Statistics>
 void decide_queued(const DrawInTile& d, PacketQueue& queue, Statistics& statistics) {
   OpaqueWriter writer(d, statistics);
-  VisibilityBatch batch;  // only what is used is initialized
-  batch.context = &d.context;
-  batch.tile_x0 = d.tile.x0;
-  batch.tile_y0 = d.tile.y0;
-  batch.position = {kSubPixels / 2, kSubPixels / 2};
-  batch.centroids = nullptr;
-  for (int begin = 0; begin < queue.count; begin += kVisibilityBatch) {
-    batch.count = std::min(kVisibilityBatch, queue.count - begin);
-    for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) {
-      const std::size_t k = static_cast<std::size_t>(begin) + i;
-      batch.packets[i] = queue.packets[k].packet;
-      batch.lanes[i] = queue.packets[k].lanes;
-      batch.ids[i] = queue.ids[k];
-      batch.depth[i] = queue.depth[k];
+  PackedPixels packed;
+  Decisions decisions;
+  const bool is_packed = pays_to_pack(d.draw);
+  for (std::size_t begin = 0, end = static_cast<std::size_t>(queue.count); begin < end;) {
+    const std::span<const PacketMask> rest(&queue.packets[begin], end - begin);
+    std::size_t n = is_packed ? pack(rest, &queue.ids[begin], packed) : 0;
+    if (n != 0) {
+      d.draw.kernels.visibility(d.draw.shader.get(), {packed.batch(d.context, d.tile), decisions.keep.data(), decisions.depth.data()});
+      std::size_t next = 0;
+      write_batch_decided(d, queue, begin, n, writer, [&](std::size_t, uint32_t lanes) {
+        const std::size_t first = next;
+        next += static_cast<std::size_t>(std::popcount(lanes));
+        const Real depth = d.draw.kernels.writes_depth
+                               ? unpack_values(reinterpret_cast<const float*>(decisions.depth.data()), first, lanes)
+                               : Real(0.0f);
+        return std::pair<uint32_t, Real>(unpack_keep(decisions.keep.data(), first, lanes), depth);
+      });
+    } else {
+      n = std::min(std::size_t{kPacketBatch}, rest.size());
+      decide_as_listed(d, queue, begin, n, decisions);
+      write_batch_decided(d, queue, begin, n, writer, [&](std::size_t i, uint32_t) {
+        return std::pair<uint32_t, Real>(decisions.keep[i], d.draw.kernels.writes_depth ? decisions.depth[i] : Real(0.0f));
+      });
     }
-    d.draw.kernels.visibility(d.draw.shader.get(), batch);
-    if constexpr (kTraces<Statistics>) {
-      for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) {
-        const uint32_t listed = queue.packets[static_cast<std::size_t>(begin) + i].lanes;
-        statistics.trace->set_outcome(batch.ids[i], batch.packets[i], listed & ~batch.lanes[i], FragmentOutcome::discarded);
-      }
-    }
-    for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) write_decided(d, batch, i, writer);
+    begin += n;
   }
   queue.count = 0;
 }

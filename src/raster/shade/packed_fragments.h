@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Results of the fragment function for packed pixels.
+#pragma once
+
+#include "halfspace/raster/shade/fragment_batch.h"
+#include "halfspace/raster/visibility/packed_pixels.h"
+
+namespace halfspace {
+
+struct PackedFragments {
+  PackedPixels pixels;
+  FragmentOutput output;  ///< indexed like the pixels
+};
+
+/// Moves the results for packets.size() ≤ kPacketBatch packets back to their lanes. first: number of the first pixel of these packets.
+/// Returns the number of the pixel after the last.
+std::size_t unpack(const ShaderKernels& kernels, const FragmentOutput& packed, std::size_t first, std::span<const PacketMask> packets,
+                   FragmentOutput& out);
+
+}  // namespace halfspace

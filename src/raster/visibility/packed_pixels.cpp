@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "halfspace/raster/visibility/packed_pixels.h"
+
+#include <bit>
+
+#include "halfspace/core/lane_packing.h"
+#include "halfspace/raster/pipeline/pass_context.h"
+
+namespace halfspace {
+
+namespace {
+
+// Returns the number of packets at the start of the list whose pixels fit. Sets `pixels` to the number of their pixels.
+std::size_t packets_that_fit(std::span<const PacketMask> packets, std::size_t& pixels) {
+  pixels = 0;
+  std::size_t n = 0;
+  for (; n < packets.size(); ++n) {
+    const std::size_t sum = pixels + static_cast<std::size_t>(std::popcount(packets[n].lanes));
+    if (sum > PackedPixels::kCapacity) break;
+    pixels = sum;
+  }
+  return n;
+}
+
+}  // namespace
+
+bool pays_to_pack(const Draw& draw) { return !draw.kernels.is_constant && !draws_points(draw.state); }
+
+PacketBatch PackedPixels::batch(const PassContext& context, const Tile& tile) const {
+  return {&context, tile.x0, tile.y0, kPixelCenter, ids.data(), nullptr, packets.data(), packet_count(), nullptr, pixels.data()};
+}
+
+std::size_t pack(std::span<const PacketMask> packets, const TriangleId* ids, PackedPixels& out) {
+  const std::size_t taken = packets_that_fit(packets, out.count);
+  if (static_cast<std::size_t>(out.packet_count()) * 4 > taken * 3) return 0;
+  std::size_t to = 0;
+  for (std::size_t n = 0; n < taken; ++n) {
+    const auto [packet, lanes] = packets[n];
+    const Int pixels = ((lane_y() + packet_y(packet)) << 16) | (lane_x() + packet_x(packet));
+    store(&out.pixels[to], pack_lanes(pixels, lanes));
+    store(&out.ids[to], Int(std::bit_cast<int32_t>(ids[n])));
+    to += static_cast<std::size_t>(std::popcount(lanes));
+  }
+  // The lanes after the last pixel compute with the first pixel and its triangle.
+  store(&out.pixels[to], Int(out.pixels[0]));
+  store(&out.ids[to], Int(std::bit_cast<int32_t>(out.ids[0])));
+  for (std::size_t i = 0; i * kLanes < to; ++i) {
+    const std::size_t rest = to - i * kLanes;
+    out.packets[i] = {static_cast<uint16_t>(i), static_cast<uint16_t>(rest >= kLanes ? kAllBits<Mask> : (1u << rest) - 1)};
+  }
+  return taken;
+}
+
+uint16_t unpack_keep(const uint16_t* packed, std::size_t first, uint32_t lanes) {
+  const uint32_t bits = packed[first / kLanes] | uint32_t{packed[first / kLanes + 1]} << kLanes;
+  return static_cast<uint16_t>(unpack_bits(bits >> first % kLanes, lanes));
+}
+
+Real unpack_values(const float* packed, std::size_t first, uint32_t lanes) { return unpack_lanes(load<Real>(packed + first), lanes); }
+
+}  // namespace halfspace

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Moves the pixels of sparsely covered packets together, so that the shader runs on full packets. A small triangle covers only a part of
+// the pixels of its packets: about half of 8 lanes for triangles of 30 pixels. Values do not depend on the lane in which they are computed,
+// so the image is the same.
+#pragma once
+
+#include <span>
+
+#include "halfspace/raster/visibility/packet_batch.h"
+
+namespace halfspace {
+
+struct Draw;
+
+/// Covered pixels of consecutive packets of one draw with one sample per pixel, in their order.
+struct PackedPixels {
+  static constexpr std::size_t kCapacity = kPacketBatch * kLanes;
+
+  std::size_t count = 0;
+  std::array<PacketMask, kPacketBatch> packets;                 ///< full ones, except for the last
+  alignas(64) std::array<int32_t, kCapacity + kLanes> pixels;  ///< see PacketBatch::pixels
+  alignas(64) std::array<TriangleId, kCapacity + kLanes> ids;  ///< of each pixel
+
+  int packet_count() const { return static_cast<int>((count + kLanes - 1) / kLanes); }
+  /// Returns the packets for a kernel that evaluates the shader at pixel centers.
+  PacketBatch batch(const PassContext& context, const Tile& tile) const;
+};
+
+/// Returns false for draws that are faster without packing: where the shader is constant, and for points, of which a packet can show many, and
+/// whose values can only be merged one by one.
+bool pays_to_pack(const Draw& draw);
+
+/// Packs the pixels of the first packets, as many as there is room for. ids: the triangle of each packet. Returns the number of packets,
+/// or 0 if there would not be considerably fewer packets than before; `out` is then unspecified.
+std::size_t pack(std::span<const PacketMask> packets, const TriangleId* ids, PackedPixels& out);
+
+/// Returns the keep mask of a packet with the given lanes, from those of packed ones. first: number of the first pixel of the packet. Reads
+/// one element after the last packed packet.
+uint16_t unpack_keep(const uint16_t* packed, std::size_t first, uint32_t lanes);
+
+/// The same for floats, such as depths. Reads W of them.
+Real unpack_values(const float* packed, std::size_t first, uint32_t lanes);
+
+}  // namespace halfspace

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Packets for the kernels that call a shader's fragment or visibility function.
+#pragma once
+
+#include "halfspace/raster/tile/tile.h"
+
+namespace halfspace {
+
+struct PassContext;
+
+/// Maximum number of packets per call of a kernel, unless stated otherwise. Even, because packets are shaded in pairs.
+inline constexpr int kPacketBatch = 16;
+
+/// Packets of one draw.
+struct PacketBatch {
+  const PassContext* context;
+  int tile_x0, tile_y0;          ///< window coordinates of pixel (0, 0) of the tile's storage
+  SamplePosition position;       ///< position within the pixel at which the shader is evaluated
+  const TriangleId* ids;         ///< triangle of each pixel of the tile; null if each packet shows only one, see packet_ids
+  const TriangleId* packet_ids;  ///< triangle of each packet; only used if ids is null
+  const PacketMask* packets;
+  int count;                        ///< ≤ kPacketBatch, unless FragmentBatch::codes is set
+  const SamplePosition* centroids;  ///< positions of centroid varyings, W for each packet; null if the same as position
+  /// If not null, the position of each pixel in the tile, (y << 16) | x, W for each packet; see PackedPixels. `ids` is then indexed in the
+  /// same order, and packet i is number i.
+  const int32_t* pixels;
+};
+
+/// Packets for a shader's visibility function.
+struct VisibilityBatch : PacketBatch {
+  uint16_t* keep;  ///< receives the lanes that the shader keeps, one bit per lane, for each packet
+  /// Receives the depth, if the shader writes it. px.z() has the same value as in the fragment function, so both functions return the same.
+  Real* depth;
+};
+
+}  // namespace halfspace

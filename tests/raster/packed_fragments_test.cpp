@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "halfspace/raster/shade/packed_fragments.h"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <memory>
+#include <random>
+#include <vector>
+
+#include "halfspace/raster/tile/tile.h"
+
+namespace halfspace {
+namespace {
+
+struct Packets {
+  std::vector<PacketMask> packets;
+  std::vector<TriangleId> ids;
+};
+
+// Returns packets that cover about an eighth of their lanes, at least one.
+Packets sparse_packets(std::mt19937& random, std::size_t count) {
+  Packets p;
+  for (std::size_t i = 0; i < count; ++i) {
+    const uint32_t lanes = (random() & random() & random() & kAllBits<Mask>) | 1u << random() % kLanes;
+    p.packets.push_back({static_cast<uint16_t>(random() % kPackets), static_cast<uint16_t>(lanes)});
+    p.ids.push_back(static_cast<TriangleId>(random() >> 1));
+  }
+  return p;
+}
+
+int32_t position(const PacketMask& packet, int lane_number) {
+  return (packet_y(packet.packet) + lane(lane_y(), lane_number)) << 16 | (packet_x(packet.packet) + lane(lane_x(), lane_number));
+}
+
+TEST(PackedFragments, KeepTheOrderPixelsAndTrianglesOfPackets) {
+  if (kLanes == 1) GTEST_SKIP() << "a packet of one lane is always full";
+  std::mt19937 random(1);
+  const auto packed = std::make_unique<PackedFragments>();
+  for (int round = 0; round < 100; ++round) {
+    const Packets p = sparse_packets(random, 8 + random() % 90);
+    const std::size_t taken = pack(p.packets, p.ids.data(), *packed);
+    ASSERT_NE(taken, 0u);
+    std::size_t n = 0;
+    for (std::size_t i = 0; i < taken; ++i) {
+      for (uint32_t rest = p.packets[i].lanes; rest != 0; rest &= rest - 1, ++n) {
+        ASSERT_EQ(packed->pixels[n], position(p.packets[i], std::countr_zero(rest)));
+        ASSERT_EQ(packed->ids[n], p.ids[i]);
+      }
+    }
+    ASSERT_EQ(packed->count, n);
+    const bool has_next = taken < p.packets.size();
+    ASSERT_TRUE(!has_next || n + static_cast<std::size_t>(std::popcount(p.packets[taken].lanes)) > PackedFragments::kCapacity);
+    std::size_t lanes = 0;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(packed->packet_count()); ++i) {
+      ASSERT_EQ(packed->packets[i].packet, i);
+      lanes += static_cast<std::size_t>(std::popcount(packed->packets[i].lanes));
+    }
+    ASSERT_EQ(lanes, n);
+  }
+}
+
+TEST(PackedFragments, ReturnResultsToTheirLanes) {
+  if (kLanes == 1) GTEST_SKIP() << "a packet of one lane is always full";
+  std::mt19937 random(2);
+  const auto packed = std::make_unique<PackedFragments>();
+  const auto out = std::make_unique<FragmentOutput>();
+  ShaderKernels kernels;
+  kernels.color_count = 2;
+  kernels.discards = kernels.writes_depth = true;
+  const Packets p = sparse_packets(random, 60);
+  const std::size_t taken = pack(p.packets, p.ids.data(), *packed);
+  ASSERT_NE(taken, 0u);
+  // The result of fragment n: component c of color k is n + 1000 c + 10000 k, the depth is n, and every third is kept.
+  packed->output.keep.fill(0);
+  for (std::size_t n = 0; n < packed->count; ++n) {
+    for (std::size_t k = 0; k < 2; ++k) {
+      for (std::size_t c = 0; c < 4; ++c) packed->output.color_plane(k, c)[n] = static_cast<float>(n + 1000 * c + 10000 * k);
+    }
+    set_lane(packed->output.depth[n / kLanes], static_cast<int>(n % kLanes), static_cast<float>(n));
+    if (n % 3 == 0) packed->output.keep[n / kLanes] = static_cast<uint16_t>(packed->output.keep[n / kLanes] | 1u << n % kLanes);
+  }
+  std::size_t n = 0;
+  for (std::size_t begin = 0, first = 0; begin < taken; begin += kFragmentBatch) {
+    const auto some = std::span(p.packets).subspan(begin, std::min(std::size_t{kFragmentBatch}, taken - begin));
+    first = unpack(kernels, *packed, first, some, *out);
+    for (std::size_t i = 0; i < some.size(); ++i) {
+      for (uint32_t rest = some[i].lanes; rest != 0; rest &= rest - 1, ++n) {
+        const int at = std::countr_zero(rest);
+        for (std::size_t k = 0; k < 2; ++k) {
+          for (std::size_t c = 0; c < 4; ++c)
+            ASSERT_EQ(lane(out->packet_color(k, i)[c], at), static_cast<float>(n + 1000 * c + 10000 * k));
+        }
+        ASSERT_EQ(lane(out->depth[i], at), static_cast<float>(n));
+        ASSERT_EQ((out->keep[i] >> at & 1) != 0, n % 3 == 0);
+      }
+    }
+    ASSERT_EQ(first, n);
+  }
+}
+
+TEST(PackedFragments, FullPacketsAreNotMoved) {
+  const std::vector<PacketMask> full(8, PacketMask{0, static_cast<uint16_t>(kAllBits<Mask>)});
+  const std::vector<TriangleId> ids(8, 1);
+  EXPECT_EQ(pack(full, ids.data(), *std::make_unique<PackedFragments>()), 0u);
+}
+
+}  // namespace
+}  // namespace halfspace
