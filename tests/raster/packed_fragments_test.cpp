@@ -33,10 +33,10 @@ int32_t position(const PacketMask& packet, int lane_number) {
   return (packet_y(packet.packet) + lane(lane_y(), lane_number)) << 16 | (packet_x(packet.packet) + lane(lane_x(), lane_number));
 }
 
-TEST(PackedFragments, KeepTheOrderPixelsAndTrianglesOfPackets) {
+TEST(PackedPixels, KeepTheOrderPixelsAndTrianglesOfPackets) {
   if (kLanes == 1) GTEST_SKIP() << "a packet of one lane is always full";
   std::mt19937 random(1);
-  const auto packed = std::make_unique<PackedFragments>();
+  const auto packed = std::make_unique<PackedPixels>();
   for (int round = 0; round < 100; ++round) {
     const Packets p = sparse_packets(random, 8 + random() % 90);
     const std::size_t taken = pack(p.packets, p.ids.data(), *packed);
@@ -50,7 +50,7 @@ TEST(PackedFragments, KeepTheOrderPixelsAndTrianglesOfPackets) {
     }
     ASSERT_EQ(packed->count, n);
     const bool has_next = taken < p.packets.size();
-    ASSERT_TRUE(!has_next || n + static_cast<std::size_t>(std::popcount(p.packets[taken].lanes)) > PackedFragments::kCapacity);
+    ASSERT_TRUE(!has_next || n + static_cast<std::size_t>(std::popcount(p.packets[taken].lanes)) > PackedPixels::kCapacity);
     std::size_t lanes = 0;
     for (std::size_t i = 0; i < static_cast<std::size_t>(packed->packet_count()); ++i) {
       ASSERT_EQ(packed->packets[i].packet, i);
@@ -69,11 +69,11 @@ TEST(PackedFragments, ReturnResultsToTheirLanes) {
   kernels.color_count = 2;
   kernels.discards = kernels.writes_depth = true;
   const Packets p = sparse_packets(random, 60);
-  const std::size_t taken = pack(p.packets, p.ids.data(), *packed);
+  const std::size_t taken = pack(p.packets, p.ids.data(), packed->pixels);
   ASSERT_NE(taken, 0u);
   // The result of fragment n: component c of color k is n + 1000 c + 10000 k, the depth is n, and every third is kept.
   packed->output.keep.fill(0);
-  for (std::size_t n = 0; n < packed->count; ++n) {
+  for (std::size_t n = 0; n < packed->pixels.count; ++n) {
     for (std::size_t k = 0; k < 2; ++k) {
       for (std::size_t c = 0; c < 4; ++c) packed->output.color_plane(k, c)[n] = static_cast<float>(n + 1000 * c + 10000 * k);
     }
@@ -83,7 +83,7 @@ TEST(PackedFragments, ReturnResultsToTheirLanes) {
   std::size_t n = 0;
   for (std::size_t begin = 0, first = 0; begin < taken; begin += kFragmentBatch) {
     const auto some = std::span(p.packets).subspan(begin, std::min(std::size_t{kFragmentBatch}, taken - begin));
-    first = unpack(kernels, *packed, first, some, *out);
+    first = unpack(kernels, packed->output, first, some, *out);
     for (std::size_t i = 0; i < some.size(); ++i) {
       for (uint32_t rest = some[i].lanes; rest != 0; rest &= rest - 1, ++n) {
         const int at = std::countr_zero(rest);
@@ -99,10 +99,10 @@ TEST(PackedFragments, ReturnResultsToTheirLanes) {
   }
 }
 
-TEST(PackedFragments, FullPacketsAreNotMoved) {
+TEST(PackedPixels, FullPacketsAreNotMoved) {
   const std::vector<PacketMask> full(8, PacketMask{0, static_cast<uint16_t>(kAllBits<Mask>)});
   const std::vector<TriangleId> ids(8, 1);
-  EXPECT_EQ(pack(full, ids.data(), *std::make_unique<PackedFragments>()), 0u);
+  EXPECT_EQ(pack(full, ids.data(), *std::make_unique<PackedPixels>()), 0u);
 }
 
 }  // namespace
