@@ -9,7 +9,7 @@ namespace halfspace {
 template <class Statistics>
 bool FullTileOccluder::test_or_write(const DrawInTile& d, const Triangle& t, TriangleId id, Statistics& statistics) {
   const bool replaces_depth = d.tile.depth_format == DepthFormat::none || (d.tests && d.draw.state.depth.write);
-  const bool covers = may_cover(t) && d.is_opaque && replaces_depth && !d.needs_bounds_test && covers_tile(d, t);
+  const bool covers = may_cover(t) && d.is_opaque && d.tile.samples == 1 && replaces_depth && !d.needs_bounds_test && covers_tile(d, t);
   if (covers || (pending_ && d.is_opaque)) {
     const DepthBounds depth = depth_bounds(t, d.draw, d.tile.depth_format);
     const CompareOp op = d.draw.state.depth.compare;

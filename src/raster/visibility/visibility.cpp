@@ -300,7 +300,7 @@ DrawInTile::DrawInTile(const PassContext& f, const Draw& d, VisibilityMode m, Ti
       tests(tests_depth(d.state.depth, t)),
       asks_shader((m == VisibilityMode::deferred || m == VisibilityMode::depth_only) && d.kernels.visibility != nullptr),
       fetches_vertices(m == VisibilityMode::deferred && fetches_vertices_ahead(d)),
-      is_opaque((m == VisibilityMode::deferred || m == VisibilityMode::depth_only) && t.samples == 1 && (d.sample_mask & 1) != 0 &&
+      is_opaque((m == VisibilityMode::deferred || m == VisibilityMode::depth_only) && (t.samples > 1 || (d.sample_mask & 1) != 0) &&
                 !asks_shader && !(d.state.stencil && t.has_stencil)),
       is_queued(!is_opaque && t.samples == 1 && (d.sample_mask & 1) != 0 && !(d.state.stencil && t.has_stencil)) {}
 

@@ -51,7 +51,7 @@ struct DrawInTile {
   bool tests;              ///< depth is tested in this stage, unless the stencil test requires that it is tested later
   bool asks_shader;        ///< the shader's visibility function must be called
   bool fetches_vertices;   ///< prefetch vertices: they belong to points, or are shared by several triangles
-  bool is_opaque;          ///< one sample per pixel, and only coverage and depth determine visibility
+  bool is_opaque;          ///< only coverage and depth determine visibility
   bool is_queued;          ///< one sample per pixel and no stencil test; packets are listed in a PacketQueue until the shader runs
 };
 
@@ -65,6 +65,9 @@ void rasterize(const DrawInTile& d, uint32_t chunk, uint32_t index, CoverageList
 /// The same for a triangle of an opaque draw (visibility_blocks.cpp).
 template <class Statistics>
 void rasterize_opaque(const DrawInTile& d, const Triangle& t, TriangleId id, Statistics& statistics);
+/// The same for one sample of each pixel.
+template <class Statistics>
+void rasterize_opaque_sample(const DrawInTile& d, const Triangle& t, TriangleId id, int sample, Statistics& statistics);
 /// The same for a triangle of a queued draw, which is added to the queue.
 template <class Statistics>
 void rasterize_queued(const DrawInTile& d, const Triangle& t, TriangleId id, PacketQueue& queue, Statistics& statistics);

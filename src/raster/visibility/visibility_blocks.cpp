@@ -128,6 +128,14 @@ void write_full_tile(const DrawInTile& d, const Triangle& t, TriangleId id, cons
 }
 
 template <class Statistics>
+void rasterize_opaque_sample(const DrawInTile& d, const Triangle& t, TriangleId id, int sample, Statistics& statistics) {
+  OpaqueWriter writer(d, statistics);
+  rasterize_triangle(d, t, id, sample, writer);
+}
+template void rasterize_opaque_sample(const DrawInTile&, const Triangle&, TriangleId, int, PassStatistics&);
+template void rasterize_opaque_sample(const DrawInTile&, const Triangle&, TriangleId, int, TracedStatistics&);
+
+template <class Statistics>
 void rasterize_opaque(const DrawInTile& d, const Triangle& t, TriangleId id, Statistics& statistics) {
   OpaqueWriter writer(d, statistics);
   for (int s = 0; s < d.tile.samples; ++s) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Visibility of small triangles in opaque draws. Up to W triangles of a bin are prepared at once, one per lane, in int32. Then they are
-// written one by one, in submission order.
+// written one by one, in submission order. This is done for each sample of the pixels, because each has its own depth.
 #include <algorithm>
 #include <bit>
 
@@ -22,7 +22,7 @@ constexpr int kMaxCovered = std::popcount(kCoveredBits);
 template <class T>
 using PerTriangle = std::array<T, static_cast<std::size_t>(kLanes)>;
 
-// Edge function of a triangle: its value at the first sample of the tile, and its steps from pixel to pixel.
+// Edge function of a triangle: its value at the first sample of the grid, and its steps from pixel to pixel.
 struct SmallEdge {
   int32_t e, step_x, step_y;
 };
@@ -37,11 +37,11 @@ struct SmallDepth {
   }
 };
 
-// Data for writing up to W small triangles, computed for all of them at once.
+// Data for writing one sample of up to W small triangles, computed for all of them at once.
 class SmallTriangles {
  public:
   // indices: 1 to W triangles of the chunk.
-  HS_INLINE SmallTriangles(const DrawInTile& d, const Chunk& chunk, std::span<const uint16_t> indices) {
+  HS_INLINE SmallTriangles(const DrawInTile& d, const SampleGrid& grid, const Chunk& chunk, std::span<const uint16_t> indices) {
     const auto triangle = [&](int k) { return &chunk.triangles[indices[std::min(static_cast<std::size_t>(k), indices.size() - 1)]]; };
     static_assert(offsetof(Triangle, z_edge1) == offsetof(Triangle, z0) + sizeof(float) &&
                   offsetof(Triangle, z_max) == offsetof(Triangle, z0) + 3 * sizeof(float));
@@ -51,19 +51,20 @@ class SmallTriangles {
     const Real low(d.draw.depth_low), high = clamp(as_real(depths[3]), low, Real(d.draw.depth_high));
     const SmallDepth depth{as_real(depths[0]), as_real(depths[1]), as_real(depths[2]), low, high};
 
-    const PixelBox<Int> box = pixel_box(x, y, SampleSpan{}, SampleSpan{});
+    const SamplePosition at = grid.position;
+    const PixelBox<Int> box = pixel_box(x, y, SampleSpan{at.x, at.x}, SampleSpan{at.y, at.y});
     const Int covered = (flags >> static_cast<int>(kCoveredShift)) & static_cast<int32_t>(kCoveredBits);
     known_ = bits(covered != Int(0));
     wide_ = bits(max_of(x) - min_of(x) > Int(kMaxSpan * kSubPixels) || max_of(y) - min_of(y) > Int(kMaxSpan * kSubPixels)) & ~known_;
     if (known_ != 0) find_pixels(d, x, y, intersect(box, d.draw.bounds), covered, depth);
     if ((known_ | wide_) == kAllBits<Mask>) return;
     const PixelBox<Int> seen = intersect(box, d.bounds);
-    store(rect_x0_.data(), seen.x0 - d.tile.x0);
-    store(rect_y0_.data(), seen.y0 - d.tile.y0);
-    store(rect_x1_.data(), seen.x1 - d.tile.x0);
-    store(rect_y1_.data(), seen.y1 - d.tile.y0);
-    // Coordinates are relative to the first sample of the tile. They fit in 16 bits, because the triangles are small and touch the tile.
-    const Int x_first(d.tile.x0 * kSubPixels + kSubPixels / 2), y_first(d.tile.y0 * kSubPixels + kSubPixels / 2);
+    store(rect_x0_.data(), seen.x0 - grid.x0);
+    store(rect_y0_.data(), seen.y0 - grid.y0);
+    store(rect_x1_.data(), seen.x1 - grid.x0);
+    store(rect_y1_.data(), seen.y1 - grid.y0);
+    // Coordinates are relative to the first sample of the grid. They fit in 16 bits, because the triangles are small and touch the tile.
+    const Int x_first(grid.x_sub()), y_first(grid.y_sub());
     for (std::size_t i = 0; i < 3; ++i) {
       const std::size_t a = (i + 1) % 3, b = (i + 2) % 3;
       const Int ex = x[b] - x[a], ey = y[b] - y[a];
@@ -160,7 +161,7 @@ class TrianglePackets {
   struct Covered {
     int packet;
     uint32_t lanes;
-    int32_t e1, e2;  // offsets of edges 1 and 2 from their values in the first packet of the tile
+    int32_t e1, e2;  // offsets of edges 1 and 2 from their values in the first packet of the grid
   };
 
   void list_each(int column0, int column1, int row0, int row1) {
@@ -227,7 +228,7 @@ class TrianglePackets {
   TileRect rect_;
   std::array<SmallEdge, 3> edge_;
   int32_t bias1_, bias2_;
-  std::array<Int, 3> first_;  // edge values in the first packet of the tile
+  std::array<Int, 3> first_;  // edge values in the first packet of the grid
   SmallDepth depth_;
   DepthBounds bounds_;
   std::size_t listed_ = 0;
@@ -253,10 +254,13 @@ HS_INLINE void write_triangle(const DrawInTile& d, const SmallTriangles& triangl
 
 template <class Statistics>
 void rasterize_small(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, Statistics& statistics) {
-  const SmallTriangles triangles(d, d.context.chunks[chunk], indices);
   OpaqueWriter writer(d, statistics);
-  const auto large = [&](const Triangle& t, TriangleId id) { rasterize_opaque(d, t, id, statistics); };
-  for (std::size_t k = 0; k < indices.size(); ++k) write_triangle(d, triangles, k, chunk, indices[k], writer, large);
+  for (int s = 0; s < d.tile.samples; ++s) {
+    if ((d.draw.sample_mask >> s & 1) == 0) continue;
+    const SmallTriangles triangles(d, SampleGrid(d.tile, s), d.context.chunks[chunk], indices);
+    const auto large = [&](const Triangle& t, TriangleId id) { rasterize_opaque_sample(d, t, id, s, statistics); };
+    for (std::size_t k = 0; k < indices.size(); ++k) write_triangle(d, triangles, k, chunk, indices[k], writer, large);
+  }
 }
 
 template void rasterize_small(const DrawInTile&, uint32_t, std::span<const uint16_t>, PassStatistics&);
@@ -265,7 +269,7 @@ template void rasterize_small(const DrawInTile&, uint32_t, std::span<const uint1
 template <class Statistics>
 std::size_t rasterize_small_queued(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, PacketQueue& queue,
                                    Statistics& statistics) {
-  const SmallTriangles triangles(d, d.context.chunks[chunk], indices);
+  const SmallTriangles triangles(d, SampleGrid(d.tile, 0), d.context.chunks[chunk], indices);
   ListWriter writer(d, queue, statistics);
   const auto large = [&](const Triangle& t, TriangleId id) { rasterize_queued(d, t, id, queue, statistics); };
   std::size_t k = 0;
