@@ -144,62 +144,79 @@ std::size_t first_pixel(const Tile& tile, int packet, int s) {
   return static_cast<std::size_t>(packet + packet_shift(sample_plane(tile.samples, s, tile.size))) * kLanes;
 }
 
-// Returns true if all samples of every pixel of a packet show the same triangle, or none, and all triangles are shaded per pixel.
-bool agree(const PassContext& context, const Tile& tile, int packet) {
-  const TriangleId* ids = &tile.visibility[first_pixel(tile, packet, 0)];
-  const Int first = load<Int>(ids);
-  Mask same(true);
-  for (int s = 1; s < tile.samples; ++s) same = same & (load<Int>(&tile.visibility[first_pixel(tile, packet, s)]) == first);
-  if (!all(same)) return false;
-  for (uint32_t rest = bits(first != Int(std::bit_cast<int32_t>(kNoTriangle))); rest != 0;) {
+// Returns the lanes whose triangle is shaded per pixel. lanes: those that show a triangle.
+uint32_t shaded_per_pixel(const PassContext& context, const TriangleId* ids, uint32_t lanes) {
+  const Int packet_ids = load<Int>(ids);
+  uint32_t result = 0;
+  for (uint32_t rest = lanes; rest != 0;) {
     const TriangleId id = ids[std::countr_zero(rest)];
-    if (draw_of(context, id).shades_samples) return false;
-    rest &= ~bits(first == Int(std::bit_cast<int32_t>(id)));
+    const uint32_t same = bits(packet_ids == Int(std::bit_cast<int32_t>(id)));
+    if (!draw_of(context, id).shades_samples) result |= same & lanes;
+    rest &= ~same;
   }
-  return true;
+  return result;
 }
 
-// Selects one unshaded triangle of each pixel of a packet, as next_layer() does. Returns false if there is none left.
-bool next_layer_of_packet(const PassContext& context, const Tile& tile, int packet, std::array<uint8_t, kMaxTilePixels>& taken,
-                          std::array<TriangleId, kMaxTilePixels>& layer) {
-  bool found = false;
-  for (int lane = 0; lane < kLanes; ++lane) {
-    const auto pixel = static_cast<std::size_t>(packet * kLanes + lane);
-    layer[pixel] = kNoTriangle;
+constexpr int32_t kNoneInLane = std::bit_cast<int32_t>(kNoTriangle);
+
+// Selects one triangle of each pixel at a time from the samples of a tile.
+struct LayerSelection {
+  const PassContext& context;
+  const Tile& tile;
+  bool may_shade_samples;  // false: no draw of the pass runs its fragment function per sample
+  DeferredShading& memory;
+
+  // Returns true if all samples of every pixel of a packet show the same triangle, or none, and all triangles are shaded per pixel.
+  bool agree(int packet) const {
+    const TriangleId* ids = &tile.visibility[first_pixel(tile, packet, 0)];
+    const Int first = load<Int>(ids);
+    Mask same(true);
+    for (int s = 1; s < tile.samples; ++s) same = same & (load<Int>(&tile.visibility[first_pixel(tile, packet, s)]) == first);
+    if (!all(same)) return false;
+    const uint32_t shown = bits(first != Int(kNoneInLane));
+    return !may_shade_samples || shaded_per_pixel(context, ids, shown) == shown;
+  }
+
+  // Selects one unshaded triangle of each pixel of a packet, as next() does. Returns false if there is none left.
+  bool next_of_packet(int packet) const {
+    Int layer(kNoneInLane);
     for (int s = 0; s < tile.samples; ++s) {
-      if ((taken[pixel] >> s & 1) != 0) continue;
-      const TriangleId id = tile.visibility[first_pixel(tile, packet, s) + static_cast<std::size_t>(lane)];
-      const bool waits = id != kNoTriangle && (layer[pixel] == kNoTriangle ? !draw_of(context, id).shades_samples : id == layer[pixel]);
-      if (waits) layer[pixel] = id;
-      if (waits || id == kNoTriangle) taken[pixel] = static_cast<uint8_t>(taken[pixel] | 1 << s);
+      uint16_t& taken = memory.taken[static_cast<std::size_t>(packet)][static_cast<std::size_t>(s)];
+      const TriangleId* at = &tile.visibility[first_pixel(tile, packet, s)];
+      const Int ids = load<Int>(at);
+      const Mask open = !mask_from_bits<Mask>(taken), is_empty = ids == Int(kNoneInLane);
+      Mask may_start = layer == Int(kNoneInLane);
+      if (may_shade_samples) may_start = may_start & mask_from_bits<Mask>(shaded_per_pixel(context, at, bits(open & !is_empty)));
+      const Mask selected = open & !is_empty & (may_start | (ids == layer));
+      layer = select(selected, ids, layer);
+      taken = static_cast<uint16_t>(taken | bits(selected | (open & is_empty)));
     }
-    found |= layer[pixel] != kNoTriangle;
+    store(&memory.layer[first_pixel(tile, packet, 0)], layer);
+    return any(layer != Int(kNoneInLane));
   }
-  return found;
-}
 
-// Selects one unshaded triangle of each pixel, in the order of its samples. Returns false if there is none left. taken: bit mask of the
-// samples whose triangle was selected before. is_first: nothing was selected before.
-HS_INLINE bool next_layer(const PassContext& context, const Tile& tile, bool is_first, std::array<uint8_t, kMaxTilePixels>& taken,
-                          std::array<TriangleId, kMaxTilePixels>& layer) {
-  const auto all_taken = static_cast<uint8_t>((1 << tile.samples) - 1);
-  bool found = false;
-  for (int packet = 0; packet < kPackets; ++packet) {
-    if (!is_in_cell(tile, packet)) continue;
-    const std::size_t first = first_pixel(tile, packet, 0);
-    if (is_first && agree(context, tile, packet)) {
-      const Int ids = load<Int>(&tile.visibility[first]);
-      store(&layer[first], ids);
-      std::fill_n(&taken[first], kLanes, all_taken);
-      found |= any(ids != Int(std::bit_cast<int32_t>(kNoTriangle)));
-    } else if (std::all_of(&taken[first], &taken[first] + kLanes, [&](uint8_t t) { return t == all_taken; })) {
-      std::fill_n(&layer[first], kLanes, kNoTriangle);
-    } else {
-      found |= next_layer_of_packet(context, tile, packet, taken, layer);
+  // Selects one unshaded triangle of each pixel, in the order of its samples. Returns false if there is none left. is_first: nothing was
+  // selected before.
+  bool next(bool is_first) const {
+    bool found = false;
+    for (int packet = 0; packet < kPackets; ++packet) {
+      if (!is_in_cell(tile, packet)) continue;
+      const std::span taken(memory.taken[static_cast<std::size_t>(packet)].data(), static_cast<std::size_t>(tile.samples));
+      const std::size_t first = first_pixel(tile, packet, 0);
+      if (is_first && agree(packet)) {
+        const Int ids = load<Int>(&tile.visibility[first]);
+        store(&memory.layer[first], ids);
+        std::ranges::fill(taken, static_cast<uint16_t>(kAllBits<Mask>));
+        found |= any(ids != Int(kNoneInLane));
+      } else if (std::ranges::all_of(taken, [](uint16_t lanes) { return lanes == kAllBits<Mask>; })) {
+        std::fill_n(&memory.layer[first], kLanes, kNoTriangle);
+      } else {
+        found |= next_of_packet(packet);
+      }
     }
+    return found;
   }
-  return found;
-}
+};
 
 // Returns false if no draw of the pass runs its fragment function per sample. A long list of draws is not searched for each tile.
 bool may_shade_samples(const PassContext& context) {
@@ -209,13 +226,14 @@ bool may_shade_samples(const PassContext& context) {
 
 template <class Statistics>
 void shade_deferred_samples(const PassContext& context, Tile& tile, DeferredShading& memory, Statistics& statistics) {
-  for (int s = 0; s < tile.samples && may_shade_samples(context); ++s) {
+  const LayerSelection layers{context, tile, may_shade_samples(context), memory};
+  for (int s = 0; s < tile.samples && layers.may_shade_samples; ++s) {
     run_job(context, tile,
             {tile.visibility.data(), sample_plane(tile.samples, s, tile.size), sample_position(tile.samples, s), Share::per_sample}, memory,
             statistics);
   }
-  memory.taken.fill(0);
-  for (bool is_first = true; next_layer(context, tile, is_first, memory.taken, memory.layer); is_first = false) {
+  memory.taken.fill({});
+  for (bool is_first = true; layers.next(is_first); is_first = false) {
     run_job(context, tile, {memory.layer.data(), {0, 0}, kPixelCenter, Share::per_pixel}, memory, statistics);
   }
 }

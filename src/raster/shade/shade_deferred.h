@@ -19,7 +19,8 @@ struct DeferredShading {
   std::array<ShadingWork, kMaxTilePixels> work;
   std::array<PacketMask, kMaxTilePixels> packets;  ///< the packets of `work`
   std::array<TriangleId, kMaxTilePixels> layer;    ///< one triangle of each multisampled pixel
-  std::array<uint8_t, kMaxTilePixels> taken;       ///< bit mask of each pixel's samples that have been in a layer
+  /// Lanes of the samples of each packet whose triangle has been in a layer, or that show none.
+  std::array<std::array<uint16_t, kMaxSamples>, kPackets> taken;
 };
 
 /// Shades all pixels of the tile that have a visible triangle but no color yet, and writes their colors. Statistics: see
