@@ -115,11 +115,13 @@ class Texture2D {
     return format_ <= TexelFormat::srgb8a8 && common(sampler.wrap_s) && common(sampler.wrap_t) && sampler.mag != Filter::nearest &&
            sampler.min != Filter::nearest;
   }
-  // Implementations of sample and sample_level for every format and sampler, in texture_lookup.cpp, for all Number types.
+  // Implementations of sample and sample_level for every format and sampler, in texture_lookup.cpp, for all Number types. They are pure, so
+  // that a call does not keep the compiler from dropping unused values of the shader.
   template <class R>
-  vec4<R> sample_any(const Sampler& sampler, const vec2<R>& uv, const vec2<R>& duv_dx, const vec2<R>& duv_dy) const;
+  __attribute__((pure)) vec4<R> sample_any(const Sampler& sampler, const vec2<R>& uv, const vec2<R>& duv_dx,
+                                           const vec2<R>& duv_dy) const;
   template <class R>
-  vec4<R> sample_levels_any(const Sampler& sampler, const vec2<R>& uv, const LevelChoice<R>& levels) const;
+  __attribute__((pure)) vec4<R> sample_levels_any(const Sampler& sampler, const vec2<R>& uv, const LevelChoice<R>& levels) const;
   // A lookup for any sampler, for one format (texels.h).
   template <class R, class Texels>
   struct AnyLookup;

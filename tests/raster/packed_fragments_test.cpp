@@ -81,8 +81,8 @@ TEST(PackedFragments, ReturnResultsToTheirLanes) {
     if (n % 3 == 0) packed->output.keep[n / kLanes] = static_cast<uint16_t>(packed->output.keep[n / kLanes] | 1u << n % kLanes);
   }
   std::size_t n = 0;
-  for (std::size_t begin = 0, first = 0; begin < taken; begin += kFragmentBatch) {
-    const auto some = std::span(p.packets).subspan(begin, std::min(std::size_t{kFragmentBatch}, taken - begin));
+  for (std::size_t begin = 0, first = 0; begin < taken; begin += kPacketBatch) {
+    const auto some = std::span(p.packets).subspan(begin, std::min(std::size_t{kPacketBatch}, taken - begin));
     first = unpack(kernels, packed->output, first, some, *out);
     for (std::size_t i = 0; i < some.size(); ++i) {
       for (uint32_t rest = some[i].lanes; rest != 0; rest &= rest - 1, ++n) {

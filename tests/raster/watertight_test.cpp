@@ -278,12 +278,12 @@ TEST(Watertight, DistantEdgesThroughPixelCentersAreWatertight) {
 TEST(Watertight, AxisAlignedAndDiagonalEdgesAtLargeCoordinatesAreWatertight) {
   Random r(6);
   WatertightCheck check;
-  constexpr int kWidth = 16384, kHeight = 16;
+  constexpr int kLargestWidth = 16384, kFewRows = 16;
   for (int i = 0; i < effort(24); ++i) {
     FixedMesh m;
     // Rows and columns pass through pixel centers. A 45° diagonal through pixel centers splits each cell.
     const int step = 4 << (i % 3);
-    const int columns = kWidth / step + 2, rows = kHeight / step + 3;
+    const int columns = kLargestWidth / step + 2, rows = kFewRows / step + 3;
     for (int y = 0; y < rows; ++y) {
       for (int x = 0; x < columns; ++x) m.points.push_back(on_center((x - 1) * step, (y - 1) * step));
     }
@@ -299,7 +299,7 @@ TEST(Watertight, AxisAlignedAndDiagonalEdgesAtLargeCoordinatesAreWatertight) {
     }
     m.outline = {m.points[0], m.points[static_cast<std::size_t>(columns - 1)], m.points.back(),
                  m.points[m.points.size() - static_cast<std::size_t>(columns)]};
-    check.check(m, kWidth, kHeight, i);
+    check.check(m, kLargestWidth, kFewRows, i);
   }
   check.report();
 }

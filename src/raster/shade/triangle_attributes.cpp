@@ -93,7 +93,7 @@ void find_triangle(const PassContext& context, TriangleId id, TriangleSource& s)
   }
 }
 
-Real packet_depth(Real x, Real y, const PacketTriangleIds& packet) {
+Real packet_depth(Real x, Real y, const PacketTriangleIds& packet) noexcept {
   const Real x_sub = x * Real(kSubPixels), y_sub = y * Real(kSubPixels);
   Real z(0.0f);
   for (uint32_t rest = packet.lanes; rest != 0;) {

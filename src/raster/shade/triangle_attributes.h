@@ -43,7 +43,7 @@ struct PacketTriangleIds {
 };
 /// Returns the depth of a packet's pixels. x and y are window coordinates in pixels. The depth differs from the value used in the depth
 /// test by at most one ulp. The attribute lets the compiler drop calls whose result a shader does not use.
-__attribute__((pure)) Real packet_depth(Real x, Real y, const PacketTriangleIds& ids);
+__attribute__((pure)) Real packet_depth(Real x, Real y, const PacketTriangleIds& ids) noexcept;
 
 namespace detail {
 
