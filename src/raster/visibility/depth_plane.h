@@ -46,21 +46,26 @@ class DepthPlane {
   // x, y: position of the packet in the tile's storage; edges: BlockEdges of the triangle.
   template <class E>
   HS_INLINE Real at(const E& edges, int x, int y) const {
-    Real w1, w2;
     if constexpr (small) {
-      w1 = to_real<Real>(edges.values(1, x, y) + bias1_);
-      w2 = to_real<Real>(edges.values(2, x, y) + bias2_);
+      return from_edges(to_real<Real>(edges.values(1, x, y) + bias1_), to_real<Real>(edges.values(2, x, y) + bias2_));
     } else {
-      const Real dx = to_real<Real>(lane_x() * kSubPixels + (dx_ + x * kSubPixels));
-      const Real dy = to_real<Real>(lane_y() * kSubPixels + (dy_ + y * kSubPixels));
-      w1 = difference_of_products(dx, Real(e2y_), dy, Real(e2x_));
-      w2 = difference_of_products(Real(e1x_), dy, Real(e1y_), dx);
+      return at_pixels(lane_x() + x, lane_y() + y);
     }
+  }
+
+  // The same for any pixel of the tile's storage in each lane.
+  HS_INLINE Real at_pixels(Int x, Int y) const {
+    static_assert(!small);
+    const Real dx = to_real<Real>(x * kSubPixels + dx_), dy = to_real<Real>(y * kSubPixels + dy_);
+    return from_edges(difference_of_products(dx, Real(e2y_), dy, Real(e2x_)), difference_of_products(Real(e1x_), dy, Real(e1y_), dx));
+  }
+
+ private:
+  HS_INLINE Real from_edges(Real w1, Real w2) const {
     const Real z = fma(w1, Real(z_edge1_), fma(w2, Real(z_edge2_), Real(z0_)));
     return depth_value(format_, clamp(z, Real(low_), Real(high_)));
   }
 
- private:
   float z0_, z_edge1_, z_edge2_, low_, high_;
   DepthFormat format_;
   int32_t bias1_ = 0, bias2_ = 0;

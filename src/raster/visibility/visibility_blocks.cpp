@@ -7,6 +7,7 @@
 #include "halfspace/raster/pipeline/pixel_box.h"
 #include "halfspace/raster/visibility/list_writer.h"
 #include "halfspace/raster/visibility/opaque_writer.h"
+#include "halfspace/raster/visibility/thin_line.h"
 #include "halfspace/raster/visibility/trace_rejected.h"
 
 namespace halfspace {
@@ -96,6 +97,7 @@ void rasterize_triangle(const DrawInTile& d, const Triangle& t, TriangleId id, i
   if (b.empty()) return;
   const TileRect rect{b.x0 - grid.x0, b.y0 - grid.y0, b.x1 - grid.x0, b.y1 - grid.y0};
   if (t.is(kPointSprite)) return rasterize_point(d, t, rect, id, writer);
+  if (t.is(kLine) && line_pixels(d.draw.state.line_width) == 1) return rasterize_thin_line(d, t, b, id, writer);
   const TileEdges edges = tile_edges(d.draw, t, grid, d.tile.size);
   if (edges.outside) return;
   if (t.is(kSmall)) {
