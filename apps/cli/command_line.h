@@ -15,7 +15,7 @@ class App;
 
 namespace halfspace {
 
-/// The name of a group of options that the help of a command leaves out.
+/// The name of the group of options that the help of a command omits.
 inline constexpr const char* kUnlistedGroup = "unlisted";
 inline constexpr const char* kOutputGroup = "unlisted output";
 

@@ -30,7 +30,7 @@ struct RenderArguments {
   std::string statistics;
   std::string max_error, max_error_color;  ///< if both are empty, the scene is rendered as it is
   std::string wireframe;                   ///< "lines", "hidden", or empty: surfaces
-  bool naive = false;  ///< draw with the naive pipeline
+  bool naive = false;                      ///< draw with the naive pipeline
   bool resume = false;
   bool print = false;
   ModelArguments model;
@@ -44,7 +44,7 @@ struct ExplainArguments {
   std::string out;  ///< default: SCENE.html, or MODEL-explain.html
   std::string size = "640x360";
   std::vector<std::string> set;
-  std::string camera, shading, time, threads;  ///< as in RenderArguments
+  std::string camera, shading, time, threads;  ///< see RenderArguments
   std::string pixel;                           ///< default: the pixel with the most fragments
   bool text = false, json = false;
   ModelArguments model;

@@ -59,7 +59,7 @@ PreparedScene prepare_explained(const SceneDescription& scene, const std::string
   }
 }
 
-// Throws OutputError if the page would replace a file that the scene reads.
+// Throws OutputError if the page would overwrite a file that the scene reads.
 void protect_page_inputs(const SceneDescription& scene, const std::string& name, const Models& models, const std::filesystem::path& out) {
   std::vector<std::filesystem::path> inputs = input_files(scene, models);
   inputs.emplace_back(name);

@@ -13,7 +13,7 @@
 
 namespace halfspace {
 
-/// What `halfspace explain` explains.
+/// The input of `halfspace explain`.
 struct ExplainJob {
   const SceneDescription& scene;
   const PreparedScene& prepared;
@@ -23,7 +23,7 @@ struct ExplainJob {
   const Workers& workers;
 };
 
-/// Returns the history of the chosen or busiest pixel as text or JSON (explain_history.cpp).
+/// Returns the history of the selected pixel as text or JSON (explain_history.cpp). The default is the pixel with the most fragments.
 std::string explained_history(const ExplainJob& job, bool json);
 
 inline constexpr const char* kExplainSize = "640x360";  ///< default of --size
@@ -31,7 +31,7 @@ inline constexpr const char* kExplainSize = "640x360";  ///< default of --size
 // The page (explain_page.cpp).
 /// Returns the file that the page is written to. Throws UsageError.
 std::filesystem::path page_path(const ExplainArguments& args);
-/// Returns the command line that explains the same frame, without the pixel and the output.
+/// Returns the command line that explains the same frame, without --pixel and -o.
 std::string explain_command_line(const ExplainArguments& args, double seconds);
 /// Returns the page.
 std::string page_of(const ExplainJob& job);

@@ -25,7 +25,7 @@ namespace halfspace {
 
 namespace {
 
-// A model, and the files that it was read from.
+// A model and the files that it was read from.
 struct ExportSource {
   Model model;
   std::vector<std::filesystem::path> inputs;
@@ -69,7 +69,7 @@ void export_command(const ExportArguments& args) {
   for (const std::span<const std::string> warnings : {std::span<const std::string>(source.model.warnings), {written.warnings}}) {
     for (const std::string& warning : warnings) std::cerr << "halfspace: warning: " << warning << '\n';
   }
-  // The main file comes last, so that it never refers to files that are not there yet.
+  // The main file is written last, so that it never refers to missing files.
   for (std::size_t i = written.files.size(); i-- > 0;) write_file(out.parent_path() / written.files[i].name, written.files[i].bytes);
 }
 

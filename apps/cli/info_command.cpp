@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// `halfspace info`: describes a model file, or the program: its version and build, and what it found on this machine.
+// `halfspace info`: describes a model file or, without one, the program: its version, its build, and the tools found on this machine.
 #include <iostream>
 #include <nlohmann/json.hpp>
 

@@ -30,7 +30,7 @@ void add_limit_options(CLI::App* command, LimitArguments& args, const std::strin
   command->add_option("--max-pixels", args.pixels, "Pixels of an image (default 268435456)")->type_name("N")->group(group);
 }
 
-// Prints the options of a command that are in a group that its help leaves out, and ends the program successfully.
+// Prints a group of options that the help of the command omits, and ends the program successfully.
 void print_group(const CLI::App* command, const char* group, const char* title) {
   std::cout << title << '\n';
   for (const CLI::Option* option : command->get_options()) {
@@ -41,7 +41,7 @@ void print_group(const CLI::App* command, const char* group, const char* title) 
   throw CLI::Success();
 }
 
-// Adds the options that say what is written. They are listed by --help-output, so that the help of the command fits on a screen.
+// Adds the options for the output. They are listed by --help-output, so that the help of the command fits on a screen.
 void add_output_options(CLI::App* command, OutputArguments& args) {
   const auto add = [&](const char* name, std::string& value, const char* help, const char* type) {
     command->add_option(name, value, help)->type_name(type)->group(kOutputGroup);

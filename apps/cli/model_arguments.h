@@ -23,7 +23,7 @@ struct ModelArguments {
 /// of the image; `fps`: frames per second of --turntable. Throws UsageError for options that do not apply, and InputError.
 OpenedScene open_scene_or_model(const std::string& scene, const ModelArguments& args, double aspect, double fps);
 
-/// Returns the number of frames of --turntable, or nothing. Throws UsageError.
+/// Returns the number of frames of --turntable, or nullopt if it was not given. Throws UsageError.
 std::optional<int> turntable_frames(const ModelArguments& args);
 
 }  // namespace halfspace

@@ -20,7 +20,7 @@ namespace {
 
 using OrderedJson = nlohmann::ordered_json;
 
-// Counts of triangles that renderers and other programs may treat differently.
+// Counts of triangles and edges that programs may handle differently.
 struct Problems {
   std::size_t degenerate_triangles = 0;  // without area
   std::size_t open_edges = 0;          // used by one triangle
@@ -65,7 +65,7 @@ std::vector<std::string> names_of(const std::vector<T>& list) {
   return names;
 }
 
-// Describes the images. The size of one that cannot be read is null.
+// Describes the images. The size is null if an image cannot be read.
 OrderedJson images_of(Model& model) {
   OrderedJson list = OrderedJson::array();
   for (const ModelImage& image : model.images) {

@@ -10,7 +10,7 @@
 
 namespace halfspace {
 
-/// The sums over all pictures of a run.
+/// Sums over all pictures of a run.
 struct NaiveReport {
   int64_t pixels = 0, differing = 0;  ///< compared as linear light, before exposure and tone curve, bit by bit
   double naive_ms = 0, tiles_ms = 0;  ///< times to draw that light
@@ -21,7 +21,7 @@ struct NaiveReport {
 /// pipeline.
 PassStatistics draw_naive_picture(const PreparedScene& scene, const FrameImages& images, const Workers& workers, NaiveReport& report);
 
-/// Formats the report as one line. threads: of the tile-based pipeline.
+/// Formats the report as one line. threads: number of threads of the tile-based pipeline.
 std::string naive_line(const NaiveReport& report, int threads);
 
 }  // namespace halfspace

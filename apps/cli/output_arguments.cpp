@@ -15,7 +15,7 @@ namespace halfspace {
 
 namespace {
 
-// A value of --aov: its name, and the channels that its EXR layer has.
+// A value of --aov: its name and the channels of its EXR layer.
 struct ValueName {
   std::string_view name;
   std::string_view channels;  // one letter for each, or empty: one channel "id"

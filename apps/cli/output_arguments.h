@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The options of `render` that say what is written besides or instead of the whole picture: --aov, --crop and --bits.
+// The options --aov, --crop and --bits of `render`, which select additional values, a part of the picture, or the bit depth.
 #pragma once
 
 #include <filesystem>
@@ -21,7 +21,7 @@ struct OutputArguments {
   bool separate = false;  ///< --aov-separate
 };
 
-/// What a picture consists of.
+/// The parsed options.
 struct OutputChoice {
   std::vector<FrameValue> values;  ///< those of --aov, each once
   bool separate = false;
@@ -57,14 +57,15 @@ class ValueImages {
   std::vector<AnyImage> images_;  // parallel to choice_.values
 };
 
-/// Returns true if the values are stored as channels of the picture, which is so for OpenEXR files unless separate files are wanted.
+/// Returns true if the values are stored as channels of the picture. This is the case for OpenEXR files unless separate files are
+/// requested.
 bool share_file(const OutputChoice& choice, const std::filesystem::path& picture);
 
-/// Returns the files of the values, next to the picture: NAME-aov.exr, or NAME-VALUE.exr for each value if separate files are wanted. Empty
-/// if there are no values or they are in the picture's own file.
+/// Returns the files of the values, next to the picture: NAME-aov.exr, or NAME-VALUE.exr for each value if separate files are requested.
+/// Returns an empty list if there are no values or if they are stored in the picture's own file.
 std::vector<std::filesystem::path> value_files(const OutputChoice& choice, const std::filesystem::path& picture);
 
-/// Returns whether the files of an earlier run have the channels of all values.
+/// Returns true if the files of an earlier run contain the channels of all values.
 bool has_values(const OutputChoice& choice, const std::filesystem::path& picture);
 
 }  // namespace halfspace

@@ -8,7 +8,7 @@ namespace halfspace {
 
 namespace {
 
-// The color image of a picture, in the form in which it is written.
+// The color image of a picture, in the number format of the file.
 struct ColorImage {
   Image<glm::u8vec4> codes;
   Image<glm::u16vec4> fine_codes;

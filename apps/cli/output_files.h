@@ -11,17 +11,17 @@
 
 namespace halfspace {
 
-/// The files of one picture.
+/// The files to write for one picture.
 struct PictureFiles {
   std::filesystem::path picture;
   ImageFile format;
   const OutputChoice& choice;
-  PictureSize size;  ///< of the files: that of the crop, if there is one
+  PictureSize size;  ///< size of the files, which is the size of the crop if there is one
   ImageText text;
   NaiveReport* naive = nullptr;  ///< set: draw the picture with the naive pipeline, and add to this report
 };
 
-/// Renders the picture and its values, and writes them; the picture last. Adds times and counts to the report.
+/// Renders the picture and its values and writes them, with the picture last. Adds times and counts to the report.
 void render_files(const PreparedScene& scene, const PictureFiles& files, const Workers& workers, RenderReport& report);
 
 /// Returns true if all files from an earlier run exist, and the picture is complete and has the requested size.

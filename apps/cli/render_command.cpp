@@ -38,7 +38,7 @@ namespace {
 // The parsed and validated arguments.
 struct RenderJob {
   SceneFile scene;
-  std::map<std::filesystem::path, std::shared_ptr<const ModelAsset>> models;  // of all objects of shape `file`
+  std::map<std::filesystem::path, std::shared_ptr<const ModelAsset>> models;  // models of all objects with the shape `file`
   std::filesystem::path out;
   ImageFile format;
   PictureSize size;
@@ -255,7 +255,7 @@ void read_models(RenderJob& job) {
   }
 }
 
-// Throws OutputError if an output file would replace a file that the scene reads.
+// Throws OutputError if an output file would overwrite a file that the scene reads.
 void protect_inputs(const RenderJob& job, const std::string& scene) {
   std::vector<std::filesystem::path> inputs = input_files(job.scene.description(), job.models);
   inputs.emplace_back(scene);

@@ -11,7 +11,7 @@ namespace halfspace {
 
 namespace {
 
-// Quotes text that a shell would split or change. Image formats do not store control characters, so they become question marks.
+// Quotes text that a shell would split or change. Control characters become question marks, because image formats do not store them.
 std::string quoted(const std::string& text) {
   const bool is_plain = !text.empty() && std::ranges::all_of(text, [](char c) {
     return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||

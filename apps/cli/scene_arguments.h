@@ -10,8 +10,8 @@ namespace halfspace {
 
 class SceneFile;
 
-/// Opens a scene by name or file name, or the default view of a model file, applies the settings, and selects a camera unless `camera` is empty. Throws UsageError and
-/// InputError.
+/// Opens a scene by name or file name, or the default view of a model file, applies the settings, and selects a camera unless `camera` is
+/// empty. Throws UsageError and InputError.
 SceneFile open_scene(const std::string& scene, const std::vector<std::string>& settings, const std::string& camera);
 
 /// Applies the settings to a scene and selects a camera unless `camera` is empty.

@@ -23,7 +23,7 @@ struct RenderReport {
   double write_ms = 0;    ///< encoding and writing the images
   PassStatistics counts;
   bool spheres_without_wireframe = false;
-  NaiveReport naive;               ///< of --naive
+  NaiveReport naive;                 ///< report of --naive
   std::vector<ModelChoice> choices;  ///< settings chosen by --max-error for the last image
 };
 

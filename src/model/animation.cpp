@@ -21,7 +21,7 @@ glm::dquat weighted(const glm::dquat& a, double wa, const glm::dquat& b, double 
 
 glm::dquat quaternion_of(const std::vector<double>& v) { return unit_rotation({v[3], v[0], v[1], v[2]}); }
 
-/// Numbers of one channel as vectors: part 0, 1, 2 are in-tangent, value and out-tangent of a cubic key.
+/// Accesses the numbers of a channel as vectors. For cubic keys, parts 0, 1 and 2 are the in-tangent, the value and the out-tangent.
 struct Keys {
   const AnimationChannel& channel;
 

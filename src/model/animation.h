@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Values of animation channels between their keys (glTF 2.0, appendix C).
+// Interpolation of animation channels (glTF 2.0, appendix C).
 #pragma once
 
 #include <glm/glm.hpp>
@@ -12,13 +12,13 @@
 
 namespace halfspace {
 
-/// Returns the rotation at the fraction t of the way from a to b, at constant speed along the shorter way (slerp). a and b must have unit
-/// length, and t must be in [0, 1]. The result is computed by halving the way until linear interpolation is exact to double precision, so
-/// that it has the same bits on every machine; its error is below 2e-15.
+/// Returns the spherical linear interpolation (slerp) from a to b along the shorter arc. a and b must have unit length, and t must be in
+/// [0, 1]. The arc is halved until linear interpolation is exact to double precision. The result has the same bits on every machine, and
+/// its error is below 2e-15.
 glm::dquat shortest_rotation(const glm::dquat& a, const glm::dquat& b, double t);
 
-/// Returns the value of a channel at a time in seconds: `channel.width` numbers. Times before the first and after the last key give the
-/// value of that key. Rotations have unit length.
+/// Returns the value of a channel at a time in seconds: `channel.width` numbers. Times outside of the range of the keys are clamped to it.
+/// Rotations have unit length.
 std::vector<double> value_at(const AnimationChannel& channel, double time);
 
 /// Applies all channels of an animation to the nodes of a model.

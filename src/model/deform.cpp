@@ -10,10 +10,10 @@ namespace halfspace {
 
 namespace {
 
-// Rounds a position and limits it to the range that files may use.
+// Rounds a position to float and clamps it to the range that files may use.
 glm::vec3 rounded_position(const glm::dvec3& p) { return glm::vec3(glm::clamp(p, -kMaxModelNumber, kMaxModelNumber)); }
 
-// Returns v with unit length, or the fallback if v has no direction.
+// Returns v normalized, or the fallback if v is 0 or NaN.
 glm::vec3 unit_or(const glm::dvec3& v, const glm::vec3& fallback) {
   const double size = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
   if (!(size > 0.0)) return fallback;

@@ -13,8 +13,8 @@ namespace halfspace {
 /// Adds the morph targets of a mesh, scaled by their weights. Missing weights are 0. Targets without normals leave normals unchanged.
 void apply_morph_targets(ModelMesh& mesh, std::span<const float> weights);
 
-/// Moves every vertex by the mean of the matrices of its joints, weighted by ModelMesh::weights. The matrices must be affine, one per joint
-/// of the skin. Normals are transformed by the inverse transpose. The origin of the mesh becomes part of the positions.
+/// Transforms each vertex by the average of the matrices of its joints, weighted by ModelMesh::weights. There must be one affine matrix per
+/// joint of the skin. Normals are transformed by the inverse transpose. The origin of the mesh is added to the positions.
 void apply_skin(ModelMesh& mesh, std::span<const glm::dmat4> joint_matrices);
 
 }  // namespace halfspace

@@ -42,7 +42,7 @@ DracoMesh DracoProcess::decode(std::span<const std::byte> stream, std::span<cons
   const DracoRequest request{kDracoToolMagic, static_cast<uint32_t>(ids.size()), stream.size(), max_bytes};
   const bool sent =
       tool_.send(&request, sizeof request) && tool_.send(ids.data(), ids.size_bytes()) && tool_.send(stream.data(), stream.size());
-  // A tool that runs out of memory answers before it has received everything.
+  // A tool that runs out of memory may answer before it has received the whole request.
   if (!receive(ids.size(), max_bytes, mesh) || (!sent && mesh.problem.empty())) {
     const int signal = tool_.wait();
     mesh.problem = std::string("cannot be decoded (the decoder ") +
@@ -52,7 +52,8 @@ DracoMesh DracoProcess::decode(std::span<const std::byte> stream, std::span<cons
   return mesh;
 }
 
-// Receives an answer. Returns false if the tool has ended. The answer is not trusted: a stream may have taken over the tool.
+// Receives an answer. Returns false if the tool has ended. The answer is validated, because a malicious stream may have taken control of
+// the tool.
 bool DracoProcess::receive(std::size_t attributes, uint64_t max_bytes, DracoMesh& mesh) {
   DracoHeader header;
   if (!tool_.receive(&header, sizeof header)) return false;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Decoding of Draco streams by halfspace-draco-tool.
+// Decodes Draco streams with halfspace-draco-tool.
 #pragma once
 
 #include <cstddef>
@@ -15,13 +15,13 @@
 
 namespace halfspace {
 
-/// A decoded mesh, or the reason why there is none.
+/// A decoded mesh, or the reason why decoding failed.
 struct DracoMesh {
   struct Attribute {
     DracoAttributeHeader type;
     std::vector<std::byte> values;  ///< tightly packed
   };
-  std::string problem;  ///< "problem; what was expected"; empty: decoded
+  std::string problem;  ///< "problem; what was expected"; empty on success
   std::size_t points = 0;
   std::vector<std::byte> indices;  ///< three per triangle, uint32_t
   std::vector<Attribute> attributes;
@@ -30,10 +30,10 @@ struct DracoMesh {
 /// Returns the path of halfspace-draco-tool, or an empty path if it is not installed.
 std::filesystem::path find_draco_tool();
 
-/// The decoder of one file. It is started when it is first used, and again after it has died.
+/// The decoder of one file. The program is started when it is first used, and restarted if it has crashed.
 class DracoProcess {
  public:
-  /// Decodes the attributes with these unique ids. max_bytes: memory for the result. At most kMaxDracoAttributes.
+  /// Decodes the attributes with these unique ids, at most kMaxDracoAttributes. max_bytes: memory limit of the result.
   DracoMesh decode(std::span<const std::byte> stream, std::span<const uint32_t> ids, uint64_t max_bytes);
 
  private:

@@ -31,7 +31,7 @@ std::size_t size_of(GltfComponent component) {
   return 0;
 }
 
-// Calls f with a value of the type of the component.
+// Calls f with a value of the component's C++ type.
 template <class F>
 void with_type(GltfComponent component, F f) {
   switch (component) {
@@ -44,7 +44,7 @@ void with_type(GltfComponent component, F f) {
   }
 }
 
-// Data need not be aligned.
+// Data may be unaligned.
 template <class T>
 T load(const std::byte* at) {
   T value;

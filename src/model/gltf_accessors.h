@@ -19,25 +19,25 @@ namespace halfspace {
 
 enum class GltfComponent : uint16_t { int8 = 5120, uint8 = 5121, int16 = 5122, uint16 = 5123, uint32 = 5125, float32 = 5126 };
 
-/// An accessor whose range is in its buffer.
+/// An accessor whose range has been checked.
 struct GltfAccessor {
   const GltfValue* json = nullptr;
-  std::size_t index = 0;               ///< in the list of accessors
-  std::span<const std::byte> bytes{};  ///< begins with the first element; empty if all elements are 0
+  std::size_t index = 0;               ///< index in the list of accessors
+  std::span<const std::byte> bytes{};  ///< starts with the first element; empty if all elements are 0
   std::size_t count = 0, stride = 0;
   GltfComponent component = GltfComponent::float32;
   int width = 1;  ///< components per element; 16 for matrices
   bool normalized = false;
 };
 
-/// Vertices to read, as indices of elements; empty: all.
+/// Indices of the vertices to read; empty for all vertices.
 using GltfSubset = std::span<const uint32_t>;
 
 class GltfAccessors {
  public:
   GltfAccessors(GltfDocument& document, GltfBuffers& buffers) : document_(document), buffers_(buffers) {}
 
-  /// Returns the accessor that a member of an object refers to. The member must not be missing.
+  /// Returns the accessor that a member of an object refers to. The member must exist.
   GltfAccessor find(const GltfValue& object, const char* key);
   /// The same without the data.
   GltfAccessor describe(const GltfValue& object, const char* key) const;
@@ -56,7 +56,7 @@ class GltfAccessors {
   /// Reads unsigned integers. The accessor must have `width` components per element.
   std::vector<uint32_t> read_integers(const GltfAccessor& accessor, int width, GltfSubset subset = {});
 
-  /// Values of an accessor that are not in a buffer view: tightly packed elements.
+  /// Decoded values of an accessor as tightly packed elements. They replace its buffer view.
   struct Decoded {
     std::vector<std::byte> bytes;
     std::size_t count = 0;
@@ -83,7 +83,7 @@ class GltfAccessors {
 
   GltfDocument& document_;
   GltfBuffers& buffers_;
-  std::map<std::size_t, Decoded> decoded_;  // by the index of the accessor
+  std::map<std::size_t, Decoded> decoded_;  // key: index of the accessor
 };
 
 }  // namespace halfspace

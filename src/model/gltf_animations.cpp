@@ -39,7 +39,7 @@ class ChannelReader {
   ChannelReader(GltfAccessors& accessors, const GltfValue& samplers, const Model& model)
       : accessors_(accessors), document_(accessors.document()), samplers_(samplers), model_(model) {}
 
-  /// Returns nothing if the channel cannot be applied.
+  /// Returns nullopt if the channel cannot be applied.
   std::optional<AnimationChannel> read(const GltfValue& json) {
     const GltfValue& target = document_.object(json, "target");
     const std::string path = document_.string(target, "path");

@@ -6,8 +6,7 @@
 
 namespace halfspace {
 
-/// Reads the animations of a glTF file. The model must have its nodes and meshes. Channels that cannot be applied are left out with a
-/// warning.
+/// Reads the animations of a glTF file. Nodes and meshes must have been read. Channels that cannot be applied are skipped with a warning.
 void read_gltf_animations(GltfAccessors& accessors, Model& model);
 
 }  // namespace halfspace

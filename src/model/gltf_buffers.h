@@ -26,7 +26,7 @@ GltfChunks gltf_chunks(const std::filesystem::path& file, std::span<const std::b
 /// Part of a buffer.
 struct GltfView {
   std::span<const std::byte> bytes;
-  std::size_t stride = 0;  ///< distance of two elements in bytes; 0: they are adjacent
+  std::size_t stride = 0;  ///< distance between elements in bytes; 0 if they are tightly packed
 };
 
 /// Loads buffers and decompresses buffer views when they are first used. All arguments of the constructor must outlive this object.
@@ -34,7 +34,7 @@ class GltfBuffers {
  public:
   GltfBuffers(GltfDocument& document, References& references, std::optional<std::span<const std::byte>> binary);
 
-  /// Returns a buffer view. index must be valid. The data are valid as long as this object.
+  /// Returns a buffer view. index must be valid. The data lives as long as this object.
   const GltfView& view(std::size_t index);
 
  private:

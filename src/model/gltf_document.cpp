@@ -14,7 +14,7 @@ namespace halfspace {
 namespace {
 
 constexpr int kMaxDepth = 256;
-// An upper bound of the memory that a JSON value needs: a node of a map with key and value, and the unused capacity of arrays.
+// An upper bound of the memory of a JSON value: a map node with key and value, and the unused capacity of arrays.
 constexpr std::size_t kBytesPerValue = 128;
 constexpr int kMaxPlacedWarnings = 50;
 
@@ -55,7 +55,7 @@ TextSize size_of(std::string_view text) {
   return size;
 }
 
-// Appends the path from one value to a value inside it. Returns false if it is not inside. The depth of a document is limited.
+// Appends the path from one value to a value inside it. Returns false if it is not inside. Recursive; the depth of documents is limited.
 bool append_path(const GltfValue& from, const GltfValue& to, std::string& path) {
   if (&from == &to) return true;
   const std::size_t length = path.size();

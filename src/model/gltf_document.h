@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The JSON part of a glTF file, with checked access to its values. All functions throw InputError "FILE: PLACE: problem; expected ..."
-// if a value does not have the expected type or range. A place is found only when it is needed, by searching for the value.
+// if a value does not have the expected type or range. The place is only determined for messages, by searching for the value.
 #pragma once
 
 #include <array>
@@ -21,7 +21,7 @@ using GltfValue = nlohmann::json;
 
 class GltfDocument {
  public:
-  /// Parses the text. warnings: receives one line for each problem that is not an error. Must outlive this object.
+  /// Parses the text. warnings: receives one line for each problem that is not an error; must outlive this object.
   GltfDocument(const std::filesystem::path& file, std::string_view text, std::size_t max_memory, std::vector<std::string>& warnings);
   ~GltfDocument();
   GltfDocument(const GltfDocument&) = delete;
@@ -52,7 +52,7 @@ class GltfDocument {
   double number(const GltfValue& object, const char* key) const;  ///< must not be missing
   /// Like number, but a number that is out of range is clamped, with a warning.
   float factor(const GltfValue& object, const char* key, float fallback, double low = 0.0, double high = 1.0);
-  /// Returns an array of numbers whose length is that of `fallback`.
+  /// Returns an array of numbers. It must have the length of `fallback`.
   template <std::size_t n>
   std::array<double, n> numbers(const GltfValue& object, const char* key, std::array<double, n> fallback) const {
     numbers(object, key, fallback.data(), n);
@@ -79,11 +79,10 @@ class GltfDocument {
   [[noreturn]] void fail(const GltfValue& object, std::string_view key, std::string_view problem) const;
   /// Adds a warning, unless there is an equal one.
   void warn(const std::string& text);
-  /// Adds a warning about a member of an object. After many of these, no more are added, because locating the object in the file takes
-  /// time.
+  /// Adds a warning about a member of an object. The number of such warnings is limited, because locating an object in the file takes time.
   void warn_at(const GltfValue& object, std::string_view key, std::string_view problem);
-  /// Accounts for memory that `value` needs. Memory is not returned, so that the limit also bounds the time. Throws InputError if there
-  /// is not enough left.
+  /// Counts memory that is allocated for `value`. The count never decreases, so the limit also bounds the time. Throws InputError if the
+  /// limit is exceeded.
   void take_memory(const GltfValue& value, uint64_t count, uint64_t bytes_each);
   std::size_t memory_left() const { return memory_left_; }
   std::vector<std::string>& warnings() { return warnings_; }
@@ -105,7 +104,7 @@ class GltfDocument {
   std::set<std::string, std::less<>> known_warnings_;
 };
 
-/// Returns a string from a file between quotation marks for use in a message, without control characters and not too long.
+/// Returns a string from a file in quotation marks for use in a message. Control characters are removed, and long strings are cut.
 std::string gltf_quoted(std::string_view text);
 
 }  // namespace halfspace

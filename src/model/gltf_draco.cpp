@@ -19,7 +19,7 @@ struct Wanted {
   std::vector<uint32_t> ids;
 };
 
-// Returns the attributes of the extension, which must also be attributes of the primitive.
+// Returns the attributes of the extension. They must also be attributes of the primitive.
 Wanted wanted_attributes(const GltfDocument& document, const GltfValue& extension, const GltfValue& attributes) {
   const GltfValue& json = document.object(extension, "attributes");
   Wanted wanted;

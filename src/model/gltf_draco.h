@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Primitives that are compressed with KHR_draco_mesh_compression.
+// Reads primitives that are compressed with KHR_draco_mesh_compression.
 #pragma once
 
 #include "halfspace/model/draco_process.h"
@@ -8,7 +8,7 @@
 
 namespace halfspace {
 
-/// Returns whether such primitives can be decoded: halfspace-draco-tool is installed.
+/// Returns true if such primitives can be decoded, that is, if halfspace-draco-tool is installed.
 bool can_decode_draco();
 
 /// Decodes the primitives of one file. The accessors must outlive this object.
@@ -16,9 +16,9 @@ class GltfDraco {
  public:
   explicit GltfDraco(GltfAccessors& accessors) : accessors_(accessors), document_(accessors.document()) {}
 
-  /// If the primitive is compressed, decodes it and lets its accessors return the decoded values until the next call. Returns whether it
-  /// did; the indices are then a list of triangles. Without a decoder, the accessors must have values of their own. Throws InputError if
-  /// the stream is damaged or does not match the accessors.
+  /// If the primitive is compressed, decodes it and returns true. Its accessors then return the decoded values until the next call, and the
+  /// indices are a triangle list. If no decoder is installed, the accessors must refer to an uncompressed copy. Throws InputError if the
+  /// stream is damaged or does not match the accessors.
   bool decode(const GltfValue& primitive);
 
  private:

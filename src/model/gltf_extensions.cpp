@@ -21,7 +21,7 @@ constexpr std::array<std::string_view, 15> kSupported = {
     "KHR_xmp_json_ld",  // metadata, which has no effect
 };
 
-// A file that requires one of these is drawn without it. Materials without an extension differ only in appearance, too.
+// Files that require one of these extensions are drawn without it. Missing material extensions also change only the appearance.
 constexpr std::array<std::string_view, 7> kAppearance = {
     "EXT_lights_ies",     "EXT_lights_image_based",  "EXT_texture_avif", "KHR_animation_pointer",
     "KHR_texture_basisu", "KHR_texture_procedurals", "MSFT_texture_dds",

@@ -6,8 +6,8 @@
 
 namespace halfspace {
 
-/// Reads the names of the extensions that a file uses into model.extensions. Adds a warning for each that is not supported, and throws
-/// InputError if the file requires one that is not supported and that changes more than appearance.
+/// Reads the names of the extensions that a file uses into model.extensions. Adds a warning for each unsupported extension. Throws
+/// InputError if the file requires an unsupported extension that changes more than the appearance of materials.
 void read_gltf_extensions(GltfDocument& document, Model& model);
 
 }  // namespace halfspace

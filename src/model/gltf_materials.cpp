@@ -9,7 +9,7 @@ namespace halfspace {
 
 namespace {
 
-// The extension KHR_materials_transmission is approximated by blending. Fully transmissive surfaces keep this opacity, to stay visible.
+// KHR_materials_transmission is approximated by blending. Fully transmissive surfaces keep this opacity, so that they stay visible.
 constexpr float kMinGlassOpacity = 0.1f;
 
 glm::vec3 color_of(const std::array<double, 3>& c) {
@@ -93,7 +93,7 @@ void read_specular_glossiness(GltfDocument& document, GltfTextures& textures, co
   if (material.specular_color_map.texture < 0) {
     convert_specular_glossiness(glm::dvec3(glm::vec3(diffuse)), glm::dvec3(specular), static_cast<double>(glossiness), material);
   } else {
-    // A dielectric whose reflectance is the texture. Its glossiness, in the alpha channel, is assumed to be 0.5.
+    // The result is a dielectric whose reflectance is the texture. The glossiness in the alpha channel is assumed to be 0.5.
     constexpr float kDielectric = 0.04f, kMeanGlossiness = 0.5f;
     material.base_color = diffuse;
     material.metallic = 0.0f;

@@ -11,11 +11,11 @@ namespace halfspace {
 /// (approximated by blending) and pbrSpecularGlossiness (converted).
 std::vector<ModelMaterial> gltf_materials(GltfDocument& document, GltfTextures& textures);
 
-/// Returns the material of primitives that have none, which glTF defines as a rough white metal.
+/// Returns the default material for primitives without a material. glTF defines it as a rough white metal.
 ModelMaterial gltf_default_material();
 
-/// Converts the factors of KHR_materials_pbrSpecularGlossiness into base color, metallic and roughness, as in the appendix of that
-/// extension: the metal whose mixture with a dielectric of reflectance 0.04 has the same specular color.
+/// Converts the factors of KHR_materials_pbrSpecularGlossiness to base color, metallic and roughness, as in the appendix of that extension:
+/// the metallic factor is chosen so that the mixture with a dielectric of reflectance 0.04 has the same specular color.
 void convert_specular_glossiness(const glm::dvec3& diffuse, const glm::dvec3& specular, double glossiness, ModelMaterial& material);
 
 }  // namespace halfspace

@@ -18,7 +18,7 @@ namespace halfspace {
 
 namespace {
 
-// Upper bounds of the memory that computing normals and tangents needs for each vertex in addition to the vertex itself.
+// Upper bounds of the additional memory per vertex that the computation of normals and tangents needs.
 constexpr uint64_t kNormalBytes = 64, kTangentBytes = 128;
 
 std::size_t bytes_per_vertex(const ModelMesh& mesh) {
@@ -78,7 +78,7 @@ class MeshReader {
     model_.meshes.push_back(std::move(mesh));
   }
 
-  // Returns a list of points, lines or triangles. For points that are not indexed it is empty.
+  // Returns an index list of points, lines or triangles; empty for points without indices.
   std::vector<uint32_t> indices(const GltfValue& json, GltfMode mode, std::size_t count) {
     std::vector<uint32_t> list;
     if (document_.find(json, "indices") != nullptr) {
@@ -125,7 +125,7 @@ class MeshReader {
     return default_material_;
   }
 
-  // Adds normals and tangents where they are needed and missing.
+  // Computes normals and tangents that are needed but missing.
   void complete(const GltfValue& json, ModelMesh& mesh) {
     if (mesh.topology != MeshTopology::triangles) return;
     if (mesh.normals.empty()) {
@@ -139,7 +139,7 @@ class MeshReader {
     add_tangents(mesh, uv_set);
   }
 
-  // Returns the set of texture coordinates of a normal map of the materials of the mesh; −1 if there is none.
+  // Returns the texture coordinate set of the normal maps of the mesh's materials, or −1 if they have none.
   int tangent_set(const ModelMesh& mesh) const {
     const auto set_of = [&](int material) {
       const ModelMaterial& m = model_.materials[static_cast<std::size_t>(material)];

@@ -15,7 +15,7 @@ struct GltfMesh {
   std::size_t deformed_vertices = 0;  ///< number of vertices of parts with morph targets or joints
 };
 
-/// Reads all meshes and adds their primitives to the model. Its materials and variants must have been read before.
+/// Reads all meshes and adds their primitives to the model. Materials and variants must have been read before.
 std::vector<GltfMesh> gltf_meshes(GltfAccessors& accessors, Model& model);
 
 }  // namespace halfspace

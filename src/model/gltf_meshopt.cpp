@@ -7,7 +7,7 @@ namespace halfspace {
 
 namespace {
 
-// First bytes of streams, which the decoder expects: version 0 of attributes, and versions 0 and 1 of indices.
+// First bytes of the streams that the decoder accepts: version 0 for attributes, versions 0 and 1 for indices.
 constexpr unsigned kAttributeHeader = 0xa0, kTriangleHeader = 0xe0, kSequenceHeader = 0xd0;
 
 bool is_filter_valid(const MeshoptStream& stream) {

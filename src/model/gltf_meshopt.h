@@ -14,7 +14,7 @@ namespace halfspace {
 enum class MeshoptMode : uint8_t { attributes, triangles, indices };
 enum class MeshoptFilter : uint8_t { none, octahedral, quaternion, exponential };
 
-/// What a compressed buffer view contains. `stride` and `count` are valid for `mode` and `filter`.
+/// Contents of a compressed buffer view. `stride` and `count` are valid for `mode` and `filter`.
 struct MeshoptStream {
   MeshoptMode mode = MeshoptMode::attributes;
   MeshoptFilter filter = MeshoptFilter::none;
@@ -25,7 +25,7 @@ struct MeshoptStream {
 /// Reads and checks the extension object of a buffer view.
 MeshoptStream meshopt_stream(const GltfDocument& document, const GltfValue& json);
 
-/// Decompresses `source` into stream.count · stream.stride bytes. Returns false if the data are damaged.
+/// Decompresses `source` to stream.count · stream.stride bytes. Returns false if the data is damaged.
 bool decode_meshopt(const MeshoptStream& stream, std::span<const std::byte> source, std::span<std::byte> result);
 
 }  // namespace halfspace

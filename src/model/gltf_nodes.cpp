@@ -13,7 +13,7 @@ namespace halfspace {
 
 namespace {
 
-// Estimate of the memory that a pose needs for one mesh at one place, and for one vertex of a deformed mesh.
+// Estimated memory of a pose per placed mesh, and per vertex of a deformed mesh.
 constexpr uint64_t kBytesPerPlace = 192, kBytesPerDeformedVertex = 160;
 
 class NodeReader {
@@ -76,7 +76,7 @@ class NodeReader {
     if (skin >= 0) check_joints(json, mesh, model_.skins[static_cast<std::size_t>(skin)]);
   }
 
-  // The result is the same for every node, and the number of vertices that are compared is limited by the memory taken above.
+  // The result is the same for every node. The memory limit checked above also bounds the number of compared vertices.
   void check_joints(const GltfValue& json, const GltfMesh& mesh, const ModelSkin& skin) {
     for (const int part : mesh.parts) {
       const ModelMesh& m = model_.meshes[static_cast<std::size_t>(part)];
@@ -140,7 +140,7 @@ class NodeReader {
     return values;
   }
 
-  // Fills parents_ and order_, in which every node follows its parent.
+  // Fills parents_ and order_. In order_, each node comes after its parent.
   void check_forest() {
     parents_.assign(json_.size(), -1);
     for (std::size_t i = 0; i < json_.size(); ++i) {

@@ -8,7 +8,7 @@
 
 namespace halfspace {
 
-/// Reads the nodes and scenes of a glTF file, with EXT_mesh_gpu_instancing. The model must have its meshes, skins, cameras and lights.
+/// Reads the nodes and scenes of a glTF file, including EXT_mesh_gpu_instancing. Meshes, skins, cameras and lights must have been read.
 /// Throws InputError if the nodes are not a forest, or if their transforms overflow.
 void read_gltf_nodes(GltfAccessors& accessors, const std::vector<GltfMesh>& meshes, Model& model);
 

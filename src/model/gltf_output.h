@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A glTF file that is being written: the JSON document and its buffer.
+// The output of the glTF writer: the JSON document and its buffer.
 #pragma once
 
 #include <cstddef>
@@ -40,7 +40,7 @@ class GltfOutput {
   /// Adds a warning, unless it has been added before.
   void warn(const std::string& text);
 
-  /// What an accessor is used for, which determines the target of its buffer view.
+  /// The use of an accessor, which determines the target of its buffer view.
   enum class Use { vertices, indices, other };
 
   /// Appends bytes to the buffer and returns the index of a buffer view.
@@ -59,7 +59,7 @@ class GltfOutput {
   int index_accessor(const std::vector<uint32_t>& values, std::size_t vertices);
   int joint_accessor(const std::vector<std::array<uint16_t, 4>>& values);
 
-  /// Adds the minimum and maximum of the values, which positions and times must have.
+  /// Adds the minimum and maximum of the values, which glTF requires for positions and times.
   void set_bounds(int accessor, std::span<const float> values, int width);
 
  private:
@@ -69,7 +69,7 @@ class GltfOutput {
   std::set<std::string> extensions_;
 };
 
-/// Writes samplers, images and textures. Images become views of the buffer if `embed` is set, else files "STEM_imageN".
+/// Writes samplers, images and textures. Images become views of the buffer if `embed` is set, otherwise files named "STEM_imageN".
 struct GltfImageFile {
   std::string name;
   int image;  ///< index in Model::images

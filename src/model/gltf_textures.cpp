@@ -26,7 +26,7 @@ Wrap wrap_of(const GltfDocument& document, const GltfValue& json, const char* ke
   }
 }
 
-// All four filters with mip levels are read as trilinear, because a texture without interpolation between levels shows seams.
+// All four filters with mip levels are treated as trilinear, because the transitions between levels would be visible otherwise.
 Sampler sampler_of(const GltfDocument& document, const GltfValue& json) {
   Sampler sampler;
   const uint64_t mag = document.integer(json, "magFilter", kLinear), min = document.integer(json, "minFilter", kLinearMipmapLinear);
@@ -47,7 +47,7 @@ Sampler sampler_of(const GltfDocument& document, const GltfValue& json) {
   return sampler;
 }
 
-// Returns the image of a texture; −1 if it has none that can be read.
+// Returns the image of a texture, or −1 if it has no image that can be read.
 int image_of(GltfDocument& document, const GltfValue& json) {
   const std::size_t images = document.list("images").size();
   if (const GltfValue* webp = document.extension(json, "EXT_texture_webp")) {

@@ -13,12 +13,12 @@ namespace halfspace {
 /// Reads the textures that materials use. All arguments of the constructor must outlive this object.
 class GltfTextures {
  public:
-  /// Adds one ModelTexture per texture and one ModelImage per image to the model. An image is located when a material uses it; other images
-  /// have neither a file nor bytes.
+  /// Adds one ModelTexture per texture and one ModelImage per image to the model. Images are only located if a material uses them; other
+  /// images have neither a file nor bytes.
   GltfTextures(GltfDocument& document, GltfBuffers& buffers, References& references, Model& model);
 
-  /// Reads a texture that a member of an object describes, with KHR_texture_transform. Returns a use without texture if the member is
-  /// missing, or if its image does not exist.
+  /// Reads the texture that a member of an object describes, including KHR_texture_transform. Returns a TextureUse without a texture if the
+  /// member is missing or if its image does not exist.
   TextureUse use(const GltfValue& object, const char* key, Channel channel = Channel::red);
 
  private:

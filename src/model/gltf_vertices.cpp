@@ -52,7 +52,7 @@ class VertexReader {
     return values;
   }
 
-  // Vectors that are not bounded are replaced by 0.
+  // Vectors that are too large or not finite are replaced by 0.
   template <class V>
   std::vector<V> bounded(const char* key, float limit) {
     const GltfAccessor source = accessor(key);
@@ -79,7 +79,7 @@ class VertexReader {
     return values;
   }
 
-  // Returns nothing if a tangent has no direction.
+  // Returns an empty list if a tangent has no direction.
   std::vector<glm::vec4> tangents() {
     std::vector<glm::vec4> values = bounded<glm::vec4>("TANGENT", kMaxPosition);
     for (glm::vec4& t : values) {
@@ -126,7 +126,8 @@ class VertexReader {
   GltfSubset subset_;
 };
 
-// Scales the weights of every vertex to the sum 1. Joints without weight become joint 0. A vertex without weights follows its first joint.
+// Normalizes the weights of every vertex to a sum of 1. Joints with zero weight become joint 0. A vertex without weights follows its first
+// joint.
 void normalize_weights(ModelMesh& mesh) {
   const auto sum_of = [](glm::vec4& w) {
     w = glm::max(w, glm::vec4(0.0f));

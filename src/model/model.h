@@ -111,9 +111,9 @@ struct ModelMesh {
   int material = -1;              ///< -1: ModelMaterial{}
   std::vector<int> variant_materials;  ///< one per Model::variants, or empty
   std::vector<MorphTarget> targets;
-  std::vector<std::array<uint16_t, 4>> joints;  ///< indices into ModelSkin::joints
-  std::vector<glm::vec4> weights;               ///< of the joints; the sum over all joints of a vertex is 1
-  std::vector<std::array<uint16_t, 4>> more_joints;  ///< joints 5 to 8 of every vertex; empty: at most 4
+  std::vector<std::array<uint16_t, 4>> joints;       ///< indices into ModelSkin::joints
+  std::vector<glm::vec4> weights;                    ///< weights of the joints; they add up to 1 for each vertex
+  std::vector<std::array<uint16_t, 4>> more_joints;  ///< joints 5 to 8 of every vertex; empty if no vertex has more than 4
   std::vector<glm::vec4> more_weights;
 };
 
@@ -133,8 +133,8 @@ struct ModelNode {
   std::vector<int> children;         ///< the hierarchy is a forest: every node has at most one parent and there are no cycles
   std::vector<int> meshes;
   int skin = -1, camera = -1, light = -1;
-  std::vector<float> morph_weights;      ///< of the targets of its meshes; empty: all are 0
-  std::vector<NodeTransform> instances;  ///< copies, placed relative to the node; empty: one at the node
+  std::vector<float> morph_weights;      ///< weights of the morph targets of the node's meshes; empty if all are 0
+  std::vector<NodeTransform> instances;  ///< transforms of copies relative to the node; empty for a single copy
 };
 
 /// A set of joints that deform a mesh.
@@ -148,7 +148,7 @@ struct ModelCamera {
   std::string name;
   bool perspective = true;
   double fovy = 0.8;                ///< full vertical angle in radians, in (0, π)
-  double height = 2.0;              ///< of the view volume of an orthographic camera
+  double height = 2.0;              ///< height of the view volume of an orthographic camera
   double near = 0.1, far = 1000.0;  ///< far may be infinity
 };
 
@@ -209,23 +209,23 @@ struct Model {
   int scene = 0;                   ///< the default scene
   std::vector<ModelAnimation> animations;
   std::vector<std::string> variants;
-  std::vector<std::string> extensions;  ///< extensions that the file says it uses
-  std::vector<std::string> unsupported_extensions;  ///< those of them that have no effect here
+  std::vector<std::string> extensions;              ///< the extensionsUsed list of the file
+  std::vector<std::string> unsupported_extensions;  ///< extensions in this list that have no effect
   std::vector<std::filesystem::path> files;         ///< absolute: other files that were read, such as buffers and material libraries
-  std::vector<std::string> warnings;    ///< one line each: what was left out or repaired
+  std::vector<std::string> warnings;                ///< one line for each problem that was ignored or repaired
 };
 
-/// Returns all files that a model was read from and that its images are in, except for the model file itself.
+/// Returns all files that the model and its images are read from, except for the model file itself.
 std::vector<std::filesystem::path> files_of(const Model& model);
 
 /// Limits and permissions for reading a model.
 struct ReadModelOptions {
-  bool allow_outside = false;                     ///< open referenced files outside the folder of the model
-  std::size_t max_memory = resource_limits().max_memory;  ///< bytes that the model may need; more is refused before it is allocated
-  float crease_degrees = 30.0f;                   ///< OBJ, PLY and STL without normals: edges sharper than this stay sharp
+  bool allow_outside = false;                             ///< open referenced files outside the folder of the model
+  std::size_t max_memory = resource_limits().max_memory;  ///< memory limit in bytes, checked before memory is allocated
+  float crease_degrees = 30.0f;                           ///< OBJ, PLY and STL without normals: edges sharper than this stay sharp
 };
 
-/// Reads a model file. The format is recognized by the contents, and by the extension where contents do not identify it. Throws InputError
+/// Reads a model file. The format is detected from the contents or, if they are ambiguous, from the extension. Throws InputError
 /// "FILE: PLACE: problem; expected ..." if the file cannot be read.
 Model read_model(const std::filesystem::path& file, const ReadModelOptions& options = {});
 

@@ -23,7 +23,7 @@ constexpr std::string_view kMapNames[kMtlMaps] = {"map_Kd",     "map_Ks", "map_N
 float max_component(const glm::vec3& color) { return std::max({color.x, color.y, color.z}); }
 float unit(float value) { return std::clamp(value, 0.0f, 1.0f); }
 
-// Returns a factor: 1 if it is missing or 0 although there is a texture for it.
+// Returns a factor. If there is a texture for it, a factor that is missing or 0 counts as 1.
 float factor(const std::optional<float>& value, const TextureUse& map, float missing) {
   if (map.texture >= 0) return value.value_or(0.0f) == 0.0f ? 1.0f : unit(*value);
   return unit(value.value_or(missing));

@@ -2,11 +2,12 @@
 //
 // Converts MTL materials to metallic-roughness materials.
 //
-// * Kd is the base color and Ke the emissive color. Both are sRGB-encoded, as programs that show OBJ files write the numbers to the screen
-//   unchanged. Where Ke exceeds 1, its largest component is a linear intensity and the rest is its color.
+// * Kd is the base color and Ke the emissive color. Both are sRGB-encoded, because most programs display these numbers without conversion.
+//   If Ke exceeds 1, its largest component is a linear intensity, and Ke divided by it is the color.
 // * A color or factor of 0 that has a texture counts as 1, and as 0.8 gray for Kd if the texture is missing.
-// * Opacity is d, else 1 − Tr. Tr = 1 without d is taken as opaque, because programs disagree about its meaning. Opacity below 1 gives
-//   AlphaMode::blend. A map_d gives AlphaMode::mask if the opacity is 1. If map_d is the image of map_Kd, its alpha channel is used.
+// * Opacity is d or, without d, 1 − Tr. Tr = 1 without d is treated as opaque, because programs disagree about its meaning. Opacity below 1
+//   selects AlphaMode::blend. A map_d selects AlphaMode::mask if the opacity is 1. If map_d is the image of map_Kd, its alpha channel is
+//   used.
 // * Ns is the exponent of a Blinn-Phong highlight: roughness² = sqrt(2/(Ns + 2)) gives the GGX distribution the same width. Without Ns,
 //   roughness is 0.6. map_Ns is a roughness map, as Blender writes it.
 // * Ks scales the reflectance at normal incidence: F0 = 0.08 Ks for Ni = 1.5 or no Ni, so that the usual 0.5 gives the 4 % of common
@@ -14,8 +15,8 @@
 //   many programs always write 1. map_Ks scales it by its luminance.
 // * illum 0 is unlit and illum 1 has no specular reflection. With illum 3, 5 or 8 (mirrors), a Ks brighter than Kd makes a metal of color
 //   Ks.
-// * Pr, Pm, Pc and Pcr are used as they are. Pr overrides Ns; a file with Pr or Pm gets F0 of Ni and ignores Ks and illum.
-// * bump and map_bump: the value 1 has a height of -bm times 1 % of the diagonal of the model's bounds.
+// * Pr, Pm, Pc and Pcr are used directly. Pr overrides Ns. With Pr or Pm, F0 is computed from Ni, and Ks and illum are ignored.
+// * bump and map_bump: the value 1 is a height of 1 % of the diagonal of the model's bounds, multiplied by the option -bm.
 // * Materials are double-sided, because the winding of OBJ files is unreliable.
 #pragma once
 
@@ -34,16 +35,16 @@ struct ModelMaterial;
 struct ReadModelOptions;
 struct TextureUse;
 
-/// Height of the value 1 in a bump map without -bm, as a fraction of the diagonal of the model's bounds.
+/// Height of the value 1 in a bump map without the option -bm, as a fraction of the diagonal of the model's bounds.
 inline constexpr double kMtlBumpHeight = 0.01;
 
-/// The material of elements without one, or whose material is not defined: roughness 0.6 and 0.8 gray, or white for vertex colors.
+/// The material of elements without a defined material: roughness 0.6 and a gray of 0.8, or white if there are vertex colors.
 ModelMaterial default_mtl_material(bool vertex_colors);
 
-/// Converts materials and adds their images and textures to a model. Missing images are named once in the model's warnings.
+/// Converts materials and adds their images and textures to a model. Adds one warning for each missing image.
 class MtlConverter {
  public:
-  /// diagonal: of the bounds of the model. `model` must outlive this object.
+  /// diagonal: length of the diagonal of the model's bounds. `model` must outlive this object.
   MtlConverter(Model& model, const std::filesystem::path& file, const ReadModelOptions& options, double diagonal);
 
   ModelMaterial convert(const MtlMaterial& mtl);
@@ -60,7 +61,7 @@ class MtlConverter {
   std::vector<std::string> quiet_warnings_;
   References quiet_;  // writes to quiet_warnings_
   double diagonal_;
-  std::map<std::string, int> images_;  // by folder and name; -1: missing
+  std::map<std::string, int> images_;  // key: folder and name; -1 if missing
 };
 
 }  // namespace halfspace

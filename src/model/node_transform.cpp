@@ -9,7 +9,7 @@
 namespace halfspace {
 
 glm::dquat unit_rotation(const glm::dquat& q) {
-  // Scaled first, so that squares neither overflow nor vanish.
+  // Scale first, so that squares neither overflow nor underflow.
   const double size = std::max({std::abs(q.w), std::abs(q.x), std::abs(q.y), std::abs(q.z)});
   if (!(size > 0.0)) return {1.0, 0.0, 0.0, 0.0};
   const glm::dquat s(q.w / size, q.x / size, q.y / size, q.z / size);

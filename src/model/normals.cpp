@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Work is in double and rounded once. Only the angles are rounded to float, with an error of at most 2 ulp (atan2 in lane_math.h): this
-// changes a normal by less than 1e-6, and the function gives the same bits on every machine.
+// Normals are computed in double and rounded once. Only the angles are floats, with an error of at most 2 ulp (atan2 in lane_math.h). This
+// changes normals by less than 1e-6, and atan2 returns the same bits on every machine.
 #include "halfspace/model/normals.h"
 
 #include <algorithm>
@@ -33,7 +33,7 @@ constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
 // Added to the cosine of an angle between planes, so that rounded positions of a flat surface do not make it sharp.
 constexpr double kCosineTolerance = 1e-6;
 
-// Every triangle at an edge is compared with the next 16, so that an edge shared by all triangles does not take quadratic time.
+// Each triangle at an edge is compared with at most 16 others, so that an edge shared by very many triangles does not take quadratic time.
 constexpr std::size_t kMaxComparisons = 16;
 
 double length_of(const glm::dvec3& v) { return std::sqrt(glm::dot(v, v)); }
@@ -248,7 +248,7 @@ void add_smooth_normals(ModelMesh& mesh, float crease_degrees, std::span<const u
   const PointCorners point_corners(mesh, points, facets);
   VertexNormals normals(mesh.positions.size());
   Fans fans;
-  std::vector<uint32_t> indices = mesh.indices;  // a copy, because the fans of other points need the original ones
+  std::vector<uint32_t> indices = mesh.indices;  // a copy, because the fans of other points need the original indices
   for (std::size_t p = 0; p < points.size(); ++p) {
     fans.for_each(mesh, points, facets, point_corners.of(p),
                   [&](std::span<const uint32_t> corners) { normals.add_fan(indices, corners, normal_of_fan(facets, corners)); });

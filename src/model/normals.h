@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Normals for meshes that have none.
+// Computes normals for meshes without normals.
 #pragma once
 
 #include <span>
@@ -9,18 +9,19 @@
 
 namespace halfspace {
 
-/// Returns the vector scaled to unit length, rounded to float. A vector that has this length up to the rounding of floats is returned
-/// unchanged, so that a file that was written from unit normals gives the same normals. n must be finite and not 0.
+/// Returns the vector normalized and rounded to float. A vector that already has unit length except for float rounding is returned
+/// unchanged, so that normals survive writing and reading a file. n must be finite and not 0.
 glm::vec3 unit_vector(const glm::dvec3& n);
 
-/// Gives every triangle three vertices of its own with the normal of its plane. A degenerate triangle gets the normal (0, 1, 0).
-/// Requires MeshTopology::triangles. All other vertex data is copied; tangents are removed.
+/// Gives every triangle its own three vertices with the normal of its plane. Degenerate triangles get the normal (0, 1, 0). Requires
+/// MeshTopology::triangles. All other vertex data is copied; tangents are removed.
 void add_flat_normals(ModelMesh& mesh);
 
-/// Gives the mesh smooth normals: the mean of the unit normals of the triangles around a vertex, weighted by their angles there (Thürmer
-/// and Wüthrich, "Computing vertex normals from polygonal facets", 1998). Two triangles that meet in an edge share a normal if the angle
-/// between their planes is at most `crease_degrees` and, if `groups` is not empty, if they are in the same group (one number per triangle;
-/// group 0 is never smooth; with groups the angle is ignored). Vertices with equal positions are joined; vertices at creases are split.
+/// Computes smooth normals: the average of the unit normals of the triangles around a vertex, weighted by their angles at the vertex
+/// (Thürmer and Wüthrich, "Computing vertex normals from polygonal facets", 1998). Without `groups`, two triangles with a common edge share
+/// a normal if the angle between their planes is at most `crease_degrees`. Otherwise, `groups` contains one smoothing group per triangle;
+/// triangles share a normal if they are in the same group, except group 0, which is never smooth. Vertices with equal positions are joined;
+/// vertices at creases are split.
 void add_smooth_normals(ModelMesh& mesh, float crease_degrees, std::span<const uint32_t> groups = {});
 
 }  // namespace halfspace

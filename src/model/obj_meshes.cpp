@@ -125,8 +125,8 @@ class MeshBuilder {
     if (obj_.has_smoothing) smoothing_.resize(mesh.indices.size() / 3, smoothing);
   }
 
-  // Returns the vertex with these indices. Vertices with the same position form a list. After kMaxSearched entries a new vertex is added
-  // without searching further, so that a file with very many vertices at one position does not take quadratic time.
+  // Returns the vertex with these indices. Vertices with the same position form a list. At most kMaxSearched entries of the list are
+  // searched before a new vertex is added, so that very many vertices at one position do not take quadratic time.
   uint32_t vertex(const ObjCorner& corner) {
     constexpr int kMaxSearched = 64;
     uint32_t& last = last_vertex_[corner.position];  // counted over all meshes; less than first_vertex_: of a mesh before this one

@@ -24,7 +24,7 @@ constexpr std::string_view kIgnoredStatements[] = {"bevel", "c_interp", "ctech",
 
 bool is_one_of(std::span<const std::string_view> names, std::string_view name) { return std::ranges::find(names, name) != names.end(); }
 
-// The largest index that a file uses, and the line where it occurs.
+// The largest index in a file, and its line.
 struct LargestIndex {
   uint64_t index = 0;  // counted from 1; 0: no index
   std::size_t line = 0;
@@ -82,7 +82,7 @@ class ObjParser {
     return count;
   }
 
-  // x y z, x y z w, or x y z red green blue. The weight w belongs to rational curves.
+  // x y z, x y z w, or x y z red green blue. w is the weight for rational curves and is ignored.
   void vertex(std::string_view rest) {
     std::array<double, 7> v{};
     const std::size_t count = numbers(rest, v, [&](std::string_view word) {
@@ -177,11 +177,11 @@ class ObjParser {
     material_ = known->second;
   }
 
-  // Only names of the first element of a mesh are used, so a new name alone does not start a new state.
+  // Only the name of the first element of a mesh is used, so a new name does not start a new state.
   void set_name(std::string_view name) { name_ = name; }
 
   void set_smoothing(std::string_view value) {
-    uint32_t group = value == "on" ? 1 : 0;  // everything else that is not a number, such as "off", is 0
+    uint32_t group = value == "on" ? 1 : 0;  // other words, such as "off", are 0
     std::from_chars(value.data(), value.data() + value.size(), group);
     state_changed_ = state_changed_ || smoothing_ != group;
     smoothing_ = group;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Parses the text of a Wavefront OBJ file ("Object Files (.obj)", Advanced Visualizer manual, appendix B1) into lists that follow the
-// statements of the file.
+// Parses a Wavefront OBJ file ("Object Files (.obj)", Advanced Visualizer manual, appendix B1) to lists that correspond to the statements
+// of the file.
 //
-// This parser replaces tinyobjloader, which reads damaged files as if they were right: unreadable numbers become 0, indices out of range
-// are passed on, decimal fractions are not correctly rounded, continued lines are not joined, material libraries are opened during parsing
-// wherever they are, and most errors have no line number.
+// This parser is used instead of tinyobjloader, which accepts damaged files: it reads invalid numbers as 0, passes on indices that are out
+// of range, does not round decimal fractions correctly, does not join continued lines, opens material libraries in any folder while
+// parsing, and reports most errors without a line number.
 #pragma once
 
 #include <cstddef>
@@ -23,7 +23,7 @@ namespace halfspace {
 /// Marks a corner without texture coordinate or normal.
 inline constexpr uint32_t kNoIndex = 0xffffffffu;
 
-/// Indices into the lists of ObjText. Indices of uvs and normals may be kNoIndex or otherwise out of range, which means the same.
+/// Indices into the lists of ObjText. Indices of uvs and normals that are out of range are equivalent to kNoIndex.
 struct ObjCorner {
   uint32_t position, uv, normal;
 };
@@ -33,10 +33,10 @@ struct ObjState {
   MeshTopology topology;
   int material;        ///< index in ObjText::materials; -1: none
   uint32_t smoothing;  ///< smoothing group; 0: none
-  std::string name;    ///< of the object or group
+  std::string name;    ///< name of the object or group
 };
 
-/// A polygon, a polyline or a set of points. Its corners end where those of the next element begin.
+/// A polygon, a polyline or a set of points. Its corners end where the corners of the next element begin.
 struct ObjElement {
   uint32_t first_corner;
   uint32_t state;  ///< index in ObjText::states
@@ -46,7 +46,7 @@ struct ObjText {
   std::vector<glm::dvec3> positions;
   std::vector<glm::vec3> colors;   ///< empty, or one per position, as written in the file
   std::vector<glm::vec2> uvs;      ///< v = 0 is the bottom of the image
-  std::vector<glm::vec3> normals;  ///< unit length; 0 if the file has no usable value
+  std::vector<glm::vec3> normals;  ///< unit length; 0 if the value in the file is not usable
   std::vector<ObjCorner> corners;
   std::vector<ObjElement> elements;
   std::vector<ObjState> states;
@@ -62,7 +62,7 @@ struct ObjText {
 
 /// Parses an OBJ file. Polygons have at least 3 corners, polylines 2, and all position indices are in range. `file` is only used in
 /// messages. Throws InputError "FILE:LINE: problem; expected ..." for coordinates that cannot be read and for position indices out of
-/// range. Other statements that cannot be used are left out with one warning per kind. The text must be smaller than 4 GiB.
+/// range. Other invalid statements are ignored, with one warning for each kind. The text must be smaller than 4 GiB.
 ObjText parse_obj(const std::filesystem::path& file, std::string_view text, std::vector<std::string>& warnings);
 
 }  // namespace halfspace

@@ -21,7 +21,7 @@ namespace {
 
 bool is_floating(PlyType type) { return type >= PlyType::float32; }
 
-/// Returns x limited to [low, high]; NaN gives low.
+/// Returns x clamped to [low, high], or low if x is NaN.
 double limited(double x, double low, double high) { return x >= low ? std::min(x, high) : low; }
 
 float linear_color(double value, PlyType type) {
@@ -40,7 +40,7 @@ glm::vec2 texture_coordinate(double u, double v) {
   return {coordinate(u), coordinate(1.0 - v)};
 }
 
-/// The numbers of properties in their element; -1 if it does not have them.
+/// Indices of properties in their element; -1 if the element does not have the property.
 template <std::size_t N>
 struct Fields {
   std::array<int, N> properties;
@@ -109,7 +109,7 @@ class ContentsReader {
         element, [] {}, [](std::size_t) { return false; });
   }
 
-  /// Reads all rows. Single values go to row_. list(property) reads a list that the caller needs and returns true, or returns false.
+  /// Reads all rows. Single values are stored in row_. list(property) reads a list and returns true, or returns false if it is not needed.
   template <class Row, class List>
   void for_each_row(const PlyElement& element, Row&& row, List&& list) {
     row_.resize(element.properties.size());

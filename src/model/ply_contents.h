@@ -13,9 +13,9 @@
 namespace halfspace {
 
 struct PlyContents {
-  // One entry per vertex; empty if the file has none. Only positions may have values that are not finite.
+  // One entry per vertex, or empty if the file has no such values. Only positions may be infinite or NaN.
   std::vector<glm::dvec3> positions;
-  std::vector<glm::dvec3> normals;  ///< as in the file, of any length
+  std::vector<glm::dvec3> normals;  ///< not normalized
   std::vector<glm::vec2> uvs;       ///< v = 0 is the top row
   std::vector<glm::vec4> colors;    ///< linear
   // Faces are stored as one list of corners. Triangle strips are stored as triangles.
@@ -26,9 +26,9 @@ struct PlyContents {
   std::vector<uint32_t> edges;         ///< pairs of vertices, in range
 };
 
-/// Reads the data after the header. Unknown elements and properties are skipped. Colors of integer types are sRGB-encoded and become
-/// linear; those of floating-point types are linear already, from 0 to 1. Throws InputError "FILE: element 'NAME', row N: problem;
-/// expected ..." if the data is not valid.
+/// Reads the data after the header. Unknown elements and properties are skipped. Integer colors are sRGB-encoded and are converted to
+/// linear colors; floating-point colors are already linear, from 0 to 1. Throws InputError "FILE: element 'NAME', row N: problem; expected
+/// ..." if the data is invalid.
 PlyContents read_ply_contents(const PlyHeader& header, std::string_view data, const std::string& file);
 
 }  // namespace halfspace

@@ -48,7 +48,7 @@ class HeaderParser {
  private:
   [[noreturn]] void fail(const std::string& what) const { throw InputError(fmt::format("{}: line {}: {}", file_, line_, what)); }
 
-  // Lines end in "\n", "\r\n" or, if the first line does, in "\r".
+  // Lines end with "\n" or "\r\n". If the first line ends with "\r" alone, all lines do.
   std::string_view next_line() {
     ++line_;
     const std::string_view rest = contents_.substr(at_, kMaxHeaderBytes);
@@ -129,7 +129,7 @@ class HeaderParser {
     return found->second;
   }
 
-  // In text, every value needs one character and a separator; only the last value of the file has no separator.
+  // In text files, each value takes at least one character and a separator; only the last value may have no separator.
   void check_count(const PlyElement& element) const {
     std::size_t row_bytes = 0;
     for (const PlyProperty& p : element.properties) {

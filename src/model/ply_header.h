@@ -25,8 +25,8 @@ constexpr std::size_t size_of(PlyType type) {
 
 struct PlyProperty {
   std::string name;
-  PlyType type = PlyType::float32;    ///< of the value, or of the items of a list
-  std::optional<PlyType> count_type;  ///< of the length of a list; none: the property is a single value
+  PlyType type = PlyType::float32;    ///< type of the value, or of the items of a list
+  std::optional<PlyType> count_type;  ///< type of the length of a list; nullopt if the property is a single value
 };
 
 struct PlyElement {

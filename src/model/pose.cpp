@@ -14,8 +14,8 @@ namespace halfspace {
 
 namespace {
 
-// Bounds are exact up to this number of vertices over all places. Beyond it they are those of the transformed boxes of meshes, which can be
-// larger.
+// Bounds are exact up to this total number of placed vertices. For larger models, they are computed from the transformed bounding boxes of
+// the meshes and can be too large.
 constexpr std::size_t kMaxBoundedVertices = std::size_t{1} << 27;
 
 glm::dmat4 translation_matrix(const glm::dvec3& t) {
@@ -24,13 +24,13 @@ glm::dmat4 translation_matrix(const glm::dvec3& t) {
   return m;
 }
 
-// Turns z up into y up: (x, y, z) → (x, z, −y).
+// Converts z-up to y-up: (x, y, z) → (x, z, −y).
 glm::dmat4 world_from_model(UpAxis up) {
   if (up == UpAxis::y) return glm::dmat4(1.0);
   return {glm::dvec4(1, 0, 0, 0), glm::dvec4(0, 0, -1, 0), glm::dvec4(0, 1, 0, 0), glm::dvec4(0, 0, 0, 1)};
 }
 
-// Returns a matrix with the same origin and −z axis, orthonormal and not mirrored.
+// Returns a rigid transform without mirroring that has the same origin and −z axis.
 glm::dmat4 without_scale(const glm::dmat4& m) {
   const auto unit_or = [](const glm::dvec3& v, const glm::dvec3& fallback) {
     const double length = std::sqrt(glm::dot(v, v));
@@ -76,7 +76,8 @@ class Poser {
   }
 
  private:
-  // Computes world_ of all nodes: joints may be in another scene. A node whose transform overflows is not valid, nor are its descendants.
+  // Computes world_ for all nodes, because joints may be in another scene. If the transform of a node overflows, the node and its
+  // descendants are invalid.
   void resolve_hierarchy() {
     const std::size_t n = nodes_.size();
     std::vector<bool> is_child(n);
@@ -133,7 +134,7 @@ class Poser {
     return options_.variant >= 0 && variant < mesh.variant_materials.size() ? mesh.variant_materials[variant] : mesh.material;
   }
 
-  // Positions of skinned meshes are relative to their first joint, so that floats suffice far from the origin.
+  // Positions of skinned meshes are stored relative to their first joint, to keep float precision far from the origin.
   glm::dvec3 skin_origin(int skin) const {
     const auto joint = static_cast<std::size_t>(model_.skins[static_cast<std::size_t>(skin)].joints[0]);
     return valid_[joint] ? glm::dvec3(world_[joint][3]) : glm::dvec3(0.0);

@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::size_t kMaxWarnings = 500;
 
-// A damaged file can give thousands.
+// Limits the number of warnings, because a damaged file can produce thousands.
 void limit_warnings(std::vector<std::string>& warnings) {
   if (warnings.size() <= kMaxWarnings) return;
   const std::size_t left_out = warnings.size() - kMaxWarnings;

@@ -26,7 +26,7 @@ std::string lower_extension(const std::filesystem::path& file) {
   return extension;
 }
 
-/// Returns whether a line near the beginning is a vertex or a face.
+/// Returns true if a line near the beginning is a vertex or a face.
 bool looks_like_obj(std::string_view text) {
   TextLines lines(text.substr(0, 65536));
   while (lines.next()) {

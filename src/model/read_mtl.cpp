@@ -35,11 +35,11 @@ constexpr MapKey kMaps[] = {{"map_kd", MtlMap::Kd},     {"map_ks", MtlMap::Ks}, 
                             {"map_norm", MtlMap::norm}, {"map_kn", MtlMap::norm}, {"map_pr", MtlMap::Pr},     {"map_pm", MtlMap::Pm},
                             {"map_pc", MtlMap::Pc},     {"map_pcr", MtlMap::Pcr}};
 
-// Without effect here: ambient light is replaced by the environment, and the rest does not change the appearance of a surface.
+// Statements that are ignored: the environment replaces ambient light, and the others do not affect the appearance of a surface.
 constexpr std::string_view kIgnored[] = {"ka", "map_ka", "tf", "km", "kt", "sharpness", "map_aat"};
 constexpr std::string_view kNotDrawn[] = {"disp", "map_disp", "refl", "map_refl", "decal", "ps", "map_ps", "aniso", "anisor"};
 
-// Texture options: how many arguments they accept at most, and whether those are numbers.
+// Texture options, with their maximum number of arguments and whether the arguments are numbers.
 struct Option {
   std::string_view name;
   int max_arguments;

@@ -18,7 +18,7 @@ inline constexpr std::size_t kMtlMaps = 11;
 
 /// The arguments of a texture statement.
 struct MtlTexture {
-  std::string file;                     ///< as written, without quotation marks; empty: no texture
+  std::string file;                     ///< file name as written, without quotation marks; empty if there is no texture
   glm::vec2 scale{1.0f}, offset{0.0f};  ///< options -s and -o: uv' = scale · uv + offset, where v = 0 is the bottom of the image
   bool clamp = false;                   ///< option -clamp
   float bump_multiplier = 1.0f;         ///< option -bm
@@ -28,7 +28,7 @@ struct MtlTexture {
 /// A material as written. Numbers that the file does not give are empty.
 struct MtlMaterial {
   std::string name;
-  std::string folder;  ///< of the library relative to the folder of the model; empty: the same. Set by the caller.
+  std::string folder;  ///< folder of the library, relative to the folder of the model; empty if they are the same. Set by the caller.
   std::optional<glm::vec3> Kd, Ks, Ke;
   std::optional<float> Ns, d, Tr, Ni, Pr, Pm, Pc, Pcr;
   std::optional<int> illum;

@@ -27,7 +27,7 @@ constexpr std::size_t kMaxBytes = 0xffffffffu;
 
 std::string_view text_of(std::span<const std::byte> bytes) { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
 
-// Without elements, the vertices are a point cloud.
+// If the file has no elements, its vertices are a point cloud.
 void add_points(ObjText& obj) {
   obj.states.push_back({MeshTopology::points, -1, 0, "points"});
   obj.elements.push_back({0, static_cast<uint32_t>(obj.states.size() - 1)});
@@ -111,8 +111,8 @@ class Libraries {
   bool missing_ = false;
 };
 
-// Looks up the materials of all states and replaces their numbers by indices in the returned list. Undefined materials are null there and
-// share one number, as do elements without a material.
+// Looks up the materials of all states and replaces their numbers with indices into the returned list. All undefined materials share one
+// entry, which is null, and so do elements without a material.
 std::vector<const MtlMaterial*> resolve_materials(ObjText& obj, const Libraries& libraries, std::vector<std::string>& warnings) {
   std::vector<const MtlMaterial*> used;
   std::map<const MtlMaterial*, int> numbers;

@@ -58,7 +58,7 @@ Faces triangles_of(const PlyContents& ply) {
   return faces;
 }
 
-/// Returns the normals in unit length, or nothing if one of them has no direction.
+/// Returns the normals normalized, or an empty list if one of them has no direction.
 std::vector<glm::vec3> unit_normals(const std::vector<glm::dvec3>& normals) {
   std::vector<glm::vec3> units(normals.size());
   for (std::size_t i = 0; i < normals.size(); ++i) {
@@ -133,7 +133,8 @@ Model model_of(PlyContents ply, const std::filesystem::path& file, const ReadMod
   const auto warn = [&](std::ptrdiff_t count, std::string_view what) {
     if (count > 0) warnings.push_back(fmt::format("{} {}; left out", count, what));
   };
-  warn(std::ranges::count_if(ply.positions, [](const glm::dvec3& p) { return !is_finite(p); }), "vertices whose coordinates are not finite");
+  warn(std::ranges::count_if(ply.positions, [](const glm::dvec3& p) { return !is_finite(p); }),
+       "vertices whose coordinates are not finite");
   ModelMesh mesh;
   set_positions(mesh, ply.positions);
   ignore_zero_opacity(ply.colors, warnings);

@@ -26,7 +26,7 @@ constexpr std::size_t kMaxTriangles = 0xffffffffu / 3;
 // The smallest triangle takes 50 bytes in a binary file and more in a text file.
 constexpr std::size_t kStlMemoryPerByte = 1 + (kBytesPerTriangle + 3 * sizeof(glm::dvec3) + 3 * sizeof(glm::vec3)) / 50;
 
-/// Removes triangles that have a corner that is not finite. Returns how many there were.
+/// Removes triangles with infinite or NaN coordinates. Returns their number.
 std::size_t remove_infinite(StlTriangles& triangles) {
   std::size_t kept = 0;
   const std::size_t count = triangles.corners.size() / 3;
@@ -43,7 +43,7 @@ std::size_t remove_infinite(StlTriangles& triangles) {
 
 bool is_color(uint16_t attribute) { return (attribute & 0x8000) != 0; }
 
-/// Returns the linear color of an attribute; gray if it has none.
+/// Returns the linear color stored in an attribute, or gray if it does not contain a color.
 glm::vec4 color_of(uint16_t attribute) {
   constexpr float kGray = 0.8f;
   if (!is_color(attribute)) return {kGray, kGray, kGray, 1.0f};

@@ -21,10 +21,10 @@ bool has_drive(std::string_view name) {
   return name.size() > 1 && name[1] == ':' && std::isalpha(static_cast<unsigned char>(name[0])) != 0;
 }
 
-// Returns whether a path without symbolic links and dots is in a folder that has none either.
+// Returns true if a path is inside a folder. Both must be canonical, without symbolic links and dots.
 bool is_inside(const fs::path& path, const fs::path& folder) { return std::ranges::mismatch(folder, path).in1 == folder.end(); }
 
-// Returns the canonical path of a regular file, or nothing if there is none or it cannot be reached.
+// Returns the canonical path of a regular file, or nullopt if it does not exist or is not accessible.
 std::optional<fs::path> canonical_file(const fs::path& path) {
   std::error_code error;
   if (!fs::is_regular_file(path, error)) return std::nullopt;
@@ -38,7 +38,7 @@ bool equal_ignoring_case(std::string_view a, std::string_view b) {
   return std::ranges::equal(a, b, {}, lower, lower);
 }
 
-// Returns the entry of a folder whose name differs from `name` at most in case. The first in alphabetical order wins.
+// Returns the entry of a folder whose name equals `name` except for case. If there are several, returns the first in alphabetical order.
 std::optional<fs::path> entry_ignoring_case(const fs::path& folder, const std::string& name) {
   std::error_code error;
   if (fs::exists(folder / name, error)) return folder / name;
@@ -50,7 +50,7 @@ std::optional<fs::path> entry_ignoring_case(const fs::path& folder, const std::s
   return best;
 }
 
-// Returns folder/relative with the case of existing names. The path must not contain "..".
+// Returns folder/relative with the case of the existing files and folders. The path must not contain "..".
 std::optional<fs::path> path_ignoring_case(const fs::path& folder, const fs::path& relative) {
   fs::path path = folder;
   for (const fs::path& part : relative) {

@@ -23,10 +23,10 @@ void set_positions(ModelMesh& mesh, std::span<const glm::dvec3> positions);
 /// blended if a vertex color is not opaque.
 Model single_mesh_model(std::string format, const std::filesystem::path& file, ModelMesh mesh);
 
-/// Throws InputError without a place if `bytes` exceed options.max_memory.
+/// Throws an InputError that does not name the file if `bytes` exceeds options.max_memory.
 void check_memory(std::size_t bytes, const ReadModelOptions& options);
 
-/// Upper bound of the memory that a triangle needs while normals are computed, in bytes.
+/// Upper bound of the memory per triangle while normals are computed, in bytes.
 inline constexpr std::size_t kBytesPerTriangle = 200;
 
 }  // namespace halfspace

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// All computation is in double, and the result is rounded once. Only the angles are rounded to float (atan2 in lane_math.h), so that the function gives the same
-// bits on every machine. Differences from MikkTSpace: all triangles around a vertex are averaged, even if they are not connected by edges;
-// triangles with zero area are ignored, whereas MikkTSpace copies tangents to them from other triangles.
+// Tangents are computed in double and rounded once. Only the angles are floats (atan2 in lane_math.h), so that the function returns the
+// same bits on every machine. Differences from MikkTSpace: all triangles around a vertex are averaged, even if they are not connected by
+// edges. Triangles with zero area are ignored, whereas MikkTSpace copies tangents to them from other triangles.
 #include "halfspace/model/tangents.h"
 
 #include <array>
@@ -20,7 +20,7 @@ namespace {
 
 constexpr uint32_t kNoVertex = std::numeric_limits<uint32_t>::max();
 
-/// The data of a vertex that must be equal for its tangents to be averaged.
+/// Vertex data that must be equal for tangents to be averaged.
 using VertexKey = std::array<uint32_t, 8>;
 
 VertexKey key_of(const glm::vec3& p, const glm::vec3& n, const glm::vec2& uv) {
@@ -52,7 +52,7 @@ std::vector<uint32_t> first_equal_vertices(const ModelMesh& mesh, const std::vec
   return first;
 }
 
-/// Returns the component of v in the plane of n, with unit length; 0 if it has no direction.
+/// Returns the projection of v onto the plane with normal n, normalized; 0 if it has no direction.
 glm::dvec3 unit_in_plane(const glm::dvec3& v, const glm::dvec3& n) {
   const glm::dvec3 p = v - n * glm::dot(n, v);
   const double length = std::sqrt(glm::dot(p, p));
@@ -65,7 +65,7 @@ glm::dvec3 any_perpendicular(const glm::dvec3& n) {
   return unit_in_plane(axis, n);
 }
 
-/// How texture coordinates cover a triangle: the sign of the bitangent, or not at all.
+/// The orientation of the texture coordinates of a triangle: the sign of the bitangent, or none if they have no area.
 enum class Orientation : uint8_t { positive, negative, none };
 
 class TangentBuilder {
@@ -109,7 +109,7 @@ class TangentBuilder {
 
   glm::dvec3& sum(uint32_t vertex, Orientation orientation) { return sums_[static_cast<std::size_t>(orientation)][first_[vertex]]; }
 
-  // Gives triangles of different orientations different vertices. Triangles without orientation share those of the others.
+  // Separates the vertices of triangles with different orientations. Triangles without an orientation share the vertices of the others.
   void split_vertices() {
     std::vector<uint32_t> sources(mesh_.positions.size()), copies(mesh_.positions.size(), kNoVertex);
     for (std::size_t i = 0; i < sources.size(); ++i) sources[i] = static_cast<uint32_t>(i);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Ear clipping. The polygon is projected along the coordinate axis nearest to its normal. This keeps coordinates exact, and for a planar
-// polygon it differs from the projection along the normal only by an affine map, which preserves all orientations. The orientation of
+// Ear clipping. The polygon is projected along the coordinate axis that is nearest to its normal, which keeps the coordinates exact. For a
+// planar polygon, this differs from a projection along the normal only by an affine map that preserves orientations. The orientation of
 // three corners is computed exactly.
 //
-// A corner is an ear if it turns left and no other corner is in its triangle. Only corners that do not turn left can lie inside it, so these
-// are sorted into a grid. The number of steps is limited to a multiple of the number of corners: a polygon that intersects itself could
-// take quadratic time or worse. Beyond the limit, corners are clipped without tests.
+// A corner is an ear if it turns left and no other corner is in its triangle. Only corners that do not turn left can lie inside it, so
+// these are sorted into a grid. The number of steps is limited to a multiple of the number of corners: a polygon that intersects itself
+// could take quadratic time or worse. Beyond the limit, corners are clipped without tests.
 #include "halfspace/model/triangulate.h"
 
 #include <algorithm>
@@ -75,7 +75,7 @@ dvec3 normal_of(std::span<const dvec3> corners) {
   return normal;
 }
 
-// Drops the coordinate in which the normal is largest. The result is counter-clockwise.
+// Projects points by dropping the coordinate in which the normal is largest. The projected polygon is counter-clockwise.
 class Projection {
  public:
   explicit Projection(const dvec3& normal) {
@@ -97,7 +97,7 @@ void add_fan(std::size_t apex, std::size_t count, std::vector<uint32_t>& triangl
   }
 }
 
-// A quad with a corner that does not turn left is cut there, all others along the shorter diagonal.
+// A quad with a corner that does not turn left is split at this corner; all other quads are split along the shorter diagonal.
 void add_quad(const dvec2 (&p)[4], std::span<const dvec3> corners, std::vector<uint32_t>& triangles) {
   for (std::size_t i = 0; i < 4; ++i) {
     if (orientation(p[(i + 3) % 4], p[i], p[(i + 1) % 4]) <= 0.0) return add_fan(i, 4, triangles);
@@ -107,7 +107,7 @@ void add_quad(const dvec2 (&p)[4], std::span<const dvec3> corners, std::vector<u
   add_fan(glm::dot(d13, d13) < kTie * glm::dot(d02, d02) ? 1 : 0, 4, triangles);
 }
 
-// Returns whether the fan from corner 0 is a triangulation: all other corners are in order around it within half a turn.
+// Returns true if the fan from corner 0 is a triangulation: all other corners are in order around corner 0, within half a turn.
 bool is_fan(std::span<const dvec2> p) {
   for (std::size_t i = 2; i < p.size(); ++i) {
     if (orientation(p[0], p[1], p[i]) <= 0.0 || orientation(p[0], p[i - 1], p[i]) <= 0.0) return false;
@@ -154,13 +154,13 @@ class EarClipper {
   enum class State : uint8_t { convex, blocking, removed };
   static constexpr uint32_t kNone = 0xffffffffu;
   static constexpr std::size_t kBudgetPerCorner = 300;
-  static constexpr std::size_t kTestCost = 10;  // of a test of a corner against a triangle; all other steps cost 1
+  static constexpr std::size_t kTestCost = 10;  // cost of testing a corner against a triangle; all other steps cost 1
 
   double turn(uint32_t i) const { return orientation(points_[previous_[i]], points_[i], points_[next_[i]]); }
 
   void update(uint32_t i) { states_[i] = turn(i) > 0.0 ? State::convex : State::blocking; }
 
-  // Returns kNone if there is no ear or if the budget is spent. `any` is a corner that is left.
+  // Returns kNone if there is no ear or if the budget is exhausted. `any` is one of the remaining corners.
   uint32_t take_ear(uint32_t any) {
     for (const bool all : {false, true}) {
       if (all) queue_all(any);
@@ -254,13 +254,13 @@ class EarClipper {
 
   std::vector<dvec2> points_;
   std::size_t count_;
-  std::size_t budget_;                     // steps that may still be made
-  std::vector<uint32_t> previous_, next_;  // of the corners that are left
+  std::size_t budget_;                     // remaining steps
+  std::vector<uint32_t> previous_, next_;  // linked list of the remaining corners
   std::vector<State> states_;
   std::vector<uint32_t> queue_;  // convex corners that may be ears; the first queue_at_ have been taken
   std::size_t queue_at_ = 0;
   dvec2 low_{0.0}, high_{0.0};
-  glm::ivec2 cells_{1};                      // of the grid, per axis
+  glm::ivec2 cells_{1};                      // number of grid cells per axis
   std::vector<uint32_t> cell_begin_, grid_;  // blocking corners by cell, at the start
 };
 

@@ -104,7 +104,7 @@ std::vector<std::byte> glb_of(const std::string& json, const std::vector<std::by
   return glb;
 }
 
-// Returns the document as text. Names that are not valid UTF-8 get replacement characters.
+// Returns the document as text. Invalid UTF-8 in names is replaced with replacement characters.
 std::string dumped(const OutputJson& json, int indent) { return json.dump(indent, ' ', false, OutputJson::error_handler_t::replace); }
 
 }  // namespace

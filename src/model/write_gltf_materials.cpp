@@ -38,7 +38,7 @@ OutputJson sampler_json(const Sampler& s, GltfOutput& out) {
           {"wrapT", gl_wrap(s.wrap_t, out)}};
 }
 
-// Returns the index of an equal sampler. Adds the sampler if there is none.
+// Returns the index of a sampler in the document, and adds it if it is missing.
 int sampler_index(const Sampler& sampler, GltfOutput& out) {
   OutputJson item = sampler_json(sampler, out);
   const int count = out.count("samplers");
@@ -48,8 +48,7 @@ int sampler_index(const Sampler& sampler, GltfOutput& out) {
   return out.add("samplers", std::move(item));
 }
 
-// Returns the angle with this cosine and sine. Newton's method, from the nearest multiple of 90 degrees, reduces the error to its cube in
-// every step.
+// Returns the angle with this cosine and sine. Newton's method starts from the nearest multiple of 90 degrees; each step cubes the error.
 double angle_of(double cosine, double sine) {
   constexpr double kQuarter = std::numbers::pi / 2.0;
   double angle = std::fabs(cosine) >= std::fabs(sine) ? (cosine > 0.0 ? 0.0 : 2.0 * kQuarter) : (sine > 0.0 ? kQuarter : -kQuarter);
@@ -143,7 +142,7 @@ class MaterialWriter {
     return json;
   }
 
-  // Emission above 1 needs an extension. A power of two as its strength keeps the product exact.
+  // Emission above 1 requires an extension. The strength is a power of two, which keeps the product exact.
   void add_emissive(OutputJson& json) {
     const glm::vec3 e = material_->emissive;
     add_texture(json, "emissiveTexture", material_->emissive_map);

@@ -32,7 +32,7 @@ class NodeWriter {
  private:
   using Use = GltfOutput::Use;
 
-  // A glTF mesh is a list of meshes that a node draws together.
+  // A glTF mesh is a list of primitives that a node draws together.
   void write_meshes() {
     std::vector<std::vector<int>> lists;
     std::vector<bool> used(model_.meshes.size());
@@ -152,7 +152,7 @@ class NodeWriter {
     return json;
   }
 
-  // Meshes that are not at the origin of the node need a node of their own. Skinned meshes are placed by their joints.
+  // Meshes that are not at the origin of the node need their own node. Skinned meshes are placed by their joints.
   bool draws_itself(const ModelNode& node, const std::vector<int>& list) const {
     return node.skin >= 0 || mesh(list[0]).origin == glm::dvec3(0.0);
   }

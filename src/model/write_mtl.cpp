@@ -17,7 +17,7 @@ std::string numbers_text(const glm::vec3& v) { return fmt::format("{} {} {}", v.
 
 glm::vec3 encoded_color(const glm::vec3& c) { return {srgb_from_linear(c.x), srgb_from_linear(c.y), srgb_from_linear(c.z)}; }
 
-// Inverse of the formula in mtl_materials.h: the Blinn-Phong exponent of a roughness.
+// Returns the Blinn-Phong exponent of a roughness, with the inverse of the formula in mtl_materials.h.
 float exponent_of(float roughness) {
   constexpr float kMostExponent = 1e6f;
   const float r2 = roughness * roughness;
@@ -108,7 +108,7 @@ class MtlWriter {
     add_map("map_Ke", m.emissive_map);
   }
 
-  // Metals and maps of roughness need the PBR statements, which replace Ns and Ks.
+  // Metals and roughness maps require the PBR statements, which replace Ns and Ks.
   void add_reflection(const ModelMaterial& m) {
     const bool pbr = m.metallic > 0.0f || has_image(m.metallic_map) || has_image(m.roughness_map);
     if (pbr) {

@@ -14,7 +14,7 @@ namespace halfspace {
 
 namespace {
 
-// Returns a name without characters that end a word, different from the names in `used`.
+// Returns the name as a single word that differs from all names in `used`.
 std::string obj_name(const std::string& name, const char* fallback, std::set<std::string>& used) {
   std::string word = name.empty() ? fallback : name;
   std::ranges::replace_if(
@@ -26,7 +26,7 @@ std::string obj_name(const std::string& name, const char* fallback, std::set<std
 
 class ObjWriter {
  public:
-  /// material_names: the last one is that of meshes without a material.
+  /// material_names: the last name is for meshes without a material.
   explicit ObjWriter(const std::vector<std::string>& material_names) : material_names_(material_names) {}
 
   void add(const WorldMesh& mesh) {

@@ -22,7 +22,7 @@ class PlyWriter {
       meshes_.push_back(mesh);
       faces_ += mesh.triangles();
     }
-    // Points in a file with faces would have no meaning.
+    // In a file with faces, points would be unused vertices.
     if (faces_ > 0) std::erase_if(meshes_, [](const WorldMesh& m) { return m.triangles() == 0; });
     for (const WorldMesh& mesh : meshes_) look_at(mesh);
   }

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kStlHeader = 80;
 
-// Turns y up into z up.
+// Converts y-up to z-up.
 glm::dvec3 z_up(const glm::dvec3& p) { return {p.x, -p.z, p.y}; }
 
 void append_vector(std::vector<std::byte>& bytes, const glm::dvec3& v) {

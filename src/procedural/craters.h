@@ -58,7 +58,7 @@ RowRange rows_reached(const Crater& crater, int height);
 /// Applies one crater to the texels within its reach.
 void stamp(const Crater& crater, CraterRow& row);
 
-/// Adds the rays of a crater that has any.
+/// Adds the rays of a crater, if it has rays.
 void add_rays(const Crater& crater, CraterRow& row);
 
 }  // namespace halfspace::procedural

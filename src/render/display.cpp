@@ -76,7 +76,7 @@ struct ToCodes {
   }
 };
 
-// Divides colors that have been multiplied by alpha by it.
+// Converts premultiplied alpha to straight alpha.
 template <Number R>
 vec4<R> straight(const vec4<R>& color) {
   const MaskOf<R> is_seen = color.w > R(0);

@@ -221,7 +221,7 @@ glm::ivec2 view_size(const PreparedScene& scene, const FrameImages& images) {
   return size;
 }
 
-// Renders a color image if it is wanted.
+// Renders a color image if it is requested.
 template <class T>
 void render_color(const FrameRenderer& renderer, Image<T>* wanted, const FrameImages& images, const glm::ivec2& size,
                   PassStatistics& statistics) {

@@ -25,7 +25,7 @@ glm::dvec3 eye_direction(const ModelView& view) {
 
 namespace {
 
-constexpr double kMargin = 1.12;  // of the fitted view
+constexpr double kMargin = 1.12;  // factor for the size of the fitted view
 
 double tangent(double degrees) {
   const SinCosDouble a = sincos_radians(degrees * kRadiansPerDegree);

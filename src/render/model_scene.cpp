@@ -119,7 +119,8 @@ OrderedJson cameras_of(const Model& model, const PosedModel& posed, const ModelB
   return cameras;
 }
 
-// Lights of the file. Candela and lux are divided by π, because a white surface that faces a light of intensity 1 has a radiance of 1.
+// Returns the lights of the file. Candela and lux are divided by π, because a white surface that faces a light of intensity 1 has a
+// radiance of 1.
 OrderedJson lights_of(const Model& model, const PosedModel& posed, const Frame& frame) {
   OrderedJson lights = OrderedJson::object();
   std::set<std::string> used;

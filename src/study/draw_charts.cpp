@@ -21,9 +21,9 @@ namespace {
 constexpr int kNoMatplotlib = 69;  // exit code of the script
 
 struct ScriptResult {
-  int start_error;        // errno if the program did not start, else 0
-  int status;             // as returned by waitpid
-  std::string last_line;  // of its standard error
+  int start_error;        // errno if the program did not start, otherwise 0
+  int status;             // see waitpid()
+  std::string last_line;  // last line of standard error
 };
 
 // Only standard error of the program is kept: the last line of it explains a failure.

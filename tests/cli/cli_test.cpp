@@ -305,7 +305,8 @@ TEST_F(Cli, PrintsStatisticsAsTextAndJson) {
 TEST_F(Cli, InfoPrintsVersionAndJsonKeys) {
   EXPECT_TRUE(run({"info"}).out.starts_with("halfspace "));
   const auto parsed = nlohmann::json::parse(run({"info", "--json"}).out);
-  for (const char* key : {"version", "arch", "lanes", "compiler", "cores", "image_tool", "draco_tool"}) EXPECT_TRUE(parsed.contains(key)) << key;
+  for (const char* key : {"version", "arch", "lanes", "compiler", "cores", "image_tool", "draco_tool"})
+    EXPECT_TRUE(parsed.contains(key)) << key;
 }
 
 TEST_F(Cli, HelpFitsOnAScreenAndEndsWithTwoExamples) {
@@ -369,7 +370,8 @@ TEST_F(Cli, ListPrintsScenesAndKeys) {
 
 TEST_F(Cli, CompletionScriptsWork) {
   for (const char* shell : {"bash", "zsh", "fish"}) EXPECT_EQ(run({"completion", shell}).exit_code, 0);
-  EXPECT_EQ(run({"completion", "words"}).out, "render\nexplain\nexport\nconvert-normal\nvalidate\ncompare\nchart\nlist\ninfo\ncompletion\n");
+  EXPECT_EQ(run({"completion", "words"}).out,
+            "render\nexplain\nexport\nconvert-normal\nvalidate\ncompare\nchart\nlist\ninfo\ncompletion\n");
   std::ofstream(directory / "try.sh") << run({"completion", "bash"}).out << R"(
 halfspace() { ")" HALFSPACE_PROGRAM R"(" "$@"; }
 compopt() { :; }
@@ -547,7 +549,7 @@ TEST_F(Cli, ChartWritesDataChartAndPage) {
   EXPECT_NE(both.find("id=\"tone\""), std::string::npos);
 }
 
-// Without Python or matplotlib, the data are written. matplotlib is hidden by a module of that name that cannot be imported.
+// Without Python or matplotlib, only the data is written. A module named matplotlib that cannot be imported simulates a missing matplotlib.
 TEST_F(Cli, ChartWritesDataWithoutPythonOrMatplotlib) {
   std::ofstream(root / "matplotlib.py") << "raise ImportError('hidden')\n";
   const std::pair<std::string, std::string> cases[] = {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The page of `halfspace explain`: where it is written, and errors. tests/explain tests its contents.
+// The output file and the error messages of `halfspace explain`. tests/explain tests the contents of the page.
 #include "cli/cli_run.h"
 #include "support/errors.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// `halfspace explain`: the history of a pixel, and wrong arguments.
+// `halfspace explain --text` and `--json`: the history of a pixel, and invalid arguments.
 #include <nlohmann/json.hpp>
 
 #include "cli/cli_run.h"

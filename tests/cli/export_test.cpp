@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Scenes and models that are exported and rendered again.
+// Exports scenes and models, and renders the results.
 #include <cmath>
 #include <fstream>
 #include <map>
@@ -29,11 +29,12 @@ class Export : public Cli {
   }
 };
 
-// Cameras and lights. The sun is the only light, as exported scenes lose ambient light.
+// Cameras and lights. The sun is the only light, because ambient light is not exported.
 const std::string kHead = R"({"version": 1, "cameras": {"c": {"position": [2, 3, 6], "target": [0, 0.3, 0]}},
   "lights": {"sun": {"direction": [1, 2, 2], "intensity": 1.2}}, "objects": {)";
 
-// Everything here is exported without loss but for the rounding of floats: diffuse light, textures, instances and all kinds of placement.
+// Except for the rounding of floats, everything in this scene is exported without loss: diffuse light, textures, instances and all kinds of
+// placement.
 const std::string kObjects = R"(
   "floor": {"shape": "plane", "size": 6, "segments": 2, "position": [0, -1, 0], "color": "map.png", "specular": 0},
   "ball": {"shape": "uv_sphere", "radius": 0.7, "color": [0.8, 0.3, 0.2], "position": [-1.5, 0, 0], "rotation": [10, 20, 30]},
@@ -43,7 +44,7 @@ const std::string kObjects = R"(
   "top": {"shape": "cube", "size": 0.3, "parent": "ball", "position": [0, 0.9, 0]},
   "flat": {"shape": "icosphere", "level": 1, "radius": 0.6, "position": [0, 0, 1.5], "shading": "flat"})";
 
-// The scene that shows an exported file with the same camera and light.
+// Returns a scene that shows an exported file with the same camera and light.
 std::string shown(const std::string& file, const std::string& more = "") {
   return kHead + R"("model": {"shape": "file", "file": ")" + file + "\"" + more + "}}}";
 }
@@ -60,7 +61,8 @@ TEST_F(Export, RenderOfTheExportMatches) {
     export_to("scene.json", file);
     write("again.json", shown(file));
     const ImageDifference d = compare_images(expected, render("again.json"));
-    // Silhouettes move by the rounding of positions, and shading by that of normals and of the reflection model: 1 code, and a few pixels.
+    // Rounding of positions moves silhouettes, which changes a few pixels. Rounding of normals and the converted reflection model change
+    // shading by 1 code.
     EXPECT_LT(d.mean, 2e-3) << file;
     EXPECT_LT(d.share_above, 0.01) << file;
   }
@@ -83,7 +85,7 @@ TEST_F(Export, CamerasAndLightsAreThoseOfTheScene) {
   for (const auto& node : gltf.at("nodes")) {
     if (node.contains("matrix")) matrices[node.at("name")] = node.at("matrix").get<std::vector<double>>();
   }
-  // The z axes point back: towards the light, and from the target to the eye.
+  // The z axes point backwards: toward the light, and from the target to the eye.
   for (int k = 0; k < 3; ++k) {
     const double to_light[] = {1.0, 2.0, 2.0}, to_eye[] = {2.0, 2.7, 6.0}, eye[] = {2.0, 3.0, 6.0};
     EXPECT_NEAR(matrices.at("sun")[8 + k], to_light[k] / 3.0, 1e-12);
@@ -133,7 +135,7 @@ TEST_F(Export, NeverReplacesAFileThatItReads) {
   }
   EXPECT_EQ(read_bytes(directory / "c.mtl"), before);
   EXPECT_FALSE(fs::exists(directory / "c.obj"));
-  // A render that would replace a material library.
+  // Rendering must not overwrite a material library.
   write("d.png", "newmtl m\n");
   write("d.obj", "mtllib d.png\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   EXPECT_EQ(run({"render", "d.obj", "--size", "32x32", "-o", "d.png"}).exit_code, 4);

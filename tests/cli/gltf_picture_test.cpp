@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Features of glTF, drawn: small files whose pictures are known. A camera looks along -z at the square [-4, 4]², of which every unit is one
-// pixel.
+// Renders small files for features of glTF and compares them with known pictures. The camera looks along -z at the square [-4, 4]²; a unit
+// is one pixel.
 #include <fstream>
 
 #include "cli/cli_run.h"
@@ -15,7 +15,7 @@ using Art = std::vector<std::string>;
 
 class GltfPicture : public Cli {
  protected:
-  // Renders the file and returns its pixels as letters: red, green, blue, white, half (linear 0.5 of white), '.' is the background.
+  // Renders the file and returns its pixels as letters: R, G, B, W, H (half of white, linear) and '.' for the background.
   Art art(const GltfBuilder& file, const std::string& keys = "") const {
     std::ofstream(directory / "a.gltf") << file.text();
     std::ofstream(directory / "scene.json") << R"({"version": 1, "cameras": {"c": {"type": "orthographic", "height": 8}}, "ambient": 1,
@@ -76,7 +76,7 @@ class GltfPicture : public Cli {
   static int white_square(GltfBuilder& file) { return file.mesh_node(square(file, unlit(file, GltfJson::object()))); }
 };
 
-// Rows of a picture in which the middle four rows are as given and the others empty.
+// Returns a picture with four equal rows in the middle; the other rows are empty.
 Art middle(const std::string& row) { return {"........", "........", row, row, row, row, "........", "........"}; }
 
 const Art kColors{"........", "........", "..RRGG..", "..RRGG..", "..BBWW..", "..BBWW..", "........", "........"};
@@ -130,7 +130,7 @@ TEST_F(GltfPicture, MaskAndBlend) {
   EXPECT_EQ(art(blend), middle("..hhhh.."));
 }
 
-// The file has only front faces. The mirrored node must not cull them.
+// The mesh has only front faces, which must not be culled if the node is mirrored.
 TEST_F(GltfPicture, NegativeScaleMirrors) {
   GltfBuilder file;
   const int node =
@@ -149,7 +149,7 @@ TEST_F(GltfPicture, Instances) {
   EXPECT_EQ(art(file), middle("WWWW..WW"));
 }
 
-// Quantized positions are integers, which the node scales.
+// Quantized positions are integers that the transform of the node scales.
 TEST_F(GltfPicture, QuantizedPositions) {
   GltfBuilder file;
   file.json["extensionsUsed"] = file.json["extensionsRequired"] = {"KHR_mesh_quantization"};
@@ -214,7 +214,7 @@ TEST_F(GltfPicture, MorphTargets) {
   EXPECT_EQ(art(file), middle("....WWW."));
 }
 
-// Joints 0 to 4 stay, and joint 5, in the second set, moves by 4. Half of its weight moves the square by 2.
+// Joints 0 to 4 do not move. Joint 5, which is in the second set, moves by 4; with a weight of 1/2, it moves the square by 2.
 TEST_F(GltfPicture, SkinsWithMoreThanFourJoints) {
   GltfBuilder file;
   GltfJson mesh = square(file, unlit(file, GltfJson::object()));

@@ -13,7 +13,7 @@ namespace {
 class Limits : public Cli {
  protected:
   void write(const std::string& name, const std::string& text) const { std::ofstream(directory / name) << text; }
-  // A triangle with this texture.
+  // Writes a triangle with this texture.
   void write_model(const std::string& texture) const {
     write("a.mtl", "newmtl m\nmap_Kd " + texture + "\n");
     write("a.obj", "mtllib a.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3/1\n");
@@ -78,7 +78,7 @@ TEST_F(Limits, RejectsInvalidValues) {
   EXPECT_EQ(run({"info", "--max-memory", "3G", "--max-pixels", "268435456"}).exit_code, 0);
 }
 
-// Other problems of these files are warnings.
+// A material library that exceeds the memory limit is an error; all other problems of material libraries are warnings.
 TEST_F(Limits, MaterialLibrary) {
   write("a.mtl", "newmtl m\n#" + std::string(std::size_t{13} << 20, '#') + "\n");
   write("a.obj", "mtllib a.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");

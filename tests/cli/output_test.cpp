@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What `halfspace render` writes: --aov, --crop, --bits, transparent backgrounds, and the text in image files.
+// The files that `halfspace render` writes: --aov, --crop, --bits, transparent backgrounds, and the text in image files.
 #include <fstream>
 
 #include "cli/cli_run.h"
@@ -90,7 +90,7 @@ TEST_F(Outputs, ResumeRendersMissingValues) {
   expect_success({"--frames", "0..1", "-o", "a.png"});
   expect_success({"--frames", "0..1", "-o", "a.png", "--resume", "--aov", "depth"});
   EXPECT_TRUE(fs::exists(directory / "a_0000-aov.exr") && fs::exists(directory / "a_0001-aov.exr"));
-  // Files that exist, but without all values.
+  // The files exist but do not contain all values.
   expect_success({"--frames", "0..1", "-o", "a.png", "--resume", "--aov", "depth,normal"});
   EXPECT_TRUE(has("a_0001-aov.exr", std::string("normal.Z\0", 9)));
   expect_success({"--frames", "0..1", "-o", "b.exr"});
@@ -168,7 +168,7 @@ TEST_F(Outputs, SixteenBitsAndTransparency) {
   EXPECT_EQ(read_image(directory / "triangle-render.png").at(1, 1).w, 0);
 }
 
-// The text has what changes pixels, and nothing else: files are named without folders, and the number of threads is not there.
+// The text contains only options that change pixels. File names have no folders, and the number of threads is omitted.
 TEST_F(Outputs, FilesSayHowTheyWereMade) {
   fs::create_directory(directory / "folder");
   fs::copy_file(directory / "scene.json", directory / "folder/scene.json");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Runs every program of apps/lessons. Their pages show the pictures and the times, so both must be what the programs produce.
+// Runs all programs of apps/lessons and compares their pictures with those in their pages.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,7 +25,7 @@ struct Lesson {
   Image<glm::u8vec4> in_docs;
 };
 
-// The pictures of the first lessons are PPM files, which have no compression. Read without the image tool, which is optional.
+// Reads a PPM file, the format of the first lessons. This function does not need the image tool, which is optional.
 Image<glm::u8vec4> read_ppm(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   std::string magic;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The page as text: its chapters, its quotes, and that its numbers do not depend on the number of threads.
+// Checks the page as text: its chapters, its quotes of source code, and that its numbers do not depend on the number of threads.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -59,7 +59,7 @@ TEST(Page, QuotesAreTheLinesOfTheSources) {
   }
 }
 
-TEST(Page, PackedBytesAreAPngOfThem) {
+TEST(Page, PackedBytesAreAPngFile) {
   const std::array<std::byte, 5> bytes{std::byte{1}, std::byte{2}, std::byte{255}, std::byte{0}, std::byte{7}};
   const std::string base64 = packed_bytes(bytes);
   EXPECT_EQ(base64.substr(0, 11), "iVBORw0KGgo") << "the PNG signature";
@@ -73,7 +73,7 @@ TEST(Page, PlanesHaveTheFirstBytesFirst) {
   EXPECT_EQ(packed_planes(std::span<const uint16_t>(values)), packed_bytes(planes));
 }
 
-TEST(Page, DataCannotEndItsScript) {
+TEST(Page, DataCannotCloseTheScriptElement) {
   EXPECT_EQ(script_safe("a</script>b</c"), "a<\\/script>b<\\/c");
   EXPECT_EQ(script_safe("a < b / c"), "a < b / c");
 }

@@ -20,18 +20,18 @@ constexpr int kSize = 64;
 
 using Corners = std::vector<glm::vec4>;
 
-// A triangle that covers the whole target, and one whose edges are inside of it. Window depth is z / 2 + 1 / 2.
+// A triangle that covers the whole target, and a triangle with edges inside the target. The window depth is z / 2 + 1 / 2.
 Corners whole(float z) { return {{-1, -1, z, 1}, {3, -1, z, 1}, {-1, 3, z, 1}}; }
 Corners part(float z) { return {{-0.9f, -0.9f, z, 1}, {0.9f, -0.9f, z, 1}, {-0.9f, 0.9f, z, 1}}; }
 
-// Two small triangles of one draw. They fit into a queue together with any number of lanes.
+// Two small triangles of one draw. Both fit into a queue, for any number of lanes.
 Corners two_small(float z0, float z1) {
   Corners corners;
   for (const float z : {z0, z1}) corners.insert(corners.end(), {{-0.05f, -0.05f, z, 1}, {0.1f, -0.05f, z, 1}, {-0.05f, 0.1f, z, 1}});
   return corners;
 }
 
-// Discards or keeps everything, in the fragment function or in the visibility function.
+// Discards or keeps all fragments, in the fragment function or in the visibility function.
 template <bool early, bool keeps = false>
 struct DiscardingShader : PositionShader {
   template <class R>
@@ -55,7 +55,7 @@ struct Traced {
   }
   void run() { statistics = run_traced(pass, one_worker(), trace); }
 
-  // The fragments of a pixel, from the lower left.
+  // Returns the fragments of a pixel. x and y are counted from the lower left.
   std::vector<TracedFragment> at(int x, int y) const {
     std::vector<TracedFragment> out;
     for (const std::vector<TileFragments>& tiles : trace.rounds) {
@@ -116,7 +116,7 @@ TEST(PassTrace, BackToFrontHidesTheFarTriangleBeforeShading) {
   EXPECT_EQ(t.at(10, 10)[1].draw, 1u);
 }
 
-TEST(PassTrace, TrianglesThatCoverATileReplaceEachOtherUnwritten) {
+TEST(PassTrace, PendingFullTileTrianglesAreReplacedWithoutBeingWritten) {
   Traced t;
   t.draw(ConstantShader(kRed), whole(0.5f));
   t.draw(ConstantShader(kGreen), whole(-0.5f));
@@ -125,7 +125,7 @@ TEST(PassTrace, TrianglesThatCoverATileReplaceEachOtherUnwritten) {
   EXPECT_EQ(t.outcomes(3, 60), (Outcomes{hidden_before_shading, shaded}));
   EXPECT_EQ(t.outcomes(10, 10), (Outcomes{hidden_before_shading, shaded, tile_rejected}));
   const std::vector<TracedFragment> f = t.at(10, 10);
-  EXPECT_EQ(f[1].stored_depth, 0.75f);  // of the triangle before, although it was never written
+  EXPECT_EQ(f[1].stored_depth, 0.75f);  // depth of the previous triangle, although it was never written
   EXPECT_EQ(f[2].tested_depth, 0.5f);
   EXPECT_EQ(f[2].stored_depth, 0.25f);
   EXPECT_EQ(t.image.at(10, 10), kGreen);
@@ -143,7 +143,7 @@ TEST(PassTrace, BlendedFragmentsAreShadedInOrder) {
   EXPECT_TRUE(t.at(10, 10)[1].is_shaded);
 }
 
-TEST(PassTrace, DiscardedFragmentsHaveOnlyRunAFragmentFunctionIfThatDecides) {
+TEST(PassTrace, DiscardedFragmentsAreShadedOnlyWithoutAVisibilityFunction) {
   Traced t;
   t.draw(DiscardingShader<false>(), part(0.0f));
   t.draw(DiscardingShader<true>(), part(0.0f));
@@ -174,7 +174,7 @@ TEST(PassTrace, QueuedFragmentsCanFailAfterTheyWereShaded) {
   EXPECT_EQ(f[0].stored_depth, 1.0f);
   EXPECT_TRUE(f[1].is_shaded);
   EXPECT_EQ(f[1].tested_depth, 0.5f);
-  EXPECT_EQ(f[1].stored_depth, 0.25f);  // of the triangle before it in the queue
+  EXPECT_EQ(f[1].stored_depth, 0.25f);  // depth of the previous triangle in the queue
 }
 
 TEST(PassTrace, QueuedFragmentsThatAVisibilityFunctionKeepsAreTestedInOrder) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Histories of pixels of whole scenes, compared with what the renderer draws.
+// Compares pixel histories of complete scenes with the rendered pictures.
 #include "halfspace/explain/pixel_history.h"
 
 #include <gtest/gtest.h>
@@ -41,7 +41,7 @@ struct TracedScene {
   FrameTrace trace;
 };
 
-// Pixels all over the picture, and the busiest one.
+// Returns pixels spread over the picture, and the pixel with the most fragments.
 std::vector<glm::ivec2> some_pixels(const FrameTrace& trace) {
   std::vector<glm::ivec2> pixels{trace.busiest_pixel()};
   for (int y = 2; y < kHeight; y += 11) {
@@ -121,7 +121,7 @@ TEST(PixelHistory, EndsWithThePictureAtEachShadingRate) {
   }
 }
 
-// The color of a fragment that the renderer has shaded in lanes is the same in float.
+// Shading a fragment in float gives the same color as the renderer's SIMD lanes.
 TEST(PixelHistory, TheSameShaderCodeGivesTheSameBits) {
   int compared = 0;
   for (const ShippedScene& shipped : shipped_scenes()) {

@@ -13,14 +13,14 @@
 
 namespace halfspace {
 
-/// A prepared scene and everything that it needs.
+/// A prepared scene and the objects that it refers to.
 struct PreparedText {
   PreparedText(const SceneDescription& scene, int width, int height, int threads = 2)
       : workers(threads), assets(workers), description(scene), prepared(assets.prepare(scene, width, height)) {}
   PreparedText(const std::string& text, int width, int height)
       : PreparedText(SceneFile::parse(text, "test", std::filesystem::current_path()).at(0.0), width, height) {}
 
-  /// Calls f with the set-up frame and its primitives.
+  /// Calls f with the context of the frame after setup, and its primitives.
   void visit(const std::function<void(const PassContext&, const StageGeometry&)>& f) const {
     visit_set_up_scene(prepared, workers, [&](const PassContext& context, int) { f(context, stage_geometry(context)); });
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The data of the stages: against values computed by hand, and against the pipeline itself.
+// Compares the data of the stages with values computed by hand, and with the pipeline itself.
 #include <gtest/gtest.h>
 
 #include "explain/prepared.h"
@@ -13,7 +13,7 @@
 namespace halfspace {
 namespace {
 
-// One triangle in front of an orthographic camera. The view is 4 x 4 units and 64 x 64 pixels, so that a unit is 16 pixels.
+// One triangle in front of an orthographic camera. The view shows 4 x 4 units on 64 x 64 pixels, so a unit is 16 pixels.
 constexpr const char* kPlane = R"({"version": 1, "ambient": 0.25,
   "cameras": {"c": {"type": "orthographic", "position": [0, 0, 10], "target": [0, 0, 0], "height": 4, "near": 1, "far": 21}},
   "lights": {"sun": {"direction": [0, 0, 1], "intensity": 0.5}},
@@ -69,7 +69,7 @@ TEST(Stages, BinsHoldTheTrianglesOfTheirTiles) {
   });
 }
 
-// Every primitive is set up on its own to find its outcome. The sums must be the counters of the pass.
+// Each primitive is set up alone to find its outcome. The sums must equal the counters of the pass.
 TEST(Stages, OutcomesAddUpToTheStatisticsOfThePass) {
   for (const char* name : {"earth", "day-night", "particles", "shadow-plane"}) {
     const PreparedText s(SceneFile::open(name).at(0.0), 160, 90);
@@ -188,7 +188,7 @@ TEST(Stages, TheHistogramCountsEveryPixel) {
 }
 
 // A square of 2 x 2 units hovers one unit above a floor, and the light is vertical.
-TEST(Stages, ALookUpFindsTheOccluder) {
+TEST(Stages, AShadowLookupFindsTheOccluder) {
   const PreparedText s(R"({"version": 1, "cameras": {"c": {"position": [0, 4, 9], "target": [0, 0, 0]}},
     "lights": {"sun": {"direction": [0, 1, 0]}},
     "objects": {"floor": {"shape": "plane", "size": 8}, "lid": {"shape": "plane", "size": 2, "position": [0, 1, 0]}},

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The names of varyings are those in the headers of the shaders.
+// Compares the names of varyings with the headers of the shaders.
 #include "halfspace/explain/varying_names.h"
 
 #include <gtest/gtest.h>

@@ -118,7 +118,7 @@ TEST(Normals, OfDegenerateTrianglesAreDefined) {
   EXPECT_EQ(flat.normals, std::vector<glm::vec3>(9, glm::vec3(0, 1, 0)));
 }
 
-TEST(Normals, OfTrianglesBackToBackAreOpposite) {
+TEST(Normals, TrianglesBackToBackHaveOppositeNormals) {
   ModelMesh mesh;
   mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   mesh.indices = {0, 1, 2, 0, 2, 1};

@@ -72,7 +72,7 @@ double plane_depth(const Glass& g, int x, int row) {
   return z(0) + u * (z(1) - z(0)) + v * (z(2) - z(0));
 }
 
-// Pixels that a triangle covers, from a pass with only this triangle, whose coverage is exact.
+// Returns the pixels that a triangle covers, by drawing it alone in a pass. Coverage is exact.
 Image<glm::vec4> coverage_of(const Glass& g) {
   Image<glm::vec4> image(kSize, kSize);
   Pass pass(kSize, kSize, rgba32f_target(image), {});

@@ -28,7 +28,7 @@ TEST(ViewActions, keys_have_the_names_that_sdl_gives_them) {
   EXPECT_EQ(action_of(""), std::nullopt);
 }
 
-TEST(ViewActions, only_movements_last) {
+TEST(ViewActions, only_movements_repeat_while_a_key_is_held) {
   EXPECT_TRUE(is_movement(Action::forward));
   EXPECT_TRUE(is_movement(Action::pitch_down));
   EXPECT_FALSE(is_movement(Action::reset_camera));

@@ -56,7 +56,7 @@ TEST(CameraControl, turning_keeps_the_position_and_orbiting_the_target) {
   EXPECT_GT(orbited.position.y, sample_camera().position.y);
 }
 
-TEST(CameraControl, no_turn_goes_beyond_the_vertical) {
+TEST(CameraControl, rotations_stop_at_the_vertical) {
   CameraDescription turned = sample_camera(), orbited = sample_camera();
   for (int i = 0; i < 200; ++i) {
     turn_camera(turned, 0, 3);

@@ -14,7 +14,7 @@
 namespace halfspace {
 namespace {
 
-// Two squares that face the camera, one behind the other and twice as large, which fills the picture.
+// Two squares that face the camera. The rear one is larger and fills the picture.
 constexpr const char* kSquares = R"({
   "version": 1, "camera": "front",
   "cameras": { "front": { "type": "orthographic", "height": 2, "position": [0, 0, 5], "near": 1, "far": 10 } },
@@ -166,7 +166,7 @@ TEST(SaveView, the_saved_scene_starts_at_the_time_that_was_shown) {
   }
 }
 
-TEST(SaveView, a_time_before_zero_is_refused) {
+TEST(SaveView, a_negative_time_is_rejected) {
   SceneFile scene = SceneFile::open("earth");
   scene.set("animation.speed=-1");
   EXPECT_THROW(scene_text_at(scene, 1.0), OutputError);

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kWidth = 200, kHeight = 120;
 
-// Draws with a fresh ImGui context over a gray frame.
+// Draws over a gray frame with a new ImGui context.
 class ImGuiPassTest : public testing::Test {
  protected:
   ImGuiPassTest() {
@@ -52,7 +52,7 @@ TEST_F(ImGuiPassTest, a_rectangle_covers_its_pixels_and_no_others) {
   EXPECT_EQ(covered, 40 * 20);
 }
 
-TEST_F(ImGuiPassTest, codes_are_blended) {
+TEST_F(ImGuiPassTest, blending_uses_srgb_codes) {
   draw([](ImDrawList& list) { list.AddRectFilled({0, 0}, {50, 50}, IM_COL32(200, 0, 255, 128)); });
   // 100 + (200 − 100) · 128/255 = 150.2; linear blending would give 158.
   EXPECT_NEAR(frame_.at(10, 10).x, 150, 1);
@@ -74,7 +74,7 @@ TEST_F(ImGuiPassTest, the_scissor_limits_what_is_drawn) {
 
 TEST_F(ImGuiPassTest, text_has_the_texels_of_the_font) {
   draw([](ImDrawList& list) { list.AddText({5, 5}, IM_COL32_WHITE, "H"); });
-  // The default font is 13 pixels high and made of whole pixels, so that each pixel of the letter is white or unchanged.
+  // The default font is a bitmap font of 13 pixels, so each pixel of the letter is white or unchanged.
   int white = 0, other = 0;
   for (const glm::u8vec4& c : frame_.texels()) {
     white += c == glm::u8vec4(255);

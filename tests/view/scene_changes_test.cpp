@@ -38,7 +38,7 @@ TEST(SceneChanges, shading_is_set_for_every_object) {
   for (const auto& [name, object] : scene.description().objects) EXPECT_EQ(object.surface.shading, ShadingRate::flat) << name;
 }
 
-TEST(SceneChanges, textures_go_off_and_on) {
+TEST(SceneChanges, textures_are_toggled) {
   SceneFile scene = SceneFile::open("earth");
   toggle_color_maps(scene);
   EXPECT_EQ(value_in(scene, "earth.textured"), "false");
@@ -46,7 +46,7 @@ TEST(SceneChanges, textures_go_off_and_on) {
   EXPECT_EQ(value_in(scene, "earth.textured"), "true");
 }
 
-TEST(SceneChanges, shadows_come_back_with_their_method) {
+TEST(SceneChanges, toggling_shadows_twice_restores_their_method) {
   SceneFile scene = SceneFile::open("moon");
   scene.set("shadow.method=vogel");
   ShadowToggle toggle;
@@ -69,7 +69,7 @@ TEST(SceneChanges, visibility_applies_to_the_picked_object_or_to_all) {
   EXPECT_EQ(value_in(scene, "globe.visible"), "true");
 }
 
-TEST(SceneChanges, particles_disappear_and_come_back) {
+TEST(SceneChanges, particles_are_hidden_and_shown_again) {
   SceneFile scene = SceneFile::open("particles");
   VisibilityToggle toggle;
   toggle.toggle(scene, "");
@@ -85,7 +85,7 @@ TEST(SceneChanges, exposure_is_multiplied) {
   EXPECT_EQ(value_in(scene, "post.tone"), "exponential");
 }
 
-TEST(SceneChanges, a_scene_without_exposure_keeps_its_colors_otherwise) {
+TEST(SceneChanges, exposure_leaves_other_display_settings_unchanged) {
   SceneFile scene = SceneFile::open("earth");
   change_exposure(scene, 2.0);
   EXPECT_EQ(value_in(scene, "post.hdr"), "true");

@@ -15,7 +15,7 @@ const CameraDescription& camera_of(const Viewer& viewer) {
   return *find_named(d.cameras, d.head.camera);
 }
 
-TEST(Viewer, x_resets_the_camera_and_then_takes_the_next_one) {
+TEST(Viewer, x_resets_the_camera_and_then_selects_the_next_one) {
   Viewer viewer = viewer_of("earth");
   const glm::dvec3 original = camera_of(viewer).position;
   viewer.move(Action::left, 0.2);
@@ -31,7 +31,7 @@ TEST(Viewer, x_resets_the_camera_and_then_takes_the_next_one) {
   EXPECT_EQ(viewer.scene().description().head.camera, "equator");
 }
 
-TEST(Viewer, an_animated_camera_is_left_where_it_is_and_a_free_one_moves) {
+TEST(Viewer, moving_an_animated_camera_adds_a_free_camera) {
   SceneFile scene = SceneFile::open("earth");
   scene.merge(R"({"animations": {"fly": {"type": "rate", "target": "equator.position", "rate": [0, 1, 0]}}})", "test");
   Viewer viewer({scene, {}, nullptr, {}}, 0.0);
@@ -66,14 +66,14 @@ TEST(Viewer, a_scene_without_animations_does_not_change_with_time) {
   EXPECT_EQ(viewer.animation_seconds(), 0.0);
 }
 
-TEST(Viewer, a_value_that_is_refused_leaves_the_scene_unchanged_and_is_explained) {
+TEST(Viewer, a_rejected_value_leaves_the_scene_unchanged_and_sets_the_message) {
   Viewer viewer = viewer_of("earth");
   viewer.set({"earth.shininess=abc"});
   EXPECT_NE(viewer.message().find("shininess"), std::string::npos);
   EXPECT_EQ(viewer.scene().print(), SceneFile::open("earth").print());
 }
 
-TEST(Viewer, overlays_go_around_in_both_directions) {
+TEST(Viewer, overlays_cycle_in_both_directions) {
   Viewer viewer = viewer_of("earth");
   viewer.press(Action::next_overlay);
   EXPECT_EQ(viewer.overlay(), Overlay::wireframe);

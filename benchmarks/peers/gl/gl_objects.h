@@ -51,7 +51,7 @@ class GlMesh {
 
   void bind() const { glBindVertexArray(array_); }
   void draw(GLenum topology) const;
-  /// Draws `count` of the indices from `first` on.
+  /// Draws `count` indices, starting with index `first` of the list.
   void draw_part(GLenum topology, std::size_t first, std::size_t count, std::size_t instances) const;
 
  private:

@@ -11,7 +11,7 @@ namespace halfspace {
 
 namespace {
 
-// Converts a message of the decoder to a part of one line.
+// Converts a message of the decoder so that it can be part of a single line.
 std::string one_line(std::string text) {
   for (char& c : text) {
     if (static_cast<unsigned char>(c) < 0x20) c = ' ';
@@ -49,7 +49,7 @@ std::size_t bytes_per_point(const draco::PointAttribute& attribute) {
   return static_cast<std::size_t>(draco::DataTypeLength(attribute.data_type())) * static_cast<std::size_t>(attribute.num_components());
 }
 
-// Returns an attribute, whose type glTF can store.
+// Returns an attribute. Throws DracoFailure if it is missing or if glTF cannot store its type.
 const draco::PointAttribute& attribute_of(const draco::Mesh& mesh, uint32_t id) {
   const std::string name = "the attribute with id " + std::to_string(id);
   const draco::PointAttribute* attribute = mesh.GetAttributeByUniqueId(id);

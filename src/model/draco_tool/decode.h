@@ -11,17 +11,17 @@
 
 namespace halfspace {
 
-/// The reason why a stream is refused. The text is one line of the form "problem; what was expected".
+/// The reason why a stream was rejected. The text is one line of the form "problem; what was expected".
 struct DracoFailure {
   std::string text;
   bool exceeds_limit = false;
 };
 
-/// The indices and the wanted attributes of a mesh.
+/// The indices and the requested attributes of a mesh.
 struct DecodedDraco {
   DracoHeader header;
   std::vector<DracoAttributeHeader> attributes;
-  std::vector<std::byte> data;  ///< in the order of the protocol
+  std::vector<std::byte> data;  ///< indices and attribute values in the order of the protocol
 };
 
 /// Decodes a stream. Throws DracoFailure, or std::bad_alloc.

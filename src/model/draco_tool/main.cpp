@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// halfspace-draco-tool decodes meshes of glTF files that are compressed with Draco, on behalf of halfspace (see protocol.h). It is a
-// separate program because input files are untrusted and a Draco stream cannot be validated before it is decoded.
+// halfspace-draco-tool decodes Draco-compressed meshes of glTF files for halfspace (see protocol.h). It is a separate program because input
+// files are untrusted and a Draco stream cannot be validated before it is decoded.
 #include <unistd.h>
 
 #include <algorithm>
@@ -19,9 +19,10 @@ namespace halfspace {
 
 namespace {
 
-constexpr unsigned kSeconds = 60;                                                     // of CPU time for all meshes of a file
-constexpr uint64_t kProgramBytes = uint64_t{1} << 28, kMaxBytes = uint64_t{6} << 30;  // address space without a mesh, and in all
-constexpr uint64_t kBytesPerByte = 8;  // address space per byte of the result: the decoder's own tables
+constexpr unsigned kSeconds = 60;  // CPU time limit for all meshes of a file
+constexpr uint64_t kProgramBytes = uint64_t{1} << 28;  // address space without a mesh
+constexpr uint64_t kMaxBytes = uint64_t{6} << 30;      // maximum address space
+constexpr uint64_t kBytesPerByte = 8;                  // address space per byte of the result, because of the decoder's own tables
 
 // Returns false if the input ends early.
 bool receive(void* memory, std::size_t bytes) {
