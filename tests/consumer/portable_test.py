@@ -21,6 +21,15 @@ PREFIX = None
 CPU_FLAGS = set(re.search(r"^flags\s*:(.*)$", Path("/proc/cpuinfo").read_text(), re.M)[1].split())
 HAS_V4 = {"avx512f", "avx512bw", "avx512cd", "avx512dq", "avx512vl"} <= CPU_FLAGS
 QEMU = shutil.which("qemu-x86_64")
+# Python code that hides a feature of x86-64-v4 from the module's look at the processor.
+WITHOUT_AVX512BW = """
+import builtins, io
+open_file = builtins.open
+def open_without_avx512bw(path, *arguments, **named):
+    file = open_file(path, *arguments, **named)
+    return io.StringIO(file.read().replace(" avx512bw", "")) if path == "/proc/cpuinfo" else file
+builtins.open = open_without_avx512bw
+"""
 
 
 def run(*command):
@@ -45,6 +54,11 @@ class Selection(unittest.TestCase):
 
     def test_prepending_prefers_v3(self):
         self.assertEqual(arch_of(LOADER, "--glibc-hwcaps-prepend", "x86-64-v3", self.program), "x86-64-v3")
+
+    @unittest.skipUnless(HAS_V4, "the processor has no AVX-512")
+    def test_prepending_prefers_v4_to_what_the_mask_selects(self):
+        options = ("--glibc-hwcaps-mask", "x86-64-v3", "--glibc-hwcaps-prepend", "x86-64-v4")
+        self.assertEqual(arch_of(LOADER, *options, self.program), "x86-64-v4")
 
     def test_a_mask_without_any_library_gives_one_line(self):
         result = run(LOADER, "--glibc-hwcaps-mask", "x86-64-v2", self.program, "info")
@@ -86,6 +100,14 @@ class PythonModule(unittest.TestCase):
     def test_the_best_extension_for_the_processor_is_selected(self):
         self.assertEqual(self.python("import halfspace; print(halfspace._core.arch)"), "x86-64-v4" if HAS_V4 else "x86-64-v3")
 
+    def test_v3_is_selected_without_avx512bw(self):
+        self.assertEqual(self.python(WITHOUT_AVX512BW + "import halfspace; print(halfspace._core.arch)"), "x86-64-v3")
+
+    @unittest.skipUnless(HAS_V4, "the processor has no AVX-512")
+    def test_both_extensions_render_the_same_picture(self):
+        code = "import halfspace, hashlib; print(hashlib.sha256(halfspace.render('moon', size=(160, 90)).tobytes()).hexdigest())"
+        self.assertEqual(self.python(WITHOUT_AVX512BW + code), self.python(code))
+
     def test_each_folder_has_the_extension_of_its_name(self):
         for level in ("x86-64-v3", "x86-64-v4"):
             folder = f"halfspace/{level}"
@@ -113,6 +135,15 @@ class Emulation(unittest.TestCase):
 
     def test_a_v3_processor_runs_the_v3_library(self):
         self.assertEqual(arch_of(QEMU, "-cpu", "Haswell", PREFIX / "bin" / "halfspace"), "x86-64-v3")
+
+    def test_a_v3_processor_renders_the_same_picture(self):
+        pictures = []
+        for emulator in ((), (QEMU, "-cpu", "Haswell")):
+            picture = PREFIX / "emulated.png"
+            result = run(*emulator, PREFIX / "bin" / "halfspace", "render", "moon", "--size", "64x36", "-o", picture)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            pictures.append(picture.read_bytes())
+        self.assertEqual(*pictures)
 
 
 class Libraries(unittest.TestCase):
