@@ -62,16 +62,19 @@ template <>
 struct Vectors<4> {
   using F = float __attribute__((vector_size(16), may_alias));
   using I = int32_t __attribute__((vector_size(16), may_alias));
+  using B = uint8_t __attribute__((vector_size(4)));
 };
 template <>
 struct Vectors<8> {
   using F = float __attribute__((vector_size(32), may_alias));
   using I = int32_t __attribute__((vector_size(32), may_alias));
+  using B = uint8_t __attribute__((vector_size(8)));
 };
 template <>
 struct Vectors<16> {
   using F = float __attribute__((vector_size(64), may_alias));
   using I = int32_t __attribute__((vector_size(64), may_alias));
+  using B = uint8_t __attribute__((vector_size(16)));
 };
 
 #ifdef __AVX512F__
@@ -295,6 +298,22 @@ template <class S, class T>
 HS_INLINE void store(S* p, const T& t) {
   static_assert(std::is_trivially_copyable_v<T> && sizeof(T) % sizeof(S) == 0);
   std::memcpy(p, &t, sizeof t);
+}
+
+/// Loads one byte per lane, from 0 to 255. p need not be aligned.
+template <class I>
+HS_INLINE I load_bytes(const uint8_t* p) {
+  if constexpr (std::is_same_v<I, int32_t>) {
+    return *p;
+  } else {
+    return I(__builtin_convertvector(load<typename detail::Vectors<sizeof(I) / sizeof(int32_t)>::B>(p), typename I::V));
+  }
+}
+/// Stores the low byte of each lane.
+HS_INLINE void store_bytes(uint8_t* p, int32_t i) { *p = static_cast<uint8_t>(i); }
+template <int W>
+HS_INLINE void store_bytes(uint8_t* p, IntN<W> i) {
+  store(p, __builtin_convertvector(i.v, typename detail::Vectors<W>::B));
 }
 
 HS_INLINE float gather(const float* base, int32_t i) { return base[i]; }

@@ -67,7 +67,8 @@ class TileDraws {
         const Draw& draw = context_.draws[chunk.ranges[chunk.triangles[t].range()].draw];
         if (!here || &here->draw != &draw) begin_draw(draw, here);
         const uint64_t passed_before = statistics_.samples_passed;
-        const std::size_t small = (here->is_opaque || here->is_queued) && !occluder.is_pending() ? small_run(chunk, bin.subspan(i)) : 0;
+        const bool in_groups = here->is_opaque || here->is_queued || (here->has_stencil && !kTraces<Statistics>);
+        const std::size_t small = in_groups && !occluder.is_pending() ? small_run(chunk, bin.subspan(i)) : 0;
         for (std::size_t k = i; k < i + std::max<std::size_t>(small, 1); ++k) {
           prefetch(ahead(k + kTrianglesAhead));
           if (here->fetches_vertices) prefetch_vertex(context_, chunk, ahead(k + kVerticesAhead));
@@ -143,6 +144,12 @@ class TileDraws {
     if (d.is_opaque) {
       rasterize_small(d, chunk, indices, statistics_);
       return indices.size();
+    }
+    if constexpr (!kTraces<Statistics>) {
+      if (d.has_stencil) {
+        rasterize_small_with_stencil(d, chunk, indices, statistics_);
+        return indices.size();
+      }
     }
     const std::size_t count = rasterize_small_queued(d, chunk, indices, memory_.queue, statistics_);
     if (memory_.queue.is_full()) finish_queue(d);

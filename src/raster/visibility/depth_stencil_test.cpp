@@ -5,12 +5,7 @@ namespace halfspace {
 
 namespace {
 
-Int load_values(const Tile& tile, int packet) {
-  const uint8_t* p = &tile.stencil[static_cast<std::size_t>(packet) * kLanes];
-  Int r{};
-  for (int i = 0; i < kLanes; ++i) set_lane(r, i, p[i]);
-  return r;
-}
+Int load_values(const Tile& tile, int packet) { return load_bytes<Int>(&tile.stencil[static_cast<std::size_t>(packet) * kLanes]); }
 
 Int apply(StencilOp op, Int value, Int reference) {
   const Int max_value(0xff);
@@ -41,8 +36,7 @@ void update_stencil(const StencilFace& face, Tile& tile, int packet, Mask failed
   value = select(depth_failed, apply(face.depth_fail, old, reference), value);
   value = select(passed, apply(face.pass, old, reference), value);
   value = (value & write) | (old & ~write);
-  uint8_t* p = &tile.stencil[static_cast<std::size_t>(packet) * kLanes];
-  for (int i = 0; i < kLanes; ++i) p[i] = static_cast<uint8_t>(lane(value, i));
+  store_bytes(&tile.stencil[static_cast<std::size_t>(packet) * kLanes], value);
 }
 
 }  // namespace halfspace

@@ -286,6 +286,12 @@ bool fetches_vertices_ahead(const Draw& draw) {
   return draws_points(draw.state) || draw.indices->used_count() < draw.primitive_count;
 }
 
+// Returns true if the shader does not take part in visibility. The members before is_opaque must be set.
+bool draws_without_shader(const DrawInTile& d) {
+  const bool shades_later = d.mode == VisibilityMode::deferred || d.mode == VisibilityMode::depth_only;
+  return shades_later && !d.asks_shader && (d.tile.samples > 1 || (d.draw.sample_mask & 1) != 0);
+}
+
 }  // namespace
 
 DrawInTile::DrawInTile(const PassContext& f, const Draw& d, VisibilityMode m, Tile& t)
@@ -300,8 +306,8 @@ DrawInTile::DrawInTile(const PassContext& f, const Draw& d, VisibilityMode m, Ti
       tests(tests_depth(d.state.depth, t)),
       asks_shader((m == VisibilityMode::deferred || m == VisibilityMode::depth_only) && d.kernels.visibility != nullptr),
       fetches_vertices(m == VisibilityMode::deferred && fetches_vertices_ahead(d)),
-      is_opaque((m == VisibilityMode::deferred || m == VisibilityMode::depth_only) && (t.samples > 1 || (d.sample_mask & 1) != 0) &&
-                !asks_shader && !(d.state.stencil && t.has_stencil)),
+      is_opaque(draws_without_shader(*this) && !(d.state.stencil && t.has_stencil)),
+      has_stencil(draws_without_shader(*this) && d.state.stencil && t.has_stencil && t.samples == 1),
       is_queued(!is_opaque && t.samples == 1 && (d.sample_mask & 1) != 0 && !(d.state.stencil && t.has_stencil)) {}
 
 namespace {

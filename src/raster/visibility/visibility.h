@@ -52,6 +52,7 @@ struct DrawInTile {
   bool asks_shader;        ///< the shader's visibility function must be called
   bool fetches_vertices;   ///< prefetch vertices: they belong to points, or are shared by several triangles
   bool is_opaque;          ///< only coverage and depth determine visibility
+  bool has_stencil;        ///< the same, and the stencil test; one sample per pixel
   bool is_queued;          ///< one sample per pixel and no stencil test; packets are listed in a PacketQueue until the shader runs
 };
 
@@ -76,6 +77,8 @@ inline bool is_small_triangle(const Triangle& t) { return (t.flags & (kSmall | k
 /// Rasterizes small triangles of an opaque draw in order. indices: 1 to W triangles of the chunk.
 template <class Statistics>
 void rasterize_small(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, Statistics& statistics);
+/// The same for a draw with has_stencil.
+void rasterize_small_with_stencil(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, PassStatistics& statistics);
 /// The same for a queued draw. Stops when the queue is full. Returns the number of triangles that were added to the queue, at least 1.
 template <class Statistics>
 std::size_t rasterize_small_queued(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, PacketQueue& queue,

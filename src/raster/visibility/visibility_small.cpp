@@ -10,6 +10,7 @@
 #include "halfspace/raster/primitives/small_coverage.h"
 #include "halfspace/raster/visibility/list_writer.h"
 #include "halfspace/raster/visibility/opaque_writer.h"
+#include "halfspace/raster/visibility/stencil_writer.h"
 
 namespace halfspace {
 
@@ -241,6 +242,7 @@ HS_INLINE void write_triangle(const DrawInTile& d, const SmallTriangles& triangl
                               Writer& writer, const Large& rasterize_large) {
   const TriangleId id = triangle_id(chunk, index);
   const Triangle& t = d.context.chunks[chunk].triangles[index];
+  if constexpr (requires { writer.begin(t); }) writer.begin(t);
   if (triangles.is_known(k)) {
     triangles.for_each_pixel(k, [&](std::size_t pixel, float z) { writer.write_pixel(id, pixel, z); });
   } else if (triangles.is_wide(k)) {
@@ -260,6 +262,15 @@ void rasterize_small(const DrawInTile& d, uint32_t chunk, std::span<const uint16
     const SmallTriangles triangles(d, SampleGrid(d.tile, s), d.context.chunks[chunk], indices);
     const auto large = [&](const Triangle& t, TriangleId id) { rasterize_opaque_sample(d, t, id, s, statistics); };
     for (std::size_t k = 0; k < indices.size(); ++k) write_triangle(d, triangles, k, chunk, indices[k], writer, large);
+  }
+}
+
+void rasterize_small_with_stencil(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, PassStatistics& statistics) {
+  const SmallTriangles triangles(d, SampleGrid(d.tile, 0), d.context.chunks[chunk], indices);
+  StencilWriter writer(d, statistics);
+  for (std::size_t k = 0; k < indices.size(); ++k) {
+    const auto large = [&](const Triangle&, TriangleId) { rasterize(d, chunk, indices[k], nullptr, statistics); };
+    write_triangle(d, triangles, k, chunk, indices[k], writer, large);
   }
 }
 

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Tests and writes the pixels of small triangles with a stencil test. Has the same interface as OpaqueWriter.
+#pragma once
+
+#include <bit>
+
+#include "halfspace/raster/visibility/depth_bounds.h"
+#include "halfspace/raster/visibility/depth_stencil_test.h"
+#include "halfspace/raster/visibility/visibility.h"
+
+namespace halfspace {
+
+/// For draws with one sample per pixel of which the stencil test, coverage and depth determine visibility.
+class StencilWriter {
+ public:
+  using Statistics = PassStatistics;
+
+  StencilWriter(const DrawInTile& d, PassStatistics& statistics)
+      : draw_(d.draw),
+        tile_(d.tile),
+        statistics_(statistics),
+        tests_(d.tests),
+        writes_depth_(d.tests && d.draw.state.depth.write),
+        writes_id_(d.mode == VisibilityMode::deferred) {}
+
+  bool writes_depth() const { return writes_depth_; }
+  CompareOp compare_op() const { return draw_.state.depth.compare; }
+
+  /// Selects the stencil state for the following packets. Call it before the first packet of a triangle.
+  void begin(const Triangle& t) { face_ = stencil_face(draw_.state, tile_, t.is(kFrontFacing)); }
+
+  /// See OpaqueWriter.
+  template <class Z>
+  HS_INLINE bool write(TriangleId id, int packet, uint32_t covered, const Z& z_at) {
+    statistics_.samples_tested += static_cast<uint64_t>(std::popcount(covered));
+    const std::size_t first = static_cast<std::size_t>(packet) * kLanes;
+    const Mask mask = mask_from_bits<Mask>(covered), stencil_passed = stencil_test(*face_, tile_, packet, mask);
+    const Real z = tests_ ? z_at() : Real(0.0f), stored = tests_ ? load<Real>(&tile_.depth[first]) : Real(0.0f);
+    const Mask passed = tests_ ? stencil_passed & compare(compare_op(), z, stored) : stencil_passed;
+    update_stencil(*face_, tile_, packet, mask & !stencil_passed, stencil_passed & !passed, passed);
+    const uint32_t lanes = bits(passed);
+    statistics_.samples_passed += static_cast<uint64_t>(std::popcount(lanes));
+    if (writes_depth_) store(&tile_.depth[first], select(passed, z, stored));
+    if (writes_id_) {
+      TriangleId* ids = &tile_.visibility[first];
+      store(ids, select(passed, Int(std::bit_cast<int32_t>(id)), load<Int>(ids)));
+    }
+    return lanes != 0;
+  }
+
+  HS_INLINE void write_pixel(TriangleId id, std::size_t pixel, float z) {
+    const int packet = static_cast<int>(pixel) / kLanes;
+    const bool passed = write(id, packet, 1u << pixel % kLanes, [&] { return Real(z); });
+    if (passed && writes_depth_) widen_hiz(compare_op(), tile_, packet / kPacketsPerBlock, z, z);
+  }
+
+ private:
+  const Draw& draw_;
+  Tile& tile_;
+  PassStatistics& statistics_;
+  const StencilFace* face_ = nullptr;
+  bool tests_, writes_depth_, writes_id_;
+};
+
+}  // namespace halfspace
