@@ -99,10 +99,18 @@ TEST(PackedFragments, ReturnResultsToTheirLanes) {
   }
 }
 
-TEST(PackedPixels, FullPacketsAreNotMoved) {
-  const std::vector<PacketMask> full(8, PacketMask{0, static_cast<uint16_t>(kAllBits<Mask>)});
-  const std::vector<TriangleId> ids(8, 1);
-  EXPECT_EQ(pack(full, ids.data(), *std::make_unique<PackedPixels>()), 0u);
+TEST(PackedPixels, AreUsedWhereTheySaveAQuarterOfThePackets) {
+  if (kLanes == 1) GTEST_SKIP() << "a packet of one lane is always full";
+  const ShaderKernels kernels;
+  Draw draw(kernels, KeptShader(nullptr, [](const void*) {}), nullptr, {}, {});
+  std::vector<PacketMask> packets(4, PacketMask{0, static_cast<uint16_t>(kAllBits<Mask>)});
+  EXPECT_FALSE(pays_to_pack(draw, packets));
+  packets[0].lanes = 1;  // with this one, three full packets and one lane need four again
+  EXPECT_FALSE(pays_to_pack(draw, packets));
+  packets[1].lanes = 1;
+  EXPECT_TRUE(pays_to_pack(draw, packets));
+  draw.state.topology = Topology::points;
+  EXPECT_FALSE(pays_to_pack(draw, packets));
 }
 
 }  // namespace

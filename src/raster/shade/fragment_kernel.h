@@ -102,19 +102,20 @@ HS_INLINE void write_codes(int32_t* codes, PacketMask packet, Real r, Real g, Re
 
 /// Stores color n of packets i and i + 1 of the batch.
 HS_INLINE void write_color_pair(const FragmentBatch& batch, std::size_t n, std::size_t i, const vec4<FragmentReal>& color) {
-  const std::array<FragmentReal, 4> components{color.x, color.y, color.z, color.w};
-  if (batch.pixels != nullptr) {
-    for (std::size_t c = 0; c < 4; ++c) {
-      float* to = batch.out->color_plane(n, c) + i * kLanes;
-      store(to, components[c].low);
-      store(to + kLanes, components[c].high);
-    }
+  if (batch.pixels == nullptr) {
+    batch.out->packet_color(n, i) = {color.x.low, color.y.low, color.z.low, color.w.low};
+    batch.out->packet_color(n, i + 1) = {color.x.high, color.y.high, color.z.high, color.w.high};
     return;
   }
-  for (std::size_t c = 0; c < 4; ++c) {
-    batch.out->packet_color(n, i)[c] = components[c].low;
-    batch.out->packet_color(n, i + 1)[c] = components[c].high;
-  }
+  const auto put = [&](std::size_t c, const FragmentReal& values) {
+    float* to = batch.out->color_plane(n, c) + i * kLanes;
+    store(to, values.low);
+    store(to + kLanes, values.high);
+  };
+  put(0, color.x);
+  put(1, color.y);
+  put(2, color.z);
+  put(3, color.w);
 }
 
 /// Runs the fragment function. decides: also return the keep mask and the depth.

@@ -249,12 +249,11 @@ std::size_t shade_batch(const Shading& c, PacketQueue& queue, std::size_t begin)
   return static_cast<std::size_t>(n);
 }
 
-// The same, but moves fragments together first. Returns 0, and shades nothing, if this does not save work.
+// The same, but moves the pixels together first.
 template <class Shading>
 std::size_t shade_packed(const Shading& c, PacketQueue& queue, std::size_t begin, PackedFragments& packed) {
   const std::span<const PacketMask> packets(&queue.packets[begin], static_cast<std::size_t>(queue.count) - begin);
-  const std::size_t count = pays_to_pack(c.draw) ? pack(packets, &queue.ids[begin], packed.pixels) : 0;
-  if (count == 0) return 0;
+  const std::size_t count = pack(packets, &queue.ids[begin], packed.pixels);
   c.draw.kernels.fragment(c.draw.shader.get(), {packed.pixels.batch(c.context, c.tile), &packed.output});
   c.statistics.fragments_shaded += packed.pixels.count;
   for (std::size_t done = 0, pixel = 0; done < count;) {
@@ -272,10 +271,9 @@ template <class Statistics>
 void shade_queued(const DrawInTile& d, PacketQueue& queue, TransparentLayers& layers, FragmentOutput& output, PackedFragments& packed,
                   Statistics& statistics) {
   const ImmediateShading<Statistics> c{d.context, d.draw, d.mode, d.tile, layers, output, nullptr, true, statistics};
-  for (std::size_t begin = 0; begin < static_cast<std::size_t>(queue.count);) {
-    const std::size_t shaded = kTraces<Statistics> ? 0 : shade_packed(c, queue, begin, packed);
-    begin += shaded != 0 ? shaded : shade_batch(c, queue, begin);
-  }
+  const auto count = static_cast<std::size_t>(queue.count);
+  const bool packs = !kTraces<Statistics> && pays_to_pack(d.draw, std::span(queue.packets).first(count));
+  for (std::size_t begin = 0; begin < count;) begin += packs ? shade_packed(c, queue, begin, packed) : shade_batch(c, queue, begin);
   queue.count = 0;
 }
 template void shade_queued(const DrawInTile&, PacketQueue&, TransparentLayers&, FragmentOutput&, PackedFragments&, PassStatistics&);

@@ -24,7 +24,12 @@ std::size_t packets_that_fit(std::span<const PacketMask> packets, std::size_t& p
 
 }  // namespace
 
-bool pays_to_pack(const Draw& draw) { return !draw.kernels.is_constant && !draws_points(draw.state); }
+bool pays_to_pack(const Draw& draw, std::span<const PacketMask> packets) {
+  if (draw.kernels.is_constant || draws_points(draw.state)) return false;
+  std::size_t pixels = 0;
+  for (const PacketMask& p : packets) pixels += static_cast<std::size_t>(std::popcount(p.lanes));
+  return pixels * 4 <= packets.size() * kLanes * 3;
+}
 
 PacketBatch PackedPixels::batch(const PassContext& context, const Tile& tile) const {
   return {&context, tile.x0, tile.y0, kPixelCenter, ids.data(), nullptr, packets.data(), packet_count(), nullptr, pixels.data()};
@@ -32,7 +37,6 @@ PacketBatch PackedPixels::batch(const PassContext& context, const Tile& tile) co
 
 std::size_t pack(std::span<const PacketMask> packets, const TriangleId* ids, PackedPixels& out) {
   const std::size_t taken = packets_that_fit(packets, out.count);
-  if (static_cast<std::size_t>(out.packet_count()) * 4 > taken * 3) return 0;
   std::size_t to = 0;
   for (std::size_t n = 0; n < taken; ++n) {
     const auto [packet, lanes] = packets[n];

@@ -27,12 +27,12 @@ struct PackedPixels {
   PacketBatch batch(const PassContext& context, const Tile& tile) const;
 };
 
-/// Returns false for draws that are faster without packing: where the shader is constant, and for points, of which a packet can show many, and
-/// whose values can only be merged one by one.
-bool pays_to_pack(const Draw& draw);
+/// Returns true if packing saves at least a quarter of the packets. Returns false for draws with a constant shader, and for points, because a
+/// packed packet can show many of them and their values can only be merged one by one.
+bool pays_to_pack(const Draw& draw, std::span<const PacketMask> packets);
 
-/// Packs the pixels of the first packets, as many as there is room for. ids: the triangle of each packet. Returns the number of packets,
-/// or 0 if there would not be considerably fewer packets than before; `out` is then unspecified.
+/// Packs the pixels of the first packets, as many as there is room for. ids: the triangle of each packet. Returns the number of packets, at
+/// least kPacketBatch if there are so many.
 std::size_t pack(std::span<const PacketMask> packets, const TriangleId* ids, PackedPixels& out);
 
 /// Returns the keep mask of a packet with the given lanes, from those of packed ones. first: number of the first pixel of the packet. Reads

@@ -63,11 +63,13 @@ void decide_queued(const DrawInTile& d, PacketQueue& queue, Statistics& statisti
   OpaqueWriter writer(d, statistics);
   PackedPixels packed;
   Decisions decisions;
-  const bool is_packed = pays_to_pack(d.draw);
-  for (std::size_t begin = 0, end = static_cast<std::size_t>(queue.count); begin < end;) {
+  const auto end = static_cast<std::size_t>(queue.count);
+  const bool packs = pays_to_pack(d.draw, std::span(queue.packets).first(end));
+  for (std::size_t begin = 0; begin < end;) {
     const std::span<const PacketMask> rest(&queue.packets[begin], end - begin);
-    std::size_t n = is_packed ? pack(rest, &queue.ids[begin], packed) : 0;
-    if (n != 0) {
+    std::size_t n;
+    if (packs) {
+      n = pack(rest, &queue.ids[begin], packed);
       d.draw.kernels.visibility(d.draw.shader.get(), {packed.batch(d.context, d.tile), decisions.keep.data(), decisions.depth.data()});
       std::size_t next = 0;
       write_batch_decided(d, queue, begin, n, writer, [&](std::size_t, uint32_t lanes) {
