@@ -77,6 +77,6 @@ build_projects() {
     cd custom_shader/build; "'python3 -c "import numpy, stripes
 image = numpy.zeros((16, 64, 4), numpy.uint8)
 stripes.draw(numpy.array([[-1, -1, 0], [3, -1, 0], [-1, 3, 0]], numpy.float32), image, count=2)
-assert \"\".join(\"#\" if texel else \".\" for texel in image[8, ::8, 0]) == \"##..##..\", image[8, :, 0]
+assert \"\".join(\"#\" if texel else \".\" for texel in image[8, ::8, 0]) == \"#.#.#.#.\", image[8, :, 0]
 print(\"the extension module draws its stripes\")"'
 }
