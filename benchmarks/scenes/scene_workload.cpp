@@ -37,7 +37,7 @@ class SceneWorkload final : public Workload {
 
   WorkloadPicture picture() const override { return canvas_.picture(); }
   bool has_truth() const override { return false; }
-  WorkloadTruth truth() const override { return canvas_.truth(); }
+  WorkloadTruth truth() const override { return canvas_.truth(); }  // not called, because has_truth() is false
 
  private:
   void draw(Pass& pass, const SceneObject& object) const {
