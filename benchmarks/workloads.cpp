@@ -35,7 +35,7 @@ const std::array kWorkloads{
     WorkloadKind{"shadow_200k", "sphere and plane with a 2048 x 2048 shadow map, 3 x 3 texels per pixel", prepare_shadow_200k},
     WorkloadKind{"points_100k", "100,000 points that are shaded as spheres and write depth", prepare_points_100k},
     WorkloadKind{"hdr_200k", "sphere_phong_200k in half floats, with tone mapping", prepare_hdr_200k},
-    WorkloadKind{"tonemap", "only the tone mapping of hdr_200k", prepare_tonemap},
+    WorkloadKind{"tonemap", "tone mapping of the hdr_200k picture, without rendering it", prepare_tonemap},
     WorkloadKind{"draws_10k", "10,000 draw calls of one quad each", prepare_draws_10k},
     WorkloadKind{"blend_10", "layers_b2f with half-transparent quads", prepare_blend_10},
     WorkloadKind{"msaa4_200k", "sphere_phong_200k with four samples per pixel", prepare_msaa4_200k},

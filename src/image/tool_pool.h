@@ -45,7 +45,7 @@ class ToolPool {
   void lock() { mutex_.lock(); }
   /// Called in the parent after fork().
   void unlock() { mutex_.unlock(); }
-  /// Called in the child after fork(). Leaves the tools, which belong to the parent.
+  /// Must be called in the child after fork(). Forgets the running tools, which belong to the parent.
   void abandon();
 
  private:

@@ -114,7 +114,7 @@ GltfView GltfBuffers::compressed_view(const GltfValue& compression) {
   const std::span<const std::byte> source = range(compression);
   document_.take_memory(compression, stream.count, stream.stride);
   std::vector<std::byte> data(stream.count * stream.stride);
-  if (!decode_meshopt(stream, source, data)) document_.fail(compression, "the compressed data are damaged; expected meshopt data");
+  if (!decode_meshopt(stream, source, data)) document_.fail(compression, "the compressed data is damaged; expected meshopt data");
   storage_.push_back(std::move(data));
   return {storage_.back(), stream.stride};
 }

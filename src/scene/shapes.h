@@ -10,7 +10,7 @@
 
 namespace halfspace {
 
-/// In the order of the table.
+/// The names of the shapes, in the order of the table.
 template <>
 struct ChoiceNames<Shape> {
   static const std::array<std::string_view, kShapes> names;

@@ -69,7 +69,7 @@ ScriptResult run_script(std::vector<std::string> words) {
   return result;
 }
 
-// The build puts a link to the script there.
+// Returns the path of the script. The build creates a link to it at this path.
 std::filesystem::path script_path() {
   std::error_code error;
   const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);

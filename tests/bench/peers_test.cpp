@@ -84,7 +84,7 @@ void expect_same_picture(const nlohmann::json& row, double share) {
   EXPECT_LE(off, compared * share) << row.dump();
 }
 
-// Points are placed on a coarser grid by llvmpipe, and it rounds intermediate sums of additive blending differently.
+// llvmpipe places points on a coarser grid, and it rounds intermediate sums of additive blending differently.
 TEST(BenchGl, DrawsTheSameMatrix) {
   const std::vector<nlohmann::json> rows = drawn_by_gl("--matrix");
   if (rows.empty()) GTEST_SKIP() << "no OpenGL";

@@ -14,7 +14,7 @@ namespace {
 
 constexpr const char* kFunctions[] = {"ddx", "ddy", "fwidth", "quad_ddx", "quad_ddy", "quad_fwidth"};
 
-// A rectangle over the window in which u and v vary with x and y. If projected, w varies from left to right.
+// A rectangle that covers the window, with u and v varying in x and y. If projected, w varies from left to right.
 Picture derivative_picture(int mode, float scale, bool projected, int samples) {
   Picture p;
   p.samples = samples;
@@ -70,7 +70,7 @@ constexpr const char* kTexelNames[] = {"rgba8", "srgb8", "r8", "r16", "rgba16f",
 constexpr const char* kFilterNames[] = {"nearest", "linear", "mipmap"};
 constexpr const char* kWrapNames[] = {"repeat", "mirror", "clamp", "border"};
 
-// A rectangle over the window that shows u from u0 to u1 and v from v0 to v1; `turn` swaps the axes.
+// A rectangle that covers the window, with u from u0 to u1 and v from v0 to v1; `turn` swaps the axes.
 Picture textured(std::shared_ptr<const Texture2D> texture, const Sampler& sampler, const glm::vec4& u0_v0_u1_v1, bool turn, int size = 32) {
   Picture p;
   p.width = p.height = size;

@@ -39,7 +39,7 @@ struct Soup {
 struct SoupCase {
   const char* name;
   Soup soup;
-  const char* what_mesa_does = nullptr;  ///< null if Mesa agrees
+  const char* what_mesa_does = nullptr;  ///< how Mesa differs; null if it agrees
   friend void PrintTo(const SoupCase& c, std::ostream* os) { *os << c.name; }
 };
 ColoredMesh make_soup(const Soup& soup, int width, int height);

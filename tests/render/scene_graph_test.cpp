@@ -18,7 +18,7 @@ PreparedScene prepared(const std::string& objects, const Workers& workers) {
   return assets.prepare(scene.at(0), 64, 64);
 }
 
-// The matrices are exact: all factors are integers and quarter turns.
+// The matrices are exact, because all numbers are integers and all rotations are multiples of 90 degrees.
 TEST(SceneGraph, ObjectsArePlacedRelativeToTheirAncestors) {
   const Workers workers(1);
   const PreparedScene scene = prepared(R"("objects": {

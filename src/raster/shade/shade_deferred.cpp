@@ -166,7 +166,7 @@ struct LayerSelection {
   bool may_shade_samples;  // false: no draw of the pass runs its fragment function per sample
   DeferredShading& memory;
 
-  // Returns true if all samples of every pixel of a packet show the same triangle, or none, and all triangles are shaded per pixel.
+  // Returns true if, in every pixel of the packet, all samples show the same triangle or none, and all triangles are shaded per pixel.
   bool agree(int packet) const {
     const TriangleId* ids = &tile.visibility[first_pixel(tile, packet, 0)];
     const Int first = load<Int>(ids);
