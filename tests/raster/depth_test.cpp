@@ -620,5 +620,25 @@ TEST(DepthInvariance, PrePassThenEqualLosesNoPixels) {
   EXPECT_GT(clipped, static_cast<uint64_t>(effort(150) * 10));
 }
 
+// Covers the left half, x < 4. Has no fragment function, because it is only drawn with draw_depth().
+struct LeftHalf : PositionShader {
+  template <class R>
+  Visibility<R> visibility(const Varyings<R>&, const Pixel<R>& px) const {
+    return {px.x < R(4), px.z()};
+  }
+};
+
+TEST(Depth, AShaderWithoutAFragmentFunctionDecidesCoverageOfDepthDraws) {
+  Image<float> depth(8, 8);
+  DepthTarget target = d32f_target(depth);
+  target.clear_value = 1.0f;
+  Pass pass(8, 8, {}, target);
+  pass.draw_depth(LeftHalf{}, make_vertex_view(stream(full_screen())), always());
+  pass.run(one_worker());
+  for (int y = 0; y < 8; ++y) {
+    for (int x = 0; x < 8; ++x) EXPECT_EQ(depth.at(x, y) != 1.0f, x < 4) << x << ' ' << y;
+  }
+}
+
 }  // namespace
 }  // namespace halfspace::raster_test

@@ -202,38 +202,51 @@ inline constexpr bool kDecidesDepth = [] {
   return false;
 }();
 
-template <class S>
-HS_FLATTEN void visibility_kernel(const void* shader, const VisibilityBatch& batch) {
+/// Calls the visibility function for packets a and b of a batch, which show the given triangles.
+template <class S, class Triangles>
+HS_INLINE void decide_pair(const S& s, const VisibilityBatch& batch, int a, int b, const Triangles& triangles) {
   using R = FragmentReal;
-  using V = typename S::template Varyings<R>;
-  using F = typename S::template Varyings<float>;
-  PacketTriangles<kComponents<V>, 0> triangles;
-  RecentTriangles<F> recent;
-  if (batch.ids == nullptr) {  // initializes all values, which GCC 12 cannot derive from `only`
-    triangles.only = {batch.packet_ids[0], batch.packet_ids[0]};
-    const auto& scalars = recent.first(*batch.context, batch.packet_ids[0]);
-    spread_triangle<0>(scalars, triangles);
-    spread_triangle<1>(scalars, triangles);
+  const std::array<PacketTriangleIds, 2> ids{triangle_ids_of(batch, a), triangle_ids_of(batch, b)};
+  Pixel<R> px;
+  const auto in = begin_packets<S>(pixels_of(batch, a, b), batch.position, triangles, ids, px);
+  const Visibility<R> v = call_visibility<S, R>(s, in, px);
+  if constexpr (kDecidesDepth<S>) {
+    batch.depth[a] = v.depth.low;
+    batch.depth[b] = v.depth.high;
   }
+  batch.keep[a] = static_cast<uint16_t>(bits(v.keep.low));
+  batch.keep[b] = static_cast<uint16_t>(bits(v.keep.high));
+}
+
+/// The visibility kernel for packed pixels. The other one is faster if it does not contain this code.
+template <class S>
+__attribute__((noinline)) HS_FLATTEN void packed_visibility_kernel(const S& s, const VisibilityBatch& batch) {
+  PacketTriangles<kComponents<typename S::template Varyings<FragmentReal>>, 0> triangles;
+  RecentTriangles<typename S::template Varyings<float>> recent;
   for (int first = 0; first < batch.count; first += 2) {
     const int second = std::min(first + 1, batch.count - 1);  // if the count is odd, the last packet is evaluated twice
-    if (batch.ids != nullptr) {
-      find_packed(batch, first, second, recent, triangles);
-    } else {
-      show_triangle<0>(*batch.context, batch.packet_ids[first], recent, triangles);
-      show_triangle<1>(*batch.context, batch.packet_ids[second], recent, triangles);
-    }
-    const std::array<PacketTriangleIds, 2> ids{triangle_ids_of(batch, first), triangle_ids_of(batch, second)};
-    Pixel<R> px;
-    const V in = begin_packets<S>(pixels_of(batch, first, second), batch.position, triangles, ids, px);
-    const Visibility<R> v = call_visibility<S, R>(*static_cast<const S*>(shader), in, px);
-    const auto a = static_cast<std::size_t>(first), b = static_cast<std::size_t>(second);
-    if constexpr (kDecidesDepth<S>) {
-      batch.depth[a] = v.depth.low;
-      batch.depth[b] = v.depth.high;
-    }
-    batch.keep[a] = static_cast<uint16_t>(bits(v.keep.low));
-    batch.keep[b] = static_cast<uint16_t>(bits(v.keep.high));
+    find_triangles<0>(batch, first, recent, triangles);
+    find_triangles<1>(batch, second, recent, triangles);
+    decide_pair(s, batch, first, second, triangles);
+  }
+}
+
+template <class S>
+HS_FLATTEN void visibility_kernel(const void* shader, const VisibilityBatch& batch) {
+  const S& s = *static_cast<const S*>(shader);
+  if (batch.ids != nullptr) return packed_visibility_kernel(s, batch);
+  PacketTriangles<kComponents<typename S::template Varyings<FragmentReal>>, 0> triangles;
+  RecentTriangles<typename S::template Varyings<float>> recent;
+  // Initializes all values, which GCC 12 cannot derive from `only`.
+  triangles.only = {batch.packet_ids[0], batch.packet_ids[0]};
+  const auto& scalars = recent.first(*batch.context, batch.packet_ids[0]);
+  spread_triangle<0>(scalars, triangles);
+  spread_triangle<1>(scalars, triangles);
+  for (int first = 0; first < batch.count; first += 2) {
+    const int second = std::min(first + 1, batch.count - 1);
+    show_triangle<0>(*batch.context, batch.packet_ids[first], recent, triangles);
+    show_triangle<1>(*batch.context, batch.packet_ids[second], recent, triangles);
+    decide_pair(s, batch, first, second, triangles);
   }
 }
 

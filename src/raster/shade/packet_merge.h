@@ -248,15 +248,6 @@ HS_INLINE void find_triangles(const PacketBatch& batch, int n, RecentTriangles<V
   merge_many<i>(context, ids, first_lane_of_each(packet_ids, ids, packet.lanes, kLanes), recent, t);
 }
 
-/// The same for packets a and b of a batch, as packets 0 and 1 of t, in a function of its own. The kernel that calls it for packed pixels
-/// only is faster for all others.
-template <class V, std::size_t N, std::size_t P, bool with_id>
-__attribute__((noinline)) void find_packed(const PacketBatch& batch, int a, int b, RecentTriangles<V, with_id>& recent,
-                                           PacketTriangles<N, P, with_id>& t) {
-  find_triangles<0>(batch, a, recent, t);
-  find_triangles<1>(batch, b, recent, t);
-}
-
 }  // namespace detail
 
 }  // namespace halfspace
