@@ -632,8 +632,9 @@ TEST(Depth, AShaderWithoutAFragmentFunctionDecidesCoverageOfDepthDraws) {
   Image<float> depth(8, 8);
   DepthTarget target = d32f_target(depth);
   target.clear_value = 1.0f;
+  const std::vector<glm::vec4> positions = full_screen();
   Pass pass(8, 8, {}, target);
-  pass.draw_depth(LeftHalf{}, make_vertex_view(stream(full_screen())), always());
+  pass.draw_depth(LeftHalf{}, make_vertex_view(stream(positions)), always());
   pass.run(one_worker());
   for (int y = 0; y < 8; ++y) {
     for (int x = 0; x < 8; ++x) EXPECT_EQ(depth.at(x, y) != 1.0f, x < 4) << x << ' ' << y;
