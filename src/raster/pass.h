@@ -86,8 +86,8 @@ class Pass {
       detail::draw<detail::DrawKind::color>(*state_, shader, vertices, sequential(vertices), state);
   }
 
-  /// Adds a draw that only writes depth and stencil. The shader's fragment function, if any, is not called. Its visibility function, if any,
-  /// determines coverage, and the depth if the fragment function returns one.
+  /// Adds a draw that only writes depth and stencil. The shader's fragment function, if any, is not called. Its visibility function, if
+  /// any, determines coverage, and the depth if the fragment function returns one.
   template <class S, class V, detail::IndexList I>
   void draw_depth(const S& shader, const V& vertices, I&& indices, const DrawState& state = {}) {
     check_lifetime<I>();

@@ -88,8 +88,7 @@ TEST(PackedFragments, ReturnResultsToTheirLanes) {
       for (uint32_t rest = some[i].lanes; rest != 0; rest &= rest - 1, ++n) {
         const int at = std::countr_zero(rest);
         for (std::size_t k = 0; k < 2; ++k) {
-          for (std::size_t c = 0; c < 4; ++c)
-            ASSERT_EQ(lane(out->packet_color(k, i)[c], at), static_cast<float>(n + 1000 * c + 10000 * k));
+          for (std::size_t c = 0; c < 4; ++c) ASSERT_EQ(lane(out->packet_color(k, i)[c], at), static_cast<float>(n + 1000 * c + 10000 * k));
         }
         ASSERT_EQ(lane(out->depth[i], at), static_cast<float>(n));
         ASSERT_EQ((out->keep[i] >> at & 1) != 0, n % 3 == 0);

@@ -23,8 +23,8 @@ struct VisibilityBatch;
 /// Functions that are compiled for each shader. The rest of the pipeline is shared by all shaders.
 struct ShaderKernels {
   void (*vertex)(const void* shader, const VertexBatch&) = nullptr;
-  void (*position)(const void* shader, const VertexBatch&) = nullptr;      ///< same as vertex, without varyings
-  void (*primitive)(const void* shader, const PrimitiveBatch&) = nullptr;  ///< null: no primitive stage
+  void (*position)(const void* shader, const VertexBatch&) = nullptr;        ///< same as vertex, without varyings
+  void (*primitive)(const void* shader, const PrimitiveBatch&) = nullptr;    ///< null: no primitive stage
   void (*visibility)(const void* shader, const VisibilityBatch&) = nullptr;  ///< null: visibility does not depend on the shader
   void (*fragment)(const void* shader, const FragmentBatch&) = nullptr;
   void (*color)(const void* shader, const FragmentBatch&) = nullptr;  ///< same as fragment, without keep masks and depths

@@ -5,11 +5,7 @@
 
 namespace halfspace {
 
-void constant_colors(const Draw& draw, FragmentOutput& out) {
-  PacketBatch one{};
-  one.count = 1;
-  draw.kernels.fragment(draw.shader.get(), {one, &out});
-}
+void constant_colors(const Draw& draw, FragmentOutput& out) { draw.kernels.fragment(draw.shader.get(), {{.count = 1}, &out}); }
 
 void write_colors(const Draw& draw, const FragmentOutput& out, std::size_t i, std::span<const PacketMask> packets, Tile& tile) {
   const PacketColor* second = &out.packet_color(draw.kernels.color_count > 1 ? 1 : 0, i);

@@ -25,9 +25,7 @@ struct FragmentOutput {
   const PacketColor& packet_color(std::size_t n, std::size_t i) const { return color[n * kPacketBatch + i]; }
   /// Returns component c of color n of all packets. Batches with `pixels` use the memory of the colors in this order.
   float* color_plane(std::size_t n, std::size_t c) { return reinterpret_cast<float*>(color.data()) + plane_offset(n, c); }
-  const float* color_plane(std::size_t n, std::size_t c) const {
-    return reinterpret_cast<const float*>(color.data()) + plane_offset(n, c);
-  }
+  const float* color_plane(std::size_t n, std::size_t c) const { return reinterpret_cast<const float*>(color.data()) + plane_offset(n, c); }
 
  private:
   static std::size_t plane_offset(std::size_t n, std::size_t c) { return (n * 4 + c) * std::size_t{kPacketBatch * kLanes}; }

@@ -25,10 +25,9 @@ HS_INLINE PacketPixels pixels_of(const PacketBatch& batch, int a, int b) {
     return {(packed & I(0xffff)) + I(batch.tile_x0), (packed >> 16) + I(batch.tile_y0), {}};
   }
   const int packet_a = batch.packets[a].packet, packet_b = batch.packets[b].packet;
-  PacketPixels pixels{
-      I(lane_x() + (batch.tile_x0 + packet_x(packet_a)), lane_x() + (batch.tile_x0 + packet_x(packet_b))),
-      I(lane_y() + (batch.tile_y0 + packet_y(packet_a)), lane_y() + (batch.tile_y0 + packet_y(packet_b))),
-      {}};
+  PacketPixels pixels{I(lane_x() + (batch.tile_x0 + packet_x(packet_a)), lane_x() + (batch.tile_x0 + packet_x(packet_b))),
+                      I(lane_y() + (batch.tile_y0 + packet_y(packet_a)), lane_y() + (batch.tile_y0 + packet_y(packet_b))),
+                      {}};
   if (batch.centroids != nullptr) pixels.centroids = {batch.centroids + at(a), batch.centroids + at(b)};
   return pixels;
 }

@@ -97,7 +97,8 @@ void shade_draw(const PassContext& context, Tile& tile, const Job& job, const Dr
   const bool needs_centroid = draw.kernels.uses_centroid && spreads;
   std::array<SamplePosition, kPacketBatch * kLanes> centroids;
   FragmentBatch batch{
-      {&context, tile.x0 - job.plane.x, tile.y0 - job.plane.y, job.position, job.ids, nullptr, packets.data(), 0, nullptr, nullptr}, &out};
+      {.context = &context, .tile_x0 = tile.x0 - job.plane.x, .tile_y0 = tile.y0 - job.plane.y, .position = job.position, .ids = job.ids},
+      &out};
   if (!spreads) batch.codes = direct_codes<Statistics>(draw, tile);
   const std::size_t most = batch.codes != nullptr ? packets.size() : static_cast<std::size_t>(kPacketBatch);
   for (; !packets.empty(); packets = packets.subspan(static_cast<std::size_t>(batch.count))) {
@@ -246,10 +247,14 @@ void shade_full_tile(const PassContext& context, TriangleId id, Tile& tile, Defe
   statistics.fragments_shaded += kMaxTilePixels;
   std::fill_n(memory.layer.begin(), kPackets, id);
   for (std::size_t p = 0; p < kPackets; ++p) memory.packets[p] = {static_cast<uint16_t>(p), static_cast<uint16_t>(kAllBits<Mask>)};
-  FragmentBatch batch{
-      {&context, tile.x0, tile.y0, kPixelCenter, nullptr, memory.layer.data(), memory.packets.data(), kPackets, nullptr, nullptr},
-      &memory.output,
-      direct_codes<Statistics>(draw, tile)};
+  FragmentBatch batch{{.context = &context,
+                       .tile_x0 = tile.x0,
+                       .tile_y0 = tile.y0,
+                       .packet_ids = memory.layer.data(),
+                       .packets = memory.packets.data(),
+                       .count = kPackets},
+                      &memory.output,
+                      direct_codes<Statistics>(draw, tile)};
   if (batch.codes != nullptr) return draw.kernels.color(draw.shader.get(), batch);
   batch.count = kPacketBatch;
   for (std::size_t first = 0; first < kPackets; first += kPacketBatch) {

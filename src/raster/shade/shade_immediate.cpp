@@ -131,8 +131,14 @@ void shade_packets(const Shading& c, const PacketMask* packets, int count, const
       find_centroids(c.context, c.tile.x0 + packet_x(p), c.tile.y0 + packet_y(p), nullptr, c.id,
                      &centroids[static_cast<std::size_t>(i * kLanes)]);
     }
-    const PacketBatch batch{&c.context, c.tile.x0 - plane.x, c.tile.y0 - plane.y, at, nullptr, ids.data(), packets + begin, n,
-                            needs_centroid ? centroids.data() : nullptr, nullptr};
+    const PacketBatch batch{.context = &c.context,
+                            .tile_x0 = c.tile.x0 - plane.x,
+                            .tile_y0 = c.tile.y0 - plane.y,
+                            .position = at,
+                            .packet_ids = ids.data(),
+                            .packets = packets + begin,
+                            .count = n,
+                            .centroids = needs_centroid ? centroids.data() : nullptr};
     c.draw.kernels.fragment(c.draw.shader.get(), {batch, &out});
     count_fragments(c, packets + begin, n);
     for (int i = 0; i < n; ++i) finish(out, static_cast<std::size_t>(i), packets[begin + i]);
@@ -237,16 +243,14 @@ void finish_batch(const Shading& c, PacketQueue& queue, std::size_t begin, std::
 // Shades packets of the queue as they are. Returns their number.
 template <class Shading>
 std::size_t shade_batch(const Shading& c, PacketQueue& queue, std::size_t begin) {
-  const PacketMask* packets = &queue.packets[begin];
-  const int n = std::min(kPacketBatch, queue.count - static_cast<int>(begin));
-  const PacketBatch batch{&c.context, c.tile.x0, c.tile.y0, kPixelCenter, nullptr, &queue.ids[begin], packets, n, nullptr, nullptr};
-  c.draw.kernels.fragment(c.draw.shader.get(), {batch, &c.output});
-  count_fragments(c, packets, n);
+  const std::size_t n = std::min(std::size_t{kPacketBatch}, static_cast<std::size_t>(queue.count) - begin);
+  c.draw.kernels.fragment(c.draw.shader.get(), {queue.batch(c.context, c.tile, begin, n), &c.output});
+  count_fragments(c, &queue.packets[begin], static_cast<int>(n));
   if constexpr (kTracesShading<Shading>) {
-    for (std::size_t i = 0; i < static_cast<std::size_t>(n); ++i) trace_shaded(c, c.output, i, packets[i], queue.ids[begin + i]);
+    for (std::size_t i = 0; i < n; ++i) trace_shaded(c, c.output, i, queue.packets[begin + i], queue.ids[begin + i]);
   }
-  finish_batch(c, queue, begin, static_cast<std::size_t>(n));
-  return static_cast<std::size_t>(n);
+  finish_batch(c, queue, begin, n);
+  return n;
 }
 
 // The same, but moves the pixels together first.

@@ -14,8 +14,8 @@ template <class Statistics>
 void shade_immediate(const PassContext& context, const Draw& draw, TriangleId id, VisibilityMode mode, const CoverageList& list, Tile& tile,
                      TransparentLayers& layers, FragmentOutput& output, Statistics& statistics);
 
-/// The same for all packets of a queue, which is empty afterwards. d: the draw of the queue, which must be shaded immediately. packed: scratch
-/// memory.
+/// The same for all packets of a queue, which is empty afterwards. d: the draw of the queue, which must be shaded immediately. packed:
+/// scratch memory.
 template <class Statistics>
 void shade_queued(const DrawInTile& d, PacketQueue& queue, TransparentLayers& layers, FragmentOutput& output, PackedFragments& packed,
                   Statistics& statistics);

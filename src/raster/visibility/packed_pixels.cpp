@@ -32,7 +32,13 @@ bool pays_to_pack(const Draw& draw, std::span<const PacketMask> packets) {
 }
 
 PacketBatch PackedPixels::batch(const PassContext& context, const Tile& tile) const {
-  return {&context, tile.x0, tile.y0, kPixelCenter, ids.data(), nullptr, packets.data(), packet_count(), nullptr, pixels.data()};
+  return {.context = &context,
+          .tile_x0 = tile.x0,
+          .tile_y0 = tile.y0,
+          .ids = ids.data(),
+          .packets = packets.data(),
+          .count = packet_count(),
+          .pixels = pixels.data()};
 }
 
 std::size_t pack(std::span<const PacketMask> packets, const TriangleId* ids, PackedPixels& out) {

@@ -18,7 +18,7 @@ struct PackedPixels {
   static constexpr std::size_t kCapacity = kPacketBatch * kLanes;
 
   std::size_t count = 0;
-  std::array<PacketMask, kPacketBatch> packets;                 ///< full ones, except for the last
+  std::array<PacketMask, kPacketBatch> packets;                ///< full ones, except for the last
   alignas(64) std::array<int32_t, kCapacity + kLanes> pixels;  ///< see PacketBatch::pixels
   alignas(64) std::array<TriangleId, kCapacity + kLanes> ids;  ///< of each pixel
 
@@ -27,8 +27,8 @@ struct PackedPixels {
   PacketBatch batch(const PassContext& context, const Tile& tile) const;
 };
 
-/// Returns true if packing saves at least a quarter of the packets. Returns false for draws with a constant shader, and for points, because a
-/// packed packet can show many of them and their values can only be merged one by one.
+/// Returns true if packing saves at least a quarter of the packets. Returns false for draws with a constant shader, and for points, because
+/// a packed packet can show many of them and their values can only be merged one by one.
 bool pays_to_pack(const Draw& draw, std::span<const PacketMask> packets);
 
 /// Packs the pixels of the first packets, as many as there is room for. ids: the triangle of each packet. Returns the number of packets, at

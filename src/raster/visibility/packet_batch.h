@@ -14,17 +14,17 @@ inline constexpr int kPacketBatch = 16;
 
 /// Packets of one draw.
 struct PacketBatch {
-  const PassContext* context;
-  int tile_x0, tile_y0;          ///< window coordinates of pixel (0, 0) of the tile's storage
-  SamplePosition position;       ///< position within the pixel at which the shader is evaluated
-  const TriangleId* ids;         ///< triangle of each pixel of the tile; null if each packet shows only one, see packet_ids
-  const TriangleId* packet_ids;  ///< triangle of each packet; only used if ids is null
-  const PacketMask* packets;
-  int count;                        ///< ≤ kPacketBatch, unless FragmentBatch::codes is set
-  const SamplePosition* centroids;  ///< positions of centroid varyings, W for each packet; null if the same as position
+  const PassContext* context = nullptr;
+  int tile_x0 = 0, tile_y0 = 0;            ///< window coordinates of pixel (0, 0) of the tile's storage
+  SamplePosition position = kPixelCenter;  ///< position within the pixel at which the shader is evaluated
+  const TriangleId* ids = nullptr;         ///< triangle of each pixel of the tile; null if each packet shows only one, see packet_ids
+  const TriangleId* packet_ids = nullptr;  ///< triangle of each packet; only used if ids is null
+  const PacketMask* packets = nullptr;
+  int count = 0;                              ///< ≤ kPacketBatch, unless FragmentBatch::codes is set
+  const SamplePosition* centroids = nullptr;  ///< positions of centroid varyings, W for each packet; null if the same as position
   /// If not null, the position of each pixel in the tile, (y << 16) | x, W for each packet; see PackedPixels. `ids` is then indexed in the
   /// same order, and packet i is number i.
-  const int32_t* pixels;
+  const int32_t* pixels = nullptr;
 };
 
 /// Packets for a shader's visibility function.

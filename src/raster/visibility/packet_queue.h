@@ -4,7 +4,7 @@
 // several triangles, so the shader runs on full batches even if triangles are small.
 #pragma once
 
-#include "halfspace/raster/tile/tile.h"
+#include "halfspace/raster/visibility/packet_batch.h"
 
 namespace halfspace {
 
@@ -16,6 +16,15 @@ struct PacketQueue {
   static constexpr std::size_t kCapacity = kShadeAt + kPackets + 1;
 
   bool is_full() const { return count >= kShadeAt; }
+  /// Returns n packets for a kernel, starting with packet `begin`.
+  PacketBatch batch(const PassContext& context, const Tile& tile, std::size_t begin, std::size_t n) const {
+    return {.context = &context,
+            .tile_x0 = tile.x0,
+            .tile_y0 = tile.y0,
+            .packet_ids = &ids[begin],
+            .packets = &packets[begin],
+            .count = static_cast<int>(n)};
+  }
 
   int count = 0;
   std::array<PacketMask, kCapacity> packets;

@@ -136,16 +136,14 @@ void ask_shader(const Visit& c) {
   std::array<TriangleId, kPacketBatch> ids;
   ids.fill(c.id);
   std::array<uint16_t, kPacketBatch> keep;
-  const PacketBatch packets{&c.context,
-                            c.grid.x0,
-                            c.grid.y0,
-                            c.draw.shades_samples ? c.grid.position : kPixelCenter,
-                            nullptr,
-                            ids.data(),
-                            pending.packets.data(),
-                            pending.count,
-                            needs_centroid ? centroids.data() : nullptr,
-                            nullptr};
+  const PacketBatch packets{.context = &c.context,
+                            .tile_x0 = c.grid.x0,
+                            .tile_y0 = c.grid.y0,
+                            .position = c.draw.shades_samples ? c.grid.position : kPixelCenter,
+                            .packet_ids = ids.data(),
+                            .packets = pending.packets.data(),
+                            .count = pending.count,
+                            .centroids = needs_centroid ? centroids.data() : nullptr};
   c.draw.kernels.visibility(c.draw.shader.get(), {packets, keep.data(), pending.depth.data()});
   for (std::size_t i = 0; i < count; ++i) {
     const auto [packet, lanes] = pending.packets[i];

@@ -52,7 +52,7 @@ struct DrawInTile {
   bool asks_shader;        ///< the shader's visibility function must be called
   bool fetches_vertices;   ///< prefetch vertices: they belong to points, or are shared by several triangles
   bool is_opaque;          ///< only coverage and depth determine visibility
-  bool has_stencil;        ///< the same, and the stencil test; one sample per pixel
+  bool has_stencil;        ///< coverage, depth and the stencil test determine visibility, with one sample per pixel
   bool is_queued;          ///< one sample per pixel and no stencil test; packets are listed in a PacketQueue until the shader runs
 };
 

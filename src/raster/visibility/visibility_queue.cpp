@@ -35,16 +35,10 @@ HS_INLINE void write_decided(const DrawInTile& d, TriangleId id, int packet, uin
   }
 }
 
-// Calls the visibility function for n packets of the queue as they are.
-void decide_as_listed(const DrawInTile& d, const PacketQueue& queue, std::size_t begin, std::size_t n, Decisions& out) {
-  const PacketBatch packets{&d.context, d.tile.x0,           d.tile.y0,           kPixelCenter,        nullptr,
-                            &queue.ids[begin], &queue.packets[begin], static_cast<int>(n), nullptr, nullptr};
-  d.draw.kernels.visibility(d.draw.shader.get(), {packets, out.keep.data(), out.depth.data()});
-}
-
 // Finishes n packets of the queue. result(i, lanes) returns the keep mask and the depth of packet i.
 template <class Writer, class F>
-HS_INLINE void write_batch_decided(const DrawInTile& d, const PacketQueue& queue, std::size_t begin, std::size_t n, Writer& writer, F result) {
+HS_INLINE void write_batch_decided(const DrawInTile& d, const PacketQueue& queue, std::size_t begin, std::size_t n, Writer& writer,
+                                   F result) {
   using Statistics = typename Writer::Statistics;
   for (std::size_t i = 0; i < n; ++i) {
     const auto [packet, lanes] = queue.packets[begin + i];
@@ -75,14 +69,14 @@ void decide_queued(const DrawInTile& d, PacketQueue& queue, Statistics& statisti
       write_batch_decided(d, queue, begin, n, writer, [&](std::size_t, uint32_t lanes) {
         const std::size_t first = next;
         next += static_cast<std::size_t>(std::popcount(lanes));
-        const Real depth = d.draw.kernels.writes_depth
-                               ? unpack_values(reinterpret_cast<const float*>(decisions.depth.data()), first, lanes)
-                               : Real(0.0f);
+        const Real depth =
+            d.draw.kernels.writes_depth ? unpack_values(reinterpret_cast<const float*>(decisions.depth.data()), first, lanes) : Real(0.0f);
         return std::pair<uint32_t, Real>(unpack_keep(decisions.keep.data(), first, lanes), depth);
       });
     } else {
       n = std::min(std::size_t{kPacketBatch}, rest.size());
-      decide_as_listed(d, queue, begin, n, decisions);
+      d.draw.kernels.visibility(d.draw.shader.get(),
+                                {queue.batch(d.context, d.tile, begin, n), decisions.keep.data(), decisions.depth.data()});
       write_batch_decided(d, queue, begin, n, writer, [&](std::size_t i, uint32_t) {
         return std::pair<uint32_t, Real>(decisions.keep[i], d.draw.kernels.writes_depth ? decisions.depth[i] : Real(0.0f));
       });
