@@ -250,6 +250,12 @@ def sections(results):
     """The generated sections of the documents, by the name in their markers."""
     stamped = lambda text: f"{text}\n\n{stamp(results)}"
     by_size = lambda make: stamped("\n\n".join(make(results, size) for size in results.sizes))
+
+    def states(key, *columns):
+        if not results.raw.get(key):
+            return f"The last run of `scripts/bench.sh` did not measure the {key}."
+        return stamped(state_table(results, key, *columns))
+
     n = results.threads
     means = "Speedup on {} thread{}, geometric mean of 18 workloads: {}.".format(n, "s" if n > 1 else "", "; ".join(
         f"at {size}, {times(results.mean_ratio(f'halfspace native {n}', f'llvmpipe {n}', size))} over llvmpipe "
@@ -263,7 +269,7 @@ def sections(results):
         "resources": by_size(resource_table),
         "limits": stamped(limit_table(results)),
         "growth": stamped(growth_table(results)),
-        "matrix": stamped(state_table(results, "matrix", "state", "plain")) if results.raw.get("matrix") else "The matrix was not measured.",
-        "scenes": stamped(state_table(results, "scenes", "scene and camera")) if results.raw.get("scenes") else "The scenes were not measured.",
+        "matrix": states("matrix", "state", "plain"),
+        "scenes": states("scenes", "scene and camera"),
         "readme": means + "\n\n" + source_line(results),
     }
