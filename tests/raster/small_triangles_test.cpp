@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Small triangles are rasterized in groups of W. All pixels, depths and the number of passing samples must be the same as if each
-// triangle were drawn in a separate pass. The test mixes draws, uses equal depths, and varies the extents from one pixel to beyond the
-// limit for small triangles.
+// triangle were drawn in a separate pass. The test mixes draws with and without a stencil test, uses equal depths, and varies the extents
+// from one pixel to beyond the limit for small triangles.
 #include <algorithm>
 
 #include "halfspace/raster/tile/tile.h"
@@ -17,6 +17,17 @@ struct Triangles {
   std::vector<glm::vec4> positions, colors;
   DrawState state;
 };
+
+StencilFace random_face(Random& r) {
+  const auto operation = [&r] { return static_cast<StencilOp>(r.integer(0, static_cast<int>(StencilOp::decrement_wrap))); };
+  return {.compare = static_cast<CompareOp>(r.integer(0, 7)),
+          .fail = operation(),
+          .depth_fail = operation(),
+          .pass = operation(),
+          .reference = static_cast<uint8_t>(r.integer(0, 3)),
+          .read_mask = static_cast<uint8_t>(r.coin() ? 0xff : 0x03),
+          .write_mask = static_cast<uint8_t>(r.coin() ? 0xff : 0x03)};
+}
 
 // Returns up to three times W triangles for one draw (W is at most 16). The first vertex is in or near the picture, and depths have one of
 // five values.
@@ -35,20 +46,21 @@ Triangles random_triangles(Random& r) {
   t.state.depth.test = r.integer(0, 5) != 0;
   t.state.depth.write = r.integer(0, 4) != 0;
   t.state.depth.compare = static_cast<CompareOp>(r.integer(0, 7));
+  if (r.coin()) t.state.stencil = StencilState{random_face(r), random_face(r)};
   if (r.coin()) t.state.scissor = Rect{r.integer(0, 40), r.integer(0, 40), r.integer(1, 90), r.integer(1, 90)};
   return t;
 }
 
 struct SmallPicture {
   Image<glm::vec4> color{kSmallSize, kSmallSize};
-  Image<float> depth{kSmallSize, kSmallSize};
+  Image<DepthStencil> depth{kSmallSize, kSmallSize};
   PassStatistics statistics;
 };
 
 // Draws on top of the existing contents.
 void draw(std::span<const Triangles> draws, SmallPicture& out) {
   ColorTarget color = rgba32f_target(out.color);
-  DepthTarget depth = d32f_target(out.depth);
+  DepthTarget depth = d32fs8_target(out.depth);
   color.load = depth.load = LoadOp::load;
   Pass pass(kSmallSize, kSmallSize, color, depth);
   for (const Triangles& t : draws) pass.draw(FlatColorShader{}, make_vertex_view(stream(t.positions), stream(t.colors)), t.state);
@@ -71,7 +83,7 @@ TEST(SmallTriangles, BatchesMatchIndividualTriangles) {
     std::vector<Triangles> draws(static_cast<std::size_t>(random.integer(1, 3)));
     for (Triangles& t : draws) t = random_triangles(random);
     SmallPicture together, single;
-    for (SmallPicture* d : {&together, &single}) std::fill_n(d->depth.data(), kSmallSize * kSmallSize, 0.5f);
+    for (SmallPicture* d : {&together, &single}) std::fill_n(d->depth.data(), kSmallSize * kSmallSize, DepthStencil{0.5f, 1});
     draw(draws, together);
     for (const Triangles& t : draws) {
       for (std::size_t k = 0; k < t.positions.size() / 3; ++k) draw(std::array{only(t, k)}, single);
