@@ -96,6 +96,27 @@ TEST(SmallTriangles, BatchesMatchIndividualTriangles) {
   EXPECT_GT(passed, static_cast<uint64_t>(effort(400)) * 100) << "too few samples passed";
 }
 
+// A small triangle with a stencil test writes a larger depth than its block had. A large triangle in front of it must not be rejected by
+// the bounds of the block.
+TEST(SmallTriangles, WithStencilUpdateTheDepthBoundsOfTheirBlock) {
+  constexpr int kFirst = 8 * kSubPixels;
+  const auto corner = [](int x, int y) {
+    return clip_position({kFirst + x * kSubPixels, kFirst + y * kSubPixels}, kSmallSize, kSmallSize, 0.8f);
+  };
+  const Triangles small{.positions = {corner(0, 0), corner(3, 0), corner(0, 3)},
+                        .colors = std::vector<glm::vec4>(3, glm::vec4(1)),
+                        .state = {.depth = {.compare = CompareOp::always}, .stencil = StencilState{}}};
+  const Triangles large{.positions = full_screen(0.4f), .colors = std::vector<glm::vec4>(3, glm::vec4(1)), .state = {}};
+  SmallPicture out;
+  std::fill_n(out.depth.data(), kSmallSize * kSmallSize, DepthStencil{0.5f, 0});
+  draw(std::array{small, large}, out);
+  const auto drawn =
+      std::count_if(out.depth.data(), out.depth.data() + kSmallSize * kSmallSize, [](const DepthStencil& d) { return d.depth != 0.5f; });
+  EXPECT_EQ(drawn, 3);  // the pixels of the small triangle: only there is the large one (0.7) in front (0.9)
+  for (const DepthStencil& d : std::span(out.depth.data(), kSmallSize * kSmallSize)) EXPECT_NE(d.depth, 0.9f);
+  EXPECT_EQ(out.statistics.samples_passed, 6u);
+}
+
 TEST(SmallTriangles, PixelIndicesMatchPacketPositions) {
   for (int p = 0; p < kPackets; ++p) {
     const Int together = pixel_at(lane_x() + packet_x(p), lane_y() + packet_y(p));
