@@ -7,7 +7,7 @@
   scripts/lesson_pictures.py check BUILD           the same, but compares with the pictures that are there, with `halfspace compare`
   scripts/lesson_pictures.py write NAME VARIANT OUT  writes the source of one variant; CMake calls this
 
-A lesson shows changes to its program as diff blocks: "wrong" is the block in the section "What goes wrong without it" of the lesson, and
+A lesson shows changes to its program as diff blocks: "wrong" is the block in the section "Break the program" of the lesson, and
 "solution" is the block of the lesson in teachers.md. The old lines of a change must occur exactly once in the program, apart from their
 indentation.
 """
@@ -42,7 +42,7 @@ def change_of(name, variant):
     """Returns the hunks of a variant as pairs (old lines, new lines), or an empty list if the lesson has no such variant."""
     number = name[:2]
     if variant == "wrong":
-        text = section((PAGES / f"{number}.md").read_text(encoding="utf-8"), "What goes wrong without it")
+        text = section((PAGES / f"{number}.md").read_text(encoding="utf-8"), "Break the program")
     else:
         text = section((PAGES / "teachers.md").read_text(encoding="utf-8"), f"Lesson {int(number)}")
     block = re.search(r"^```diff\n(.*?)^```", text, re.MULTILINE | re.DOTALL)

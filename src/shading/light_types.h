@@ -40,12 +40,12 @@ enum class ShadowBias : uint8_t {
   none,
   constant,        ///< moves the point towards the light, by a number of texels
   slope,           ///< adds the depth that a texel spans on the surface
-  angle,           ///< depends on the angle between normal and light, as in the original Earth demo
+  angle,           ///< proportional to 1 minus the cosine of the angle between normal and light
   normal_offset,   ///< moves the point along the normal
   receiver_plane,  ///< compares each texel with the plane of the triangle at the texel center
   adaptive,        ///< the same with the plane of the shading normal, and an additional offset (Dou et al., JCGT 3(4), 2014)
   automatic,       ///< the method that performed best in measurements: docs/explanation/shadows.md
-  original         ///< 0.0005 of the depth range, as in the original day-night demo
+  original         ///< a constant 0.0005 of the depth range
 };
 
 /// Settings of a shadow lookup. They are the same for all views of a light.

@@ -76,7 +76,7 @@ HS_INLINE R box_pcf(const ShadowView& view, const ShadowCoordinates<R>& p) {
   return sum * R(1.0f / (width * width));
 }
 
-/// Returns the unweighted mean of nine texels: the simple form of pcf3, as in the original day-night demo.
+/// Returns the unweighted mean of nine texels: the simple form of pcf3.
 template <class R>
 HS_INLINE R pcf_3x3(const ShadowView& view, const ShadowCoordinates<R>& p) {
   const IntOf<R> i = truncate_to_int(floor(p.x)), j = truncate_to_int(floor(p.y));
