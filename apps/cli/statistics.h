@@ -19,7 +19,7 @@ struct RenderReport {
   double shadow_ms = 0;   ///< rendering shadow maps
   double prepare_ms = 0;  ///< all other preparation: meshes, other maps, environments
   double draw_ms = 0;     ///< rendering the image
-  double render_ms = 0;   ///< the sum of the last four
+  double render_ms = 0;   ///< images_ms + shadow_ms + prepare_ms + draw_ms
   double write_ms = 0;    ///< encoding and writing the images
   PassStatistics counts;
   bool spheres_without_wireframe = false;

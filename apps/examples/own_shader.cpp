@@ -34,7 +34,7 @@ struct RingShader {
     return vec4<R>(in.position.x, in.position.y, R(0), R(1));
   }
 
-  // Use select() to branch per pixel. The second member of the result tells which fragments to keep; the others are discarded.
+  // Use select() to branch per pixel. The second member of the result is the mask of the fragments to keep; the others are discarded.
   template <class R>
   halfspace::DiscardingFragment<R> fragment(const Varyings<R>& in, const halfspace::Pixel<R>&) const {
     const R distance = length(in.smooth) * R(rings);

@@ -16,7 +16,7 @@ class ScenePanel {
  public:
   /// Draws the panel at the right side of the display, and sets the keys that the user changes.
   void draw(Viewer& viewer, double ui_scale);
-  /// Returns its width in pixels.
+  /// Returns the width of the panel in pixels.
   static float width(double ui_scale);
 
  private:

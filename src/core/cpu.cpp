@@ -68,7 +68,7 @@ constexpr Feature kFeatures[] = {
 constexpr char kLevel2[] = " SSE3 SSSE3 SSE4_1 SSE4_2 POPCNT ";
 constexpr char kLevel3[] = " SSE3 SSSE3 SSE4_1 SSE4_2 POPCNT AVX AVX2 BMI BMI2 F16C FMA LZCNT MOVBE ";
 
-// Returns the low half of XCR0, which tells which register state the operating system saves; 0 if XGETBV is unavailable.
+// Returns the low half of XCR0, the register state that the operating system saves; 0 if XGETBV is unavailable.
 unsigned saved_state() {
   unsigned a = 0, b = 0, c = 0, d = 0;
   if (__get_cpuid(1, &a, &b, &c, &d) == 0 || (c >> 27 & 1u) == 0) return 0;

@@ -11,7 +11,7 @@
 namespace halfspace {
 
 /// Limits that keep a page below 25 MB: the number of fragments, and the number of values of the fragments with all values. If a frame
-/// exceeds a limit, the page contains fewer fragments per pixel and stores the number of the others.
+/// exceeds a limit, the page contains fewer fragments per pixel and stores the number of omitted ones.
 inline constexpr std::size_t kMaxPageFragments = 1'600'000, kMaxPageValues = 1'500'000;
 
 /// Returns the largest limit of fragments per pixel with which the page has at most `most` fragments. The result is between 1 and

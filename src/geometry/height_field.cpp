@@ -112,7 +112,7 @@ Image<float> smooth_columns(const Image<float>& map, const Kernel& k, MapEdges e
 
 double sin_of_row(int row, int height) { return sincos_turns(0.5 * (row + 0.5) / height).sin; }
 
-// Caps sigma at the width of the ring. At that width the filter is already the mean, since it scales the lowest frequency by
+// Caps sigma at the width of the ring. A filter of that width already averages the whole ring: it scales the lowest frequency by
 // exp(−2π²).
 Kernel capped_gaussian(double sigma, int width) { return gaussian(std::min(sigma, static_cast<double>(width))); }
 

@@ -9,8 +9,8 @@
 
 namespace halfspace {
 
-/// Returns the names of the channels of a single-part OpenEXR file, sorted. Returns an empty list if the file cannot be read or its header is
-/// invalid. Source: "OpenEXR File Layout", sections Header and Channel List.
+/// Returns the names of the channels of a single-part OpenEXR file, sorted. Returns an empty list if the file cannot be read or its header
+/// is invalid. Source: "OpenEXR File Layout", sections Header and Channel List.
 std::vector<std::string> exr_channel_names(const std::filesystem::path& file);
 
 }  // namespace halfspace

@@ -22,11 +22,11 @@ struct ToolFormat {
   const char* linear_name = nullptr;
 };
 
-/// Number of bytes from the start of a file that the functions below look at.
+/// Number of bytes at the start of a file that the functions below examine.
 inline constexpr std::size_t kFormatBytes = 32;
 
-/// Returns the format of a file that begins with head, or nothing if it is unknown. TGA has no signature: it is recognized by a header
-/// that makes sense, or by the extension of path.
+/// Returns the format of a file that begins with head, or nothing if it is unknown. TGA has no signature: it is recognized by a plausible
+/// header, or by the extension of path.
 std::optional<ToolFormat> find_tool_format(const std::filesystem::path& path, std::string_view head);
 
 /// Describes a file of an unknown format for a message: its type, for example "found PDF", or else its first characters or bytes.

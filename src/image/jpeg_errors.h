@@ -52,7 +52,7 @@ class JpegErrors {
     std::longjmp(jump_, 1);
   }
 
-  jpeg_error_mgr manager_ = {};  // the first member, see of()
+  jpeg_error_mgr manager_ = {};  // must be the first member, because of() converts a pointer to it
   std::jmp_buf jump_;
   char text_[JMSG_LENGTH_MAX] = "";
 };

@@ -39,7 +39,7 @@ class GltfAccessors {
 
   /// Returns the accessor that a member of an object refers to. The member must exist.
   GltfAccessor find(const GltfValue& object, const char* key);
-  /// The same without the data.
+  /// Like find, but does not locate the data.
   GltfAccessor describe(const GltfValue& object, const char* key) const;
 
   /// Reads floats or integers as floats. Normalized integers give values in [0, 1] or [−1, 1].

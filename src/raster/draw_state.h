@@ -162,15 +162,15 @@ struct DrawState {
   bool sample_shading = false;            ///< run the fragment function once per sample, at the sample position
   bool alpha_to_coverage = false;         ///< multisampling only: the alpha of the first color determines how many samples are drawn
   uint32_t sample_mask = 0xffffffffu;     ///< multisampling only: bit s enables sample s
-  /// Blends fragments over what is behind them, whatever the order in which they are submitted. Fragments of these draws are kept until the
-  /// next draw that writes color in another way, or the end of the pass, and blended from the farthest to the nearest. The result is exact
-  /// for 8 layers per sample; more are merged into the farthest. Opaque draws must come first. Requires a depth test that does not write
-  /// (less, less_equal, greater or greater_equal), a single color attachment with straight alpha, and no `blend`. The order is only
-  /// known within a flush.
+  /// Blends fragments in depth order, regardless of the order in which they are submitted. Fragments of these draws are kept until the next
+  /// draw that writes color in another way, or the end of the pass, and then blended from the farthest to the nearest. The result is exact
+  /// for up to 8 layers per sample; further layers are merged into the farthest. Opaque draws must come first. Requires a depth test that
+  /// does not write (less, less_equal, greater or greater_equal), a single color attachment with straight alpha, and no `blend`. If a pass
+  /// is flushed (PassOptions::bin_budget), fragments are sorted within each flush only.
   bool order_independent = false;
   std::optional<BlendState> blend{};  ///< default: no blending, the color is replaced
   ColorMask color_mask{};
-  std::array<std::optional<AttachmentState>, kMaxAttachmentStates> attachments{};  ///< override blend and color_mask of the first ones
+  std::array<std::optional<AttachmentState>, kMaxAttachmentStates> attachments{};  ///< override blend and color_mask
   std::optional<uint32_t> query{};  ///< occlusion query: passing samples are added to PassStatistics::queries[query]
 };
 

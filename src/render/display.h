@@ -29,7 +29,7 @@ enum class Premultiplied : bool { no, yes };
 void show(Pass& pass, const PostDescription& post, double exposure, Image<glm::u8vec4>& picture,
           Premultiplied premultiplied = Premultiplied::no);
 
-/// The same with encoded values in [0, 1] that are not rounded, whatever post.dither.
+/// The same with encoded values in [0, 1], which are neither rounded nor dithered.
 void show_fine(Pass& pass, const PostDescription& post, double exposure, Image<glm::vec4>& encoded, Premultiplied premultiplied);
 
 /// Makes a pass write light with straight alpha to `light`.

@@ -182,7 +182,8 @@ class FrameRenderer {
   PassRunner run_;
 };
 
-// The image that a pass writes to: the caller's or, with a crop, a whole one of which a part is copied to the caller's.
+// The image that a pass writes to: the caller's image or, with a crop, an image of the whole view. finish() copies the crop to the
+// caller's image.
 template <class T>
 class TargetImage {
  public:

@@ -36,10 +36,10 @@ struct FrameImages {
   Image<glm::vec3>* albedo = nullptr;         ///< linear
   Image<glm::vec3>* position = nullptr;       ///< world space
   Image<glm::vec2>* uv = nullptr;             ///< 0 if the mesh has none
-  /// Index in the scene's objects. Their number for the particles, and the following numbers for further particle systems. kNoId where
-  /// there is no surface.
+  /// Index in the scene's objects. Particle systems have the indices after those of the objects. kNoId where there is no surface.
   Image<uint32_t>* object = nullptr;
-  /// Index of the copy of an object; of a model with n meshes, copy · n + mesh; of spheres and particles, their index. kNoId as above.
+  /// Index of the copy of an object; for a model with n meshes, copy · n + mesh; for spheres and particles, their own index. kNoId as
+  /// above.
   Image<uint32_t>* instance = nullptr;
   /// Index of the triangle, point or line in its mesh; 0 for spheres. kNoId as above.
   Image<uint32_t>* triangle = nullptr;
@@ -55,9 +55,9 @@ inline constexpr uint32_t kNoId = 0xffffffffu;
 /// Returns true if an image other than the color images is wanted.
 bool wants_values(const FrameImages& images);
 
-/// Renders the requested images. Throws LimitError if auto_exposure needs more memory than permitted. The result does not depend on the number of workers. Light is stored for the whole image only if it is
-/// wanted, or if auto_exposure has to measure it first; otherwise it only exists in tiles. The returned statistics are the sums over all
-/// passes that draw the scene.
+/// Renders the requested images. Throws LimitError if auto_exposure needs more memory than permitted. The result does not depend on the
+/// number of workers. Light is stored for the whole image only if it is wanted, or if auto_exposure has to measure it first; otherwise it
+/// only exists in tiles. The returned statistics are the sums over all passes that draw the scene.
 PassStatistics render_frame(const PreparedScene& scene, const FrameImages& images, const Workers& workers);
 
 /// Converts light that has been drawn already to the color images of a frame. The result has the same bits as that of render_frame(). The

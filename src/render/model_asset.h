@@ -19,7 +19,7 @@ struct ModelAsset {
   std::vector<Indices> indices;  ///< one per mesh of the model; refers to the indices of the mesh
 };
 
-/// Returns the pose that an object of shape `file` asks for. Throws InputError, which begins with `path`, if the file has no scene,
+/// Returns the pose that an object of shape `file` specifies. Throws InputError, which begins with `path`, if the file has no scene,
 /// animation or variant of that name.
 PoseOptions pose_options(const Model& model, const ObjectDescription& o, const std::string& path);
 

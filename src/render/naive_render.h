@@ -9,8 +9,8 @@
 
 namespace halfspace {
 
-/// Returns why the naive pipeline cannot draw the scene, in one line that begins with the path of the object or key, or an empty string if it
-/// can. It draws opaque triangles with one sample per pixel. `description` must be what the scene was prepared from.
+/// Returns why the naive pipeline cannot draw the scene, in one line that begins with the path of the object or key, or an empty string if
+/// it can. It draws opaque triangles with one sample per pixel. `description` must be what the scene was prepared from.
 std::string naive_obstacle(const PreparedScene& scene, const SceneDescription& description);
 
 /// Renders the scene as linear light before exposure and tone curve, like render() into an Image<glm::vec4>, but with the naive pipeline in

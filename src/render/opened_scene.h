@@ -18,7 +18,7 @@ namespace halfspace {
 /// A scene, and the model file that it shows if it was generated for one.
 struct OpenedScene {
   SceneFile scene;
-  std::filesystem::path model_file;  ///< empty: it was not
+  std::filesystem::path model_file;  ///< empty if the scene was not generated
   std::shared_ptr<const ModelAsset> model;
   std::map<std::string, std::string> camera_names;  ///< names in the model and the corresponding names in the scene
 };
@@ -28,7 +28,7 @@ OpenedScene open_scene_or_model(const std::string& name_or_file, const ModelView
 
 /// Announces `frames` frames of width x height pixels to the assets (SceneAssets::expect), so that generated maps get the resolution that
 /// the closest view of the animation needs and do not change between frames. time_of(i) is the time of frame i in seconds. At most a
-/// thousand frames are looked at, and only one if nothing is animated. frames must be at least 1.
+/// thousand frames are examined, and only one if nothing is animated. frames must be at least 1.
 void expect_frames(SceneAssets& assets, const SceneFile& scene, int frames, const std::function<double(int)>& time_of, int width,
                    int height);
 

@@ -226,7 +226,7 @@ class ScenePreparation {
   std::shared_ptr<const EnvironmentBlend> environments_;            // null: not needed so far
   std::shared_ptr<const EnvironmentLightBlend> environment_light_;  // null: not needed so far
   std::vector<PreparedDraw> blended_;
-  bool needs_light_ = false;  // a surface has been added that only light makes visible
+  bool needs_light_ = false;  // whether a surface has been added that is black without light
   PreparedScene out_;
 };
 

@@ -102,7 +102,7 @@ int index_of(const std::vector<T>& list, const std::string& name, const Name& na
   throw InputError(where + ": the file has no '" + name + "'" + suggestion(name, names));
 }
 
-// Returns the rotation to y up that the object asks for, in addition to what pose() does.
+// Returns the additional rotation to y up for an object whose up_axis differs from that of the model, which pose() uses.
 glm::dmat4 turn_of(const ObjectDescription& o, const Model& model) {
   glm::dmat4 turn(1.0);
   const bool z_up = o.up_axis == ModelUp::automatic ? model.up == UpAxis::z : o.up_axis == ModelUp::z;

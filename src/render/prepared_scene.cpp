@@ -81,12 +81,12 @@ ScenePreparation::ScenePreparation(SceneAssets& assets, const SceneDescription& 
 
 namespace {
 
-// Returns true if nothing shines on surfaces.
+// Returns true if no light reaches any surface.
 bool is_dark(const SceneDescription& scene) {
   return scene.lights.empty() && scene.head.ambient.linear == glm::dvec3(0.0) && scene.environments.empty();
 }
 
-// Returns true if only light makes the surface of the object visible. The materials of model files are checked when they are drawn.
+// Returns true if the surface of the object is black without light. The materials of model files are checked when they are drawn.
 bool needs_light(const ObjectDescription& o) {
   return o.visible && !o.shadow_only && o.shape != Shape::file && o.surface.shading != ShadingRate::none &&
          o.surface.emissive.linear == glm::dvec3(0.0);

@@ -93,10 +93,10 @@ struct PlacedMesh {
   glm::dmat4 world_from_object;
   bool two_sided, casts_shadow, receives_shadow;
   int object = 0;  ///< index in the scene's objects
-  /// Set for masked and blended surfaces: where they cast shadows. Ray tracing treats them as opaque.
+  /// Set for masked and blended surfaces: the parts that cast shadows. Ray tracing treats them as opaque.
   std::optional<OpacityTest> opacity{};
   std::span<const glm::vec2> uvs{};     ///< for `opacity`; not owned
-  std::span<const glm::vec4> colors{};  ///< for `opacity`: their alpha multiplies it; empty: 1; not owned
+  std::span<const glm::vec4> colors{};  ///< for `opacity`, which their alpha multiplies; empty: alpha 1; not owned
 
   bool mirrored() const { return glm::determinant(glm::dmat3(world_from_object)) < 0.0; }
 };
@@ -142,7 +142,7 @@ class SceneAssets {
   explicit SceneAssets(const Workers& workers, std::function<void(const std::string&)> warn = {})
       : workers_(workers), warn_(std::move(warn)) {}
 
-  /// Shares the assets of `other`. Both can then be used by different threads. Frames that were announced to `other` do not count.
+  /// Shares the assets of `other`. Both can then be used by different threads. Frames that were announced to `other` are ignored.
   SceneAssets(const SceneAssets& other, const Workers& workers, std::function<void(const std::string&)> warn)
       : workers_(workers), warn_(std::move(warn)), cache_(other.cache_) {}
 

@@ -46,7 +46,7 @@ bool is_finite_matrix(const glm::dmat4& m) {
 }
 
 bool is_rigid(const glm::dmat4& m) {
-  constexpr double kTolerance = 1e-5;  // of matrices that were stored as floats
+  constexpr double kTolerance = 1e-5;  // for matrices that were stored as floats
   const glm::dmat3 turn(m), product = glm::transpose(turn) * turn;
   for (int i = 0; i < 3; ++i) {
     if (m[i][3] != 0.0) return false;

@@ -22,9 +22,9 @@ struct View {
   bool symmetric = true;  ///< the view axis is at the center of the image, and the image axes are perpendicular
 };
 
-/// Returns the camera with these matrices. The projection may have an off-center principal point and skewed image axes, as calibrated cameras do.
-/// Throws InputError, with a message that begins with "camera: ", if world_from_camera is not a rotation and a translation, or if
-/// clip_from_camera is not a perspective or orthographic projection.
+/// Returns the camera with these matrices. The projection may have an off-center principal point and skewed image axes, as calibrated
+/// cameras do. Throws InputError, with a message that begins with "camera: ", if world_from_camera is not a rotation and a translation, or
+/// if clip_from_camera is not a perspective or orthographic projection.
 CameraDescription matrix_camera(const CameraMatrices& matrices);
 
 /// Returns the view of a camera for an image of width x height pixels, with reversed Z.

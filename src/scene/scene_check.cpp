@@ -96,7 +96,7 @@ void check(const ObjectDescription& o, const std::string& where) {
 
 bool is_even(const Placement& p) { return glm::abs(p.scale) == glm::dvec3(std::fabs(p.scale.x)); }
 
-// Checks that the ancestors of an object exist and end, and that exact spheres stay round.
+// Checks that the ancestors of an object exist and form no cycle, and that exact spheres stay round.
 void check_parents(SceneDescription& scene, const ObjectDescription& object, const std::string& where) {
   std::size_t generations = 0;
   for (const ObjectDescription* o = &object; !o->parent.empty();) {

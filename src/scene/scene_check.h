@@ -16,7 +16,8 @@ void check_scene(SceneDescription& scene, const std::string& source);
 /// or per-triangle lighting, two-sided surfaces, non-uniform scale. Returns an empty string if there is none.
 std::string_view key_for_meshes(const ObjectDescription& o);
 
-/// Returns true if all ancestors of an object are scaled uniformly, so that a sphere stays one. check_scene() must have accepted the scene.
+/// Returns true if all ancestors of an object are scaled uniformly, so that a sphere remains a sphere. check_scene() must have accepted the
+/// scene.
 bool has_even_ancestors(const SceneDescription& scene, const ObjectDescription& o);
 
 /// Checks that all objects together stay within the limits on vertices and copies. Throws InputError like check_scene.

@@ -31,9 +31,9 @@ class SceneFile {
   /// Parses a text. `source` is the start of error messages; `directory` is the base directory of relative paths.
   static SceneFile parse(std::string_view text, const std::string& source, const std::filesystem::path& directory);
 
-  /// Sets keys, for example "moon.radius=2". The collection can be omitted (moon.radius for objects.moon.radius) if the name is
-  /// unique. Relative paths are relative to the working directory. Values are checked one by one, the scene after all of them are
-  /// set. So the order of the settings matters only if one of them selects the kind of a section. Throws InputError and leaves the
+  /// Sets keys, for example "moon.radius=2". The collection can be omitted (moon.radius for objects.moon.radius) if the name is unique.
+  /// Relative paths are relative to the working directory. Each value is checked when it is set, and the scene once after all of them.
+  /// The order of the settings therefore matters only if one of them selects the kind of a section. Throws InputError and leaves the
   /// scene unchanged on errors.
   void set(std::span<const std::string> settings);
   void set(const std::string& setting) { set(std::span(&setting, 1)); }

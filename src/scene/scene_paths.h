@@ -48,7 +48,7 @@ std::vector<std::string_view> top_words(SceneDescription& scene);
 /// Returns the name of the object or particle system that a number stands for, as in FrameImages::object (render/frame.h): "particles" for
 /// the first particle system, and "background" for −1.
 std::string object_name(const SceneDescription& scene, int object);
-/// Returns its path instead, for example "objects.moon".
+/// Returns the path of this object or particle system, for example "objects.moon".
 std::string object_path(const SceneDescription& scene, int object);
 
 /// Returns the item with that name, or null.

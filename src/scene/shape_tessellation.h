@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Functions of the table in shapes.cpp: errors of tessellated shapes, and tessellations. ShapeKind says what they return.
+// Functions of the table in shapes.cpp: errors of tessellated shapes, and tessellations. ShapeKind documents their results.
 #pragma once
 
 #include "halfspace/scene/description.h"

@@ -28,9 +28,9 @@ namespace halfspace {
 
 enum class EnvironmentLayout : uint8_t { panorama, cube };
 
-/// Rotates right-handed world space (x right, y up, −z forward) to map space.
+/// Converts right-handed world space (x right, y up, −z forward) to map space.
 inline const glm::mat3 kMapFromWorld{1, 0, 0, 0, 1, 0, 0, 0, -1};
-/// Rotates world space to a map of a globe seen from its center, with the same u and v as on uv_sphere. East is on the left.
+/// Converts world space to the map space of a globe seen from its center, with the same u and v as on uv_sphere. East is on the left.
 inline const glm::mat3 kMapFromGlobe{0, 0, -1, 0, 1, 0, 1, 0, 0};
 
 /// An immutable environment map. It owns its texels. Any number of threads may read it concurrently.

@@ -86,8 +86,7 @@ struct DirectionalReflectance {
   R f0, f90;
 };
 
-/// Looks the integral up in a table that is computed at the first call. The error is below 0.02.
-/// roughness and n_v are clamped to [0, 1].
+/// Looks up the integral in a table that is computed at the first call. The error is below 0.02. roughness and n_v are clamped to [0, 1].
 template <class R>
 DirectionalReflectance<R> directional_reflectance(R roughness, R n_v);
 

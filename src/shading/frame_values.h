@@ -32,7 +32,7 @@ struct FrameCamera {
   bool perspective = true;
 };
 
-/// The values of a fragment that do not follow from others.
+/// The surface at a fragment, from which the values of all attachments are computed.
 template <class R>
 struct SurfaceValues {
   vec3<R> position_rws;  ///< relative to the eye, with the axes of world space

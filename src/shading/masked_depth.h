@@ -11,10 +11,10 @@ namespace halfspace {
 
 /// How opacity decides whether a texel of a shadow map is covered.
 struct OpacityTest {
-  std::array<PlacedMap, 2> maps;  ///< the weighted channels of each multiply the opacity; both use the same texture coordinates
+  std::array<PlacedMap, 2> maps;  ///< factors of the opacity: weighted sums of channels; both maps use the same texture coordinates
   float opacity = 1.0f;
   float cutoff = 0.5f;    ///< covered where opacity ≥ cutoff
-  bool dithered = false;  ///< instead of the cutoff, a share of the texels equal to the opacity is covered, in an ordered pattern
+  bool dithered = false;  ///< covers a fraction of the texels equal to the opacity, in an ordered pattern, instead of using the cutoff
 };
 
 /// colored: vertices have colors, whose alpha multiplies the opacity.
@@ -56,7 +56,7 @@ struct MaskedDepth {
       opacity *= dot(map.map->sample(map.sampler, at.uv, at.duv_dx, at.duv_dy), vec4<R>(map.channel));
     }
     if (!test.dithered) return {opacity >= R(test.cutoff), {}};
-    // Shadow maps are not seen themselves: their filter averages the pattern.
+    // The pattern is not visible in the image, because the shadow filter averages it.
     return {opacity > dither_threshold<R>(truncate_to_int(px.x), truncate_to_int(px.y)), {}};
   }
 };

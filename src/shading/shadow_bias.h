@@ -36,10 +36,10 @@ HS_INLINE R tangent_of(R cosine, float limit) {
   return min(sqrt(R(1) - cosine * cosine) / max(cosine, R(1e-6f)), R(limit));
 }
 
-/// Returns the offset in texels that ShadowBias::automatic applies. On the triangle itself its plane is sufficient. Neighboring
-/// triangles are tilted away from that plane, by an amount that grows with the radius of the filter and with the light's angle.
-/// Half a texel is added for the rounding of depths within a texel. The radius is capped at the radius of pcf7: pcss reaches
-/// farther, but only for occluders that are far away.
+/// Returns the offset in texels that ShadowBias::automatic applies. Within the triangle, its plane is sufficient. Neighboring triangles
+/// deviate from that plane by an amount that grows with the radius of the filter and with the light's angle. Half a texel is added for the
+/// rounding of depths within a texel. The radius is capped at the radius of pcf7: pcss reaches farther, but only for occluders that are far
+/// away.
 template <class R>
 HS_INLINE R automatic_lift(const ShadowSettings& s, R tangent) {
   return R(kAutomaticLift) * fma(R(1.0f + min(filter_reach(s), 4.0f)), tangent, R(1));

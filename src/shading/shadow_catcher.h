@@ -33,7 +33,7 @@ struct ShadowCatcher : PlacedSurface {
     using V = Varyings<R>;
     const vec3<R> v_ws = to_eye(in.position_rws);
     const vec3<R> n_ws = face_towards(cross(px.ddx(&V::position_rws), px.ddy(&V::position_rws)), v_ws);
-    R lit(1e-6f), whole(1e-6f);  // where no light arrives, there is no shadow
+    R lit(1e-6f), whole(1e-6f);  // not 0, so that a point without any light counts as lit
     for (const Light& light : lights) {
       const IncidentLight<R> arriving = light_at(light, in.position_rws);
       const R share =

@@ -9,7 +9,7 @@
 namespace halfspace {
 
 /// Has the attributes, coverage and depth of SphereImpostor. Positions on exact spheres are on the ray of the pixel. Those on classic
-/// sprites are on the hemisphere that they show, whatever depth they are drawn with.
+/// sprites are on the hemisphere that they show, which differs from the depth that they write.
 template <bool exact>
 struct SphereValueShader : SphereImpostor<exact> {
   FrameCamera camera{};

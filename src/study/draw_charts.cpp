@@ -33,7 +33,8 @@ int spawn_quietly(std::vector<std::string> words, int error_output, pid_t& child
   argv.push_back(nullptr);
   posix_spawn_file_actions_t actions;
   ::posix_spawn_file_actions_init(&actions);
-  ::posix_spawn_file_actions_adddup2(&actions, error_output, STDERR_FILENO);  // first, in case it is one of the next two
+  // First, in case error_output is one of the descriptors that are replaced next.
+  ::posix_spawn_file_actions_adddup2(&actions, error_output, STDERR_FILENO);
   ::posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
   ::posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
   const int error = ::posix_spawnp(&child, argv[0], &actions, nullptr, argv.data(), environ);

@@ -25,8 +25,8 @@ void add_quad(Drawing& drawing, const std::array<Vertex, 4>& corners);
 void add_rectangle(Drawing& drawing, const Picture& picture, const glm::dvec4& x0_y0_x1_y1, const glm::vec4& color, float z_ndc = 0.0f);
 /// Returns one of eight colors that differ in every channel.
 glm::vec4 color_number(int i);
-/// Returns n vertices of different colors on the 1/256 px grid of the window. They depend only on the seed and are the same on every machine. w is 1, or
-/// between 1/2 and 2 if projected.
+/// Returns n vertices of different colors on the 1/256 px grid of the window. They depend only on the seed and are the same on every
+/// machine. w is 1, or between 1/2 and 2 if projected.
 std::vector<Vertex> scattered(const Picture& picture, int n, uint64_t seed, bool projected = false);
 /// Returns n vertices that zigzag from left to right, so that strips and lists form adjacent triangles.
 std::vector<Vertex> zigzag(const Picture& picture, int n, bool projected = false);

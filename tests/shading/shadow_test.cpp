@@ -134,8 +134,8 @@ TEST(ShadowFilter, DiskIsUnbiasedForAnyRotation) {
 }
 
 TEST(ShadowFilter, PenumbraWidthMatchesTheLightSize) {
-  // An occluder edge is h above the floor, and t is the tangent of the angular radius of the light. Light rises from 0 to 1 over a width of 2·h·t, like the area of
-  // a disk cut by a line.
+  // An occluder edge is h above the floor, and t is the tangent of the angular radius of the light. Light rises from 0 to 1 over a width of
+  // 2·h·t, like the area of a disk cut by a line.
   Map map(512);
   constexpr double kFloor = -0.8, kEdge = 0.2, kTangent = 0.1;
   map.fill([](double x, double) { return x < 0 ? kEdge : kFloor; });

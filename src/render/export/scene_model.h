@@ -7,7 +7,7 @@
 // * Materials are converted from Blinn-Phong to metallic-roughness: the base color is color · diffuse and metalness is 0. The roughness r
 //   with r² = sqrt(2/(shininess + 2)) gives the GGX distribution the width of the highlight, and the reflectance at normal incidence
 //   F0 = 4 r⁴ · specular, at most 1, its peak. Without specular light F0 is 0. Objects with shading `none` are unlit.
-// * Lights: an intensity of 1 is π candela or lux. Lights without physical falloff get it.
+// * Lights: an intensity of 1 is π candela or lux. All lights get physical falloff.
 // * Ambient light, environments, the background, the tone curve, bump maps and reflections have no equivalent and are left out.
 #pragma once
 
@@ -16,7 +16,7 @@
 
 namespace halfspace {
 
-/// Returns the scene as a model with images in memory. Model::warnings has one line for each kind of thing that is left out. Throws
+/// Returns the scene as a model with images in memory. Model::warnings has one line for each kind of data that is left out. Throws
 /// InputError if a file of the scene cannot be used.
 Model scene_model(SceneDescription scene, SceneAssets& assets);
 
