@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# How far varyings are from long double at ratios of w beyond 10^4: docs/explanation/w_ratio_error.csv and its chart docs/explanation/w_ratio_error.svg.
-# The data are what the test Interpolation.LargeRatiosOfWStayWithinTolerance prints. Needs matplotlib.
+# Charts the error of varyings, compared with long double, for ratios of w beyond 10^4. Writes docs/explanation/w_ratio_error.csv, which the
+# test Interpolation.LargeRatiosOfWStayWithinTolerance prints, and its chart docs/explanation/w_ratio_error.svg. Needs matplotlib.
 #
 #   scripts/chart_w_ratio.sh [TEST_PROGRAM]     default: build/release/bin/test-raster
 set -euo pipefail

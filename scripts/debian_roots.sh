@@ -1,5 +1,5 @@
-# Functions of the scripts that try Halfspace in new roots of Debian releases. Source this file; it changes to the root of the tree. Needs
-# root and debootstrap. The roots stay in build/roots for inspection.
+# Functions of the scripts that test Halfspace in new root file systems ("roots") of Debian releases. Source this file; it changes to the
+# root of the tree. Needs root privileges and debootstrap. The roots stay in build/roots for inspection.
 #
 # HALFSPACE_ROOTS: another folder for the roots. HALFSPACE_MIRROR: mirror of Debian. HALFSPACE_CCACHE: folder of ccache that all builds in
 # roots share.

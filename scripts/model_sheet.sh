@@ -18,7 +18,7 @@ mkdir -p "$pictures"
 rm -f "$pictures"/*.png
 failed=0
 while IFS= read -r -d '' file; do
-  # The folder of the file tells apart variants of a model with the same name.
+  # The name of the folder distinguishes variants of a model whose files have the same name.
   name=$(basename "$(dirname "$file")")-$(basename "$file")
   "$program" render "$file" --size 480x270 -o "$pictures/$name.png" || failed=$((failed + 1))
 done < <(find "$@" -type f \( -iname '*.obj' -o -iname '*.gltf' -o -iname '*.glb' -o -iname '*.ply' -o -iname '*.stl' \) -print0 | sort -z)

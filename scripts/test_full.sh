@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Runs the long tests: both compilers, all presets, SIMD widths and instruction sets, the mutation tests and the cost measurements.
-# Run it before an issue is resolved. The results of the last run are in docs/development/testing.md.
+# Run it before a release. The results of the last run are in docs/development/testing.md.
 #
 #   scripts/test_full.sh [--resume] [STEP...]     default: all steps; "scripts/test_full.sh list" names them
 #     --resume    skips the steps that have passed for exactly these sources

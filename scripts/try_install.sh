@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Runs scripts/install.sh in a new root of a Debian release, renders there, builds C++ projects and a Python extension module, and
-# uninstalls. Needs root and debootstrap; debian_roots.sh lists the environment variables.
+# uninstalls. Needs root privileges and debootstrap; debian_roots.sh lists the environment variables.
 #
 #   scripts/try_install.sh [bookworm | trixie]...      default: both
 source "$(dirname "$0")/debian_roots.sh"

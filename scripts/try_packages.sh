@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Builds the Debian packages in a new root of a Debian release, installs them in a second new root, renders there, and builds C++ projects
-# and a Python extension module with them. Needs root and debootstrap; debian_roots.sh lists the environment variables.
+# and a Python extension module with them. Needs root privileges and debootstrap; debian_roots.sh lists the environment variables.
 #
 #   scripts/try_packages.sh [bookworm | trixie]...      default: both
 source "$(dirname "$0")/debian_roots.sh"

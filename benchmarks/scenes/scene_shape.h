@@ -16,7 +16,7 @@ struct SceneShape {
 };
 
 /// Adds a grid of columns x rows quads over the unit square. `point` maps (u, v) to a position, and must also be defined close to the
-/// square's outside. The front faces du x dv. Texture coordinates are (u, v) times `repeats`.
+/// square's outside. The front side faces the direction of ∂point/∂u x ∂point/∂v. Texture coordinates are (u, v) times `repeats`.
 using SurfacePoint = std::function<glm::dvec3(double u, double v)>;
 void add_surface(SceneShape& shape, int columns, int rows, glm::dvec2 repeats, const SurfacePoint& point);
 

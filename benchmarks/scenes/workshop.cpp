@@ -124,7 +124,7 @@ void add_machines(Scene& s, const WorkshopMaterials& m) {
   const std::size_t wheels = add_mesh(s, wheel());
   for (const double x : {-0.65, 0.65}) {
     for (const double z : {-0.66, 0.66}) {
-      if (x > 0 && z > 0) continue;  // the cart is being repaired
+      if (x > 0 && z > 0) continue;  // this wheel is missing
       place(s, wheels, m.beam, cart * placed({x, 0.02, z}));
     }
   }

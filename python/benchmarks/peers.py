@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Compares frames per second with VTK: the same mesh, picture size and camera, one light, no shadow, one sample, array in hand.
+"""Compares frames per second with VTK: the same mesh, picture size and camera, with one light, no shadow and one sample per
+pixel. Times include returning the picture as an array.
 
   peers.py [--size 1280x720] [--frames 60] [--rounds 5] [MESH.ply ...]
 

@@ -35,7 +35,8 @@ def _array(name: str, value: Any, shape: Sequence[Optional[int]], what: str) -> 
 
 
 def numbers(name: str, value: Any, shape: Sequence[Optional[int]], dtype: Any = np.float64) -> np.ndarray:
-    """Returns finite numbers as a C-contiguous array of the type, without a copy if the value is one already. None: any length."""
+    """Returns finite numbers as a C-contiguous array of the type, without a copy if the value is one already. None in the shape
+    allows any length."""
     array = _array(name, value, shape, "numbers")
     if array.dtype.kind not in "fiu":
         raise fail(name, f"has the dtype {array.dtype}", "a floating-point or integer dtype")

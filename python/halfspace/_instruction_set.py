@@ -24,7 +24,7 @@ def processor_flags(path="/proc/cpuinfo"):
 def extension_folder(package, flags):
     """Returns the folder of the extension, or None if the package has only one. Raises ImportError if the processor can run none.
 
-    flags: of processor_flags().
+    flags: the result of processor_flags().
     """
     present = [(name, needed) for name, needed in _SETS if os.path.isdir(os.path.join(package, name))]
     if present and flags is None:

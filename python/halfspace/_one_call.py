@@ -21,13 +21,14 @@ def render(scene: Union[str, "os.PathLike[str]"], *, size: Size = (1920, 1080), 
     size: (width, height) in pixels.
     set: keys of the scene and their values, for example {"time.hours": 18}.
     camera: the name of a camera of the scene or the model, or a Camera.
-    time: of animations, in seconds.   threads: None: one per core.
-    alpha: leave the background out; alpha is straight, and 0 where nothing is drawn.
-    view: for model files, the arguments of Scene.load.
-    Returns uint8 of shape (height, width, 3), sRGB codes; with alpha=True (height, width, 4); with linear=True float32 of shape
-    (height, width, 4), light before exposure and tone curve.
+    time: time in the scene's animations, in seconds.
+    threads: number of threads. The default is one per core.
+    alpha: leave the background out. Alpha is straight, and 0 where nothing is drawn.
+    view: arguments of Scene.load, for model files.
+    Returns sRGB codes: uint8 of shape (height, width, 3), or (height, width, 4) with alpha=True. With linear=True, returns light before
+    exposure and tone curve: float32 of shape (height, width, 4).
 
-    Raises InputError with the line that the command line prints, and warns with RenderWarning.
+    Raises InputError with the message that the command line prints. Warnings are of the category RenderWarning.
     """
     width, height = _check.size(size)
     view.setdefault("aspect", width / height)

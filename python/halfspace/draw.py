@@ -78,10 +78,10 @@ class State:
     depth_compare: never, less, equal, less_equal, greater, not_equal, greater_equal, always.   depth_range: window depths of the clip planes.
     depth_clip: negative_one_to_one (OpenGL) or zero_to_one (reversed Z: with depth_compare="greater" and depth cleared to 0).
     offset: (slope factor, constant units, clamp) of glPolygonOffset.
-    viewport, scissor: (x, y, width, height) in pixels, from the lower left corner. None: the whole image.
+    viewport, scissor: (x, y, width, height) in pixels, from the lower left corner. The default is the whole image.
     blend: a Blend, "alpha", "additive" or None.   color_mask: which of r, g, b and a are written.
     stencil: a Stencil for both faces, or a pair for front and back faces.
-    order_independent: blend fragments from far to near, whatever their order; needs depth_write=False.
+    order_independent: blend fragments from far to near, regardless of the order of the draws; needs depth_write=False.
     point_size, line_width: in pixels.   sample_mask, alpha_to_coverage, sample_shading: for passes with several samples per pixel.
     """
 
@@ -208,12 +208,14 @@ class Pass:
 
     color: a C-contiguous array of shape (H, W, 4) that receives the colors: uint8 (format "srgb8a8" or "rgba8"), float16 ("rgba16f") or
         float32 ("rgba32f").   color_format: chosen by the dtype if None; uint8 means "srgb8a8". Colors are linear in shaders.
-    depth: None (a depth buffer of the pass), or an array of shape (H, W) that receives the depth: uint16 for "d16", uint32 for "d24" and
-        "d24s8", float32 for "d32f", and [("depth", float32), ("stencil", uint32)] for "d32fs8".   depth_format: see before; "none": no depth.
-    samples: per pixel: 1, 2, 4 or 8.
-    load: start with the contents of the arrays; without a depth array, depth is cleared. Otherwise they are cleared to clear_color (linear), clear_depth and clear_stencil.
+    depth: an array of shape (H, W) that receives the depth, or None for a depth buffer that only the pass uses. Types: uint16 for "d16",
+        uint32 for "d24" and "d24s8", float32 for "d32f", and [("depth", float32), ("stencil", uint32)] for "d32fs8".
+    depth_format: one of these formats, or "none" for no depth buffer.
+    samples: samples per pixel: 1, 2, 4 or 8.
+    load: start with the contents of the arrays. Otherwise, and for depth without an array, the pass starts with clear_color (linear),
+        clear_depth and clear_stencil.
 
-    Arrays of draws, except indices, are not copied if they are C-contiguous and have the types that draw() states. Do not change them
+    The arrays of draws, except indices, are not copied if they are C-contiguous and have the types that draw() states. Do not change them
     before run().
     """
 
@@ -245,8 +247,9 @@ class Pass:
     def draw(self, shader: Any, *, indices: Any = None, state: Optional[State] = None, **arrays: Any) -> None:
         """Adds a draw.
 
-        shader: of colored(), phong() or metallic().   indices: (M,) or (M, 3), uint32. None: 0, 1, 2, ...
-        arrays: those that the shader needs: positions, normals, colors, uvs; float32 of shape (N, 2), (N, 3) or (N, 4).
+        shader: the result of colored(), phong() or metallic().
+        indices: uint32 of shape (M,) or (M, 3). The default is 0, 1, 2, ...
+        arrays: the arrays that the shader needs, named positions, normals, colors or uvs: float32 of shape (N, 2), (N, 3) or (N, 4).
         """
         needed = shader.attributes
         if sorted(arrays) != sorted(needed):

@@ -48,14 +48,14 @@ def _texture(name: str, value: Any) -> Optional[Texture]:
 
 
 class Material:
-    """How a surface looks: the metallic-roughness material of glTF 2.0. Each property is its number times its texture.
+    """The appearance of a surface: the metallic-roughness material of glTF 2.0. Each property is a number multiplied by a texture.
 
-    base_color: linear (r, g, b) or (r, g, b, a), in [0, 1]. For sRGB codes, use srgb() .
+    base_color: linear (r, g, b) or (r, g, b, a), in [0, 1]. Convert sRGB codes with srgb().
     metallic, roughness: 0 to 1.   specular: scales the reflectance of non-metals.   ior: index of refraction, at least 1.
     emissive: linear (r, g, b); may exceed 1.   clearcoat, clearcoat_roughness: 0 to 1.
-    alpha_mode: "opaque", "mask" (the surface exists where alpha >= alpha_cutoff) or "blend". None: "blend" if the alpha of base_color is
-        less than 1, otherwise "opaque".
-    unlit: the base color is the result.   double_sided: both sides are drawn.
+    alpha_mode: "opaque", "mask" (the surface exists where alpha >= alpha_cutoff) or "blend". The default is "blend" if the alpha of
+        base_color is less than 1, otherwise "opaque".
+    unlit: draw the base color without lighting.   double_sided: draw both sides.
     *_texture: a Texture, or an array that Texture accepts. metallic_roughness_texture has roughness in the green and metallic in the blue
         channel, as in glTF. normal_texture is in tangent space with green up; it needs texture coordinates.
     """

@@ -22,12 +22,13 @@ class Mesh:
     """Vertices of one material. All arrays are copied; a Mesh is immutable and can be added to any number of scenes.
 
     vertices: (N, 3), in object space.
-    faces: (M, 3) indices of triangles, counter-clockwise seen from the front; (M, 2) for lines, (M,) for points. None: 0, 1, 2, ...
-    normals: (N, 3), any length but 0. None: computed, and vertices are split at edges sharper than `crease`.
-    crease: degrees. 0 gives flat shading, 180 smooth shading.
+    faces: (M, 3) indices of triangles, counter-clockwise seen from the front; (M, 2) for lines, (M,) for points. The default is
+        0, 1, 2, ...
+    normals: (N, 3), any length except 0. By default, normals are computed, and vertices are split at edges sharper than `crease`.
+    crease: angle in degrees. 0 gives flat shading, 180 smooth shading.
     uvs: (N, 2).   uv_origin: "lower_left" (v grows upwards, as in OpenGL, OBJ and trimesh) or "upper_left" (as in glTF).
     colors: (N, 3) or (N, 4); uint8 sRGB codes, or linear floats in [0, 1]. They multiply the base color.
-    material: None: a gray material, or a white one if there are colors.
+    material: the default is gray, or white if there are colors.
     topology: "triangles", "lines" or "points". Lines and points are not lit.
     """
 
@@ -74,7 +75,7 @@ class Mesh:
     def from_trimesh(cls, mesh: Any, *, crease: float = 30.0, material: Optional[Material] = None) -> "Mesh":
         """Converts an object with the attributes of trimesh.Trimesh: vertices, faces and, optionally, visual.
 
-        Used from `visual`: vertex_colors or face_colors (as its `kind` says), or uv with material (baseColorFactor, baseColorTexture,
+        Used from `visual`: vertex_colors or face_colors (depending on its `kind`), or uv with material (baseColorFactor, baseColorTexture,
         metallicFactor, roughnessFactor or, for simple materials, image and diffuse). trimesh itself is not needed.
         """
         for name in ("vertices", "faces"):
@@ -132,7 +133,7 @@ def _picture_of(image: Any) -> Optional[Texture]:
 
 
 def _base_color_of(m: Any) -> Tuple[Any, Any]:
-    """Returns the texture and the linear factor of a material of trimesh. None: it has none."""
+    """Returns the texture and the linear factor of a material of trimesh; None for each that the material lacks."""
     if hasattr(m, "baseColorFactor"):
         factor = None if m.baseColorFactor is None else np.asarray(m.baseColorFactor).ravel()
         # trimesh stores the factor of glTF, which is linear, as uint8.

@@ -34,11 +34,11 @@ class Scene:
 
     Scene() starts an empty scene, for add() and add_light(). Scene.load() opens a scene or a model file.
 
-    lighting: "studio" (the surroundings, key light and tone curve that model files get) or "none" (black background, no light, no tone
-        curve: colors are clamped to [0, 1]).
-    threads: number of threads; None: one per core. The pictures do not depend on it.
+    lighting: "studio" (the environment, key light and tone curve that are used for model files) or "none" (black background, no light,
+        no tone curve: colors are clamped to [0, 1]).
+    threads: number of threads; the default is one per core. The pictures do not depend on it.
 
-    All methods can be called by several Python threads at once. Pictures and labels are arrays of their own; they do not refer to the scene.
+    All methods can be called by several Python threads at once. Pictures and labels do not share memory with the scene.
     """
 
     def __init__(self, *, lighting: str = "studio", threads: Optional[int] = None) -> None:
@@ -53,17 +53,18 @@ class Scene:
         self._meshes: Dict[str, Tuple[Mesh, np.ndarray]] = {}
         self._names = 0
         self._fits = False  # no camera has been given: all objects are shown
-        self.camera: Optional[Camera] = None  #: used where render() gets none
+        self.camera: Optional[Camera] = None  #: used if render() is called without a camera
 
     @classmethod
     def load(cls, path: Union[str, "os.PathLike[str]"], *, threads: Optional[int] = None, **view: Any) -> "Scene":
         """Opens a shipped scene by name, a scene file, or a model file (.obj, .gltf, .glb, .ply, .stl).
 
-        A model file is shown as by `halfspace render MODEL`. These arguments change the view, and are None or absent otherwise:
+        A model file is shown as by `halfspace render MODEL`. The following arguments change the view;
+        None has no effect:
         aspect (width / height for which the model is fitted into the picture; default 16/9), yaw, pitch (degrees), zoom, fov (vertical,
         degrees), eye, look_at, up (world space), inside, floor (bool), environment (image file), background ("#rrggbb" or "environment"),
-        model_scene, model_animation, model_variant (names in the file), up_axis ("y" or "z"), turn_seconds (time of a turn of the camera
-        around the model), allow_outside (bool: open files outside the folder of the model).
+        model_scene, model_animation, model_variant (names in the file), up_axis ("y" or "z"), turn_seconds (time in which the camera
+        moves around the model once), allow_outside (bool: open files outside the folder of the model).
 
         Raises InputError if the file cannot be used.
         """
@@ -109,8 +110,9 @@ class Scene:
         """Adds an object and returns its name.
 
         mesh: a Mesh, or an object like trimesh.Trimesh.
-        transform: object to world space, (4, 4), or (N, 4, 4) for N copies; affine, float. None: the identity.
-        name: a letter a to z followed by a to z, 0 to 9 and _, which no object has yet and which is not the name of a section. None: chosen.
+        transform: affine matrix from object to world space, of shape (4, 4), or (N, 4, 4) for N copies. The default is the identity.
+        name: a letter a to z followed by a to z, 0 to 9 and _. It must differ from the names of objects and sections. By default, a name is
+            chosen.
 
         The name is a section of the scene: scene[name + ".visible"] = False hides the object. Object ids in labels count objects in the
         order in which they were added.
@@ -133,7 +135,7 @@ class Scene:
         return name
 
     def place(self, name: str, transform: Any) -> None:
-        """Moves an object of add(). transform: object to world space, (4, 4) or (N, 4, 4)."""
+        """Moves an object that was added with add(). transform: from object to world space, of shape (4, 4) or (N, 4, 4)."""
         places = self._transforms(transform)
         with self._lock:
             mesh, _ = self._mesh(name)
@@ -141,7 +143,7 @@ class Scene:
             self._meshes[name] = (mesh, places)
 
     def remove(self, name: str) -> None:
-        """Removes an object of add()."""
+        """Removes an object that was added with add()."""
         with self._lock:
             self._mesh(name)
             self._flush()
@@ -152,7 +154,8 @@ class Scene:
         """Adds a light and returns its name.
 
         type: "directional" (direction: towards the light), "point" (position) or "spot" (position, direction, inner, outer in degrees).
-        keys: of a light in a scene file, for example color=(1, 0.9, 0.8), intensity=2, shadow=False, falloff="physical". Colors are linear.
+        keys: keys of a light in a scene file, for example color=(1, 0.9, 0.8), intensity=2, shadow=False, falloff="physical". Colors are
+            linear.
         """
         if name is None:
             with self._lock:
@@ -168,7 +171,8 @@ class Scene:
 
     @property
     def bounds(self) -> Optional[np.ndarray]:
-        """The lowest and highest coordinates of all objects of add(), float64 of shape (2, 3), in world space. None: there are none."""
+        """The lowest and highest coordinates of all objects added with add(), in world space: float64 of shape (2, 3). None if there are
+        no such objects."""
         corners: List[np.ndarray] = []
         with self._lock:
             meshes = list(self._meshes.values())
@@ -183,14 +187,15 @@ class Scene:
         return np.array([points.min(axis=0), points.max(axis=0)])
 
     def fit(self, *, yaw: float = 35.0, pitch: float = 18.0, fov: float = 35.0, aspect: float = 1.0) -> Camera:
-        """Returns a camera that shows all objects of add().
+        """Returns a camera that shows all objects added with add().
 
-        yaw, pitch: degrees; position of the eye around the objects, from the front (+z) to the right, and upwards.   fov: vertical, degrees.
-        aspect: width / height of the picture, if it is less than 1.
+        yaw, pitch: position of the eye around the objects in degrees, from the front (+z) to the right, and upwards.
+        fov: vertical field of view in degrees.
+        aspect: width / height of the picture. Values of 1 and above have no effect.
         """
         box = self.bounds
         if box is None:
-            raise fail("fit", "the scene has no objects of add()", "at least one")
+            raise fail("fit", "no object has been added with add()", "at least one")
         center, radius = box.mean(axis=0), float(np.linalg.norm(box[1] - box[0])) / 2.0 or 1.0
         yaw, pitch = np.radians(_check.number("yaw", yaw)), np.radians(_check.number("pitch", pitch, -89.0, 89.0))
         towards = np.array([np.sin(yaw) * np.cos(pitch), np.sin(pitch), np.cos(yaw) * np.cos(pitch)])
@@ -207,12 +212,12 @@ class Scene:
         """Renders a picture.
 
         size: (width, height) in pixels, each 1 to 16384.
-        camera: None: the `camera` of this object or, if that is None, the camera of the scene. A scene of arrays without a camera is shown
-            as a whole.
-        time: of animations, in seconds.
-        alpha: leave the background out; alpha is straight, and 0 where nothing is drawn.
-        Returns uint8 of shape (height, width, 3), sRGB codes; with alpha=True (height, width, 4). With linear=True: float32 of shape
-        (height, width, 4), light before exposure and tone curve.
+        camera: the default is the member `camera` or, if that is None, the camera of the scene. Without any camera, a scene that started
+            empty is shown as a whole.
+        time: time in the scene's animations, in seconds.
+        alpha: leave the background out. Alpha is straight, and 0 where nothing is drawn.
+        Returns sRGB codes: uint8 of shape (height, width, 3), or (height, width, 4) with alpha=True. With linear=True, returns light before
+        exposure and tone curve: float32 of shape (height, width, 4).
         """
         width, height = _check.size(size)
         self._flush()
@@ -223,7 +228,7 @@ class Scene:
         """Returns an iterator over frames of an animation, which are rendered one by one, as by `halfspace render --frames`.
 
         frames: the number of frames, or their numbers, for example range(24, 48).   fps: frames per second.
-        time: of frame 0, in seconds. Frame i shows the time `time` + i / fps.
+        time: time of frame 0 in seconds. Frame i shows the time `time` + i / fps.
         Later changes of the scene do not affect the frames.
         """
         width, height = _check.size(size)
@@ -240,7 +245,7 @@ class Scene:
                      linear: bool = False, alpha: bool = False, progress: Optional[Callable[[int, int], Any]] = None) -> np.ndarray:
         """Renders one picture per camera, several at a time, each by one thread.
 
-        time: in seconds, for all pictures, or one per camera.
+        time: time in seconds for all pictures, or one time per camera.
         progress: called as progress(done, total) after each picture, from any thread. An exception that it raises ends the batch.
         Returns an array of shape (N, height, width, C) with the pictures that render() returns for each camera.
         """
@@ -268,13 +273,13 @@ class Scene:
         "position"       float32 (H, W, 3), in world space
         "uv"             float32 (H, W, 2), texture coordinates with v = 0 at the top row of the texture
         "object"         uint32 (H, W), index in `objects`; NO_ID where there is no surface
-        "instance"       uint32 (H, W), index of the copy of an object of add(); NO_ID where there is no surface
+        "instance"       uint32 (H, W), index of the copy of the object; NO_ID where there is no surface
         "triangle"       uint32 (H, W), index of the face; NO_ID where there is no surface
         "barycentrics"   float32 (H, W, 3), weights of the corners of the face, in their order
         "mask"           bool (H, W), whether there is a surface
 
         Values are those of the surface at the center of the pixel, without antialiasing; other values are 0 where there is no surface.
-        Blended surfaces are left out. background_depth=0 gives the depth of pyrender.
+        Blended surfaces are left out. With background_depth=0, "depth" is the same as in pyrender.
         """
         width, height = _check.size(size)
         names, depth = checked_outputs(outputs), checked_background(background_depth)
@@ -288,7 +293,8 @@ class Scene:
     def label_batch(self, cameras: Sequence[Optional[Camera]], outputs: Iterable[str] = LABELS, *, size: Size = (640, 480),
                     time: Union[float, Sequence[float]] = 0.0, background_depth: float = float("inf"),
                     progress: Optional[Callable[[int, int], Any]] = None) -> Dict[str, np.ndarray]:
-        """Renders the labels of one frame per camera, several at a time. The arrays have the shapes of labels() after a first axis of N.
+        """Renders the labels of one frame per camera, several at a time. The arrays have the shapes of labels() with an
+        additional first axis of length N.
 
         time, progress: as in render_batch().
         """
@@ -330,9 +336,9 @@ class Scene:
         return camera._for_size(width, height)
 
     def _flush(self) -> None:
-        """Adds the objects that were given to add(). Other threads wait until they are there.
+        """Adds the pending objects of add() to the scene. Other threads wait until this is done.
 
-        Raises InputError if the scene refuses one of them, which is then dropped. Those after it are added by the next call.
+        Raises InputError if the scene rejects an object, which is then dropped. The next call adds the objects after it.
         """
         with self._lock:
             if self._pending:
@@ -353,7 +359,7 @@ class Scene:
             del self._pending[name]
 
     def _forget(self, name: str) -> None:
-        """Drops an object of add() that is not in the scene, and its mesh if no other object shows it."""
+        """Forgets an object that is not in the scene, and its mesh if no other object uses it."""
         mesh, _ = self._meshes.pop(name)
         self._core.forget_object(name)
         if all(other is not mesh for other, _ in self._meshes.values()):
@@ -371,7 +377,7 @@ class Scene:
 
     def _mesh(self, name: str) -> Tuple[Mesh, np.ndarray]:
         if name not in self._meshes:
-            raise fail("name", f"no object '{name}' of add()", "one of " + ", ".join(self._meshes) if self._meshes else "add() first")
+            raise fail("name", f"no object '{name}' has been added", "one of " + ", ".join(self._meshes) if self._meshes else "add() first")
         return self._meshes[name]
 
     @staticmethod

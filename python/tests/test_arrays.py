@@ -263,7 +263,7 @@ NAN = np.where(np.arange(12).reshape(4, 3) == 7, np.nan, 0.5)
     (lambda: halfspace.Scene().add(3), "mesh: a int has no vertices; expected an object like trimesh.Trimesh"),
     (lambda: halfspace.Scene().add(halfspace.Mesh(*QUAD), np.eye(3)), "transform: has the shape (1, 3, 3); expected (N, 4, 4)"),
     (lambda: halfspace.Scene().add(halfspace.Mesh(*QUAD), np.ones((4, 4))), "transform[0]: has the last row [1.0, 1.0, 1.0, 1.0]; expected"),
-    (lambda: halfspace.Scene().place("a", np.eye(4)), "name: no object 'a' of add(); expected add() first"),
+    (lambda: halfspace.Scene().place("a", np.eye(4)), "name: no object 'a' has been added; expected add() first"),
     (lambda: halfspace.Scene().add_light("sun"), "scene: lights.light_1.type: "),
     (lambda: halfspace.Scene(lighting="sun"), "lighting: is 'sun'; expected one of studio, none"),
 ])

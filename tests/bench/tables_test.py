@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""The tables of scripts/bench_tables.py: what they compute, and when a ratio counts; what scripts/bench_measure.py calls a processor."""
+"""Tests the values of the tables of scripts/bench_tables.py, when a ratio is shown, and how scripts/bench_measure.py names a processor."""
 import sys
 import unittest
 from pathlib import Path

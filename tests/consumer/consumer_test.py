@@ -4,8 +4,8 @@
 
     consumer_test.py BUILD_FOLDER COMPILER
 
-The source tree is also added to a host project in both ways that CMake has. HALFSPACE_LONG_TESTS additionally builds that project, compiles
-every public header on its own and compiles with pkg-config.
+The source tree is also added to a host project with add_subdirectory and with FetchContent. HALFSPACE_LONG_TESTS additionally builds that
+project, compiles every public header on its own and compiles with pkg-config.
 """
 import gzip
 import os

@@ -21,7 +21,7 @@ PREFIX = None
 CPU_FLAGS = set(re.search(r"^flags\s*:(.*)$", Path("/proc/cpuinfo").read_text(), re.M)[1].split())
 HAS_V4 = {"avx512f", "avx512bw", "avx512cd", "avx512dq", "avx512vl"} <= CPU_FLAGS
 QEMU = shutil.which("qemu-x86_64")
-# Python code that hides a feature of x86-64-v4 from the module's look at the processor.
+# Python code that hides a feature of x86-64-v4 from the module when it reads /proc/cpuinfo.
 WITHOUT_AVX512BW = """
 import builtins, io
 open_file = builtins.open

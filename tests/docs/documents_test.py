@@ -67,7 +67,7 @@ def blocks(document, text=None):
         else:
             i += 1
             if not lines[begin].strip():
-                continue  # a mark may stand a blank line before its block
+                continue  # a blank line may separate a mark from its block
         reason = None
     return found
 
@@ -116,7 +116,7 @@ def help_of(words):
 
 
 def missing_parts(command):
-    """What a command that is not run names but the tree does not have."""
+    """Returns the files, presets, targets and options that a command names but that do not exist."""
     words, missing = words_of(command), []
     options = [word.split("=")[0] for word in words[1:] if word.startswith("--")]
     first = words[0]

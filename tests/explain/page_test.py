@@ -69,7 +69,7 @@ const pause = () => new Promise((resolve) => setTimeout(() => requestAnimationFr
   done(results);
 })();
 """
-# The controls and pictures without a name that a screen reader could say.
+# The controls and pictures without a name that a screen reader could announce.
 NAMELESS = """() => [...document.querySelectorAll('button, input, select, a, summary, canvas, img, svg, [tabindex="0"]')].filter((e) => {
   if (e.closest('[aria-hidden=true]')) return false;
   const name = e.getAttribute('aria-label') || e.getAttribute('alt') || e.textContent.trim();

@@ -24,7 +24,7 @@ using Plain = SurfaceShader<ShadingRate::phong, true>;
 using Mapped = SurfaceShader<ShadingRate::phong, true, NormalDetail::map>;
 using Bumped = SurfaceShader<ShadingRate::phong, true, NormalDetail::bump>;
 
-// Directions of three lights, one per column. A white Lambert surface that all of them reach has the color lightsᵀ·n, from which the normal
+// Directions of three lights, one per column. A white Lambert surface that all three reach has the color kSunsᵀ·n, from which the normal
 // can be recovered.
 const glm::dmat3 kSuns(glm::normalize(glm::dvec3(0.4, 0, 1)), glm::normalize(glm::dvec3(-0.2, 0.35, 1)),
                        glm::normalize(glm::dvec3(-0.2, -0.35, 1)));

@@ -208,7 +208,7 @@ TEST_F(DecoderProcess, LeaksNoDescriptors) {
   EXPECT_EQ(zombies(), 0u);
 }
 
-TEST_F(DecoderProcess, ForkedChildUsesItsOwn) {
+TEST_F(DecoderProcess, ForkedChildUsesItsOwnDecoders) {
   const std::vector<pid_t> before = tools();
   const pid_t child = ::fork();
   if (child == 0) {

@@ -170,7 +170,7 @@ TEST_F(GltfDracoTest, TriangleStripsAreDecodedAsTriangles) {
   EXPECT_EQ(triangles_of(model.meshes[0].indices, model.meshes[0].joints), triangles_of(patch.indices, patch.joints));
 }
 
-TEST_F(GltfDracoTest, RejectsWhatDoesNotMatchTheStream) {
+TEST_F(GltfDracoTest, RejectsAccessorsThatDoNotMatchTheStream) {
   const Patch patch(4);
   const GltfJson good = draco_file(patch, compressed(patch, draco::MESH_SEQUENTIAL_ENCODING)).finished();
   ASSERT_EQ(draco_error(good), "(no error)");

@@ -203,7 +203,7 @@ TEST(Pose, AppliesSkins) {
   EXPECT_NEAR(posed.high.x, 10.0, 1e-6);
 }
 
-// Scaling x by 2 turns the normal (1, 1, 0) to (1/2, 1, 0). Mirroring keeps its direction relative to the surface.
+// Scaling x by 2 turns the normal (1, 1, 0) to (1/2, 1, 0). If the transform mirrors, the normal stays on the same side of the surface.
 TEST(Pose, TransformsNormalsOfSkinsByTheInverseTranspose) {
   ModelMesh mesh = pose_triangle();
   mesh.normals.assign(3, glm::vec3(glm::dvec3(1, 1, 0) * std::sqrt(0.5)));

@@ -49,7 +49,7 @@ TEST(Tangents, AreWeightedByAngles) {
   mesh.uvs[0] = {{0, 0}, {1, 0}, {0, -1}, {-1, -2}};
   mesh.indices = {0, 1, 2, 0, 2, 3};
   add_tangents(mesh, 0);
-  // On the left, only u increases in the direction (1, 1).
+  // In the left triangle, u increases and v is constant in the direction (1, 1).
   const double left_weight = std::numbers::pi / 4.0, right_weight = std::numbers::pi / 2.0, s = std::sqrt(0.5);
   const glm::dvec2 sum(right_weight + left_weight * s, left_weight * s);
   const glm::dvec2 mean = sum / std::sqrt(glm::dot(sum, sum));

@@ -302,7 +302,7 @@ TEST(LoadStore, LoadPreservesPixelsThatAreNotDrawn) {
   load_keeps_what_is_not_drawn<glm::u8vec4>([](auto& i) { return srgb8a8_target(i); }, 4);
 }
 
-TEST(LoadStore, LoadedColorIsBlendedWith) {
+TEST(LoadStore, BlendingUsesTheLoadedColor) {
   Image<glm::vec4> image(8, 8);
   std::fill_n(image.data(), 64, glm::vec4(0.25f));
   ColorTarget target = rgba32f_target(image);

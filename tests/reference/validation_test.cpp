@@ -46,7 +46,7 @@ TEST(Validation, AutomaticBiasIsCorrectBeyondATexelFromTheEdge) {
 
 // Guaranteed limits: 0.01 % of the lit and 0.1 % of the shadowed pixels, for angles from 0 to 85 degrees. One pixel is allowed if that is
 // less.
-TEST(Validation, AutomaticBiasIsCorrectInTheTablesScenesAtEveryAngle) {
+TEST(Validation, AutomaticBiasIsCorrectInTheScenesOfTheTableAtEveryAngle) {
   SceneAssets assets(two_workers());
   for_each_shadow_case(false, [&](const ShadowCase& c) {
     if (c.factor != "angle") return;

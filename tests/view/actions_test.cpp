@@ -8,7 +8,7 @@
 namespace halfspace {
 namespace {
 
-TEST(ViewActions, every_action_has_one_key) {
+TEST(ViewActions, EveryActionHasOneKey) {
   std::set<Action> actions;
   std::set<std::string_view> keys;
   for (const KeyBinding& b : key_bindings()) {
@@ -19,7 +19,7 @@ TEST(ViewActions, every_action_has_one_key) {
   EXPECT_EQ(actions.size(), kActions);
 }
 
-TEST(ViewActions, keys_have_the_names_that_sdl_gives_them) {
+TEST(ViewActions, KeysHaveTheNamesThatSdlGivesThem) {
   EXPECT_EQ(action_of("W"), Action::forward);
   EXPECT_EQ(action_of("F12"), Action::save);
   EXPECT_EQ(action_of("Space"), Action::pause);
@@ -28,7 +28,7 @@ TEST(ViewActions, keys_have_the_names_that_sdl_gives_them) {
   EXPECT_EQ(action_of(""), std::nullopt);
 }
 
-TEST(ViewActions, only_movements_repeat_while_a_key_is_held) {
+TEST(ViewActions, OnlyMovementsRepeatWhileAKeyIsHeld) {
   EXPECT_TRUE(is_movement(Action::forward));
   EXPECT_TRUE(is_movement(Action::pitch_down));
   EXPECT_FALSE(is_movement(Action::reset_camera));

@@ -27,7 +27,7 @@ glm::dvec2 window_of(const CameraDescription& c, const glm::dvec3& point) {
   return {(clip.x / clip.w * 0.5 + 0.5) * 640, (0.5 - clip.y / clip.w * 0.5) * 480};
 }
 
-TEST(CameraControl, a_step_forward_is_a_fraction_of_the_distance) {
+TEST(CameraControl, AStepForwardIsAFractionOfTheDistance) {
   CameraDescription c = sample_camera();
   const double distance = distance_of(c);
   move_camera(c, {0, 0, 0.25});
@@ -36,14 +36,14 @@ TEST(CameraControl, a_step_forward_is_a_fraction_of_the_distance) {
   EXPECT_NEAR(glm::distance(c.position, sample_camera().target), 0.75 * distance, kRounding);
 }
 
-TEST(CameraControl, a_step_to_the_right_moves_the_picture_to_the_left) {
+TEST(CameraControl, AStepToTheRightMovesThePictureToTheLeft) {
   CameraDescription c = sample_camera();
   move_camera(c, {0.1, 0, 0});
   EXPECT_LT(window_of(c, sample_camera().target).x, 320.0);
   EXPECT_NEAR(window_of(c, sample_camera().target).y, 240.0, 1e-9);
 }
 
-TEST(CameraControl, turning_keeps_the_position_and_orbiting_the_target) {
+TEST(CameraControl, TurningKeepsThePositionAndOrbitingTheTarget) {
   CameraDescription turned = sample_camera(), orbited = sample_camera();
   turn_camera(turned, 30, 10);
   orbit_camera(orbited, 30, 10);
@@ -56,7 +56,7 @@ TEST(CameraControl, turning_keeps_the_position_and_orbiting_the_target) {
   EXPECT_GT(orbited.position.y, sample_camera().position.y);
 }
 
-TEST(CameraControl, rotations_stop_at_the_vertical) {
+TEST(CameraControl, RotationsStopAtTheVertical) {
   CameraDescription turned = sample_camera(), orbited = sample_camera();
   for (int i = 0; i < 200; ++i) {
     turn_camera(turned, 0, 3);
@@ -71,7 +71,7 @@ TEST(CameraControl, rotations_stop_at_the_vertical) {
   EXPECT_GT((turned.target - turned.position).y, 0.0) << "a single large turn does not go beyond it either";
 }
 
-TEST(CameraControl, panning_moves_the_target_with_the_mouse) {
+TEST(CameraControl, PanningMovesTheTargetWithTheMouse) {
   for (const Projection type : {Projection::perspective, Projection::orthographic}) {
     CameraDescription c = sample_camera();
     c.type = type;
@@ -82,7 +82,7 @@ TEST(CameraControl, panning_moves_the_target_with_the_mouse) {
   }
 }
 
-TEST(CameraControl, zooming_halves_the_distance_or_the_height) {
+TEST(CameraControl, ZoomingHalvesTheDistanceOrTheHeight) {
   CameraDescription c = sample_camera();
   zoom_camera(c, 2.0);
   EXPECT_NEAR(distance_of(c), 0.5 * distance_of(sample_camera()), kRounding);
@@ -92,7 +92,7 @@ TEST(CameraControl, zooming_halves_the_distance_or_the_height) {
   EXPECT_EQ(c.height, 1.0);
 }
 
-TEST(CameraControl, every_movement_changes_the_camera_and_its_opposite_restores_it) {
+TEST(CameraControl, EveryMovementChangesTheCameraAndItsOppositeRestoresIt) {
   const std::pair<Action, Action> pairs[] = {{Action::forward, Action::backward},
                                              {Action::left, Action::right},
                                              {Action::up, Action::down},
@@ -108,7 +108,7 @@ TEST(CameraControl, every_movement_changes_the_camera_and_its_opposite_restores_
   }
 }
 
-TEST(CameraControl, the_depth_range_only_grows) {
+TEST(CameraControl, TheDepthRangeOnlyGrows) {
   CameraDescription c = sample_camera();
   c.near = 4;
   c.far = 8;

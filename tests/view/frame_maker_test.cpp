@@ -37,7 +37,7 @@ struct Frame {
   void render(Overlay overlay, int divisor = 1) { maker.render(scene.at(0.0), divisor, overlay, picture); }
 };
 
-TEST(CoarseControl, frames_are_coarse_only_while_something_moves_and_frames_are_long) {
+TEST(CoarseControl, FramesAreCoarseOnlyWhileSomethingMovesAndFramesAreLong) {
   CoarseControl control;
   EXPECT_EQ(control.divisor(true), 1) << "nothing is known yet";
   control.add_frame(1, 49.0);
@@ -53,7 +53,7 @@ TEST(CoarseControl, frames_are_coarse_only_while_something_moves_and_frames_are_
   EXPECT_EQ(control.divisor(true), CoarseControl::kCoarsest);
 }
 
-TEST(FrameMaker, a_full_frame_is_the_picture_that_render_makes) {
+TEST(FrameMaker, AFullFrameIsThePictureThatRenderMakes) {
   Frame frame;
   frame.render(Overlay::none);
   SceneAssets assets(frame.workers);
@@ -62,7 +62,7 @@ TEST(FrameMaker, a_full_frame_is_the_picture_that_render_makes) {
   EXPECT_EQ(frame.picture, expected);
 }
 
-TEST(FrameMaker, a_coarse_frame_has_enlarged_pixels) {
+TEST(FrameMaker, ACoarseFrameHasEnlargedPixels) {
   Frame frame;
   frame.render(Overlay::none, 4);
   for (int y = 0; y < kSize; ++y) {
@@ -70,14 +70,14 @@ TEST(FrameMaker, a_coarse_frame_has_enlarged_pixels) {
   }
 }
 
-TEST(FrameMaker, overdraw_counts_the_surfaces_of_a_pixel) {
+TEST(FrameMaker, OverdrawCountsTheSurfacesOfAPixel) {
   Frame frame;
   frame.render(Overlay::overdraw);
   EXPECT_EQ(frame.picture.at(4, 4), heat_color(1.0 / 8.0));
   EXPECT_EQ(frame.picture.at(kSize / 2, kSize / 2), heat_color(2.0 / 8.0));
 }
 
-TEST(FrameMaker, wireframe_shows_edges_and_keeps_the_rest) {
+TEST(FrameMaker, WireframeShowsEdgesAndKeepsTheRest) {
   Frame frame;
   frame.render(Overlay::none);
   const Image<glm::u8vec4> plain = frame.picture;
@@ -96,7 +96,7 @@ TEST(FrameMaker, wireframe_shows_edges_and_keeps_the_rest) {
 }
 
 // The renderer's tiles start at the lower left. The height is not a multiple of the tile size, so the tiles at the top are smaller.
-TEST(FrameMaker, tiles_are_those_of_the_renderer) {
+TEST(FrameMaker, TilesAreThoseOfTheRenderer) {
   constexpr int kHeight = 100;
   constexpr glm::u8vec4 kWhite(255);
   Frame frame;
@@ -109,21 +109,21 @@ TEST(FrameMaker, tiles_are_those_of_the_renderer) {
   EXPECT_NE(frame.maker.overlay_text().find("largest 4"), std::string::npos) << frame.maker.overlay_text();
 }
 
-TEST(FrameMaker, multisampled_frames_have_smaller_tiles) {
+TEST(FrameMaker, MultisampledFramesHaveSmallerTiles) {
   Frame frame;
   frame.scene.set("samples=4");
   frame.render(Overlay::tiles);
   EXPECT_NE(frame.maker.overlay_text().find("32x32"), std::string::npos) << frame.maker.overlay_text();
 }
 
-TEST(FrameMaker, normals_are_colors) {
+TEST(FrameMaker, NormalsAreColors) {
   Frame frame;
   frame.render(Overlay::normals);
   EXPECT_EQ(frame.picture.at(4, 4), glm::u8vec4(128, 128, 255, 255)) << "both squares face +z";
 }
 
 // The large square is 256 pixels high and has a texture of 256 texels; at half the scale it selects level 1.
-TEST(FrameMaker, mip_levels_follow_the_footprint) {
+TEST(FrameMaker, MipLevelsFollowTheFootprint) {
   Frame frame;
   frame.scene.set("cameras.front.height=2");
   frame.render(Overlay::mip_levels);
@@ -136,7 +136,7 @@ TEST(FrameMaker, mip_levels_follow_the_footprint) {
   EXPECT_GT(level3.y, level3.x) << "level 3 is green";
 }
 
-TEST(FrameMaker, a_picked_pixel_has_its_history) {
+TEST(FrameMaker, APickedPixelHasItsHistory) {
   Frame frame;
   frame.render(Overlay::none);
   const PickedPixel center = frame.maker.pick({kSize / 2, kSize / 2}, "squares");
@@ -149,14 +149,14 @@ TEST(FrameMaker, a_picked_pixel_has_its_history) {
   EXPECT_EQ(frame.maker.pick({0, 0}, "").object, "back");
 }
 
-TEST(FrameMaker, picking_leaves_the_frame_unchanged) {
+TEST(FrameMaker, PickingLeavesTheFrameUnchanged) {
   Frame frame;
   frame.render(Overlay::none);
   const PickedPixel first = frame.maker.pick({10, 10}, "a");
   EXPECT_EQ(first.history, frame.maker.pick({10, 10}, "a").history);
 }
 
-TEST(SaveView, the_saved_scene_starts_at_the_time_that_was_shown) {
+TEST(SaveView, TheSavedSceneStartsAtTheTimeThatWasShown) {
   const SceneFile scene = SceneFile::open("day-night");
   for (const double seconds : {0.0, 3.25, 100.0}) {
     const SceneDescription saved = SceneFile::parse(scene_text_at(scene, seconds), "test", {}).at(0.0), shown = scene.at(seconds);
@@ -166,7 +166,7 @@ TEST(SaveView, the_saved_scene_starts_at_the_time_that_was_shown) {
   }
 }
 
-TEST(SaveView, a_negative_time_is_rejected) {
+TEST(SaveView, ANegativeTimeIsRejected) {
   SceneFile scene = SceneFile::open("earth");
   scene.set("animation.speed=-1");
   EXPECT_THROW(scene_text_at(scene, 1.0), OutputError);

@@ -36,7 +36,7 @@ class ImGuiPassTest : public testing::Test {
   Image<glm::u8vec4> frame_{kWidth, kHeight};
 };
 
-TEST_F(ImGuiPassTest, a_rectangle_covers_its_pixels_and_no_others) {
+TEST_F(ImGuiPassTest, ARectangleCoversItsPixelsAndNoOthers) {
   draw([](ImDrawList& list) { list.AddRectFilled({20, 30}, {60, 50}, IM_COL32(255, 0, 0, 255)); });
   int covered = 0;
   for (int y = 0; y < kHeight; ++y) {
@@ -52,7 +52,7 @@ TEST_F(ImGuiPassTest, a_rectangle_covers_its_pixels_and_no_others) {
   EXPECT_EQ(covered, 40 * 20);
 }
 
-TEST_F(ImGuiPassTest, blending_uses_srgb_codes) {
+TEST_F(ImGuiPassTest, BlendingUsesSrgbCodes) {
   draw([](ImDrawList& list) { list.AddRectFilled({0, 0}, {50, 50}, IM_COL32(200, 0, 255, 128)); });
   // 100 + (200 − 100) · 128/255 = 150.2; linear blending would give 158.
   EXPECT_NEAR(frame_.at(10, 10).x, 150, 1);
@@ -60,7 +60,7 @@ TEST_F(ImGuiPassTest, blending_uses_srgb_codes) {
   EXPECT_NEAR(frame_.at(10, 10).z, 178, 1);
 }
 
-TEST_F(ImGuiPassTest, the_scissor_limits_what_is_drawn) {
+TEST_F(ImGuiPassTest, TheScissorLimitsWhatIsDrawn) {
   draw([](ImDrawList& list) {
     list.PushClipRect({10, 20}, {30, 40});
     list.AddRectFilled({0, 0}, {kWidth, kHeight}, IM_COL32_WHITE);
@@ -72,7 +72,7 @@ TEST_F(ImGuiPassTest, the_scissor_limits_what_is_drawn) {
     EXPECT_EQ(frame_.at(outside.x, outside.y), kGray) << outside.x << ' ' << outside.y;
 }
 
-TEST_F(ImGuiPassTest, text_has_the_texels_of_the_font) {
+TEST_F(ImGuiPassTest, TextHasTheTexelsOfTheFont) {
   draw([](ImDrawList& list) { list.AddText({5, 5}, IM_COL32_WHITE, "H"); });
   // The default font is a bitmap font of 13 pixels, so each pixel of the letter is white or unchanged.
   int white = 0, other = 0;
@@ -84,7 +84,7 @@ TEST_F(ImGuiPassTest, text_has_the_texels_of_the_font) {
   EXPECT_EQ(other, 0);
 }
 
-TEST_F(ImGuiPassTest, without_triangles_the_frame_is_unchanged) {
+TEST_F(ImGuiPassTest, WithoutTrianglesTheFrameIsUnchanged) {
   const Image<glm::u8vec4> before = frame_;
   draw([](ImDrawList&) {});
   EXPECT_EQ(frame_, before);

@@ -8,14 +8,14 @@
 namespace halfspace {
 namespace {
 
-const char* const kCourseScenes[] = {"moon", "particles", "day-night", "three-lights", "earth"};
+const char* const kChangedScenes[] = {"moon", "particles", "day-night", "three-lights", "earth"};
 
 std::string value_in(const SceneFile& scene, const std::string& path) {
   SceneDescription d = scene.description();
   return value_text(find_key(d, path, "test").field);
 }
 
-TEST(SceneChanges, relief_of_the_earth_cycles_through_map_bump_and_none) {
+TEST(SceneChanges, ReliefOfTheEarthCyclesThroughMapBumpAndNone) {
   SceneFile scene = SceneFile::open("earth");
   EXPECT_EQ(value_in(scene, "earth.normal"), "map");
   for (const char* expected : {"bump", "none", "map"}) {
@@ -24,7 +24,7 @@ TEST(SceneChanges, relief_of_the_earth_cycles_through_map_bump_and_none) {
   }
 }
 
-TEST(SceneChanges, relief_of_a_displaced_surface_cycles_through_its_normals) {
+TEST(SceneChanges, ReliefOfADisplacedSurfaceCyclesThroughItsNormals) {
   SceneFile scene = SceneFile::open("moon");
   for (const char* expected : {"vertex", "undisplaced", "pixel"}) {
     cycle_relief(scene);
@@ -32,13 +32,13 @@ TEST(SceneChanges, relief_of_a_displaced_surface_cycles_through_its_normals) {
   }
 }
 
-TEST(SceneChanges, shading_is_set_for_every_object) {
+TEST(SceneChanges, ShadingIsSetForEveryObject) {
   SceneFile scene = SceneFile::open("day-night");
   EXPECT_EQ(set_shading_rate(scene, "flat"), "shading flat: 7 objects");
   for (const auto& [name, object] : scene.description().objects) EXPECT_EQ(object.surface.shading, ShadingRate::flat) << name;
 }
 
-TEST(SceneChanges, textures_are_toggled) {
+TEST(SceneChanges, TexturesAreToggled) {
   SceneFile scene = SceneFile::open("earth");
   toggle_color_maps(scene);
   EXPECT_EQ(value_in(scene, "earth.textured"), "false");
@@ -46,7 +46,7 @@ TEST(SceneChanges, textures_are_toggled) {
   EXPECT_EQ(value_in(scene, "earth.textured"), "true");
 }
 
-TEST(SceneChanges, toggling_shadows_twice_restores_their_method) {
+TEST(SceneChanges, TogglingShadowsTwiceRestoresTheirMethod) {
   SceneFile scene = SceneFile::open("moon");
   scene.set("shadow.method=vogel");
   ShadowToggle toggle;
@@ -56,7 +56,7 @@ TEST(SceneChanges, toggling_shadows_twice_restores_their_method) {
   EXPECT_EQ(value_in(scene, "shadow.method"), "vogel");
 }
 
-TEST(SceneChanges, visibility_applies_to_the_picked_object_or_to_all) {
+TEST(SceneChanges, VisibilityAppliesToThePickedObjectOrToAll) {
   SceneFile scene = SceneFile::open("three-lights");
   VisibilityToggle toggle;
   toggle.toggle(scene, "cube");
@@ -69,7 +69,7 @@ TEST(SceneChanges, visibility_applies_to_the_picked_object_or_to_all) {
   EXPECT_EQ(value_in(scene, "globe.visible"), "true");
 }
 
-TEST(SceneChanges, particles_are_hidden_and_shown_again) {
+TEST(SceneChanges, ParticlesAreHiddenAndShownAgain) {
   SceneFile scene = SceneFile::open("particles");
   VisibilityToggle toggle;
   toggle.toggle(scene, "");
@@ -78,14 +78,14 @@ TEST(SceneChanges, particles_are_hidden_and_shown_again) {
   EXPECT_EQ(value_in(scene, "particles.count"), "12");
 }
 
-TEST(SceneChanges, exposure_is_multiplied) {
+TEST(SceneChanges, ExposureIsMultiplied) {
   SceneFile scene = SceneFile::open("day-night");
   change_exposure(scene, 2.0);
   EXPECT_EQ(value_in(scene, "post.exposure"), "1.6");
   EXPECT_EQ(value_in(scene, "post.tone"), "exponential");
 }
 
-TEST(SceneChanges, exposure_leaves_other_display_settings_unchanged) {
+TEST(SceneChanges, ExposureLeavesOtherDisplaySettingsUnchanged) {
   SceneFile scene = SceneFile::open("earth");
   change_exposure(scene, 2.0);
   EXPECT_EQ(value_in(scene, "post.hdr"), "true");
@@ -93,8 +93,8 @@ TEST(SceneChanges, exposure_leaves_other_display_settings_unchanged) {
   EXPECT_EQ(value_in(scene, "post.exposure"), "2.0");
 }
 
-TEST(SceneChanges, every_change_leaves_each_course_scene_valid_and_says_something) {
-  for (const char* name : kCourseScenes) {
+TEST(SceneChanges, EveryChangeKeepsEachSceneValidAndReturnsAMessage) {
+  for (const char* name : kChangedScenes) {
     SceneFile scene = SceneFile::open(name);
     VisibilityToggle visibility;
     ShadowToggle shadows;
@@ -110,7 +110,7 @@ TEST(SceneChanges, every_change_leaves_each_course_scene_valid_and_says_somethin
   }
 }
 
-TEST(SceneChanges, camera_keys_keep_all_bits) {
+TEST(SceneChanges, CameraKeysKeepAllBits) {
   SceneFile scene = SceneFile::open("earth");
   CameraDescription camera = scene.description().cameras.front().second;
   camera.position = {1.0 / 3.0, -2e-7 / 7.0, 1e5 / 3.0};
@@ -118,7 +118,7 @@ TEST(SceneChanges, camera_keys_keep_all_bits) {
   EXPECT_EQ(scene.description().cameras.front().second.position, camera.position);
 }
 
-TEST(SceneChanges, animated_cameras_are_recognized) {
+TEST(SceneChanges, AnimatedCamerasAreRecognized) {
   SceneFile scene = SceneFile::open("earth");
   EXPECT_FALSE(is_animated_camera(scene, "equator"));
   scene.merge(R"({"animations": {"fly": {"type": "rate", "target": "equator.position", "rate": [0, 1, 0]}}})", "test");

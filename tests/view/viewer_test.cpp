@@ -15,7 +15,7 @@ const CameraDescription& camera_of(const Viewer& viewer) {
   return *find_named(d.cameras, d.head.camera);
 }
 
-TEST(Viewer, x_resets_the_camera_and_then_selects_the_next_one) {
+TEST(Viewer, XResetsTheCameraAndThenSelectsTheNextOne) {
   Viewer viewer = viewer_of("earth");
   const glm::dvec3 original = camera_of(viewer).position;
   viewer.move(Action::left, 0.2);
@@ -31,7 +31,7 @@ TEST(Viewer, x_resets_the_camera_and_then_selects_the_next_one) {
   EXPECT_EQ(viewer.scene().description().head.camera, "equator");
 }
 
-TEST(Viewer, moving_an_animated_camera_adds_a_free_camera) {
+TEST(Viewer, MovingAnAnimatedCameraAddsAFreeCamera) {
   SceneFile scene = SceneFile::open("earth");
   scene.merge(R"({"animations": {"fly": {"type": "rate", "target": "equator.position", "rate": [0, 1, 0]}}})", "test");
   Viewer viewer({scene, {}, nullptr, {}}, 0.0);
@@ -46,7 +46,7 @@ TEST(Viewer, moving_an_animated_camera_adds_a_free_camera) {
   EXPECT_EQ(viewer.scene().description().cameras.size(), 3u);
 }
 
-TEST(Viewer, time_stops_while_paused) {
+TEST(Viewer, TimeStopsWhilePaused) {
   Viewer viewer = viewer_of("earth");
   viewer.advance(0.5);
   EXPECT_TRUE(viewer.is_running());
@@ -59,21 +59,21 @@ TEST(Viewer, time_stops_while_paused) {
   EXPECT_EQ(viewer.seconds(), 0.75);
 }
 
-TEST(Viewer, a_scene_without_animations_does_not_change_with_time) {
+TEST(Viewer, ASceneWithoutAnimationsDoesNotChangeWithTime) {
   Viewer viewer = viewer_of("three-lights");
   viewer.advance(1.0);
   EXPECT_FALSE(viewer.is_running());
   EXPECT_EQ(viewer.animation_seconds(), 0.0);
 }
 
-TEST(Viewer, a_rejected_value_leaves_the_scene_unchanged_and_sets_the_message) {
+TEST(Viewer, ARejectedValueLeavesTheSceneUnchangedAndSetsTheMessage) {
   Viewer viewer = viewer_of("earth");
   viewer.set({"earth.shininess=abc"});
   EXPECT_NE(viewer.message().find("shininess"), std::string::npos);
   EXPECT_EQ(viewer.scene().print(), SceneFile::open("earth").print());
 }
 
-TEST(Viewer, overlays_cycle_in_both_directions) {
+TEST(Viewer, OverlaysCycleInBothDirections) {
   Viewer viewer = viewer_of("earth");
   viewer.press(Action::next_overlay);
   EXPECT_EQ(viewer.overlay(), Overlay::wireframe);
