@@ -101,7 +101,7 @@ struct MatrixHoles : MatrixUniforms {
 struct MatrixHolesVisible : MatrixHoles {
   template <class R>
   Visibility<R> visibility(const Varyings<R>& in, const Pixel<R>& px) const {
-    return {texel(in, px).w >= R(threshold), px.z()};
+    return {maps[0]->sample_alpha(sampler, in.uv, px.ddx(&Varyings<R>::uv), px.ddy(&Varyings<R>::uv)) >= R(threshold), px.z()};
   }
 };
 

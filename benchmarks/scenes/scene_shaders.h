@@ -83,7 +83,7 @@ struct SceneCutout : SceneUniforms {
   }
   template <class R>
   Visibility<R> visibility(const Varyings<R>& in, const Pixel<R>& px) const {
-    return {texel(in, px).w >= R(0.5f), px.z()};
+    return {map->sample_alpha(Sampler{}, in.uv, px.ddx(&Varyings<R>::uv), px.ddy(&Varyings<R>::uv)) >= R(0.5f), px.z()};
   }
 };
 
@@ -129,7 +129,7 @@ struct SceneCutoutDepth {
   }
   template <class R>
   Visibility<R> visibility(const Varyings<R>& in, const Pixel<R>& px) const {
-    return {map->sample(Sampler{}, in.uv, px.ddx(&Varyings<R>::uv), px.ddy(&Varyings<R>::uv)).w >= R(0.5f), px.z()};
+    return {map->sample_alpha(Sampler{}, in.uv, px.ddx(&Varyings<R>::uv), px.ddy(&Varyings<R>::uv)) >= R(0.5f), px.z()};
   }
   template <class R>
   DiscardingFragment<R> fragment(const Varyings<R>& in, const Pixel<R>& px) const {

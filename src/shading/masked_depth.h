@@ -53,7 +53,9 @@ struct MaskedDepth {
     for (const PlacedMap& map : test.maps) {
       if (map.map == nullptr) continue;
       const MapCoordinates<R> at = transformed(map.uv_transform, MapCoordinates<R>{in.uv, px.ddx(&V::uv), px.ddy(&V::uv)});
-      opacity *= dot(map.map->sample(map.sampler, at.uv, at.duv_dx, at.duv_dy), vec4<R>(map.channel));
+      opacity *= map.channel == glm::vec4(0, 0, 0, 1)
+                     ? map.map->sample_alpha(map.sampler, at.uv, at.duv_dx, at.duv_dy)
+                     : dot(map.map->sample(map.sampler, at.uv, at.duv_dx, at.duv_dy), vec4<R>(map.channel));
     }
     if (!test.dithered) return {opacity >= R(test.cutoff), {}};
     // The pattern is not visible in the image, because the shadow filter averages it.

@@ -21,23 +21,30 @@ enum class TexelFormat : uint8_t {
 
 namespace detail {
 
-/// Unpacks the first N channels of an 8-bit texel for filtering. sRGB colors become linear values; other channels remain codes, 0 to 255.
-template <int N, TexelFormat format, class R>
-HS_INLINE VecN<N, R> decode_rgba8(IntOf<R> texel) {
-  const IntOf<R> r = texel & 255, g = (texel >> 8) & 255, b = (texel >> 16) & 255;
-  vec3<R> color;
-  if constexpr (format == TexelFormat::srgb8a8) {
-    color = {srgb_to_linear<R>(r), srgb_to_linear<R>(g), srgb_to_linear<R>(b)};
-  } else {
-    color = {to_real<R>(r), to_real<R>(g), to_real<R>(b)};
-  }
-  if constexpr (N == 3) {
-    return color;
-  } else {
-    return {color, to_real<R>((texel >> 24) & 255)};
-  }
+/// Unpacks channels of an 8-bit texel for filtering: all (Value = vec4), red, green and blue (vec3), or alpha (R). sRGB colors become
+/// linear values; other channels remain codes, 0 to 255.
+template <class Value, TexelFormat format, class R>
+HS_INLINE Value decode_rgba8(IntOf<R> texel) {
+  const auto color = [&] {
+    const IntOf<R> r = texel & 255, g = (texel >> 8) & 255, b = (texel >> 16) & 255;
+    if constexpr (format == TexelFormat::srgb8a8)
+      return vec3<R>(srgb_to_linear<R>(r), srgb_to_linear<R>(g), srgb_to_linear<R>(b));
+    else
+      return vec3<R>(to_real<R>(r), to_real<R>(g), to_real<R>(b));
+  };
+  const auto alpha = [&] { return to_real<R>((texel >> 24) & 255); };
+  if constexpr (std::is_same_v<Value, vec3<R>>)
+    return color();
+  else if constexpr (std::is_same_v<Value, R>)
+    return alpha();
+  else
+    return {color(), alpha()};
 }
-/// Converts filtered channels to linear values.
+/// Converts filtered channels to linear values. A single channel is alpha.
+template <TexelFormat format, Number R>
+HS_INLINE R rgba8_to_linear(R alpha) {
+  return unorm8_to_linear(alpha);
+}
 template <TexelFormat format, class R>
 HS_INLINE vec3<R> rgba8_to_linear(const vec3<R>& c) {
   if constexpr (format == TexelFormat::srgb8a8) return c;
@@ -81,25 +88,30 @@ struct TexelPair {
   I left, right;
 };
 
-/// Bilinearly filters 2x2 packed 8-bit texels and returns the first N channels, in the units of decode_rgba8. along is the weight of
-/// the right texels, and across is the weight of the upper ones.
-template <int N, TexelFormat format, class R>
-HS_INLINE VecN<N, R> mixed_rgba8(const TexelPair<IntOf<R>>& lower, const TexelPair<IntOf<R>>& upper, R along, R across) {
-  if constexpr (format == TexelFormat::srgb8a8 || std::is_same_v<R, double>) {
+/// Bilinearly filters 2x2 packed 8-bit texels. Value selects the channels: vec4, vec3 (no alpha) or R (only alpha), in the units of
+/// decode_rgba8. along is the weight of the right texels, and across is the weight of the upper ones.
+template <class Value, TexelFormat format, class R>
+HS_INLINE Value mixed_rgba8(const TexelPair<IntOf<R>>& lower, const TexelPair<IntOf<R>>& upper, R along, R across) {
+  if constexpr (std::is_same_v<R, double> || (format == TexelFormat::srgb8a8 && !std::is_same_v<Value, R>)) {
     const auto row = [&](const TexelPair<IntOf<R>>& of) {
-      return lerp(decode_rgba8<N, format, R>(of.left), decode_rgba8<N, format, R>(of.right), along);
+      return lerp(decode_rgba8<Value, format, R>(of.left), decode_rgba8<Value, format, R>(of.right), along);
     };
     return lerp(row(lower), row(upper), across);
   } else {
-    VecN<N, R> mean;
-    for (int k = 0; k < N; ++k) {
+    const auto mixed = [&](int k) {
       const auto row = [&](const TexelPair<IntOf<R>>& of) {
         const OffsetCode<R> left = offset_code<R>(of.left, k), right = offset_code<R>(of.right, k);
         return fma(along, right.value - left.value, left.value - left.offset);  // both differences are exact
       };
-      mean[k] = lerp(row(lower), row(upper), across);
+      return lerp(row(lower), row(upper), across);
+    };
+    if constexpr (std::is_same_v<Value, R>) {
+      return mixed(3);
+    } else {
+      Value mean;
+      for (int k = 0; k < (std::is_same_v<Value, vec3<R>> ? 3 : 4); ++k) mean[k] = mixed(k);
+      return mean;
     }
-    return mean;
   }
 }
 

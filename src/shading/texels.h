@@ -20,7 +20,7 @@ struct Rgba8Texels {
   using Value = vec4<R>;
   const int32_t* words;
 
-  HS_INLINE Value operator()(IntOf<R> i) const { return decode_rgba8<4, format, R>(gather(words, i)); }
+  HS_INLINE Value operator()(IntOf<R> i) const { return decode_rgba8<Value, format, R>(gather(words, i)); }
   HS_INLINE Value to_linear(const Value& v) const { return rgba8_to_linear<format>(v); }
 };
 

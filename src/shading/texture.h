@@ -74,6 +74,10 @@ class Texture2D {
   template <Number R>
   vec3<R> sample_rgb(const Sampler& sampler, const vec2<R>& uv, const vec2<R>& duv_dx, const vec2<R>& duv_dy) const;
 
+  /// Returns only alpha: what an alpha test needs, at about half the cost of sample.
+  template <Number R>
+  R sample_alpha(const Sampler& sampler, const vec2<R>& uv, const vec2<R>& duv_dx, const vec2<R>& duv_dy) const;
+
   /// Samples at a given level of detail, where 0 is the largest level. lod <= 0 and NaN use the magnification filter.
   template <Number R>
   vec4<R> sample_level(const Sampler& sampler, const vec2<R>& uv, std::type_identity_t<R> lod) const;
@@ -118,23 +122,22 @@ class Texture2D {
   // Implementations of sample and sample_level for every format and sampler, in texture_lookup.cpp, for all Number types. They are pure, so
   // that a call does not keep the compiler from dropping unused values of the shader.
   template <class R>
-  __attribute__((pure)) vec4<R> sample_any(const Sampler& sampler, const vec2<R>& uv, const vec2<R>& duv_dx,
-                                           const vec2<R>& duv_dy) const;
+  __attribute__((pure)) vec4<R> sample_any(const Sampler& sampler, const vec2<R>& uv, const vec2<R>& duv_dx, const vec2<R>& duv_dy) const;
   template <class R>
   __attribute__((pure)) vec4<R> sample_levels_any(const Sampler& sampler, const vec2<R>& uv, const LevelChoice<R>& levels) const;
   // A lookup for any sampler, for one format (texels.h).
   template <class R, class Texels>
   struct AnyLookup;
-  // A lookup of the first N channels (3 or 4) of an 8-bit format, for common samplers.
-  template <int N, TexelFormat texel_format, class R>
+  // A lookup in an 8-bit format, for common samplers. Value selects the channels: vec4, vec3 (no alpha) or R (only alpha).
+  template <class Value, TexelFormat texel_format, class R>
   struct CommonLookup;
   template <class R, class Function>
   vec4<R> with_texels(const Function& function) const;
   template <class R, class Function>
   vec4<R> with_lookup(const Sampler& sampler, const Function& function) const;
 
-  template <int N, class R>
-  VecN<N, R> sample_channels(const Sampler& sampler, const vec2<R>& uv, const vec2<R>& duv_dx, const vec2<R>& duv_dy) const;
+  template <class Value, class R>
+  Value sample_channels(const Sampler& sampler, const vec2<R>& uv, const vec2<R>& duv_dx, const vec2<R>& duv_dy) const;
   template <class R>
   LevelChoice<R> choose_level(const Sampler& sampler, R lod, IntOf<R> whole) const;
   /// Select the levels for a level of detail or for derivatives.
@@ -200,10 +203,8 @@ HS_INLINE Texture2D::Axis<R> Texture2D::axis(R coordinate, R n) {
   }
 }
 
-template <int N, TexelFormat texel_format, class R>
+template <class Value, TexelFormat texel_format, class R>
 struct Texture2D::CommonLookup {
-  using Value = VecN<N, R>;
-
   const Texture2D& texture;
   const Sampler& sampler;
 
@@ -224,7 +225,7 @@ struct Texture2D::CommonLookup {
     const Level<R> l = texture.level<R>(level_index);
     const Axis<R> x = clamped(axis(st.x, l.columns), l.width, sampler.wrap_s), y = clamped(axis(st.y, l.rows), l.height, sampler.wrap_t);
     const IntOf<R> row = y.i * l.pitch + (l.offset + x.i);  // adds the product last, because it has the longest latency
-    return detail::mixed_rgba8<N, texel_format>(pair(row), pair(row + l.pitch), x.fraction, y.fraction);
+    return detail::mixed_rgba8<Value, texel_format>(pair(row), pair(row + l.pitch), x.fraction, y.fraction);
   }
 
   /// Filters one or two levels, in filtering units.
@@ -286,26 +287,34 @@ HS_INLINE Texture2D::LevelChoice<R> Texture2D::levels_of(const Sampler& sampler,
 template <Number R>
 vec4<R> Texture2D::sample_level(const Sampler& sampler, const vec2<R>& uv, std::type_identity_t<R> lod) const {
   if (format_ != TexelFormat::rgba8 || !is_common(sampler)) return sample_levels_any<R>(sampler, uv, levels_at(sampler, lod));
-  const CommonLookup<4, TexelFormat::rgba8, R> lookup{*this, sampler};
+  const CommonLookup<vec4<R>, TexelFormat::rgba8, R> lookup{*this, sampler};
   return lookup.finish(lookup(uv, levels_at(sampler, lod)));
 }
 
-template <int N, class R>
-HS_INLINE VecN<N, R> Texture2D::sample_channels(const Sampler& sampler, const vec2<R>& uv, const vec2<R>& duv_dx,
-                                                const vec2<R>& duv_dy) const {
-  if (format_ != TexelFormat::rgba8 || !is_common(sampler) || sampler.anisotropy > 1)
-    return VecN<N, R>(sample_any<R>(sampler, uv, duv_dx, duv_dy));
-  const CommonLookup<N, TexelFormat::rgba8, R> lookup{*this, sampler};
+template <class Value, class R>
+HS_INLINE Value Texture2D::sample_channels(const Sampler& sampler, const vec2<R>& uv, const vec2<R>& duv_dx, const vec2<R>& duv_dy) const {
+  if (format_ != TexelFormat::rgba8 || !is_common(sampler) || sampler.anisotropy > 1) {
+    const vec4<R> rgba = sample_any<R>(sampler, uv, duv_dx, duv_dy);
+    if constexpr (std::is_same_v<Value, R>)
+      return rgba.w;
+    else
+      return Value(rgba);
+  }
+  const CommonLookup<Value, TexelFormat::rgba8, R> lookup{*this, sampler};
   return lookup.finish(lookup(uv, levels_of(sampler, duv_dx, duv_dy)));
 }
 
 template <Number R>
 vec4<R> Texture2D::sample(const Sampler& sampler, const vec2<R>& uv, const vec2<R>& duv_dx, const vec2<R>& duv_dy) const {
-  return sample_channels<4, R>(sampler, uv, duv_dx, duv_dy);
+  return sample_channels<vec4<R>, R>(sampler, uv, duv_dx, duv_dy);
 }
 template <Number R>
 vec3<R> Texture2D::sample_rgb(const Sampler& sampler, const vec2<R>& uv, const vec2<R>& duv_dx, const vec2<R>& duv_dy) const {
-  return sample_channels<3, R>(sampler, uv, duv_dx, duv_dy);
+  return sample_channels<vec3<R>, R>(sampler, uv, duv_dx, duv_dy);
+}
+template <Number R>
+R Texture2D::sample_alpha(const Sampler& sampler, const vec2<R>& uv, const vec2<R>& duv_dx, const vec2<R>& duv_dy) const {
+  return sample_channels<R, R>(sampler, uv, duv_dx, duv_dy);
 }
 
 }  // namespace halfspace

@@ -140,8 +140,8 @@ HS_INLINE vec4<R> Texture2D::with_texels(const Function& function) const {
 template <class R, class Function>
 HS_INLINE vec4<R> Texture2D::with_lookup(const Sampler& sampler, const Function& function) const {
   if (is_common(sampler)) {
-    if (format_ == TexelFormat::rgba8) return function(CommonLookup<4, TexelFormat::rgba8, R>{*this, sampler});
-    return function(CommonLookup<4, TexelFormat::srgb8a8, R>{*this, sampler});
+    if (format_ == TexelFormat::rgba8) return function(CommonLookup<vec4<R>, TexelFormat::rgba8, R>{*this, sampler});
+    return function(CommonLookup<vec4<R>, TexelFormat::srgb8a8, R>{*this, sampler});
   }
   return with_texels<R>([&](const auto& texels) {
     return function(AnyLookup<R, std::remove_cvref_t<decltype(texels)>>{*this, sampler, texels});

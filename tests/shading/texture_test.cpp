@@ -353,6 +353,28 @@ TEST(Texture, SampleSelectsTheLevelFromTheDerivatives) {
 
 // ---- arbitrary bit patterns -------------------------------------------------------------------------------------------
 
+TEST(Texture, LookupsOfFewerChannelsReturnTheBitsOfSample) {
+  Sampler anisotropic, mirrored;
+  anisotropic.anisotropy = 4;
+  mirrored.wrap_s = Wrap::mirrored;
+  std::mt19937 random(29);
+  std::uniform_real_distribution<float> coordinate(-2, 3), change(-0.1f, 0.1f);
+  for (const TexelFormat format : {TexelFormat::rgba8, TexelFormat::srgb8a8}) {
+    const Texture2D texture(noise(33, 20, 28), format);
+    for (const Sampler& sampler : {Sampler{}, kBilinearClamp, kNearest, anisotropic, mirrored}) {
+      for (int i = 0; i < 100; ++i) {
+        const vec2<float> uv(coordinate(random), coordinate(random)), dx(change(random), change(random)),
+            dy(change(random), change(random));
+        const vec4<float> all = texture.sample(sampler, uv, dx, dy);
+        const vec3<float> rgb = texture.sample_rgb(sampler, uv, dx, dy);
+        EXPECT_EQ(glm::vec4(rgb.x, rgb.y, rgb.z, texture.sample_alpha(sampler, uv, dx, dy)), glm::vec4(all.x, all.y, all.z, all.w));
+        const auto wide = [](const vec2<float>& v) { return vec2<double>(v.x, v.y); };
+        EXPECT_EQ(texture.sample_alpha(sampler, wide(uv), wide(dx), wide(dy)), texture.sample(sampler, wide(uv), wide(dx), wide(dy)).w);
+      }
+    }
+  }
+}
+
 TEST(Texture, ExtremeCoordinatesAndDerivativesReturnValuesInRange) {
   const Texture2D texture(noise(7, 9, 13), TexelFormat::rgba8);
   const float wild[] = {0.0f, -0.0f, 0.5f,  1.0f,  -1.0f,  0x1p-149f, -0x1p-149f, -0x1p-30f, 8388609.0f, -8388609.5f,
