@@ -229,7 +229,7 @@ HS_INLINE VecN<L, R> select(MaskOf<R> m, const VecN<L, R>& a, const VecN<L, R>& 
   return r;
 }
 
-/// Returns v divided by its length, or zero if v is zero. No intermediate result overflows or underflows, whatever the length of v.
+/// Returns v divided by its length, or zero if v is zero. No intermediate result overflows or underflows, for any length of v.
 glm::dvec3 unit_or_zero(const glm::dvec3& v);
 
 }  // namespace halfspace

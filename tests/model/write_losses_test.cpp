@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What models lose when they are written in a format that stores less: the rest reads back, and every loss is named once.
+// Models written in formats that cannot store everything: what is stored reads back, and each kind of loss gives one warning.
 #include <gtest/gtest.h>
 
 #include <algorithm>
