@@ -6,13 +6,13 @@ chapter({
   steps: () => [
     {name: "The picture", caption: `The ring marks pixel (${PIXEL}), the example of this page. ${DATA.overdraw.most === 0 ? "Nothing is drawn in this frame." : `${plural(FRAME.fragments[PIXEL[1] * W + PIXEL[0]], "fragment competes", "fragments compete")} for it. The visible fragment belongs to ${exampleName}.`}`,
       draw: () => picture(DATA.pictures.final, "The rendered picture, with a ring around the example pixel", {overlay: (pen, s) => ring(pen, s, PIXEL)})},
-    {name: "Its primitives", caption: "The same picture with one color per primitive. Everything in the picture is made of triangles, lines and points.",
+    {name: "The primitives", caption: "The same picture with one color per primitive. Everything in the picture is made of triangles, lines and points.",
       draw: () => picture(DATA.pictures.triangles, "The picture with one color per primitive", {overlay: (pen, s) => ring(pen, s, PIXEL)})},
     {name: "The pipeline", caption: "The stages in order, with the numbers of this frame. Each tile is drawn by one thread, so pixels need no locks, and the picture does not depend on the number of threads.",
       draw: () => el("div", {class: "stage"}, pipelineDiagram())},
   ],
   body: () => [
-    el("p", {class: "keys", html: "<kbd>←</kbd> <kbd>→</kbd> go to the previous or next step, also from chapter to chapter. The slider selects a step of the chapter."}),
+    el("p", {class: "keys", html: "<kbd>←</kbd> <kbd>→</kbd> go to the previous or next step, and from the last step of a chapter to the next chapter. The slider selects a step of the chapter."}),
     el("p", {class: "keys", html: `To explain another pixel: ${command(`${DATA.command} --pixel X,Y`)}`}),
     el("h3", {}, "Draw calls"),
     tableOf(["object", "kind", "vertices", "primitives", "culled faces"], DATA.draws.slice(0, 12).map((d) => [escapeHtml(d.object) + (d.copy ? ` (${d.copy})` : ""), `¶${d.kind}${d.layered ? ", transparent" : ""}`, d.vertices, d.primitives, `¶${d.cull}`])),
@@ -22,7 +22,7 @@ chapter({
     return [
       {ask: "How many pixels does this frame have?", answer: W * H, hint: "Multiply the width by the height.", why: `${W} · ${H} pixels.`},
       {ask: "How many fragments does a pixel have on average? (Two decimal places.)", answer: DATA.overdraw.total / (W * H), tolerance: 0.01, hint: `The frame has ${fmt(DATA.overdraw.total)} fragments.`, why: `${fmt(DATA.overdraw.total)} fragments for ${fmt(W * H)} pixels.`},
-      {ask: "How many of the submitted primitives never reached a tile?", answer: s.culled_non_finite + s.culled_outside + s.culled_face + s.culled_degenerate + s.culled_no_sample, hint: "The chapter on culling gives the number for each reason.", why: "They were culled: outside the view, facing away, without area, or between the samples."},
+      {ask: "How many of the submitted primitives never reached a tile?", answer: s.culled_non_finite + s.culled_outside + s.culled_face + s.culled_degenerate + s.culled_no_sample, hint: "The chapter on culling gives the number for each reason.", why: "They were culled: outside the view, facing away, without area, or covering no sample."},
     ];
   },
 });
@@ -220,8 +220,8 @@ chapter({
     const v = EX.vertices[0];
     return [
       {ask: `The first vertex has clip coordinates x = ${num(v.clip[0])} and w = ${num(v.clip[3])}. What is x in normalized device coordinates?`, answer: v.ndc[0], tolerance: Math.abs(v.ndc[0]) * 1e-3 + 1e-6, hint: "Divide by w.", why: "x / w."},
-      {ask: `Its window position is x = ${num(v.x)}, in units of 1/256 pixel. Which pixel column is it in?`, answer: Math.floor(v.x / SUB), hint: "Divide by 256 and round down.", why: `${fmt(v.x)} / 256 = ${fmt(v.x / SUB, 9)}.`},
-      {ask: `The ${fmt(DATA.statistics.vertices_in)} indices refer to fewer vertices, and each vertex was shaded once. How many vertices were shaded?`, answer: DATA.statistics.vertices_shaded, hint: "See “Output”.", why: "A vertex that several triangles share is computed only once."},
+      {ask: `The window position of the first vertex is x = ${num(v.x)}, in units of 1/256 pixel. Which pixel column is it in?`, answer: Math.floor(v.x / SUB), hint: "Divide by 256 and round down.", why: `${fmt(v.x)} / 256 = ${fmt(v.x / SUB, 9)}.`},
+      {ask: `The ${fmt(DATA.statistics.vertices_in)} indices refer to fewer vertices, and each vertex was shaded once. How many vertices were shaded?`, answer: DATA.statistics.vertices_shaded, hint: "See “Output”.", why: "A vertex that several triangles share is shaded only once."},
     ];
   },
 });

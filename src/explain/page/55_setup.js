@@ -34,9 +34,9 @@ function clipFormula(c) {
 chapter({
   id: "clipping", title: "Clipping", kicker: "Primitive setup",
   lead: () => "Dividing by w gives wrong positions for points behind the eye. Triangles that cross the near plane, the far plane or the limits of the integer grid are therefore clipped to polygons first. Triangles that only cross the edges of the window are not clipped: the rasterizer skips the pixels outside.",
-  absent: () => (CLIPPED.length === 0 ? `No triangle of this frame crosses the near or far plane: ${fmt(DATA.outcomes[2])} of ${fmt(DATA.statistics.primitives_in)} primitives are entirely outside of the view, and the others need no clipping. A frame with clipped triangles: ${command("halfspace explain shadow-plane --camera low")}.` : null),
+  absent: () => (CLIPPED.length === 0 ? `No triangle of this frame crosses the near or far plane: ${fmt(DATA.outcomes[2])} of ${fmt(DATA.statistics.primitives_in)} primitives are entirely outside the view, and the others need no clipping. A frame with clipped triangles: ${command("halfspace explain shadow-plane --camera low")}.` : null),
   input: () => [plural(DATA.statistics.primitives_in, "primitive"), "outcodes: for each vertex, one bit for each plane that it is outside of"],
-  output: () => [`${plural(DATA.statistics.clipped, "primitive")} clipped`, `${plural(DATA.statistics.culled_outside, "primitive")} culled because of being entirely outside`],
+  output: () => [`${plural(DATA.statistics.clipped, "primitive")} clipped`, `${plural(DATA.statistics.culled_outside, "primitive")} entirely outside the view, and therefore culled`],
   steps: () => CLIPPED.slice(0, 4).flatMap((c, i) => [
     {name: `Triangle ${fmt(c.primitive)} of ${escapeHtml(c.object)}, before clipping`, caption: `Seen from above: the eye is at the left end, where the dashed sides of the view volume meet. Vertices with w below ${fmt(M.near)} are on the eye's side of the near plane, and vertices with negative w are behind the eye.`, draw: () => clipPicture(c, 0, false)},
     {name: "After clipping", caption: `The polygon has ${c.after.length} corners, ${c.after.filter((a) => a.vertex < 0).length} of them new. It is drawn as a fan of ${plural(c.after.length - 2, "triangle")}.`, draw: () => clipPicture(c, 0, true)}]),
@@ -84,7 +84,7 @@ chapter({
   exercises: () => [
     {ask: "How many primitives were culled because of their facing?", answer: DATA.statistics.culled_face, hint: "See the bar “facing”.", why: "In the window, they have the winding of culled faces."},
     {ask: "What percentage of the submitted primitives is drawn? (Rounded to an integer.)", answer: Math.round((DATA.outcomes[0] + DATA.outcomes[1]) / Math.max(1, DATA.statistics.primitives_in) * 100), tolerance: 0.5, hint: "Divide the number of kept and clipped primitives by the number of all primitives.", why: `${fmt(DATA.outcomes[0] + DATA.outcomes[1])} of ${fmt(DATA.statistics.primitives_in)}.`},
-    isTriangle ? {ask: `Twice the area of the example triangle is ${num(Math.abs(area2(submitted())))}, in units of (1/256 pixel)². What is its area in pixels? (Two decimal places.)`, answer: Math.abs(area2(submitted())) / 131072, tolerance: 0.0051, hint: "Divide by 2 and by 256².", why: "One pixel is 256 · 256 = 65 536 units."} : {ask: "How many primitives have no area?", answer: DATA.statistics.culled_degenerate, hint: "See the bar “no area”.", why: "After snapping, their vertices are on a line."},
+    isTriangle ? {ask: `Twice the area of the example triangle is ${num(Math.abs(area2(submitted())))}, in units of (1/256 pixel)². What is its area in pixels? (Two decimal places.)`, answer: Math.abs(area2(submitted())) / 131072, tolerance: 0.0051, hint: "Divide by 2 and by 256².", why: "One pixel is 256 · 256 = 65 536 units."} : {ask: "How many primitives have no area?", answer: DATA.statistics.culled_degenerate, hint: "See the bar “no area”.", why: "After rounding to 1/256 pixel, their vertices are on a line."},
   ],
 });
 
@@ -125,7 +125,7 @@ const edgesAtPixel = () => TRI.edges.map((e) => edgeAt(e, center(WINDOW[0]), cen
 chapter({
   id: "setup", title: "Triangle setup", kicker: "Primitive setup",
   lead: () => "Three lines bound a triangle. Each line has an edge function that is positive inside, zero on the line and negative outside. Because positions are integers, the values are exact: where triangles meet, no pixel is missed or drawn twice.",
-  absent: () => (isTriangle ? null : `The primitive that is visible at the example pixel is ${EX === null ? "none" : "not a triangle, so it needs no edge functions"}. A frame with triangles: ${command("halfspace explain earth")}.`),
+  absent: () => (isTriangle ? null : `${EX === null ? "No primitive is visible at the example pixel" : "The primitive that is visible at the example pixel is not a triangle, so it has no edge functions"}. A frame with triangles: ${command("halfspace explain earth")}.`),
   input: () => ["three window positions in 1/256 pixel", "three depths"],
   output: () => ["three edge functions", "depth as z₀ + E₁ · a + E₂ · b", TRI && TRI.small ? "a small triangle: all values fit into 32 bits" : "a large triangle: values are shifted to fit into 32 bits"],
   steps: () => [

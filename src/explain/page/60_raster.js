@@ -59,13 +59,14 @@ chapter({
   steps: () => [
     {name: "Tiles", caption: `${BINS.columns * BINS.rows} tiles cover the window. Tiles at the top and right edges may be smaller. Rows are counted from the bottom, as in OpenGL.`, draw: () => tilePicture("grid")},
     {name: "Primitives per tile", caption: `The fullest tile has ${fmt(mostBinned)} primitives, and ${fmt(BINS.counts.filter((n) => n === 0).length)} tiles have none. Empty tiles are filled with the background color without processing their pixels one by one.`, draw: () => [tilePicture("heat"), legend("0", fmt(mostBinned))].flat()},
-    {name: "The tiles of the example", caption: `The ${exampleName} is listed in ${plural(touchedTiles().length, "tile")}.`, draw: () => tilePicture("example")},
+    {name: "The tiles of the example", caption: EX === null ? "No primitive is visible at the example pixel." : `${exampleName[0].toUpperCase() + exampleName.slice(1)} is listed in the bins of ${plural(touchedTiles().length, "tile")}.`, draw: () => tilePicture("example")},
   ],
   formula: () => (isTriangle ? [`A tile is skipped if the maximum of an edge function over the tile is negative.\n\nTile (${EXTILE}), which contains the example pixel:\n${TRI.edges.map((e, i) => `max E<sub>${i}</sub> = ${fmt(maxInTile(e, ...EXTILE))} → <b>${maxInTile(e, ...EXTILE) - e.bias >= 0 ? "may overlap" : "cannot overlap"}</b>`).join("\n")}`] : []),
   exercises: () => [
     {ask: "How many primitives does the fullest tile have?", answer: mostBinned, hint: "See the heat map.", why: "This is the largest number in the heat map."},
     {ask: "How many tiles does a primitive overlap on average? (Two decimal places.)", answer: DATA.statistics.bin_entries / Math.max(1, DATA.statistics.triangles_binned), tolerance: 0.0051, hint: "Divide the number of entries by the number of primitives.", why: `${fmt(DATA.statistics.bin_entries)} entries for ${fmt(DATA.statistics.triangles_binned)} primitives.`},
-    {ask: `How many tiles does the ${exampleName} overlap?`, answer: touchedTiles().length, hint: "The third step highlights them.", why: "The page uses the same test as the source code above."},
+    EX === null ? {ask: "How many tiles does the window have?", answer: BINS.columns * BINS.rows, hint: "Multiply the number of columns by the number of rows.", why: `${BINS.columns} · ${BINS.rows}.`}
+      : {ask: `How many bins contain ${exampleName}?`, answer: touchedTiles().length, hint: "The third step highlights their tiles.", why: "The page uses the same test as the source code above."},
   ],
 });
 
@@ -180,7 +181,7 @@ chapter({
   ],
   formula: () => (isTriangle ? [`covered = E<sub>0</sub> ≥ bias<sub>0</sub>  and  E<sub>1</sub> ≥ bias<sub>1</sub>  and  E<sub>2</sub> ≥ bias<sub>2</sub>\n\n${TRI.edges.map((e, i) => `${fmt(edgesAtPixel()[i])} ≥ ${e.bias} → <b>${edgesAtPixel()[i] >= e.bias}</b>`).join("\n")}\n\nbias = 0 if the edge goes down (e<sub>y</sub> &lt; 0), or to the right (e<sub>y</sub> = 0, e<sub>x</sub> &gt; 0); otherwise 1`] : []),
   exercises: () => [
-    {ask: `How many pixel centers does the ${exampleName} cover?`, answer: countCovered(), hint: "Count the filled pixels. A large triangle may extend beyond the block that is shown.", why: "Counted with the exact edge functions."},
+    {ask: `How many pixel centers does ${exampleName} cover?`, answer: countCovered(), hint: `Count the filled pixels. The ${TRI.edges ? "triangle" : "primitive"} may extend beyond the block that is shown.`, why: TRI.edges ? "The page counted them with the exact edge functions." : "They are the pixel centers inside the rectangle of the primitive."},
     {ask: "How many pixels of the block in the step “Packets” are covered?", answer: inBlock(), hint: "Count the filled pixels in that step.", why: "At most 64 are possible."},
     {ask: `How many packets does a block of 8 × 8 pixels have in this build?`, answer: 64 / DATA.build.lanes, hint: `A packet has ${DATA.build.lanes} pixels.`, why: `64 / ${DATA.build.lanes}.`},
   ],

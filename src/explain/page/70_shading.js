@@ -61,7 +61,7 @@ chapter({
 
 chapter({
   id: "varyings", title: "Varyings", kicker: "Shading",
-  lead: () => "The values that the fragment shader receives at each pixel. Each picture shows one of them as colors.",
+  lead: () => "Varyings are the interpolated values that the fragment shader receives at each pixel. Each picture shows a varying, or a value computed from varyings, as colors.",
   input: () => ["weights per pixel", "values at three vertices"],
   output: () => ["interpolated values, one lane per pixel", "analytic derivatives, from the plane of the triangle"],
   steps: () => [
@@ -98,7 +98,7 @@ chapter({
   exercises: () => [
     {ask: "From one pixel to the next, the texture coordinates change by 8 texels of level 0. Which level is read?", answer: 3, hint: "Which power of 2 is 8?", why: "2³ = 8."},
     {ask: "What is the highest level in this frame? (One decimal place.)", answer: DATA.mips.high, tolerance: 0.051, hint: "See the legend.", why: "Levels are high at grazing angles and far away."},
-    {ask: "How many pixels are magnified, that is, have a level below 0?", answer: FRAME.lods.reduce((n, l) => n + (l < 0 && l > -50), 0), tolerance: 0, hint: "There are too many to count; use “Show answer”.", why: "At these pixels, a texel is larger than a pixel."},
+    {ask: "How many pixels are magnified, that is, have a level below 0?", answer: FRAME.lods.reduce((n, l) => n + (l < 0 && l > -50), 0), tolerance: 0, hint: "Point at the picture to find such pixels. “Show answer” gives their number.", why: "At such pixels, a texel is larger than a pixel."},
   ],
 });
 
@@ -158,7 +158,7 @@ function lookupPicture() {
 
 chapter({
   id: "shadows", title: "Shadow map", kicker: "Shading",
-  lead: () => "Before the picture is rendered, the scene is rendered from the light, and only depth is stored: the shadow map. A point is in shadow if the map contains something nearer to the light at the same position.",
+  lead: () => "Before the picture is rendered, the scene is rendered as seen from the light, and only depth is stored. The result is the shadow map. A point is in shadow if the map contains something nearer to the light at the same position.",
   absent: () => (SHADOW === null ? `No light of this frame casts shadows. A frame with shadows: ${command("halfspace explain shadow-knot")}.` : null),
   input: () => [`${SHADOW.views > 1 ? `${SHADOW.views} maps` : "a map"} of ${SHADOW.size} × ${SHADOW.size} texels`, "the position of each pixel"],
   output: () => ["a factor from 0 (in shadow) to 1 (lit)", `filter: ${SHADOW.filter}`],
@@ -166,7 +166,7 @@ chapter({
     {name: "Seen from the light", caption: `The shadow map of <i>${escapeHtml(SHADOW.light)}</i>${SHADOW.views > 1 ? `, view ${SHADOW.view + 1} of ${SHADOW.views}` : ""}. Bright texels are near the light, and black texels are empty.${LOOK ? " The ring marks the point of the next step." : ""}`, draw: mapPicture},
     ...(LOOK ? [
       {name: "One pixel", caption: `Pixel (${SHADOW.pixel}) reads the map at texel (${LOOK.i}, ${LOOK.j}).`, draw: () => picture(DATA.pictures.final, "The picture, with a ring around the pixel whose shadow is looked up", {overlay: (pen, s) => ring(pen, s, SHADOW.pixel)})},
-      {name: "Its texels", caption: `Gray texels are nearer to the light than the plane of the surface, so they occlude it. The dot is the point. The filter ${SHADOW.filter} computes a shadow factor of ${num(LOOK.factor, 5)}.`, draw: lookupPicture}] : []),
+      {name: "The texels around the point", caption: `Gray texels are nearer to the light than the plane of the surface, so they occlude the point. The dot marks the point. The filter ${SHADOW.filter} computes a shadow factor of ${num(LOOK.factor, 5)}.`, draw: lookupPicture}] : []),
   ],
   formula: () => (LOOK ? [`texel (${LOOK.i}, ${LOOK.j}), point at (${fmt(LOOK.x, 7)}, ${fmt(LOOK.y, 7)}):\n\n<em>d</em> = depth + bias = ${fmt(LOOK.depth, 8)} + ${fmt(LOOK.biased - LOOK.depth, 4)} = ${fmt(LOOK.biased, 8)}\nplane: ${fmt(LOOK.dx, 4)} per texel to the right, ${fmt(LOOK.dy, 4)} up\n\nlit = <em>d</em> + slope · distance to the center of the texel ≥ depth in the map\n\nmap: ${fmt(LOOK.texels[(LOOK.side * LOOK.side - 1) / 2], 8)} → <b>${LOOK.lit[(LOOK.side * LOOK.side - 1) / 2] ? "lit" : "in shadow"}</b>      after the filter: <b>${fmt(LOOK.factor, 6)}</b>`] : []),
   exercises: () => (LOOK ? [

@@ -31,7 +31,7 @@ function curvePicture() {
 
 chapter({
   id: "tone", title: "High dynamic range and tone curve", kicker: "Output",
-  lead: () => (TONE.hdr ? "Light has no upper limit, but displays do. The exposure scales the light, and the tone curve maps it to the range from 0 to 1." : "This scene is displayed without a tone curve: light above 1 is clamped. The histogram shows how many pixels this affects."),
+  lead: () => (TONE.hdr ? "Light has no upper limit, but the brightness of a display does. The exposure scales the light, and the tone curve maps it to the range from 0 to 1." : "This scene is displayed without a tone curve: light above 1 is clamped. The histogram shows how many pixels this affects."),
   input: () => ["linear light per pixel"],
   output: () => ["display light from 0 to 1"],
   steps: () => [
@@ -44,7 +44,7 @@ chapter({
     return [`${exposure}at pixel (${PIXEL}):\n\nlight      ${p.light.map((v) => fmt(v, 6).padStart(12)).join("")}\n· exposure ${p.exposed.map((v) => fmt(v, 6).padStart(12)).join("")}\ncurve      <b>${p.display.map((v) => fmt(v, 6).padStart(12)).join("")}</b>`];
   },
   exercises: () => [
-    {ask: "What is the exposure of this frame? (Three significant digits.)", answer: TONE.exposure, tolerance: TONE.exposure * 0.006, hint: "See the formula.", why: TONE.auto ? "It was computed from the luminance of the frame." : "The scene sets it."},
+    {ask: "What is the exposure of this frame? (Three significant digits.)", answer: TONE.exposure, tolerance: TONE.exposure * 0.006, hint: "See the formula.", why: TONE.auto ? "It was computed from the luminance of the frame." : "It is a constant of the scene."},
     {ask: "If the exposure is increased by one stop, by which factor does the light increase?", answer: 2, hint: "Stops are powers of two.", why: "A stop doubles the light."},
     {ask: "How many pixels are too dark for the histogram?", answer: TONE.dark, hint: "See the caption of the histogram.", why: `Their luminance is below 2<sup>${TONE.low}</sup>.`},
   ],
@@ -73,7 +73,7 @@ chapter({
   input: () => ["display light from 0 to 1"],
   output: () => ["three codes from 0 to 255"],
   steps: () => [
-    {name: "The curve", caption: "Close to 0, the curve is a straight line; above, it is a power function with the exponent 1/2.4. The dots are red, green and blue of the example pixel.", draw: srgbPicture},
+    {name: "The curve", caption: "Close to 0, the curve is a straight line; beyond that, it is a power function with the exponent 1/2.4. The dots are red, green and blue of the example pixel.", draw: srgbPicture},
     {name: "Equal steps", caption: "Above: 16 equal steps of light, most of which look almost white. Below: 16 equal steps of code, which look evenly spaced.", draw: rampPicture},
   ],
   formula: () => [`${TONE.gamma ? `encoded = x<sup>1/${fmt(TONE.gamma)}</sup>` : "encoded = 12.92 x                   if x ≤ 0.0031308\n          1.055 x<sup>1/2.4</sup> − 0.055      otherwise"}\ncode    = round(255 · encoded)\n\nat pixel (${PIXEL}):\n\n${["red", "green", "blue"].map((n, k) => `${n.padEnd(6)} ${fmt(TONE.pixel.display[k], 6).padStart(10)} → ${fmt(TONE.pixel.encoded[k], 6).padStart(10)} → <b>${TONE.pixel.code[k]}</b>`).join("\n")}${TONE.dither ? "\n\nThis scene is dithered: a pattern determines whether codes are rounded up or down." : ""}`],
@@ -109,14 +109,14 @@ chapter({
   input: () => [`${DATA.samples} samples per pixel`],
   output: () => ["one color per pixel"],
   steps: () => [
-    {name: "Sample positions", caption: "No two samples share a row or a column, so that nearly horizontal and nearly vertical edges get as many steps as possible.", draw: patternPicture},
+    {name: "Sample positions", caption: "No two samples are in the same row or column of the grid, so that nearly horizontal and nearly vertical edges get as many steps as possible.", draw: patternPicture},
     ...(isTriangle ? [{name: "Coverage", caption: "The block of the example pixel. The stronger the color of a pixel, the more of its samples the example triangle covers.", draw: sampleCoverage}] : []),
   ],
   formula: () => [`color = (s<sub>0</sub> + … + s<sub>${DATA.samples - 1}</sub>) / ${DATA.samples}`],
   exercises: () => [
     {ask: "A white triangle covers one sample of a black pixel. What is the pixel's light, from 0 to 1?", answer: 1 / DATA.samples, tolerance: 1e-9, hint: "Compute the mean of all samples.", why: `1 / ${DATA.samples}.`},
     {ask: "How many samples does the whole frame have?", answer: W * H * DATA.samples, hint: "Multiply the number of pixels by the number of samples per pixel.", why: `${W} · ${H} · ${DATA.samples}.`},
-    {ask: "How many shades can the pixels at an edge of that white triangle have, including black and white?", answer: DATA.samples + 1, hint: "How many samples can be covered?", why: `From 0 to ${DATA.samples} samples can be covered.`},
+    {ask: "How many shades can the pixels at an edge of a white triangle on black have, including black and white?", answer: DATA.samples + 1, hint: "How many samples can be covered?", why: `From 0 to ${DATA.samples} samples can be covered.`},
   ],
 });
 
@@ -126,7 +126,7 @@ chapter({
   lead: () => "Transparent surfaces do not hide what is behind them, so they must be blended in the right order. Each sample keeps the fragments of transparent surfaces as layers, sorted by depth. When all layers are known, they are blended from the farthest to the nearest.",
   absent: () => (LAYERED.length === 0 ? `No surface of this frame is transparent. The floor that receives the shadow of a model file is a transparent layer: ${command("halfspace explain MODEL")} with any .glb, .gltf, .obj, .ply or .stl file.` : null),
   input: () => [plural(LAYERED.length, "transparent draw")],
-  output: () => [`${plural(DATA.statistics.layers_merged, "time")}, the two farthest layers of a sample were merged because it would have had more than 8`],
+  output: () => [`${plural(DATA.statistics.layers_merged, "merge")} of the two farthest layers of a sample, which can store 8 layers`],
   steps: () => [{name: "Transparent draws", caption: `These objects are blended over the opaque picture: ${LAYERED.map((d) => `<i>${escapeHtml(d.object)}</i>`).join(", ")}.`, draw: () => picture(DATA.pictures.final, "The picture with its transparent surfaces", {overlay: (pen, s) => ring(pen, s, PIXEL)})}],
   formula: () => ["for each layer, from the farthest to the nearest:\n\ncolor = α · layer + (1 − α) · color"],
   exercises: () => [

@@ -120,7 +120,7 @@ function historyPanel(x, y, go) {
   const last = list.map((f) => Boolean(f.isShaded)).lastIndexOf(true);
   return [
     el("h3", {}, `Pixel ${x}, ${y}`),
-    el("p", {html: `From the upper left; OpenGL window coordinates (${x + 0.5}, ${H - y - 0.5}). ${plural(list.length + others, "fragment")}${list.length + others ? ", in drawing order" : ""}:`}),
+    el("p", {html: `Counted from the upper left. In OpenGL window coordinates, its center is at (${x + 0.5}, ${H - y - 0.5}). ${plural(list.length + others, "fragment")}${list.length + others ? ", in drawing order" : ""}:`}),
     el("ol", {class: "fragments"}, ...list.map((f, i) => fragmentItem(f, i, i === last))),
     others ? el("p", {}, `… and ${plural(others, "more fragment")} that this page does not contain.`) : null,
     full ? el("div", {class: "formula", tabindex: 0, role: "group", "aria-label": "From the samples of the pixel to its code", html: displayText(full)}) : null,

@@ -77,11 +77,11 @@ const STATISTICS = [
 
 chapter({
   id: "statistics", title: "Statistics", kicker: "The whole frame",
-  lead: () => "The counters of the pass that rendered this frame. They are the same on every machine, except for samples_tested, which depends on the number of lanes.",
+  lead: () => "These are the counters of the pass that rendered this frame. They are the same on every machine, except for samples_tested, which depends on the number of lanes.",
   steps: () => [{name: "From primitives to pixels", caption: "The number of items that each stage of the pipeline outputs.", draw: () => el("div", {class: "stage"}, pipelineDiagram())}],
   body: () => [tableOf(["counter", "value", "meaning"], STATISTICS.map(([key, text]) => [`<code>${key}</code>`, DATA.statistics[key], "¶" + text]))],
   exercises: () => [
-    {ask: "How often was a shaded vertex used on average? (Two digits after the point.)", answer: DATA.statistics.vertices_in / Math.max(1, DATA.statistics.vertices_shaded), tolerance: 0.0051, hint: "Divide vertices_in by vertices_shaded.", why: "In a large closed mesh, a vertex belongs to about six triangles on average."},
+    {ask: "How many times was a shaded vertex used on average? (Two decimal places.)", answer: DATA.statistics.vertices_in / Math.max(1, DATA.statistics.vertices_shaded), tolerance: 0.0051, hint: "Divide vertices_in by vertices_shaded.", why: "In a large closed mesh, a vertex belongs to about six triangles on average."},
     {ask: "How many tested samples failed?", answer: DATA.statistics.samples_tested - DATA.statistics.samples_passed, tolerance: 0, hint: "Subtract samples_passed from samples_tested.", why: "Most of them were behind a surface that had been drawn before."},
     {ask: "How many bits differ if the picture is rendered with 16 threads instead of 1?", answer: 0, hint: "Threads do not share pixels.", why: "Each tile is drawn by one thread, with its primitives in submission order."},
   ],
