@@ -95,9 +95,9 @@ if(BUILD_SHARED_LIBS)
   list(APPEND halfspace_exported_headers ${halfspace_installed_headers})
 endif()
 
-# Shared libraries export the functions of headers that are installed or used by another module or a program. They do not export the functions
-# of other headers and of the private folders of raster. Unity builds compile sources with options of their own one by one, so static libraries
-# are left alone.
+# Shared libraries export the functions of headers that are installed or used by another module or a program. They do not export the
+# functions of other headers and of the private folders of raster. Static libraries are not changed, because a unity build does not combine
+# sources that have their own options.
 function(halfspace_hide_private_functions sources)
   if(NOT BUILD_SHARED_LIBS)
     return()
@@ -252,7 +252,8 @@ function(halfspace_install_documents)
   install(DIRECTORY ${folder}/zsh/site-functions/ DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/${zsh_folder} COMPONENT runtime)
 endfunction()
 
-# Targets that build what is installed and nothing else: `installed` for everything, `isa` for what a portable build has once per instruction set.
+# Targets that build only what is installed: `installed` for everything, `isa` for the files that a portable build has once per instruction
+# set.
 function(halfspace_add_install_targets)
   add_custom_target(isa)
   add_custom_target(installed)

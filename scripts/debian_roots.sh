@@ -26,7 +26,7 @@ quiet_in_root() {
   in_root "$@" >> "$1.log" 2>&1 || { tail -20 "$1.log"; fail "failed in $1"; }
 }
 
-# new_root RELEASE ROOT PACKAGES...: copies the minimal root of a release, which is made once, and installs packages.
+# new_root RELEASE ROOT PACKAGES...: copies the minimal root of a release, which is created only once, and installs packages.
 new_root() {
   if [ ! -d "$roots/$1" ]; then
     debootstrap --variant=minbase "$1" "$roots/$1.part" "$mirror" > "$roots/$1.log"

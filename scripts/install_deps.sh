@@ -47,7 +47,7 @@ fi
 echo "install_deps.sh: installing ${missing[*]}"
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
-# The package lists may be outdated or missing. Update them only if the installation fails without.
+# The package lists may be outdated or missing. Update them only if the installation fails without an update.
 if ! "${run[@]}" apt-get -o DPkg::Lock::Timeout=120 install -y --no-install-recommends "${missing[@]}" > "$log" 2>&1; then
   "${run[@]}" apt-get update > "$log" 2>&1 || true
   if ! "${run[@]}" apt-get -o DPkg::Lock::Timeout=120 install -y --no-install-recommends "${missing[@]}" > "$log" 2>&1; then

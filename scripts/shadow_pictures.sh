@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Renders the pictures of docs/explanation/shadows.md: each failure of shadow maps, and its cure.
+# Renders the pictures of docs/explanation/shadows.md: each artifact of shadow maps, and the same scene without it.
 #
 #   scripts/shadow_pictures.sh [PROGRAM [DIRECTORY]]
 set -euo pipefail

@@ -11,7 +11,7 @@ for release in "$@"; do
   echo "== $release: building and installing"
   new_root "$release" "$root" ccache
   copy_sources "$root"
-  quiet_in_root "$root" '/src/scripts/install_deps.sh'  # some packages make folders in /usr/local
+  quiet_in_root "$root" '/src/scripts/install_deps.sh'  # some packages create folders in /usr/local
   before=$(in_root "$root" 'find /usr/local | sort')
   quiet_in_root "$root" '/src/scripts/install.sh'
   grep '^installed' "$root.log"

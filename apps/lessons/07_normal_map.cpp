@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Lesson 7: a normal map stores normals relative to the surface. This one is computed from heights; a bump map stores the heights.
+// Lesson 7: a normal map stores normals relative to the surface. Here, it is computed from the heights of a bump map.
 #include <cmath>
 
 #include "halfspace/geometry/camera.h"

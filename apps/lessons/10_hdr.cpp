@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Lesson 10: light has no upper limit, but pixels do. A float target stores the light, and a tone curve maps it to the display at the end.
+// Lesson 10: light has no upper limit, but pixel values do. A float target stores the light, and a tone curve maps it to the display.
 #include "halfspace/geometry/camera.h"
 #include "halfspace/geometry/shapes.h"
 #include "halfspace/image/image_io.h"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Halfspace: a CPU renderer. Renders scenes, model files and meshes of arrays to NumPy arrays, without a GPU or a display.
+"""Halfspace: a CPU renderer. Renders scenes, model files and meshes (given as arrays) to NumPy arrays, without a GPU or a display.
 
     import halfspace
     picture = halfspace.render("moon", size=(1280, 720), set={"time.hours": 18})    # uint8, (720, 1280, 3)
@@ -9,8 +9,8 @@
     scene.add(halfspace.Mesh(vertices, faces))
     picture = scene.render((640, 480))
 
-Invalid values and files raise InputError, a ValueError of one line; files that cannot be written raise OutputError, an OSError. Results have
-the same bits for any number of threads.
+Invalid values and files raise InputError, a ValueError whose message has one line. Files that cannot be written raise OutputError, an
+OSError. Results have the same bits for any number of threads.
 """
 
 import os as _os
