@@ -105,7 +105,8 @@ def time_table(results, size):
 
 
 def state_table(results, key, first_column, plain=None):
-    """Times of the rows of results.raw[key] and llvmpipe's divided by ours. With a plain row, also all times relative to it."""
+    """Times of the rows of results.raw[key] and llvmpipe's divided by ours. plain: a row; the table also has the times of all rows
+    relative to it."""
     n = results.threads
     rows = {(r["workload"], r["contender"]): r["ms"] for r in results.raw.get(key, [])}
     names = list(dict.fromkeys(workload for workload, _ in rows))

@@ -87,7 +87,7 @@ def pictures(build):
                     continue
                 program = build / "bin" / (f"lesson-{name}-{variant}" if variant else f"lesson-{name}")
                 picture = Path(temporary) / ("picture.ppm" if int(name[:2]) <= 3 else "picture.png")
-                # The programs that measure report a difference between their images, which a wrong variant may cause.
+                # The lessons that measure times fail if their images differ, which is expected of wrong variants.
                 run = subprocess.run([str(program), str(picture)], stdout=subprocess.DEVNULL, check=False)
                 if run.returncode != 0 and variant != "wrong":
                     raise LessonError(f"{program.name} failed")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Checks of arguments. Every problem is an InputError of one line: "NAME: problem; expected what would be right"."""
+"""Checks of arguments. Every problem raises an InputError with a message of one line: "NAME: problem; expected what would be right"."""
 
 from __future__ import annotations
 

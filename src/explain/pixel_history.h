@@ -40,8 +40,8 @@ struct FrameTrace {
   ColorFormat format = ColorFormat::none;  ///< color format of the tiles
   std::vector<uint32_t> first;             ///< width · height + 1 offsets into `fragments`, by row from the upper left
   std::vector<TracedFragment> fragments;   ///< of each pixel in submission order, and for each primitive by sample
-  /// For each pixel, the number of fragments that are not in `fragments` because the pixel has more than kMaxFragments. Shaded fragments
-  /// take precedence.
+  /// For each pixel, the number of fragments that are not in `fragments` because the pixel has more than kMaxFragments. Fragments that
+  /// were not shaded are dropped first.
   std::vector<uint32_t> others;
   Image<glm::u8vec4> picture;     ///< the picture of render()
   std::vector<glm::vec4> values;  ///< linear color of each sample of each pixel at the end of the pass, before resolving

@@ -67,7 +67,7 @@ TEST(AreaCoverage, MatchesClosedFormForTriangles) {
     return 8.0 * glm::dvec2(std::cos(i * std::numbers::pi / 2048), std::sin(i * std::numbers::pi / 2048)) + glm::dvec2(0, 10);
   };
   for (int i = 0; i < 4096; ++i) disk.push_back({glm::dvec2(0, 10), at(i), at(i + 1)});
-  // The area of the polygon is smaller than the area of the disk by 4e-7 of it.
+  // The relative difference between the areas of the polygon and the disk is 4e-7.
   EXPECT_NEAR(total(area_coverage<double>(disk, 20, 20)), 0.5 * std::numbers::pi * 64.0, 1e-3);
 }
 
