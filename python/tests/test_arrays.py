@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Scenes of arrays: meshes, materials, textures, lights, copies, and errors."""
+"""Scenes made from arrays: meshes, materials, textures, lights, copies, and errors."""
 
 import json
 from types import SimpleNamespace

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Cameras: where points land, and the conventions of their arguments."""
+"""Cameras: the pixels to which points are projected, and the conventions of their arguments."""
 
 import numpy as np
 import pytest

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A study measures several variants of the same rendering task: the error of each, compared with a truth, and its time. Each study has
-// its own file, studies() lists them, and study_files.h writes the results.
+// A study measures several variants of the same rendering task: the error of each, compared with a reference (the truth), and its time.
+// Each study has its own file, studies() lists them, and study_files.h writes the results.
 //
 // Error and time of a variant come from the same run. All variants of a study have the same parameters (inputs, such as the number of
 // triangles) and the same measures (results other than the error), so that models of cost and error can be fitted to the data.

@@ -17,7 +17,8 @@ namespace halfspace {
 
 namespace {
 
-// The bytes of an open file. If the file is truncated meanwhile, reading them kills this process, like any other damaged file.
+// The bytes of an open file. If another program truncates the file, reading its bytes kills this process. The parent process reports this
+// like any other crash of the decoder.
 class MappedFile {
  public:
   MappedFile(int file, std::size_t bytes) : bytes_(bytes), start_(::mmap(nullptr, bytes, PROT_READ, MAP_PRIVATE, file, 0)) {

@@ -40,7 +40,7 @@ Failure damaged(const ReadRequest& request, const std::string& why) {
   return {"cannot be read as " + request.format + " (" + one_line(without_name(why, request)) + "); expected a complete image file"};
 }
 
-// Codes of up to 16 bits stay codes. All other types become floats; signed and 32-bit integers are scaled to 1.
+// Codes of up to 16 bits stay codes. All other types become floats; signed and 32-bit integers are scaled to a maximum of 1.
 Sample sample_of(const OIIO::TypeDesc& type) {
   if (type.basetype == OIIO::TypeDesc::UINT8) return Sample::code8;
   return type.basetype == OIIO::TypeDesc::UINT16 ? Sample::code16 : Sample::number;
