@@ -61,9 +61,12 @@ execute_process(COMMAND ${Python3_EXECUTABLE} ${halfspace_SOURCE_DIR}/scripts/de
   ${CPACK_DEBIAN_PACKAGE_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE} ${CPACK_PACKAGE_CONTACT} ${changelog} COMMAND_ERROR_IS_FATAL ANY)
 foreach(component runtime dev python)
   string(TOUPPER ${component} upper)
-  set(CPACK_DEBIAN_${upper}_DESCRIPTION "${CPACK_COMPONENT_${upper}_DESCRIPTION}")
+  set(CPACK_DEBIAN_${upper}_DESCRIPTION "Halfspace renders model files, scene files and the passes of other programs
+without a GPU or a graphics driver.
+${CPACK_COMPONENT_${upper}_DESCRIPTION}")
   set(folder ${CMAKE_INSTALL_DATADIR}/doc/${CPACK_DEBIAN_${upper}_PACKAGE_NAME})
-  install(FILES ${halfspace_SOURCE_DIR}/LICENSE DESTINATION ${folder} RENAME copyright COMPONENT ${component})
-  install(FILES ${changelog} DESTINATION ${folder} COMPONENT ${component})
+  install(FILES ${halfspace_SOURCE_DIR}/cmake/debian/copyright ${changelog} DESTINATION ${folder} COMPONENT ${component})
 endforeach()
+install(FILES ${halfspace_SOURCE_DIR}/cmake/debian/libhalfspace-dev.lintian-overrides DESTINATION ${CMAKE_INSTALL_DATADIR}/lintian/overrides
+  RENAME libhalfspace-dev COMPONENT dev)
 include(CPack)

@@ -11,7 +11,7 @@ check_packages() {
   in_root "$1" 'status=0
     complain() { echo "$1" >&2; status=1; }
     for package in halfspace libhalfspace-dev python3-halfspace; do
-      cmp -s "/usr/share/doc/$package/copyright" /root/LICENSE || complain "$package has no license"
+      cmp -s "/usr/share/doc/$package/copyright" /root/copyright || complain "$package has no license"
       dpkg-parsechangelog -l "/usr/share/doc/$package/changelog.Debian.gz" > /dev/null || complain "$package has no valid changelog"
       while read -r file; do
         if [[ $file != *.a && -f $file ]] && readelf -SW "$file" 2> /dev/null | grep -q " \.symtab "; then complain "$file is not stripped"; fi
@@ -31,7 +31,7 @@ for release in "$@"; do
 
   echo "== $release: installing and rendering"
   new_root "$release" "$use"
-  cp LICENSE "$build"/src/build/packages/*.deb "$use/root/"
+  cp cmake/debian/copyright "$build"/src/build/packages/*.deb "$use/root/"
   in_root "$use" 'apt-get install -q -y --no-install-recommends /root/halfspace_*.deb' 2>&1 | grep -E '^(Get:.*halfspace|Unpacking halfspace|Setting up halfspace)'
   run_programs "$use"
   in_root "$use" '/lib64/ld-linux-x86-64.so.2 --glibc-hwcaps-mask x86-64-v3 /usr/bin/halfspace info
