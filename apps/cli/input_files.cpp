@@ -30,7 +30,7 @@ void refuse_overwriting(const std::filesystem::path& out, const std::vector<std:
   for (const std::filesystem::path& input : inputs) {
     std::error_code error;
     if (std::filesystem::equivalent(out, input, error))
-      throw OutputError(out.string() + ": is read by this scene; expected an output file of another name");
+      throw OutputError(out.string() + ": is read by this scene; expected another output file");
   }
 }
 

@@ -352,7 +352,7 @@ HS_INLINE int32_t look_up(const std::array<int32_t, 16>& table, int32_t i) { ret
 /// Returns table[i] lane by lane, for i in 0 … 15. Cheaper than gather, because the table is kept in registers.
 template <int W>
 HS_INLINE IntN<W> look_up(const std::array<int32_t, 16>& table, IntN<W> i) {
-  using V = typename IntN<W>::V;
+  using V [[maybe_unused]] = typename IntN<W>::V;
 #ifdef __AVX512F__
   if constexpr (W == 16) return IntN<W>((V)_mm512_maskz_permutexvar_epi32(detail::kAll16, (__m512i)i.v, load<__m512i>(table.data())));
 #endif

@@ -148,15 +148,29 @@ HS_INLINE std::array<I, 3> load_aos3(const int32_t* p) {
 /// The number of words that gather_row may read past the last requested one: for N = 2 it reads four words.
 inline constexpr std::size_t kRowSlack = 2;
 
+/// The indices in the lanes of i, as scalars. They must not be negative. Two at a time leave the register, which takes half of the
+/// operations that g++ would use.
+template <int W>
+class ScalarIndices {
+ public:
+  HS_INLINE explicit ScalarIndices(IntN<W> i) { store(pairs_.data(), i); }
+  HS_INLINE std::size_t operator[](int lane) const {
+    const uint64_t pair = pairs_[static_cast<std::size_t>(lane / 2)];
+    return lane % 2 == 0 ? static_cast<uint32_t>(pair) : pair >> 32;
+  }
+
+ private:
+  std::array<uint64_t, W / 2> pairs_;
+};
+
 /// Loads base[i], …, base[i + N − 1] lane by lane, for N up to 4. For N > 1 this is faster than N gathers, but four words starting
-/// at base[i] must be readable for every lane, even if its result is not used.
+/// at base[i] must be readable for every lane, even if its result is not used, and no index may be negative.
 template <int N, class Word, class I>
 HS_INLINE auto gather_row(const Word* base, I i) {
   std::array<decltype(gather(base, i)), N> row;
   if constexpr (N > 1 && detail::kTransposes4x4<I>) {
-    std::array<int32_t, sizeof(I) / sizeof(int32_t)> at;
-    store(at.data(), i);
-    const auto words = load_aos4<I>([&](int k) { return base + at[static_cast<std::size_t>(k)]; });
+    const ScalarIndices at(i);
+    const auto words = load_aos4<I>([&](int k) { return base + at[k]; });
     for (std::size_t n = 0; n < N; ++n) {
       if constexpr (std::is_same_v<Word, float>) {
         row[n] = as_real(words[n]);

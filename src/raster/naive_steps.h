@@ -77,7 +77,7 @@ ScreenPoint<R> to_window(const vec4<R>& p, const Viewport& v, const DepthState& 
 template <class R, class V>
 using Piece = std::array<Vertex<R, V>, 3>;
 
-// Returns the polygon that is left of a triangle, with window coordinates.
+// Returns the polygon that remains of a triangle after clipping, with window coordinates.
 template <class V>
 std::vector<Vertex<float, V>> clipped_polygon(const Piece<float, V>& t, const Viewport& viewport, const DepthState& depth,
                                               std::size_t provoking) {
@@ -115,7 +115,7 @@ std::vector<Vertex<R, V>> clipped_polygon(const Piece<R, V>& t, const Viewport& 
   return polygon;
 }
 
-// Returns the triangles that are left of a triangle, with window coordinates: those of a fan.
+// Returns the triangles that remain of a triangle after clipping, as a fan, with window coordinates.
 template <class R, class V>
 std::vector<Piece<R, V>> clipped(Piece<R, V> t, const Viewport& viewport, const DepthState& depth, std::size_t provoking) {
   Fan fan;
@@ -144,7 +144,7 @@ std::vector<Piece<R, V>> clipped(Piece<R, V> t, const Viewport& viewport, const 
     const Piece<R, V> piece{polygon[fan.apex], polygon[(fan.apex + k - 1) % n], polygon[(fan.apex + k) % n]};
     const ScreenPoint<R>&a = piece[0].window, &b = piece[1].window, &c = piece[2].window;
     const int64_t area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-    if (kIsFloat<R> && area != 0 && (area > 0) != fan.counter_clockwise) continue;  // a fold of a sliver; see fan_of
+    if (kIsFloat<R> && area != 0 && (area > 0) != fan.counter_clockwise) continue;  // a self-intersecting sliver; see fan_of
     pieces.push_back(piece);
   }
   return pieces;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Texel formats, and decoding of 8-bit texels, which are packed into a 32-bit word with red in the low byte.
+// Texel formats, and decoding of packed texels: 8-bit ones, in a 32-bit word with red in the low byte, and half floats, in two words.
 #pragma once
 
-#include "halfspace/core/lanes.h"
+#include "halfspace/core/half.h"
+#include "halfspace/core/lane_pairs.h"
 #include "halfspace/core/srgb.h"
 #include "halfspace/core/vec.h"
 
@@ -70,49 +71,21 @@ HS_INLINE vec4<R> lerp(const vec4<R>& a, const vec4<R>& b, R f) {
   return {lerp(a.x, b.x, f), lerp(a.y, b.y, f), lerp(a.z, b.z, f), lerp(a.w, b.w, f)};
 }
 
-/// Channel k of a packed 8-bit texel plus an offset. Masking the channel and combining it with the exponent bits of the offset gives a
-/// float without a conversion instruction.
+/// Converts the half in the low 16 bits of each word.
 template <class R>
-struct OffsetCode {
-  R value, offset;
-};
-template <class R>
-HS_INLINE OffsetCode<R> offset_code(IntOf<R> texel, int k) {
-  if (k == 0) return {as_real((texel & 0xff) | 0x4b000000), R(0x1p23f)};
-  return {as_real(((texel >> (8 * (k - 1))) & 0xff00) | 0x47000000), R(0x1p15f)};
+HS_INLINE R low_half(IntOf<R> word) {
+  if constexpr (kIsPair<R>)
+    return {low_half<typename R::Half>(word.low), low_half<typename R::Half>(word.high)};
+  else if constexpr (kWidthOf<R> == 1)
+    return R(half_to_float(static_cast<uint16_t>(word & 0xffff)));
+  else
+    return half_to_float(word);
 }
 
-/// Two adjacent texels of a row.
-template <class I>
-struct TexelPair {
-  I left, right;
-};
-
-/// Bilinearly filters 2x2 packed 8-bit texels. Value selects the channels: vec4, vec3 (no alpha) or R (only alpha), in the units of
-/// decode_rgba8. along is the weight of the right texels, and across is the weight of the upper ones.
-template <class Value, TexelFormat format, class R>
-HS_INLINE Value mixed_rgba8(const TexelPair<IntOf<R>>& lower, const TexelPair<IntOf<R>>& upper, R along, R across) {
-  if constexpr (std::is_same_v<R, double> || (format == TexelFormat::srgb8a8 && !std::is_same_v<Value, R>)) {
-    const auto row = [&](const TexelPair<IntOf<R>>& of) {
-      return lerp(decode_rgba8<Value, format, R>(of.left), decode_rgba8<Value, format, R>(of.right), along);
-    };
-    return lerp(row(lower), row(upper), across);
-  } else {
-    const auto mixed = [&](int k) {
-      const auto row = [&](const TexelPair<IntOf<R>>& of) {
-        const OffsetCode<R> left = offset_code<R>(of.left, k), right = offset_code<R>(of.right, k);
-        return fma(along, right.value - left.value, left.value - left.offset);  // both differences are exact
-      };
-      return lerp(row(lower), row(upper), across);
-    };
-    if constexpr (std::is_same_v<Value, R>) {
-      return mixed(3);
-    } else {
-      Value mean;
-      for (int k = 0; k < (std::is_same_v<Value, vec3<R>> ? 3 : 4); ++k) mean[k] = mixed(k);
-      return mean;
-    }
-  }
+/// Unpacks a texel of two words with two halfs each, the first in the low bits.
+template <class R>
+HS_INLINE vec4<R> decode_rgba16f(IntOf<R> first, IntOf<R> second) {
+  return {low_half<R>(first), low_half<R>(first >> 16), low_half<R>(second), low_half<R>(second >> 16)};
 }
 
 }  // namespace detail

@@ -10,7 +10,6 @@
 // rgba16f: two words per texel, red in the low half of the first. rgba32f: four words per texel.
 #pragma once
 
-#include "halfspace/core/half.h"
 #include "halfspace/shading/texture.h"
 
 namespace halfspace::detail {
@@ -49,17 +48,6 @@ struct R16Texels {
   HS_INLINE Value to_linear(Value v) const { return unorm16_to_linear(v); }
 };
 
-/// Converts the half in the low 16 bits of each word.
-template <class R>
-HS_INLINE R low_half(IntOf<R> word) {
-  if constexpr (kIsPair<R>)
-    return {low_half<typename R::Half>(word.low), low_half<typename R::Half>(word.high)};
-  else if constexpr (kWidthOf<R> == 1)
-    return R(half_to_float(static_cast<uint16_t>(word & 0xffff)));
-  else
-    return half_to_float(word);
-}
-
 template <class R>
 struct Rgba16fTexels {
   using Value = vec4<R>;
@@ -67,7 +55,7 @@ struct Rgba16fTexels {
 
   HS_INLINE Value operator()(IntOf<R> i) const {
     const auto [rg, ba] = gather_row<2>(words, IntOf<R>(i << 1));
-    return {low_half<R>(rg), low_half<R>(rg >> 16), low_half<R>(ba), low_half<R>(ba >> 16)};
+    return decode_rgba16f<R>(rg, ba);
   }
   HS_INLINE Value to_linear(const Value& v) const { return v; }
 };

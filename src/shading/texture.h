@@ -27,8 +27,8 @@
 #include "halfspace/core/parallel.h"
 #include "halfspace/core/vec.h"
 #include "halfspace/shading/footprint.h"
-#include "halfspace/shading/packed_texels.h"
 #include "halfspace/shading/sampler.h"
+#include "halfspace/shading/texel_filter.h"
 
 namespace halfspace {
 
@@ -103,6 +103,7 @@ class Texture2D {
   struct Axis {
     IntOf<R> i;
     R fraction;
+    IntOf<R> steps;  // fraction · 2^kFractionBits; unused if R is double
   };
 
   template <class Texel>
@@ -116,8 +117,8 @@ class Texture2D {
   /// Returns whether CommonLookup supports this sampler.
   bool is_common(const Sampler& sampler) const {
     const auto common = [](Wrap w) { return w == Wrap::repeat || w == Wrap::clamp; };
-    return format_ <= TexelFormat::srgb8a8 && common(sampler.wrap_s) && common(sampler.wrap_t) && sampler.mag != Filter::nearest &&
-           sampler.min != Filter::nearest;
+    return (format_ <= TexelFormat::srgb8a8 || format_ == TexelFormat::rgba16f) && common(sampler.wrap_s) && common(sampler.wrap_t) &&
+           sampler.mag != Filter::nearest && sampler.min != Filter::nearest;
   }
   // Implementations of sample and sample_level for every format and sampler, in texture_lookup.cpp, for all Number types. They are pure, so
   // that a call does not keep the compiler from dropping unused values of the shader.
@@ -128,7 +129,7 @@ class Texture2D {
   // A lookup for any sampler, for one format (texels.h).
   template <class R, class Texels>
   struct AnyLookup;
-  // A lookup in an 8-bit format, for common samplers. Value selects the channels: vec4, vec3 (no alpha) or R (only alpha).
+  // A lookup in rgba8, srgb8a8 or rgba16f, for common samplers. Value selects the channels: vec4, vec3 (no alpha) or R (only alpha).
   template <class Value, TexelFormat texel_format, class R>
   struct CommonLookup;
   template <class R, class Function>
@@ -176,6 +177,13 @@ std::vector<Image<Texel>> mip_chain(const Image<Texel>& base, TexelFormat format
 
 template <class R>
 HS_INLINE Texture2D::Level<R> Texture2D::level(IntOf<R> index) const {
+  if constexpr (kIsLanes<R>) {  // most packets read the same level in all lanes
+    const auto i = static_cast<std::size_t>(lane(index, 0));
+    if (all(index == IntOf<R>(lane(index, 0)))) {
+      const auto real = [i](const auto& table) { return R(std::bit_cast<float>(table[i])); };
+      return {width_[i], height_[i], offset_[i], pitch_[i], real(columns_), real(rows_)};
+    }
+  }
   return {look_up(width_, index),
           look_up(height_, index),
           look_up(offset_, index),
@@ -195,11 +203,12 @@ template <class R>
 HS_INLINE Texture2D::Axis<R> Texture2D::axis(R coordinate, R n) {
   if constexpr (std::is_same_v<R, double>) {
     const double u = coordinate * n - 0.5;
-    return {truncate_to_int(floor(u)), u - floor(u)};
+    return {truncate_to_int(floor(u)), u - floor(u), 0};
   } else {
-    constexpr int kBits = 15;  // fraction bits; kMaxSize is small enough to leave room for them
+    constexpr int kBits = detail::kFractionBits;
     const IntOf<R> u = round_to_int(fma(coordinate * R(1 << kBits), n, R(-(1 << kBits) / 2)));
-    return {u >> kBits, to_real<R>(u & ((1 << kBits) - 1)) * R(1.0f / (1 << kBits))};
+    const IntOf<R> steps = u & ((1 << kBits) - 1);
+    return {u >> kBits, to_real<R>(steps) * R(1.0f / (1 << kBits)), steps};
   }
 }
 
@@ -211,13 +220,8 @@ struct Texture2D::CommonLookup {
   /// With clamping, positions beyond the center of the outermost texel use only that texel.
   HS_INLINE static Axis<R> clamped(const Axis<R>& a, IntOf<R> size, Wrap wrap) {
     if (wrap == Wrap::repeat) return a;
-    return {max(a.i, IntOf<R>(0)), select(a.i >= 0 && a.i < size - 1, a.fraction, R(0.0f))};
-  }
-
-  /// Returns the texel at index and its right neighbor.
-  HS_INLINE detail::TexelPair<IntOf<R>> pair(IntOf<R> index) const {
-    const auto [left, right] = gather_row<2>(texture.texels_.data(), index);
-    return {left, right};
+    const MaskOf<R> between = a.i >= 0 && a.i < size - 1;
+    return {max(a.i, IntOf<R>(0)), select(between, a.fraction, R(0.0f)), select(between, a.steps, IntOf<R>(0))};
   }
 
   /// Filters one level, in filtering units. st must be in [0, 1].
@@ -225,7 +229,8 @@ struct Texture2D::CommonLookup {
     const Level<R> l = texture.level<R>(level_index);
     const Axis<R> x = clamped(axis(st.x, l.columns), l.width, sampler.wrap_s), y = clamped(axis(st.y, l.rows), l.height, sampler.wrap_t);
     const IntOf<R> row = y.i * l.pitch + (l.offset + x.i);  // adds the product last, because it has the longest latency
-    return detail::mixed_rgba8<Value, texel_format>(pair(row), pair(row + l.pitch), x.fraction, y.fraction);
+    return detail::filtered<Value, texel_format>(
+        detail::TexelSquare<R>{texture.texels_.data(), row, row + l.pitch, x.fraction, y.fraction, x.steps});
   }
 
   /// Filters one or two levels, in filtering units.
@@ -236,7 +241,12 @@ struct Texture2D::CommonLookup {
     return detail::lerp(c, filter(st, min(levels.index + 1, IntOf<R>(texture.levels_ - 1))), levels.fraction);
   }
 
-  HS_INLINE Value finish(const Value& v) const { return detail::rgba8_to_linear<texel_format>(v); }
+  HS_INLINE Value finish(const Value& v) const {
+    if constexpr (texel_format == TexelFormat::rgba16f)
+      return v;
+    else
+      return detail::rgba8_to_linear<texel_format>(v);
+  }
 };
 
 namespace detail {

@@ -141,6 +141,7 @@ template <class R, class Function>
 HS_INLINE vec4<R> Texture2D::with_lookup(const Sampler& sampler, const Function& function) const {
   if (is_common(sampler)) {
     if (format_ == TexelFormat::rgba8) return function(CommonLookup<vec4<R>, TexelFormat::rgba8, R>{*this, sampler});
+    if (format_ == TexelFormat::rgba16f) return function(CommonLookup<vec4<R>, TexelFormat::rgba16f, R>{*this, sampler});
     return function(CommonLookup<vec4<R>, TexelFormat::srgb8a8, R>{*this, sampler});
   }
   return with_texels<R>([&](const auto& texels) {

@@ -91,7 +91,7 @@ std::string draw_charts(const std::vector<std::string>& names, const std::filesy
   if (WIFEXITED(result.status) && WEXITSTATUS(result.status) == kNoMatplotlib)
     return "matplotlib is missing (Debian and Ubuntu: python3-matplotlib)";
   if (WIFSIGNALED(result.status))
-    throw OutputError(std::string("no charts were drawn: python3 died: ") + ::strsignal(WTERMSIG(result.status)));
+    throw OutputError(std::string("no charts were drawn: python3 was ended by a signal: ") + ::strsignal(WTERMSIG(result.status)));
   if (WEXITSTATUS(result.status) != 0) throw OutputError("no charts were drawn: " + result.last_line);
   return "";
 }

@@ -38,8 +38,8 @@ LineRange line_range(const ScreenVertex& a, const ScreenVertex& b, int pixels) {
     return y_major ? diamond_holds(pixel_before(x), i, x, y) : diamond_holds(i, pixel_before(y), x, y);
   };
   const int from = first_center(major(a)), to = first_center(major(b));
-  // Pixels whose centers are between the end points are covered. The first diamond also counts if the line starts in its far half. The last
-  // one does not count if the line ends in it.
+  // Pixels whose centers are between the end points are covered. The first pixel is also covered if the line starts in the far half of its
+  // diamond. The last pixel is not covered if the line ends in its diamond.
   int first = 0, end = 0;
   if (major(a) < major(b)) {
     first = from - (holds(a, from - 1) ? 1 : 0);

@@ -31,8 +31,8 @@ struct PackedPixels {
 /// a packed packet can show many of them and their values can only be merged one by one.
 bool pays_to_pack(const Draw& draw, std::span<const PacketMask> packets);
 
-/// Packs the pixels of the first packets, as many as there is room for. ids: the triangle of each packet. Returns the number of packets, at
-/// least kPacketBatch if there are so many.
+/// Packs the pixels of as many packets as fit, from the start of the list. ids: the triangle of each packet. Returns the number of these
+/// packets, which is at least kPacketBatch if the list has that many.
 std::size_t pack(std::span<const PacketMask> packets, const TriangleId* ids, PackedPixels& out);
 
 /// Returns the keep mask of a packet with the given lanes, from those of packed ones. first: number of the first pixel of the packet. Reads

@@ -11,7 +11,7 @@
 
 namespace halfspace {
 
-/// For draws with one sample per pixel of which the stencil test, coverage and depth determine visibility.
+/// For draws with one sample per pixel whose visibility depends only on coverage, the depth test and the stencil test.
 class StencilWriter {
  public:
   using Statistics = PassStatistics;

@@ -7,7 +7,7 @@ namespace halfspace {
 
 namespace {
 
-// The depths of which the comparison says that nothing passes.
+// The two depths whose comparison shows that no fragment can pass.
 struct ComparedDepths {
   float tested, stored;
 };

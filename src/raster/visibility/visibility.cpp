@@ -121,7 +121,8 @@ void test_and_finish(const Visit& c, int packet, Mask mask, Real z) {
   finish_packet(c, packet, mask, z);
 }
 
-// Calls the visibility function for the pending packets, and finishes them. The function narrows their masks and may replace their depth.
+// Calls the visibility function for the pending packets, and finishes them. The function clears the bits of discarded pixels in the masks
+// of the packets, and may replace their depth.
 template <class Visit>
 void ask_shader(const Visit& c) {
   PendingPackets& pending = c.pending;

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Bilinear filtering of 2x2 texels of the formats with four channels.
+//
+// Where the build has the instructions, rgba8 and rgba16f are filtered texel by texel, with all four channels in one register, and the
+// result is transposed. Otherwise each channel is filtered for all lanes. Both ways give the same bits: the sum along a row of rgba8 is an
+// integer below 2^23, which is exact, and everything else is computed with the same operations.
+#pragma once
+
+#include "halfspace/core/half.h"
+#include "halfspace/core/lane_pairs.h"
+#include "halfspace/core/transpose.h"
+#include "halfspace/shading/packed_texels.h"
+
+namespace halfspace::detail {
+
+inline constexpr int kFractionBits = 15;  ///< of the weights of texels; kMaxSize of Texture2D is small enough to leave room for them
+
+/// Two adjacent texels of a row.
+template <class T>
+struct TexelPair {
+  T left, right;
+};
+
+/// The 2x2 texels that a lookup mixes.
+template <class R>
+struct TexelSquare {
+  const int32_t* words;   ///< of the texture
+  IntOf<R> lower, upper;  ///< index of the left texel of each row; the right one follows it in memory
+  R along, across;        ///< weights of the right and the upper texels
+  IntOf<R> right_weight;  ///< along · 2^kFractionBits; unused if R is double
+};
+
+// ---- texel by texel -----------------------------------------------------------------------------------------------------
+//
+// The 128-bit parts of register k hold the texels of lanes k, k + 4, k + 8 and k + 12, as in transpose.h.
+
+/// Whether this build can filter texel by texel for lanes R.
+template <class R>
+inline constexpr bool kFiltersByTexel = false;
+template <class H>
+inline constexpr bool kFiltersByTexel<RealPair<H>> = kFiltersByTexel<H>;
+
+#ifdef __AVX2__
+template <>
+inline constexpr bool kFiltersByTexel<RealN<8>> = true;
+/// Copies word k of each 128-bit part to all words of the part.
+template <int k>
+HS_INLINE RealN<8> spread_word(RealN<8> r) {
+  return RealN<8>((RealN<8>::V)_mm256_shuffle_ps((__m256)r.v, (__m256)r.v, k * 0x55));
+}
+/// Unpacks the channels of the two texels at the start of each part to 16 bits, multiplies them by the two weights in each word, and adds.
+HS_INLINE RealN<8> weighted_sum(IntN<8> texels, IntN<8> weights) {
+  const __m256i order = _mm256_broadcastsi128_si256(_mm_setr_epi8(0, -1, 4, -1, 1, -1, 5, -1, 2, -1, 6, -1, 3, -1, 7, -1));
+  const __m256i channels = _mm256_shuffle_epi8((__m256i)texels.v, order);
+  return RealN<8>((RealN<8>::V)_mm256_cvtepi32_ps(_mm256_madd_epi16(channels, (__m256i)weights.v)));
+}
+/// Loads the two rgba16f texels at place(k), place(k + 4), …
+template <class Place>
+HS_INLINE TexelPair<RealN<8>> load_half_texels(RealN<8>, const Place& place, int k) {
+  const __m256 a = _mm256_cvtph_ps(load_at<__m128i>(place(k))), b = _mm256_cvtph_ps(load_at<__m128i>(place(k + 4)));
+  const auto real = [](__m256 v) { return RealN<8>((RealN<8>::V)v); };
+  return {real(_mm256_permute2f128_ps(a, b, 0x20)), real(_mm256_permute2f128_ps(a, b, 0x31))};
+}
+#endif
+
+#ifdef __AVX512BW__
+template <>
+inline constexpr bool kFiltersByTexel<RealN<16>> = true;
+template <int k>
+HS_INLINE RealN<16> spread_word(RealN<16> r) {
+  return RealN<16>((RealN<16>::V)_mm512_maskz_shuffle_ps(kAll16, (__m512)r.v, (__m512)r.v, k * 0x55));
+}
+HS_INLINE RealN<16> weighted_sum(IntN<16> texels, IntN<16> weights) {
+  const __m512i order = _mm512_maskz_broadcast_i32x4(kAll16, _mm_setr_epi8(0, -1, 4, -1, 1, -1, 5, -1, 2, -1, 6, -1, 3, -1, 7, -1));
+  const __m512i channels = _mm512_maskz_shuffle_epi8(~__mmask64{}, (__m512i)texels.v, order);
+  return RealN<16>((RealN<16>::V)_mm512_maskz_cvtepi32_ps(kAll16, _mm512_maskz_madd_epi16(kAll16, channels, (__m512i)weights.v)));
+}
+template <class Place>
+HS_INLINE TexelPair<RealN<16>> load_half_texels(RealN<16>, const Place& place, int k) {
+  const auto two = [&](int first) {
+    const __m256i halfs =
+        _mm256_inserti128_si256(_mm256_castsi128_si256(load_at<__m128i>(place(first))), load_at<__m128i>(place(first + 4)), 1);
+    return _mm512_maskz_cvtph_ps(kAll16, halfs);
+  };
+  const __m512 a = two(k), b = two(k + 8);
+  const auto real = [](__m512 v) { return RealN<16>((RealN<16>::V)v); };
+  return {real(_mm512_maskz_shuffle_f32x4(kAll16, a, b, 0x88)), real(_mm512_maskz_shuffle_f32x4(kAll16, a, b, 0xdd))};
+}
+#endif
+
+/// Returns the four channels of the texels k, k + 4, … of a row, filtered along the row. For rgba8 they are multiplied by −2^kFractionBits:
+/// the negated weights fit into 16 bits.
+template <TexelFormat format, int k, int W>
+HS_INLINE RealN<W> filtered_along(const TexelSquare<RealN<W>>& s, const IntN<W>& row) {
+  const ScalarIndices<W> at(row);  // one for each k, so that g++ does not keep all indices in registers
+  if constexpr (format == TexelFormat::rgba8) {
+    const IntN<W> weights = ((s.right_weight - (1 << kFractionBits)) & 0xffff) | (-s.right_weight << 16);
+    const IntN<W> texels = load_quarters(
+        IntN<W>{}, [&](int lane) { return s.words + at[lane]; }, k);
+    return weighted_sum(texels, as_int(spread_word<k>(RealN<W>(as_real(weights)))));
+  } else {
+    const auto texels = load_half_texels(
+        RealN<W>{}, [&](int lane) { return s.words + 2 * at[lane]; }, k);
+    return lerp(texels.left, texels.right, spread_word<k>(s.along));
+  }
+}
+
+/// Filters rgba8 or rgba16f texels. The result of rgba8 is in the units of decode_rgba8.
+template <TexelFormat format, int W>
+HS_INLINE vec4<RealN<W>> filtered_by_texel(const TexelSquare<RealN<W>>& s) {
+  using R = RealN<W>;
+  const IntN<W> lower(s.lower), upper(s.upper);  // g++ writes members of s to memory
+  const auto texels = [&]<int k>(std::integral_constant<int, k>) {
+    return as_int(lerp(filtered_along<format, k>(s, lower), filtered_along<format, k>(s, upper), spread_word<k>(s.across)));
+  };
+  const std::array<IntN<W>, 4> channels =
+      transposed_4x4(std::array<IntN<W>, 4>{texels(std::integral_constant<int, 0>{}), texels(std::integral_constant<int, 1>{}),
+                                            texels(std::integral_constant<int, 2>{}), texels(std::integral_constant<int, 3>{})});
+  const auto channel = [&](std::size_t i) {
+    const R value(as_real(channels[i]));
+    if constexpr (format == TexelFormat::rgba16f)
+      return value;
+    else
+      return fma(value, R(-1.0f / (1 << kFractionBits)), R(0.0f));  // adds 0, because a product of 0 would be −0
+  };
+  return {channel(0), channel(1), channel(2), channel(3)};
+}
+
+template <TexelFormat format, class H>
+HS_INLINE vec4<RealPair<H>> filtered_by_texel(const TexelSquare<RealPair<H>>& s) {
+  const auto a =
+      filtered_by_texel<format>(TexelSquare<H>{s.words, s.lower.low, s.upper.low, s.along.low, s.across.low, s.right_weight.low});
+  const auto b =
+      filtered_by_texel<format>(TexelSquare<H>{s.words, s.lower.high, s.upper.high, s.along.high, s.across.high, s.right_weight.high});
+  return {{a.x, b.x}, {a.y, b.y}, {a.z, b.z}, {a.w, b.w}};
+}
+
+// ---- channel by channel -------------------------------------------------------------------------------------------------
+
+/// Channel k of a packed 8-bit texel plus an offset. Masking the channel and combining it with the exponent bits of the offset gives a
+/// float without a conversion instruction.
+template <class R>
+struct OffsetCode {
+  R value, offset;
+};
+template <class R>
+HS_INLINE OffsetCode<R> offset_code(IntOf<R> texel, int k) {
+  if (k == 0) return {as_real((texel & 0xff) | 0x4b000000), R(0x1p23f)};
+  return {as_real(((texel >> (8 * (k - 1))) & 0xff00) | 0x47000000), R(0x1p15f)};
+}
+
+/// Filters channel k of rgba8 texels, or alpha of srgb8a8, in codes.
+template <class R>
+HS_INLINE R filtered_codes(const TexelPair<IntOf<R>>& lower, const TexelPair<IntOf<R>>& upper, R along, R across, int k) {
+  const auto row = [&](const TexelPair<IntOf<R>>& of) {
+    const OffsetCode<R> left = offset_code<R>(of.left, k), right = offset_code<R>(of.right, k);
+    return fma(along, right.value - left.value, left.value - left.offset);  // both differences are exact
+  };
+  return lerp(row(lower), row(upper), across);
+}
+
+/// Filters the channels of 8-bit texels that Value has, in the units of decode_rgba8.
+template <class Value, TexelFormat format, class R>
+HS_INLINE Value filtered_by_channel(const TexelSquare<R>& s) {
+  const auto pair = [&](IntOf<R> left) {
+    const auto words = gather_row<2>(s.words, left);
+    return TexelPair<IntOf<R>>{words[0], words[1]};
+  };
+  const TexelPair<IntOf<R>> lower = pair(s.lower), upper = pair(s.upper);
+  if constexpr (std::is_same_v<R, double> || (format == TexelFormat::srgb8a8 && !std::is_same_v<Value, R>)) {
+    const auto row = [&](const TexelPair<IntOf<R>>& of) {
+      return lerp(decode_rgba8<Value, format, R>(of.left), decode_rgba8<Value, format, R>(of.right), s.along);
+    };
+    return lerp(row(lower), row(upper), s.across);
+  } else if constexpr (std::is_same_v<Value, R>) {
+    return filtered_codes<R>(lower, upper, s.along, s.across, 3);
+  } else {
+    Value mean;
+    for (int k = 0; k < (std::is_same_v<Value, vec3<R>> ? 3 : 4); ++k) mean[k] = filtered_codes<R>(lower, upper, s.along, s.across, k);
+    return mean;
+  }
+}
+
+/// Filters rgba16f texels.
+template <class R>
+HS_INLINE vec4<R> filtered_halfs(const TexelSquare<R>& s) {
+  const auto row = [&](IntOf<R> left) {
+    const auto words = gather_row<4>(s.words, IntOf<R>(left << 1));
+    return lerp(decode_rgba16f<R>(words[0], words[1]), decode_rgba16f<R>(words[2], words[3]), s.along);
+  };
+  return lerp(row(s.lower), row(s.upper), s.across);
+}
+
+// ---- all lanes and formats ----------------------------------------------------------------------------------------------
+
+/// Filters 2x2 texels and returns linear values (rgba16f) or the units of decode_rgba8. Value selects the channels: vec4, and for 8-bit
+/// formats also vec3 (no alpha) or R (only alpha).
+template <class Value, TexelFormat format, class R>
+HS_INLINE Value filtered(const TexelSquare<R>& s) {
+  if constexpr (kFiltersByTexel<R> && format != TexelFormat::srgb8a8 && !std::is_same_v<Value, R>)
+    return Value(filtered_by_texel<format>(s));
+  else if constexpr (format == TexelFormat::rgba16f)
+    return filtered_halfs(s);
+  else
+    return filtered_by_channel<Value, format>(s);
+}
+
+}  // namespace halfspace::detail
