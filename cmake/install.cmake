@@ -96,8 +96,8 @@ if(BUILD_SHARED_LIBS)
 endif()
 
 # Shared libraries export the functions of headers that are installed or used by another module or a program. They do not export the
-# functions of other headers and of the private folders of raster. Static libraries are not changed, because a unity build does not combine
-# sources that have their own options.
+# functions of other headers, of the private folders of raster, and of the model writers, which share a header. Static libraries are not
+# changed, because a unity build does not combine sources that have their own options.
 function(halfspace_hide_private_functions sources)
   if(NOT BUILD_SHARED_LIBS)
     return()
@@ -107,7 +107,7 @@ function(halfspace_hide_private_functions sources)
     string(REGEX REPLACE "[.]cpp$" ".h" header ${header})
     # `halfspace explain` uses raster/inspection.h, which is not installed.
     if(source MATCHES "[.]cpp$" AND NOT header IN_LIST halfspace_exported_headers AND NOT header STREQUAL "raster/inspection.h"
-        AND (EXISTS ${halfspace_SOURCE_DIR}/src/${header} OR header MATCHES "^raster/.*/"))
+        AND (EXISTS ${halfspace_SOURCE_DIR}/src/${header} OR header MATCHES "^(raster/.*/|model/write_)"))
       set_property(SOURCE ${source} APPEND PROPERTY COMPILE_OPTIONS -fvisibility=hidden)
     endif()
   endforeach()
