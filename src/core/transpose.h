@@ -148,8 +148,7 @@ HS_INLINE std::array<I, 3> load_aos3(const int32_t* p) {
 /// The number of words that gather_row may read past the last requested one: for N = 2 it reads four words.
 inline constexpr std::size_t kRowSlack = 2;
 
-/// The indices in the lanes of i, as scalars. They must not be negative. Two at a time leave the register, which takes half of the
-/// operations that g++ would use.
+/// The indices in the lanes of i, as scalars. They must not be negative. Two of them leave the register with one operation.
 template <int W>
 class ScalarIndices {
  public:

@@ -22,8 +22,17 @@ enum class TexelFormat : uint8_t {
 
 namespace detail {
 
-/// Unpacks channels of an 8-bit texel for filtering: all (Value = vec4), red, green and blue (vec3), or alpha (R). sRGB colors become
-/// linear values; other channels remain codes, 0 to 255.
+/// Returns the channels that Value has: all (vec4), red, green and blue (vec3), or alpha (R).
+template <class Value, class R>
+HS_INLINE Value channels_of(const vec4<R>& rgba) {
+  if constexpr (std::is_same_v<Value, R>)
+    return rgba.w;
+  else
+    return Value(rgba);
+}
+
+/// Unpacks channels of an 8-bit texel for filtering. Value selects them as in channels_of. sRGB colors become linear values; other
+/// channels remain codes, 0 to 255.
 template <class Value, TexelFormat format, class R>
 HS_INLINE Value decode_rgba8(IntOf<R> texel) {
   const auto color = [&] {

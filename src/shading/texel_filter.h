@@ -41,7 +41,7 @@ inline constexpr bool kFiltersByTexel = false;
 template <class H>
 inline constexpr bool kFiltersByTexel<RealPair<H>> = kFiltersByTexel<H>;
 
-#ifdef __AVX2__
+#if defined(__AVX2__) && defined(__F16C__)
 template <>
 inline constexpr bool kFiltersByTexel<RealN<8>> = true;
 /// Copies word k of each 128-bit part to all words of the part.
@@ -110,7 +110,7 @@ HS_INLINE RealN<W> filtered_along(const TexelSquare<RealN<W>>& s, const IntN<W>&
 template <TexelFormat format, int W>
 HS_INLINE vec4<RealN<W>> filtered_by_texel(const TexelSquare<RealN<W>>& s) {
   using R = RealN<W>;
-  const IntN<W> lower(s.lower), upper(s.upper);  // g++ writes members of s to memory
+  const IntN<W> lower(s.lower), upper(s.upper);  // copies, because g++ would write members of s to memory
   const auto texels = [&]<int k>(std::integral_constant<int, k>) {
     return as_int(lerp(filtered_along<format, k>(s, lower), filtered_along<format, k>(s, upper), spread_word<k>(s.across)));
   };
@@ -122,7 +122,7 @@ HS_INLINE vec4<RealN<W>> filtered_by_texel(const TexelSquare<RealN<W>>& s) {
     if constexpr (format == TexelFormat::rgba16f)
       return value;
     else
-      return fma(value, R(-1.0f / (1 << kFractionBits)), R(0.0f));  // adds 0, because a product of 0 would be −0
+      return fma(value, R(-1.0f / (1 << kFractionBits)), R(0.0f));  // adds 0, because the product is −0 for a sum of 0
   };
   return {channel(0), channel(1), channel(2), channel(3)};
 }
@@ -150,7 +150,7 @@ HS_INLINE OffsetCode<R> offset_code(IntOf<R> texel, int k) {
   return {as_real(((texel >> (8 * (k - 1))) & 0xff00) | 0x47000000), R(0x1p15f)};
 }
 
-/// Filters channel k of rgba8 texels, or alpha of srgb8a8, in codes.
+/// Filters channel k of rgba8 texels, in codes.
 template <class R>
 HS_INLINE R filtered_codes(const TexelPair<IntOf<R>>& lower, const TexelPair<IntOf<R>>& upper, R along, R across, int k) {
   const auto row = [&](const TexelPair<IntOf<R>>& of) {
@@ -168,7 +168,7 @@ HS_INLINE Value filtered_by_channel(const TexelSquare<R>& s) {
     return TexelPair<IntOf<R>>{words[0], words[1]};
   };
   const TexelPair<IntOf<R>> lower = pair(s.lower), upper = pair(s.upper);
-  if constexpr (std::is_same_v<R, double> || (format == TexelFormat::srgb8a8 && !std::is_same_v<Value, R>)) {
+  if constexpr (std::is_same_v<R, double> || format == TexelFormat::srgb8a8) {
     const auto row = [&](const TexelPair<IntOf<R>>& of) {
       return lerp(decode_rgba8<Value, format, R>(of.left), decode_rgba8<Value, format, R>(of.right), s.along);
     };
@@ -198,8 +198,8 @@ HS_INLINE vec4<R> filtered_halfs(const TexelSquare<R>& s) {
 /// formats also vec3 (no alpha) or R (only alpha).
 template <class Value, TexelFormat format, class R>
 HS_INLINE Value filtered(const TexelSquare<R>& s) {
-  if constexpr (kFiltersByTexel<R> && format != TexelFormat::srgb8a8 && !std::is_same_v<Value, R>)
-    return Value(filtered_by_texel<format>(s));
+  if constexpr (kFiltersByTexel<R> && format != TexelFormat::srgb8a8)
+    return channels_of<Value>(filtered_by_texel<format>(s));
   else if constexpr (format == TexelFormat::rgba16f)
     return filtered_halfs(s);
   else

@@ -70,11 +70,11 @@ class Texture2D {
   template <Number R>
   vec4<R> sample(const Sampler& sampler, const vec2<R>& uv, const vec2<R>& duv_dx, const vec2<R>& duv_dy) const;
 
-  /// Returns only red, green and blue. Alpha, which most shaders do not need, is a quarter of the filtering cost.
+  /// Returns only red, green and blue. Most shaders do not need alpha.
   template <Number R>
   vec3<R> sample_rgb(const Sampler& sampler, const vec2<R>& uv, const vec2<R>& duv_dx, const vec2<R>& duv_dy) const;
 
-  /// Returns only alpha: what an alpha test needs, at about half the cost of sample.
+  /// Returns only alpha, which is all that an alpha test needs.
   template <Number R>
   R sample_alpha(const Sampler& sampler, const vec2<R>& uv, const vec2<R>& duv_dx, const vec2<R>& duv_dy) const;
 
@@ -304,11 +304,7 @@ vec4<R> Texture2D::sample_level(const Sampler& sampler, const vec2<R>& uv, std::
 template <class Value, class R>
 HS_INLINE Value Texture2D::sample_channels(const Sampler& sampler, const vec2<R>& uv, const vec2<R>& duv_dx, const vec2<R>& duv_dy) const {
   if (format_ != TexelFormat::rgba8 || !is_common(sampler) || sampler.anisotropy > 1) {
-    const vec4<R> rgba = sample_any<R>(sampler, uv, duv_dx, duv_dy);
-    if constexpr (std::is_same_v<Value, R>)
-      return rgba.w;
-    else
-      return Value(rgba);
+    return detail::channels_of<Value>(sample_any<R>(sampler, uv, duv_dx, duv_dy));
   }
   const CommonLookup<Value, TexelFormat::rgba8, R> lookup{*this, sampler};
   return lookup.finish(lookup(uv, levels_of(sampler, duv_dx, duv_dy)));

@@ -63,8 +63,8 @@ TEST(ShadowViews, DirectionalViewContainsReceiversAndCasterDepths) {
   }
 }
 
-// The view is square and therefore wider than a long strip of receivers. It also contains points beside the strip, which casters above
-// them can shade.
+// The view is square and therefore wider than a long strip of receivers. It also contains points beside the strip, on which casters
+// above them can cast shadows.
 TEST(ShadowViews, DirectionalViewContainsCastersOverItsWholeSquare) {
   const glm::dmat3 axes = light_axes({0, 0, 1});
   const Box strip = box_of({{-5, -0.1, -1}, {5, 0.1, 0}}), beside = box_of({{-1, 3, 6}, {1, 4, 7}}),
