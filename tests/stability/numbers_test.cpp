@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Inputs that plain formulas cannot handle: zero-length vectors, invalid and extreme light values, huge exponents. Also checks that results
-// are bit-identical at every SIMD width.
+// Inputs that common formulas cannot handle: zero-length vectors, invalid and extreme light values, huge exponents. Also checks that
+// results are bit-identical at every SIMD width.
 #include <immintrin.h>
 
 #include <cmath>
@@ -13,8 +13,8 @@
 #include "halfspace/shading/lighting.h"
 #include "halfspace/shading/surface_detail.h"
 #include "halfspace/shading/tone.h"
-#include "stability/judge.h"
 #include "stability/lane_hash.h"
+#include "stability/regime.h"
 #include "support/constants.h"
 #include "support/program.h"
 
@@ -31,7 +31,7 @@ TEST(Stability, NormalMapsWithoutValidFramesGiveFiniteNormals) {
   const Texture2D map(codes, TexelFormat::rgba8);
   const DetailMap detail{.map = &map, .sampler = {.mag = Filter::nearest, .min = Filter::nearest}};
   const glm::vec3 vectors[] = {{0, 0, 0}, {0, 1, 0}, {0, -1, 0}, {1, 0, 0}, {1e-30f, 0, 0}, {0, 1e-25f, 0}};
-  int plain = 0, ours = 0;
+  int common = 0, ours = 0;
   for (const glm::vec3& n : vectors) {
     for (const glm::vec3& tangent : vectors) {
       for (int texel = 0; texel < 3; ++texel) {
@@ -43,20 +43,20 @@ TEST(Stability, NormalMapsWithoutValidFramesGiveFiniteNormals) {
         const glm::vec3 t = glm::normalize(tangent - n * glm::dot(n, tangent)), b = glm::cross(glm::normalize(n), t);
         const glm::vec3 code = glm::vec3(codes.at(texel, 0)) / 255.0f * 2.0f - 1.0f,
                         p = glm::normalize(t * code.x + b * code.y + n * code.z);
-        plain += !(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z));
+        common += !(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z));
       }
     }
   }
-  judge({13, "normal maps at poles, seams, without tangents",
-         "zero-length, parallel and tiny normals and tangents; an orthonormalized frame against the unmodified frame",
-         "non-finite normals, of 108"},
-        plain, 50, ours, 0);
+  record_and_check({13, "normal maps at poles and seams, and without tangents",
+                    "zero-length, parallel and tiny normals and tangents; an orthonormalized frame vs. the unmodified frame",
+                    "non-finite normals, of 108"},
+                   common, 50, ours, 0);
 }
 
 // ---- tone ---------------------------------------------------------------------------------------------------------------
 
 TEST(Stability, ToneMappingHandlesNonFiniteAndNegativeLight) {
-  int plain = 0, ours = 0;
+  int common = 0, ours = 0;
   for (const float x : {kNaN, kInf, -kInf, -1.0f, -0.0f, 0.0f, 1e-40f, 0.5f, 1e20f, 3.4e38f}) {
     for (const float exposure : {0.0f, 1.0f, 1e9f}) {
       for (const ToneCurve curve :
@@ -70,14 +70,14 @@ TEST(Stability, ToneMappingHandlesNonFiniteAndNegativeLight) {
           if (x == kInf) ours += rgb.x != (exposure > 0.0f ? 1.0f : 0.0f);
         }
         const float c = tone_curve(curve, x * exposure, 4.0f);
-        plain += !(c >= 0.0f && c <= 1.0f);
+        common += !(c >= 0.0f && c <= 1.0f);
       }
     }
   }
-  judge({20, "tone mapping of NaN, infinite and negative light",
-         "NaN, ±infinity, −1, 3e38 at exposures 0 to 1e9, five curves; the bare curve against tone_map",
-         "results outside [0, 1]; ours: also NaN not mapped to 0 and infinity not mapped to 1"},
-        plain, 50, ours, 0);
+  record_and_check({20, "tone mapping of NaN, infinite and negative light",
+                    "NaN, ±infinity, −1 and 3e38 at exposures from 0 to 1e9, five curves; the curve alone vs. tone_map()",
+                    "results outside [0, 1]; ours: also NaN not mapped to 0 and infinity not mapped to 1"},
+                   common, 50, ours, 0);
 }
 
 TEST(Stability, SrgbIsEncodedOnlyOnce) {
@@ -92,15 +92,15 @@ TEST(Stability, SrgbIsEncodedOnlyOnce) {
   }
   EXPECT_GE(power, 8.0) << "pow(1/2.2) is not the sRGB curve";
   // Rounding costs half a code; 1e-4 allows for x being a float.
-  judge({21, "double gamma", "light from 0 to 1; encoded twice against once, using types that prevent a second encoding",
-         "largest error in 8-bit codes"},
-        twice, 70.0, ours, 0.5001);
+  record_and_check({21, "double gamma", "light from 0 to 1; encoded twice vs. once, using types that prevent a second encoding",
+                    "largest error in 8-bit codes"},
+                   twice, 70.0, ours, 0.5001);
 }
 
 // ---- highlights ---------------------------------------------------------------------------------------------------------
 
 TEST(Stability, HighlightsAreBoundedForDegenerateInputs) {
-  int plain = 0, ours = 0;
+  int common = 0, ours = 0;
   double worst = 0.0;
   const Light light{};
   for (const float shininess : {0.0f, 1e-30f, 1.0f, 200.0f, 1e5f}) {
@@ -115,7 +115,7 @@ TEST(Stability, HighlightsAreBoundedForDegenerateInputs) {
         // The usual shader: normalized half vector and normal, and the power computed with exp2 and log2.
         const glm::vec3 h = glm::normalize(glm::vec3(0, 0, 1) + v);
         const float c = std::max(glm::dot(glm::normalize(n), h), 0.0f), s = std::exp2(shininess * std::log2(c));
-        plain += !(s >= 0.0f && s <= 1.0f);
+        common += !(s >= 0.0f && s <= 1.0f);
       }
     }
     for (int i = 1; i <= 1000; ++i) {
@@ -125,10 +125,11 @@ TEST(Stability, HighlightsAreBoundedForDegenerateInputs) {
     }
   }
   EXPECT_LE(worst, 1.2 * 0x1p-23) << "1.2 ulp, at exponents up to 1e5";
-  judge({23, "specular pow(0, 0), huge exponents, NaN normals",
-         "exponents from 0 to 1e5, zero-length and NaN normals and directions; normalized vectors and exp2(n log2 c) against illuminate",
-         "highlights outside [0, 1]; ours: also highlights from lights behind the surface"},
-        plain, 30, ours, 0);
+  record_and_check(
+      {23, "specular pow(0, 0), huge exponents, NaN normals",
+       "exponents from 0 to 1e5, zero-length and NaN normals and directions; normalized vectors and exp2(n log2 c) vs. illuminate()",
+       "highlights outside [0, 1]; ours: also highlights from lights behind the surface"},
+      common, 30, ours, 0);
 }
 
 // ---- bit-identical results ---------------------------------------------------------------------------------------------
@@ -141,15 +142,15 @@ TEST(Stability, IsBitIdenticalAtEverySimdWidth) {
   ours += lane_hash<RealN<8>>(in) != one;
   ours += lane_hash<RealN<16>>(in) != one;
   // Processors differ in their estimate of 1/x, even after a Newton step.
-  int plain = 0;
+  int common = 0;
   for (const float x : in) {
     const float r = _mm_cvtss_f32(_mm_rcp_ss(_mm_set_ss(x))), refined = r * (2.0f - x * r);
-    plain += std::isnormal(1.0f / x) && refined != 1.0f / x;
+    common += std::isnormal(1.0f / x) && refined != 1.0f / x;
   }
-  judge({26, "results that depend on threads, SIMD width or processor",
-         "elementary functions, interpolation and encoding at 1, 4, 8 and 16 lanes; rcp with one Newton step against division",
-         "plain: values that are not correctly rounded 1/x, of 4,096; ours: widths that differ"},
-        plain, 500, ours, 0);
+  record_and_check({26, "results that depend on threads, SIMD width or processor",
+                    "elementary functions, interpolation and encoding with 1, 4, 8 and 16 lanes; rcp with one Newton step vs. division",
+                    "common: results of 4,096 that are not 1/x correctly rounded; ours: SIMD widths that differ"},
+                   common, 500, ours, 0);
 }
 
 #ifdef HALFSPACE_ISA_PROGRAMS
@@ -170,12 +171,12 @@ TEST(Stability, IsBitIdenticalForEveryInstructionSet) {
   }
   if (ran == 0) GTEST_SKIP() << "this processor has neither AVX2 nor AVX-512";
   // The C library selects implementations by processor. Its results differ from ours in the last bits, and between versions.
-  int plain = 0;
-  for (const float x : in) plain += std::exp2(x) != halfspace::exp2(x);
-  judge({26, "results that depend on threads, SIMD width or processor",
-         "the same in programs for x86-64-v3 and x86-64-v4; exp2 of the C library against ours",
-         "plain: values that differ, of 4,096; ours: programs that differ"},
-        plain, 1, ours, 0);
+  int common = 0;
+  for (const float x : in) common += std::exp2(x) != halfspace::exp2(x);
+  record_and_check({26, "results that depend on threads, SIMD width or processor",
+                    "the same functions in programs for x86-64-v3 and x86-64-v4; exp2 of the C library vs. ours",
+                    "common: values of 4,096 that differ; ours: programs that differ"},
+                   common, 1, ours, 0);
 }
 #endif
 

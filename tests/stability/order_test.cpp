@@ -5,7 +5,7 @@
 
 #include "halfspace/core/half.h"
 #include "raster/raster_test.h"
-#include "stability/judge.h"
+#include "stability/regime.h"
 
 namespace halfspace::stability {
 namespace {
@@ -13,10 +13,10 @@ namespace {
 using namespace raster_test;
 
 TEST(Stability, HalfFloatTargetsDoNotStoreInfinity) {
-  int plain = 0, ours = 0;
+  int common = 0, ours = 0;
   for (const float light : {65504.0f, 65519.0f, 65520.0f, 1e5f, 1e9f, 3e38f, std::numeric_limits<float>::infinity()}) {
     const uint16_t half = float_to_half(light);
-    plain += (half & 0x7fffu) >= 0x7c00u;
+    common += (half & 0x7fffu) >= 0x7c00u;
     Image<U16Vec4> picture(8, 8);
     Pass pass(8, 8, rgba16f_target(picture), {});
     const std::vector<glm::vec4> corners = full_screen();
@@ -24,9 +24,9 @@ TEST(Stability, HalfFloatTargetsDoNotStoreInfinity) {
     pass.run(one_worker());
     for (const U16Vec4& p : picture.texels()) ours += (p.x & 0x7fffu) >= 0x7c00u;
   }
-  judge({22, "fp16 overflow", "light from 65504 to infinity; IEEE conversion against the conversion of the render target",
-         "infinities stored"},
-        plain, 4, ours, 0);
+  record_and_check(
+      {22, "fp16 overflow", "light from 65504 to infinity; IEEE conversion vs. the conversion of the render target", "infinities stored"},
+      common, 4, ours, 0);
 }
 
 Image<glm::vec4> blended(const std::vector<PointTriangle>& triangles, const std::vector<glm::vec4>& colors, int threads) {
@@ -55,8 +55,8 @@ TEST(Stability, BlendingFollowsSubmissionOrder) {
     colors.emplace_back(r.real(0.0f, 1.0f), r.real(0.0f, 1.0f), r.real(0.0f, 1.0f), r.real(0.2f, 0.9f));
   }
   const Image<glm::vec4> one = blended(triangles, colors, 1);
-  // The plain method distributes triangles to n threads that draw concurrently; here the threads run one after the other.
-  int plain = 0;
+  // The common method distributes triangles to n threads that draw concurrently; here the threads run one after the other.
+  int common = 0;
   for (std::size_t n = 2; n <= 8; ++n) {
     std::vector<PointTriangle> dealt;
     std::vector<glm::vec4> dealt_colors;
@@ -66,14 +66,14 @@ TEST(Stability, BlendingFollowsSubmissionOrder) {
         dealt_colors.push_back(colors[i]);
       }
     }
-    plain += !(blended(dealt, dealt_colors, 1) == one);
+    common += !(blended(dealt, dealt_colors, 1) == one);
   }
   int ours = 0;
   for (int run = 0; run < 100; ++run) ours += !(blended(triangles, colors, 1 + run % 8) == one);
-  judge({25, "order-dependent blending",
-         "300 blended triangles; distributed to 2 to 8 threads, against 100 runs of a pass with 1 to 8 threads",
-         "images that differ from the single-threaded one"},
-        plain, 7, ours, 0);
+  record_and_check(
+      {25, "order-dependent blending", "300 blended triangles; distributed over 2 to 8 threads vs. 100 runs of a pass with 1 to 8 threads",
+       "images that differ from the single-threaded one"},
+      common, 7, ours, 0);
 }
 
 }  // namespace

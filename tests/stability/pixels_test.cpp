@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Pixel values where plain shaders fail: faces, bumps, seams, derivatives at edges.
+// Pixel values where common shaders fail: faces, bumps, seams, derivatives at edges.
 #include <cmath>
 
 #include "halfspace/geometry/camera.h"
@@ -8,7 +8,7 @@
 #include "halfspace/geometry/shapes.h"
 #include "halfspace/raster/pass.h"
 #include "halfspace/shading/surface_detail.h"
-#include "stability/judge.h"
+#include "stability/regime.h"
 #include "support/constants.h"
 
 namespace halfspace::stability {
@@ -93,10 +93,11 @@ TEST(Stability, FlatShadingDoesNotDependOnVertexOrder) {
     return most;
   };
   // The face normal is a cross product of differences of the same vertices, whose rounding depends on their order.
-  judge({12, "flat shading of non-planar quads",
-         "a saddle whose triangles start at another vertex; light of the provoking vertex against light of the face",
-         "largest change in light"},
-        change(false), 0.05, change(true), 1e-5);
+  record_and_check(
+      {12, "flat shading of non-planar quads",
+       "a saddle, drawn again with the vertices of each triangle rotated; lighting at the provoking vertex vs. with the face normal",
+       "largest change in brightness"},
+      change(false), 0.05, change(true), 1e-5);
 }
 
 // ---- bumps --------------------------------------------------------------------------------------------------------------
@@ -160,10 +161,10 @@ TEST(Stability, BumpMapsMatchTheAnalyticSlope) {
   };
   // A wave of 21 texels. The slope of the parabola is scaled by sin(x)/x with x = 2 pi/21, and linear filtering scales it by the same
   // factor, a loss of 3%.
-  judge({14, "bumps from derivatives of the height",
-         "waves of 21 texels and 9 px; differences in the 2x2 quad against the slope of filtered heights",
-         "RMS error of the slope, relative"},
-        error(true), 0.15, error(false), 0.05);
+  record_and_check(
+      {14, "bump mapping from differences of heights",
+       "waves of 21 texels and 9 px; differences in the 2x2 quad vs. slopes of filtered heights", "relative RMS error of the slope"},
+      error(true), 0.15, error(false), 0.05);
 }
 
 // ---- seams --------------------------------------------------------------------------------------------------------------
@@ -221,10 +222,11 @@ TEST(Stability, LevelOfDetailIsUnaffectedByTheSeam) {
   };
   const double ours = std::max(most(false, 1.0), most(false, -1.0));
   // At the center a pixel is about 1.1 texels. At 0.8 the surface is inclined by 37 degrees, and the level is log2(1.1 / 0.8) = 0.5.
-  judge({15, "seam where u wraps",
-         "seam of a globe in the middle of the image; atan2 with differences in the quad against derivatives of mesh coordinates",
-         "largest level of detail where a pixel is a texel"},
-        most(true, -1.0), 6.0, ours, 0.7);
+  record_and_check(
+      {15, "seam where u wraps around",
+       "the seam of a globe in the middle of the image; atan2, differentiated in the quad, vs. derivatives of the mesh's coordinates",
+       "largest level of detail where a pixel covers one texel"},
+      most(true, -1.0), 6.0, ours, 0.7);
 }
 
 // ---- derivatives at edges -----------------------------------------------------------------------------------------------
@@ -282,10 +284,10 @@ TEST(Stability, DerivativesAreExactAtSilhouettes) {
   };
   // Vertices are snapped to 1/256 px and edges are about 100 px long, so the slope changes by a factor of 1e-4 and the level by 2e-4, or
   // more near the far vertex.
-  judge({17, "level of detail at silhouettes",
-         "a triangle in perspective; differences of values clamped to the triangle against the derivative of its plane",
-         "largest error of the level of detail at its edges"},
-        error(true), 1.0, error(false), 2e-3);
+  record_and_check({17, "level of detail at silhouettes",
+                    "a triangle in perspective; differences of values clamped to the triangle vs. the derivative of its plane",
+                    "largest error of the level of detail at its edges"},
+                   error(true), 1.0, error(false), 2e-3);
 }
 
 }  // namespace

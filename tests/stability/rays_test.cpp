@@ -7,7 +7,7 @@
 #include "halfspace/geometry/shapes.h"
 #include "halfspace/reference/pixel_truth.h"
 #include "raster/raster_test.h"
-#include "stability/judge.h"
+#include "stability/regime.h"
 
 namespace halfspace::stability {
 namespace {
@@ -49,7 +49,7 @@ TEST(Stability, RaysDoNotSlipThroughSharedEdges) {
     for (std::size_t k = 0; k < 3; ++k) t[k] = glm::vec3(glm::dvec3(world.ball.positions[list[i + k]]) - eye);
     triangles.push_back(t);
   }
-  int plain = 0, at_edges = 0, at_vertices = 0, aimed = 0;
+  int common = 0, at_edges = 0, at_vertices = 0, aimed = 0;
   for (int n = 0; n < raster_test::effort(4000); ++n) {
     const auto& t = triangles[random.bits() % triangles.size()];
     const glm::vec3 face = glm::cross(t[1] - t[0], t[2] - t[0]);
@@ -57,7 +57,7 @@ TEST(Stability, RaysDoNotSlipThroughSharedEdges) {
     const bool at_vertex = n % 4 == 0;
     const glm::vec3 direction = t[0] + (t[1] - t[0]) * (at_vertex ? 0.0f : random.real(0.01f, 0.99f));
     ++aimed;
-    plain += !at_vertex && std::ranges::none_of(triangles, [&](const auto& other) { return meets(direction, other); });
+    common += !at_vertex && std::ranges::none_of(triangles, [&](const auto& other) { return meets(direction, other); });
     const auto hit = rays.nearest(glm::vec3(0.0f), direction, 0.0f, 1e9f);
     const bool slipped = !hit || hit->distance > kBack;
     (at_vertex ? at_vertices : at_edges) += slipped;
@@ -65,11 +65,11 @@ TEST(Stability, RaysDoNotSlipThroughSharedEdges) {
   ASSERT_GT(aimed, raster_test::effort(4000) / 10);
   // Embree's robust mode is watertight along edges. Rays that pass exactly through a vertex may slip through, but rarely occur in images.
   EXPECT_LE(at_vertices, aimed / 20);
-  judge({28, "robustness of the reference",
-         "rays towards edges of a closed mesh from a distance of 12,000 radii; plane and edge tests in floats against the rays of the "
-         "reference",
-         "rays that slip through"},
-        plain, 1, at_edges, 0);
+  record_and_check(
+      {28, "robustness of the reference",
+       "rays towards edges of a closed mesh from a distance of 12,000 radii; plane and edge tests in float vs. the rays of the reference",
+       "rays that slip through"},
+      common, 1, at_edges, 0);
 }
 
 TEST(Stability, ReferencePointsDoNotShadowThemselves) {
@@ -80,7 +80,7 @@ TEST(Stability, ReferencePointsDoNotShadowThemselves) {
   RayLight light{{}, 0.0, 1};
   light.light.place_rws = glm::normalize(glm::vec3(0.3f, 1.0f, 0.2f));
   Random random(6);
-  int plain = 0, ours = 0, points = 0;
+  int common = 0, ours = 0, points = 0;
   const auto& list = world.ball.indices;
   for (int n = 0; n < raster_test::effort(20000); ++n) {
     const std::size_t i = random.bits() % (list.size() / 3) * 3;
@@ -91,15 +91,15 @@ TEST(Stability, ReferencePointsDoNotShadowThemselves) {
     if (glm::dot(face, glm::dvec3(light.light.place_rws)) < 0.2) continue;
     ++points;
     const glm::dvec3 p = at(0) + (at(1) - at(0)) * u + (at(2) - at(0)) * v - eye;
-    plain += casters.occluded(glm::vec3(p), light.light.place_rws, 0.0f, 1e9f);
+    common += casters.occluded(glm::vec3(p), light.light.place_rws, 0.0f, 1e9f);
     ours += light_truth(casters, light, p, face, 0).share < 0.5f;
   }
   ASSERT_GT(points, raster_test::effort(20000) / 10);
-  judge({28, "robustness of the reference",
-         "points of a lit sphere at a distance of 370 radii from the eye; rays from the point itself against rays offset by 2^-20 of its "
-         "coordinates",
-         "points that shadow themselves"},
-        plain, 50, ours, 0);
+  record_and_check(
+      {28, "robustness of the reference",
+       "points of a lit sphere, 370 radii from the eye; rays from the point itself vs. rays offset by 2^-20 of its coordinates",
+       "points that shadow themselves"},
+      common, 50, ours, 0);
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Complete scenes and studies where plain methods fail.
+// Complete scenes and studies where common methods fail.
 #include <cmath>
 #include <numbers>
 #include <set>
@@ -8,7 +8,7 @@
 #include "halfspace/render/prepared_scene.h"
 #include "halfspace/scene/scene_file.h"
 #include "halfspace/study/study.h"
-#include "stability/judge.h"
+#include "stability/regime.h"
 
 namespace halfspace::stability {
 namespace {
@@ -34,7 +34,7 @@ const Variant& variant(const Study& study, const std::string& name) {
 // Largest distance in px between the vertices of a sphere transformed by float matrices and in double. The sphere is `away` from the origin
 // and the camera 4 units from the sphere.
 struct Distances {
-  double plain, ours;
+  double common, ours;
 };
 Distances far_from_the_origin(double away) {
   char text[1000];
@@ -63,7 +63,7 @@ Distances far_from_the_origin(double away) {
     const auto window = [&](const glm::dvec4& clip) { return glm::dvec2(clip) / clip.w * (0.5 * size); };
     const glm::dvec2 exact = window(scene.view.clip_from_world * placed.world_from_object * glm::dvec4(glm::dvec3(p), 1.0));
     const glm::vec4 world = world_from_object * glm::vec4(p, 1.0f);
-    out.plain = std::max(out.plain, glm::length(window(glm::dvec4(clip_from_world * world)) - exact));
+    out.common = std::max(out.common, glm::length(window(glm::dvec4(clip_from_world * world)) - exact));
     out.ours = std::max(out.ours, glm::length(window(glm::dvec4(clip_from_object * glm::vec4(p, 1.0f))) - exact));
   }
   return out;
@@ -72,33 +72,35 @@ Distances far_from_the_origin(double away) {
 TEST(Stability, PositionsAreAccurateFarFromTheOrigin) {
   const Distances d = far_from_the_origin(1e6);
   // The product of the matrices is computed in double and rounded once: 2^-24 of 1,024 px for each of a few products.
-  judge({6, "huge coordinates, guard band",
-         "a sphere 1,000,000 units from the origin, 4 units from the camera; world positions in float against a single matrix computed in "
-         "double",
-         "largest error of a vertex, px at 1024"},
-        d.plain, 5.0, d.ours, 1e-3);
+  record_and_check(
+      {6, "huge coordinates and the guard band",
+       "a sphere 1,000,000 units from the origin and 4 units from the camera; world positions in float vs. one matrix computed in double",
+       "largest vertex error in pixels, in an image of 1024x1024"},
+      d.common, 5.0, d.ours, 1e-3);
 }
 
 // ---- depth --------------------------------------------------------------------------------------------------------------
 
 TEST(Stability, ReversedDepthKeepsTheOrder) {
   const Study study = study_depth({.quick = true}, Workers(2));
-  double plain = 0.0, ours = 0.0;
+  double common = 0.0, ours = 0.0;
   for (const Variant& v : study.variants) {
-    if (v.group == "d32f") plain = std::max(plain, v.error);
+    if (v.group == "d32f") common = std::max(common, v.error);
     if (v.group == "d32f reversed") ours = std::max(ours, v.error);
   }
-  judge({10, "z-fighting",
-         "pairs of surfaces 1/10,000 of the distance apart, far/near 1e2 to 1e9; OpenGL's depth in float32 against reversed Z",
-         "worst fraction of pairs in the wrong order"},
-        plain, 0.3, ours, 0.0);
+  record_and_check(
+      {10, "z-fighting",
+       "pairs of surfaces separated by 1/10,000 of their distance, far/near from 1e2 to 1e9; OpenGL's depth in float32 vs. reversed Z",
+       "worst fraction of pairs in the wrong order"},
+      common, 0.3, ours, 0.0);
 }
 
 TEST(Stability, ReversedDepthKeepsTheOrderWhere24BitsFail) {
   const Study study = study_depth({.quick = true}, Workers(2));
   // The step of float32 with reversed Z is 2^-24 of the distance everywhere, 1,600 times finer than the gap.
-  judge({10, "z-fighting", "the same at far/near 1e6; 24 bits against reversed Z", "fraction of pairs in the wrong order"},
-        variant(study, "d24 1e6").error, 0.15, variant(study, "d32f reversed 1e6").error, 0.0);
+  record_and_check(
+      {10, "z-fighting", "the same pairs at far/near = 1e6; 24-bit depth vs. reversed Z", "fraction of pairs in the wrong order"},
+      variant(study, "d24 1e6").error, 0.15, variant(study, "d32f reversed 1e6").error, 0.0);
 }
 
 // ---- highlights ---------------------------------------------------------------------------------------------------------
@@ -119,9 +121,10 @@ TEST(Stability, PhongShadingKeepsHighlightsInsideFacets) {
   };
   // Pixels are 0.5 degrees apart, so one is within about 0.25 degrees of the peak: cos(0.25 degrees)^200 is 1 − 0.002. Interpolated normals
   // have an error of similar size.
-  judge({11, "Gouraud shading misses highlights",
-         "exponent 200 at the center of a facet of 10 degrees; lighting per vertex against per pixel", "difference of the peak from 1"},
-        missing("gouraud"), 0.4, missing("phong"), 0.01);
+  record_and_check(
+      {11, "Gouraud shading misses highlights", "exponent 200 at the center of a facet of 10 degrees; lighting per vertex vs. per pixel",
+       "difference between the brightest pixel and 1"},
+      missing("gouraud"), 0.4, missing("phong"), 0.01);
 }
 
 // ---- textures -----------------------------------------------------------------------------------------------------------
@@ -130,10 +133,11 @@ TEST(Stability, AnisotropicFilteringReducesAliasing) {
   const Study study = study_texture_filter({.quick = true}, Workers(2));
   // A probe is a trilinear lookup, which is wider than the box it represents. At each edge of a square its error is about a tenth of the
   // contrast over one pixel. (docs/results/accuracy.md lists every filter, at 960x540.)
-  judge({16, "minification aliasing",
-         "a checkerboard plane up to the horizon; nearest texel against 16x anisotropic, reference of 1,024 lookups per pixel",
-         "RMS error of light"},
-        variant(study, "nearest").error, 0.15, variant(study, "16x").error, 0.02);
+  record_and_check(
+      {16, "minification aliasing",
+       "a checkered plane that reaches the horizon; nearest texel vs. 16x anisotropic filtering; reference: 1,024 lookups per pixel",
+       "RMS error of light"},
+      variant(study, "nearest").error, 0.15, variant(study, "16x").error, 0.02);
 }
 
 // ---- spheres as points --------------------------------------------------------------------------------------------------
@@ -177,22 +181,23 @@ double coverage_error(const SceneDescription& scene) {
 
 TEST(Stability, SpritesWithTheirCenterOutsideAreDrawn) {
   // The image is 91.5 degrees wide. The center is at 50 or 60 degrees, and the sphere extends 19 degrees to either side.
-  double plain = 1.0, ours = 0.0;
+  double common = 1.0, ours = 0.0;
   for (const double degrees : {50.0, 60.0, -50.0, -60.0}) {
     const SceneDescription scene = one_sphere("exact", 3.0, degrees);
     // OpenGL 4.6 clips points by their center, so it draws nothing.
-    plain = std::min(plain, coverage_error(scene, [](int, int) { return false; }));
+    common = std::min(common, coverage_error(scene, [](int, int) { return false; }));
     ours = std::max(ours, coverage_error(scene));
   }
-  judge({18, "sphere sprites vanish when their center leaves the image",
-         "center 5 and 15 degrees outside the image; clipping by center against clipping by footprint", "1 − IoU with the sphere"},
-        plain, 0.99, ours, 0.0);
+  record_and_check({18, "sphere sprites vanish when their center leaves the image",
+                    "center 5 and 15 degrees outside of the image; culling by the center vs. by the footprint", "1 − IoU with the sphere"},
+                   common, 0.99, ours, 0.0);
 }
 
 TEST(Stability, SpritesOffTheAxisAreAccurate) {
-  judge({19, "point size limits, perspective ellipse", "30 degrees off the axis; a circle sized by its center against the exact sprite",
-         "1 − IoU with the sphere"},
-        coverage_error(one_sphere("original", 3.0, 30.0)), 0.1, coverage_error(one_sphere("exact", 3.0, 30.0)), 0.0);
+  record_and_check(
+      {19, "point size limits, perspective distortion",
+       "30 degrees off the axis; a circle sized by the distance of its center vs. the exact sprite", "1 − IoU with the sphere"},
+      coverage_error(one_sphere("original", 3.0, 30.0)), 0.1, coverage_error(one_sphere("exact", 3.0, 30.0)), 0.0);
 }
 
 TEST(Stability, SpritesHaveNoSizeLimit) {
@@ -206,9 +211,9 @@ TEST(Stability, SpritesHaveNoSizeLimit) {
   const double centre = 0.5 * kWidth - px_per_tan * std::tan(75.0 * std::numbers::pi / 180.0);
   const double limited =
       coverage_error(near, [&](int x, int y) { return std::abs(x + 0.5 - centre) < 127.5 && std::abs(y + 0.5 - 0.5 * kHeight) < 127.5; });
-  judge({19, "point size limits, perspective ellipse", "1.0005 radii from a sphere of 10,000 px; a limit of 255 px against no limit",
-         "1 − IoU with the sphere"},
-        limited, 0.9, ours, 0.0);
+  record_and_check({19, "point size limits, perspective distortion",
+                    "a sphere 10,000 px high, seen from 1.0005 radii; a size limit of 255 px vs. no limit", "1 − IoU with the sphere"},
+                   limited, 0.9, ours, 0.0);
 }
 
 // ---- transforms ---------------------------------------------------------------------------------------------------------
@@ -231,17 +236,18 @@ TEST(Stability, NormalsAreCorrectUnderNonUniformScale) {
       prepared.draws.front().shader);
   // The normal of the stretched sphere is the gradient of |M⁻¹ p|². M also rotates and mirrors.
   const glm::dmat3 m(placed.world_from_object), inverse = glm::inverse(m);
-  double plain = 0.0, ours = 0.0;
+  double common = 0.0, ours = 0.0;
   for (std::size_t i = 0; i < placed.positions.size(); ++i) {
     const glm::dvec3 p = m * glm::dvec3(placed.positions[i]), exact = glm::normalize(glm::transpose(inverse) * (inverse * p));
     const auto angle = [&](const glm::dvec3& n) { return std::atan2(glm::length(glm::cross(n, exact)), glm::dot(n, exact)); };
-    plain = std::max(plain, angle(m * glm::dvec3(placed.normals[i])));
+    common = std::max(common, angle(m * glm::dvec3(placed.normals[i])));
     ours = std::max(ours, angle(glm::dvec3(by_shader * placed.normals[i])));
   }
   // The matrix is in float and has a scale ratio of 16 : 1; normals have an error of 2^-24.
-  judge({24, "normals under non-uniform scale", "a rotated sphere scaled by 1, 4 and −1/4; the matrix itself against its inverse transpose",
-         "largest angle to the ellipsoid's normal, radians"},
-        plain, 1.0, ours, 1e-5);
+  record_and_check({24, "normals under non-uniform scale",
+                    "a rotated sphere scaled by 1, 4 and −1/4; normals transformed by the matrix vs. by its inverse transpose",
+                    "largest angle to the ellipsoid's normal, in radians"},
+                   common, 1.0, ours, 1e-5);
 }
 
 // ---- bit-identical results ---------------------------------------------------------------------------------------------
@@ -254,7 +260,7 @@ TEST(Stability, IsBitIdenticalForAnyThreadCount) {
     pictures.push_back(light_of(file.description(), 160, 90, Workers(threads)));
     ours += !(pictures.back() == pictures.front());
   }
-  // The plain method sums floats per thread and then adds the partial sums.
+  // The common method sums floats per thread and then adds the partial sums.
   std::set<float> sums;
   for (const std::size_t threads : {1u, 2u, 3u, 5u, 7u, 16u}) {
     std::vector<float> parts(threads, 0.0f);
@@ -265,9 +271,10 @@ TEST(Stability, IsBitIdenticalForAnyThreadCount) {
     for (const float part : parts) sum += part;
     sums.insert(sum);
   }
-  judge({26, "results that depend on threads, SIMD width or processor",
-         "shadow-contact with 1 to 16 threads; float sums per thread against a pass", "results that differ from the single-threaded one"},
-        static_cast<double>(sums.size() - 1), 1, ours, 0);
+  record_and_check(
+      {26, "results that depend on threads, SIMD width or processor",
+       "shadow-contact with 1 to 16 threads; a float sum per thread vs. a pass", "results that differ from the single-threaded one"},
+      static_cast<double>(sums.size() - 1), 1, ours, 0);
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 
 #include "halfspace/reference/validation.h"
 #include "halfspace/scene/scene_file.h"
-#include "stability/judge.h"
+#include "stability/regime.h"
 
 namespace halfspace::stability {
 namespace {
@@ -34,18 +34,18 @@ std::vector<std::string> sun_at(double degrees) {
 }
 
 TEST(Stability, ShadowsHaveNoAcneAtAnyLightAngle) {
-  double plain = 0.0, ours = 0.0;
+  double common = 0.0, ours = 0.0;
   for (const double degrees : {0.0, 30.0, 60.0, 80.0, 85.0, 88.0, 89.0, 89.5, 89.9}) {
     std::vector<std::string> settings = sun_at(degrees);
     ours = std::max(ours, beyond_a_texel(compared("shadow-plane", settings).score.false_shadow));
     settings.insert(settings.end(), {"shadow.bias=none", "shadow.method=hard"});
-    plain = std::max(plain, beyond_a_texel(compared("shadow-plane", settings).score.false_shadow));
+    common = std::max(common, beyond_a_texel(compared("shadow-plane", settings).score.false_shadow));
   }
   // At 89.9 degrees, the depth changes by 570 texel widths across one texel, and the automatic bias follows the plane. One pixel out of
   // about 10,000 lit ones remains wrong.
-  judge({1, "shadow acne", "ball over a plane, light 0 to 89.9 degrees from the vertical; no bias against auto",
-         "largest fraction of lit pixels that are falsely dark more than a texel from the edge"},
-        plain, 0.3, ours, 1.5e-4);
+  record_and_check({1, "shadow acne", "a ball over a plane, lit at 0 to 89.9 degrees from the vertical; no bias vs. the auto bias",
+                    "largest fraction of lit pixels in false shadow more than one texel from a shadow edge"},
+                   common, 0.3, ours, 1.5e-4);
 }
 
 TEST(Stability, ContactShadowsAreNotDetached) {
@@ -53,9 +53,9 @@ TEST(Stability, ContactShadowsAreNotDetached) {
     return beyond_a_texel(compared("shadow-contact", settings).score.false_light);
   };
   // The project guarantees that at most one shadowed pixel in a thousand is lit more than one texel from the edge.
-  judge({2, "peter-panning", "objects on a plane; a constant bias of 100 texels against auto",
-         "fraction of shadowed pixels that are falsely lit more than a texel from the edge"},
-        leak({"shadow.bias=constant", "shadow.constant=100", "shadow.method=hard"}), 0.01, leak({}), 1e-3);
+  record_and_check({2, "peter-panning", "objects on a plane; a constant bias of 100 texels vs. the auto bias",
+                    "fraction of shadowed pixels that are falsely lit more than one texel from a shadow edge"},
+                   leak({"shadow.bias=constant", "shadow.constant=100", "shadow.method=hard"}), 0.01, leak({}), 1e-3);
 }
 
 // A small plate high above a large one that is close to the ground. At the outline of the small plate two depths meet in one texel,
@@ -92,17 +92,18 @@ double most_light_in_shadow(const ShadowComparison& c) {
 TEST(Stability, PcfHasNoLightLeaks) {
   const double vsm = most_light_in_shadow(compared(two_plates("vsm"))), pcf = most_light_in_shadow(compared(two_plates("pcf3")));
   // Depth comparisons cannot leak: every texel over the large plate is dark.
-  judge({3, "light leaks", "below two plates, one above the other; variance shadow maps against pcf3 (the default of the scenes)",
-         "maximum light in full shadow"},
-        vsm, 0.02, pcf, 0.0);
+  record_and_check({3, "light leaks", "below two plates, one above the other; variance shadow maps vs. pcf3 (the default of the scenes)",
+                    "maximum light in full shadow"},
+                   vsm, 0.02, pcf, 0.0);
 }
 
 TEST(Stability, FourMomentsHaveNoLightLeaks) {
   const double vsm = most_light_in_shadow(compared(two_plates("vsm"))), moments = most_light_in_shadow(compared(two_plates("moments")));
   // Four moments represent two depths exactly (Peters and Klein 2015). The remaining light, about 1e-5, comes from the bias that keeps
   // their equations solvable.
-  judge({3, "light leaks", "the same; variance (two moments) against four moments", "maximum light in full shadow"}, vsm, 0.02, moments,
-        1e-4);
+  record_and_check(
+      {3, "light leaks", "the same plates; variance shadow maps (two moments) vs. four moments", "maximum light in full shadow"}, vsm, 0.02,
+      moments, 1e-4);
 }
 
 TEST(Stability, CascadesReducePerspectiveAliasing) {
@@ -119,20 +120,21 @@ TEST(Stability, CascadesReducePerspectiveAliasing) {
     return compared(scene).score.error;
   };
   // The edges are about 600 px long in an image of 32,400 px and are off by up to half a texel, which is about 0.2 px with cascades.
-  judge({4, "perspective aliasing",
-         "poles on a plane of 400 units, seen from a height of 1.2; a single map of 1024 texels against four cascades of that size",
-         "mean error of the light over the image"},
-        error("1"), 0.005, error("4"), 0.004);
+  record_and_check({4, "perspective aliasing",
+                    "poles on a plane 400 units wide, seen from a height of 1.2; one map of 1024² texels vs. four cascades of that size",
+                    "mean lighting error over the image"},
+                   error("1"), 0.005, error("4"), 0.004);
 }
 
 TEST(Stability, ShadowTerminatorIsClassifiedSeparately) {
   // With few triangles, the shading normal and the face normal differ by up to 15 degrees.
   const ShadowScore s = compared("shadow-plane", {"earth.latitudes=12", "earth.longitudes=24"}).score;
   // Apart from these pixels, all but one or two of 10,000 pixels are correct.
-  judge({27, "shadow terminator",
-         "a ball of 24 sectors; pixels where face and shading normals disagree counted as errors of the map against counted separately",
-         "fraction of pixels that no map can shade correctly; ours: falsely dark more than a texel from the edge"},
-        s.sides_differ, 0.002, beyond_a_texel(s.false_shadow), 2e-4);
+  record_and_check(
+      {27, "shadow terminator",
+       "a ball of 24 sectors; pixels where face and shading normals disagree, counted as errors of the shadow map vs. separately",
+       "common: fraction of pixels that no shadow map can get right; ours: in false shadow more than one texel from a shadow edge"},
+      s.sides_differ, 0.002, beyond_a_texel(s.false_shadow), 2e-4);
 }
 
 }  // namespace

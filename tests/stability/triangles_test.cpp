@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Coverage where plain rasterizers fail. Positions are given in 1/256 px (tests/raster/raster_test.h), so the reference can be computed in
+// Coverage where common rasterizers fail. Positions are given in 1/256 px (tests/raster/raster_test.h), so the reference can be computed in
 // integer arithmetic.
 #include <cmath>
 #include <limits>
 
 #include "raster/raster_test.h"
-#include "stability/judge.h"
+#include "stability/regime.h"
 
 namespace halfspace::stability {
 namespace {
@@ -50,12 +50,12 @@ bool covers_in_floats(const PointTriangle& t, int px, int py) {
 }
 
 struct Wrong {
-  int64_t plain = 0, ours = 0;
+  int64_t common = 0, ours = 0;
 };
 
-// Counts the pixels in which the plain method and a pass differ from 128-bit integer arithmetic.
-template <class Plain, class Make>
-Wrong wrong_pixels(int triangles, const Make& make, const Plain& plain) {
+// Counts the pixels in which the common method and a pass differ from 128-bit integer arithmetic.
+template <class Common, class Make>
+Wrong wrong_pixels(int triangles, const Make& make, const Common& common) {
   Wrong wrong;
   Random random(7);
   for (int i = 0; i < triangles; ++i) {
@@ -66,7 +66,7 @@ Wrong wrong_pixels(int triangles, const Make& make, const Plain& plain) {
     for (int y = 0; y < kSize; ++y) {
       for (int x = 0; x < kSize; ++x) {
         const bool truth = covers<Wide>(t, x, y);
-        wrong.plain += plain(t, x, y) != truth;
+        wrong.common += common(t, x, y) != truth;
         wrong.ours += (pixel(drawn, x, y).x != 0.0f) != truth;
       }
     }
@@ -84,9 +84,10 @@ TEST(Stability, CoverageIsExactForHugeCoordinates) {
   };
   const Wrong w = wrong_pixels(effort(1150), make, [](const PointTriangle& t, int x, int y) { return covers<int32_t>(t, x, y); });
   // Integer arithmetic is exact, so there is no tolerance.
-  judge({6, "huge coordinates, guard band", "triangles from 2^-8 px to 16384 px; 32-bit edge functions at 1/256 px against a pass",
-         "pixels that differ from 128-bit arithmetic"},
-        static_cast<double>(w.plain), 1000, static_cast<double>(w.ours), 0);
+  record_and_check(
+      {6, "huge coordinates and the guard band", "triangles from 2^-8 px to 16384 px; 32-bit edge functions at 1/256 px vs. a pass",
+       "pixels that differ from 128-bit arithmetic"},
+      static_cast<double>(w.common), 1000, static_cast<double>(w.ours), 0);
 }
 
 TEST(Stability, CoverageIsExactForSlivers) {
@@ -97,9 +98,10 @@ TEST(Stability, CoverageIsExactForSlivers) {
     return PointTriangle{a, b, c};
   };
   const Wrong w = wrong_pixels(effort(4000), make, covers_in_floats);
-  judge({7, "slivers", "triangles 32 to 60 px long and 0 to 0.04 px high; floats that drop areas below 1 px² against a pass",
-         "pixels that differ from 128-bit arithmetic"},
-        static_cast<double>(w.plain), effort(100), static_cast<double>(w.ours), 0);
+  record_and_check(
+      {7, "slivers", "triangles 32 to 60 px long and 0 to 0.04 px high; float barycentrics that drop areas below 1 px² vs. a pass",
+       "pixels that differ from 128-bit arithmetic"},
+      static_cast<double>(w.common), effort(100), static_cast<double>(w.ours), 0);
 }
 
 // Draws a square of 64 px as triangles to the left and right of a line. The triangles on the right share a vertex that is on the line, as
@@ -127,20 +129,20 @@ int64_t holes(Random& random, bool t_junction) {
 }
 
 TEST(Stability, ConformingMeshesHaveNoHoles) {
-  int64_t plain = 0, ours = 0;
+  int64_t common = 0, ours = 0;
   for (int seed = 0; seed < effort(1500); ++seed) {
     Random a(static_cast<uint64_t>(seed)), b(static_cast<uint64_t>(seed));
-    plain += holes(a, true);
+    common += holes(a, true);
     ours += holes(b, false);
   }
   // No fill rule can close a mesh whose edges do not match. A mesh whose edges match is closed by the fill rule alone.
-  judge({8, "T-junctions", "1,500 squares with a vertex on a line; used by only one side against used by both sides",
-         "pixels not drawn exactly once"},
-        static_cast<double>(plain), effort(20), static_cast<double>(ours), 0);
+  record_and_check({8, "T-junctions", "1,500 squares with a vertex on an inner edge; used by the triangles on one side vs. on both sides",
+                    "pixels not drawn exactly once"},
+                   static_cast<double>(common), effort(20), static_cast<double>(ours), 0);
 }
 
 TEST(Stability, SharedEdgesAreDrawnOnce) {
-  int64_t plain = 0, ours = 0;
+  int64_t common = 0, ours = 0;
   for (int seed = 0; seed < effort(2000); ++seed) {
     Random r(static_cast<uint64_t>(seed) + 1);
     // A fan over the whole target around a vertex at a pixel center. Its inner edges pass through many pixel centers.
@@ -163,13 +165,14 @@ TEST(Stability, SharedEdgesAreDrawnOnce) {
         if (seed >= 100) continue;
         int times = 0;
         for (const PointTriangle& t : fan) times += covers<int64_t>(t, x, y, true);
-        plain += times != 1;
+        common += times != 1;
       }
     }
   }
-  judge({9, "shared edges drawn twice", "fans through pixel centers; inclusive edges (100 fans) against the fill rule (2,000 fans)",
-         "pixels not drawn exactly once"},
-        static_cast<double>(plain), 500, static_cast<double>(ours), 0);
+  record_and_check(
+      {9, "shared edges drawn twice", "fans through pixel centers; inclusive edges (100 fans) vs. the top-left rule (2,000 fans)",
+       "pixels not drawn exactly once"},
+      static_cast<double>(common), 500, static_cast<double>(ours), 0);
 }
 
 // ---- w <= 0 -------------------------------------------------------------------------------------------------------------
@@ -218,14 +221,15 @@ TEST(Stability, ClippingHandlesVerticesBehindTheEye) {
       for (int x = 0; x < kSize; ++x) {
         const long double inside = inside_by(t, x + 0.5, y + 0.5);
         if (std::abs(inside) < 1.0L / 128) continue;  // snapping moves an edge by up to 0.7/256 px
-        wrong.plain += covers<int64_t>(divided, x, y) != (inside > 0);
+        wrong.common += covers<int64_t>(divided, x, y) != (inside > 0);
         wrong.ours += (pixel(count, x, y).x != 0.0f) != (inside > 0);
       }
     }
   }
-  judge({5, "near clip, w <= 0", "1,500 triangles with a vertex behind the eye; division by w without clipping against clipping first",
-         "wrong pixels more than 1/128 px from the edges"},
-        static_cast<double>(wrong.plain), 10000, static_cast<double>(wrong.ours), 0);
+  record_and_check(
+      {5, "near plane, w <= 0", "1,500 triangles with a vertex behind the eye; division by w without clipping vs. clipping first",
+       "wrong pixels more than 1/128 px from an edge"},
+      static_cast<double>(wrong.common), 10000, static_cast<double>(wrong.ours), 0);
 }
 
 TEST(Stability, NonFiniteVerticesAreCulled) {
@@ -235,7 +239,7 @@ TEST(Stability, NonFiniteVerticesAreCulled) {
                         3.4e38f,
                         -3.4e38f,
                         1e-40f};
-  int64_t plain = 0, ours = 0;
+  int64_t common = 0, ours = 0;
   for (const float x : wild) {
     for (std::size_t k = 0; k < 3; ++k) {
       for (int c = 0; c < 4; ++c) {
@@ -247,15 +251,14 @@ TEST(Stability, NonFiniteVerticesAreCulled) {
         if (!std::isfinite(x)) {
           EXPECT_EQ(s.culled_non_finite, 1u) << x << " in component " << c;
         }
-        const float window = (t[k].x / t[k].w + 1.0f) * 32.0f;  // input to the next stage of a plain rasterizer
-        plain += !(std::abs(window) < 2147483648.0f);
+        const float window = (t[k].x / t[k].w + 1.0f) * 32.0f;  // input to the next stage of a common rasterizer
+        common += !(std::abs(window) < 2147483648.0f);
       }
     }
   }
-  judge(
-      {5, "near clip, w <= 0", "NaN, infinities, 3e38 and 1e-40 in each component; window positions after a plain division against a pass",
-       "values that are not valid positions; ours: pixels that are neither drawn nor unchanged"},
-      static_cast<double>(plain), 10, static_cast<double>(ours), 0);
+  record_and_check({5, "near plane, w <= 0", "NaN, infinities, 3e38 and 1e-40 in each component; an unchecked division by w vs. a pass",
+                    "common: invalid window coordinates; ours: pixels that are neither drawn once nor left unchanged"},
+                   static_cast<double>(common), 10, static_cast<double>(ours), 0);
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Known failures of renderers. Each test runs the plain method in a regime in which it is known to fail, and our method for comparison. The
-// results are recorded in the test report, from which scripts/stability_table.py generates docs/explanation/stability.md.
+// Known failures of renderers. Each test runs the common method under conditions in which it is known to fail, and then our method for
+// comparison. The results are recorded in the test report, from which scripts/stability_table.py generates docs/explanation/stability.md.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -15,13 +15,13 @@ namespace halfspace::stability {
 struct Regime {
   int row;
   const char* failure;  ///< what goes wrong
-  const char* regime;   ///< where it goes wrong, and the two methods that are compared
+  const char* regime;   ///< the conditions, and the two methods: "CONDITIONS; COMMON METHOD vs. OURS"
   const char* number;   ///< what is measured; 0 is correct
 };
 
-/// Records the results. Asserts that the error of the plain method is at least `bad`, so that the test really covers a failure, and that
+/// Records the results. Asserts that the error of the common method is at least `bad`, so that the test really covers a failure, and that
 /// the error of our method is at most `bound`.
-inline void judge(const Regime& r, double plain, double bad, double ours, double bound) {
+inline void record_and_check(const Regime& r, double common, double bad, double ours, double bound) {
   const auto text = [](double x) {
     char out[32];
     std::snprintf(out, sizeof out, "%.3g", x);
@@ -32,10 +32,10 @@ inline void judge(const Regime& r, double plain, double bad, double ours, double
   Test::RecordProperty("failure", r.failure);
   Test::RecordProperty("regime", r.regime);
   Test::RecordProperty("number", r.number);
-  Test::RecordProperty("plain", text(plain));
+  Test::RecordProperty("common", text(common));
   Test::RecordProperty("ours", text(ours));
   Test::RecordProperty("bound", text(bound));
-  EXPECT_GE(plain, bad) << "the plain method does not fail here, so the test does not cover the failure";
+  EXPECT_GE(common, bad) << "the common method does not fail here, so the test does not cover the failure";
   EXPECT_LE(ours, bound) << r.failure << ": " << r.regime;
 }
 
