@@ -63,7 +63,7 @@ PreparedScene prepare_explained(const SceneDescription& scene, const std::string
 void protect_page_inputs(const SceneDescription& scene, const std::string& name, const Models& models, const std::filesystem::path& out) {
   std::vector<std::filesystem::path> inputs = input_files(scene, models);
   inputs.emplace_back(name);
-  refuse_overwriting(out, inputs);
+  reject_overwriting(out, inputs);
 }
 
 void print_warning(const std::string& problem) {

@@ -64,7 +64,7 @@ void export_command(const ExportArguments& args) {
   embed_images(source.model);
   if (*format == ModelFormat::glb || *format == ModelFormat::gltf) pack_maps(source.model);
   const WrittenModel written = written_model(source.model, out, *format);
-  for (const ModelFile& file : written.files) refuse_overwriting(out.parent_path() / file.name, source.inputs);
+  for (const ModelFile& file : written.files) reject_overwriting(out.parent_path() / file.name, source.inputs);
   clear_progress();
   for (const std::span<const std::string> warnings : {std::span<const std::string>(source.model.warnings), {written.warnings}}) {
     for (const std::string& warning : warnings) std::cerr << "halfspace: warning: " << warning << '\n';

@@ -26,7 +26,7 @@ std::vector<std::filesystem::path> input_files(SceneDescription scene,
   return files;
 }
 
-void refuse_overwriting(const std::filesystem::path& out, const std::vector<std::filesystem::path>& inputs) {
+void reject_overwriting(const std::filesystem::path& out, const std::vector<std::filesystem::path>& inputs) {
   for (const std::filesystem::path& input : inputs) {
     std::error_code error;
     if (std::filesystem::equivalent(out, input, error))

@@ -19,6 +19,6 @@ std::vector<std::filesystem::path> input_files(SceneDescription scene,
                                                const std::map<std::filesystem::path, std::shared_ptr<const ModelAsset>>& models);
 
 /// Throws OutputError if the output is one of the files, by this or another name.
-void refuse_overwriting(const std::filesystem::path& out, const std::vector<std::filesystem::path>& inputs);
+void reject_overwriting(const std::filesystem::path& out, const std::vector<std::filesystem::path>& inputs);
 
 }  // namespace halfspace

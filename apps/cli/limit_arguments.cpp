@@ -14,7 +14,7 @@ namespace halfspace {
 
 namespace {
 
-constexpr uint64_t kLeastMemory = uint64_t{1} << 20, kMostMemory = uint64_t{1} << 50;
+constexpr uint64_t kMinMemory = uint64_t{1} << 20, kMaxMemory = uint64_t{1} << 50;
 
 // Returns the power of two that a suffix stands for.
 std::optional<int> shift_of(std::string_view suffix) {
@@ -29,7 +29,7 @@ std::optional<uint64_t> parse_bytes(std::string_view text) {
   uint64_t n = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), n);
   const std::optional<int> shift = shift_of(text.substr(static_cast<std::size_t>(end - text.data())));
-  if (error != std::errc() || !shift || n > kMostMemory >> *shift) return std::nullopt;
+  if (error != std::errc() || !shift || n > kMaxMemory >> *shift) return std::nullopt;
   return n << *shift;
 }
 
@@ -39,14 +39,14 @@ void set_limits(const LimitArguments& args) {
   ResourceLimits limits{.counts_resident = true};
   if (!args.memory.empty()) {
     const std::optional<uint64_t> bytes = parse_bytes(args.memory);
-    if (!bytes || *bytes < kLeastMemory)
+    if (!bytes || *bytes < kMinMemory)
       throw UsageError("--max-memory is '" + args.memory + "'; expected a size of at least 1M, for example 512M or 4G");
     limits.max_memory = *bytes;
   }
   if (!args.pixels.empty()) {
     const int pixels = parse_number(args.pixels);
-    if (pixels < 1 || static_cast<uint64_t>(pixels) > ResourceLimits::kMostPixels)
-      throw UsageError(fmt::format("--max-pixels is '{}'; expected 1 to {}", args.pixels, ResourceLimits::kMostPixels));
+    if (pixels < 1 || static_cast<uint64_t>(pixels) > ResourceLimits::kMaxPixels)
+      throw UsageError(fmt::format("--max-pixels is '{}'; expected 1 to {}", args.pixels, ResourceLimits::kMaxPixels));
     limits.max_pixels = static_cast<uint64_t>(pixels);
   }
   set_resource_limits(limits);

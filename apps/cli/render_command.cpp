@@ -260,8 +260,8 @@ void protect_inputs(const RenderJob& job, const std::string& scene) {
   std::vector<std::filesystem::path> inputs = input_files(job.scene.description(), job.models);
   inputs.emplace_back(scene);
   const auto check = [&](const std::filesystem::path& picture) {
-    refuse_overwriting(picture, inputs);
-    for (const std::filesystem::path& file : value_files(job.output, picture)) refuse_overwriting(file, inputs);
+    reject_overwriting(picture, inputs);
+    for (const std::filesystem::path& file : value_files(job.output, picture)) reject_overwriting(file, inputs);
   };
   if (!job.frames) return check(job.out);
   for (const std::filesystem::path& input : inputs) {

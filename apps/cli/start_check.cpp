@@ -19,7 +19,7 @@ void say(const char* text) {
   if (write(STDERR_FILENO, text, strlen(text)) < 0) _exit(1);
 }
 
-__attribute__((constructor(101))) void refuse_lesser_processor() {
+__attribute__((constructor(101))) void exit_on_unsupported_processor() {
   const char* missing = halfspace::missing_cpu_features();
   if (missing[0] == '\0') return;
   say("halfspace: ");

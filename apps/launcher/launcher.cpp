@@ -2,7 +2,7 @@
 //
 // The programs of a package. A launcher is compiled for any x86-64 and opens a shared library that contains the program. The loader selects
 // the library for the processor from the folders glibc-hwcaps/x86-64-v3 and x86-64-v4 of the library folder, which is in the RUNPATH of the
-// launcher. start_check.cpp, which is linked too, refuses processors below x86-64-v3.
+// launcher. start_check.cpp, which is linked too, exits with an error on processors below x86-64-v3.
 #include <dlfcn.h>
 #include <stdio.h>
 

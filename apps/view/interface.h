@@ -41,7 +41,7 @@ class Interface {
   /// Shows or hides help, panels or statistics.
   void toggle(Action action);
 
-  /// What is shown besides the panels.
+  /// Contents of the window in addition to the panels.
   struct Contents {
     const FrameMaker& frames;
     const WindowTimes& times;

@@ -53,13 +53,13 @@ std::string draw_overdraw_overlay(OverlayFrame frame) {
     add_draw(pass, draw, state);
   }
   pass.run(frame.workers);
-  constexpr double kMost = 8.0;
+  constexpr double kMaxShown = 8.0;
   float largest = 0.0f;
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       const float count = counts.at(x, y).w;
       largest = std::max(largest, count);
-      frame.picture.at(x, y) = heat_color(count / kMost);
+      frame.picture.at(x, y) = heat_color(count / kMaxShown);
     }
   }
   return fmt::format("fragments per pixel without a depth test: dark 0, white 8 or more; largest {:.0f}", largest);

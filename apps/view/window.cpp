@@ -12,7 +12,7 @@ namespace halfspace {
 
 namespace {
 
-[[noreturn]] void refuse_display(const char* reason) {
+[[noreturn]] void throw_no_display(const char* reason) {
   throw InputError(fmt::format("display: cannot open a window ({}); expected a running X server or Wayland session", reason));
 }
 
@@ -20,7 +20,7 @@ namespace {
 void choose_driver() {
   if (SDL_getenv("SDL_VIDEODRIVER") != nullptr) return;
   const bool x11 = SDL_getenv("DISPLAY") != nullptr, wayland = SDL_getenv("WAYLAND_DISPLAY") != nullptr;
-  if (!x11 && !wayland) refuse_display("neither DISPLAY nor WAYLAND_DISPLAY is set");
+  if (!x11 && !wayland) throw_no_display("neither DISPLAY nor WAYLAND_DISPLAY is set");
   SDL_SetHint(SDL_HINT_VIDEODRIVER, x11 && wayland ? "x11,wayland" : x11 ? "x11" : "wayland");
 }
 
@@ -40,12 +40,12 @@ Window::Window(const std::string& title, int width, int height) {
   SDL_SetHint(SDL_HINT_FRAMEBUFFER_ACCELERATION, "0");
   SDL_SetHint(SDL_HINT_VIDEO_X11_NET_WM_BYPASS_COMPOSITOR, "0");
   SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");  // the program has its own
-  if (SDL_Init(SDL_INIT_VIDEO) != 0) refuse_display(SDL_GetError());
+  if (SDL_Init(SDL_INIT_VIDEO) != 0) throw_no_display(SDL_GetError());
   window_.reset(SDL_CreateWindow(title.c_str(), SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED, width, height,
                                  SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI));
-  if (window_ == nullptr) refuse_display(SDL_GetError());
+  if (window_ == nullptr) throw_no_display(SDL_GetError());
   renderer_.reset(SDL_CreateRenderer(window_.get(), -1, SDL_RENDERER_SOFTWARE));
-  if (renderer_ == nullptr) refuse_display(SDL_GetError());
+  if (renderer_ == nullptr) throw_no_display(SDL_GetError());
 }
 
 Window::~Window() {

@@ -82,7 +82,7 @@ struct Scene {
 
 Scene make_scene(SceneKind kind);
 
-/// What a frame with one camera needs besides the scene.
+/// Data of a frame with one camera, in addition to the scene.
 struct SceneView {
   glm::mat4 clip_from_world, light_from_world;
   glm::vec3 eye_ws;

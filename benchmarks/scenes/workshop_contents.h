@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The materials of the workshop, and what is on and above its benches.
+// The materials of the workshop, and the objects on and above its benches.
 #pragma once
 
 #include "scenes/workshop_parts.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Parts of the workshop: the room, furniture, and things that lie around. The room is centered at the origin.
+// Parts of the workshop: the room, furniture and props. The room is centered at the origin.
 #pragma once
 
 #include "scenes/scene_shape.h"

@@ -47,7 +47,7 @@ void add_cylinder(SceneShape& shape, glm::dvec3 foot, double radius, double heig
 
 }  // namespace
 
-// A shaft of 7 cm with threads. It stands on its head.
+// A shaft of 7 cm with threads, head down.
 SceneShape bolt() {
   SceneShape shape;
   add_hexagon(shape, 0.018, 0, 0.014);

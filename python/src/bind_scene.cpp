@@ -109,7 +109,7 @@ glm::dvec3 vector_of(const py::handle& value) {
   return {v[0], v[1], v[2]};
 }
 
-// Returns the view of a model file. Unknown names are refused by the Python code.
+// Returns the view of a model file. Unknown names are rejected by the Python code.
 ModelView model_view(const py::dict& options) {
   ModelView view;
   const auto set = [&](const char* name, auto& member) {

@@ -22,7 +22,7 @@ namespace halfspace::python {
 
 namespace py = pybind11;
 
-/// A C-contiguous array. Arrays of another type or layout are refused, because a conversion would be a copy.
+/// A C-contiguous array. Arrays of another type or layout are rejected, because a conversion would be a copy.
 template <class T>
 using Array = py::array_t<T, py::array::c_style>;
 

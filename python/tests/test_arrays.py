@@ -275,7 +275,7 @@ def test_wrong_arrays_are_named(make, words):
 
 @pytest.mark.parametrize("name, words", [("Wrong Name", "invalid name"), ("post", "is a reserved word"), (7, "name: is 7; expected a string"),
                                          ("object_1", "name: an object 'object_1' exists; expected another name")])
-def test_a_wrong_name_is_refused_at_once(name, words):
+def test_a_wrong_name_is_rejected_at_once(name, words):
     scene = halfspace.Scene(lighting="none")
     scene.add(halfspace.Mesh(*QUAD, material=flat()))
     with pytest.raises(halfspace.InputError, match=words):
@@ -300,7 +300,7 @@ def test_more_objects_than_one_patch_can_have():
     assert len(scene.objects) == 4100
 
 
-def test_only_refused_objects_are_dropped():
+def test_only_rejected_objects_are_dropped():
     """A scene has at most 65,536 objects with their copies. Those that fit are added."""
     scene = halfspace.Scene(lighting="none")
     copies = [4096] * 15 + [4094]

@@ -121,7 +121,7 @@ def test_the_sky_moves_with_the_principal_point():
     assert whole.std() > 5 and close.mean() > 0.98
 
 
-def test_exact_spheres_refuse_off_center_cameras():
+def test_exact_spheres_reject_off_center_cameras():
     scene = halfspace.Scene(lighting="none")
     scene.merge({"ambient": 1, "objects": {"ball": {"shape": "sphere"}}})
     pose = look_at_pose((0.0, 0.0, 4.0), (0.0, 0.0, 0.0))

@@ -43,10 +43,10 @@ uint64_t left(const LimitState& state, uint64_t resident) {
 }  // namespace
 
 uint64_t ResourceLimits::default_max_memory() {
-  constexpr uint64_t kMost = uint64_t{8} << 30;
+  constexpr uint64_t kMaxDefault = uint64_t{8} << 30;
   const auto pages = ::sysconf(_SC_PHYS_PAGES), size = ::sysconf(_SC_PAGESIZE);
-  if (pages <= 0 || size <= 0) return kMost;
-  return std::min(static_cast<uint64_t>(pages) / 2 * static_cast<uint64_t>(size), kMost);
+  if (pages <= 0 || size <= 0) return kMaxDefault;
+  return std::min(static_cast<uint64_t>(pages) / 2 * static_cast<uint64_t>(size), kMaxDefault);
 }
 
 ResourceLimits resource_limits() {
@@ -56,7 +56,7 @@ ResourceLimits resource_limits() {
 }
 
 void set_resource_limits(const ResourceLimits& limits) {
-  HS_CHECK_OP(limits.max_pixels, <=, ResourceLimits::kMostPixels);
+  HS_CHECK_OP(limits.max_pixels, <=, ResourceLimits::kMaxPixels);
   LimitState& state = limit_state();
   const std::lock_guard lock(state.mutex);
   state.limits = limits;

@@ -20,12 +20,12 @@ class LimitError : public InputError {
 /// Limits of this process.
 struct ResourceLimits {
   uint64_t max_memory = default_max_memory();  ///< bytes, all files together
-  uint64_t max_pixels = kMostPixels;           ///< in one image
+  uint64_t max_pixels = kMaxPixels;            ///< in one image
   /// Whether max_memory also covers the resident memory of the process. Programs set this; in a library, most of that memory may belong to
   /// the host.
   bool counts_resident = false;
 
-  static constexpr uint64_t kMostPixels = uint64_t{1} << 28;
+  static constexpr uint64_t kMaxPixels = uint64_t{1} << 28;
   /// Returns half of the memory of the machine, but at most 8 GiB.
   static uint64_t default_max_memory();
 };
@@ -33,7 +33,7 @@ struct ResourceLimits {
 /// Returns the limits. Thread-safe.
 ResourceLimits resource_limits();
 
-/// Sets the limits for files that are read from now on. max_pixels must be at most kMostPixels. Thread-safe.
+/// Sets the limits for files that are read from now on. max_pixels must be at most kMaxPixels. Thread-safe.
 void set_resource_limits(const ResourceLimits& limits);
 
 /// Returns how many bytes may still be allocated: max_memory minus the claims of all threads and, with counts_resident, the resident memory

@@ -27,7 +27,7 @@ Image<float> halved(const Image<float>& map, const Workers& workers) {
 double lost(const Image<float>& map, const Image<float>& half, const Workers& workers) {
   std::vector<float> differences(static_cast<std::size_t>(map.width()) * static_cast<std::size_t>(map.height()));
   workers.for_each(map.height(), [&](int y) {
-    // The center of a texel is a quarter of a texel of `half` away from the nearest texel center of `half`.
+    // `half` has half the resolution: a texel center is a quarter of a `half` texel away from the nearest center of `half`.
     const int near_y = std::min(y / 2, half.height() - 1), far_y = std::clamp(near_y + (y % 2 == 0 ? -1 : 1), 0, half.height() - 1);
     for (int x = 0; x < map.width(); ++x) {
       const int near_x = std::min(x / 2, half.width() - 1), far_x = std::clamp(near_x + (x % 2 == 0 ? -1 : 1), 0, half.width() - 1);

@@ -11,7 +11,7 @@
 namespace halfspace {
 
 inline constexpr uint32_t kMaxImageEdge = 32768;  // same as Texture2D::kMaxSize
-inline constexpr uint64_t kMaxImagePixels = ResourceLimits::kMostPixels;
+inline constexpr uint64_t kMaxImagePixels = ResourceLimits::kMaxPixels;
 
 /// Throws an InputError that begins with `name` if an image of this size is not supported. If it is too large, the error is a LimitError.
 inline void check_image_size(uint64_t width, uint64_t height, const std::string& name) {

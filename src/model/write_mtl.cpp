@@ -19,9 +19,9 @@ glm::vec3 encoded_color(const glm::vec3& c) { return {srgb_from_linear(c.x), srg
 
 // Returns the Blinn-Phong exponent of a roughness, with the inverse of the formula in mtl_materials.h.
 float exponent_of(float roughness) {
-  constexpr float kMostExponent = 1e6f;
+  constexpr float kMaxExponent = 1e6f;
   const float r2 = roughness * roughness;
-  return r2 * r2 > 2.0f / kMostExponent ? std::max(2.0f / (r2 * r2) - 2.0f, 0.0f) : kMostExponent;
+  return r2 * r2 > 2.0f / kMaxExponent ? std::max(2.0f / (r2 * r2) - 2.0f, 0.0f) : kMaxExponent;
 }
 
 class MtlWriter {
@@ -39,7 +39,7 @@ class MtlWriter {
     add_reflection(m);
     add_map("norm", m.normal_map);
     add_bump_map(m);
-    warn_of_the_rest(m);
+    warn_about_omissions(m);
     if (m.ior != 1.5f) add("Ni", fmt::format("{}", m.ior));
     if (m.clearcoat > 0.0f) {
       add("Pc", fmt::format("{}", m.clearcoat));
@@ -83,7 +83,7 @@ class MtlWriter {
     add_map("map_bump", m.bump_map, false, fmt::format("-bm {} ", static_cast<float>(m.bump_scale / (kMtlBumpHeight * diagonal_))));
   }
 
-  void warn_of_the_rest(const ModelMaterial& m) {
+  void warn_about_omissions(const ModelMaterial& m) {
     if (has_image(m.normal_map) && m.normal_scale != 1.0f) warn("OBJ stores no strength of normal maps");
     for (const TextureUse* use : {&m.occlusion_map, &m.specular_map, &m.specular_color_map, &m.clearcoat_map, &m.clearcoat_roughness_map,
                                   &m.clearcoat_normal_map}) {

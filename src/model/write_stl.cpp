@@ -35,13 +35,13 @@ WrittenModel write_stl(const Model& model, const std::string& stem) {
   const PosedModel posed = pose(model, {});
   std::vector<std::byte> bytes(kStlHeader);
   std::size_t triangles = 0;
-  bool has_others = false;
+  bool has_lines_or_points = false;
   append_value(bytes, uint32_t{0});
   for (const PosedMesh& part : posed.meshes) {
     const WorldMesh mesh(model, part);
     for (std::size_t t = 0; t < mesh.triangles(); ++t) append_stl_triangle(bytes, mesh, t);
     triangles += mesh.triangles();
-    has_others = has_others || mesh.mesh().topology != MeshTopology::triangles;
+    has_lines_or_points = has_lines_or_points || mesh.mesh().topology != MeshTopology::triangles;
   }
   if (triangles == 0) throw OutputError(stem + ".stl: the model has no triangles; expected triangles");
   if (triangles > 0xffffffffu) throw OutputError(stem + ".stl: more than 2^32 - 1 triangles; expected fewer");
@@ -50,7 +50,7 @@ WrittenModel write_stl(const Model& model, const std::string& stem) {
   WrittenModel written;
   written.files.push_back({stem + ".stl", std::move(bytes)});
   if (!model.materials.empty()) written.warnings.emplace_back("STL stores only triangles: no materials, textures, normals or colors");
-  if (has_others) written.warnings.emplace_back("lines and points are left out");
+  if (has_lines_or_points) written.warnings.emplace_back("lines and points are left out");
   return written;
 }
 

@@ -13,7 +13,7 @@ using Wanted = std::array<bool, kFrameValues>;
 
 bool wants(const Wanted& wanted, FrameValue value) { return wanted[static_cast<std::size_t>(value)]; }
 
-// Rows that are bound to a mesh that lacks a stream.
+// Constant rows that take the place of missing streams of a mesh.
 constexpr std::array<float, 4> kZeros{0, 0, 0, 0}, kOnes{1, 1, 1, 1}, kTangent{1, 0, 0, 1};
 
 template <class T>

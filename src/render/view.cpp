@@ -57,7 +57,7 @@ bool is_rigid(const glm::dmat4& m) {
   return m[3][3] == 1.0 && glm::determinant(turn) > 0.0;
 }
 
-[[noreturn]] void refuse_projection(const char* expected) {
+[[noreturn]] void reject_projection(const char* expected) {
   throw InputError(std::string("camera: the projection matrix cannot be used; expected ") + expected);
 }
 
@@ -71,7 +71,7 @@ void set_planes(CameraDescription& c, double a, double b) {
     c.far = (b - 1.0) / a;
   }
   if (!(c.near < c.far) || (c.type == Projection::perspective && !(c.near > 0.0)))
-    refuse_projection("a near plane in front of the far plane, and of the camera");
+    reject_projection("a near plane in front of the far plane, and of the camera");
 }
 
 }  // namespace
@@ -82,12 +82,12 @@ CameraDescription matrix_camera(const CameraMatrices& matrices) {
   if (!is_rigid(world)) throw InputError("camera: the pose is not a rotation and a translation; expected a rigid transform");
   CameraDescription c;
   const glm::dvec4 w(p[0][3], p[1][3], p[2][3], p[3][3]);
-  if (w != glm::dvec4(0, 0, -1, 0) && w != glm::dvec4(0, 0, 0, 1)) refuse_projection("(0, 0, -1, 0) or (0, 0, 0, 1) as the last row");
+  if (w != glm::dvec4(0, 0, -1, 0) && w != glm::dvec4(0, 0, 0, 1)) reject_projection("(0, 0, -1, 0) or (0, 0, 0, 1) as the last row");
   c.type = w.z == 0.0 ? Projection::orthographic : Projection::perspective;
-  if (p[0][2] != 0.0 || p[1][2] != 0.0) refuse_projection("a depth that depends only on z");
+  if (p[0][2] != 0.0 || p[1][2] != 0.0) reject_projection("a depth that depends only on z");
   if (c.type == Projection::perspective ? p[3][0] != 0.0 || p[3][1] != 0.0 : p[2][0] != 0.0 || p[2][1] != 0.0)
-    refuse_projection("a perspective or orthographic projection");
-  if (!(p[0][0] * p[1][1] - p[1][0] * p[0][1] > 0.0)) refuse_projection("one that keeps the image unmirrored");
+    reject_projection("a perspective or orthographic projection");
+  if (!(p[0][0] * p[1][1] - p[1][0] * p[0][1] > 0.0)) reject_projection("one that keeps the image unmirrored");
   set_planes(c, p[2][2], p[3][2]);
   c.position = glm::dvec3(world[3]);
   c.target = c.position - glm::dvec3(world[2]);

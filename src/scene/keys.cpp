@@ -78,7 +78,7 @@ std::optional<Color> color_from(const Key& key, const Json& json) {
 }
 
 // Returns true for UTF-8 without control characters, which can be displayed, printed and read back.
-bool is_opaque(const std::string& text) {
+bool is_plain_text(const std::string& text) {
   if (std::ranges::any_of(text, [](char c) { return static_cast<unsigned char>(c) < 32 || c == 127; })) return false;
   try {
     (void)Json(text).dump();
@@ -88,19 +88,19 @@ bool is_opaque(const std::string& text) {
   }
 }
 
-void check_plain(const std::string& text, const std::string& path, const ReadContext& c) {
-  if (!is_opaque(text)) fail(c, path, "contains a control character or invalid UTF-8; expected plain text");
+void check_plain_text(const std::string& text, const std::string& path, const ReadContext& c) {
+  if (!is_plain_text(text)) fail(c, path, "contains a control character or invalid UTF-8; expected plain text");
 }
 
 // Empty text means no file.
 FilePath file_from(const std::string& text, const std::string& path, const ReadContext& c) {
-  check_plain(text, path, c);
+  check_plain_text(text, path, c);
   if (text.empty()) return {};
   if (std::filesystem::path(text).is_relative() && c.directory.empty()) {
     fail(c, path, "'" + text + "' is relative, but its base directory does not exist; expected an absolute path");
   }
   const std::filesystem::path whole = (c.directory / text).lexically_normal();
-  check_plain(whole.string(), path, c);
+  check_plain_text(whole.string(), path, c);
   return {whole};
 }
 
@@ -243,7 +243,7 @@ void read_value(const Field& field, const Json& json, const std::string& path, c
     case KeyType::color: return store(color_from(key, json));
     case KeyType::text:
       return store(when(json.is_string(), [&] {
-        check_plain(json.get<std::string>(), path, context);
+        check_plain_text(json.get<std::string>(), path, context);
         return json.get<std::string>();
       }));
     case KeyType::file: return store(when(json.is_string(), [&] { return file_from(json.get<std::string>(), path, context); }));

@@ -26,41 +26,41 @@ constexpr int kMaxPatternWidth = 4096;              // 14 bytes per texel; patte
 constexpr int64_t kMaxCopies = 65536;
 constexpr int64_t kMaxDrawnVertices = int64_t{1} << 25;  // total over all visible copies: 2 GB while a frame is rendered
 
-[[noreturn]] void refuse(const std::string& where, const std::string& what) { throw InputError(where + ": " + what); }
+[[noreturn]] void reject(const std::string& where, const std::string& what) { throw InputError(where + ": " + what); }
 
 void check(const CameraDescription& c, const std::string& where) {
-  if (c.near >= c.far) refuse(where + ".far", "expected a value greater than near");
+  if (c.near >= c.far) reject(where + ".far", "expected a value greater than near");
   const glm::dvec3 side = glm::cross(unit_or_zero(c.target - c.position), unit_or_zero(c.up));
   if (glm::dot(side, side) <= 1e-24) {
-    refuse(where + ".up", "up is parallel to the line from position to target; expected another direction");
+    reject(where + ".up", "up is parallel to the line from position to target; expected another direction");
   }
 }
 
 void check(const LightDescription& l, const std::string& where) {
-  if (l.direction == glm::dvec3(0.0)) refuse(where + ".direction", "is zero; expected a direction");
+  if (l.direction == glm::dvec3(0.0)) reject(where + ".direction", "is zero; expected a direction");
   if (l.attenuation.x + l.attenuation.y + l.attenuation.z < kMinTerm) {
-    refuse(where + ".attenuation", "is zero; expected a sum of at least " + number_text(kMinTerm));
+    reject(where + ".attenuation", "is zero; expected a sum of at least " + number_text(kMinTerm));
   }
   if (l.type == LightType::spot && l.inner > l.outer)
-    refuse(where + ".inner", number_text(l.inner) + " is greater than outer; expected at most " + number_text(l.outer));
+    reject(where + ".inner", number_text(l.inner) + " is greater than outer; expected at most " + number_text(l.outer));
   if (l.type == LightType::directional && l.size > 45.0)
-    refuse(where + ".size", number_text(l.size) + " degrees is too large for a directional light; expected at most 45");
+    reject(where + ".size", number_text(l.size) + " degrees is too large for a directional light; expected at most 45");
 }
 
 void check(const ShadowDescription& s, const std::string& where) {
   if (s.resolution != 0 && s.resolution < kMinShadowTexels) {
-    refuse(where + ".resolution", fmt::format("expected 0 or at least {} (room for the filters), got {}", kMinShadowTexels, s.resolution));
+    reject(where + ".resolution", fmt::format("expected 0 or at least {} (room for the filters), got {}", kMinShadowTexels, s.resolution));
   }
 }
 
 void check(const TextureDescription& t, const std::string& where) {
-  if (t.width % 2 != 0) refuse(where + ".width", fmt::format("expected 0 or an even number, got {}", t.width));
+  if (t.width % 2 != 0) reject(where + ".width", fmt::format("expected 0 or an even number, got {}", t.width));
   if (is_pattern(t.source) && t.width > kMaxPatternWidth)
-    refuse(where + ".width", fmt::format("expected at most {} for a map that tiles, got {}", kMaxPatternWidth, t.width));
+    reject(where + ".width", fmt::format("expected at most {} for a map that tiles, got {}", kMaxPatternWidth, t.width));
 }
 
 void check(const EnvironmentDescription& e, const std::string& where) {
-  if (e.sun == glm::dvec3(0.0)) refuse(where + ".sun", "is zero; expected a direction");
+  if (e.sun == glm::dvec3(0.0)) reject(where + ".sun", "is zero; expected a direction");
 }
 
 void check(const SurfaceDescription&, const std::string&) {}
@@ -69,43 +69,44 @@ void check(const ParticlesDescription&, const std::string&) {}
 void check(const Placement& p, const std::string& where) {
   const glm::dvec3 s = glm::abs(p.scale);
   if (std::min({s.x, s.y, s.z}) < kMinScale)
-    refuse(where + ".scale", "has a component near zero; expected at least " + number_text(kMinScale) + " in magnitude");
+    reject(where + ".scale", "has a component near zero; expected at least " + number_text(kMinScale) + " in magnitude");
 }
 
 void check(const ObjectDescription& o, const std::string& where) {
   const ShapeKind& kind = kind_of(o);
   check(o.placement, where);
-  if (o.shape == Shape::file && o.file.path.empty()) refuse(where + ".file", "is missing; expected a model file");
+  if (o.shape == Shape::file && o.file.path.empty()) reject(where + ".file", "is missing; expected a model file");
   for (std::size_t i = 0; i < o.instances.size(); ++i) check(o.instances[i], fmt::format("{}.{}.{}", where, kInstances, i));
-  if (kind.vertices(o) > kMaxVertices) refuse(where + ".longitudes", "more than 2^23 vertices; expected fewer latitudes or longitudes");
+  if (kind.vertices(o) > kMaxVertices) reject(where + ".longitudes", "more than 2^23 vertices; expected fewer latitudes or longitudes");
   if (kind.is_ring && o.tube >= o.radius)
-    refuse(where + ".tube", number_text(o.tube) + " closes the hole of the ring; expected less than radius, " + number_text(o.radius));
-  if (kind.is_ring && o.latitudes < 3) refuse(where + ".latitudes", "2 do not form a tube; expected at least 3");
-  if (const std::string_view key = key_for_meshes(o); o.shape == Shape::sphere && !key.empty()) {
-    refuse(where + "." + std::string(key),
+    reject(where + ".tube", number_text(o.tube) + " closes the hole of the ring; expected less than radius, " + number_text(o.radius));
+  if (kind.is_ring && o.latitudes < 3) reject(where + ".latitudes", "2 do not form a tube; expected at least 3");
+  if (const std::string_view key = mesh_only_key(o); o.shape == Shape::sphere && !key.empty()) {
+    reject(where + "." + std::string(key),
            std::string("is not supported by the shape sphere (only constant factors, per-pixel lighting, the outside, and uniform ") +
                "scale); expected the shape uv_sphere or icosphere");
   }
   const double thickness = kind.thickness(o);
   if (thickness > 0.0 && is_map(o.height) && std::fabs(o.height_scale) * std::max(o.height_zero, 1.0 - o.height_zero) >= thickness) {
-    refuse(where + ".height_scale", number_text(o.height_scale) + " can turn the " + (o.shape == Shape::uv_sphere ? "sphere" : "surface") +
+    reject(where + ".height_scale", number_text(o.height_scale) + " can turn the " + (o.shape == Shape::uv_sphere ? "sphere" : "surface") +
                                         " inside out; expected less than " + (o.shape == Shape::uv_sphere ? "its radius, " : "") +
                                         number_text(thickness));
   }
 }
 
-bool is_even(const Placement& p) { return glm::abs(p.scale) == glm::dvec3(std::fabs(p.scale.x)); }
+bool is_uniformly_scaled(const Placement& p) { return glm::abs(p.scale) == glm::dvec3(std::fabs(p.scale.x)); }
 
 // Checks that the ancestors of an object exist and form no cycle, and that exact spheres stay round.
 void check_parents(SceneDescription& scene, const ObjectDescription& object, const std::string& where) {
   std::size_t generations = 0;
   for (const ObjectDescription* o = &object; !o->parent.empty();) {
     const ObjectDescription* parent = find_named(scene.objects, o->parent);
-    if (parent == nullptr) refuse(where + ".parent", "no object '" + o->parent + "'" + suggestion(o->parent, names_of(scene.objects)));
+    if (parent == nullptr) reject(where + ".parent", "no object '" + o->parent + "'" + suggestion(o->parent, names_of(scene.objects)));
     if (++generations > scene.objects.size())
-      refuse(where + ".parent", "the object is among its own ancestors; expected an object that does not depend on it");
-    if (object.shape == Shape::sphere && !is_even(parent->placement))
-      refuse(where + ".parent", "'" + o->parent + "' is not scaled uniformly, which the shape sphere requires; expected the shape uv_sphere");
+      reject(where + ".parent", "the object is among its own ancestors; expected an object that does not depend on it");
+    if (object.shape == Shape::sphere && !is_uniformly_scaled(parent->placement))
+      reject(where + ".parent",
+             "'" + o->parent + "' is not scaled uniformly, which the shape sphere requires; expected the shape uv_sphere");
     o = parent;
   }
 }
@@ -114,35 +115,35 @@ void check_environments(SceneDescription& scene, const std::string& source) {
   const BackgroundDescription& b = scene.background;
   const auto check_name = [&](const char* key, const std::string& name) {
     if (name.empty() || find_named(scene.environments, name) != nullptr) return;
-    refuse(source, std::string(key) + ": no environment '" + name + "'" + suggestion(name, names_of(scene.environments)));
+    reject(source, std::string(key) + ": no environment '" + name + "'" + suggestion(name, names_of(scene.environments)));
   };
   check_name("background.environment", b.environment);
   check_name("background.second", b.second);
   check_name("reflections.environment", scene.reflections.environment);
   if (b.type == BackgroundType::environment && scene.environments.empty())
-    refuse(source, "background.type: the scene has no environment; expected one in environments");
+    reject(source, "background.type: the scene has no environment; expected one in environments");
 }
 
 }  // namespace
 
-std::string_view key_for_meshes(const ObjectDescription& o) {
+std::string_view mesh_only_key(const ObjectDescription& o) {
   const SurfaceDescription& s = o.surface;
   if (is_map(o.height)) return "height";
   if (const std::string_view map = first_map(s); !map.empty()) return map;
   if (s.reflection.linear != glm::dvec3(0.0)) return "reflection";
   if (s.shading != ShadingRate::phong) return "shading";
   if (s.two_sided) return "two_sided";
-  if (!is_even(o.placement)) return "scale";
-  return std::ranges::all_of(o.instances, is_even) ? "" : kInstances;
+  if (!is_uniformly_scaled(o.placement)) return "scale";
+  return std::ranges::all_of(o.instances, is_uniformly_scaled) ? "" : kInstances;
 }
 
-bool has_even_ancestors(const SceneDescription& scene, const ObjectDescription& o) {
+bool has_uniformly_scaled_ancestors(const SceneDescription& scene, const ObjectDescription& o) {
   if (o.parent.empty()) return true;
   const ObjectDescription* parent = find_named(scene.objects, o.parent);
-  return is_even(parent->placement) && has_even_ancestors(scene, *parent);
+  return is_uniformly_scaled(parent->placement) && has_uniformly_scaled_ancestors(scene, *parent);
 }
 
-void check_room(const Named<ObjectDescription>& objects, const std::string& source) {
+void check_mesh_limits(const Named<ObjectDescription>& objects, const std::string& source) {
   int64_t vertices = 0, copies = 0;
   for (const auto& [name, o] : objects) {
     if (!o.visible) continue;
@@ -150,9 +151,9 @@ void check_room(const Named<ObjectDescription>& objects, const std::string& sour
     copies += count;
     vertices += kind_of(o).vertices(o) * count;
   }
-  if (copies > kMaxCopies) refuse(source, fmt::format("objects: {} objects including instances; expected at most {}", copies, kMaxCopies));
+  if (copies > kMaxCopies) reject(source, fmt::format("objects: {} objects including instances; expected at most {}", copies, kMaxCopies));
   if (vertices > kMaxDrawnVertices) {
-    refuse(source,
+    reject(source,
            fmt::format("objects: {} vertices including instances; expected at most 33554432 (2^25): fewer instances or coarser shapes",
                        vertices));
   }
@@ -160,10 +161,10 @@ void check_room(const Named<ObjectDescription>& objects, const std::string& sour
 
 void check_scene(SceneDescription& scene, const std::string& source) {
   if (!scene.head.camera.empty() && find_named(scene.cameras, scene.head.camera) == nullptr) {
-    refuse(source, "camera: no camera '" + scene.head.camera + "'" + suggestion(scene.head.camera, names_of(scene.cameras)));
+    reject(source, "camera: no camera '" + scene.head.camera + "'" + suggestion(scene.head.camera, names_of(scene.cameras)));
   }
   if (!std::has_single_bit(static_cast<unsigned>(scene.head.samples)))
-    refuse(source, fmt::format("samples: expected 1, 2, 4 or 8, got {}", scene.head.samples));
+    reject(source, fmt::format("samples: expected 1, 2, 4 or 8, got {}", scene.head.samples));
   check_environments(scene, source);
   for_each_collection(scene, [&](const char* collection, const char*, auto& list) {
     for (auto& entry : list) {
@@ -181,7 +182,7 @@ void check_scene(SceneDescription& scene, const std::string& source) {
     check_material_overrides(scene, object, where);
   }
   check(scene.shadow, source + ": shadow");
-  check_room(scene.objects, source);
+  check_mesh_limits(scene.objects, source);
 }
 
 }  // namespace halfspace

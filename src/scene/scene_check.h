@@ -14,13 +14,13 @@ void check_scene(SceneDescription& scene, const std::string& source);
 
 /// Returns the first of an object's keys that needs a mesh and so cannot be used with Shape::sphere: maps, reflection, per-vertex
 /// or per-triangle lighting, two-sided surfaces, non-uniform scale. Returns an empty string if there is none.
-std::string_view key_for_meshes(const ObjectDescription& o);
+std::string_view mesh_only_key(const ObjectDescription& o);
 
 /// Returns true if all ancestors of an object are scaled uniformly, so that a sphere remains a sphere. check_scene() must have accepted the
 /// scene.
-bool has_even_ancestors(const SceneDescription& scene, const ObjectDescription& o);
+bool has_uniformly_scaled_ancestors(const SceneDescription& scene, const ObjectDescription& o);
 
 /// Checks that all objects together stay within the limits on vertices and copies. Throws InputError like check_scene.
-void check_room(const Named<ObjectDescription>& objects, const std::string& source);
+void check_mesh_limits(const Named<ObjectDescription>& objects, const std::string& source);
 
 }  // namespace halfspace

@@ -111,7 +111,7 @@ Study study_antialiasing(const StudyOptions& options, const Workers& workers) {
                              {"pixels", static_cast<double>(size) * size},
                              {"triangles", static_cast<double>(triangles.size())}},
               .time = time_of([&] { draw(picture); }, options)};
-    judge_picture(v, picture, truth, PictureError::rms);
+    set_picture_error(v, picture, truth, PictureError::rms);
     study.variants.push_back(std::move(v));
   };
   for (const int samples : {1, 2, 4, 8}) {

@@ -142,7 +142,7 @@ Study study_depth(const StudyOptions& options, const Workers& workers) {
                         pass.run(workers);
                       },
                       options)};
-        judge_picture(v, picture, white, PictureError::mean);
+        set_picture_error(v, picture, white, PictureError::mean);
         v.measures.clear();
         v.error = wrong_fraction(picture);
         study.variants.push_back(std::move(v));

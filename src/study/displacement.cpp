@@ -48,7 +48,7 @@ Study study_displacement(const StudyOptions& options, const Workers& workers) {
       v.parameters = {{"latitudes", static_cast<double>(latitudes)},
                       {"triangles", static_cast<double>(statistics.primitives_in)},
                       {"pixels", static_cast<double>(statistics.fragments_shaded)}};
-      judge_picture(v, picture, truth, PictureError::mean);
+      set_picture_error(v, picture, truth, PictureError::mean);
       study.variants.push_back(std::move(v));
     }
   }

@@ -133,7 +133,7 @@ Case make_case(const std::string& name, double length_px, double height_px) {
 constexpr int kRepeats = 244;  // about a million values in total
 
 template <class Method>
-Variant judged(const std::string& name, const std::string& group, const Case& c, const Method& method, const StudyOptions& options) {
+Variant evaluated(const std::string& name, const std::string& group, const Case& c, const Method& method, const StudyOptions& options) {
   using R = typename Method::R;
   constexpr int width = std::is_same_v<R, Real> ? kLanes : 1;
   std::vector<float> out(c.x.size());
@@ -185,11 +185,11 @@ Study study_interpolation(const StudyOptions& options, const Workers&) {
     cases.push_back(make_case("1000x1", 1000, 1));
   }
   for (const Case& c : cases) {
-    study.variants.push_back(judged("affine", "affine (no perspective)", c, Affine(c.corners), options));
-    study.variants.push_back(judged("planes", "plane equations from the window origin", c, Planes(c.corners, false), options));
-    study.variants.push_back(judged("vertex planes", "plane equations from a vertex", c, Planes(c.corners, true), options));
-    study.variants.push_back(judged("products", "differences of products (used here)", c, Products<Real>(c.corners), options));
-    study.variants.push_back(judged("double", "the same in double", c, Products<double>(c.corners), options));
+    study.variants.push_back(evaluated("affine", "affine (no perspective)", c, Affine(c.corners), options));
+    study.variants.push_back(evaluated("planes", "plane equations from the window origin", c, Planes(c.corners, false), options));
+    study.variants.push_back(evaluated("vertex planes", "plane equations from a vertex", c, Planes(c.corners, true), options));
+    study.variants.push_back(evaluated("products", "differences of products (used here)", c, Products<Real>(c.corners), options));
+    study.variants.push_back(evaluated("double", "the same in double", c, Products<double>(c.corners), options));
   }
   return study;
 }

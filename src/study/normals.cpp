@@ -75,7 +75,7 @@ Study study_normals(const StudyOptions& options, const Workers& workers) {
     v.time = time_of([&] { statistics = render(prepared, picture, workers); }, options);
     v.parameters = {{"triangles", static_cast<double>(statistics.primitives_in)},
                     {"pixels", static_cast<double>(statistics.fragments_shaded)}};
-    judge_picture(v, picture, truth, PictureError::mean);
+    set_picture_error(v, picture, truth, PictureError::mean);
     study.variants.push_back(std::move(v));
   }
   return study;

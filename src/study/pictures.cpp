@@ -41,7 +41,7 @@ TimedPicture timed_picture(const SceneDescription& scene, int width, int height,
 
 void set_truth(Truth& truth, const Image<glm::vec4>& light, const Image<glm::vec4>& half, PictureError kind) {
   Variant difference;
-  judge_picture(difference, half, light, kind);
+  set_picture_error(difference, half, light, kind);
   truth.error = difference.error / 3.0;
   truth.picture = codes_of(light);
 }
@@ -54,7 +54,7 @@ Image<glm::u8vec4> codes_of(const Image<glm::vec4>& light) {
   return codes;
 }
 
-void judge_picture(Variant& variant, const Image<glm::vec4>& light, const Image<glm::vec4>& truth, PictureError kind) {
+void set_picture_error(Variant& variant, const Image<glm::vec4>& light, const Image<glm::vec4>& truth, PictureError kind) {
   const ImageDifference d = compare_images(light, truth);
   variant.error = kind == PictureError::rms ? d.rmse : d.mean;
   variant.measures.insert(variant.measures.end(), {{"rms", d.rmse}, {"mean", d.mean}, {"p999", d.p999}, {"max", d.max}, {"ssim", d.ssim}});

@@ -22,7 +22,7 @@ enum class PictureError : uint8_t {
 };
 
 /// Compares an image with the truth. Sets the error, measures (rms, mean, p999, max, ssim) and pictures of the variant.
-void judge_picture(Variant& variant, const Image<glm::vec4>& light, const Image<glm::vec4>& truth, PictureError kind);
+void set_picture_error(Variant& variant, const Image<glm::vec4>& light, const Image<glm::vec4>& truth, PictureError kind);
 
 /// Sets the picture of a truth that converges with the number of bands. Its error is estimated as a third of its difference from `half`,
 /// an image with half the number of bands.

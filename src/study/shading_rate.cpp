@@ -70,7 +70,7 @@ Study study_shading_rate(const StudyOptions& options, const Workers& workers) {
                 .time = picture.time};
       Image<glm::vec4> inside = picture.light;
       const double moved = leave_silhouette_out(inside, truth.exact);
-      judge_picture(v, inside, truth.light, PictureError::rms);
+      set_picture_error(v, inside, truth.light, PictureError::rms);
       v.error = rms_error(inside, truth.exact);
       v.measures.push_back({"silhouette_share", moved});
       v.picture = codes_of(picture.light);

@@ -109,7 +109,7 @@ Study study_on(const std::string& name, int width, int height) {
   };
 }
 
-// The error of the truth is at least what a tenth of a wrong pixel would contribute.
+// The error of the reference is at least that of a tenth of one wrong pixel.
 void set_truth_error(Study& study, double doubt, int width, int height) { study.truth.error = std::max(doubt, 0.1 / (width * height)); }
 
 }  // namespace

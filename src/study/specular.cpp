@@ -40,7 +40,7 @@ HS_INLINE R by_squaring(R c, int n) {  // n must be a power of two
 constexpr int kValues = 1 << 16, kRounds = 16;
 
 template <class F>
-Variant judged(const std::string& name, int exponent, const F& f, const StudyOptions& options) {
+Variant evaluated(const std::string& name, int exponent, const F& f, const StudyOptions& options) {
   std::vector<float> in(kValues), out(kValues);
   for (int i = 0; i < kValues; ++i) in[static_cast<std::size_t>(i)] = static_cast<float>((i + 0.5) / kValues);
   Variant v{.name = fmt::format("{} {}", name, exponent),
@@ -77,19 +77,19 @@ Study study_specular(const StudyOptions& options, const Workers&) {
   for (const int n : options.quick ? std::vector{32} : std::vector{8, 32, 128}) {
     const auto y = static_cast<float>(n);
     const PowerTable table(n);
-    study.variants.push_back(judged(
+    study.variants.push_back(evaluated(
         "pow (used here)", n, [&](Real c) { return pow(c, Real(y)); }, options));
-    study.variants.push_back(judged(
+    study.variants.push_back(evaluated(
         "exp2(n log2 c)", n, [&](Real c) { return exp2(Real(y) * log2(c)); }, options));
-    study.variants.push_back(judged(
+    study.variants.push_back(evaluated(
         "squaring", n, [&](Real c) { return by_squaring(c, n); }, options));
-    study.variants.push_back(judged(
+    study.variants.push_back(evaluated(
         "table of 256", n, [&](Real c) { return table.at(c); }, options));
     // C. Schlick, "A fast alternative to Phong's specular model", Graphics Gems IV, 1994.
-    study.variants.push_back(judged(
+    study.variants.push_back(evaluated(
         "Schlick", n, [&](Real c) { return c / (Real(y) - Real(y) * c + c); }, options));
     // A spherical Gaussian. It has the same value and derivative as c^n at c = 1.
-    study.variants.push_back(judged(
+    study.variants.push_back(evaluated(
         "Gaussian", n, [&](Real c) { return exp(Real(y) * (c - Real(1.0f))); }, options));
   }
   return study;

@@ -80,7 +80,7 @@ Study study_sphere_model(const StudyOptions& options, const Workers& workers) {
                              {"pixels", static_cast<double>(picture.statistics.fragments_shaded)},
                              {"chord_px", px_per_unit * model.chord}},
               .time = picture.time};
-    judge_picture(v, picture.light, truth.light, PictureError::rms);
+    set_picture_error(v, picture.light, truth.light, PictureError::rms);
     v.error = rms_error(picture.light, truth.exact);
     study.variants.push_back(std::move(v));
   }

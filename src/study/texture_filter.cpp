@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Compares texture filters on a checkered plane that reaches the horizon. The truth is the mean of the texture over each pixel.
+// Compares texture filters on a checkered plane that reaches the horizon. The reference is the mean of the texture over each pixel.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -131,7 +131,7 @@ Study study_texture_filter(const StudyOptions& options, const Workers& workers) 
                     pass.run(workers);
                   },
                   options)};
-    judge_picture(v, picture, truth.mean, PictureError::rms);
+    set_picture_error(v, picture, truth.mean, PictureError::rms);
     study.variants.push_back(std::move(v));
   }
   return study;

@@ -54,7 +54,7 @@ Lights make_lights(int count) {
 }
 
 template <class F>
-Variant judged(const std::string& name, const std::string& group, const Lights& lights, const F& encode, const StudyOptions& options) {
+Variant evaluated(const std::string& name, const std::string& group, const Lights& lights, const F& encode, const StudyOptions& options) {
   std::vector<int32_t> codes(lights.light.size());
   Variant v{.name = name,
             .group = group,
@@ -91,7 +91,7 @@ Study study_tone(const StudyOptions& options, const Workers&) {
       .time_name = fmt::format("{} channels on one thread", count),
       .truth = {"curve and power in long double, rounded", 0.1 / count, "one channel wrong by a tenth of a code"},
   };
-  study.variants.push_back(judged(
+  study.variants.push_back(evaluated(
       "double pow", "scalar", lights,
       [](Real x) {
         Int codes(0);
@@ -99,19 +99,19 @@ Study study_tone(const StudyOptions& options, const Workers&) {
         return codes;
       },
       options));
-  study.variants.push_back(judged(
+  study.variants.push_back(evaluated(
       "curve, encoder's table (used here)", "curve by formula", lights, [](Real x) { return linear_to_srgb(curve(x)); }, options));
-  study.variants.push_back(judged(
+  study.variants.push_back(evaluated(
       "curve, polynomial power", "curve by formula", lights,
       [](Real x) { return round_to_int(encode_srgb(DisplayLight<Real>{vec3<Real>(curve(x))}).rgb.x * Real(255.0f)); }, options));
-  study.variants.push_back(judged(
+  study.variants.push_back(evaluated(
       "curve, gamma 2.2", "curve by formula", lights, [](Real x) { return round_to_int(pow(curve(x), Real(1.0f / 2.2f)) * Real(255.0f)); },
       options));
-  study.variants.push_back(judged(
+  study.variants.push_back(evaluated(
       "curve, gamma 2 (root)", "curve by formula", lights, [](Real x) { return round_to_int(sqrt(curve(x)) * Real(255.0f)); }, options));
   for (const int size : {256, 1024, 4096, 65536}) {
     const CurveTable table(size);
-    study.variants.push_back(judged(
+    study.variants.push_back(evaluated(
         fmt::format("table of {}", size), "one table for everything", lights, [&](Real x) { return table.at(x); }, options));
   }
   return study;

@@ -32,7 +32,7 @@ TEST_P(BenchMistake, IsReportedInOneLine) {
   const Outcome outcome = bench(GetParam().arguments);
   EXPECT_EQ(outcome.exit_code, 2);
   ASSERT_TRUE(outcome.text.ends_with('\n')) << outcome.text;
-  EXPECT_TRUE(tells(outcome.text.substr(0, outcome.text.size() - 1), "halfspace-bench: " + GetParam().place, GetParam().keywords));
+  EXPECT_TRUE(reports(outcome.text.substr(0, outcome.text.size() - 1), "halfspace-bench: " + GetParam().place, GetParam().keywords));
 }
 
 INSTANTIATE_TEST_SUITE_P(All, BenchMistake,

@@ -130,7 +130,7 @@ TEST(BenchGl, ListsTheAvailableDrivers) {
   const Outcome outcome = test::run_program(program, "--driver llvm --only fill");
   EXPECT_EQ(outcome.exit_code, 2);
   ASSERT_TRUE(outcome.text.ends_with('\n')) << outcome.text;
-  EXPECT_TRUE(tells(outcome.text.substr(0, outcome.text.size() - 1), "halfspace-bench-gl: --driver", {"'llvm'", "llvmpipe", "softpipe"}));
+  EXPECT_TRUE(reports(outcome.text.substr(0, outcome.text.size() - 1), "halfspace-bench-gl: --driver", {"'llvm'", "llvmpipe", "softpipe"}));
 }
 
 TEST(BenchPeers, SupportTheSweepsOfHalfspace) {

@@ -19,7 +19,7 @@ namespace {
 constexpr WorkloadSize kSceneSize{320, 180};
 constexpr std::array kKinds{SceneKind::hall, SceneKind::garden, SceneKind::workshop};
 
-// The scenes are made once.
+// The scenes are generated only once.
 WorkloadAssets& shared_assets() {
   static WorkloadAssets assets;
   return assets;

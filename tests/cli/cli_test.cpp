@@ -161,9 +161,9 @@ const Mistake kMistakes[] = {
 };
 
 // Checks that the text is one complete line that contains the place and the keywords.
-testing::AssertionResult is_line_that_tells(const std::string& text, const std::string& place, const std::vector<std::string>& keywords) {
+testing::AssertionResult is_line_with(const std::string& text, const std::string& place, const std::vector<std::string>& keywords) {
   if (!text.ends_with('\n')) return testing::AssertionFailure() << "not a complete line: " << text;
-  return tells(text.substr(0, text.size() - 1), place, keywords);
+  return reports(text.substr(0, text.size() - 1), place, keywords);
 }
 
 class CliMistake : public Cli, public testing::WithParamInterface<Mistake> {};
@@ -173,7 +173,7 @@ TEST_P(CliMistake, IsReportedInOneLine) {
   EXPECT_EQ(o.exit_code, GetParam().exit_code);
   std::string place = "halfspace: " + GetParam().place;
   if (const std::size_t at = place.find("{here}"); at != std::string::npos) place.replace(at, 6, directory.string());
-  EXPECT_TRUE(is_line_that_tells(o.err, place, GetParam().keywords));
+  EXPECT_TRUE(is_line_with(o.err, place, GetParam().keywords));
   EXPECT_EQ(o.out, "");
   EXPECT_TRUE(files().empty()) << files().front() << " was left behind";
 }
@@ -199,7 +199,7 @@ TEST_F(Cli, RejectsFilesThatAreNotImages) {
   std::ofstream(directory / "map.png") << "no picture";
   const Outcome o = run({"render", "earth", "--set", "earth.color=map.png"});
   EXPECT_EQ(o.exit_code, 3);
-  EXPECT_TRUE(is_line_that_tells(o.err, "halfspace: scene earth: objects.earth.color: " + (directory / "map.png").string(), {"PNG"}));
+  EXPECT_TRUE(is_line_with(o.err, "halfspace: scene earth: objects.earth.color: " + (directory / "map.png").string(), {"PNG"}));
 }
 
 // On a processor without the required features, the program prints one line instead of crashing with an illegal instruction. An emulator
@@ -210,7 +210,7 @@ TEST_F(Cli, ReportsAnUnsupportedProcessorInOneLine) {
   const std::string command = std::string("qemu-x86_64 -cpu qemu64 ") + HALFSPACE_PROGRAM + " info 2> " + (root / "err").string();
   EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 1);
   const std::string line = read_bytes(root / "err");
-  EXPECT_TRUE(is_line_that_tells(line, "halfspace: ", {"this build needs", "SSSE3", "processor"}));
+  EXPECT_TRUE(is_line_with(line, "halfspace: ", {"this build needs", "SSSE3", "processor"}));
 }
 
 // ---- valid input -----------------------------------------------------------------------------------------------
@@ -353,7 +353,7 @@ TEST_F(Cli, ReportsErrorsInSceneFiles) {
   std::ofstream(directory / "my.json") << "{\"version\": 1, \"objects\": {\"a\": {\"raduis\": 2}}}";
   const Outcome o = run({"render", "my.json"});
   EXPECT_EQ(o.exit_code, 3);
-  EXPECT_TRUE(is_line_that_tells(o.err, "halfspace: my.json: objects.a.raduis", {"unknown key", "'radius'"}));
+  EXPECT_TRUE(is_line_with(o.err, "halfspace: my.json: objects.a.raduis", {"unknown key", "'radius'"}));
 }
 
 TEST_F(Cli, ListPrintsScenesAndKeys) {
@@ -447,7 +447,7 @@ TEST_F(Cli, ReportsAPipeWithoutReader) {
   ASSERT_EQ(::mkfifo((directory / "pipe").c_str(), 0666), 0);
   const Outcome o = run({"render", "earth", "--size", "8x8", "-o", "pipe"});
   EXPECT_EQ(o.exit_code, 4);
-  EXPECT_TRUE(is_line_that_tells(o.err, "halfspace: pipe", {"reading"}));
+  EXPECT_TRUE(is_line_with(o.err, "halfspace: pipe", {"reading"}));
 }
 
 // The image is larger than a pipe buffer, so the program has to wait for the reader.
@@ -498,11 +498,11 @@ TEST_F(Cli, CompareReportsNumbersAndChecksTheTolerance) {
   EXPECT_GT(most, 0.01);
   const Outcome above = run({"compare", "64x36.png", "flat.png", "--tolerance", "0.01"});
   EXPECT_EQ(above.exit_code, 1);
-  EXPECT_TRUE(is_line_that_tells(above.err, "halfspace: flat.png", {"64x36.png", " 0.", "0.01"}));
+  EXPECT_TRUE(is_line_with(above.err, "halfspace: flat.png", {"64x36.png", " 0.", "0.01"}));
   EXPECT_EQ(run({"compare", "64x36.png", "flat.png", "--tolerance", "1"}).exit_code, 0);
   const Outcome sizes = run({"compare", "64x36.png", "32x18.png"});
   EXPECT_EQ(sizes.exit_code, 3);
-  EXPECT_TRUE(is_line_that_tells(sizes.err, "halfspace: 32x18.png", {"32x18", "64x36", "64x36.png"}));
+  EXPECT_TRUE(is_line_with(sizes.err, "halfspace: 32x18.png", {"32x18", "64x36", "64x36.png"}));
   std::ofstream(directory / "bad.png") << "no picture";
   const Outcome bad = run({"compare", "64x36.png", "bad.png"});
   EXPECT_EQ(bad.exit_code, 3);
@@ -569,7 +569,7 @@ TEST_F(Cli, ChartReportsAFailureOfTheScriptInOneLine) {
   std::ofstream(root / "matplotlib.py") << "raise RuntimeError('broken for this test')\n";
   const Outcome o = run_in("PYTHONPATH=" + root.string(), "chart tone --quick -o out");
   EXPECT_EQ(o.exit_code, 4);
-  EXPECT_TRUE(is_line_that_tells(o.err, "halfspace: no charts were drawn", {"RuntimeError: broken for this test"})) << o.err;
+  EXPECT_TRUE(is_line_with(o.err, "halfspace: no charts were drawn", {"RuntimeError: broken for this test"})) << o.err;
   EXPECT_TRUE(fs::exists(directory / "out" / "tone.csv"));
 }
 

@@ -35,21 +35,21 @@ TEST_F(ExplainPage, PrintsNothing) {
   EXPECT_EQ(o.err, "");
 }
 
-TEST_F(ExplainPage, ContainsTheCommandThatMakesIt) {
+TEST_F(ExplainPage, ContainsTheCommandThatGeneratedIt) {
   EXPECT_EQ(run({"explain", "earth", "--size", "64x36", "--set", "earth.normal=none", "-o", "page.html"}).exit_code, 0);
   EXPECT_NE(read_bytes(directory / "page.html").find(R"("halfspace explain earth --size 64x36 --set earth.normal=none")"),
             std::string::npos);
 }
 
-struct Refused {
+struct Rejected {
   std::vector<std::string> arguments;
   int exit_code;
   std::string place, expected;
 };
 
-TEST_F(ExplainPage, RefusesWrongArgumentsInOneLine) {
+TEST_F(ExplainPage, RejectsWrongArgumentsInOneLine) {
   write_bytes(directory / "file", "");
-  const Refused cases[] = {
+  const Rejected cases[] = {
       {{"explain"}, 2, "SCENE", "required"},
       {{"explain", "erth"}, 3, "erth", "earth"},
       {{"explain", "earth", "--size", "64"}, 2, "--size", "expected"},
@@ -58,7 +58,7 @@ TEST_F(ExplainPage, RefusesWrongArgumentsInOneLine) {
       {{"explain", "earth", "--text", "-o", "page.html"}, 2, "-o", "--text"},
       {{"explain", "earth", "-o", "file/page.html"}, 4, "file/page.html", "directory"},
   };
-  for (const Refused& c : cases) {
+  for (const Rejected& c : cases) {
     const Outcome o = run(c.arguments);
     const std::string shown = c.arguments.back();
     EXPECT_NE(o.exit_code, 0) << shown;

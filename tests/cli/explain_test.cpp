@@ -25,7 +25,7 @@ TEST_F(Explain, PrintsTheHistoryOfThePixelThatRenderDraws) {
   EXPECT_NE(text.out.find("shaded"), std::string::npos);
 }
 
-TEST_F(Explain, RefusesPixelsOutsideOfThePicture) {
+TEST_F(Explain, RejectsPixelsOutsideOfThePicture) {
   for (const char* pixel : {"80,0", "0,45", "-1,0", "1,2,3", "a,b", "12", "1.5,2", "5,5 ", ",", "99999999999999999999,0"}) {
     const Outcome o = run({"explain", "earth", "--size", "80x45", "--text", "--pixel", pixel});
     EXPECT_EQ(o.exit_code, 2) << pixel;
@@ -36,7 +36,7 @@ TEST_F(Explain, RefusesPixelsOutsideOfThePicture) {
   }
 }
 
-TEST_F(Explain, RefusesWrongScenesAndCombinations) {
+TEST_F(Explain, RejectsWrongScenesAndCombinations) {
   EXPECT_EQ(run({"explain", "nothing", "--text"}).exit_code, 3);
   EXPECT_EQ(run({"explain", "earth", "--text", "--json"}).exit_code, 2);
   EXPECT_EQ(run({"explain", "earth", "--text", "--shading", "wrong"}).exit_code, 2);

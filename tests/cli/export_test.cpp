@@ -68,7 +68,7 @@ TEST_F(Export, RenderOfTheExportMatches) {
   }
 }
 
-TEST_F(Export, CamerasAndLightsAreThoseOfTheScene) {
+TEST_F(Export, KeepsCamerasAndLights) {
   write("scene.json", kHead + R"("ball": {"shape": "sphere"}}})");
   export_to("scene.json", "a.glb");
   const Outcome o = run({"info", "a.glb", "--json"});
@@ -104,13 +104,13 @@ TEST_F(Export, ModelsAreConverted) {
   }
 }
 
-TEST_F(Export, NamesWhatIsLeftOut) {
+TEST_F(Export, WarnsAboutOmissions) {
   const Outcome o = run({"export", "day-night", "-o", "a.glb"});
   EXPECT_EQ(o.exit_code, 0) << o.err;
   EXPECT_NE(o.err.find("environments and backgrounds are left out"), std::string::npos) << o.err;
 }
 
-TEST_F(Export, NamesWhatObjectsWithModelsLose) {
+TEST_F(Export, WarnsAboutLossesOfModelObjects) {
   write("a.gltf", R"({"asset": {"version": "2.0"}, "nodes": [{"mesh": 0}], "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
     "accessors": [{"componentType": 5126, "count": 3, "type": "VEC3"}, {"componentType": 5126, "count": 1, "type": "SCALAR"}],
     "animations": [{"name": "walk", "samplers": [{"input": 1, "output": 1}], "channels": []}]})");

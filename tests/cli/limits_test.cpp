@@ -19,7 +19,7 @@ class Limits : public Cli {
     write("a.obj", "mtllib a.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3/1\n");
   }
   // Checks that the program ends with exit code 3 and one line that contains the words.
-  void refuses(std::vector<std::string> arguments, const std::vector<std::string>& words) const {
+  void expect_rejected(std::vector<std::string> arguments, const std::vector<std::string>& words) const {
     const Outcome o = run(arguments);
     EXPECT_EQ(o.exit_code, 3) << arguments[0] << ": " << o.err;
     EXPECT_EQ(lines_of(o.err), 1) << o.err;
@@ -31,40 +31,40 @@ TEST_F(Limits, TextureOfSixtyThousandPixelsPerSide) {
   const std::string header = big_endian(60000, 4) + big_endian(60000, 4) + std::string{8, 6, 0, 0, 0};
   write("bomb.png", "\x89PNG\r\n\x1a\n" + png_chunk("IHDR", header) + png_chunk("IDAT", stored_zlib("")) + png_chunk("IEND", ""));
   write_model("bomb.png");
-  refuses({"render", "a.obj", "--size", "64x36"}, {"bomb.png", "60000x60000"});
+  expect_rejected({"render", "a.obj", "--size", "64x36"}, {"bomb.png", "60000x60000"});
 }
 
 TEST_F(Limits, TextureThatIsValidButExceedsTheLimits) {
   write_png(directory / "large.png", Image<glm::u8vec4>(4096, 4096));
   write_model("large.png");
-  refuses({"render", "a.obj", "--size", "64x36", "--max-memory", "100M"}, {"large.png", "160 MiB", "100 MiB (--max-memory)"});
-  refuses({"render", "a.obj", "--size", "64x36", "--max-pixels", "16777215"}, {"large.png", "4096x4096", "16777215"});
+  expect_rejected({"render", "a.obj", "--size", "64x36", "--max-memory", "100M"}, {"large.png", "160 MiB", "100 MiB (--max-memory)"});
+  expect_rejected({"render", "a.obj", "--size", "64x36", "--max-pixels", "16777215"}, {"large.png", "4096x4096", "16777215"});
   EXPECT_EQ(run({"render", "a.obj", "--size", "64x36", "--max-pixels", "16777216"}).exit_code, 0);
 }
 
 TEST_F(Limits, PlyThatDeclaresABillionVertices) {
   write("a.ply", "ply\nformat binary_little_endian 1.0\nelement vertex 1000000000\nproperty uchar x\nend_header\n");
-  refuses({"render", "a.ply"}, {"a.ply", "1000000000"});
-  refuses({"info", "a.ply"}, {"a.ply", "1000000000"});
+  expect_rejected({"render", "a.ply"}, {"a.ply", "1000000000"});
+  expect_rejected({"info", "a.ply"}, {"a.ply", "1000000000"});
 }
 
 // Accessors without a buffer view contain zeros, so the file needs no data.
 TEST_F(Limits, GltfAccessorWithTwoBillionElements) {
   write("a.gltf", R"({"asset": {"version": "2.0"}, "accessors": [{"componentType": 5126, "count": 2147483648, "type": "VEC3"}],
     "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}], "nodes": [{"mesh": 0}]})");
-  refuses({"render", "a.gltf"}, {"a.gltf", "--max-memory"});
-  refuses({"info", "a.gltf", "--max-memory", "1G"}, {"a.gltf", "--max-memory"});
+  expect_rejected({"render", "a.gltf"}, {"a.gltf", "--max-memory"});
+  expect_rejected({"info", "a.gltf", "--max-memory", "1G"}, {"a.gltf", "--max-memory"});
 }
 
 TEST_F(Limits, LargeFile) {
   write("a.stl", "solid a\n");
   fs::resize_file(directory / "a.stl", std::uintmax_t{1} << 36);  // without using any space
-  refuses({"info", "a.stl"}, {"a.stl", "68719476736 bytes", "--max-memory"});
+  expect_rejected({"info", "a.stl"}, {"a.stl", "68719476736 bytes", "--max-memory"});
 }
 
 TEST_F(Limits, SizeOfTheOutput) {
-  refuses({"render", "earth", "-o", "a.exr", "--size", "16384x16384", "--max-memory", "1G"}, {"--size 16384x16384", "4096 MiB"});
-  refuses({"render", "earth", "--size", "100x50", "--max-pixels", "4999"}, {"--size", "100x50", "4999"});
+  expect_rejected({"render", "earth", "-o", "a.exr", "--size", "16384x16384", "--max-memory", "1G"}, {"--size 16384x16384", "4096 MiB"});
+  expect_rejected({"render", "earth", "--size", "100x50", "--max-pixels", "4999"}, {"--size", "100x50", "4999"});
   EXPECT_TRUE(files().empty());
 }
 
@@ -82,14 +82,14 @@ TEST_F(Limits, RejectsInvalidValues) {
 TEST_F(Limits, MaterialLibrary) {
   write("a.mtl", "newmtl m\n#" + std::string(std::size_t{13} << 20, '#') + "\n");
   write("a.obj", "mtllib a.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-  refuses({"render", "a.obj", "--size", "64x36", "--max-memory", "100M"}, {"a.mtl", "--max-memory"});
+  expect_rejected({"render", "a.obj", "--size", "64x36", "--max-memory", "100M"}, {"a.mtl", "--max-memory"});
 }
 
 TEST_F(Limits, MapsThatExportCombines) {
   write_png(directory / "a.png", Image<glm::u8vec4>(64, 64));
   write("a.mtl", "newmtl m\nPr 1\nPm 1\nmap_Pr a.png\nmap_Pm a.png\n");
   write("a.obj", "mtllib a.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3/1\n");
-  refuses({"export", "a.obj", "-o", "b.glb", "--max-pixels", "1000"}, {"a.png", "64x64", "--max-pixels"});
+  expect_rejected({"export", "a.obj", "-o", "b.glb", "--max-pixels", "1000"}, {"a.png", "64x64", "--max-pixels"});
   EXPECT_EQ(run({"export", "a.obj", "-o", "b.glb"}).exit_code, 0);
 }
 

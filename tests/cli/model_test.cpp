@@ -181,13 +181,13 @@ TEST_F(Models, FilesOutsideTheFolderNeedPermission) {
   fs::create_directory(directory / "inner");
   write("m.mtl", "newmtl m\nKd 1 0 0\n");
   write("inner/a.obj", "mtllib ../m.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-  const Outcome refused = run({"render", "inner/a.obj", "--size", "96x54", "-o", "refused.png"});
-  EXPECT_EQ(refused.exit_code, 0);
-  EXPECT_EQ(lines_of(refused.err), 1);
-  EXPECT_NE(refused.err.find("--allow-outside"), std::string::npos) << refused.err;
+  const Outcome rejected = run({"render", "inner/a.obj", "--size", "96x54", "-o", "rejected.png"});
+  EXPECT_EQ(rejected.exit_code, 0);
+  EXPECT_EQ(lines_of(rejected.err), 1);
+  EXPECT_NE(rejected.err.find("--allow-outside"), std::string::npos) << rejected.err;
   const Outcome allowed = run({"render", "inner/a.obj", "--size", "96x54", "-o", "allowed.png", "--allow-outside"});
   EXPECT_EQ(allowed.err, "");
-  EXPECT_NE(read_bytes(directory / "refused.png"), read_bytes(directory / "allowed.png"));
+  EXPECT_NE(read_bytes(directory / "rejected.png"), read_bytes(directory / "allowed.png"));
 }
 
 TEST_F(Models, InfoDescribesAModel) {
@@ -268,7 +268,7 @@ TEST_F(Models, VertexColorsThatAreTransparentCastFainterShadows) {
   EXPECT_LT(half + 20, nearly_clear);
 }
 
-TEST_F(Models, MistakesGiveOneLine) {
+TEST_F(Models, MistakesAreReportedInOneLine) {
   write("cube.obj", cube(0.0, 1.0));
   write("bad.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n");
   write("empty.obj", "");

@@ -50,7 +50,7 @@ TEST_F(NaiveOption, SumsAllFrames) {
   EXPECT_NE(o.out.find(" 0 of 1728 pixels differ"), std::string::npos) << o.out;
 }
 
-TEST_F(NaiveOption, NamesWhatItCannotDraw) {
+TEST_F(NaiveOption, ReportsWhatItCannotDraw) {
   const auto render = [](std::vector<std::string> words) {
     words.insert(words.begin(), "render");
     words.insert(words.end(), {"--naive", "--size", "96x54", "-o", "a.png"});

@@ -56,7 +56,7 @@ TEST_F(Outputs, ValuesShareTheFileOfAnOpenExrPicture) {
   EXPECT_FALSE(has("color.exr", "depth.Z"));
 }
 
-TEST_F(Outputs, ValuesCanHaveFilesOfTheirOwn) {
+TEST_F(Outputs, ValuesCanHaveSeparateFiles) {
   expect_success({"--aov", "depth,albedo", "--aov-separate", "-o", "a.exr"});
   expect_success({"--aov", "depth", "--aov-separate", "--frames", "3..4", "-o", "b.png", "--crop", "44,28,8,7"});
   EXPECT_EQ(files(), (std::vector<std::string>{"a-albedo.exr", "a-depth.exr", "a.exr", "b_0003-depth.exr", "b_0003.png", "b_0004-depth.exr",
@@ -169,7 +169,7 @@ TEST_F(Outputs, SixteenBitsAndTransparency) {
 }
 
 // The text contains only options that change pixels. File names have no folders, and the number of threads is omitted.
-TEST_F(Outputs, FilesSayHowTheyWereMade) {
+TEST_F(Outputs, FilesRecordHowTheyWereMade) {
   fs::create_directory(directory / "folder");
   fs::copy_file(directory / "scene.json", directory / "folder/scene.json");
   for (const std::string threads : {"1", "3"}) {

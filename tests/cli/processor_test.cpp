@@ -14,11 +14,11 @@ namespace halfspace {
 namespace {
 
 TEST(StartCheck, ReportsMissingFeaturesInOneLine) {
-  const ProgramOutput output = run_command(HALFSPACE_LESSER_PROGRAM " 2>&1");
+  const ProgramOutput output = run_command(HALFSPACE_UNSUPPORTED_PROCESSOR_PROGRAM " 2>&1");
   const std::string& said = output.text;
   EXPECT_EQ(output.exit_code, 1);
   ASSERT_TRUE(said.ends_with('\n')) << said;
-  EXPECT_TRUE(tells(said.substr(0, said.size() - 1), "halfspace: ", {"this build needs", "FMA4", "XOP", "processor"}));
+  EXPECT_TRUE(reports(said.substr(0, said.size() - 1), "halfspace: ", {"this build needs", "FMA4", "XOP", "processor"}));
   EXPECT_EQ(said.find("SSE3"), std::string::npos) << said << "every processor supports SSE3";
 }
 

@@ -62,7 +62,7 @@ TEST_F(Wireframe, LinesContrastWithTheBackground) {
   EXPECT_EQ(pixels_that_are(image, kBlack) + pixels_that_are(image, kWhite), 160 * 120);
 }
 
-TEST_F(Wireframe, SpheresWithoutMeshAreNamed) {
+TEST_F(Wireframe, SpheresWithoutMeshAreReported) {
   picture(R"("ball": {"shape": "sphere"})", "--wireframe");
   EXPECT_EQ(lines_of(warnings), 1);
   EXPECT_NE(warnings.find("spheres"), std::string::npos);

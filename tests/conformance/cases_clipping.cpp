@@ -56,7 +56,7 @@ Picture triangle_picture(const std::array<int, 3>& parts, float reach, uint64_t 
   return p;
 }
 
-// Inside of a single triangle, a pixel has the color from its homogeneous weights; outside, it has the clear color.
+// Inside exactly one triangle, the color of a pixel follows from its homogeneous weights; outside, it is the clear color.
 std::string as_if_unclipped(const Picture& p, const Seen& seen) {
   const std::vector<Vertex>& v = p.draws[0].vertices;
   std::vector<std::pair<Weighed, std::array<glm::vec4, 3>>> triangles;

@@ -34,7 +34,7 @@ Picture colored(const Named& kind, bool projected, ColorMode mode, int samples =
   return p;
 }
 
-// Inside of exactly one triangle, a pixel must have its interpolated color. Culled triangles must not be drawn.
+// Inside exactly one triangle, a pixel must have its interpolated color. Culled triangles must not be drawn.
 std::string triangle_colors(const Picture& p, const Seen& seen) {
   const Drawing& d = p.draws[0];
   struct Shown {

@@ -33,7 +33,7 @@ Picture scissored(Topology topology, const Rect& scissor) {
   return p;
 }
 
-// Inside of the scissor rectangle, the picture must equal the one without it. Nothing may be drawn outside.
+// Inside the scissor rectangle, the picture must equal the one without it. Nothing may be drawn outside.
 std::string scissor_cuts(const Picture& p, const Seen& seen) {
   Picture whole = p;
   whole.draws[0].state.scissor.reset();
@@ -54,11 +54,11 @@ constexpr std::pair<const char*, Kind> kKinds[] = {{"color", Kind::color},      
 // Draws random triangles of all colors, and then the shader with a state that combines several operations.
 void several_operations(int number, DrawState& s, Picture& p) {
   const StencilFace counting{.pass = StencilOp::increment_wrap};
-  const StencilFace where_even{.compare = CompareOp::equal, .reference = 0, .read_mask = 1};
+  const StencilFace if_even{.compare = CompareOp::equal, .reference = 0, .read_mask = 1};
   switch (number) {
     case 0:
       s.blend.emplace();
-      s.stencil = StencilState{where_even, where_even};
+      s.stencil = StencilState{if_even, if_even};
       p.draws[0].state.stencil = StencilState{counting, counting};
       break;
     case 1:
@@ -76,7 +76,7 @@ void several_operations(int number, DrawState& s, Picture& p) {
       p.samples = 4;
       s.alpha_to_coverage = true;
       s.sample_mask = 0xb;
-      s.stencil = StencilState{where_even, counting};
+      s.stencil = StencilState{if_even, counting};
       break;
     default:
       p.depth = DepthFormat::d24s8;

@@ -110,7 +110,7 @@ std::string coordinate_formula(const Picture& p, const Seen& seen) {
   return for_each_pixel(seen, [&](int x, int y) -> std::string {
     glm::dvec2 c = (glm::dvec2(x + 0.5, y + 0.5) - low) / size;
     if (p.draws[0].state.point_origin == PointOrigin::upper_left) c.y = 1.0 - c.y;
-    const double margin = 1.0 / size;  // the pixel is inside of the square
+    const double margin = 1.0 / size;  // the pixel is inside the square
     const bool inside = c.x > margin && c.x < 1.0 - margin && c.y > margin && c.y < 1.0 - margin;
     return inside ? expect_near({c.x, c.y, 1.0, 1.0}, seen.color(x, y), 1e-6) : "";
   });

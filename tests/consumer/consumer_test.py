@@ -203,7 +203,7 @@ class Host(unittest.TestCase):
             expect("cmake", "--build", folder, "--target", "own_shader", "-j", "2")
             self.assertIn("all pixels are as expected", expect(folder / "own_shader"))
 
-    def test_a_python_module_without_pybind11_is_refused(self):
+    def test_a_python_module_without_pybind11_is_rejected(self):
         _, result = configure(HERE / "host", "no-pybind11", f"-DHALFSPACE_SOURCE={ROOT}", "-DHALFSPACE_PYTHON=ON",
                               "-DCMAKE_DISABLE_FIND_PACKAGE_pybind11=ON")
         self.assertNotEqual(result.returncode, 0)

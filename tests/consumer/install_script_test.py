@@ -74,7 +74,7 @@ class InstallScript(unittest.TestCase):
         self.run_script("own", files="bin/halfspace")
         self.assertTrue((self.folder / "own/bin/halfspace").exists())
 
-    def test_a_prefix_that_cannot_be_written_is_refused_before_the_build(self):
+    def test_a_prefix_that_cannot_be_written_is_rejected_before_the_build(self):
         self.prefix.write_text("a file")
         out = self.run_script(self.prefix / "below", files="bin/halfspace", code=1)
         self.assertRegex(out, r"^install\.sh: cannot write to .*; expected another prefix.*\n$")

@@ -124,7 +124,7 @@ class PythonModule(unittest.TestCase):
 
 @unittest.skipUnless(QEMU, "qemu-user is not installed")
 class Emulation(unittest.TestCase):
-    def test_a_processor_below_v3_is_refused_in_one_line(self):
+    def test_a_processor_below_v3_is_rejected_in_one_line(self):
         for program in ("halfspace", "halfspace-bench"):
             for cpu in ("qemu64", "Nehalem", "SandyBridge"):
                 result = run(QEMU, "-cpu", cpu, PREFIX / "bin" / program, "--help")

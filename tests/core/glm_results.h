@@ -15,4 +15,4 @@ static std::array<float, kGlmResults> glm_results(const glm::vec3& a, const glm:
 }
 
 /// Results of a translation unit that includes only GLM.
-std::array<float, kGlmResults> results_of_glm_alone(const glm::vec3& a, const glm::vec3& b);
+std::array<float, kGlmResults> results_without_our_headers(const glm::vec3& a, const glm::vec3& b);

@@ -74,7 +74,7 @@ TEST(Workers, NeverRunMoreTasksAtOnceThanThreads) {
 std::size_t tbb_limit() { return tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism); }
 
 // Checks that the process-wide TBB limit does not change while a pool exists and runs tasks.
-void expect_limit_kept(std::size_t limit) {
+void expect_limit_unchanged(std::size_t limit) {
   EXPECT_EQ(tbb_limit(), limit);
   for (const int threads : {1, 2, Workers::cores(), Workers::cores() + 5}) {
     const Workers workers(threads);
@@ -90,10 +90,10 @@ void expect_limit_kept(std::size_t limit) {
 }
 
 TEST(Workers, DoNotChangeTheTbbLimitOfTheHost) {
-  expect_limit_kept(tbb_limit());
+  expect_limit_unchanged(tbb_limit());
   for (const std::size_t limit : {std::size_t{1}, std::size_t{64}}) {
     const tbb::global_control host(tbb::global_control::max_allowed_parallelism, limit);
-    expect_limit_kept(limit);
+    expect_limit_unchanged(limit);
   }
 }
 

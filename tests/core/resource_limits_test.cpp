@@ -35,8 +35,8 @@ TEST_F(ResourceLimitsTest, ClaimsAddUpAndAreReleased) {
   permit(64 * kMebibyte);
   {
     const MemoryClaim first(40 * kMebibyte, "a");
-    EXPECT_TRUE(tells(message_of<LimitError>([] { const MemoryClaim second(40 * kMebibyte, "b.png"); }),
-                      "b.png: ", {"40 MiB", "expected at most", "--max-memory"}));
+    EXPECT_TRUE(reports(message_of<LimitError>([] { const MemoryClaim second(40 * kMebibyte, "b.png"); }),
+                        "b.png: ", {"40 MiB", "expected at most", "--max-memory"}));
   }
   EXPECT_NO_THROW(MemoryClaim(40 * kMebibyte, "b.png"));
 }
@@ -61,8 +61,8 @@ TEST_F(ResourceLimitsTest, PixelsAreCountedWithoutOverflow) {
   limits.max_pixels = 1000;
   set_resource_limits(limits);
   EXPECT_NO_THROW(check_pixel_limit(100, 10, "a.png"));
-  EXPECT_TRUE(
-      tells(message_of<LimitError>([] { check_pixel_limit(1001, 1, "a.png"); }), "a.png: 1001x1 pixels", {"at most 1000", "--max-pixels"}));
+  EXPECT_TRUE(reports(message_of<LimitError>([] { check_pixel_limit(1001, 1, "a.png"); }), "a.png: 1001x1 pixels",
+                      {"at most 1000", "--max-pixels"}));
   EXPECT_THROW(check_pixel_limit(uint64_t{1} << 33, uint64_t{1} << 33, "a.png"), LimitError);
 }
 

@@ -24,7 +24,7 @@ class Lessons(unittest.TestCase):
         self.assertEqual(len(images), 35)
         self.assertLessEqual(sum(path.stat().st_size for path in images), 1_000_000)
 
-    def test_a_change_of_absent_or_repeated_lines_is_refused(self):
+    def test_a_change_of_absent_or_repeated_lines_is_rejected(self):
         self.assertEqual(lesson_pictures.changed("a\n  b\nc", [(["b"], ["x", "y"])], ""), "a\nx\ny\nc")
         for text in ("a\nc", "b\nb"):
             with self.assertRaises(lesson_pictures.LessonError):

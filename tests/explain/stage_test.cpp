@@ -124,7 +124,7 @@ TEST(Stages, AClippedTriangleEndsAtTheNearPlane) {
 // ---- light ------------------------------------------------------------------------------------------------------------
 
 // Ambient light 0.25 and a frontal light of 0.5 on a gray of 0.5.
-TEST(Stages, TermsAreThoseOfTheMaterial) {
+TEST(Stages, TermsMatchTheMaterial) {
   const PreparedText s(kPlane, 64, 64);
   const std::vector<LightTerm> terms = light_terms(s.prepared);
   ASSERT_EQ(terms.size(), 3u);

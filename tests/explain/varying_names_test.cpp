@@ -34,7 +34,7 @@ void expect_names(const std::string& header) {
   EXPECT_EQ(members_in(header), std::vector<std::string>(kVaryingNames<S>.begin(), kVaryingNames<S>.end())) << header;
 }
 
-TEST(VaryingNames, AreThoseOfTheHeaders) {
+TEST(VaryingNames, MatchTheHeaders) {
   expect_names<SurfaceShader<ShadingRate::phong, true>>("surface_shader.h");
   expect_names<MetallicSurface<MetallicStreams::full>>("metallic_surface.h");
   expect_names<SphereImpostor<true>>("sphere_impostor.h");

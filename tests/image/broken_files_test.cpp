@@ -53,7 +53,7 @@ constexpr Reader kReaders[] = {
     {"read_linear", [](const std::filesystem::path& path) { return !read_linear(path).empty(); }},
 };
 
-std::string verdict_on(const std::filesystem::path& path, const Reader& reader) {
+std::string outcome_of(const std::filesystem::path& path, const Reader& reader) {
   try {
     return reader.gives_pixels(path) ? "ok" : "returned an empty image";
   } catch (const InputError& e) {
@@ -72,7 +72,7 @@ std::string verdict_on(const std::filesystem::path& path, const Reader& reader) 
       std::fprintf(out, "%s by %s\n", file.c_str(), reader.name);
       std::fflush(out);
       ::alarm(kSecondsPerFile);
-      std::fprintf(out, "%s\n", verdict_on(file, reader).c_str());
+      std::fprintf(out, "%s\n", outcome_of(file, reader).c_str());
     }
   }
   std::fflush(out);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The life of the decoder programs: they serve many images, are replaced when they end, and end with the program that started them.
+// Lifetime of the decoder programs: they serve many images, are replaced when they end, and end with the program that started them.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/wait.h>
@@ -155,7 +155,7 @@ TEST_F(DecoderProcess, CrashFailsOnlyOneImage) {
   for (int i = 0; i < 3; ++i) {
     // OpenImageIO 2.4 crashes. Later versions may report an error.
     const std::string error = input_error([&] { read_image(hostile); });
-    EXPECT_TRUE(tells(error, hostile.string() + ": cannot be read as bmp", {"expected a complete image file"}));
+    EXPECT_TRUE(reports(error, hostile.string() + ": cannot be read as bmp", {"expected a complete image file"}));
     EXPECT_EQ(read_image(ppm).at(0, 0), first);
   }
   EXPECT_EQ(zombies(), 0u);

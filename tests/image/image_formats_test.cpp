@@ -80,10 +80,10 @@ TEST_F(ImageFormats, AreRecognizedByExtension) {
 TEST_F(ImageFormats, RejectImagesOfTheWrongKind) {
   const Image<glm::u8vec4> codes(1, 1);
   const Image<glm::vec4> light(1, 1);
-  EXPECT_TRUE(tells(output_error([&] { write_image("a.bmp", codes); }), "a.bmp", {"name", ".png", ".tif"}));
-  EXPECT_TRUE(tells(output_error([&] { write_image("a", light); }), "a", {"name", ".exr or .hdr"}));
-  EXPECT_TRUE(tells(output_error([&] { write_image("a.exr", codes); }), "a.exr", {"linear", ".png", ".tif"}));
-  EXPECT_TRUE(tells(output_error([&] { write_image("a.tif", light); }), "a.tif", {"8-bit", ".exr or .hdr"}));
+  EXPECT_TRUE(reports(output_error([&] { write_image("a.bmp", codes); }), "a.bmp", {"name", ".png", ".tif"}));
+  EXPECT_TRUE(reports(output_error([&] { write_image("a", light); }), "a", {"name", ".exr or .hdr"}));
+  EXPECT_TRUE(reports(output_error([&] { write_image("a.exr", codes); }), "a.exr", {"linear", ".png", ".tif"}));
+  EXPECT_TRUE(reports(output_error([&] { write_image("a.tif", light); }), "a.tif", {"8-bit", ".exr or .hdr"}));
 }
 
 TEST_F(ImageFormats, PngIsExact) {

@@ -187,11 +187,11 @@ TEST_F(ImageIo, ReportsWhatIsWrongWithAnInput) {
   };
   for (const Case& c : cases) {
     const fs::path path = put(c.name, c.bytes);
-    EXPECT_TRUE(tells(input_error([&] { read_image(path); }), path.string() + ": ", c.keywords));
+    EXPECT_TRUE(reports(input_error([&] { read_image(path); }), path.string() + ": ", c.keywords));
   }
-  EXPECT_TRUE(tells(input_error([&] { read_image(directory / "none.png"); }), (directory / "none.png").string(), {"no such file"}));
-  EXPECT_TRUE(tells(input_error([&] { read_image(directory); }), directory.string(), {"is a directory"}));
-  EXPECT_TRUE(tells(input_error([&] { read_image("/dev/zero"); }), "/dev/zero", {"regular file"}));
+  EXPECT_TRUE(reports(input_error([&] { read_image(directory / "none.png"); }), (directory / "none.png").string(), {"no such file"}));
+  EXPECT_TRUE(reports(input_error([&] { read_image(directory); }), directory.string(), {"is a directory"}));
+  EXPECT_TRUE(reports(input_error([&] { read_image("/dev/zero"); }), "/dev/zero", {"regular file"}));
 }
 
 // A truncated PNG is rejected, or decodes completely if only trailing chunks are missing. A PNG with one changed byte is either
@@ -240,7 +240,7 @@ TEST_F(ImageIo, RejectsDamagedFilesOfOtherFormatsWithOneLine) {
   if (find_image_tool().empty()) GTEST_SKIP() << kNoImageTool;
   for (const char* name : {"a.jpg", "b.jpg"}) {
     const std::string what = input_error([&] { read_image(put(name, "\xff\xd8\xff\xe0 nothing more")); });
-    EXPECT_TRUE(tells(what, (directory / name).string(), {"cannot be read", "jpeg"}));
+    EXPECT_TRUE(reports(what, (directory / name).string(), {"cannot be read", "jpeg"}));
   }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Images whose headers claim more than the limits of the process permit. They are refused before their pixels are decoded.
+// Images whose headers claim more than the limits of the process permit. They are rejected before their pixels are decoded.
 #include <gtest/gtest.h>
 
 #include "halfspace/image/image_io.h"
@@ -48,15 +48,15 @@ std::string exr_header(int32_t width, int32_t height) {
          attribute("screenWindowWidth", "float", memory_of<float>({1.0f})) + std::string(1, '\0');
 }
 
-TEST_F(ImageLimits, PngOfSixtyThousandPixelsPerSideIsRefused) {
+TEST_F(ImageLimits, PngOfSixtyThousandPixelsPerSideIsRejected) {
   put("a.png", png_of_size(60000, 60000));
-  EXPECT_TRUE(tells(limit_error("a.png"), (directory / "a.png").string(), {"claims 60000x60000", "2^28"}));
+  EXPECT_TRUE(reports(limit_error("a.png"), (directory / "a.png").string(), {"claims 60000x60000", "2^28"}));
 }
 
 TEST_F(ImageLimits, PngPixelsAreLimited) {
   write_image(directory / "a.png", test_picture(true));
   limit(resource_limits().max_memory, 67 * 41 - 1);
-  EXPECT_TRUE(tells(limit_error("a.png"), (directory / "a.png").string(), {"67x41", "at most 2746", "--max-pixels"}));
+  EXPECT_TRUE(reports(limit_error("a.png"), (directory / "a.png").string(), {"67x41", "at most 2746", "--max-pixels"}));
   limit(resource_limits().max_memory, 67 * 41);
   EXPECT_NO_THROW(read_image(directory / "a.png"));
 }
@@ -65,7 +65,7 @@ TEST_F(ImageLimits, PngPixelsAreLimited) {
 TEST_F(ImageLimits, MemoryOfPngIsLimited) {
   write_image(directory / "a.png", Image<glm::u8vec4>(8192, 8192));
   limit(resource_limits().max_memory - memory_left() + (uint64_t{200} << 20), kMaxImagePixels);
-  EXPECT_TRUE(tells(limit_error("a.png"), (directory / "a.png").string(), {"640 MiB", "--max-memory"}));
+  EXPECT_TRUE(reports(limit_error("a.png"), (directory / "a.png").string(), {"640 MiB", "--max-memory"}));
 }
 
 class ToolImageLimits : public ImageLimits {
@@ -75,22 +75,22 @@ class ToolImageLimits : public ImageLimits {
   }
 };
 
-TEST_F(ToolImageLimits, ExrBombIsRefused) {
+TEST_F(ToolImageLimits, ExrBombIsRejected) {
   put("a.exr", exr_header(2000000, 2000000));
   const std::string error = message_of<InputError>([&] { read_linear(directory / "a.exr"); });
-  EXPECT_TRUE(tells(error, (directory / "a.exr").string(), {"expected"}));
+  EXPECT_TRUE(reports(error, (directory / "a.exr").string(), {"expected"}));
   put("b.exr", exr_header(30000, 8000) + std::string(40000, '\0'));
   const std::string other = message_of<LimitError>([&] {
     limit(resource_limits().max_memory, 1000000);
     read_linear(directory / "b.exr");
   });
-  EXPECT_TRUE(tells(other, (directory / "b.exr").string(), {"30000x8000", "at most 1000000", "--max-pixels"}));
+  EXPECT_TRUE(reports(other, (directory / "b.exr").string(), {"30000x8000", "at most 1000000", "--max-pixels"}));
 }
 
 TEST_F(ToolImageLimits, MemoryOfToolFormatsIsLimited) {
   write_image(directory / "a.tif", Image<glm::u8vec4>(4096, 4096));
   limit(resource_limits().max_memory - memory_left() + (uint64_t{20} << 20), kMaxImagePixels);
-  EXPECT_TRUE(tells(limit_error("a.tif"), (directory / "a.tif").string(), {"4096x4096", "--max-memory"}));
+  EXPECT_TRUE(reports(limit_error("a.tif"), (directory / "a.tif").string(), {"4096x4096", "--max-memory"}));
 }
 
 }  // namespace

@@ -56,13 +56,13 @@ TEST_F(ImageMemory, GivesTheSamePixelsAsAPath) {
 TEST_F(ImageMemory, ErrorsBeginWithTheName) {
   const std::string name = "car.glb: image 3";
   const std::string text = "This is not a picture.";
-  EXPECT_TRUE(tells(input_error([&] { read_image(bytes_of(text), name); }), name + ": ", {"not a supported image", "PNG"}));
+  EXPECT_TRUE(reports(input_error([&] { read_image(bytes_of(text), name); }), name + ": ", {"not a supported image", "PNG"}));
   EXPECT_EQ(input_error([&] { read_gray({}, name); }).substr(0, name.size() + 10), name + ": is empty");
   const std::string png = read_bytes(files()[0]).substr(0, 200), jpeg = "\xff\xd8\xff\xe0 nothing more", tiff = std::string("II*\0more", 8);
-  EXPECT_TRUE(tells(input_error([&] { read_image(bytes_of(png), name); }), name + ": ", {"damaged PNG"}));
-  EXPECT_TRUE(tells(input_error([&] { read_image(bytes_of(jpeg), name); }), name + ": ", {"cannot be read as jpeg"}));
-  EXPECT_TRUE(tells(input_error([&] { read_linear(bytes_of(tiff), name); }), name + ": ", {"cannot be read as tiff"}));
-  EXPECT_TRUE(tells(input_error([&] { read_image(bytes_of(kHdr), name); }), name + ": ", {"Radiance HDR", "linear values"}));
+  EXPECT_TRUE(reports(input_error([&] { read_image(bytes_of(png), name); }), name + ": ", {"damaged PNG"}));
+  EXPECT_TRUE(reports(input_error([&] { read_image(bytes_of(jpeg), name); }), name + ": ", {"cannot be read as jpeg"}));
+  EXPECT_TRUE(reports(input_error([&] { read_linear(bytes_of(tiff), name); }), name + ": ", {"cannot be read as tiff"}));
+  EXPECT_TRUE(reports(input_error([&] { read_image(bytes_of(kHdr), name); }), name + ": ", {"Radiance HDR", "linear values"}));
 }
 
 TEST_F(ImageMemory, ErrorsDoNotMentionInternalNames) {
@@ -86,8 +86,8 @@ TEST_F(ImageMemory, TgaIsRecognizedByItsHeader) {
   EXPECT_EQ(read_image(bytes_of(kTga), "memory").at(0, 0), glm::u8vec4(10, 20, 30, 77));
   std::string changed = kTga;
   changed[2] = 4;  // no such type of image
-  EXPECT_TRUE(tells(input_error([&] { read_image(bytes_of(changed), "memory"); }), "memory: ", {"not a supported image"}));
-  EXPECT_TRUE(tells(input_error([&] { read_image(bytes_of(changed), "a.tga"); }), "a.tga: ", {"cannot be read as targa"}));
+  EXPECT_TRUE(reports(input_error([&] { read_image(bytes_of(changed), "memory"); }), "memory: ", {"not a supported image"}));
+  EXPECT_TRUE(reports(input_error([&] { read_image(bytes_of(changed), "a.tga"); }), "a.tga: ", {"cannot be read as targa"}));
 }
 
 }  // namespace

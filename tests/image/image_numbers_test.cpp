@@ -98,7 +98,7 @@ TEST_F(ToolNumbers, InfinitiesAreClampedInColorsAndRejectedInHeights) {
   depth.at(1, 1) = kInf;
   write_depth_exr(path, depth);
   EXPECT_EQ(read_linear(path).at(1, 1), glm::vec4(kMaxHalf, kMaxHalf, kMaxHalf, 1.0f));
-  EXPECT_TRUE(tells(input_error([&] { read_gray(path); }), path.string(), {"infinity", "(1, 1)"}));
+  EXPECT_TRUE(reports(input_error([&] { read_gray(path); }), path.string(), {"infinity", "(1, 1)"}));
   depth.at(1, 1) = -kInf;
   write_depth_exr(path, depth);
   EXPECT_EQ(read_linear(path).at(1, 1).x, -kMaxHalf);
@@ -110,14 +110,14 @@ TEST_F(ToolNumbers, RejectsNaNAndReportsThePixel) {
   depth.at(2, 0) = kNaN;
   write_depth_exr(path, depth);
   for (const std::string& error : {input_error([&] { read_gray(path); }), input_error([&] { read_linear(path); })})
-    EXPECT_TRUE(tells(error, path.string(), {"NaN", "(2, 0)"}));
+    EXPECT_TRUE(reports(error, path.string(), {"NaN", "(2, 0)"}));
 }
 
 TEST_F(ToolNumbers, RejectsFloatFilesAsEightBitImages) {
   const std::filesystem::path tiff = put("a.tif", gray_tiff_row<float>({1.0f, 2.0f}, TiffSamples::number));
-  EXPECT_TRUE(tells(input_error([&] { read_image(tiff); }), tiff.string(), {"linear values", "16-bit codes", "PNG"}));
+  EXPECT_TRUE(reports(input_error([&] { read_image(tiff); }), tiff.string(), {"linear values", "16-bit codes", "PNG"}));
   const std::filesystem::path pfm_file = put("a.pfm", pfm(1, 1, {1.0f, 2.0f, 3.0f}));
-  EXPECT_TRUE(tells(input_error([&] { read_image(pfm_file); }), pfm_file.string(), {"PFM", "linear values", "16-bit codes", "PNG"}));
+  EXPECT_TRUE(reports(input_error([&] { read_image(pfm_file); }), pfm_file.string(), {"PFM", "linear values", "16-bit codes", "PNG"}));
 }
 
 // Checks the complete list of formats, because users choose from it.
@@ -127,7 +127,7 @@ TEST_F(ImageNumbers, ErrorListsReadableFormats) {
                            ": is not a supported image (it begins with \"This is \"); expected PNG, JPEG, TIFF, TGA, BMP, GIF, WebP, PNM, "
                            "PSD, DDS, OpenEXR, HDR or PFM";
   EXPECT_EQ(input_error([&] { read_gray(path); }), line);
-  EXPECT_TRUE(tells(input_error([&] { read_linear(path); }), path.string(), {"OpenEXR, HDR or PFM"}));
+  EXPECT_TRUE(reports(input_error([&] { read_linear(path); }), path.string(), {"OpenEXR, HDR or PFM"}));
 }
 
 // ---- third-party files -----------------------------------------------------------------------------------------

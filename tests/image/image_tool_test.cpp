@@ -64,18 +64,18 @@ class ImageTool : public FolderTest {
 };
 
 // Expects that both writes failed for the first reason, both reads failed for the second, and no file was left behind.
-void expect_failures(const std::string& told, const std::string& of_writing, const std::string& of_reading) {
-  std::istringstream lines(told);
+void expect_failures(const std::string& message, const std::string& of_writing, const std::string& of_reading) {
+  std::istringstream lines(message);
   std::string line;
   const std::pair<const char*, std::string> expected[] = {
       {"a.tif: cannot write", of_writing}, {"a.hdr: cannot write", of_writing}, {"a.ppm: ", of_reading}, {"b.jpg: ", of_reading}};
   for (const auto& [place, reason] : expected) {
-    ASSERT_TRUE(std::getline(lines, line)) << told;
-    EXPECT_TRUE(tells(line, place, {reason}));
+    ASSERT_TRUE(std::getline(lines, line)) << message;
+    EXPECT_TRUE(reports(line, place, {reason}));
   }
   std::getline(lines, line);
   EXPECT_EQ(line, "nothing was written");
-  EXPECT_FALSE(std::getline(lines, line)) << told;
+  EXPECT_FALSE(std::getline(lines, line)) << message;
 }
 
 TEST_F(ImageTool, ReportsAMissingTool) { expect_failures(lines_beside(""), "not installed", "not installed"); }
@@ -108,9 +108,9 @@ TEST_F(ImageTool, ReportsUnsupportedFormatsAndHeaders) {
   header.height = 3000;
   header.channels = 3;
   const auto black = [](int, std::span<std::byte> row) { std::ranges::fill(row, std::byte{0}); };
-  EXPECT_TRUE(tells(output_error([&] { encode_by_tool("a.xyz", "xyz", header, black); }), "a.xyz: cannot write", {"OpenImageIO", "xyz"}));
+  EXPECT_TRUE(reports(output_error([&] { encode_by_tool("a.xyz", "xyz", header, black); }), "a.xyz: cannot write", {"OpenImageIO", "xyz"}));
   header.channels = 2;
-  EXPECT_TRUE(tells(output_error([&] { encode_by_tool("a.jpg", "jpeg", header, black); }), "a.jpg: cannot write", {"header"}));
+  EXPECT_TRUE(reports(output_error([&] { encode_by_tool("a.jpg", "jpeg", header, black); }), "a.jpg: cannot write", {"header"}));
 }
 
 TEST_F(ImageTool, ReportsAFullDisk) {
@@ -132,7 +132,7 @@ TEST_F(ImageTool, ReportsAnUnwritableDirectory) {
     if (::geteuid() == 0 && ::setuid(65534) != 0) ::_exit(2);  // root can write anywhere, so continue as nobody
     const fs::path path = directory / "a.exr";
     const std::string what = output_error([&] { write_image(path, Image<glm::vec4>(2, 2)); });
-    ::_exit(tells(what, path.string(), {"cannot write", "Permission denied"}) ? 0 : 1);
+    ::_exit(reports(what, path.string(), {"cannot write", "Permission denied"}) ? 0 : 1);
   }
   int status = -1;
   ::waitpid(child, &status, 0);

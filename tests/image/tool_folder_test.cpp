@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Where the decoders are searched.
+// Where the library looks for the decoders.
 #include <gtest/gtest.h>
 
 #include "halfspace/core/check.h"
@@ -18,7 +18,7 @@ class ToolFolder : public ImageToolTest {
   void TearDown() override { set_tool_folder({}); }
 };
 
-TEST_F(ToolFolder, IsThatOfTheProgramByDefault) {
+TEST_F(ToolFolder, DefaultsToTheFolderOfTheProgram) {
   EXPECT_EQ(find_image_tool().parent_path(), std::filesystem::canonical("/proc/self/exe").parent_path());
 }
 
@@ -34,7 +34,7 @@ TEST_F(ToolFolder, CanBeSet) {
   EXPECT_EQ(find_image_tool(), tool);
 }
 
-TEST_F(ToolFolder, WithoutDecodersGivesOneLine) {
+TEST_F(ToolFolder, MissingDecodersAreReportedInOneLine) {
   set_tool_folder("/nowhere");
   const TemporaryFolder folder;
   const std::filesystem::path file = folder.path() / "picture.tif";

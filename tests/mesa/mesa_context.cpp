@@ -31,10 +31,10 @@ bool contains(const char* extensions, std::string_view name) {
 
 }  // namespace
 
-std::unique_ptr<MesaContext> MesaContext::create(std::string& why_not) {
+std::unique_ptr<MesaContext> MesaContext::create(std::string& missing) {
   set_environment();
-  const auto absent = [&why_not](const char* what) {
-    why_not = what;
+  const auto absent = [&missing](const char* what) {
+    missing = what;
     return nullptr;
   };
   // libepoxy terminates the process if it cannot load a function, so check for the library first.
@@ -64,7 +64,7 @@ std::unique_ptr<MesaContext> MesaContext::create(std::string& why_not) {
   const auto text = [](GLenum name) { return std::string(reinterpret_cast<const char*>(glGetString(name))); };
   mesa->description_ = text(GL_RENDERER) + ", " + text(GL_VERSION);
   if (mesa->description_.rfind("llvmpipe", 0) != 0) {
-    why_not = "the renderer is " + mesa->description_ + ", not llvmpipe";
+    missing = "the renderer is " + mesa->description_ + ", not llvmpipe";
     return nullptr;
   }
   return mesa;

@@ -13,9 +13,9 @@ namespace halfspace::test {
 /// A surfaceless EGL context with OpenGL 4.5 core on llvmpipe. It is current on the thread that created it until it is destroyed.
 class MesaContext {
  public:
-  /// Returns null if EGL, Mesa or llvmpipe is missing; why_not then names the missing part in one line. Sets environment variables for the
+  /// Returns null if EGL, Mesa or llvmpipe is missing; missing then names the missing part in one line. Sets environment variables for the
   /// whole process that select llvmpipe and its exact texture filtering (see the .cpp).
-  static std::unique_ptr<MesaContext> create(std::string& why_not);
+  static std::unique_ptr<MesaContext> create(std::string& missing);
   ~MesaContext();
   MesaContext(const MesaContext&) = delete;
   MesaContext& operator=(const MesaContext&) = delete;
@@ -36,9 +36,9 @@ template <class Base>
 class MesaFixture : public Base {
  protected:
   void SetUp() override {
-    std::string why_not;
-    mesa_ = MesaContext::create(why_not);
-    if (!mesa_) GTEST_SKIP() << "not compared with Mesa: " << why_not;
+    std::string missing;
+    mesa_ = MesaContext::create(missing);
+    if (!mesa_) GTEST_SKIP() << "not compared with Mesa: " << missing;
   }
 
  private:

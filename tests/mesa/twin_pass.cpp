@@ -39,7 +39,7 @@ void TwinPass::run() {
   mesa_ = draw_with_mesa(target_, mesa_draws_);
 }
 
-Figures TwinPass::figures(int most_judged) const {
+Figures TwinPass::figures(int max_checked) const {
   Figures f;
   std::vector<std::pair<int, int>> differing, depths;
   for (int row = 0; row < target_.height; ++row) {
@@ -59,12 +59,12 @@ Figures TwinPass::figures(int most_judged) const {
     }
   }
   f.color_differs = static_cast<int64_t>(differing.size());
-  for (const auto& [x, row] : some_of(differing, most_judged)) judge(x, row, 1, f);
-  judge_depths(depths, most_judged, f);
+  for (const auto& [x, row] : some_of(differing, max_checked)) judge(x, row, 1, f);
+  compare_depths_with_double(depths, max_checked, f);
   return f;
 }
 
-Figures TwinPass::fragment_figures(int most_judged) const {
+Figures TwinPass::fragment_figures(int max_checked) const {
   Figures f;
   std::vector<std::pair<int, int>> differing;
   for (int row = 0; row < target_.height; ++row) {
@@ -77,7 +77,7 @@ Figures TwinPass::fragment_figures(int most_judged) const {
       if (a != b) differing.emplace_back(x, row);
     }
   }
-  for (const auto& [x, row] : some_of(differing, most_judged)) judge(x, row, 0, f);
+  for (const auto& [x, row] : some_of(differing, max_checked)) judge(x, row, 0, f);
   return f;
 }
 
@@ -117,7 +117,7 @@ bool TwinPass::is_right_beside(int x, int row, int tolerance) const {
   return false;
 }
 
-void TwinPass::judge_depths(const std::vector<std::pair<int, int>>& pixels, int most, Figures& f) const {
+void TwinPass::compare_depths_with_double(const std::vector<std::pair<int, int>>& pixels, int most, Figures& f) const {
   for (const auto& [x, row] : some_of(pixels, most)) {
     const double snapped = truth(x, row, Positions::snapped).depth;
     f.halfspace_depth_error = std::max(f.halfspace_depth_error, std::fabs(static_cast<double>(ours_.depth.at(x, row)) - snapped));

@@ -60,19 +60,18 @@ class TwinPass {
   const Picture& halfspace() const { return ours_; }
   const Picture& mesa() const { return mesa_; }
 
-  /// Compares the images and checks up to most_judged differing pixels in double precision. If the environment variable
+  /// Compares the images and checks up to max_checked differing pixels in double precision. If the environment variable
   /// HALFSPACE_MESA_PIXELS is set, these pixels are printed.
-  Figures figures(int most_judged = 0) const;
+  Figures figures(int max_checked = 0) const;
   /// Compares the number of fragments per pixel, for additive draws of 1/255; `covered` then counts fragments.
-  Figures fragment_figures(int most_judged = 0) const;
+  Figures fragment_figures(int max_checked = 0) const;
   /// Returns the reference value of a pixel, or of a point at `offset` (in pixels) from its center.
   TruthPixel truth(int x, int row, Positions positions, const glm::dvec2& offset = glm::dvec2(0.0)) const;
 
  private:
-  void judge_some(const std::vector<std::pair<int, int>>& pixels, int most, int tolerance, Figures& f) const;
   void judge(int x, int row, int tolerance, Figures& f) const;
   bool is_right_beside(int x, int row, int tolerance) const;
-  void judge_depths(const std::vector<std::pair<int, int>>& pixels, int most, Figures& f) const;
+  void compare_depths_with_double(const std::vector<std::pair<int, int>>& pixels, int most, Figures& f) const;
 
   TargetSpec target_;
   std::vector<std::function<void(Pass&)>> our_draws_;

@@ -149,7 +149,7 @@ std::vector<std::array<uint32_t, 3>> triangles_of(const std::vector<uint32_t>& i
   return list;
 }
 
-TEST_F(GltfDracoTest, AttributesAndIndicesAreThoseOfTheStream) {
+TEST_F(GltfDracoTest, AttributesAndIndicesMatchTheStream) {
   const Patch patch(9);
   for (const auto method : {draco::MESH_SEQUENTIAL_ENCODING, draco::MESH_EDGEBREAKER_ENCODING}) {
     const Model model = draco_file(patch, compressed(patch, method)).read();
@@ -194,21 +194,21 @@ TEST_F(GltfDracoTest, RejectsAccessorsThatDoNotMatchTheStream) {
   for (const Case& c : cases) {
     GltfJson json = good;
     c.damage(json);
-    EXPECT_TRUE(tells(draco_error(json), "/none/a.gltf: ", {c.words}));
+    EXPECT_TRUE(reports(draco_error(json), "/none/a.gltf: ", {c.words}));
   }
 }
 
-TEST_F(GltfDracoTest, DamagedStreamsGiveOneLineOrAMesh) {
+TEST_F(GltfDracoTest, DamagedStreamsGiveAMeshOrAOneLineError) {
   const Patch patch(3);
   const std::vector<std::byte> good = compressed(patch, draco::MESH_EDGEBREAKER_ENCODING);
   const auto check = [&](const std::vector<std::byte>& stream) {
     const std::string message = draco_error(draco_file(patch, stream).finished(), {.max_memory = 64u << 20});
-    EXPECT_TRUE(message == "(no error)" || tells(message, "/none/a.gltf: ", {"expected"})) << message;
+    EXPECT_TRUE(message == "(no error)" || reports(message, "/none/a.gltf: ", {"expected"})) << message;
     return message != "(no error)";
   };
   for (std::size_t i = 0; i < good.size(); ++i) {
-    const bool refused = check({good.begin(), good.begin() + static_cast<std::ptrdiff_t>(i)});
-    EXPECT_TRUE(refused || i >= good.size() / 2) << "truncated to " << i;
+    const bool rejected = check({good.begin(), good.begin() + static_cast<std::ptrdiff_t>(i)});
+    EXPECT_TRUE(rejected || i >= good.size() / 2) << "truncated to " << i;
     for (const unsigned flip : {0x01u, 0x80u, 0xffu}) {
       std::vector<std::byte> damaged = good;
       damaged[i] ^= static_cast<std::byte>(flip);
@@ -219,35 +219,35 @@ TEST_F(GltfDracoTest, DamagedStreamsGiveOneLineOrAMesh) {
 }
 
 // The counts follow the header of 11 bytes as variable-length integers.
-TEST_F(GltfDracoTest, HugeCountsAreRefused) {
+TEST_F(GltfDracoTest, HugeCountsAreRejected) {
   const Patch patch(3);
   const std::vector<std::byte> good = compressed(patch, draco::MESH_SEQUENTIAL_ENCODING);
   ASSERT_EQ(good[11], std::byte{8});  // triangles
   ASSERT_EQ(good[12], std::byte{9});  // points
-  constexpr std::array<std::byte, 5> kMost = {std::byte{0xff}, std::byte{0xff}, std::byte{0xff}, std::byte{0xff}, std::byte{0x0f}};
+  constexpr std::array<std::byte, 5> kMaxVarint = {std::byte{0xff}, std::byte{0xff}, std::byte{0xff}, std::byte{0xff}, std::byte{0x0f}};
   for (const auto& [triangles, points] : {std::pair(true, false), std::pair(false, true), std::pair(true, true)}) {
     std::vector<std::byte> stream(good.begin(), good.begin() + 11);
-    triangles ? stream.insert(stream.end(), kMost.begin(), kMost.end()) : stream.insert(stream.end(), good[11]);
-    points ? stream.insert(stream.end(), kMost.begin(), kMost.end()) : stream.insert(stream.end(), good[12]);
+    triangles ? stream.insert(stream.end(), kMaxVarint.begin(), kMaxVarint.end()) : stream.insert(stream.end(), good[11]);
+    points ? stream.insert(stream.end(), kMaxVarint.begin(), kMaxVarint.end()) : stream.insert(stream.end(), good[12]);
     stream.insert(stream.end(), good.begin() + 13, good.end());
-    EXPECT_TRUE(tells(draco_error(draco_file(patch, stream).finished(), {.max_memory = 64u << 20}), "/none/a.gltf: ", {"expected"}));
+    EXPECT_TRUE(reports(draco_error(draco_file(patch, stream).finished(), {.max_memory = 64u << 20}), "/none/a.gltf: ", {"expected"}));
   }
 }
 
 TEST_F(GltfDracoTest, MemoryIsLimited) {
   const Patch patch(200);
   const GltfJson json = draco_file(patch, compressed(patch, draco::MESH_EDGEBREAKER_ENCODING)).finished();
-  EXPECT_TRUE(tells(draco_error(json, {.max_memory = 4u << 20}), "/none/a.gltf: ", {"expected"}));
+  EXPECT_TRUE(reports(draco_error(json, {.max_memory = 4u << 20}), "/none/a.gltf: ", {"expected"}));
   EXPECT_EQ(draco_error(json), "(no error)");
 }
 
-TEST_F(GltfDracoTest, WithoutADecoderAnUncompressedCopyIsRead) {
+TEST_F(GltfDracoTest, FallsBackToUncompressedDataWithoutADecoder) {
   const Patch patch(4);
   const std::vector<std::byte> stream = compressed(patch, draco::MESH_EDGEBREAKER_ENCODING);
   set_tool_folder("/none");
   EXPECT_FALSE(can_decode_draco());
-  EXPECT_TRUE(tells(draco_error(draco_file(patch, stream).finished()), "/none/a.gltf: ", {kDraco, "not installed"}));
-  EXPECT_TRUE(tells(draco_error(draco_file(patch, stream, false).finished()), "/none/a.gltf: ", {kDraco, "not installed"}));
+  EXPECT_TRUE(reports(draco_error(draco_file(patch, stream).finished()), "/none/a.gltf: ", {kDraco, "not installed"}));
+  EXPECT_TRUE(reports(draco_error(draco_file(patch, stream, false).finished()), "/none/a.gltf: ", {kDraco, "not installed"}));
   GltfBuilder file = draco_file(patch, stream, false);
   file.json["accessors"][0]["bufferView"] = file.view(patch.positions);
   file.json["accessors"][6]["bufferView"] = file.view(patch.indices);

@@ -248,7 +248,7 @@ TEST(GltfHostile, LimitsMemory) {
 }
 
 // Returns the smallest limit with which a mesh of 100,000 vertices can be read.
-std::size_t least_memory(bool with_normals, bool with_joints) {
+std::size_t min_memory(bool with_normals, bool with_joints) {
   constexpr int kVertices = 99'999;
   GltfBuilder file;
   const auto zeros = [&](int component, const char* type) {
@@ -274,8 +274,8 @@ std::size_t least_memory(bool with_normals, bool with_joints) {
 // Flat normals copy the vertices. The copies of two sets of joints and weights have 48 bytes per vertex, and 16 of them are in the bound
 // for meshes without joints.
 TEST(GltfHostile, CountsTheJointsOfCopiedVertices) {
-  const std::size_t joints = least_memory(true, true) - least_memory(true, false);
-  const std::size_t copied_joints = least_memory(false, true) - least_memory(false, false);
+  const std::size_t joints = min_memory(true, true) - min_memory(true, false);
+  const std::size_t copied_joints = min_memory(false, true) - min_memory(false, false);
   EXPECT_EQ(copied_joints - joints, 99'999u * 32);
 }
 

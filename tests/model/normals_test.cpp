@@ -92,7 +92,7 @@ TEST(Normals, TreatNegativeZeroAsZero) {
 }
 
 TEST(Normals, FollowSmoothingGroups) {
-  // Groups 1 and 1 are smooth although the cube has right angles; the triangles of group 0 are flat.
+  // Faces of the same group are smooth where they meet, even at the right angles of the cube. Triangles of group 0 are flat.
   std::vector<uint32_t> groups(12, 0);
   groups[0] = groups[1] = groups[2] = groups[3] = 1;  // the first two faces, which are opposite
   groups[4] = groups[5] = 1;                          // a face that touches both

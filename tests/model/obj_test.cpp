@@ -217,20 +217,20 @@ TEST(Obj, GivesAllMeshesOneOrigin) {
 
 TEST(Obj, NamesTheLineOfErrors) {
   const auto error = [](std::string_view text) { return input_error([&] { read_obj_text(text); }); };
-  EXPECT_TRUE(tells(error("v 0 0 0\nv 1 x 0\n"), "/none/a.obj:2: ", {"'x'", "expected"}));
-  EXPECT_TRUE(tells(error("v 0 0 \\\n0\nv 1 0\n"), "/none/a.obj:3: ", {"2", "expected 3"}));
+  EXPECT_TRUE(reports(error("v 0 0 0\nv 1 x 0\n"), "/none/a.obj:2: ", {"'x'", "expected"}));
+  EXPECT_TRUE(reports(error("v 0 0 \\\n0\nv 1 0\n"), "/none/a.obj:3: ", {"2", "expected 3"}));
   for (const char* number : {"nan", "inf", "1e400", "-1e19", "1,5", "3.1+e2", "++1", "+-1", "0x1p3x", "1e", "-"}) {
-    EXPECT_TRUE(tells(error(std::string("\nv 0 0 ") + number), "/none/a.obj:2: ", {number, "expected"}));
+    EXPECT_TRUE(reports(error(std::string("\nv 0 0 ") + number), "/none/a.obj:2: ", {number, "expected"}));
   }
   for (const char* corner : {"0", "4", "-4", "99999999999", "-99999999999999999999", "4294967295", "4294967296"}) {
-    EXPECT_TRUE(tells(error(with_triangle(std::string("f 1 2 ") + corner + "\nf 1 2 3\n")), "/none/a.obj:4: ", {"index", "expected"}))
+    EXPECT_TRUE(reports(error(with_triangle(std::string("f 1 2 ") + corner + "\nf 1 2 3\n")), "/none/a.obj:4: ", {"index", "expected"}))
         << corner;
   }
   for (const char* corner : {"a", "/1", "1/x", "1/1/1/1", "1.5", "//", "3\"", "\"quoted"}) {
-    EXPECT_TRUE(tells(error(with_triangle(std::string("f 1 2 ") + corner)), "/none/a.obj:4: ", {"corner", "expected"})) << corner;
+    EXPECT_TRUE(reports(error(with_triangle(std::string("f 1 2 ") + corner)), "/none/a.obj:4: ", {"corner", "expected"})) << corner;
   }
-  EXPECT_TRUE(tells(error(""), "/none/a.obj: ", {"no vertices", "expected"}));
-  EXPECT_TRUE(tells(error("f 1 2 3\n"), "/none/a.obj:1: ", {"index 3", "expected"}));
+  EXPECT_TRUE(reports(error(""), "/none/a.obj: ", {"no vertices", "expected"}));
+  EXPECT_TRUE(reports(error("f 1 2 3\n"), "/none/a.obj:1: ", {"index 3", "expected"}));
 }
 
 TEST(Obj, EscapesControlCharactersInMessages) {
@@ -248,11 +248,11 @@ TEST(Obj, WarnsOnceForEachKindOfUnusedStatement) {
   EXPECT_EQ(distinct.size(), 7u);
 }
 
-TEST(Obj, RefusesFilesLargerThanMemory) {
+TEST(Obj, RejectsFilesLargerThanMemory) {
   ReadModelOptions options;
   options.max_memory = 400;
-  EXPECT_TRUE(tells(input_error([&] { read_obj_text(with_triangle("f 1 2 3 # 0123456789012345678901234567890123456789\n"), options); }),
-                    "/none/a.obj: ", {"bytes", "expected at most"}));
+  EXPECT_TRUE(reports(input_error([&] { read_obj_text(with_triangle("f 1 2 3 # 0123456789012345678901234567890123456789\n"), options); }),
+                      "/none/a.obj: ", {"bytes", "expected at most"}));
 }
 
 }  // namespace

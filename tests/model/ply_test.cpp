@@ -176,7 +176,7 @@ TEST_F(PlyTexture, IsFoundByItsComment) {
 
 TEST(Ply, RejectsInvalidHeaders) {
   const auto rejects = [](const std::string& text, const std::string& place, const std::string& keyword) {
-    EXPECT_TRUE(tells(input_error([&] { ply_model(text); }), "a.ply: " + place, {keyword, "expected"}));
+    EXPECT_TRUE(reports(input_error([&] { ply_model(text); }), "a.ply: " + place, {keyword, "expected"}));
   };
   rejects("ply\n", "line 2", "end_header");
   rejects("ply\nformat ascii 1.0\nelement vertex 1", "line 3", "end_header");
@@ -201,7 +201,7 @@ TEST(Ply, RejectsInvalidHeaders) {
 TEST(Ply, RejectsInvalidData) {
   const std::string faces = vertices(3) + "element face 2\nproperty list char int vertex_indices\n";
   const auto rejects = [](const std::string& text, const std::string& place, const std::string& keyword) {
-    EXPECT_TRUE(tells(input_error([&] { ply_model(text); }), "a.ply: element " + place, {keyword, "expected"}));
+    EXPECT_TRUE(reports(input_error([&] { ply_model(text); }), "a.ply: element " + place, {keyword, "expected"}));
   };
   rejects(ascii(vertices(3), "0 0 0 1 1 1 2 2     "), "'vertex', row 2", "ends");
   rejects(ascii(vertices(3), "0 0 0 1 one 1 2 2 2"), "'vertex', row 1", "'one'");
@@ -220,7 +220,7 @@ TEST(Ply, RejectsInvalidData) {
 TEST(Ply, RejectsFilesThatNeedTooMuchMemory) {
   ReadModelOptions options;
   options.max_memory = 1000;
-  EXPECT_TRUE(tells(input_error([&] { ply_model(cube_file("ascii", 0, 1), options); }), "a.ply: ", {"memory"}));
+  EXPECT_TRUE(reports(input_error([&] { ply_model(cube_file("ascii", 0, 1), options); }), "a.ply: ", {"memory"}));
 }
 
 }  // namespace

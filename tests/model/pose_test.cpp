@@ -117,7 +117,7 @@ TEST(Pose, DrawsOnlyTheScene) {
   EXPECT_EQ(pose(model, {.scene = 0}).meshes.size(), 1u);
 }
 
-TEST(Pose, TurnsZUp) {
+TEST(Pose, ConvertsZUpToYUp) {
   Model model = pose_model();
   model.up = UpAxis::z;
   model.meshes[0].positions[2] = {1, 2, 3};

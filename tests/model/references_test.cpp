@@ -12,7 +12,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // A folder `model` with files, and a file outside of it.
-class References_ : public testing::Test {
+class ModelReferences : public testing::Test {
  protected:
   void SetUp() override {
     fs::create_directories(model_ / "maps");
@@ -43,7 +43,7 @@ class References_ : public testing::Test {
   std::vector<std::string> warnings_;
 };
 
-TEST_F(References_, FindsRelativePaths) {
+TEST_F(ModelReferences, FindsRelativePaths) {
   EXPECT_EQ(find("wood.png"), "wood.png");
   EXPECT_EQ(find("./maps/../wood.png"), "wood.png");
   EXPECT_EQ(find("maps/Brick.png"), "maps/Brick.png");
@@ -51,26 +51,26 @@ TEST_F(References_, FindsRelativePaths) {
   EXPECT_EQ(warning(), "");
 }
 
-TEST_F(References_, FindsAbsolutePathsInTheFolder) {
+TEST_F(ModelReferences, FindsAbsolutePathsInTheFolder) {
   EXPECT_EQ(find((fs::canonical(model_) / "wood.png").string()), "wood.png");
   EXPECT_EQ(warning(), "");
 }
 
-TEST_F(References_, IgnoresCaseWithAWarning) {
+TEST_F(ModelReferences, IgnoresCaseWithAWarning) {
   EXPECT_EQ(find("WOOD.PNG"), "wood.png");
   EXPECT_TRUE(warns("'wood.png'"));
   EXPECT_EQ(find("Maps/brick.png"), "maps/Brick.png");
   EXPECT_TRUE(warns("'maps/Brick.png'"));
 }
 
-TEST_F(References_, PrefersTheExactCase) {
+TEST_F(ModelReferences, PrefersTheExactCase) {
   write_bytes(model_ / "WOOD.png", "");
   EXPECT_EQ(find("wood.png"), "wood.png");
   EXPECT_EQ(find("WOOD.png"), "WOOD.png");
   EXPECT_EQ(warning(), "");
 }
 
-TEST_F(References_, NamesMissingFilesOnce) {
+TEST_F(ModelReferences, NamesMissingFilesOnce) {
   EXPECT_EQ(find("metal.png"), "");
   EXPECT_TRUE(warning().starts_with("map of 'm': 'metal.png'")) << warning();
   EXPECT_EQ(find("maps"), "") << "a folder is not a file";
@@ -80,7 +80,7 @@ TEST_F(References_, NamesMissingFilesOnce) {
   EXPECT_LT(warning().size(), 300u);
 }
 
-TEST_F(References_, DoesNotLeaveTheFolder) {
+TEST_F(ModelReferences, DoesNotLeaveTheFolder) {
   for (const std::string& name : {std::string("../secret.png"), std::string("maps/../../secret.png"), std::string("..\\secret.png"),
                                   (fs::canonical(folder_.path()) / "secret.png").string(), std::string("/etc/hostname")}) {
     EXPECT_EQ(find(name), "") << name;
@@ -88,13 +88,13 @@ TEST_F(References_, DoesNotLeaveTheFolder) {
   }
 }
 
-TEST_F(References_, AllowsOutsideFilesOnRequest) {
+TEST_F(ModelReferences, AllowsOutsideFilesOnRequest) {
   EXPECT_EQ(find("../secret.png", true), "../secret.png");
   EXPECT_EQ(find((fs::canonical(folder_.path()) / "secret.png").string(), true), "../secret.png");
   EXPECT_EQ(warning(), "");
 }
 
-TEST_F(References_, LooksForBareNamesInTheFolder) {
+TEST_F(ModelReferences, LooksForBareNamesInTheFolder) {
   for (const char* name : {"../wood.png", "/home/artist/wood.png", "C:\\Users\\artist\\wood.png", "c:wood.png",
                            "\\\\server\\share\\wood.png", "textures/Wood.png"}) {
     for (const bool allow : {false, true}) {
@@ -104,7 +104,7 @@ TEST_F(References_, LooksForBareNamesInTheFolder) {
   }
 }
 
-TEST_F(References_, DoesNotFollowSymbolicLinksOutOfTheFolder) {
+TEST_F(ModelReferences, DoesNotFollowSymbolicLinksOutOfTheFolder) {
   fs::create_symlink("../secret.png", model_ / "link.png");
   fs::create_directory_symlink("..", model_ / "up");
   for (const char* name : {"link.png", "up/secret.png", "LINK.png", "UP/secret.png", "../link.png"}) {
@@ -119,7 +119,7 @@ TEST_F(References_, DoesNotFollowSymbolicLinksOutOfTheFolder) {
 }
 
 // The folder of the model itself may be reached through a link.
-TEST_F(References_, AcceptsALinkToTheFolder) {
+TEST_F(ModelReferences, AcceptsALinkToTheFolder) {
   fs::create_directory_symlink("model", folder_.path() / "alias");
   References references(folder_.path() / "alias/a.obj", false, warnings_);
   EXPECT_TRUE(references.find("wood.png", "map"));

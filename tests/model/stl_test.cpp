@@ -96,7 +96,7 @@ TEST(Stl, LeavesOutTrianglesThatAreNotFinite) {
 
 TEST(Stl, RejectsDamagedFiles) {
   const auto rejects = [](const std::string& text, const std::string& place, const std::string& keyword) {
-    EXPECT_TRUE(tells(input_error([&] { stl_model(text); }), "a.stl: " + place, {keyword, "expected"}));
+    EXPECT_TRUE(reports(input_error([&] { stl_model(text); }), "a.stl: " + place, {keyword, "expected"}));
   };
   rejects(binary_cube("", 0).substr(0, 600), "", "declares 12 triangles");
   rejects(std::string(20, 'x'), "", "20 bytes");

@@ -154,7 +154,7 @@ TEST(Triangulate, CoversLargePolygonsFast) {
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(10));
 }
 
-TEST(Triangulate, EndsForPolygonsThatAreNotSimple) {
+TEST(Triangulate, TerminatesForPolygonsThatAreNotSimple) {
   std::mt19937 random(3);
   Corners knot(100000);
   for (glm::dvec3& p : knot) p = {random() % 1000, random() % 1000, random() % 1000};

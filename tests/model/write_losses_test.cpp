@@ -93,7 +93,7 @@ TEST(WriteLosses, ObjBumpMapsReadBack) {
   EXPECT_NEAR(read.materials[0].bump_scale, 0.07f, 1e-8f);  // two roundings to float
 }
 
-TEST(WriteLosses, ObjNamesWhatMaterialsLose) {
+TEST(WriteLosses, ObjWarnsAboutMaterialLosses) {
   Model model = model_of({cube_of(0), cube_of(1)});
   model.meshes[0].colors.assign(model.meshes[0].positions.size(), glm::vec4(1.0f, 1.0f, 1.0f, 0.5f));
   model.materials.resize(2);
@@ -121,7 +121,7 @@ TEST(WriteLosses, PlyContainsOnlyTheSelectedPoints) {
   EXPECT_TRUE(read.warnings.empty());
 }
 
-TEST(WriteLosses, PlyAndStlNameThePrimitivesThatTheyLeaveOut) {
+TEST(WriteLosses, PlyAndStlWarnAboutOmittedPrimitives) {
   const Model all = model_of({cube_of(-1), primitives(MeshTopology::lines), primitives(MeshTopology::points)});
   const WrittenModel ply = written_model(all, "a.ply", ModelFormat::ply), stl = written_model(all, "a.stl", ModelFormat::stl);
   EXPECT_EQ(warnings_with(ply, "lines are left out"), 1u);
@@ -133,7 +133,7 @@ TEST(WriteLosses, PlyAndStlNameThePrimitivesThatTheyLeaveOut) {
   EXPECT_TRUE(written_model(triangles, "a.stl", ModelFormat::stl).warnings.empty());
 }
 
-TEST(WriteLosses, GltfLeavesOutEmptyMeshesAndTargets) {
+TEST(WriteLosses, GltfOmitsEmptyMeshesAndTargets) {
   Model model = model_of({ModelMesh{}, cube_of(-1)});
   model.nodes.resize(2);
   model.nodes[1].meshes = {0};

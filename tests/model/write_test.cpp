@@ -340,7 +340,7 @@ TEST(WriteModel, GltfKeepsThePrecisionOfModelsFarFromTheOrigin) {
   EXPECT_EQ(read.meshes[0].positions, mesh.positions);
 }
 
-TEST(WriteModel, NamesWhatGltfCannotStore) {
+TEST(WriteModel, WarnsAboutWhatGltfCannotStore) {
   Model model = rich_model();
   model.materials[0].opacity_map = use_of(0);
   model.materials[0].roughness_map.channel = Channel::red;
@@ -441,11 +441,11 @@ TEST(WriteModel, RejectsModelsThatTheFormatCannotStore) {
   Model model;
   model.scenes.emplace_back();
   for (const ModelFormat format : {ModelFormat::obj, ModelFormat::ply, ModelFormat::stl})
-    EXPECT_TRUE(tells(output_error([&] { written_model(model, "a.x", format); }), "a.", {"expected"}));
+    EXPECT_TRUE(reports(output_error([&] { written_model(model, "a.x", format); }), "a.", {"expected"}));
   EXPECT_EQ(written_model(model, "a.glb", ModelFormat::glb).files.size(), 1u);
 }
 
-TEST(WriteModel, FormatIsThatOfTheFileName) {
+TEST(WriteModel, FormatFollowsTheFileName) {
   EXPECT_EQ(model_format_of("a.GLB"), ModelFormat::glb);
   EXPECT_EQ(model_format_of("x/a.gltf"), ModelFormat::gltf);
   EXPECT_EQ(model_format_of("a.png"), std::nullopt);

@@ -368,7 +368,7 @@ Polygon cut(const Plane& plane, bool is_least_w, const Polygon& polygon) {
   return kept;
 }
 
-// Returns the part of a line that is inside of the plane: two points or none.
+// Returns the part of a line that is inside the plane: two points or none.
 Polygon cut_line(const Plane& plane, bool is_least_w, const Polygon& line) {
   if (line.empty()) return {};
   const bool in0 = plane(line[0]) >= 0, in1 = plane(line[1]) >= 0;

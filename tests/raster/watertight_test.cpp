@@ -395,7 +395,7 @@ TEST(WatertightClipped, ClosedSurfacesAroundTheEyeCoverEverything) {
   const std::array<Surface, 4> surfaces{tetrahedron(), octahedron(), subdivide(octahedron()), subdivide(subdivide(octahedron()))};
   for (int i = 0; i < effort(3000); ++i) {
     const Surface& surface = surfaces[static_cast<std::size_t>(i % 4)];
-    // The eye is well inside of a convex body, and so is the near plane at 0.001.
+    // The eye is well inside a convex body, and so is the near plane at 0.001.
     const glm::dmat3 turn = random_rotation(r);
     const glm::dvec3 eye(r.real(-0.15, 0.15), r.real(-0.15, 0.15), r.real(-0.15, 0.15));
     const double size = r.magnitude(1.0, 1000.0);

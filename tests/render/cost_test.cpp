@@ -115,7 +115,7 @@ IncidentLight<Counted> light_at<Counted>(const Light& light, const vec3<Counted>
 
 namespace {
 
-// S, but it records which stage is running.
+// The shader S, extended to record which stage is running.
 template <class S>
 struct Counting : S {
   template <class R>

@@ -88,7 +88,7 @@ TEST(EnvironmentScene, BlendsAndLoadsOnlyVisibleEnvironments) {
   SceneFile scene = SceneFile::parse(text, "test.json", ".");
   EXPECT_EQ(light_of(scene.description(), 4, 4).at(1, 1), glm::vec4(1, 0.5f, 0, 1)) << "the missing file of night is not loaded";
   scene.set("background.weight=0.001");
-  EXPECT_TRUE(tells(input_error([&] { light_of(scene.description(), 4, 4); }), "environments.night.map: /none.png", {"no such file"}));
+  EXPECT_TRUE(reports(input_error([&] { light_of(scene.description(), 4, 4); }), "environments.night.map: /none.png", {"no such file"}));
   scene.set("background.second=dusk");
   scene.set("background.weight=0.5");
   EXPECT_EQ(light_of(scene.description(), 4, 4).at(1, 1), glm::vec4(0.625f, 0.375f, 0.125f, 1));
@@ -182,7 +182,7 @@ TEST(Reflections, UseTheSelectedEnvironment) {
   EXPECT_EQ(middle({"background.type=color", "background.color=0.5"}), glm::vec4(0.25f, 0.25f, 0.25f, 1)) << "a uniform color";
   EXPECT_EQ(middle({"reflections.on=false"}), glm::vec4(0, 0, 0, 1));
   EXPECT_EQ(middle({"ball.reflection=0"}), glm::vec4(0, 0, 0, 1));
-  EXPECT_TRUE(tells(input_error([&] { middle({"reflections.environment=c"}); }), "test.json: reflections.environment", {"'c'", "a, b"}));
+  EXPECT_TRUE(reports(input_error([&] { middle({"reflections.environment=c"}); }), "test.json: reflections.environment", {"'c'", "a, b"}));
 }
 
 TEST(Reflections, AreWithinOneCodeOfDoubleForEveryNormalDetail) {
@@ -235,27 +235,27 @@ TEST_F(EnvironmentFiles, FacesAppearInTheDirectionOfTheirNames) {
 TEST_F(EnvironmentFiles, FaceFilesTakePrecedenceOverTheFolder) {
   put_faces();
   std::filesystem::rename(directory / "front.png", directory / "other.png");
-  EXPECT_TRUE(tells(error_of(cube()), "environments.globe: " + directory.string(), {"face front", "front.png"}));
+  EXPECT_TRUE(reports(error_of(cube()), "environments.globe: " + directory.string(), {"face front", "front.png"}));
   EXPECT_EQ(error_of(cube({"globe.front=" + (directory / "other.png").string()})), "(no error)");
 }
 
 TEST_F(EnvironmentFiles, ReportsErrorsInOneLine) {
-  EXPECT_TRUE(tells(error_of({"globe.type=cube"}), "environments.globe", {"face right", "folder"}));
+  EXPECT_TRUE(reports(error_of({"globe.type=cube"}), "environments.globe", {"face right", "folder"}));
   EXPECT_TRUE(
-      tells(error_of({"globe.type=cube", "globe.folder=/none"}), "environments.globe: /none", {"No such file or directory", "six"}));
+      reports(error_of({"globe.type=cube", "globe.folder=/none"}), "environments.globe: /none", {"No such file or directory", "six"}));
   put_faces();
   const std::string bottom = "environments.globe: " + (directory / "bottom.png").string();
   put_face(3, 4, 5);
-  EXPECT_TRUE(tells(error_of(cube()), bottom, {"4x5", "square"}));
+  EXPECT_TRUE(reports(error_of(cube()), bottom, {"4x5", "square"}));
   put_face(3, 8, 8);
-  EXPECT_TRUE(tells(error_of(cube()), bottom, {"8x8", "one size"}));
+  EXPECT_TRUE(reports(error_of(cube()), bottom, {"8x8", "one size"}));
   put_face(3, 4, 4);
   put("left.jpg", "x");
-  EXPECT_TRUE(tells(error_of(cube()), "environments.globe: " + directory.string(), {"two files", "face left"}));
+  EXPECT_TRUE(reports(error_of(cube()), "environments.globe: " + directory.string(), {"two files", "face left"}));
   for (const std::string key : {"background.environment", "background.second"})
-    EXPECT_TRUE(tells(error_of({key + "=glob"}), "scene environment: " + key, {"'glob'", "'globe'"}));
-  EXPECT_TRUE(tells(input_error([] { SceneFile::parse(R"({"version": 1, "background": {"type": "environment"}})", "t.json", "."); }),
-                    "t.json: background.type", {"environment"}));
+    EXPECT_TRUE(reports(error_of({key + "=glob"}), "scene environment: " + key, {"'glob'", "'globe'"}));
+  EXPECT_TRUE(reports(input_error([] { SceneFile::parse(R"({"version": 1, "background": {"type": "environment"}})", "t.json", "."); }),
+                      "t.json: background.type", {"environment"}));
 }
 
 TEST_F(EnvironmentFiles, PreservesValuesAboveOne) {

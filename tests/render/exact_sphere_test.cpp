@@ -85,8 +85,8 @@ TEST(ExactSphere, RejectsKeysThatNeedAMesh) {
                {R"("instances": [{}, {"scale": [1, 3, 1]}])", "instances"}};
   for (const auto& c : cases) {
     const std::string ball = R"("textures": {"t": {"source": "checkerboard"}}, "objects": {"ball": {"shape": "sphere", )";
-    EXPECT_TRUE(tells(input_error([&] { scene_of(ball + c.keys + "}}"); }), "test: objects.ball." + std::string(c.key),
-                      {"shape sphere", "uv_sphere", "icosphere"}));
+    EXPECT_TRUE(reports(input_error([&] { scene_of(ball + c.keys + "}}"); }), "test: objects.ball." + std::string(c.key),
+                        {"shape sphere", "uv_sphere", "icosphere"}));
   }
 }
 

@@ -129,7 +129,7 @@ TEST(ModelChoice, ReportsScenesThatAreTooLarge) {
   for (int i = 0; i < 3000; ++i) copies += R"({"position": [0, 0, 0]},)";
   copies.pop_back();
   const std::string error = input_error([&] { fitted(objects(kMirror + R"(, "instances": [)" + copies + "]"), {0.01, std::nullopt}); });
-  EXPECT_TRUE(tells(error, "the cheapest model: objects", {"vertices"}));
+  EXPECT_TRUE(reports(error, "the cheapest model: objects", {"vertices"}));
 }
 
 }  // namespace

@@ -345,15 +345,15 @@ TEST(PreparedScene, RotationsAreDegreesAboutTheAxes) {
 
 TEST(PreparedScene, ReportsUnusableSettingsInOneLine) {
   EXPECT_THROW(moon_with({"moon.height_scale=2.5"}), InputError) << "2.5 can turn the sphere inside out";
-  EXPECT_TRUE(tells(error_of(moon_with({"moon.height=surface"})), "objects.moon.height", {"color map", "height map"}));
-  EXPECT_TRUE(tells(error_of(moon_with({"moon.color=relief"})), "objects.moon.color", {"height map", "color map"}));
-  EXPECT_TRUE(tells(error_of(moon_with({"moon.normal_map=surface"})), "objects.moon.normal_map", {"color map", "data map"}));
-  EXPECT_TRUE(tells(error_of(moon_with({"moon.normal=map"})), "objects.moon.normal", {"normal_map", "image file"}));
-  EXPECT_TRUE(tells(error_of(moon_with({"moon.normal=bump"})), "objects.moon.normal", {"bump_map", "image file"}));
-  EXPECT_TRUE(tells(error_of(moon_with({"moon.color=/none.png"})), "objects.moon.color: /none.png", {"no such file"}));
-  EXPECT_TRUE(tells(error_of(moon_with({"moon.height=/none.png"})), "objects.moon.height: /none.png", {"no such file"}));
-  EXPECT_TRUE(tells(error_of(parsed(R"({"version": 1, "textures": {"t": {}}, "objects": {"a": {"color": "t"}}})")), "textures.t.file",
-                    {"missing", "image file"}));
+  EXPECT_TRUE(reports(error_of(moon_with({"moon.height=surface"})), "objects.moon.height", {"color map", "height map"}));
+  EXPECT_TRUE(reports(error_of(moon_with({"moon.color=relief"})), "objects.moon.color", {"height map", "color map"}));
+  EXPECT_TRUE(reports(error_of(moon_with({"moon.normal_map=surface"})), "objects.moon.normal_map", {"color map", "data map"}));
+  EXPECT_TRUE(reports(error_of(moon_with({"moon.normal=map"})), "objects.moon.normal", {"normal_map", "image file"}));
+  EXPECT_TRUE(reports(error_of(moon_with({"moon.normal=bump"})), "objects.moon.normal", {"bump_map", "image file"}));
+  EXPECT_TRUE(reports(error_of(moon_with({"moon.color=/none.png"})), "objects.moon.color: /none.png", {"no such file"}));
+  EXPECT_TRUE(reports(error_of(moon_with({"moon.height=/none.png"})), "objects.moon.height: /none.png", {"no such file"}));
+  EXPECT_TRUE(reports(error_of(parsed(R"({"version": 1, "textures": {"t": {}}, "objects": {"a": {"color": "t"}}})")), "textures.t.file",
+                      {"missing", "image file"}));
 }
 
 }  // namespace

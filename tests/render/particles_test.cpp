@@ -68,9 +68,9 @@ TEST(Particles, DefaultRadiusPreservesTheTotalVolume) {
     const double r = particle_radius(some(count, ParticleArrangement::ball));
     EXPECT_NEAR(r * r * r * count, 0.3 * 0.3 * 0.3 * 12, 1e-13) << count;  // a relative error of 3e-13 from rounding a cube root and a cube
   }
-  ParticlesDescription told = some(1000, ParticleArrangement::ball);
-  told.radius = 0.7;
-  EXPECT_EQ(particle_radius(told), 0.7);
+  ParticlesDescription given = some(1000, ParticleArrangement::ball);
+  given.radius = 0.7;
+  EXPECT_EQ(particle_radius(given), 0.7);
 }
 
 class ParticleFiles : public FolderTest {};
@@ -112,10 +112,11 @@ TEST_F(ParticleFiles, ErrorsNameFileLineAndExpectedValue) {
   };
   for (const auto& c : cases) {
     const std::filesystem::path file = put("bad.csv", c.text);
-    EXPECT_TRUE(tells(input_error([&] { read_particles(file, {}); }), file.string() + c.line + ": ", c.keywords));
+    EXPECT_TRUE(reports(input_error([&] { read_particles(file, {}); }), file.string() + c.line + ": ", c.keywords));
   }
-  EXPECT_TRUE(tells(input_error([&] { read_particles(directory / "none.csv", {}); }), (directory / "none.csv").string(), {"no such file"}));
-  EXPECT_TRUE(tells(input_error([&] { read_particles(directory, {}); }), directory.string(), {"regular file", ".csv"}));
+  EXPECT_TRUE(
+      reports(input_error([&] { read_particles(directory / "none.csv", {}); }), (directory / "none.csv").string(), {"no such file"}));
+  EXPECT_TRUE(reports(input_error([&] { read_particles(directory, {}); }), directory.string(), {"regular file", ".csv"}));
 }
 
 TEST(Particles, RejectsKeysOfTheOtherSprite) {

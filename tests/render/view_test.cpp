@@ -114,7 +114,7 @@ TEST(MatrixCamera, AcceptsAnInfiniteFarPlane) {
   EXPECT_EQ(c.far, std::numeric_limits<double>::infinity());
 }
 
-TEST(MatrixCamera, RefusesOtherMatrices) {
+TEST(MatrixCamera, RejectsOtherMatrices) {
   const glm::dmat4 identity(1.0), perspective = perspective_gl(1.0, 1.5, 0.5, 90.0);
   const auto changed = [](glm::dmat4 m, int column, int row, double value) {
     m[column][row] = value;

@@ -164,7 +164,7 @@ TEST(SceneFile, PrintedObjectsFollowTheirMaterial) {
 TEST(SceneFile, KindsHaveTheirOwnKeys) {
   SceneFile scene = scene_of(R"({"version": 1, "objects": {"floor": {"shape": "plane", "size": 4}}})");
   EXPECT_EQ(scene.print().find("latitudes"), std::string::npos);
-  EXPECT_TRUE(tells(input_error([&] { scene.set("floor.latitudes=8"); }), "--set: floor.latitudes", {"unknown key 'latitudes'", "size"}));
+  EXPECT_TRUE(reports(input_error([&] { scene.set("floor.latitudes=8"); }), "--set: floor.latitudes", {"unknown key 'latitudes'", "size"}));
 }
 
 TEST(SceneFile, ChangingTheKindDropsInapplicableKeys) {
@@ -207,8 +207,8 @@ TEST(SceneFile, RejectsScenesThatAreTooLarge) {
     for (int i = 1; i < copies; ++i) text += ", {}";
     return text + "]}}}";
   };
-  EXPECT_TRUE(tells(input_error([&] { scene_of(scene_with(R"("shape": "icosphere", "level": 8, )", 52)); }), "test.json: objects",
-                    {"34078824 vertices", "33554432"}));
+  EXPECT_TRUE(reports(input_error([&] { scene_of(scene_with(R"("shape": "icosphere", "level": 8, )", 52)); }), "test.json: objects",
+                      {"34078824 vertices", "33554432"}));
   EXPECT_EQ(input_error([&] { scene_of(scene_with(R"("shape": "icosphere", "level": 8, )", 51)); }), "(no error)");
   EXPECT_EQ(input_error([&] { scene_of(scene_with(R"("shape": "icosphere", "level": 8, "visible": false, )", 4096)); }), "(no error)");
   std::string text = R"({"version": 1, "objects": {)";
@@ -217,7 +217,7 @@ TEST(SceneFile, RejectsScenesThatAreTooLarge) {
     text += std::string(i == 0 ? "" : ", ") + "\"p" + std::to_string(i) +
             "\": " + list.substr(list.find("{\"shape"), list.find("]}") + 2 - list.find("{\"shape"));
   }
-  EXPECT_TRUE(tells(input_error([&] { scene_of(text + "}}"); }), "test.json: objects", {"69632", "65536"}));
+  EXPECT_TRUE(reports(input_error([&] { scene_of(text + "}}"); }), "test.json: objects", {"69632", "65536"}));
 }
 
 // ---- errors: file and key, the problem, the expected value --------------------------------------------------------
@@ -356,7 +356,7 @@ const Wrong kWrong[] = {
 class SceneFileError : public testing::TestWithParam<Wrong> {};
 
 TEST_P(SceneFileError, IsOneLineWithPlaceAndKeywords) {
-  EXPECT_TRUE(tells(input_error([&] { scene_of(GetParam().text); }), GetParam().place, GetParam().keywords));
+  EXPECT_TRUE(reports(input_error([&] { scene_of(GetParam().text); }), GetParam().place, GetParam().keywords));
 }
 
 // Checks the complete text of some messages.
@@ -374,7 +374,7 @@ INSTANTIATE_TEST_SUITE_P(Table, SceneFileError, testing::ValuesIn(kWrong), [](co
 
 TEST(SceneFile, SettingsAreValidatedTogether) {
   SceneFile scene = SceneFile::open("earth");
-  EXPECT_TRUE(tells(input_error([&] { scene.set("equator.near=200"); }), "scene earth: cameras.equator.far", {"near"}));
+  EXPECT_TRUE(reports(input_error([&] { scene.set("equator.near=200"); }), "scene earth: cameras.equator.far", {"near"}));
   const std::vector<std::string> both{"equator.near=200", "equator.far=300"};
   scene.set(both);
   EXPECT_EQ(scene.description().cameras[0].second.far, 300.0);
@@ -392,8 +392,8 @@ TEST(SceneFile, SettingsAreValidatedTogether) {
 TEST(SceneFile, RejectsControlCharacters) {
   SceneFile scene = SceneFile::open("earth");
   for (const std::string& bad : {std::string("\xff"), std::string("a\nb"), std::string("a\0b", 3), std::string("\x1b[31m")}) {
-    EXPECT_TRUE(tells(input_error([&] { scene.set("title=" + bad); }), "--set: title", {"control character"}));
-    EXPECT_TRUE(tells(input_error([&] { scene.set("earth.color=" + bad); }), "--set: earth.color", {"control character"}));
+    EXPECT_TRUE(reports(input_error([&] { scene.set("title=" + bad); }), "--set: title", {"control character"}));
+    EXPECT_TRUE(reports(input_error([&] { scene.set("earth.color=" + bad); }), "--set: earth.color", {"control character"}));
   }
   EXPECT_NO_THROW(scene.set("title=Lüneburg – 月"));
   EXPECT_NE(scene.print().find("月"), std::string::npos);
@@ -402,7 +402,7 @@ TEST(SceneFile, RejectsControlCharacters) {
 TEST(SceneFile, RejectsTooManyNames) {
   std::string text = "{\"version\": 1";
   for (int i = 0; i < 100000; ++i) text += ", \"a" + std::to_string(i) + "\": 0";
-  EXPECT_TRUE(tells(input_error([&] { scene_of(text + "}"); }), "test.json", {"4096 names"}));
+  EXPECT_TRUE(reports(input_error([&] { scene_of(text + "}"); }), "test.json", {"4096 names"}));
 }
 
 TEST(SceneFile, AcceptsTinyDirections) {
@@ -413,28 +413,28 @@ TEST(SceneFile, AcceptsTinyDirections) {
 }
 
 TEST(SceneFile, RejectsDeepNesting) {
-  EXPECT_TRUE(tells(input_error([] { scene_of("{\"version\": " + std::string(100000, '[')); }), "test.json", {"nested", "32"}));
+  EXPECT_TRUE(reports(input_error([] { scene_of("{\"version\": " + std::string(100000, '[')); }), "test.json", {"nested", "32"}));
 }
 
 TEST(SceneFile, AmbiguousNamesNeedTheCollection) {
   SceneFile scene = scene_of(R"({"version": 1, "lights": {"sun": {}}, "objects": {"sun": {}}})");
-  EXPECT_TRUE(tells(input_error([&] { scene.set("sun.intensity=2"); }), "--set: sun.intensity", {"'sun'", "lights", "objects"}));
+  EXPECT_TRUE(reports(input_error([&] { scene.set("sun.intensity=2"); }), "--set: sun.intensity", {"'sun'", "lights", "objects"}));
   scene.set("lights.sun.intensity=2");
   EXPECT_EQ(scene.description().lights[0].second.intensity, 2.0);
 }
 
 TEST(SceneFile, RejectsPathsOfSections) {
   SceneFile scene = SceneFile::open("earth");
-  EXPECT_TRUE(tells(input_error([&] { scene.set("earth=1"); }), "--set: earth", {"section", "objects.earth.KEY"}));
-  EXPECT_TRUE(tells(input_error([&] { scene.set("background=1"); }), "--set: background", {"section", "background.KEY"}));
-  EXPECT_TRUE(tells(input_error([&] { scene.set("earth.instances.0.position=1,1,1"); }), "--set: earth.instances.0.position",
-                    {"no such key", "objects.earth.KEY"}));
-  EXPECT_TRUE(tells(input_error([&] { scene.set("objects.erth.radius=1"); }), "--set: objects.erth.radius", {"'erth'", "'earth'"}));
+  EXPECT_TRUE(reports(input_error([&] { scene.set("earth=1"); }), "--set: earth", {"section", "objects.earth.KEY"}));
+  EXPECT_TRUE(reports(input_error([&] { scene.set("background=1"); }), "--set: background", {"section", "background.KEY"}));
+  EXPECT_TRUE(reports(input_error([&] { scene.set("earth.instances.0.position=1,1,1"); }), "--set: earth.instances.0.position",
+                      {"no such key", "objects.earth.KEY"}));
+  EXPECT_TRUE(reports(input_error([&] { scene.set("objects.erth.radius=1"); }), "--set: objects.erth.radius", {"'erth'", "'earth'"}));
 }
 
 TEST(SceneFile, UnknownScenesSuggestTheClosestName) {
-  EXPECT_TRUE(tells(input_error([] { SceneFile::open("mooon"); }), "unknown scene", {"'mooon'", "'moon'"}));
-  EXPECT_TRUE(tells(input_error([] { SceneFile::open("none.json"); }), "none.json", {"no such"}));
+  EXPECT_TRUE(reports(input_error([] { SceneFile::open("mooon"); }), "unknown scene", {"'mooon'", "'moon'"}));
+  EXPECT_TRUE(reports(input_error([] { SceneFile::open("none.json"); }), "none.json", {"no such"}));
 }
 
 // ---- time ------------------------------------------------------------------------------------------------------
@@ -485,7 +485,7 @@ TEST(Animation, SpeedScalesTime) {
 TEST(Animation, ReportsValuesThatLeaveTheirRange) {
   const SceneFile scene =
       scene_of(R"({"version": 1, "objects": {"a": {"radius": 1}}, "animations": {"t": {"target": "a.radius", "rate": -1}}})");
-  EXPECT_TRUE(tells(input_error([&] { scene.at(2); }), "test.json: animations.t: a.radius", {"1e-06", "got -1"}));
+  EXPECT_TRUE(reports(input_error([&] { scene.at(2); }), "test.json: animations.t: a.radius", {"1e-06", "got -1"}));
 }
 
 // ---- schema ----------------------------------------------------------------------------------------------------
@@ -506,8 +506,8 @@ TEST(Merge, AddsChangesAndRemovesSections) {
 
 TEST(Merge, LeavesTheSceneUnchangedOnErrors) {
   SceneFile scene = SceneFile::parse(R"({"version": 1, "samples": 2})", "test.json", ".");
-  EXPECT_TRUE(tells(input_error([&] { scene.merge(R"({"samples": 3})", "patch"); }), "test.json: samples", {"8"}));
-  EXPECT_TRUE(tells(input_error([&] { scene.merge("{", "patch"); }), "patch:1:2", {"JSON"}));
+  EXPECT_TRUE(reports(input_error([&] { scene.merge(R"({"samples": 3})", "patch"); }), "test.json: samples", {"8"}));
+  EXPECT_TRUE(reports(input_error([&] { scene.merge("{", "patch"); }), "patch:1:2", {"JSON"}));
   EXPECT_EQ(scene.description().head.samples, 2);
 }
 

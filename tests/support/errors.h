@@ -33,7 +33,7 @@ std::string output_error(F&& f) {
 
 /// Checks that the message is a single line that begins with the place of the error, such as "a.json: objects.ball.radius", and contains
 /// all keywords after it.
-inline testing::AssertionResult tells(const std::string& message, const std::string& place, const std::vector<std::string>& keywords) {
+inline testing::AssertionResult reports(const std::string& message, const std::string& place, const std::vector<std::string>& keywords) {
   const auto fail = [&] { return testing::AssertionFailure() << "message: " << message << "\n  "; };
   if (message.find('\n') != std::string::npos) return fail() << "has several lines";
   if (!message.starts_with(place)) return fail() << "does not begin with '" << place << "'";

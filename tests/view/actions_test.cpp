@@ -19,7 +19,7 @@ TEST(ViewActions, EveryActionHasOneKey) {
   EXPECT_EQ(actions.size(), kActions);
 }
 
-TEST(ViewActions, KeysHaveTheNamesThatSdlGivesThem) {
+TEST(ViewActions, KeyNamesMatchSdl) {
   EXPECT_EQ(action_of("W"), Action::forward);
   EXPECT_EQ(action_of("F12"), Action::save);
   EXPECT_EQ(action_of("Space"), Action::pause);

@@ -116,9 +116,9 @@ bool decode_and_answer(const ReadRequest& request) {
   try {
     decode(request);
   } catch (const Failure& failure) {
-    refuse_picture(failure);
+    report_failure(failure);
   } catch (const std::bad_alloc&) {
-    refuse_picture({"not enough memory; expected a smaller image"});
+    report_failure({"not enough memory; expected a smaller image"});
     return false;
   }
   return true;

@@ -33,7 +33,7 @@ void put_answer(const Header& header, const std::string& message) {
 }
 
 /// Answers a request for an image with a message.
-inline void refuse_picture(const Failure& failure) {
+inline void report_failure(const Failure& failure) {
   PictureHeader header;
   header.height = failure.exceeds_limit ? 1 : 0;
   header.message_bytes = static_cast<uint32_t>(failure.text.size());

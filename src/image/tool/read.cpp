@@ -118,12 +118,12 @@ bool read_and_answer(const ReadRequest& request) {
       put_rgba(p);
     }
   } catch (const Failure& failure) {
-    refuse_picture(failure);
+    report_failure(failure);
   } catch (const std::bad_alloc&) {
-    refuse_picture({"not enough memory; expected a smaller image"});
+    report_failure({"not enough memory; expected a smaller image"});
     return false;
   } catch (const std::exception& e) {
-    refuse_picture(damaged(request, e.what()));
+    report_failure(damaged(request, e.what()));
   }
   return true;
 }

@@ -96,7 +96,7 @@ void encode(const std::string& format, const MemoryFile& file) {
   check(output->close());
 }
 
-void refuse(const std::string& message) { put_answer(FileHeader{kImageToolMagic, static_cast<uint32_t>(message.size()), 0}, message); }
+void reject(const std::string& message) { put_answer(FileHeader{kImageToolMagic, static_cast<uint32_t>(message.size()), 0}, message); }
 
 }  // namespace
 
@@ -108,9 +108,9 @@ bool write_and_answer(const std::string& format) {
     file.copy_to_output();
     return true;
   } catch (const Failure& failure) {
-    refuse(failure.text);
+    reject(failure.text);
   } catch (const std::exception& e) {
-    refuse("the " + format + " encoder reported: " + one_line(e.what()));
+    reject("the " + format + " encoder reported: " + one_line(e.what()));
   }
   return false;
 }

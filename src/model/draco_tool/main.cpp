@@ -19,7 +19,7 @@ namespace halfspace {
 
 namespace {
 
-constexpr unsigned kSeconds = 60;  // CPU time limit for all meshes of a file
+constexpr unsigned kSeconds = 60;                      // CPU time limit for all meshes of a file
 constexpr uint64_t kProgramBytes = uint64_t{1} << 28;  // address space without a mesh
 constexpr uint64_t kMaxBytes = uint64_t{6} << 30;      // maximum address space
 constexpr uint64_t kBytesPerByte = 8;                  // address space per byte of the result, because of the decoder's own tables
@@ -41,7 +41,7 @@ void put(const T* items, std::size_t count) {
   std::fwrite(items, sizeof(T), count, stdout);
 }
 
-void refuse(const DracoFailure& failure) {
+void reject(const DracoFailure& failure) {
   DracoHeader header;
   header.message_bytes = static_cast<uint32_t>(failure.text.size());
   header.exceeds_limit = failure.exceeds_limit ? 1 : 0;
@@ -69,12 +69,12 @@ bool serve_one() {
     if (!receive(ids.data(), ids.size() * sizeof(uint32_t)) || !receive(stream.data(), stream.size())) return false;
     answer(stream, ids, request.max_bytes);
   } catch (const DracoFailure& failure) {
-    refuse(failure);
+    reject(failure);
   } catch (const std::bad_alloc&) {
-    refuse({"needs too much memory; expected a smaller mesh (--max-memory)", true});
+    reject({"needs too much memory; expected a smaller mesh (--max-memory)", true});
     ready = false;
   } catch (const std::length_error&) {
-    refuse({"needs too much memory; expected a smaller mesh (--max-memory)", true});
+    reject({"needs too much memory; expected a smaller mesh (--max-memory)", true});
     ready = false;
   }
   return std::fflush(stdout) == 0 && ready;

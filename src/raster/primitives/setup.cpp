@@ -93,7 +93,7 @@ class DrawRangeSetup {
 
   // Adds the next triangles to the batch. Returns the lanes that need no clipping.
   uint32_t put_triangles(int count) {
-    if (shaded_.any_outcode == 0 && put_at_once(count)) return bits(first_lanes<Mask>(count));
+    if (shaded_.any_outcode == 0 && put_without_lookup(count)) return bits(first_lanes<Mask>(count));
     uint32_t unclipped = 0;
     std::array<uint32_t, 3> slots{};
     for (int i = 0; i < count; ++i) {
@@ -108,7 +108,7 @@ class DrawRangeSetup {
   }
 
   // Adds the next triangles to the batch without looking up each index. Returns false if the index list does not allow this.
-  bool put_at_once(int count) {
+  bool put_without_lookup(int count) {
     if (const uint32_t* list = assembly_.next_list(static_cast<uint32_t>(count))) {
       batch_.put_list(list, count, slot_base_);
       return true;

@@ -129,18 +129,18 @@ HS_INLINE void add_triangle(const TriangleScalars<N, with_id>& s, Mask shows, Pa
 template <class V, std::size_t k, bool flat>
 HS_INLINE std::array<Real, 4> row_components(const float* varyings, Int at) {
   constexpr std::size_t count = std::min<std::size_t>(4, kComponents<V> - k);
-  constexpr auto is_asked = [](std::size_t c) { return (kInterpolations<V>[k + c] == Interpolation::flat) == flat; };
-  constexpr std::size_t asked = [is_asked] {
+  constexpr auto is_wanted = [](std::size_t c) { return (kInterpolations<V>[k + c] == Interpolation::flat) == flat; };
+  constexpr std::size_t wanted = [is_wanted] {
     std::size_t n = 0;
-    for (std::size_t c = 0; c < count; ++c) n += is_asked(c) ? 1 : 0;
+    for (std::size_t c = 0; c < count; ++c) n += is_wanted(c) ? 1 : 0;
     return n;
   }();
   std::array<Real, 4> row{};
-  if constexpr (asked > 1) {
+  if constexpr (wanted > 1) {
     std::ranges::copy(gather_row<static_cast<int>(count)>(varyings + k, at), row.begin());
   } else {
     for (std::size_t c = 0; c < count; ++c) {
-      if (is_asked(c)) row[c] = gather(varyings + k + c, at);
+      if (is_wanted(c)) row[c] = gather(varyings + k + c, at);
     }
   }
   return row;

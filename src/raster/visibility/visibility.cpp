@@ -39,15 +39,15 @@ struct TriangleVisit {
   Tile& tile;
   CoverageList* list;
   Statistics& statistics;
-  const StencilFace* stencil;  // null: no stencil test before shading
-  bool tests;                  // there is a depth test before shading
-  bool writes;                 // the depth test writes depth
-  bool asks_shader;            // the shader's visibility function must be called
-  bool rejects_blocks;         // skip blocks in which no depth can pass
-  bool is_slow;                // the shader or the stencil test determines visibility
-  bool needs_bounds_test;      // covered pixels can be outside the bounds of the primitive
-  PendingPackets& pending;     // packets for the visibility function
-  SampleGrid grid;             // the current sample
+  const StencilFace* stencil;     // null: no stencil test before shading
+  bool tests;                     // there is a depth test before shading
+  bool writes;                    // the depth test writes depth
+  bool runs_visibility_function;  // the shader's visibility function must be called
+  bool rejects_blocks;            // skip blocks in which no depth can pass
+  bool is_slow;                   // the shader or the stencil test determines visibility
+  bool needs_bounds_test;         // covered pixels can be outside the bounds of the primitive
+  PendingPackets& pending;        // packets for the visibility function
+  SampleGrid grid;                // the current sample
   const DrawInTile& draw_in_tile;
   float low = 0.0f, high = 1.0f;  // bounds of the triangle's depth
 };
@@ -124,7 +124,7 @@ void test_and_finish(const Visit& c, int packet, Mask mask, Real z) {
 // Calls the visibility function for the pending packets, and finishes them. The function clears the bits of discarded pixels in the masks
 // of the packets, and may replace their depth.
 template <class Visit>
-void ask_shader(const Visit& c) {
+void run_visibility_function(const Visit& c) {
   PendingPackets& pending = c.pending;
   if (pending.count == 0) return;
   const auto count = static_cast<std::size_t>(pending.count);
@@ -165,7 +165,7 @@ __attribute__((noinline)) void visit_packet_slowly(const Visit& c, int packet, M
     c.list->packets[static_cast<std::size_t>(c.list->count++)] = {static_cast<uint16_t>(packet), static_cast<uint16_t>(bits(mask))};
     return;
   }
-  if (!c.asks_shader) return test_and_finish(c, packet, mask, z);
+  if (!c.runs_visibility_function) return test_and_finish(c, packet, mask, z);
   // If the shader does not change depth, lanes that fail the depth test can be skipped. With a stencil test, they update the stencil.
   if (!c.draw.kernels.writes_depth && c.stencil == nullptr) {
     const Mask passed = test_depth(c, packet, z, mask);
@@ -179,7 +179,7 @@ __attribute__((noinline)) void visit_packet_slowly(const Visit& c, int packet, M
   const auto i = static_cast<std::size_t>(pending.count++);
   pending.packets[i] = {static_cast<uint16_t>(packet), static_cast<uint16_t>(lanes)};
   pending.depth[i] = z;
-  if (pending.count == kPacketBatch) ask_shader(c);
+  if (pending.count == kPacketBatch) run_visibility_function(c);
 }
 
 template <class Visit>
@@ -224,7 +224,7 @@ constexpr int kBlockMask = ~(kBlockSize - 1);
 template <class Visit>
 void find_depth_bounds(Visit& c) {
   const DepthBounds bounds = depth_bounds(c.triangle, c.draw, c.tile.depth_format);
-  const bool any_depth = c.asks_shader && c.draw.kernels.writes_depth;
+  const bool any_depth = c.runs_visibility_function && c.draw.kernels.writes_depth;
   c.low = any_depth ? depth_value(c.tile.depth_format, c.draw.depth_low) : bounds.low;
   c.high = any_depth ? depth_value(c.tile.depth_format, c.draw.depth_high) : bounds.high;
 }
@@ -288,7 +288,7 @@ bool fetches_vertices_ahead(const Draw& draw) {
 // Returns true if the shader does not take part in visibility. The members before is_opaque must be set.
 bool draws_without_shader(const DrawInTile& d) {
   const bool shades_later = d.mode == VisibilityMode::deferred || d.mode == VisibilityMode::depth_only;
-  return shades_later && !d.asks_shader && (d.tile.samples > 1 || (d.draw.sample_mask & 1) != 0);
+  return shades_later && !d.runs_visibility_function && (d.tile.samples > 1 || (d.draw.sample_mask & 1) != 0);
 }
 
 }  // namespace
@@ -303,7 +303,7 @@ DrawInTile::DrawInTile(const PassContext& f, const Draw& d, VisibilityMode m, Ti
       needs_bounds_test(t.size != kMaxTileSize || bounds.x0 > t.x0 || bounds.y0 > t.y0 || d.bounds.x1 < t.x0 + t.size ||
                         d.bounds.y1 < t.y0 + t.size),
       tests(tests_depth(d.state.depth, t)),
-      asks_shader((m == VisibilityMode::deferred || m == VisibilityMode::depth_only) && d.kernels.visibility != nullptr),
+      runs_visibility_function((m == VisibilityMode::deferred || m == VisibilityMode::depth_only) && d.kernels.visibility != nullptr),
       fetches_vertices(m == VisibilityMode::deferred && fetches_vertices_ahead(d)),
       is_opaque(draws_without_shader(*this) && !(d.state.stencil && t.has_stencil)),
       has_stencil(draws_without_shader(*this) && d.state.stencil && t.has_stencil && t.samples == 1),
@@ -335,14 +335,14 @@ void rasterize(const DrawInTile& d, uint32_t chunk, uint32_t index, CoverageList
     return rasterize_small(d, chunk, {&one, 1}, statistics);
   }
   const bool shades_later = d.mode == VisibilityMode::deferred || d.mode == VisibilityMode::depth_only;
-  if (shades_later && !d.asks_shader && !(d.draw.state.stencil && d.tile.has_stencil))
+  if (shades_later && !d.runs_visibility_function && !(d.draw.state.stencil && d.tile.has_stencil))
     return rasterize_opaque(d, t, triangle_id(chunk, index), statistics);
   const StencilFace* stencil = stencil_face(d.draw.state, d.tile, t.is(kFrontFacing));
   // If the shader determines visibility later, both tests are postponed as well, because stencil updates depend on the final result.
   const bool late = d.mode == VisibilityMode::test_only && stencil != nullptr;
   const bool tests = !late && d.tests;
   const bool counts_failures = stencil != nullptr && (stencil->fail != StencilOp::keep || stencil->depth_fail != StencilOp::keep);
-  const bool shader_writes_depth = d.asks_shader && d.draw.kernels.writes_depth;
+  const bool shader_writes_depth = d.runs_visibility_function && d.draw.kernels.writes_depth;
   PendingPackets pending;  // only the count is initialized
   TriangleVisit<Statistics> c{
       .context = d.context,
@@ -356,9 +356,9 @@ void rasterize(const DrawInTile& d, uint32_t chunk, uint32_t index, CoverageList
       .stencil = late ? nullptr : stencil,
       .tests = tests,
       .writes = tests && d.draw.state.depth.write,
-      .asks_shader = d.asks_shader,
+      .runs_visibility_function = d.runs_visibility_function,
       .rejects_blocks = tests && !shader_writes_depth && !counts_failures && d.mode != VisibilityMode::cover_only,
-      .is_slow = d.asks_shader || d.mode == VisibilityMode::cover_only || (stencil != nullptr && !late),
+      .is_slow = d.runs_visibility_function || d.mode == VisibilityMode::cover_only || (stencil != nullptr && !late),
       .needs_bounds_test = d.needs_bounds_test || t.is(kPointSprite | kLine),
       .pending = pending,
       .grid = SampleGrid(d.tile, 0),
@@ -369,7 +369,7 @@ void rasterize(const DrawInTile& d, uint32_t chunk, uint32_t index, CoverageList
     if ((d.draw.sample_mask >> s & 1) != 0) {
       const PixelBounds b = pixel_bounds(d.draw, t, d.bounds, c.grid.position);
       if (!b.empty()) rasterize_sample(c, b);
-      ask_shader(c);
+      run_visibility_function(c);
     }
     if (list != nullptr) list->sample_end[static_cast<std::size_t>(s)] = list->count;
   }

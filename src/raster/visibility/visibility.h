@@ -46,14 +46,14 @@ struct DrawInTile {
   const Draw& draw;
   VisibilityMode mode;
   Tile& tile;
-  PixelBounds bounds;      ///< bounds of the draw in the tile
-  bool needs_bounds_test;  ///< covered pixels of the tile can be outside bounds
-  bool tests;              ///< depth is tested in this stage, unless the stencil test requires that it is tested later
-  bool asks_shader;        ///< the shader's visibility function must be called
-  bool fetches_vertices;   ///< prefetch vertices: they belong to points, or are shared by several triangles
-  bool is_opaque;          ///< only coverage and depth determine visibility
-  bool has_stencil;        ///< coverage, depth and the stencil test determine visibility, with one sample per pixel
-  bool is_queued;          ///< one sample per pixel and no stencil test; packets are listed in a PacketQueue until the shader runs
+  PixelBounds bounds;             ///< bounds of the draw in the tile
+  bool needs_bounds_test;         ///< covered pixels of the tile can be outside bounds
+  bool tests;                     ///< depth is tested in this stage, unless the stencil test requires that it is tested later
+  bool runs_visibility_function;  ///< the shader's visibility function must be called
+  bool fetches_vertices;          ///< prefetch vertices: they belong to points, or are shared by several triangles
+  bool is_opaque;                 ///< only coverage and depth determine visibility
+  bool has_stencil;               ///< coverage, depth and the stencil test determine visibility, with one sample per pixel
+  bool is_queued;                 ///< one sample per pixel and no stencil test; packets are listed in a PacketQueue until the shader runs
 };
 
 // Statistics is PassStatistics, or TracedStatistics to trace fragments (raster/trace/tile_trace.h).

@@ -82,7 +82,7 @@ class SceneExporter {
     add_meshes();
     for (const auto& [name, camera] : scene_.cameras) add_camera(name, camera);
     for (const auto& [name, light] : scene_.lights) add_light(name, light);
-    warn_of_the_rest();
+    warn_about_omissions();
     return std::move(model_);
   }
 
@@ -217,9 +217,9 @@ class SceneExporter {
       light.color /= largest;
       light.intensity *= static_cast<double>(largest);
     }
-    constexpr double kLeastCone = 1e-4;
-    light.outer = std::clamp(d.outer * kRadiansPerDegree, kLeastCone, std::numbers::pi / 2.0);
-    light.inner = std::clamp(d.inner * kRadiansPerDegree, 0.0, light.outer - 0.5 * kLeastCone);
+    constexpr double kMinCone = 1e-4;
+    light.outer = std::clamp(d.outer * kRadiansPerDegree, kMinCone, std::numbers::pi / 2.0);
+    light.inner = std::clamp(d.inner * kRadiansPerDegree, 0.0, light.outer - 0.5 * kMinCone);
     if (d.type != LightType::directional && d.falloff != Falloff::physical) warn("lights get physical falloff");
     if (d.specular != d.diffuse) warn("lights shine with the same color for diffuse and specular light");
     ModelNode node;
@@ -230,7 +230,7 @@ class SceneExporter {
     add_root(std::move(node));
   }
 
-  void warn_of_the_rest() {
+  void warn_about_omissions() {
     const bool has_particles = scene_.particles.count > 0 || !scene_.particles.file.path.empty() || !scene_.particle_systems.empty();
     if (has_particles) warn("particles are left out");
     if (!scene_.environments.empty() || scene_.background.type != BackgroundType::color) warn("environments and backgrounds are left out");

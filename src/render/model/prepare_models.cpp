@@ -129,7 +129,7 @@ std::shared_ptr<const ReliefDetail> ScenePreparation::relief_detail(const Object
 ObjectDescription ScenePreparation::fitted(const ObjectDescription& authored, const std::string& path, double edge_px,
                                            std::optional<double> color, std::vector<ModelChoice>& choices) {
   if (is_faceted(authored) || authored.shape == Shape::sphere || authored.shape == Shape::file) return authored;
-  if (is_ball(authored) && key_for_meshes(authored).empty() && has_even_ancestors(scene_, authored)) {
+  if (is_ball(authored) && mesh_only_key(authored).empty() && has_uniformly_scaled_ancestors(scene_, authored)) {
     // Study sphere_model: 0.76 ms, compared with 0.54 ms for a mesh of 8 bands and 1.03 ms for 64 bands.
     ObjectDescription sphere = authored;
     sphere.shape = Shape::sphere;
@@ -271,7 +271,7 @@ FittedScene ScenePreparation::fit(const AllowedError& allowed) {
     fit_textures(scene.textures, *allowed.color, out.choices);
     fit_post(scene.post, *allowed.color, out.choices);
   }
-  check_room(scene.objects, "the cheapest model");  // thousands of copies of a fine mesh may exceed the limit
+  check_mesh_limits(scene.objects, "the cheapest model");  // thousands of copies of a fine mesh may exceed the limit
   return out;
 }
 

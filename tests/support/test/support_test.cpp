@@ -67,21 +67,21 @@ TEST(TestPictures, MismatchesAreWritten) {
   Image<glm::u8vec4> picture(3, 2), expected(3, 2);
   picture.at(1, 1) = glm::u8vec4(255, 0, 0, 255);
   EXPECT_NONFATAL_FAILURE(expect_picture("a picture/of two", picture, [&] { return expected; }), "no hash named 'a picture/of two'");
-  const std::string told = write_failed_picture("a picture/of two", picture, expected);
-  const std::string path = told.substr(9, told.find('\n') - 9);
-  EXPECT_TRUE(path.ends_with("test-output/support-a_picture_of_two.png")) << told;
+  const std::string message = write_failed_picture("a picture/of two", picture, expected);
+  const std::string path = message.substr(9, message.find('\n') - 9);
+  EXPECT_TRUE(path.ends_with("test-output/support-a_picture_of_two.png")) << message;
   EXPECT_EQ(read_image(path), picture);
-  const Image<glm::u8vec4> difference = read_image(told.substr(told.find("difference: ") + 12));
+  const Image<glm::u8vec4> difference = read_image(message.substr(message.find("difference: ") + 12));
   EXPECT_EQ(difference.at(0, 0), glm::u8vec4(0, 0, 0, 255));
   EXPECT_NE(difference.at(1, 1), glm::u8vec4(0, 0, 0, 255));
   EXPECT_EQ(write_failed_picture("alone", picture, {}).find("difference"), std::string::npos);
 }
 
 TEST(Messages, AreCheckedForPlaceAndKeywords) {
-  EXPECT_TRUE(tells("a.json: objects.ball.radius: expected a number, got 'x'", "a.json: objects.ball.radius", {"number", "'x'"}));
-  EXPECT_FALSE(tells("a.json: objects.ball.radius: expected a number, got 'x'", "a.json: objects.ball.scale", {}));
-  EXPECT_FALSE(tells("a.json: objects.ball.radius: expected a number, got 'x'", "a.json: objects.ball.radius", {"radius"}));
-  EXPECT_FALSE(tells("a.json: objects.ball.radius: expected a number\n", "a.json: objects.ball.radius", {"number"}));
+  EXPECT_TRUE(reports("a.json: objects.ball.radius: expected a number, got 'x'", "a.json: objects.ball.radius", {"number", "'x'"}));
+  EXPECT_FALSE(reports("a.json: objects.ball.radius: expected a number, got 'x'", "a.json: objects.ball.scale", {}));
+  EXPECT_FALSE(reports("a.json: objects.ball.radius: expected a number, got 'x'", "a.json: objects.ball.radius", {"radius"}));
+  EXPECT_FALSE(reports("a.json: objects.ball.radius: expected a number\n", "a.json: objects.ball.radius", {"number"}));
   EXPECT_EQ(input_error([] { throw InputError("wrong"); }), "wrong");
   EXPECT_EQ(output_error([] {}), "(no error)");
 }
