@@ -11,47 +11,102 @@ command -v clang++ > /dev/null || { echo "test_full.sh: clang++ is missing; inst
 
 export HALFSPACE_LONG_TESTS=1
 jobs=$(nproc)
-# build DIR "TARGET..." CMAKE_ARGUMENTS...    configures and builds. The result must be checked: set -e has no effect within steps.
+
+# Test programs (test-NAME) whose results can differ between configurations. A step builds and runs only those that can fail because of what
+# the step changes; docs/development/testing.md gives the reasons. Only gcc-native runs all programs.
+kernels="core shading raster property conformance"          # code that depends on the lanes or is compiled into every shader
+pixels="$kernels geometry procedural render"                # all floating-point code that pixels depend on
+threads="core image raster property conformance render reference cli"
+
+# build DIR "TARGET..." CMAKE_ARGUMENTS...    configures and builds; no targets means all. Steps with the same compiler flags share a build
+# folder. --fresh resets the options that another step has set there; objects are kept. The result must be checked: set -e has no effect
+# within steps.
 build() {
   local dir=$1 targets=$2
   mkdir -p "$dir"
   # shellcheck disable=SC2086
-  { cmake -S . -B "$dir" -G Ninja "${@:3}" && cmake --build "$dir" ${targets:+--target $targets} -- -j "$jobs"; } > "$dir/build.log" 2>&1 && return
+  {
+    cmake --fresh -S . -B "$dir" -G Ninja "${@:3}" && cmake --build "$dir" ${targets:+--target $targets} -- -j "$jobs"
+  } > "$dir/build.log" 2>&1 && return
   grep -E -m 20 'error|Error|FAILED' "$dir/build.log" || tail -20 "$dir/build.log"
   return 1
 }
-# build_and_test NAME CMAKE_ARGUMENTS...
+# The folder of the default configuration.
+gcc=build/full/gcc
+build_gcc() { build "$gcc" "$1" -DCMAKE_CXX_COMPILER=g++ -DCMAKE_BUILD_TYPE=Release -DHALFSPACE_OPTIMIZE_TESTS=ON "${@:2}"; }
+# build_and_test FOLDER "PROGRAM..." CMAKE_ARGUMENTS...
 build_and_test() {
   local dir=build/full/$1
-  build "$dir" "" -DHALFSPACE_BUILD_BENCHMARKS=OFF -DHALFSPACE_OPTIMIZE_TESTS=ON "${@:2}" || return 1
-  run_tests "$dir"
+  # shellcheck disable=SC2086
+  build "$dir" "$(printf 'test-%s ' $2)" -DHALFSPACE_BUILD_BENCHMARKS=OFF -DHALFSPACE_OPTIMIZE_TESTS=ON "${@:3}" && run_tests "$dir" "$2"
 }
-# Runs whole test programs, one per core, because starting a program for each of thousands of tests under a sanitizer takes longer than the
-# tests. Tests that do not use GoogleTest (shaders that must not compile) are run with ctest.
+# Runs one test program of a folder. Its output is shown if it fails.
+run_program() {
+  local program=$1/bin/test-$2
+  "$program" --gtest_brief=1 > "$program.log" 2>&1 && return
+  echo "failed: test-$2"
+  tail -40 "$program.log"
+  return 1
+}
+export -f run_program
+# run_tests DIR "PROGRAM..."    runs whole test programs, one per core, because starting a program for each of thousands of tests under a
+# sanitizer takes longer than the tests
 run_tests() {
-  local status=0
-  find "$1/bin" -name 'test-*' -executable | xargs -P "$jobs" -I{} sh -c '{} --gtest_brief=1 > {}.log 2>&1 || { echo "failed: {}"; tail -40 {}.log; exit 1; }' ||
-    status=1
-  grep -hE '^\[=+\].* ran\.' "$1"/bin/test-*.log | awk '{n += $2} END {print n " tests ran"}'
-  ctest --test-dir "$1" -R '^Compile\.' -j "$jobs" > "$1/ctest.log" 2>&1 || { tail -40 "$1/ctest.log"; status=1; }
-  grep 'tests passed' "$1/ctest.log"
+  local name logs=() status=0
+  for name in $2; do logs+=("$1/bin/test-$name.log"); done
+  rm -f "${logs[@]}"
+  # shellcheck disable=SC2086,SC2016
+  printf '%s\n' $2 | xargs -P "$jobs" -I{} bash -c 'run_program "$0" {}' "$1" || status=1
+  cat "${logs[@]}" | grep -E '^\[=+\].* ran\.' | awk '{n += $2} END {print "   " n " tests ran"}'
   return $status
 }
+# Names the test programs of a build folder.
+programs_of() { find "$1/bin" -name 'test-*' -executable -printf '%f\n' | sed 's/^test-//' | sort; }
+# run_ctest DIR PATTERN    runs tests that are not part of a test program
+run_ctest() {
+  ctest --test-dir "$1" -R "$2" -j "$jobs" --output-on-failure > "$1/ctest.log" 2>&1 || { tail -60 "$1/ctest.log"; return 1; }
+  grep 'tests passed' "$1/ctest.log" | sed 's/^/   /'
+}
+
+# Builds everything and runs all tests.
+gcc_native() {
+  build_gcc "" || return 1
+  local status=0
+  run_tests "$gcc" "$(programs_of "$gcc")" || status=1
+  run_ctest "$gcc" '^(Compile|Docs|Faults|Layout|Page|Python|Study|View)[.]|^bench-tables|^Consumer.install_script' || status=1
+  return $status
+}
+# The same with another compiler, whose messages about shaders that must not compile are checked as well.
+clang_native() {
+  build_and_test clang-native "$pixels" -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_BUILD_TYPE=Release || return 1
+  run_ctest build/full/clang-native '^Compile[.]'
+}
+# without "PROGRAM..." CMAKE_ARGUMENTS...    The default configuration without an optional dependency.
+without() {
+  # shellcheck disable=SC2086
+  build_gcc "halfspace $(printf 'test-%s ' $1)" "${@:2}" && run_tests "$gcc" "$1"
+}
 # Sanitizer builds use clang, which compiles them in a fraction of the time.
-sanitized() { build_and_test "$1" -DCMAKE_BUILD_TYPE=RelWithDebInfo -DHALFSPACE_ASSERTS=ON "${@:2}"; }
+# NDEBUG is defined as in other builds; HALFSPACE_ASSERTS checks our own preconditions.
+checked=(-DCMAKE_BUILD_TYPE=None -DHALFSPACE_ASSERTS=ON "-DCMAKE_CXX_FLAGS=-O1 -gline-tables-only -DNDEBUG")
+address() {
+  build build/full/asan-ubsan "$1" -DHALFSPACE_BUILD_BENCHMARKS=OFF -DCMAKE_CXX_COMPILER=clang++ -DHALFSPACE_SANITIZE=address,undefined \
+    "${checked[@]}"
+}
+asan_ubsan() {
+  address "" && run_tests build/full/asan-ubsan "$(programs_of build/full/asan-ubsan)"
+}
 
 # Renders 100,000 blended points 100 times with 1, 2 and 64 threads; all images must have the same hash.
 blended_order() {
-  local dir=build/full/gcc-native
-  build "$dir" test-conformance -DHALFSPACE_BUILD_BENCHMARKS=OFF -DCMAKE_CXX_COMPILER=g++ -DCMAKE_BUILD_TYPE=Release || return 1
-  HALFSPACE_RUNS=100 "$dir/bin/test-conformance" --gtest_filter='ConformanceOrder.*'
+  build_gcc test-conformance || return 1
+  HALFSPACE_RUNS=100 "$gcc/bin/test-conformance" --gtest_filter='ConformanceOrder.*'
 }
 
 # Checks the guarantees of --max-error on 208 random views.
 random_views() {
-  local dir=build/full/gcc-native
-  build "$dir" test-reference -DHALFSPACE_BUILD_BENCHMARKS=OFF -DCMAKE_CXX_COMPILER=g++ -DCMAKE_BUILD_TYPE=Release || return 1
-  HALFSPACE_VIEWS=208 "$dir/bin/test-reference" --gtest_filter='MaxError.*'
+  build_gcc test-reference || return 1
+  HALFSPACE_VIEWS=208 "$gcc/bin/test-reference" --gtest_filter='MaxError.*'
 }
 
 # Feeds mutated model files to the readers, one minute per format, with AddressSanitizer and UBSan.
@@ -70,9 +125,7 @@ fuzz() {
 
 # Builds the programs that the default target leaves out, and runs the tests of all benchmarks.
 benchmarks() {
-  local dir=build/full/benchmarks
-  build "$dir" "benchmarks test-bench" -DCMAKE_BUILD_TYPE=Release || return 1
-  "$dir/bin/test-bench" --gtest_brief=1
+  build_gcc "benchmarks test-bench" && run_tests "$gcc" bench
 }
 
 # Builds shared libraries, checks the list of their symbols, and uses them from a project outside of the tree.
@@ -93,45 +146,38 @@ portable() {
 
 # Uses the installation of a native build from other projects, with the checks that are too long for every run.
 consumer() {
-  local dir=build/full/consumer
-  build "$dir" installed -DCMAKE_BUILD_TYPE=Release -DHALFSPACE_BUILD_TESTS=OFF -DHALFSPACE_BUILD_EXAMPLES=OFF || return 1
-  python3 tests/consumer/consumer_test.py "$dir" c++
+  build_gcc installed && python3 tests/consumer/consumer_test.py "$gcc" c++
 }
 
 # Builds the programs of the lessons and their variants, and compares what they draw with the pictures of the lessons.
 lessons() {
-  local dir=build/full/gcc-native
-  build "$dir" "lessons lesson-variants halfspace" -DHALFSPACE_BUILD_BENCHMARKS=OFF -DCMAKE_CXX_COMPILER=g++ -DCMAKE_BUILD_TYPE=Release || return 1
-  scripts/lesson_pictures.py check "$dir"
+  build_gcc "lessons lesson-variants halfspace" && scripts/lesson_pictures.py check "$gcc"
 }
 
 # Runs the tests of halfspace-view with AddressSanitizer. They fail if a leak has one of our functions in its stack.
 window() {
-  local dir=build/full/window
-  build "$dir" "halfspace halfspace-view" -DHALFSPACE_BUILD_BENCHMARKS=OFF -DHALFSPACE_BUILD_TESTS=OFF -DHALFSPACE_BUILD_EXAMPLES=OFF \
-    -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_BUILD_TYPE=RelWithDebInfo -DHALFSPACE_ASSERTS=ON -DHALFSPACE_SANITIZE=address,undefined || return 1
-  python3 tests/view/window_test.py "$dir/bin"
+  address "halfspace halfspace-view" && python3 tests/view/window_test.py build/full/asan-ubsan/bin
 }
 
 declare -A steps
 names=()
 step() { names+=("$1"); steps[$1]=$2; }
-step gcc-native        "build_and_test gcc-native -DCMAKE_CXX_COMPILER=g++ -DCMAKE_BUILD_TYPE=Release"
-step clang-native      "build_and_test clang-native -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_BUILD_TYPE=Release"
-step gcc-v3            "build_and_test gcc-v3 -DCMAKE_CXX_COMPILER=g++ -DCMAKE_BUILD_TYPE=Release -DHALFSPACE_ARCH=x86-64-v3"
-step clang-v3          "build_and_test clang-v3 -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_BUILD_TYPE=Release -DHALFSPACE_ARCH=x86-64-v3"
-step gcc-lanes1        "build_and_test gcc-lanes1 -DCMAKE_CXX_COMPILER=g++ -DCMAKE_BUILD_TYPE=Release -DHALFSPACE_LANES=1"
-step gcc-lanes4        "build_and_test gcc-lanes4 -DCMAKE_CXX_COMPILER=g++ -DCMAKE_BUILD_TYPE=Release -DHALFSPACE_LANES=4"
-step gcc-lanes8        "build_and_test gcc-lanes8 -DCMAKE_CXX_COMPILER=g++ -DCMAKE_BUILD_TYPE=Release -DHALFSPACE_LANES=8"
-step gcc-O1            "build_and_test gcc-O1 -DCMAKE_CXX_COMPILER=g++ -DCMAKE_BUILD_TYPE=None -DCMAKE_CXX_FLAGS=-O1"
-step dev               "sanitized dev -DCMAKE_CXX_COMPILER=g++"
-step asan-ubsan        "sanitized asan-ubsan -DCMAKE_CXX_COMPILER=clang++ -DHALFSPACE_SANITIZE=address,undefined"
-step tsan              "sanitized tsan -DCMAKE_CXX_COMPILER=clang++ -DHALFSPACE_SANITIZE=thread -DHALFSPACE_WITH_TBB=OFF"
-step without-tbb       "build_and_test without-tbb -DCMAKE_BUILD_TYPE=Release -DHALFSPACE_WITH_TBB=OFF"
-step without-oiio      "build_and_test without-oiio -DCMAKE_BUILD_TYPE=Release -DHALFSPACE_WITH_OPENIMAGEIO=OFF"
-step without-embree    "build_and_test without-embree -DCMAKE_BUILD_TYPE=Release -DHALFSPACE_WITH_EMBREE=OFF"
-step without-window    "build_and_test without-window -DCMAKE_BUILD_TYPE=Release -DCMAKE_DISABLE_FIND_PACKAGE_SDL2=ON"
-step window            "window"
+step gcc-native        gcc_native
+step clang-native      clang_native
+step gcc-v3            "build_and_test gcc-v3 '$pixels' -DCMAKE_CXX_COMPILER=g++ -DCMAKE_BUILD_TYPE=Release -DHALFSPACE_ARCH=x86-64-v3"
+step clang-v3          "build_and_test clang-v3 '$kernels' -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_BUILD_TYPE=Release -DHALFSPACE_ARCH=x86-64-v3"
+step gcc-lanes1        "build_and_test gcc-lanes1 '$kernels render' -DCMAKE_CXX_COMPILER=g++ -DCMAKE_BUILD_TYPE=Release -DHALFSPACE_LANES=1"
+step gcc-lanes4        "build_and_test gcc-lanes4 '$kernels render' -DCMAKE_CXX_COMPILER=g++ -DCMAKE_BUILD_TYPE=Release -DHALFSPACE_LANES=4"
+step gcc-lanes8        "build_and_test gcc-lanes8 '$kernels render' -DCMAKE_CXX_COMPILER=g++ -DCMAKE_BUILD_TYPE=Release -DHALFSPACE_LANES=8"
+step gcc-O1            "build_and_test gcc-O1 '$pixels' -DCMAKE_CXX_COMPILER=g++ -DCMAKE_BUILD_TYPE=None -DCMAKE_CXX_FLAGS=-O1"
+step dev               "build_and_test dev '$pixels explain' -DCMAKE_CXX_COMPILER=g++ -DCMAKE_BUILD_TYPE=RelWithDebInfo -DHALFSPACE_ASSERTS=ON"
+step asan-ubsan        asan_ubsan
+step window            window
+step tsan              "build_and_test tsan '$threads' -DCMAKE_CXX_COMPILER=clang++ -DHALFSPACE_SANITIZE=thread -DHALFSPACE_WITH_TBB=OFF \"\${checked[@]}\""
+step without-tbb       "without 'core raster render cli' -DHALFSPACE_WITH_TBB=OFF"
+step without-oiio      "without 'image model render cli' -DHALFSPACE_WITH_OPENIMAGEIO=OFF"
+step without-embree    "without 'cli view' -DHALFSPACE_WITH_EMBREE=OFF"
+step without-window    "without view -DCMAKE_DISABLE_FIND_PACKAGE_SDL2=ON"
 step shared            "shared"
 step portable          "portable"
 step consumer          "consumer"
@@ -166,6 +212,7 @@ rm -f "$index"
 passed=build/full/passed.txt  # lines "TREE STEP"
 touch "$passed"
 failed=()
+times=()
 for name in "$@"; do
   if [ -z "${steps[$name]:-}" ]; then
     echo "test_full.sh: no step '$name'; expected one of: ${names[*]}" >&2
@@ -177,9 +224,14 @@ for name in "$@"; do
     continue
   fi
   begin=$SECONDS
-  if eval "${steps[$name]}"; then echo "$tree $name" >> "$passed"; else failed+=("$name"); fi
-  echo "   $((SECONDS - begin)) s"
+  verdict=passed
+  eval "${steps[$name]}" || verdict=failed
+  if [ $verdict = passed ]; then echo "$tree $name" >> "$passed"; else failed+=("$name"); fi
+  times+=("$(printf '%-16s %-8s %6d s' "$name" $verdict $((SECONDS - begin)))")
+  echo "   ${times[-1]}"
 done
+echo "== times"
+[ ${#times[@]} -eq 0 ] || printf '%s\n' "${times[@]}"
 if [ ${#failed[@]} -gt 0 ]; then
   echo "failed: ${failed[*]}"
   exit 1

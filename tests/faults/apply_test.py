@@ -7,6 +7,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import unittest.mock
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -93,6 +94,24 @@ class Checks(unittest.TestCase):
         fault = mutate.parse("stem", "name: A fault\nfile: src/core/a.h\n- one = 1;\n- int two\n+ one = 1;\n+ int deux\n")
         self.assertEqual("int one = 1;\nint deux = 2;\n", fault.planted("int one = 1;\nint two = 2;\n"))
         self.assertEqual((fault.stem, fault.name, fault.file), ("stem", "A fault", "src/core/a.h"))
+
+    def test_test_that_catches_a_fault(self):
+        fault = mutate.parse("stem", "name: A fault\nfile: src/core/a.h\ntest: raster Clip.NearPlane/2\n- one\n+ two\n")
+        self.assertEqual("raster Clip.NearPlane/2", fault.test)
+        self.assertIsNone(mutate.parse("stem", "name: A fault\nfile: src/core/a.h\n- one\n+ two\n").test)
+        self.assertIn("expected a line", self.problem("test: raster\n- one\n+ two\n"))
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "stem.fault"
+            path.write_text("name: A fault\nfile: src/core/a.h\ntest: core Old.Test\n- test: one\n+ two\n")
+            with unittest.mock.patch.object(mutate, "FAULTS", Path(folder)):
+                mutate.record(mutate.parse("stem", path.read_text()), "raster New.Test")
+            self.assertEqual("name: A fault\nfile: src/core/a.h\ntest: raster New.Test\n- test: one\n+ two\n", path.read_text())
+
+    def test_results_depend_on_the_fault_and_the_sources(self):
+        first, second = (mutate.Fault("stem", "A fault", "src/core/a.h", "one", new) for new in ("two", "three"))
+        self.assertEqual(mutate.fault_key("sources", first), mutate.fault_key("sources", first))
+        self.assertNotEqual(mutate.fault_key("sources", first), mutate.fault_key("sources", second))
+        self.assertNotEqual(mutate.fault_key("sources", first), mutate.fault_key("other", first))
 
     def test_selection(self):
         faults = [mutate.Fault(stem, stem, "src/core/a.h", "a", "b") for stem in ("first", "second", "third")]
