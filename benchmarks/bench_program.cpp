@@ -108,7 +108,8 @@ std::string text_of(const PictureErrors& e) {
 }
 
 std::string text_of(const PictureDifference& d) {
-  return fmt::format("  {:.3f}% beyond 2/255 of Halfspace away from edges", 100.0 * d.off / std::max(d.compared, 1));
+  return fmt::format("  {:.3f}% of pixels away from edges differ from Halfspace by more than 2/255",
+                     100.0 * d.off / std::max(d.compared, 1));
 }
 
 // Compares the picture with the one that Halfspace draws, if the workload has such a twin.
@@ -227,7 +228,7 @@ void parse_and_run(CLI::App& app, const BenchProgram& program, int argc, char** 
   BenchArguments args;
   app.add_option("--only", args.only, "Run only these workloads (see --list)")->type_name("NAME,")->allow_extra_args(false)->delimiter(',');
   app.add_option("--sweep", args.sweep, "Run a series: triangle_size, triangle_count, overdraw, varyings")->type_name("NAME");
-  app.add_flag("--matrix", args.matrix, "Run one scene under many states, one at a time, instead of the workloads");
+  app.add_flag("--matrix", args.matrix, "Run one scene with many states, one at a time, instead of the workloads");
   app.add_flag("--scenes", args.scenes, "Run three composed scenes, five cameras each, instead of the workloads");
   app.add_option("--size", args.size, "Image size (default: 1920x1080)")->type_name("WxH");
   app.add_option("--threads", args.threads, "Threads, including the main one (default: one per core)")->type_name("N");

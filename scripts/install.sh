@@ -52,7 +52,7 @@ while [ ! -e "$existing" ]; do existing=$(dirname "$existing"); done
 
 scripts/install_deps.sh
 build=build/install
-# The folder in which Python searches the modules of the prefix.
+# The folder in which Python searches for the modules of the prefix.
 modules=$(/usr/bin/python3 -c 'import sys; print("lib/python%d.%d" % sys.version_info[:2])' 2> /dev/null || echo lib/python3)
 if [ "$prefix" = "$(realpath -m ~/.local)" ]; then modules+=/site-packages; else modules+=/dist-packages; fi
 cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_INSTALL_PREFIX="$prefix" -DHALFSPACE_BUILD_TESTS=OFF \

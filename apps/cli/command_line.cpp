@@ -103,7 +103,7 @@ int report(const CLI::App& program, ExitCode code, std::string_view what) {
 class HelpFormatter : public CLI::Formatter {
   std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override {
     std::string text = CLI::Formatter::make_help(app, std::move(name), mode);
-    // Groups that are left out leave a gap.
+    // Groups that are omitted leave a gap.
     for (std::size_t gap = text.find("\n\n\n"); gap != std::string::npos; gap = text.find("\n\n\n")) text.erase(gap, 1);
     return text;
   }

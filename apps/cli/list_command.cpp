@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // `halfspace list [SCENE]`: lists the built-in scenes, or every key of one scene.
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cctype>
 #include <iostream>
 
 #include "cli/commands.h"
@@ -25,18 +28,25 @@ void list_scenes(bool names) {
   }
 }
 
+// Prints the value of a key, its default if that is different, and on a second line its meaning and the values that it accepts.
+void print_key(const Field& field, const std::string& fallback) {
+  const std::string key = field.key->name, value = value_text(field);
+  std::string accepts = expectation(*field.key);
+  accepts[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(accepts[0])));
+  std::cout << fmt::format("  {:<17} {}{}\n{:20}{}. {}.\n", key, value, value == fallback ? "" : " (default " + fallback + ")", "",
+                           field.key->help, accepts);
+}
+
 void list_keys(const std::string& name) {
   SceneDescription scene = SceneFile::open(name).description();
-  std::cout << name << ": " << scene.head.title
-            << "\nUse --set PATH.KEY=VALUE to set a key. The collection (cameras, lights, ...) can be omitted from the path.\n";
+  const std::string camera = scene.cameras.empty() ? "main" : scene.cameras.front().first;
+  std::cout << fmt::format(
+      "{}: {}\nTo change a key, use --set PATH.KEY=VALUE, for example --set cameras.{}.fov=30. If the name of an item is unique,\n"
+      "the first part of its path can be omitted: --set {}.fov=30. Top-level keys have no path.\n",
+      name, scene.head.title, camera, camera);
   for (const NamedSection& s : sections_of(scene)) {
-    std::cout << '\n' << (s.path.empty() ? "(top)" : s.path) << "  -- " << s.help << '\n';
-    for (const Field& field : fields_of(s.section)) {
-      const std::string key = field.key->name;
-      std::cout << "  " << key << std::string(key.size() < 18 ? 18 - key.size() : 1, ' ') << value_text(field) << " (default "
-                << s.defaults.at(key) << ")\n"
-                << std::string(20, ' ') << field.key->help << ": " << expectation(*field.key) << '\n';
-    }
+    std::cout << '\n' << (s.path.empty() ? "Top level" : s.path) << ": " << s.help << '\n';
+    for (const Field& field : fields_of(s.section)) print_key(field, s.defaults.at(field.key->name));
   }
 }
 

@@ -26,8 +26,8 @@ void add_set_option(CLI::App* command, std::vector<std::string>& settings) {
 }
 
 void add_limit_options(CLI::App* command, LimitArguments& args, const std::string& group = "Options") {
-  command->add_option("--max-memory", args.memory, "Memory for files and images, e.g. 4G")->type_name("SIZE")->group(group);
-  command->add_option("--max-pixels", args.pixels, "Pixels of an image (default 268435456)")->type_name("N")->group(group);
+  command->add_option("--max-memory", args.memory, "Maximum memory for files and images, e.g. 4G")->type_name("SIZE")->group(group);
+  command->add_option("--max-pixels", args.pixels, "Maximum pixels of an image (default 268435456)")->type_name("N")->group(group);
 }
 
 // Prints a group of options that the help of the command omits, and ends the program successfully.
@@ -46,18 +46,18 @@ void add_output_options(CLI::App* command, OutputArguments& args) {
   const auto add = [&](const char* name, std::string& value, const char* help, const char* type) {
     command->add_option(name, value, help)->type_name(type)->group(kOutputGroup);
   };
-  add("--aov", args.aov, "Also write values: depth,distance,normal,...", "LIST");
-  command->add_flag("--aov-separate", args.separate, "One file per value, OUT-depth.exr, ...")->group(kOutputGroup);
-  add("--bits", args.bits, "Bits per channel of .png: 8 (default) or 16", "N");
+  add("--aov", args.aov, "Also write depth, distance, normal, ...", "LIST");
+  command->add_flag("--aov-separate", args.separate, "Write each to its own file, OUT-depth.exr, ...")->group(kOutputGroup);
+  add("--bits", args.bits, "Bits per channel of a .png: 8 (default) or 16", "N");
   add("--crop", args.crop, "Render only this rectangle, from the top left", "X,Y,W,H");
   command
       ->add_flag_callback(
           "--help-output",
           [command] {
             print_group(command, kOutputGroup,
-                        "Options of 'halfspace render' for what is written. The values of --aov are depth, distance,\n"
+                        "Output options of 'halfspace render'. --aov accepts a comma-separated list of depth, distance,\n"
                         "normal, camera_normal, albedo, position, uv, object, instance, triangle and barycentrics.\n"
-                        "They are added to OUT if that is an .exr file; otherwise they go to OUT-aov.exr.");
+                        "They are written to OUT if that is an .exr file, and to OUT-aov.exr otherwise.");
           },
           "Print these options and exit")
       ->group(kOutputGroup);
@@ -71,29 +71,29 @@ void add_model_options(CLI::App* command, ModelArguments& args) {
   const auto add_flag = [&](const char* name, bool& value, const char* help) {
     command->add_flag(name, value, help)->group(kUnlistedGroup);
   };
-  add("--yaw", args.yaw, "Degrees around the model (default 35)", "A");
-  add("--pitch", args.pitch, "Degrees above the horizon (default 18)", "A");
-  add("--zoom", args.zoom, "2: half the distance (default 1)", "F");
-  add("--fov", args.fov, "Vertical field of view (default 35)", "DEGREES");
+  add("--yaw", args.yaw, "Angle around the model, in degrees (default 35)", "A");
+  add("--pitch", args.pitch, "Angle above the horizon, in degrees (default 18)", "A");
+  add("--zoom", args.zoom, "Divide the camera distance by F (default 1)", "F");
+  add("--fov", args.fov, "Vertical field of view, in degrees (default 35)", "DEGREES");
   add("--eye", args.eye, "Position of the camera", "X,Y,Z");
   add("--look-at", args.look_at, "Point at the center of the image", "X,Y,Z");
   add("--up", args.up, "Direction that points up (default 0,1,0)", "X,Y,Z");
-  add_flag("--inside", args.inside, "Start inside the bounds of the model");
+  add_flag("--inside", args.inside, "Place the camera inside the model");
   add("--turntable", args.turntable, "Render N frames around the model", "N");
   add("--environment", args.environment, "Panorama that lights the model", "FILE");
-  add("--background", args.background, "#rrggbb, environment or transparent", "COLOR");
-  add_flag("--no-floor", args.no_floor, "No shadow below the model");
-  add("--up-axis", args.up_axis, "y or z (default: z for STL, else y)", "AXIS");
-  add("--scene", args.model_scene, "Scene in the file", "NAME");
-  add("--animation", args.animation, "Animation in the file", "NAME");
-  add("--variant", args.variant, "Material variant in the file", "NAME");
-  add_flag("--allow-outside", args.allow_outside, "Open textures and buffers outside its folder");
+  add("--background", args.background, "Background: #rrggbb, environment or transparent", "COLOR");
+  add_flag("--no-floor", args.no_floor, "Draw no shadow below the model");
+  add("--up-axis", args.up_axis, "Axis that points up: y or z (default: z for STL)", "AXIS");
+  add("--scene", args.model_scene, "Scene of the file to render", "NAME");
+  add("--animation", args.animation, "Animation of the file to play", "NAME");
+  add("--variant", args.variant, "Material variant of the file to use", "NAME");
+  add_flag("--allow-outside", args.allow_outside, "Read files outside of the folder of the model");
   command
       ->add_flag_callback(
           "--help-model",
           [command] {
             print_group(command, kUnlistedGroup,
-                        "More options of 'halfspace render', most of them for model files (.obj .gltf .glb .ply .stl):");
+                        "More options of 'halfspace render'. Most of them apply only to model files (.obj .gltf .glb .ply .stl).");
           },
           "Print these options and exit")
       ->group(kUnlistedGroup);
@@ -107,18 +107,18 @@ void add_render_command(CLI::App& program) {
   command->add_option("--size", args->size, "Size in pixels (default 1920x1080)")->type_name("WxH");
   add_set_option(command, args->set);
   command->add_option("--camera", args->camera, "Name of one of the scene's cameras")->type_name("NAME");
-  command->add_option("--shading", args->shading, "none, flat, provoking, gouraud or phong")->type_name("RATE");
+  command->add_option("--shading", args->shading, "Shading: none, flat, provoking, gouraud or phong")->type_name("RATE");
   command->add_option("--time", args->time, "Seconds into the animation (default 0)")->type_name("S");
-  command->add_option("--frames", args->frames, "Render frames A to B to OUT_0000.png, ...")->type_name("A..B");
+  command->add_option("--frames", args->frames, "Render frames A to B as OUT_0000.png, ...")->type_name("A..B");
   command->add_option("--fps", args->fps, "Frames per second (default 30)")->type_name("N");
-  command->add_option("--max-error", args->max_error, "Cheapest model with edges within PX pixels")->type_name("PX");
-  command->add_option("--max-error-color", args->max_error_color, "... with colors within E 8-bit codes")->type_name("E");
+  command->add_option("--max-error", args->max_error, "Use the cheapest model with edges within PX px")->type_name("PX");
+  command->add_option("--max-error-color", args->max_error_color, "... and with colors within E 8-bit codes")->type_name("E");
   command->add_flag("--resume", args->resume, "Skip frames whose file is already complete");
   command->add_option("--threads", args->threads, "Threads (default: one per core)")->type_name("N");
   command->add_flag("--stats{text}", args->statistics, "Print times and counts as text or JSON")->option_text("[=json]");
   command->add_flag("--print", args->print, "Print the scene with all settings and exit");
-  command->add_flag("--wireframe{lines}", args->wireframe, "Edges only; =hidden: without edges behind faces")->group(kUnlistedGroup);
-  command->add_flag("--naive", args->naive, "Draw with plain loops, and compare")->group(kUnlistedGroup);
+  command->add_flag("--wireframe{lines}", args->wireframe, "Draw only edges; =hidden omits hidden edges")->group(kUnlistedGroup);
+  command->add_flag("--naive", args->naive, "Draw with simple loops; report the difference")->group(kUnlistedGroup);
   add_output_options(command, args->output);
   add_model_options(command, args->model);
   add_limit_options(command, args->limits, kUnlistedGroup);
@@ -130,17 +130,17 @@ void add_render_command(CLI::App& program) {
 }
 
 void add_explain_command(CLI::App& program) {
-  CLI::App* command = program.add_subcommand("explain", "Explain how a frame is made, as an HTML page");
+  CLI::App* command = program.add_subcommand("explain", "Write a web page that explains a frame");
   const auto args = std::make_shared<ExplainArguments>();
   command->add_option("SCENE", args->scene, "Scene, scene file or model file (see --help-model)")->required()->type_name("");
-  command->add_option("-o,--output", args->out, "Page (default SCENE.html)")->type_name("PAGE");
-  command->add_option("--pixel", args->pixel, "From 0,0 at the upper left (default: most fragments)")->type_name("X,Y");
-  command->add_flag("--text", args->text, "Print the history of the pixel as text");
-  command->add_flag("--json", args->json, "Print the history of the pixel as JSON");
+  command->add_option("-o,--output", args->out, "Output file (default SCENE.html)")->type_name("PAGE");
+  command->add_option("--pixel", args->pixel, "Pixel, from the upper left (default: most fragments)")->type_name("X,Y");
+  command->add_flag("--text", args->text, "Print the history of the pixel as text instead");
+  command->add_flag("--json", args->json, "Print the history of the pixel as JSON instead");
   command->add_option("--size", args->size, "Size in pixels (default 640x360)")->type_name("WxH");
   add_set_option(command, args->set);
   command->add_option("--camera", args->camera, "Name of one of the scene's cameras")->type_name("NAME");
-  command->add_option("--shading", args->shading, "none, flat, provoking, gouraud or phong")->type_name("RATE");
+  command->add_option("--shading", args->shading, "Shading: none, flat, provoking, gouraud or phong")->type_name("RATE");
   command->add_option("--time", args->time, "Seconds into the animation (default 0)")->type_name("S");
   command->add_option("--threads", args->threads, "Threads (default: one per core)")->type_name("N");
   add_model_options(command, args->model);
@@ -156,9 +156,9 @@ void add_export_command(CLI::App& program) {
   CLI::App* command = program.add_subcommand("export", "Write a scene or a model as glTF, OBJ, PLY or STL");
   const auto args = std::make_shared<ExportArguments>();
   command->add_option("SCENE", args->scene, "Scene, scene file or model file")->required()->type_name("");
-  command->add_option("-o,--output", args->out, ".glb, .gltf, .obj, .ply or .stl")->required()->type_name("FILE");
+  command->add_option("-o,--output", args->out, "Output file: .glb, .gltf, .obj, .ply or .stl")->required()->type_name("FILE");
   add_set_option(command, args->set);
-  command->add_flag("--allow-outside", args->allow_outside, "Open files outside the folder of the model");
+  command->add_flag("--allow-outside", args->allow_outside, "Read files outside of the folder of the model");
   command->add_option("--threads", args->threads, "Threads (default: one per core)")->type_name("N");
   add_limit_options(command, args->limits);
   command->footer(
@@ -173,8 +173,8 @@ void add_convert_normal_command(CLI::App& program) {
   const auto args = std::make_shared<ConvertNormalArguments>();
   command->add_option("HEIGHT", args->height, "Height map with 8-bit, 16-bit or float texels")->required()->type_name("");
   command->add_option("-o,--output", args->out, "Normal map as PNG, in tangent space, green up")->required()->type_name("NORMAL");
-  command->add_option("--strength", args->strength, "Height of white in texels (default 8)")->type_name("S");
-  command->add_option("--edges", args->edges, "repeat (default), clamp, or sphere")->type_name("E");
+  command->add_option("--strength", args->strength, "Height of white, in texels (default 8)")->type_name("S");
+  command->add_option("--edges", args->edges, "Edges of the map: repeat (default), clamp, sphere")->type_name("E");
   command->footer(
       "Examples:\n"
       "  halfspace convert-normal bricks_height.png -o bricks_normal.png\n"
@@ -184,9 +184,9 @@ void add_convert_normal_command(CLI::App& program) {
 
 #if HALFSPACE_HAS_RAYS
 void add_validate_command(CLI::App& program) {
-  CLI::App* command = program.add_subcommand("validate", "Compare the shadows of a scene with ray casting");
+  CLI::App* command = program.add_subcommand("validate", "Compare the shadows of a scene with ray tracing");
   const auto args = std::make_shared<ValidateArguments>();
-  command->add_option("SCENE", args->scene, "Name of a scene, or a scene file")->type_name("");
+  command->add_option("SCENE", args->scene, "Scene or scene file")->type_name("");
   command->add_flag("--json", args->json, "Report as JSON, one object per light");
   command->add_option("-o,--output", args->out, "Folder for images, or for the chart of --table")->type_name("DIR");
   command->add_flag("--table", args->table, "Score all biases and filters on four scenes (CSV)");
@@ -206,11 +206,11 @@ void add_validate_command(CLI::App& program) {
 }
 
 void add_chart_command(CLI::App& program) {
-  CLI::App* command = program.add_subcommand("chart", "Chart the error and time of rendering methods");
+  CLI::App* command = program.add_subcommand("chart", "Chart the error and the time of rendering methods");
   const auto args = std::make_shared<ChartArguments>();
-  command->add_option("STUDY", args->study, "all, or one of the studies below")->required()->type_name("");
+  command->add_option("STUDY", args->study, "One of the studies below, or all")->required()->type_name("");
   command->add_option("-o,--output", args->out, "Output folder (default charts)")->type_name("DIR");
-  command->add_flag("--quick", args->quick, "Small images, to check that it works");
+  command->add_flag("--quick", args->quick, "Use small images, to check that it works");
   command->add_option("--threads", args->threads, "Threads (default: one per core)")->type_name("N");
   command->footer("Studies:" + study_lines() +
                   "\nExamples:\n"
@@ -230,7 +230,7 @@ void add_compare_command(CLI::App& program) {
   command->add_option("B", args->b, "Second image, of the same size")->required()->type_name("");
   command->add_flag("--json", args->json, "Report as JSON");
   command->add_option("-o,--output", args->out, "Write a color-coded difference image (PNG)")->type_name("DIFF");
-  command->add_option("--tolerance", args->tolerance, "Exit with 1 if any channel differs by more")->type_name("T");
+  command->add_option("--tolerance", args->tolerance, "Exit with 1 if a channel differs by more than T")->type_name("T");
   command->footer(
       "Examples:\n"
       "  halfspace compare before.png after.png -o difference.png\n"
@@ -241,8 +241,8 @@ void add_compare_command(CLI::App& program) {
 void add_list_command(CLI::App& program) {
   CLI::App* command = program.add_subcommand("list", "List the scenes, or the keys of a scene");
   const auto args = std::make_shared<ListArguments>();
-  command->add_option("SCENE", args->scene, "Scene or scene file whose keys to list")->type_name("");
-  command->add_flag("--names", args->names, "Print only names, one per line");
+  command->add_option("SCENE", args->scene, "Scene or scene file whose keys are listed")->type_name("");
+  command->add_flag("--names", args->names, "Print only the names, one per line");
   command->add_flag("--schema", args->schema, "Print the JSON Schema of scene files");
   command->footer("Examples:\n  halfspace list\n  halfspace list moon");
   command->callback([args] { list_command(*args); });
@@ -262,7 +262,7 @@ void add_completion_command(CLI::App& program) {
   CLI::App* command = program.add_subcommand("completion", "Print a shell completion script");
   const auto args = std::make_shared<CompletionArguments>();
   command->add_option("SHELL", args->shell, "bash, zsh or fish; or a list: words, studies")->required()->type_name("");
-  command->add_option("COMMAND", args->command, "With words: command whose options to list")->type_name("");
+  command->add_option("COMMAND", args->command, "With words: the command whose options are listed")->type_name("");
   command->footer(
       "Examples:\n  halfspace completion bash >> ~/.bashrc\n  halfspace completion fish | "
       "source");

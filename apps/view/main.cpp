@@ -38,8 +38,8 @@ void add_options(CLI::App& program, ViewArguments& args) {
   program.add_option("--threads", args.threads, "Threads (default: one per core)")->type_name("N");
   program.add_option("--frames", args.frames, "Show N frames at intervals of 1/30 s, print the mean times and exit")->type_name("N");
   program.add_flag("--no-window", args.no_window, "With --frames: render the same frames without a window");
-  program.add_option("--events", args.events, "Push the input events listed in the file; for tests")->type_name("FILE");
-  program.add_option("--record", args.record, "Write all frames to the folder; for tests")->type_name("DIR");
+  program.add_option("--events", args.events, "Replay the input events in the file; for tests")->type_name("FILE");
+  program.add_option("--record", args.record, "Write every frame to the folder; for tests")->type_name("DIR");
   program.footer(
       "Press h in the window for the list of keys.\n\n"
       "Examples:\n"

@@ -18,7 +18,7 @@ constexpr int kAvailableOverlays = kOverlays - 1;
 
 const char* name_of(Overlay overlay) {
   static constexpr const char* kNames[kOverlays] = {
-      "none", "wireframe", "overdraw", "tiles", "mip levels", "normals", "shadow against ray tracing"};
+      "none", "wireframe", "overdraw", "tiles", "mip levels", "normals", "shadow map vs. ray tracing"};
   return kNames[static_cast<std::size_t>(overlay)];
 }
 

@@ -279,7 +279,7 @@ class Scene:
         "mask"           bool (H, W), whether there is a surface
 
         Values are those of the surface at the center of the pixel, without antialiasing; other values are 0 where there is no surface.
-        Blended surfaces are left out. With background_depth=0, "depth" is the same as in pyrender.
+        Blended surfaces are omitted. With background_depth=0, "depth" is the same as in pyrender.
         """
         width, height = _check.size(size)
         names, depth = checked_outputs(outputs), checked_background(background_depth)

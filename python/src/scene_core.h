@@ -30,7 +30,7 @@ struct PictureSize {
 struct Shot {
   double time = 0.0;                          ///< seconds
   std::optional<CameraDescription> camera{};  ///< replaces the camera of the scene
-  bool transparent = false;                   ///< alpha is 0 where nothing is drawn, and the background is left out
+  bool transparent = false;                   ///< alpha is 0 where nothing is drawn, and the background is omitted
 };
 
 class SceneCore {

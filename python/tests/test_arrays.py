@@ -14,7 +14,7 @@ CAMERA = halfspace.Camera.look_at((0, 0, 4), height=2.0, near=1, far=10)
 
 
 def flat(color=(1, 1, 1), **more):
-    """A material whose color is the result."""
+    """A material whose color is rendered unchanged."""
     return halfspace.Material(color, unlit=True, **more)
 
 

@@ -47,19 +47,19 @@ class ChannelReader {
     channel.node = document_.index(target, "node", model_.nodes.size());
     const std::optional<AnimatedProperty> property = property_of(path);
     if (!property) {
-      document_.warn("animations of " + gltf_quoted(path) + " are not supported; they are left out");
+      document_.warn("animations of " + gltf_quoted(path) + " are not supported; they are skipped");
       return std::nullopt;
     }
     if (channel.node < 0) return std::nullopt;  // permitted by the specification
     const ModelNode& node = model_.nodes[static_cast<std::size_t>(channel.node)];
     if (node.matrix && *property != AnimatedProperty::weights) {
-      document_.warn_at(target, "node", "the node has a matrix; its animation is left out");
+      document_.warn_at(target, "node", "the node has a matrix; its animation is skipped");
       return std::nullopt;
     }
     channel.property = *property;
     channel.width = *property == AnimatedProperty::weights ? target_count(model_, node) : *property == AnimatedProperty::rotation ? 4 : 3;
     if (channel.width == 0) {
-      document_.warn_at(target, "path", "the node has no morph targets; its animation is left out");
+      document_.warn_at(target, "path", "the node has no morph targets; its animation is skipped");
       return std::nullopt;
     }
     read_keys(samplers_[static_cast<std::size_t>(document_.required_index(json, "sampler", samplers_.size()))], channel);

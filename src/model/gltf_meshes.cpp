@@ -56,7 +56,7 @@ class MeshReader {
  private:
   void read_primitive(const GltfValue& json, const std::string& name, GltfMesh& owner) {
     const GltfValue& attributes = document_.object(json, "attributes");
-    if (document_.find(attributes, "POSITION") == nullptr) return document_.warn_at(json, "", "has no positions; it is left out");
+    if (document_.find(attributes, "POSITION") == nullptr) return document_.warn_at(json, "", "has no positions; it is skipped");
     document_.take_memory(json, 1, sizeof(ModelMesh));
     const bool compressed = draco_.decode(json);
     const std::size_t count = accessors_.find(attributes, "POSITION").count;
@@ -66,7 +66,7 @@ class MeshReader {
     mesh.topology = topology_of(mode);
     mesh.indices = indices(json, mode, count);
     if (count == 0 || (mesh.indices.empty() && mesh.topology != MeshTopology::points)) {
-      return document_.warn_at(json, "", "has no vertices or no indices; it is left out");
+      return document_.warn_at(json, "", "has no vertices or no indices; it is skipped");
     }
     std::vector<uint32_t> subset;
     if (!mesh.indices.empty() && mesh.indices.size() < count) subset = compact_indices(mesh.indices);
@@ -95,7 +95,7 @@ class MeshReader {
       std::iota(list.begin(), list.end(), 0u);
     }
     const std::size_t remainder = mode == GltfMode::triangles ? list.size() % 3 : mode == GltfMode::lines ? list.size() % 2 : 0;
-    if (remainder != 0) document_.warn_at(json, "", "ends with an incomplete line or triangle, which is left out");
+    if (remainder != 0) document_.warn_at(json, "", "ends with an incomplete line or triangle, which is skipped");
     // A strip of n vertices has fewer than n triangles, and a growing vector needs up to twice its size.
     document_.take_memory(json, list.size(), 6 * sizeof(uint32_t));
     return list_of_primitives(mode, std::move(list));

@@ -107,7 +107,7 @@ bool GltfTextures::locate_image(int index) {
   } else if (!uri.empty()) {
     if (const auto path = references_.find(percent_decoded(uri), fmt::format("image {}", index))) image.file = *path;
   } else {
-    document_.warn_at(json, "", "has neither a file nor data; it is left out");
+    document_.warn_at(json, "", "has neither a file nor data; it is skipped");
   }
   return image.bytes != nullptr || !image.file.empty();
 }
@@ -127,7 +127,7 @@ TextureUse GltfTextures::use(const GltfValue& object, const char* key, Channel c
   if (uv_set > 1) document_.warn_at(info, "texCoord", fmt::format("set {} is not supported; using set 0", uv_set));
   use.uv_set = uv_set == 1 ? 1 : 0;
   if (model_.textures[static_cast<std::size_t>(texture)].image < 0) {
-    document_.warn_at(info, "index", "the texture has no image in a supported format; it is left out");
+    document_.warn_at(info, "index", "the texture has no image in a supported format; it is skipped");
     return {};
   }
   if (locate_image(model_.textures[static_cast<std::size_t>(texture)].image)) use.texture = texture;

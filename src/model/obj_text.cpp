@@ -67,7 +67,7 @@ class ObjParser {
     if (word == "mtllib") return add_library(trimmed(rest));
     if (is_one_of(kIgnoredStatements, word)) return;
     if (is_one_of(kCurveStatements, word)) return warn_once("curves", "free-form curves and surfaces are not drawn");
-    warn_once("unknown", "unknown statement " + in_quotes(word) + " is ignored, as are all others that are unknown");
+    warn_once("unknown", "unknown statement " + in_quotes(word) + " is ignored, like all other unknown statements");
   }
 
   // Reads up to 7 numbers. Returns how many there are.
@@ -101,7 +101,7 @@ class ObjParser {
   void texture_coordinate(std::string_view rest) {
     std::array<double, 7> v{};
     numbers(rest, v, [&](std::string_view word) {
-      warn_once("vt", fmt::format("cannot read {} as a texture coordinate; such numbers are taken as 0", in_quotes(word)));
+      warn_once("vt", fmt::format("cannot read {} as a texture coordinate; such coordinates are treated as 0", in_quotes(word)));
     });
     obj_.uvs.emplace_back(v[0], v[1]);
   }
@@ -160,8 +160,7 @@ class ObjParser {
     for (std::string_view word = take_value(rest); !word.empty(); word = take_value(rest)) obj_.corners.push_back(corner(word));
     if (obj_.corners.size() - first < min_corners) {
       obj_.corners.resize(first);
-      return warn_once("few",
-                       fmt::format("an element has too few corners (expected at least {}); such elements are left out", min_corners));
+      return warn_once("few", fmt::format("an element has too few corners (expected at least {}); such elements are skipped", min_corners));
     }
     if (state_changed_ || obj_.states.back().topology != topology) {
       obj_.states.push_back({topology, material_, smoothing_, name_});

@@ -74,7 +74,7 @@ class MtlParser {
       const std::string key = lower(word);
       if (key == "newmtl") {
         if (materials_.size() == kMaxMtlMaterials) {
-          warn_once(key, fmt::format("has more than {} materials; the rest is left out", kMaxMtlMaterials));
+          warn_once(key, fmt::format("has more than {} materials; the rest is skipped", kMaxMtlMaterials));
           break;
         }
         materials_.emplace_back().name = trimmed(rest);
@@ -110,13 +110,14 @@ class MtlParser {
       return;
     }
     if (std::ranges::find(kIgnored, key) != std::end(kIgnored)) return;
-    if (std::ranges::find(kNotDrawn, key) != std::end(kNotDrawn)) return warn_once(key, in_quotes(key) + " is not supported and ignored");
-    warn_once("unknown", "unknown statement " + in_quotes(key) + " is ignored, as are all others that are unknown");
+    if (std::ranges::find(kNotDrawn, key) != std::end(kNotDrawn))
+      return warn_once(key, in_quotes(key) + " is not supported and is ignored");
+    warn_once("unknown", "unknown statement " + in_quotes(key) + " is ignored, like all other unknown statements");
   }
 
   std::optional<double> read_number(const std::string& key, std::string_view word) {
     const std::optional<double> value = number_in(word);
-    if (!value) warn_once(key, fmt::format("cannot read {} as a number; such statements '{}' are ignored", in_quotes(word), key));
+    if (!value) warn_once(key, fmt::format("cannot read {} as a number; such '{}' statements are ignored", in_quotes(word), key));
     return value;
   }
 

@@ -131,7 +131,7 @@ Model model_of(PlyContents ply, const std::filesystem::path& file, const ReadMod
     throw InputError(fmt::format("the faces have {} corners; expected fewer than 2^32 - 1", ply.corners.size()));
   std::vector<std::string> warnings;
   const auto warn = [&](std::ptrdiff_t count, std::string_view what) {
-    if (count > 0) warnings.push_back(fmt::format("{} {}; left out", count, what));
+    if (count > 0) warnings.push_back(fmt::format("{} {}; skipped", count, what));
   };
   warn(std::ranges::count_if(ply.positions, [](const glm::dvec3& p) { return !is_finite(p); }),
        "vertices whose coordinates are not finite");
@@ -146,7 +146,7 @@ Model model_of(PlyContents ply, const std::filesystem::path& file, const ReadMod
   check_memory(ply.positions.size() * kBytesPerVertex + ply.corners.size() * kBytesPerTriangle, options);
   Faces faces = triangles_of(ply);
   warn(static_cast<std::ptrdiff_t>(faces.short_faces), "faces with fewer than 3 corners");
-  warn(static_cast<std::ptrdiff_t>(faces.infinite_faces), "faces with vertices that are left out");
+  warn(static_cast<std::ptrdiff_t>(faces.infinite_faces), "faces that use skipped vertices");
   if (faces.triangles.empty()) {
     add_lines_or_points(mesh, ply);
   } else {

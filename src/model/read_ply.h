@@ -11,7 +11,7 @@ namespace halfspace {
 
 /// Reads a PLY file whose contents are `bytes`; `file` is for messages and for the texture, if a comment names one. The result has one
 /// mesh: triangles, or without faces the edges as lines, or the vertices as points. Vertices that are not finite, and their faces, are
-/// left out with a warning. Throws InputError "FILE: PLACE: problem; expected ..." if the file is not valid.
+/// skipped with a warning. Throws InputError "FILE: PLACE: problem; expected ..." if the file is not valid.
 Model read_ply(const std::filesystem::path& file, std::span<const std::byte> bytes, const ReadModelOptions& options);
 
 }  // namespace halfspace

@@ -115,7 +115,7 @@ Model read_stl(const std::filesystem::path& file, std::span<const std::byte> byt
     const std::size_t removed = remove_infinite(triangles);
     Model model = single_mesh_model("STL", file, mesh_of(triangles, options.crease_degrees));
     model.up = UpAxis::z;
-    if (removed > 0) model.warnings.push_back(fmt::format("{} triangles whose coordinates are not finite; left out", removed));
+    if (removed > 0) model.warnings.push_back(fmt::format("{} triangles whose coordinates are not finite; skipped", removed));
     return model;
   } catch (const InputError& e) {
     throw InputError(fmt::format("{}: {}", file.string(), e.what()));

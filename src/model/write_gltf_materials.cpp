@@ -25,7 +25,7 @@ int gl_wrap(Wrap wrap, GltfOutput& out) {
     case Wrap::clamp: return kGlClampToEdge;
     case Wrap::border: break;
   }
-  out.warn("glTF has no border colors; textures with borders are clamped to their edges");
+  out.warn("glTF cannot store border colors; textures with borders are clamped to their edges");
   return kGlClampToEdge;
 }
 
@@ -87,7 +87,7 @@ class MaterialWriter {
 
  private:
   void leave_out(const char* map, const char* reason) {
-    out_.warn(fmt::format("the {} of material '{}' is left out: {}", map, material_->name, reason));
+    out_.warn(fmt::format("the {} of material '{}' is omitted: {}", map, material_->name, reason));
   }
 
   bool has_image(const TextureUse& use) const {
@@ -192,7 +192,7 @@ std::vector<GltfImageFile> write_gltf_textures(const Model& model, const std::st
     const ModelImage& image = model.images[i];
     const std::string extension = image.bytes ? image_extension(*image.bytes) : "";
     if (extension.empty()) {
-      out.warn(fmt::format("image '{}' is left out; expected PNG or JPEG", image.name));
+      out.warn(fmt::format("image '{}' is omitted; expected PNG or JPEG", image.name));
       continue;
     }
     OutputJson json;

@@ -58,7 +58,7 @@ class NodeWriter {
 
   const ModelMesh& mesh(int index) const { return model_.meshes[static_cast<std::size_t>(index)]; }
 
-  // glTF has no meshes without vertices; they are left out.
+  // glTF has no meshes without vertices; they are omitted.
   bool is_empty(int index) const { return mesh(index).positions.empty(); }
 
   // Returns the meshes of a node, grouped by their origin.

@@ -32,10 +32,10 @@ struct WrittenModel {
 };
 
 /// Converts a model to files of the format. `file` gives their names. Images must be in memory (ModelImage::bytes) as PNG or JPEG; others
-/// are left out with a warning.
+/// are omitted with a warning.
 ///
 /// glb, gltf: everything in Model. Positions are stored relative to ModelMesh::origin, which becomes the translation of a node, and a model
-///   with z up gets a node that turns it. Texture channels that glTF does not permit are left out with a warning.
+///   with z up gets a node that turns it. Texture channels that glTF does not permit are omitted with a warning.
 /// obj: all meshes in world space, materials as .mtl with the PBR statements where metals or their maps need them, and textures. Numbers
 ///   have the shortest form that reads back as the same value.
 /// ply: all triangles in world space as one mesh, or all points if there are none, binary, with normals, and with colors and texture

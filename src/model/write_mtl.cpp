@@ -67,8 +67,8 @@ class MtlWriter {
   void add_map(const char* key, const TextureUse& use, bool with_channel = false, std::string options = "") {
     if (!has_image(use)) return;
     const glm::mat3x2& t = use.uv_transform;
-    if (t[0].y != 0.0f || t[1].x != 0.0f) warn("OBJ stores no rotation of textures");
-    if (use.uv_set != 0) warn("OBJ stores one set of texture coordinates; maps that use the second one are written with the first");
+    if (t[0].y != 0.0f || t[1].x != 0.0f) warn("OBJ cannot store texture rotation");
+    if (use.uv_set != 0) warn("OBJ stores only one set of texture coordinates; maps that use the second set are written with the first");
     if (t[0].x != 1.0f || t[1].y != 1.0f) options += fmt::format("-s {} {} 1 ", t[0].x, t[1].y);
     const float y = 1.0f - t[1].y - t[2].y;  // v points up
     if (t[2].x != 0.0f || y != 0.0f) options += fmt::format("-o {} {} 0 ", t[2].x, y);
@@ -84,10 +84,10 @@ class MtlWriter {
   }
 
   void warn_about_omissions(const ModelMaterial& m) {
-    if (has_image(m.normal_map) && m.normal_scale != 1.0f) warn("OBJ stores no strength of normal maps");
+    if (has_image(m.normal_map) && m.normal_scale != 1.0f) warn("OBJ cannot store the strength of normal maps");
     for (const TextureUse* use : {&m.occlusion_map, &m.specular_map, &m.specular_color_map, &m.clearcoat_map, &m.clearcoat_roughness_map,
                                   &m.clearcoat_normal_map}) {
-      if (has_image(*use)) warn("maps of occlusion, specular reflection and clearcoat are left out");
+      if (has_image(*use)) warn("occlusion, specular and clearcoat maps are omitted");
     }
   }
 

@@ -15,8 +15,8 @@ namespace halfspace {
 float srgb_from_linear(float value);
 
 /// Returns the text of a material library. material_names: one per material, without spaces; one more is the name of ModelMaterial{}, which
-/// is written too. image_names: the file name of each image; empty: the image is left out. diagonal: of the bounds of the written
-/// positions. Adds a warning for each kind of property that is left out.
+/// is written too. image_names: the file name of each image; empty: the image is omitted. diagonal: of the bounds of the written
+/// positions. Adds a warning for each kind of property that is omitted.
 std::string mtl_text(const Model& model, const std::vector<std::string>& material_names, const std::vector<std::string>& image_names,
                      double diagonal, std::vector<std::string>& warnings);
 

@@ -127,7 +127,7 @@ WrittenModel write_obj(const Model& model, const std::string& stem) {
   for (std::size_t i = 0; i < model.images.size(); ++i) {
     const ModelImage& image = model.images[i];
     const std::string extension = image.bytes ? image_extension(*image.bytes) : "";
-    if (extension.empty()) written.warnings.push_back(fmt::format("image '{}' is left out; expected PNG or JPEG", image.name));
+    if (extension.empty()) written.warnings.push_back(fmt::format("image '{}' is omitted; expected PNG or JPEG", image.name));
     image_names.push_back(extension.empty() ? "" : fmt::format("{}_image{}{}", stem, i, extension));
     if (!extension.empty()) images.push_back({image_names.back(), *image.bytes});
   }
@@ -143,9 +143,9 @@ WrittenModel write_obj(const Model& model, const std::string& stem) {
   if (has_library)
     written.files.push_back(text_file(stem + ".mtl", mtl_text(model, material_names, image_names, writer.diagonal(), written.warnings)));
   std::ranges::move(images, std::back_inserter(written.files));
-  if (writer.has_opacity()) written.warnings.emplace_back("OBJ stores no opacity of vertex colors");
-  if (!model.lights.empty() || !model.cameras.empty()) written.warnings.emplace_back("OBJ stores no lights or cameras");
-  if (!model.animations.empty()) written.warnings.emplace_back("OBJ stores no animations; the model is written at rest");
+  if (writer.has_opacity()) written.warnings.emplace_back("OBJ cannot store the opacity of vertex colors");
+  if (!model.lights.empty() || !model.cameras.empty()) written.warnings.emplace_back("OBJ cannot store lights and cameras");
+  if (!model.animations.empty()) written.warnings.emplace_back("OBJ cannot store animations; the model is written at rest");
   return written;
 }
 

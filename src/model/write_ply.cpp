@@ -115,8 +115,8 @@ WrittenModel write_ply(const Model& model, const std::string& stem) {
   written.files.push_back({stem + ".ply", writer.bytes()});
   if (model.materials.size() > 1 || !model.textures.empty())
     written.warnings.emplace_back("PLY stores one mesh with vertex colors: no materials or textures");
-  if (writer.leaves_out_lines()) written.warnings.emplace_back("lines are left out");
-  if (writer.leaves_out_points()) written.warnings.emplace_back("points are left out, because the file has faces");
+  if (writer.leaves_out_lines()) written.warnings.emplace_back("lines are omitted");
+  if (writer.leaves_out_points()) written.warnings.emplace_back("points are omitted, because the file has faces");
   return written;
 }
 

@@ -29,7 +29,7 @@ struct RayHit {
 class RayScene {
  public:
   /// Copies the triangles, in world space relative to eye_ws and rounded to float. With casters_only, meshes and spheres that cast no
-  /// shadow are left out; this does not change the indices in RayHit. Spheres become sphere primitives of Embree.
+  /// shadow are omitted; this does not change the indices in RayHit. Spheres become sphere primitives of Embree.
   RayScene(std::span<const PlacedMesh> meshes, const glm::dvec3& eye_ws, bool casters_only = false,
            std::span<const PlacedSpheres> spheres = {});
   ~RayScene();

@@ -22,7 +22,7 @@ struct ImageRect {
 ///
 /// Colors are antialiased as the scene specifies. All other values are those of the surface at the center of a pixel, without filtering.
 /// Only opaque surfaces have them, including the remaining parts of masked ones: blended surfaces and floors that only show shadows are
-/// left out, as if they were not there. Positions and distances are in scene units.
+/// omitted, as if they were not there. Positions and distances are in scene units.
 struct FrameImages {
   Image<glm::u8vec4>* picture = nullptr;        ///< codes for display, as the post section of the scene specifies; straight alpha
   Image<glm::u16vec4>* fine_picture = nullptr;  ///< the same with 16 bits per channel, not dithered
@@ -64,7 +64,7 @@ PassStatistics render_frame(const PreparedScene& scene, const FrameImages& image
 /// light must be opaque and have the size for which the scene was prepared. There must be no crop, and only color images can be wanted.
 void display_frame(const PreparedScene& scene, const Image<glm::vec4>& light, const FrameImages& images, const Workers& workers);
 
-/// Adds a draw to a pass whose attachment n stores FrameValue n. Draws without values are left out: the background and blended surfaces.
+/// Adds a draw to a pass whose attachment n stores FrameValue n. Draws without values are omitted: the background and blended surfaces.
 /// wanted: the values that are needed; others may be wrong. Compiled once, in add_value_draw.cpp.
 void add_value_draw(Pass& pass, const PreparedDraw& draw, const FrameCamera& camera, const std::array<bool, kFrameValues>& wanted,
                     const DrawState& state);

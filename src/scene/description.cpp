@@ -95,7 +95,7 @@ constexpr const char* kGenerated =
 
 Section section_of(SceneHead& s) {
   static const std::vector<Key> keys{
-      key<&SceneHead::title>("title", "Title of the scene, one line"),
+      key<&SceneHead::title>("title", "Title of the scene, in one line"),
       key<&SceneHead::camera>("camera", "Name of the camera to render from; empty: the first"),
       key<&SceneHead::ambient>("ambient", "Ambient light, linear", {.low = 0, .high = kMaxCount}),
       key<&SceneHead::samples>("samples", "Samples per pixel for antialiasing: 1, 2, 4 or 8", {.low = 1, .high = 8}),
@@ -145,7 +145,7 @@ Section section_of(LightDescription& l) {
 Section section_of(TextureDescription& t) {
   using T = TextureDescription;
   static const std::vector<Key> keys{
-      key<&T::source>("source", "Image file, or generator of the map"),
+      key<&T::source>("source", "Image file, or name of a generator"),
       key<&T::file>("file", "Image file", {.only = "file"}),
       key<&T::width>("width", "Width of the generated map, an even number; 0: chosen for the view",
                      {.unit = "texels", .low = 0, .high = 16384, .only = kGenerated}),
@@ -182,7 +182,7 @@ Section section_of(SurfaceDescription& s) {
       key<&T::normal_strength>("normal_strength", "Scale of the slopes in the normal map", {.low = 0, .high = 1000}),
       key<&T::normal_flip_green>("normal_flip_green", "Whether green points down in the normal map"),
       key<&T::bump_map>("bump_map", "Height map for bump mapping; a color instead of a map turns it off", {.low = 0}),
-      key<&T::bump_scale>("bump_scale", "Height difference between map values 0 and 1", {.unit = "units", .low = -1e6, .high = 1e6}),
+      key<&T::bump_scale>("bump_scale", "Height difference between the map values 0 and 1", {.unit = "units", .low = -1e6, .high = 1e6}),
       key<&T::bump_method>("bump_method", "Slope of bumps: gradient of the filtered heights, or differences within 2x2 pixels"),
   };
   return {{keys, &s}};
@@ -223,7 +223,7 @@ Section section_of(ObjectDescription& o) {
       key<&T::latitudes>("latitudes", "Number of bands from top to bottom, or around a tube",
                          {.low = 2, .high = 8192, .only = shapes_with("latitudes")}),
       key<&T::longitudes>("longitudes", "Number of sectors around the axis", {.low = 3, .high = 16384, .only = shapes_with("longitudes")}),
-      key<&T::level>("level", "Number of times each triangle is divided into four", {.low = 0, .high = 8, .only = shapes_with("level")}),
+      key<&T::level>("level", "Number of times each triangle is split into four", {.low = 0, .high = 8, .only = shapes_with("level")}),
       key<&T::size>("size", "Edge length", {.unit = "units", .low = kTiny, .high = 1e6, .only = shapes_with("size")}),
       key<&T::segments>("segments", "Number of segments per edge", {.low = 1, .high = 1024, .only = shapes_with("segments")}),
       key<&T::tiles_u>("tiles_u", "Number of repetitions of color maps along u", {.low = 1, .high = 4096, .only = shapes_with("tiles_u")}),
@@ -244,7 +244,8 @@ Section section_of(ObjectDescription& o) {
       key<&T::casts_shadow>("casts_shadow", "Whether the object casts shadows"),
       key<&T::receives_shadow>("receives_shadow", "Whether the object receives shadows, including its own"),
       key<&T::height>("height", "Height map that displaces the surface; a color: none", {.low = 0}),
-      key<&T::height_scale>("height_scale", "Height difference between map values 0 and 1", {.unit = "units", .low = -1e6, .high = 1e6}),
+      key<&T::height_scale>("height_scale", "Height difference between the map values 0 and 1",
+                            {.unit = "units", .low = -1e6, .high = 1e6}),
       key<&T::height_zero>("height_zero", "Map value that leaves the surface undisplaced", {.low = 0, .high = 1}),
       key<&T::height_smoothing>("height_smoothing", "Standard deviation of the Gaussian that smooths the heights",
                                 {.unit = "texels", .low = 0, .high = 64}),
@@ -261,7 +262,7 @@ Section section_of(ObjectDescription& o) {
 Section section_of(ShadowDescription& s) {
   using T = ShadowDescription;
   static const std::vector<Key> keys{
-      key<&T::method>("method", "Shadow map filter; none: no shadows, at no cost"),
+      key<&T::method>("method", "Shadow map filter; none: no shadows"),
       key<&T::bias>("bias", "Bias method against self-shadowing"),
       key<&T::resolution>("resolution", "Width of a shadow map, at least 256; 0: chosen by footprint",
                           {.unit = "texels", .low = 0, .high = kMaxShadowTexels}),
@@ -289,7 +290,7 @@ Section section_of(AnimationDescription& a) {
       key<&T::b>("b", "Semi-axis of the ellipse, reached a quarter turn later", {.unit = "units", .only = "orbit"}),
       key<&T::mean>("mean", "Mean of the wave", {.only = "wave"}),
       key<&T::swing>("swing", "Amplitude of the wave, added at phase 0; the result is clamped to the key's range", {.only = "wave"}),
-      key<&T::period>("period", "Duration of one turn", {.unit = "s", .low = kTiny, .only = "orbit wave"}),
+      key<&T::period>("period", "Duration of one period", {.unit = "s", .low = kTiny, .only = "orbit wave"}),
       key<&T::phase>("phase", "Phase at time 0", {.unit = "turns", .only = "orbit wave"}),
       key<&T::keys>("keys", "Keyframes as rows [seconds, value]", {.only = "keyframes"}),
       key<&T::easing>("easing", "Interpolation between keyframes", {.only = "keyframes"}),

@@ -363,11 +363,11 @@ void for_each_collection(Scene& scene, F&& visit) {
   visit("cameras", "A camera", scene.cameras);
   visit("lights", "A light source", scene.lights);
   visit("textures", "An image file or a generated map, and how it is sampled", scene.textures);
-  visit("environments", "Distant light as a function of direction", scene.environments);
+  visit("environments", "Light from infinitely far away, as a function of direction", scene.environments);
   visit("materials", "Surface properties that objects can share", scene.materials);
   visit("objects", "A shape with its surface and placement", scene.objects);
-  visit("particle_systems", "Further spheres drawn as points", scene.particle_systems);
-  visit("animations", "Change to a key over time", scene.animations);
+  visit("particle_systems", "Additional particles, with keys of their own", scene.particle_systems);
+  visit("animations", "How a key changes over time", scene.animations);
 }
 
 /// Calls visit(name, help, struct) for each section that occurs once.
@@ -378,7 +378,7 @@ void for_each_single(Scene& scene, F&& visit) {
   visit("post", "Conversion of light to pixel values; linear files (.exr, .hdr) are written without it", scene.post);
   visit("shadow", "How shadows are computed", scene.shadow);
   visit("particles", "Spheres drawn as points", scene.particles);
-  visit("animation", "Settings for all animations", scene.animation);
+  visit("animation", "Settings of all animations", scene.animation);
   visit("time", "The time of day", scene.time);
 }
 

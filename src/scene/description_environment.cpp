@@ -42,17 +42,18 @@ struct ChoiceNames<ParticleArrangement> {
 Section section_of(ParticlesDescription& p) {
   using T = ParticlesDescription;
   static const std::vector<Key> keys{
-      key<&T::sprite>("sprite", "original: a disk sized by the distance of its center; exact: the projected sphere"),
+      key<&T::sprite>("sprite",
+                      "How a sphere is drawn; original: a circle sized by the distance of its center; exact: its true projection"),
       key<&T::count>("count", "Number of generated spheres; 0: none", {.low = 0, .high = kMaxParticles}),
       key<&T::arrangement>("arrangement", "Arrangement of generated spheres"),
-      key<&T::file>("file", "File with rows x,y,z[,radius[,r,g,b]] (.csv), used instead of generated spheres"),
+      key<&T::file>("file", ".csv file with rows x,y,z[,radius[,r,g,b]], which replace the generated spheres"),
       key<&T::radius>("radius", "Radius of the spheres; 0: a fifth of orbit_radius for 12 spheres, smaller for more",
                       {.unit = "units", .low = 0, .high = 1e6}),
       key<&T::orbit_radius>("orbit_radius", "Radius of the helix, ball or galaxy; half the edge length of the grid",
                             {.unit = "units", .low = 1e-6, .high = 1e6}),
       key<&T::height>("height", "Height of the helix from its lowest to its highest sphere", {.unit = "units", .low = 0, .high = 1e6}),
       key<&T::angle>("angle", "Rotation of generated spheres around the y axis, from x to z", {.unit = "radians"}),
-      key<&T::point_scale>("point_scale", "Factor from radius / distance to point size; 0: the image width",
+      key<&T::point_scale>("point_scale", "Scale of the point size, which is proportional to radius / distance; 0: the image width",
                            {.unit = "px", .low = 0, .high = 1e6, .only = "original"}),
       key<&T::color>("color", "Multiplier for the spheres' colors", {.low = 0}),
       key<&T::ambient>("ambient", "Multiplier for the ambient light", {.low = 0}),
@@ -60,7 +61,7 @@ Section section_of(ParticlesDescription& p) {
       key<&T::specular>("specular", "Specular highlight factor, from the reflected ray", {.low = 0}),
       key<&T::shininess>("shininess", "Specular exponent; larger values give smaller and sharper highlights", {.low = 0, .high = 1e5}),
       key<&T::casts_shadow>("casts_shadow", "Whether exact spheres cast shadows"),
-      key<&T::receives_shadow>("receives_shadow", "Whether exact spheres receive shadows, also from one another"),
+      key<&T::receives_shadow>("receives_shadow", "Whether exact spheres receive shadows, including those of other spheres"),
   };
   return {{keys, &p}};
 }
@@ -126,7 +127,7 @@ Section section_of(PostDescription& p) {
       key<&T::white>("white", "Light that reinhard_extended maps to 1", {.low = 1e-3, .high = 1e6}),
       key<&T::encode>("encode", "Encoding of linear values: exact sRGB, or a power"),
       key<&T::gamma>("gamma", "Display gamma of encode gamma; its exponent is 1/gamma", {.low = 0.1, .high = 10}),
-      key<&T::dither>("dither", "Whether to hide banding with 8x8 ordered dithering"),
+      key<&T::dither>("dither", "Whether 8x8 ordered dithering hides banding"),
   };
   return {{keys, &p}};
 }

@@ -109,7 +109,7 @@ Section section_at(SceneDescription& scene, std::span<const std::string> words) 
 }
 
 std::vector<NamedSection> sections_of(SceneDescription& scene) {
-  std::vector<NamedSection> sections{{"", "The scene", section_of(scene.head), defaults_of<SceneHead>()}};
+  std::vector<NamedSection> sections{{"", "General settings", section_of(scene.head), defaults_of<SceneHead>()}};
   for_each_collection(scene, [&](const char* name, const char* help, auto& list) {
     using T = typename std::decay_t<decltype(list)>::value_type::second_type;
     for (auto& [thing, value] : list) {

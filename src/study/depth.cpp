@@ -105,7 +105,7 @@ Study study_depth(const StudyOptions& options, const Workers& workers) {
   Study study{
       .name = "depth",
       .title = "Depth formats: surfaces in the wrong order",
-      .setting = fmt::format("{:.0f} pairs of quads, 1/10,000 of the distance apart, near plane at 0.1, {}x{}; labels: format, far/near",
+      .setting = fmt::format("{:.0f} pairs of quads separated by 1/10,000 of their distance, near plane at 0.1, {}x{}; labels: format, far/near",
                              cells, size, size),
       .error_name = fmt::format("fraction of pairs in the wrong order (zero is plotted at {:.0e})", 0.1 / cells),
       .time_name = "frame",

@@ -87,7 +87,7 @@ class Sums {
 };
 
 // Returns the setting that differs from the defaults as the name of the variant, or an empty string for rows to leave out. The default
-// settings appear only once, as resolution 2048. Rows that vary the angle are left out: it belongs to the scene and is not a choice.
+// settings appear only once, as resolution 2048. Rows that vary the angle are omitted: it belongs to the scene and is not a choice.
 template <class Choice>  // a ShadowCase or a ShadowScore
 std::string name_of(const std::string& factor, const Choice& choice) {
   if (factor == "resolution") return std::to_string(choice.resolution);

@@ -18,7 +18,7 @@ using OrderedJson = nlohmann::ordered_json;
 
 constexpr const char* kHead = R"html(<!DOCTYPE html>
 <html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">
-<title>Halfspace: speed against accuracy</title>
+<title>Halfspace: accuracy and speed</title>
 <style>
 :root { color-scheme: light dark; --ink: #222; --ground: #fff; --faint: #ddd; --front: #eef4e6; }
 @media (prefers-color-scheme: dark) { :root { --ink: #e6e6e6; --ground: #16181c; --faint: #3a3d44; --front: #25301f; } }
@@ -28,7 +28,7 @@ th, td { padding: 2px 10px; text-align: right; border-bottom: 1px solid var(--fa
 tr.front { background: var(--front); } .pictures { display: flex; flex-wrap: wrap; gap: 10px; } figure { margin: 0; width: 200px; }
 figcaption { font-size: 12px; } figure img { width: 200px; image-rendering: pixelated; } nav a { margin-right: 1em; }
 </style></head><body>
-<h1>Speed against accuracy</h1>
+<h1>Accuracy and speed</h1>
 <p>Each point is one way to draw the same thing. The x axis shows its error compared with a reference, the y axis its time; both are
 logarithmic. Error bars span the quartiles of the times. The dashed line is the Pareto front, whose rows are shaded in the tables.</p>
 )html";

@@ -89,10 +89,11 @@ Study study_texture_filter(const StudyOptions& options, const Workers& workers) 
   Study study{
       .name = "texture_filter",
       .title = "Texture filters on a plane that reaches the horizon",
-      .setting = fmt::format("A checkered plane seen from 1 unit above, {}x{}; 512x512 texels per tile, sRGB", width, height),
+      .setting = fmt::format("A checkered plane seen from a height of 1 unit, {}x{}; 512x512 texels per tile, sRGB", width, height),
       .error_name = "RMS error of linear light over the image",
       .time_name = "frame",
-      .truth = {"1,024 bilinear lookups per pixel, in double", truth.error, "half the RMS difference of two halves", codes_of(truth.mean)},
+      .truth = {"1,024 bilinear lookups per pixel, in double", truth.error, "half the RMS difference between two halves of the lookups",
+                codes_of(truth.mean)},
   };
   // A quad in eye space (y up, −z forward) from below the lower edge of the image almost to the horizon; u = x and v = −z in tiles.
   const double scale = kTiles / (2.0 * kHalf), near = 0.3, far = 2000.0, wide = 2.0 * far;

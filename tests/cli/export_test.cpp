@@ -107,7 +107,7 @@ TEST_F(Export, ModelsAreConverted) {
 TEST_F(Export, WarnsAboutOmissions) {
   const Outcome o = run({"export", "day-night", "-o", "a.glb"});
   EXPECT_EQ(o.exit_code, 0) << o.err;
-  EXPECT_NE(o.err.find("environments and backgrounds are left out"), std::string::npos) << o.err;
+  EXPECT_NE(o.err.find("environments and backgrounds are omitted"), std::string::npos) << o.err;
 }
 
 TEST_F(Export, WarnsAboutLossesOfModelObjects) {

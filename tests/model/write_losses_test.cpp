@@ -124,9 +124,9 @@ TEST(WriteLosses, PlyContainsOnlyTheSelectedPoints) {
 TEST(WriteLosses, PlyAndStlWarnAboutOmittedPrimitives) {
   const Model all = model_of({cube_of(-1), primitives(MeshTopology::lines), primitives(MeshTopology::points)});
   const WrittenModel ply = written_model(all, "a.ply", ModelFormat::ply), stl = written_model(all, "a.stl", ModelFormat::stl);
-  EXPECT_EQ(warnings_with(ply, "lines are left out"), 1u);
-  EXPECT_EQ(warnings_with(ply, "points are left out"), 1u);
-  EXPECT_EQ(warnings_with(stl, "lines and points are left out"), 1u);
+  EXPECT_EQ(warnings_with(ply, "lines are omitted"), 1u);
+  EXPECT_EQ(warnings_with(ply, "points are omitted"), 1u);
+  EXPECT_EQ(warnings_with(stl, "lines and points are omitted"), 1u);
   const Model points = model_of({primitives(MeshTopology::points)}), triangles = model_of({cube_of(-1)});
   EXPECT_TRUE(written_model(points, "a.ply", ModelFormat::ply).warnings.empty());
   EXPECT_TRUE(written_model(triangles, "a.ply", ModelFormat::ply).warnings.empty());

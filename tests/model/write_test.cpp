@@ -349,7 +349,7 @@ TEST(WriteModel, WarnsAboutWhatGltfCannotStore) {
   std::string all;
   for (const std::string& warning : written.warnings) all += warning + "\n";
   EXPECT_NE(all.find("opacity map"), std::string::npos) << all;
-  EXPECT_NE(all.find("'stone' is left out"), std::string::npos) << all;
+  EXPECT_NE(all.find("'stone' is omitted"), std::string::npos) << all;
   EXPECT_TRUE(read_gltf("/none/a.glb", written.files[0].bytes, {}).warnings.empty());
 }
 

@@ -57,12 +57,12 @@ int SceneMaterials::add(const std::string& name, const DrawnMesh& drawn) {
     m.normal_map = texture_use(s.detail.map, s.detail.sampler, s.detail.flip_green);
     m.normal_scale = s.detail.strength;
   }
-  if (drawn.has_other_detail) warn_once(model_, "bump maps and the slopes of displaced spheres are left out");
+  if (drawn.has_other_detail) warn_once(model_, "bump maps and per-pixel slopes of displaced spheres are omitted");
   for (const MaterialFactor factor : {kAmbient, kDiffuse, kSpecular, kShininess}) {
     if (s.factors[factor].map != nullptr && s.factors[factor].map != s.factors[kColor].map)
-      warn_once(model_, "maps of ambient, diffuse and specular light and of shininess are left out");
+      warn_once(model_, "ambient, diffuse, specular and shininess maps are omitted");
   }
-  if (s.surroundings != nullptr) warn_once(model_, "reflections of the environment are left out");
+  if (s.surroundings != nullptr) warn_once(model_, "environment reflections are omitted");
   model_.materials.push_back(std::move(m));
   return static_cast<int>(model_.materials.size()) - 1;
 }

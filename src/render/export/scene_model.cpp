@@ -107,7 +107,7 @@ class SceneExporter {
     std::vector<int>& siblings = model_.nodes[node_of(name)].children;
     siblings.insert(siblings.end(), children.begin(), children.end());
     if (!o.model_animation.empty()) warn("animations of models are written, but the pose at model_time is not");
-    if (!o.material.empty() || !o.model_materials.empty()) warn("materials that replace those of model files are left out");
+    if (!o.material.empty() || !o.model_materials.empty()) warn("materials that replace those of model files are omitted");
     for (const std::string& warning : file.warnings) warn(warning);
   }
 
@@ -232,11 +232,11 @@ class SceneExporter {
 
   void warn_about_omissions() {
     const bool has_particles = scene_.particles.count > 0 || !scene_.particles.file.path.empty() || !scene_.particle_systems.empty();
-    if (has_particles) warn("particles are left out");
-    if (!scene_.environments.empty() || scene_.background.type != BackgroundType::color) warn("environments and backgrounds are left out");
+    if (has_particles) warn("particles are omitted");
+    if (!scene_.environments.empty() || scene_.background.type != BackgroundType::color) warn("environments and backgrounds are omitted");
     const auto is_ambient = [](const auto& light) { return light.second.ambient > 0.0; };
-    if (scene_.head.ambient.linear != glm::dvec3(0.0) || std::ranges::any_of(scene_.lights, is_ambient)) warn("ambient light is left out");
-    if (!scene_.animations.empty()) warn("animations of the scene are left out");
+    if (scene_.head.ambient.linear != glm::dvec3(0.0) || std::ranges::any_of(scene_.lights, is_ambient)) warn("ambient light is omitted");
+    if (!scene_.animations.empty()) warn("scene animations are omitted");
   }
 
   const SceneDescription& scene_;

@@ -3,12 +3,12 @@
 // Scenes as models, for export.
 //
 // * Every object becomes a node; its copies become instances. Exact spheres become icospheres with 20480 triangles. Objects of shape `file`
-//   contribute the nodes of their model. Hidden objects, shadow catchers and particles are left out.
+//   contribute the nodes of their model. Hidden objects, shadow catchers and particles are omitted.
 // * Materials are converted from Blinn-Phong to metallic-roughness: the base color is color · diffuse and metalness is 0. The roughness r
 //   with r² = sqrt(2/(shininess + 2)) gives the GGX distribution the width of the highlight, and the reflectance at normal incidence
 //   F0 = 4 r⁴ · specular, at most 1, its peak. Without specular light F0 is 0. Objects with shading `none` are unlit.
 // * Lights: an intensity of 1 is π candela or lux. All lights get physical falloff.
-// * Ambient light, environments, the background, the tone curve, bump maps and reflections have no equivalent and are left out.
+// * Ambient light, environments, the background, the tone curve, bump maps and reflections have no equivalent and are omitted.
 #pragma once
 
 #include "halfspace/model/model.h"
@@ -16,7 +16,7 @@
 
 namespace halfspace {
 
-/// Returns the scene as a model with images in memory. Model::warnings has one line for each kind of data that is left out. Throws
+/// Returns the scene as a model with images in memory. Model::warnings has one line for each kind of data that is omitted. Throws
 /// InputError if a file of the scene cannot be used.
 Model scene_model(SceneDescription scene, SceneAssets& assets);
 
