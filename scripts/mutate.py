@@ -9,7 +9,7 @@
   scripts/mutate.py list                  numbers, file names and what each fault does
     --resume      skips the faults that were caught before with the same sources
     --record      writes into each fault file which test caught the fault
-    --copies N    number of faults that are tried at a time, each in a copy of its own; default: half of the processor's cores
+    --copies N    number of faults tried at the same time, each in its own copy of the tree; default: half of the cores
 
 The last line is "N caught, M missed"; the exit code is 1 if any fault was missed. A fault is caught if a test fails that passes without the
 fault. A fault that does not compile proves nothing and counts as missed (warnings are not errors here).
@@ -165,7 +165,7 @@ class Copy:
         self.update(names)
 
     def update(self, names):
-        """Copies what differs and keeps the times of the other files, so that little is built again."""
+        """Copies the files that differ and keeps the times of all others, so that little is rebuilt."""
         for old in [path for path in self.root.rglob("*") if path.is_file()] if self.root.exists() else []:
             if str(old.relative_to(self.root)) not in set(names):
                 old.unlink()

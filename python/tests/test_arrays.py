@@ -171,7 +171,7 @@ def test_a_scene_without_a_camera_shows_everything():
     assert (scene.render((60, 60))[..., 0] > 0).sum() < 20
 
 
-def test_a_mesh_of_a_file_has_the_pixels_of_its_file(horse):
+def test_a_mesh_read_from_a_file_matches_the_file(horse):
     vertices, normals, faces = read_ply(horse)
     by_file = halfspace.Scene.load(horse, floor=False)
     by_arrays = halfspace.Scene()
@@ -267,7 +267,7 @@ NAN = np.where(np.arange(12).reshape(4, 3) == 7, np.nan, 0.5)
     (lambda: halfspace.Scene().add_light("sun"), "scene: lights.light_1.type: "),
     (lambda: halfspace.Scene(lighting="sun"), "lighting: is 'sun'; expected one of studio, none"),
 ])
-def test_wrong_arrays_are_named(make, words):
+def test_wrong_arrays_are_reported(make, words):
     with pytest.raises(halfspace.InputError) as error:
         make()
     assert str(error.value).startswith(words) and "\n" not in str(error.value)

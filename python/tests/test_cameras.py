@@ -148,7 +148,7 @@ def test_exact_spheres_reject_off_center_cameras():
     (lambda c: c.from_matrices(np.ones((4, 4)), pose=np.eye(4)), "camera: the projection matrix cannot be used; expected"),
     (lambda c: c.from_pose(2 * np.eye(4))._for_size(4, 4), "camera: the pose is not a rotation and a translation; expected"),
 ])
-def test_wrong_cameras_are_named(make, words):
+def test_wrong_cameras_are_reported(make, words):
     with pytest.raises(halfspace.InputError) as error:
         make(halfspace.Camera)
     assert str(error.value).startswith(words) and "\n" not in str(error.value)

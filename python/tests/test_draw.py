@@ -209,7 +209,7 @@ IMAGE = np.zeros((2, 2, 4), np.uint8)
     (lambda: draw.metallic(np.eye(4), eye=(0, 0, 1), lights=draw.light()), "lights: is a Light; expected a list of lights"),
     (lambda: draw.colored(np.eye(3)), "clip_from_object: has the shape (3, 3); expected (4, 4)"),
 ])
-def test_wrong_draws_are_named(make, words):
+def test_wrong_draws_are_reported(make, words):
     with pytest.raises(halfspace.InputError) as error:
         make()
     assert str(error.value).startswith(words) and "\n" not in str(error.value)

@@ -104,7 +104,7 @@ def test_depth_of_a_sphere_and_of_a_plane_of_a_scene_file():
     assert scene.objects == ["ball", "floor"]
 
 
-def test_a_batch_has_the_labels_of_single_frames(quads):
+def test_a_batch_matches_single_frames(quads):
     cameras = [look_down_z(d) for d in (3.5, 4, 6, 8)]
     batch = quads.label_batch(cameras, size=SIZE)
     for i, camera in enumerate(cameras):
@@ -135,13 +135,13 @@ def test_alpha_is_zero_where_nothing_is_drawn(quads):
     ({"outputs": "depth"}, "outputs: is 'depth'; expected a list of names"),
     ({"background_depth": float("nan")}, "background_depth: is nan; expected"),
 ])
-def test_wrong_arguments_are_named(quads, arguments, words):
+def test_wrong_arguments_are_reported(quads, arguments, words):
     with pytest.raises(halfspace.InputError) as error:
         quads.labels(size=SIZE, **arguments)
     assert str(error.value).startswith(words)
 
 
-def test_face_ids_are_those_of_the_given_faces():
+def test_face_ids_match_the_given_faces():
     vertices, faces, _, _ = sphere(6, 8)
     scene = halfspace.Scene(lighting="none")
     scene.add(halfspace.Mesh(vertices, faces, crease=0, material=WHITE))  # splits all vertices

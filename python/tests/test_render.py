@@ -13,7 +13,7 @@ from conftest import same_bytes
 SMALL = (160, 90)
 
 
-def test_moon_has_the_pixels_of_the_command_line(command_line):
+def test_moon_matches_the_command_line(command_line):
     path = command_line("moon", "--size", "160x90", "--set", "time.hours=18")
     picture = halfspace.render("moon", size=SMALL, set={"time.hours": 18})
     assert picture.shape == (90, 160, 3) and picture.dtype == np.uint8
@@ -21,17 +21,17 @@ def test_moon_has_the_pixels_of_the_command_line(command_line):
     assert not same_bytes(halfspace.render("moon", size=SMALL), path)
 
 
-def test_time_and_camera_have_the_pixels_of_the_command_line(command_line):
+def test_time_and_camera_match_the_command_line(command_line):
     path = command_line("day-night", "--size", "160x90", "--time", "2.5", "--set", "samples=2")
     assert same_bytes(halfspace.render("day-night", size=SMALL, time=2.5, set={"samples": 2}), path)
 
 
-def test_model_has_the_pixels_of_the_command_line(command_line, horse):
+def test_model_matches_the_command_line(command_line, horse):
     path = command_line(horse, "--size", "200x100", "--yaw", "-40", "--background", "#204060")
     assert same_bytes(halfspace.render(horse, size=(200, 100), yaw=-40, background="#204060"), path)
 
 
-def test_linear_light_has_the_values_of_the_command_line(command_line, program):
+def test_linear_light_matches_the_command_line(command_line, program):
     path = command_line("moon", "--size", "160x90", out="light.exr")
     light = halfspace.render("moon", size=SMALL, linear=True)
     assert light.shape == (90, 160, 4) and light.dtype == np.float32
@@ -41,7 +41,7 @@ def test_linear_light_has_the_values_of_the_command_line(command_line, program):
     assert subprocess.run([program, "compare", saved, path, "--tolerance", "0"], check=False, capture_output=True).returncode == 0
 
 
-def test_threads_do_not_change_a_bit():
+def test_threads_do_not_change_the_pixels():
     one = halfspace.render("moon", size=SMALL, threads=1)
     assert np.array_equal(one, halfspace.render("moon", size=SMALL, threads=3))
 
@@ -58,7 +58,7 @@ def test_alpha_is_the_fourth_channel():
     (lambda: halfspace.render("moon", size=SMALL, set={"moon.radius": "many"}), ["moon", "--set", "moon.radius=many"]),
     (lambda: halfspace.render("missing.glb", size=SMALL), ["missing.glb"]),
 ])
-def test_errors_have_the_line_of_the_command_line(program, call, arguments):
+def test_errors_match_the_command_line(program, call, arguments):
     with pytest.raises(halfspace.InputError) as error:
         call()
     assert isinstance(error.value, ValueError)
@@ -79,13 +79,13 @@ def test_errors_have_the_line_of_the_command_line(program, call, arguments):
     ({"set": {"moon.color": [[1, 2], [3]]}}, "moon.color: has elements that are not numbers; expected a sequence of numbers"),
     ({"camera": 5}, "camera: is a int; expected"),
 ])
-def test_wrong_arguments_are_named(arguments, words):
+def test_wrong_arguments_are_reported(arguments, words):
     with pytest.raises(halfspace.InputError) as error:
         halfspace.render("moon", **{"size": SMALL, **arguments})
     assert str(error.value).startswith(words) and "\n" not in str(error.value)
 
 
-def test_unknown_arguments_are_named():
+def test_unknown_arguments_are_reported():
     with pytest.raises(TypeError, match="yaww: unknown argument; expected one of aspect, yaw"):
         halfspace.render("model.glb", yaww=3)
 
@@ -102,7 +102,7 @@ def test_warnings_are_python_warnings(tmp_path):
             halfspace.render(model, size=SMALL)
 
 
-def test_pictures_show_and_save_themselves(tmp_path):
+def test_pictures_can_be_displayed_and_saved(tmp_path):
     picture = halfspace.render("moon", size=SMALL)
     assert picture._repr_png_().startswith(b"\x89PNG")
     assert picture[0]._repr_png_() is None and picture.astype(float)._repr_png_() is None

@@ -25,7 +25,7 @@ def test_keys_are_set_and_read():
         scene["moon.raduis"]
 
 
-def test_a_changed_scene_has_the_pixels_of_the_command_line(command_line):
+def test_a_changed_scene_matches_the_command_line(command_line):
     path = command_line("moon", "--size", "160x90", "--set", "moon.radius=0.75")
     scene = halfspace.Scene.load("moon")
     before = scene.render(SMALL)
@@ -34,7 +34,7 @@ def test_a_changed_scene_has_the_pixels_of_the_command_line(command_line):
     assert not np.array_equal(before, scene.render(SMALL))
 
 
-def test_frames_have_the_pixels_of_the_command_line(command_line):
+def test_frames_match_the_command_line(command_line):
     first = command_line("day-night", "--size", "160x90", "--frames", "3..5", "--fps", "2")
     frames = list(halfspace.Scene.load("day-night").frames(range(3, 6), size=SMALL, fps=2))
     assert len(frames) == 3
@@ -53,7 +53,7 @@ def test_frames_are_made_one_by_one_and_do_not_change_with_the_scene():
         next(frames)
 
 
-def test_a_batch_has_the_pixels_of_single_pictures():
+def test_a_batch_matches_single_pictures():
     scene = halfspace.Scene.load("moon", threads=3)
     cameras = [halfspace.Camera.look_at((3 * np.sin(a), 1, 3 * np.cos(a))) for a in np.linspace(0, 3, 7)]
     calls = []
@@ -84,7 +84,7 @@ def test_progress_can_use_the_scene_and_end_the_batch():
     assert scene.render_batch([], size=(16, 16)).shape == (0, 16, 16, 3)
 
 
-def test_a_scene_shows_itself():
+def test_a_scene_can_be_displayed():
     scene = halfspace.Scene.load("moon")
     assert scene._repr_png_() == scene.render((640, 360))._repr_png_()
 

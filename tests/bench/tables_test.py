@@ -69,16 +69,16 @@ class Tables(unittest.TestCase):
         self.assertAlmostEqual(reached, 1.048576)
         self.assertEqual((limit, unit), (4.0, "GB/s"))
 
-    def test_slope_of_what_grows_linearly_is_one(self):
+    def test_slope_of_linear_growth_is_one(self):
         self.assertAlmostEqual(bench_tables.slope([(10, 3), (100, 30), (1000, 300)]), 1.0)
 
-    def test_what_ran_beside_it_is_told(self):
+    def test_other_processes_are_reported(self):
         quiet = results()
         self.assertNotIn("Other processes", bench_tables.source_line(quiet))
         quiet.raw["machine"]["busy_after"] = 0.5
         self.assertIn("Other processes kept 0.5 cores busy", bench_tables.source_line(quiet))
 
-    def test_processors_of_one_name_are_told_apart(self):
+    def test_processors_with_the_same_name_are_distinguished(self):
         of_cores = "processor\t: 0\ncpu family\t: {}\nmodel\t\t: 17\nmodel name\t: AMD EPYC\n\nprocessor\t: 1\ncpu family\t: 9\nmodel name\t: other\n"
         self.assertEqual("AMD EPYC (family 25, model 17)", bench_measure.cpu_name(of_cores.format(25)))
         self.assertEqual("AMD EPYC (family 26, model 17)", bench_measure.cpu_name(of_cores.format(26)))
@@ -95,14 +95,14 @@ class Tables(unittest.TestCase):
         self.assertIn("| garden | 5.00 | 10.0 | 2.00x |", lines)
         self.assertEqual("| **geometric mean** |  |  | 2.83x |", lines[-1])  # the square root of 4 · 2
 
-    def test_every_section_is_made(self):
+    def test_every_section_is_generated(self):
         for name, text in bench_tables.sections(results()).items():
             self.assertTrue(text, name)
             for line in text.splitlines():
                 if line.startswith("| "):
                     self.assertTrue(line.endswith(" |"), line)
 
-    def test_documents_name_sections_that_exist(self):
+    def test_documents_contain_only_known_sections(self):
         sections = {name: "new" for name in bench_tables.sections(results())}
         root = Path(__file__).resolve().parents[2]
         for name in bench_report.DOCUMENTS:

@@ -140,13 +140,13 @@ class Package(unittest.TestCase):
         _, result = configure(HERE, "raster-only", f"-DCMAKE_PREFIX_PATH={PREFIX}", *(f"-DCMAKE_DISABLE_FIND_PACKAGE_{o}=ON" for o in others))
         self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
 
-    def test_a_missing_package_is_named(self):
+    def test_a_missing_package_is_reported(self):
         _, result = configure(HERE, "no-json", f"-DCMAKE_PREFIX_PATH={PREFIX}", "-DCOMPONENTS=raster;scene",
                               "-DCMAKE_DISABLE_FIND_PACKAGE_nlohmann_json=ON")
         self.assertNotEqual(result.returncode, 0)
         self.assertIn("Halfspace::scene needs the package nlohmann_json", " ".join(result.stderr.split()))
 
-    def test_an_unknown_component_is_named(self):
+    def test_an_unknown_component_is_reported(self):
         _, result = configure(HERE, "unknown", f"-DCMAKE_PREFIX_PATH={PREFIX}", "-DCOMPONENTS=raster;rays")
         self.assertNotEqual(result.returncode, 0)
         self.assertIn("There is no module rays", " ".join(result.stderr.split()))

@@ -80,7 +80,7 @@ class InstallScript(unittest.TestCase):
         self.assertRegex(out, r"^install\.sh: cannot write to .*; expected another prefix.*\n$")
         self.assertFalse((self.folder / "tree/built").exists())
 
-    def test_a_prefix_without_an_installation_is_named(self):
+    def test_a_prefix_without_an_installation_is_reported(self):
         out = self.run_script("--uninstall", self.prefix, code=1)
         self.assertRegex(out, r"^install\.sh: .* does not exist; expected a prefix that .*\n$")
 

@@ -45,7 +45,7 @@ class Wheel(unittest.TestCase):
     def test_it_is_built_for_the_instruction_set_of_the_arguments(self):
         self.assertEqual(self.python("import halfspace; print(halfspace._core.arch)"), "x86-64-v3")
 
-    def test_its_version_is_that_of_the_library(self):
+    def test_its_version_matches_the_library(self):
         code = "import halfspace, importlib.metadata as m; print(m.version('halfspace') == halfspace.__version__)"
         self.assertEqual(self.python(code), "True")
 

@@ -60,7 +60,7 @@ class Selection(unittest.TestCase):
         options = ("--glibc-hwcaps-mask", "x86-64-v3", "--glibc-hwcaps-prepend", "x86-64-v4")
         self.assertEqual(arch_of(LOADER, *options, self.program), "x86-64-v4")
 
-    def test_a_mask_without_any_library_gives_one_line(self):
+    def test_a_mask_without_any_library_gives_a_one_line_error(self):
         result = run(LOADER, "--glibc-hwcaps-mask", "x86-64-v2", self.program, "info")
         self.assertEqual(result.returncode, 1)
         self.assertRegex(result.stderr, r"^halfspace: libhalfspace-cli\.so\.\S+: cannot open.*\n$")

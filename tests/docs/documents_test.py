@@ -176,7 +176,7 @@ class Commands(unittest.TestCase):
                             count += 1
         self.assertGreater(count, 20, "found too few commands: the parser must be wrong")
 
-    def test_marked_commands_name_what_exists(self):
+    def test_marked_commands_refer_to_existing_files(self):
         for document in documents():
             for block in blocks(document):
                 if block.reason is None:

@@ -200,7 +200,7 @@ class Page(unittest.TestCase):
         self.open("earth", dark=True)
         self.assertNotEqual(self.run_script(background), light, "prefers-color-scheme: dark")
 
-    def test_coverage_of_the_page_is_that_of_the_renderer(self):
+    def test_coverage_on_the_page_matches_the_renderer(self):
         self.open("earth")
         own, expected = self.run_script("return [countCovered(), DATA.example.triangles[0].covered]")
         self.assertEqual(own, expected)

@@ -164,7 +164,7 @@ class Program(unittest.TestCase):
         self.assertEqual(self.run_script("studies", self.folder).returncode, 0)
         self.assertEqual(len(list(self.folder.glob("*.svg"))), 4)
 
-    def test_invalid_data_give_one_line(self):
+    def test_invalid_data_gives_a_one_line_error(self):
         incomplete = wave_study()
         del incomplete["truth"]
         for content in ("{", "[]", json.dumps(incomplete), json.dumps({**wave_study(), "variants": []})):

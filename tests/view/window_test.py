@@ -85,7 +85,7 @@ class Events(Folder):
     def pictures(self, *arguments):
         return [picture_of(file) for file in self.run_events(*arguments)]
 
-    def test_keys_set_what_render_sets(self):
+    def test_keys_match_the_options_of_render(self):
         cases = [
             ("earth", "0", ["--shading", "none"]),
             ("earth", "1", ["--shading", "flat"]),
@@ -159,7 +159,7 @@ class Events(Folder):
         frames = self.pictures("three-lights", events, 6)
         self.assertEqual(frames[5], self.rendered("three-lights", "--set", "cube.visible=false"))
 
-    def test_f12_saves_what_render_reproduces(self):
+    def test_f12_saves_a_scene_that_render_reproduces(self):
         for scene, options in [("earth", []), ("day-night", ["--time", "30.3"]), ("particles", [])]:
             with self.subTest(scene):
                 events = ["2 key q", "3 key w", "4 key 1", "5 key ]", "6 key f12"]
@@ -192,7 +192,7 @@ class Events(Folder):
         self.assertEqual(sizes[0], (WIDTH, HEIGHT))
         self.assertEqual(sizes[-1], (200, 120))
 
-    def test_the_interface_has_the_scale_that_is_asked_for(self):
+    def test_the_interface_has_the_requested_scale(self):
         def box(scale):
             """The width and height of the list of keys: the pixels that h changes."""
             first, second = [read_rows(f)[2] for f in self.run_events("earth", ["1 key h"], 3, *STILL, size="1000x900", scale=scale)[::2]]
@@ -214,7 +214,7 @@ class Events(Folder):
             self.assertEqual(lines["frames"], "3")
             self.assertGreater(float(lines["frame_ms"]), 0.0)
 
-    def test_mistakes_are_one_line(self):
+    def test_mistakes_are_reported_in_one_line(self):
         environment = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY", "SDL_VIDEODRIVER")}
         for arguments, code, words in [(["earth"], 3, "display"), (["erth"], 3, "earth"), (["earth", "--size", "0x0"], 2, "--size"),
                                        (["earth", "--no-window"], 2, "--frames"), (["earth", "--ui-scale", "9"], 2, "--ui-scale"),
@@ -340,7 +340,7 @@ class Desktop(Folder):
         self.tool("wmctrl", "-i", "-c", self.window)
         self.assertEqual(self.process.wait(60), 0)
 
-    def test_the_default_scale_is_that_of_the_desktop(self):
+    def test_the_default_scale_follows_the_desktop(self):
         def panel_width(*options):
             self.start("earth", *STILL, *options, size="1000x400")
             self.wait_for(lambda: any(self.screenshot()[2][0]), "first frame")  # the background is not black
