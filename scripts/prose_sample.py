@@ -55,6 +55,25 @@ def block_comments(path):
             yield begin + 1, "\n".join(lines[begin : end + LINES_AFTER])
 
 
+def docstrings(path):
+    text = path.read_text()
+    lines = text.splitlines()
+    for match in re.finditer(r'"""(?!\\).*?"""', text, re.S):
+        begin = text.count("\n", 0, match.start())
+        end = text.count("\n", 0, match.end()) + 1
+        if re.search("[a-z]{3}", match[0]):
+            yield begin + 1, "\n".join(lines[begin : end + LINES_AFTER])
+
+
+def page_texts(path):
+    """Sentences of the page of `halfspace explain`."""
+    text = path.read_text()
+    for match in re.finditer(r'"((?:\\.|[^"\\\n])*)"|`((?:\\.|[^`\\])*)`', text):
+        literal = re.sub(r"\$\{[^{}]*\}", "N", match[1] or match[2] or "")
+        if len(re.findall(r"\b[a-z]{2,}\b", literal)) >= 6 and re.search(r"[.?]", literal):
+            yield text.count("\n", 0, match.start()) + 1, f"page: {literal}"
+
+
 def sentences(path):
     text = path.read_text()
     text = re.sub(r"```.*?```", "", text, flags=re.S)
@@ -90,6 +109,11 @@ def candidates():
         add("message", path, messages(path))
     for path in tracked("*.py", "*.sh", "*.cmake", "*CMakeLists.txt"):
         add("comment", path, line_comments(path, "#"))
+    for path in tracked("*.py"):
+        add("comment", path, docstrings(path))
+    for path in tracked("src/explain/page/*.js"):
+        add("comment", path, line_comments(path, "//"))
+        add("message", path, page_texts(path))
     for path in tracked("*.md"):
         add("document", path, sentences(path))
     add("control", CONTROL, block_comments(CONTROL))

@@ -56,7 +56,7 @@ function timePlot() {
 
 chapter({
   id: "times", title: "Tile times", kicker: "The whole frame",
-  lead: () => `Which tiles take the most time? Each tile was rendered ${DATA.tile_times.runs} times on one thread of the machine that generated this page, and the shortest time is shown. Unlike most numbers of this page, times differ from machine to machine.`,
+  lead: () => `Which tiles take the most time? Each tile was rendered ${DATA.tile_times.runs} times on one thread of the machine that generated this page, and the shortest time is shown. Unlike most numbers on this page, times differ from machine to machine.`,
   steps: () => [
     {name: "Time per tile", caption: `All tiles together took ${fmt(allTimes, 3)} ms. Tiles of a single color are filled at once and were not timed.`, draw: timePicture},
     {name: "Time and primitives", caption: "Each dot is a tile. Primitives take time, but so does shading: a tile with a single triangle can be slow if its shader is slow.", draw: timePlot},
