@@ -66,7 +66,7 @@ bool is_tga_header(std::string_view head) {
 
 }  // namespace
 
-std::string small_extension(const std::filesystem::path& path) {
+std::string lower_case_extension(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
   std::ranges::transform(extension, extension.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
   return extension;
@@ -76,7 +76,7 @@ std::optional<ToolFormat> find_tool_format(const std::filesystem::path& path, st
   const auto found = std::ranges::find_if(kSignatures, [&](const Signature& s) { return head.starts_with(s.magic); });
   if (found != std::end(kSignatures)) return found->format;
   if (head.starts_with("RIFF") && text_from(head, 8).starts_with("WEBP")) return ToolFormat{"webp"};
-  if (is_tga_header(head) || small_extension(path) == ".tga") return ToolFormat{"targa"};
+  if (is_tga_header(head) || lower_case_extension(path) == ".tga") return ToolFormat{"targa"};
   return std::nullopt;
 }
 

@@ -33,6 +33,6 @@ std::optional<ToolFormat> find_tool_format(const std::filesystem::path& path, st
 std::string describe_contents(std::string_view head);
 
 /// Returns the extension of path in ASCII lower case, including the dot.
-std::string small_extension(const std::filesystem::path& path);
+std::string lower_case_extension(const std::filesystem::path& path);
 
 }  // namespace halfspace

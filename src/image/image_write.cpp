@@ -108,7 +108,7 @@ void write_jpeg(const std::filesystem::path& path, const Image<glm::u8vec4>& ima
 }  // namespace
 
 std::optional<ImageFile> image_file_of(const std::filesystem::path& path) {
-  const std::string extension = small_extension(path);
+  const std::string extension = lower_case_extension(path);
   if (extension == ".png") return ImageFile::png;
   if (extension == ".jpg" || extension == ".jpeg") return ImageFile::jpeg;
   if (extension == ".tif" || extension == ".tiff") return ImageFile::tiff;

@@ -81,7 +81,7 @@ class MaterialWriter {
     if (m.ior != 1.5f) out_.extend(json, "KHR_materials_ior", {{"ior", m.ior}});
     if (m.unlit) out_.extend(json, "KHR_materials_unlit", OutputJson::object());
     if (m.opacity_map.texture >= 0) leave_out("opacity map", "glTF stores opacity in the alpha channel of the base color");
-    if (m.bump_map.texture >= 0 && m.normal_map.texture < 0) leave_out("bump map", "glTF has only normal maps");
+    if (m.bump_map.texture >= 0 && m.normal_map.texture < 0) leave_out("bump map", "glTF supports only normal maps");
     out_.add("materials", std::move(json));
   }
 
@@ -137,7 +137,7 @@ class MaterialWriter {
     if (roughness && fits) {
       add_texture(json, "metallicRoughnessTexture", m.roughness_map, Channel::green);
     } else if (metallic || roughness) {
-      leave_out("metallic or roughness map", "glTF stores both in one image, in blue and green");
+      leave_out("metallic or roughness map", "glTF stores both in the blue and green channels of one image");
     }
     return json;
   }

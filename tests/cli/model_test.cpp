@@ -249,7 +249,7 @@ TEST_F(Models, BumpMapsTiltNormals) {
   EXPECT_GT(inverted.at(4, 8).x, flat.at(4, 8).x + 10);
 }
 
-TEST_F(Models, VertexColorsThatAreTransparentCastFainterShadows) {
+TEST_F(Models, TransparentVertexColorsCastFainterShadows) {
   const auto shadow = [&](const char* alpha) {
     std::string text =
         "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nproperty uchar red\n"

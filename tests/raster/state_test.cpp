@@ -478,7 +478,7 @@ TEST(Statistics, DeferredDrawsShadeOnlyVisibleFragments) {
   }
 }
 
-TEST(Statistics, BlocksBehindAreNotTested) {
+TEST(Statistics, OccludedBlocksAreNotTested) {
   // Draws eight layers from far to near. The bounds of each block are then made exact, so that the eight layers behind them are rejected
   // block by block.
   std::vector<glm::vec4> positions;
