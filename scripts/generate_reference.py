@@ -108,7 +108,7 @@ def main():
     stale = [name for name, text in files.items() if not (REFERENCE / name).exists() or (REFERENCE / name).read_text() != text]
     if arguments.check:
         if stale:
-            sys.exit(f"stale: {', '.join(f'docs/reference/{name}' for name in stale)}; expected a run of scripts/generate_reference.py")
+            sys.exit(f"stale: {', '.join(f'docs/reference/{name}' for name in stale)}; run scripts/generate_reference.py")
         return
     REFERENCE.mkdir(exist_ok=True)
     for name in stale:

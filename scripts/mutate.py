@@ -271,7 +271,7 @@ def run_faults(selected, options):
             pending.put((number, fault))
     counts = {True: len(selected) - pending.qsize(), False: 0}
     if counts[True]:
-        print(f"{counts[True]} faults have been caught before", flush=True)
+        print(f"{counts[True]} faults are skipped: they were caught before with the same sources", flush=True)
     jobs = max(1, (os.cpu_count() or 1) // options.copies)
     copies = [Copy(WORK / str(i), names, jobs) for i in range(min(options.copies, pending.qsize()))]
     lock = threading.Lock()

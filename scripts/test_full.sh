@@ -220,7 +220,7 @@ for name in "$@"; do
   fi
   echo "== $name"
   if $resume && grep -qxF "$tree $name" "$passed"; then
-    echo "   has passed before"
+    echo "   skipped: it passed before with the same sources"
     continue
   fi
   begin=$SECONDS
