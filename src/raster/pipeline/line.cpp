@@ -26,8 +26,6 @@ int64_t pixel_before(int64_t x) { return (x - 1) >> kSubPixelBits; }
 
 }  // namespace
 
-int line_pixels(float width) { return static_cast<int>(std::nearbyint(std::clamp(width, 1.0f, 4096.0f))); }
-
 LineRange line_range(const ScreenVertex& a, const ScreenVertex& b, int pixels) {
   const bool y_major = is_y_major(int64_t{b.x} - a.x, int64_t{b.y} - a.y);
   const auto major = [&](const ScreenVertex& v) { return y_major ? v.y : v.x; };

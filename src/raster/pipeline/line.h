@@ -8,13 +8,16 @@
 // pixels, both end points are treated as if moved by (−ε, −ε²), as in the specification.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 #include "halfspace/raster/pipeline/edge.h"
 #include "halfspace/raster/pipeline/pipeline_data.h"
 
 namespace halfspace {
 
 /// Returns the width of a line, rounded to an integer number of pixels from 1 to 4096.
-int line_pixels(float width);
+inline int line_pixels(float width) { return width <= 1.0f ? 1 : static_cast<int>(std::nearbyint(std::min(width, 4096.0f))); }
 
 /// Returns true if the line is y-major.
 inline bool is_y_major(int64_t dx, int64_t dy) { return (dx < 0 ? -dx : dx) < (dy < 0 ? -dy : dy); }

@@ -28,7 +28,8 @@ class DrawRangeSetup {
         assembly_(draw_, chunk.ranges[range].first),
         instance_(chunk.ranges[range].instance),
         slot_base_(shaded_.first - instance_ * shaded_.count),
-        provoking_(draw_.state.provoking == ProvokingVertex::first ? 0 : 2) {}
+        provoking_(draw_.state.provoking == ProvokingVertex::first ? 0 : 2),
+        outlines_directly_(can_outline_directly()) {}
 
   void submit_point() {
     const uint32_t id = next_slots()[0];
@@ -149,6 +150,14 @@ class DrawRangeSetup {
     if (why == Cull::no_sample) s.culled_no_sample += n;
   }
 
+  // Returns true if the edges of unclipped triangles are lines between vertices of the draw. Flat varyings are those of the provoking
+  // vertex, which may not belong to the edge, and the primitive id refers to clip vertices.
+  bool can_outline_directly() const {
+    const std::span modes(draw_.kernels.interpolations, static_cast<std::size_t>(draw_.kernels.varying_count));
+    return draw_.state.polygon_mode == PolygonMode::line && context_.samples == 1 && !draw_.kernels.uses_id &&
+           std::ranges::find(modes, Interpolation::flat) == modes.end();
+  }
+
   // Returns a bit mask of the clip distances for which a vertex is outside.
   uint32_t beyond_distances(uint32_t id) const {
     uint32_t beyond = 0;
@@ -166,11 +175,29 @@ class DrawRangeSetup {
     const bool needed = (any & kOutNeedsClip) != 0 || (a | b | c) != 0;
     if ((a & b & c) != 0) {
       ++chunk_.statistics.culled_outside;
+    } else if (!needed && outlines_directly_) {
+      append_outline(id);
     } else if (needed || draw_.state.polygon_mode != PolygonMode::fill) {
       clip(id, clip_triangle, needed);
     } else {
       append_whole(id);
     }
+  }
+
+  // Appends the edges of a triangle that need not be clipped. The result is the same as that of clip(), which would copy the vertices.
+  void append_outline(const std::array<uint32_t, 3>& id) {
+    const auto vertex = [&](std::size_t i) -> const ScreenVertex& { return shaded_.screen[id[i % 3]]; };
+    const int64_t area = orient2d(vertex(0), vertex(1), vertex(2));
+    if (area == 0) return count(Cull::degenerate, 1);
+    const bool front = (area > 0) == (draw_.state.front == Winding::counter_clockwise);
+    if (is_culled(draw_.state.cull, front)) return count(Cull::face, 1);
+    const std::size_t before = chunk_.triangles.size();
+    Cull why = Cull::none;
+    for (std::size_t i = 0; i < 3; ++i) {
+      why = append_line({&vertex(i), &vertex(i + 1)}, {id[i], id[(i + 1) % 3]}, 0, 0, front ? Facing::front : Facing::back);
+    }
+    if (chunk_.triangles.size() == before) count(why, 1);
+    note_source(before, id);
   }
 
   void append_whole(const std::array<uint32_t, 3>& id) {
@@ -332,7 +359,8 @@ class DrawRangeSetup {
   uint32_t instance_;
   uint32_t slot_base_;  ///< slot of a vertex = its index − slot_base_ (modulo 2^32)
   TriangleBatch batch_;
-  uint32_t provoking_;  ///< position of the provoking vertex among a primitive's three indices (a line repeats its second index)
+  uint32_t provoking_;      ///< position of the provoking vertex among a primitive's three indices (a line repeats its second index)
+  bool outlines_directly_;  ///< see can_outline_directly()
 };
 
 }  // namespace
