@@ -127,7 +127,7 @@ class TileDraws {
     if (d.mode == VisibilityMode::deferred || d.mode == VisibilityMode::depth_only) {
       decide_queued(d, memory_.queue, statistics_);
     } else {
-      shade_queued(d, memory_.queue, memory_.layers, memory_.shading.output, memory_.packed, statistics_);
+      shade_queued(d, memory_.queue, memory_.layers, memory_.shading.output, memory_.shading.packed, statistics_);
     }
   }
 

@@ -4,76 +4,22 @@
 #include <algorithm>
 #include <bit>
 
+#include "halfspace/core/lane_packing.h"
 #include "halfspace/raster/trace/tile_trace.h"
+#include "halfspace/raster/visibility/block_edges.h"
 #include "halfspace/raster/visibility/centroid.h"
 
 namespace halfspace {
 
 namespace {
 
-// Selects the pending pixels to shade, by whether their draw is shaded per pixel or per sample.
-enum class Share : uint8_t { per_pixel, per_sample };
-
-// One run over the pending pixels of a tile: the triangle of each pixel, and the samples that are written.
+// Pending pixels of a tile: the triangle of each, and the samples that are written.
 struct Job {
   const TriangleId* ids;  // indexed like the pixels of the tile's storage
   SamplePlane plane;
   SamplePosition position;
-  Share share;
+  bool spreads = false;  // a color is written to all samples that show the triangle; ids: DeferredShading::layers
 };
-
-bool is_in_cell(const Tile& tile, int packet) { return packet_x(packet) < tile.size && packet_y(packet) < tile.size; }
-
-// Lists the pending pixels by packet. A packet that shows several draws has an entry for each. Returns the number of entries.
-HS_INLINE int list_work(const PassContext& context, const Tile& tile, const Job& job, std::array<ShadingWork, kMaxTilePixels>& work) {
-  int count = 0;
-  const bool whole = tile.size == kMaxTileSize;
-  const int shift = packet_shift(job.plane);
-  const Draw* only_draw =
-      context.draws.size() == 1 && !context.draws[0].shades_samples && job.share == Share::per_pixel ? &context.draws[0] : nullptr;
-  for (int pixels = 0; pixels < kPackets; ++pixels) {
-    if (!whole && !is_in_cell(tile, pixels)) continue;
-    const int p = pixels + shift;
-    const TriangleId* ids = job.ids + static_cast<std::size_t>(p) * kLanes;
-    const Int packet_ids = load<Int>(ids);
-    uint32_t rest = bits(packet_ids != Int(std::bit_cast<int32_t>(kNoTriangle)));
-    const int first = count;
-    if (rest != 0 && only_draw != nullptr) {
-      work[static_cast<std::size_t>(count++)] = {only_draw, {static_cast<uint16_t>(p), static_cast<uint16_t>(rest)}};
-      continue;
-    }
-    while (rest != 0) {
-      const TriangleId id = ids[std::countr_zero(rest)];
-      const uint32_t same = bits(packet_ids == Int(std::bit_cast<int32_t>(id)));
-      rest &= ~same;
-      const Draw* draw = &draw_of(context, id);
-      if (draw->shades_samples != (job.share == Share::per_sample)) continue;
-      int i = first;
-      while (i < count && work[static_cast<std::size_t>(i)].draw != draw) ++i;
-      if (i == count) work[static_cast<std::size_t>(count++)] = {draw, {static_cast<uint16_t>(p), 0}};
-      ShadingWork& w = work[static_cast<std::size_t>(i)];
-      w.packet.lanes = static_cast<uint16_t>(w.packet.lanes | same);
-    }
-  }
-  return count;
-}
-
-// Writes the color of a pixel to all its samples in which the shaded triangle is visible.
-template <class Statistics>
-void write_samples(const Draw& draw, const FragmentOutput& out, std::size_t i, const PacketMask& packet, const TriangleId* ids, Tile& tile,
-                   [[maybe_unused]] Statistics& statistics) {
-  const Int shaded = load<Int>(ids + static_cast<std::size_t>(packet.packet) * kLanes);
-  for (int s = 0; s < tile.samples; ++s) {
-    const int sample_packet = packet.packet + packet_shift(sample_plane(tile.samples, s, tile.size));
-    const Mask shows = load<Int>(&tile.visibility[static_cast<std::size_t>(sample_packet) * kLanes]) == shaded;
-    const Mask mask = shows & mask_from_bits<Mask>(packet.lanes);
-    if (!any(mask)) continue;
-    const PacketMask sample{static_cast<uint16_t>(sample_packet), static_cast<uint16_t>(bits(mask))};
-    write_colors(draw, out, i, std::span(&sample, 1), tile);
-    if constexpr (kTraces<Statistics>)
-      statistics.trace->set_visible(kNoTriangle, tile, sample_packet, sample.lanes, out.packet_color(0, i));
-  }
-}
 
 // Records packets that were shaded, and written as packets 0, 1, ... of `out`.
 void trace_visible(TriangleId uniform, std::span<const PacketMask> packets, const FragmentOutput& out, const Tile& tile, TileTrace& trace) {
@@ -89,154 +35,184 @@ int32_t* direct_codes(const Draw& draw, Tile& tile) {
   return is_single ? reinterpret_cast<int32_t*>(tile.color[0].bytes.data()) : nullptr;
 }
 
-// Shades packets of one draw.
-template <class Statistics>
-void shade_draw(const PassContext& context, Tile& tile, const Job& job, const Draw& draw, std::span<const PacketMask> packets,
-                FragmentOutput& out, Statistics& statistics) {
-  const bool spreads = job.share == Share::per_pixel && tile.samples > 1;
-  const bool needs_centroid = draw.kernels.uses_centroid && spreads;
-  std::array<SamplePosition, kPacketBatch * kLanes> centroids;
-  FragmentBatch batch{
-      {.context = &context, .tile_x0 = tile.x0 - job.plane.x, .tile_y0 = tile.y0 - job.plane.y, .position = job.position, .ids = job.ids},
-      &out};
-  if (!spreads) batch.codes = direct_codes<Statistics>(draw, tile);
-  const std::size_t most = batch.codes != nullptr ? packets.size() : static_cast<std::size_t>(kPacketBatch);
-  for (; !packets.empty(); packets = packets.subspan(static_cast<std::size_t>(batch.count))) {
-    batch.packets = packets.data();
-    batch.count = static_cast<int>(std::min(packets.size(), most));
-    for (std::size_t i = 0; needs_centroid && i < static_cast<std::size_t>(batch.count); ++i) {
-      const int p = packets[i].packet;
-      find_centroids(context, tile.x0 + packet_x(p), tile.y0 + packet_y(p), job.ids + p * kLanes, kNoTriangle, &centroids[i * kLanes]);
-    }
-    if (needs_centroid) batch.centroids = centroids.data();
-    draw.kernels.color(draw.shader.get(), batch);
-    if (batch.codes != nullptr) continue;
-    const std::span<const PacketMask> shaded = packets.first(static_cast<std::size_t>(batch.count));
-    if (!spreads) write_colors(draw, out, 0, shaded, tile);
-    if constexpr (kTraces<Statistics>) {
-      if (!spreads) trace_visible(kNoTriangle, shaded, out, tile, *statistics.trace);
-    }
-    for (std::size_t i = 0; spreads && i < shaded.size(); ++i) write_samples(draw, out, i, shaded[i], job.ids, tile, statistics);
-  }
-}
+// Shades the packets of one draw.
+template <class S>
+class DrawShading {
+ public:
+  using Statistics = S;
 
-template <class Statistics>
-void run_job(const PassContext& context, Tile& tile, const Job& job, DeferredShading& memory, Statistics& statistics) {
-  std::array<ShadingWork, kMaxTilePixels>& work = memory.work;
-  const int count = list_work(context, tile, job, work);
-  // Sort by draw, so that each shader runs on full batches. The order does not affect the result, because pixels are independent.
-  const auto by_draw = [](const ShadingWork& a, const ShadingWork& b) { return a.draw < b.draw; };
-  if (!std::is_sorted(work.begin(), work.begin() + count, by_draw)) std::stable_sort(work.begin(), work.begin() + count, by_draw);
-  for (int begin = 0, end = 0; begin < count; begin = end) {
-    const Draw* draw = work[static_cast<std::size_t>(begin)].draw;
-    while (end < count && work[static_cast<std::size_t>(end)].draw == draw) {
-      const PacketMask& packet = work[static_cast<std::size_t>(end)].packet;
-      memory.packets[static_cast<std::size_t>(end++)] = packet;
-      statistics.fragments_shaded += static_cast<uint64_t>(std::popcount(packet.lanes));
-    }
-    shade_draw(context, tile, job, *draw,
-               std::span(memory.packets).subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin)), memory.output,
-               statistics);
-  }
-}
+  DrawShading(const PassContext& context, Tile& tile, const Job& job, const Draw& draw, DeferredShading& memory, Statistics& statistics)
+      : context_(context),
+        tile_(tile),
+        job_(job),
+        draw_(draw),
+        memory_(memory),
+        statistics_(statistics),
+        codes_(direct_codes<Statistics>(draw, tile)) {}
 
-// Returns the number of the first pixel of a packet in the sample plane of sample s.
-std::size_t first_pixel(const Tile& tile, int packet, int s) {
-  return static_cast<std::size_t>(packet + packet_shift(sample_plane(tile.samples, s, tile.size))) * kLanes;
-}
-
-// Returns the lanes whose triangle is shaded per pixel. lanes: those that show a triangle.
-uint32_t shaded_per_pixel(const PassContext& context, const TriangleId* ids, uint32_t lanes) {
-  const Int packet_ids = load<Int>(ids);
-  uint32_t result = 0;
-  for (uint32_t rest = lanes; rest != 0;) {
-    const TriangleId id = ids[std::countr_zero(rest)];
-    const uint32_t same = bits(packet_ids == Int(std::bit_cast<int32_t>(id)));
-    if (!draw_of(context, id).shades_samples) result |= same & lanes;
-    rest &= ~same;
-  }
-  return result;
-}
-
-constexpr int32_t kNoneInLane = std::bit_cast<int32_t>(kNoTriangle);
-
-// Selects one triangle of each pixel at a time from the samples of a tile.
-struct LayerSelection {
-  const PassContext& context;
-  const Tile& tile;
-  bool may_shade_samples;  // false: no draw of the pass runs its fragment function per sample
-  DeferredShading& memory;
-
-  // Returns true if, in every pixel of the packet, all samples show the same triangle or none, and all triangles are shaded per pixel.
-  bool agree(int packet) const {
-    const TriangleId* ids = &tile.visibility[first_pixel(tile, packet, 0)];
-    const Int first = load<Int>(ids);
-    Mask same(true);
-    for (int s = 1; s < tile.samples; ++s) same = same & (load<Int>(&tile.visibility[first_pixel(tile, packet, s)]) == first);
-    if (!all(same)) return false;
-    const uint32_t shown = bits(first != Int(kNoneInLane));
-    return !may_shade_samples || shaded_per_pixel(context, ids, shown) == shown;
-  }
-
-  // Selects one unshaded triangle of each pixel of a packet, as next() does. Returns false if there is none left.
-  bool next_of_packet(int packet) const {
-    Int layer(kNoneInLane);
-    for (int s = 0; s < tile.samples; ++s) {
-      uint16_t& taken = memory.taken[static_cast<std::size_t>(packet)][static_cast<std::size_t>(s)];
-      const TriangleId* at = &tile.visibility[first_pixel(tile, packet, s)];
-      const Int ids = load<Int>(at);
-      const Mask open = !mask_from_bits<Mask>(taken), is_empty = ids == Int(kNoneInLane);
-      Mask may_start = layer == Int(kNoneInLane);
-      if (may_shade_samples) may_start = may_start & mask_from_bits<Mask>(shaded_per_pixel(context, at, bits(open & !is_empty)));
-      const Mask selected = open & !is_empty & (may_start | (ids == layer));
-      layer = select(selected, ids, layer);
-      taken = static_cast<uint16_t>(taken | bits(selected | (open & is_empty)));
-    }
-    store(&memory.layer[first_pixel(tile, packet, 0)], layer);
-    return any(layer != Int(kNoneInLane));
-  }
-
-  // Selects one unshaded triangle of each pixel, in the order of its samples. Returns false if there is none left. is_first: nothing was
-  // selected before.
-  bool next(bool is_first) const {
-    bool found = false;
-    for (int packet = 0; packet < kPackets; ++packet) {
-      if (!is_in_cell(tile, packet)) continue;
-      const std::span taken(memory.taken[static_cast<std::size_t>(packet)].data(), static_cast<std::size_t>(tile.samples));
-      const std::size_t first = first_pixel(tile, packet, 0);
-      if (is_first && agree(packet)) {
-        const Int ids = load<Int>(&tile.visibility[first]);
-        store(&memory.layer[first], ids);
-        std::ranges::fill(taken, static_cast<uint16_t>(kAllBits<Mask>));
-        found |= any(ids != Int(kNoneInLane));
-      } else if (std::ranges::all_of(taken, [](uint16_t lanes) { return lanes == kAllBits<Mask>; })) {
-        std::fill_n(&memory.layer[first], kLanes, kNoTriangle);
+  void shade(std::span<const PacketMask> packets) {
+    const bool may_pack = !kTraces<Statistics> && !draw_.shades_samples && can_pack(draw_, tile_);
+    const bool packs = may_pack && pays_to_pack(draw_, packets);
+    if (packs) return shade_packed(packets);
+    if (!job_.spreads) return shade_plane(packets, job_.plane);
+    for (int n = 0; n < tile_.samples; ++n) {
+      const SamplePlane plane = sample_plane(tile_.samples, n, tile_.size);
+      const std::span<const PacketMask> in_plane = packets_in(plane, packets);
+      if (n > 0 && may_pack && pays_to_pack(draw_, in_plane)) {
+        shade_packed(in_plane);
       } else {
-        found |= next_of_packet(packet);
+        shade_plane(in_plane, plane);
       }
     }
-    return found;
   }
+
+ private:
+  // Returns the packets that are stored in a sample plane.
+  std::span<const PacketMask> packets_in(const SamplePlane& plane, std::span<const PacketMask> packets) {
+    std::size_t count = 0;
+    for (const PacketMask& p : packets) {
+      const int x = packet_x(p.packet) - plane.x, y = packet_y(p.packet) - plane.y;
+      memory_.plane_packets[count] = p;
+      count += x >= 0 && y >= 0 && x < tile_.size && y < tile_.size ? 1 : 0;
+    }
+    return std::span(memory_.plane_packets).first(count);
+  }
+
+  void shade_plane(std::span<const PacketMask> packets, const SamplePlane& plane) {
+    const bool needs_centroid = draw_.kernels.uses_centroid && job_.spreads;
+    std::array<SamplePosition, kPacketBatch * kLanes> centroids;
+    FragmentBatch batch{
+        {.context = &context_, .tile_x0 = tile_.x0 - plane.x, .tile_y0 = tile_.y0 - plane.y, .position = job_.position, .ids = job_.ids},
+        &memory_.output};
+    batch.codes = codes_ != nullptr && job_.spreads ? memory_.codes.data() : codes_;
+    const std::size_t most = batch.codes != nullptr && !needs_centroid ? packets.size() : static_cast<std::size_t>(kPacketBatch);
+    for (; !packets.empty(); packets = packets.subspan(static_cast<std::size_t>(batch.count))) {
+      batch.packets = packets.data();
+      batch.count = static_cast<int>(std::min(packets.size(), most));
+      for (std::size_t i = 0; needs_centroid && i < static_cast<std::size_t>(batch.count); ++i) {
+        const int p = packets[i].packet;
+        find_centroids(context_, batch.tile_x0 + packet_x(p), batch.tile_y0 + packet_y(p), job_.ids + p * kLanes, kNoTriangle,
+                       &centroids[i * kLanes]);
+      }
+      if (needs_centroid) batch.centroids = centroids.data();
+      draw_.kernels.color(draw_.shader.get(), batch);
+      const std::span<const PacketMask> shaded = packets.first(static_cast<std::size_t>(batch.count));
+      if (batch.codes == nullptr) {
+        write(shaded);
+      } else if (job_.spreads) {
+        for (const PacketMask& p : shaded) spread_codes(p, load<Int>(&memory_.codes[static_cast<std::size_t>(p.packet) * kLanes]));
+      }
+    }
+  }
+
+  // Shades full packets of the pixels.
+  void shade_packed(std::span<const PacketMask> packets) {
+    PackedFragments& packed = memory_.packed;
+    std::array<int32_t, PackedPixels::kCapacity + kLanes> codes;  // unpacking reads past the last pixel
+    while (!packets.empty()) {
+      const std::size_t count = pack_visible(packets, job_.ids, tile_.size, packed.pixels);
+      FragmentBatch batch{packed.pixels.batch(context_, tile_), &packed.output};
+      if (codes_ != nullptr) batch.codes = codes.data();
+      draw_.kernels.color(draw_.shader.get(), batch);
+      if (codes_ != nullptr) {
+        std::size_t pixel = 0;
+        for (const PacketMask& p : packets.first(count)) {
+          const Int code = as_int(unpack_lanes(load<Real>(reinterpret_cast<const float*>(&codes[pixel])), p.lanes));
+          job_.spreads ? spread_codes(p, code) : write_codes(p.packet, mask_from_bits<Mask>(p.lanes), code);
+          pixel += static_cast<std::size_t>(std::popcount(p.lanes));
+        }
+      } else {
+        std::size_t pixel = 0;
+        for (std::size_t done = 0; done < count; done += kPacketBatch) {
+          const std::span<const PacketMask> shaded = packets.subspan(done, std::min(std::size_t{kPacketBatch}, count - done));
+          pixel = unpack(draw_.kernels, packed.output, pixel, shaded, memory_.output);
+          write(shaded);
+        }
+      }
+      packets = packets.subspan(count);
+    }
+  }
+
+  HS_INLINE void write_codes(int packet, Mask mask, Int code) {
+    int32_t* to = codes_ + static_cast<std::size_t>(packet) * kLanes;
+    store(to, select(mask, code, load<Int>(to)));
+  }
+
+  // Calls f(packet of the sample, mask) for all samples that show the triangles of a packet of `layers`.
+  template <class F>
+  HS_INLINE void for_each_sample(const PacketMask& packet, const F& f) {
+    const Int shaded = load<Int>(job_.ids + static_cast<std::size_t>(packet.packet) * kLanes);
+    const Mask lanes = mask_from_bits<Mask>(packet.lanes);
+    const int pixels = packet_at(packet_x(packet.packet) & (tile_.size - 1), packet_y(packet.packet) & (tile_.size - 1));
+    for (int s = 0; s < tile_.samples; ++s) {
+      const int sample_packet = pixels + packet_shift(sample_plane(tile_.samples, s, tile_.size));
+      const Mask shows = load<Int>(&tile_.visibility[static_cast<std::size_t>(sample_packet) * kLanes]) == shaded;
+      f(sample_packet, shows & lanes);
+    }
+  }
+
+  HS_INLINE void spread_codes(const PacketMask& packet, Int code) {
+    for_each_sample(packet, [&](int sample_packet, Mask mask) { write_codes(sample_packet, mask, code); });
+  }
+
+  // Writes packets that were shaded as packets 0, 1, ... of the output.
+  void write(std::span<const PacketMask> packets) {
+    const FragmentOutput& out = memory_.output;
+    if (!job_.spreads) {
+      write_colors(draw_, out, 0, packets, tile_);
+      if constexpr (kTraces<Statistics>) trace_visible(kNoTriangle, packets, out, tile_, *statistics_.trace);
+      return;
+    }
+    for (std::size_t i = 0; i < packets.size(); ++i) {
+      for_each_sample(packets[i], [&](int sample_packet, Mask mask) {
+        if (!any(mask)) return;
+        const PacketMask sample{static_cast<uint16_t>(sample_packet), static_cast<uint16_t>(bits(mask))};
+        write_colors(draw_, out, i, std::span(&sample, 1), tile_);
+        if constexpr (kTraces<Statistics>)
+          statistics_.trace->set_visible(kNoTriangle, tile_, sample_packet, sample.lanes, out.packet_color(0, i));
+      });
+    }
+  }
+
+  const PassContext& context_;
+  Tile& tile_;
+  const Job& job_;
+  const Draw& draw_;
+  DeferredShading& memory_;
+  Statistics& statistics_;
+  int32_t* codes_;  // colors of the tile, if the kernel can encode them
 };
 
-// Returns false if no draw of the pass runs its fragment function per sample. A long list of draws is not searched for each tile.
-bool may_shade_samples(const PassContext& context) {
-  constexpr std::size_t max_searched = 64;
-  return context.draws.size() > max_searched || std::ranges::any_of(context.draws, &Draw::shades_samples);
+// Shades the work draw by draw, so that each shader runs on full batches. The order of the draws does not affect the result, because pixels
+// are independent.
+template <class Statistics>
+void run_job(const PassContext& context, Tile& tile, const Job& job, std::span<ShadingWork> work, DeferredShading& memory,
+             Statistics& statistics) {
+  constexpr int max_passes = 8;  // over the work of a tile with many draws, before it is sorted
+  const auto by_draw = [](const ShadingWork& a, const ShadingWork& b) { return a.draw < b.draw; };
+  bool is_sorted = std::ranges::is_sorted(work, by_draw);
+  for (int pass = 0; !work.empty(); ++pass) {
+    if (pass == max_passes && !is_sorted) {
+      std::ranges::stable_sort(work, by_draw);
+      is_sorted = true;
+    }
+    const Draw& draw = *work.front().draw;
+    const std::size_t count = is_sorted ? take_sorted_draw(work, memory.packets) : take_draw(work, memory.packets);
+    const std::span<const PacketMask> packets = std::span(memory.packets).first(count);
+    for (const PacketMask& p : packets) statistics.fragments_shaded += static_cast<uint64_t>(std::popcount(p.lanes));
+    DrawShading(context, tile, job, draw, memory, statistics).shade(packets);
+  }
 }
 
 template <class Statistics>
 void shade_deferred_samples(const PassContext& context, Tile& tile, DeferredShading& memory, Statistics& statistics) {
-  const LayerSelection layers{context, tile, may_shade_samples(context), memory};
-  for (int s = 0; s < tile.samples && layers.may_shade_samples; ++s) {
-    run_job(context, tile,
-            {tile.visibility.data(), sample_plane(tile.samples, s, tile.size), sample_position(tile.samples, s), Share::per_sample}, memory,
-            statistics);
+  const bool per_sample = may_shade_samples(context);
+  for (int s = 0; s < tile.samples && per_sample; ++s) {
+    const Job job{tile.visibility.data(), sample_plane(tile.samples, s, tile.size), sample_position(tile.samples, s)};
+    run_job(context, tile, job, list_work(context, tile, job.ids, job.plane, Share::per_sample, memory.work), memory, statistics);
   }
-  memory.taken.fill({});
-  for (bool is_first = true; layers.next(is_first); is_first = false) {
-    run_job(context, tile, {memory.layer.data(), {0, 0}, kPixelCenter, Share::per_pixel}, memory, statistics);
-  }
+  run_job(context, tile, {memory.layers.data(), {0, 0}, kPixelCenter, true}, list_layers(context, tile, memory.layers, memory.work), memory,
+          statistics);
 }
 
 }  // namespace
@@ -245,12 +221,12 @@ template <class Statistics>
 void shade_full_tile(const PassContext& context, TriangleId id, Tile& tile, DeferredShading& memory, Statistics& statistics) {
   const Draw& draw = draw_of(context, id);
   statistics.fragments_shaded += kMaxTilePixels;
-  std::fill_n(memory.layer.begin(), kPackets, id);
+  std::fill_n(memory.layers.begin(), kPackets, id);
   for (std::size_t p = 0; p < kPackets; ++p) memory.packets[p] = {static_cast<uint16_t>(p), static_cast<uint16_t>(kAllBits<Mask>)};
   FragmentBatch batch{{.context = &context,
                        .tile_x0 = tile.x0,
                        .tile_y0 = tile.y0,
-                       .packet_ids = memory.layer.data(),
+                       .packet_ids = memory.layers.data(),
                        .packets = memory.packets.data(),
                        .count = kPackets},
                       &memory.output,
@@ -271,7 +247,8 @@ template void shade_full_tile(const PassContext&, TriangleId, Tile&, DeferredSha
 template <class Statistics>
 void shade_deferred(const PassContext& context, Tile& tile, DeferredShading& memory, Statistics& statistics) {
   if (tile.samples == 1) {
-    run_job(context, tile, {tile.visibility.data(), {0, 0}, kPixelCenter, Share::per_pixel}, memory, statistics);
+    const Job job{tile.visibility.data(), {0, 0}, kPixelCenter};
+    run_job(context, tile, job, list_work(context, tile, job.ids, job.plane, Share::per_pixel, memory.work), memory, statistics);
   } else {
     shade_deferred_samples(context, tile, memory, statistics);
   }

@@ -3,24 +3,20 @@
 // Deferred shading: shades each visible pixel of a tile once, after visibility.
 #pragma once
 
-#include "halfspace/raster/shade/fragment_batch.h"
+#include "halfspace/raster/shade/packed_fragments.h"
+#include "halfspace/raster/shade/visible_work.h"
 
 namespace halfspace {
-
-/// Pixels of a packet that show the same draw.
-struct ShadingWork {
-  const Draw* draw;
-  PacketMask packet;
-};
 
 /// Scratch memory for shade_deferred().
 struct DeferredShading {
   FragmentOutput output;  ///< not on the stack, because a kernel with many colors needs most of a small stack
-  std::array<ShadingWork, kMaxTilePixels> work;
-  std::array<PacketMask, kMaxTilePixels> packets;  ///< the packets of `work`
-  std::array<TriangleId, kMaxTilePixels> layer;    ///< one triangle of each multisampled pixel
-  /// Lanes of the samples of each packet whose triangle has been in a layer, or that show none.
-  std::array<std::array<uint16_t, kMaxSamples>, kPackets> taken;
+  PackedFragments packed;
+  ShadingWorkList work;
+  std::array<PacketMask, kMaxTilePixels> packets;         ///< the packets of one draw
+  std::array<PacketMask, kMaxTilePixels> plane_packets;   ///< those of one sample plane
+  std::array<TriangleId, kMaxTilePixels> layers;          ///< see list_layers()
+  alignas(64) std::array<int32_t, kMaxTilePixels> codes;  ///< shaded colors of multisampled pixels, indexed like `layers`
 };
 
 /// Shades all pixels of the tile that have a visible triangle but no color yet, and writes their colors. Statistics: see

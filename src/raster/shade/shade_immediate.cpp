@@ -4,90 +4,12 @@
 #include <algorithm>
 #include <bit>
 
-#include "halfspace/raster/trace/tile_trace.h"
+#include "halfspace/raster/shade/late_tests.h"
 #include "halfspace/raster/visibility/centroid.h"
-#include "halfspace/raster/visibility/depth_stencil_test.h"
 
 namespace halfspace {
 
 namespace {
-
-// Data that all fragments share.
-template <class S>
-struct ImmediateShading {
-  using Statistics = S;
-
-  const PassContext& context;
-  const Draw& draw;
-  VisibilityMode mode;
-  Tile& tile;
-  TransparentLayers& layers;
-  FragmentOutput& output;
-  const StencilFace* stencil;  // null: no stencil test after shading
-  bool tests_late;             // depth is tested after shading
-  Statistics& statistics;
-};
-template <class Shading>
-inline constexpr bool kTracesShading = kTraces<typename Shading::Statistics>;
-
-// Records that the fragment function ran for packet i of a batch. If no other outcome follows, the fragments were discarded.
-template <class Shading>
-void trace_shaded(const Shading& c, const FragmentOutput& out, std::size_t i, const PacketMask& packet, TriangleId id) {
-  c.statistics.trace->set_shaded(id, packet.packet, packet.lanes, out.packet_color(0, i));
-  c.statistics.trace->set_outcome(id, packet.packet, packet.lanes, FragmentOutcome::discarded);
-}
-
-// Records that packet i was written.
-template <class Shading>
-void trace_written(const Shading& c, const PacketMask& packet, TriangleId id) {
-  c.statistics.trace->set_outcome(id, packet.packet, packet.lanes,
-                                  blend_of(c.draw.state, 0) ? FragmentOutcome::blended : FragmentOutcome::shaded);
-  c.statistics.trace->set_value(id, packet.packet, packet.lanes, c.tile.color[0]);
-}
-
-// OpenGL 4.6, section 17.3.1: alpha to coverage enables the first round(alpha · samples) samples.
-Mask alpha_covers(Real alpha, int samples, int sample) {
-  return alpha * Real(static_cast<float>(samples)) >= Real(static_cast<float>(sample) + 0.5f);
-}
-
-// Returns the depth of the fragments of packet i of a batch, as represented in the tile. z: depth of the triangle.
-template <class Shading>
-Real late_depth(const Shading& c, const FragmentOutput& out, std::size_t i, Real z) {
-  if (c.mode != VisibilityMode::cover_only) return z;
-  return depth_value(c.tile.depth_format, clamp(out.depth[i], Real(c.draw.depth_low), Real(c.draw.depth_high)));
-}
-
-// Runs the tests that come after the shader on packet i of a batch, with depth z. Returns the lanes to draw; writes depth and stencil.
-template <class Shading>
-Mask late_tests(const Shading& c, const FragmentOutput& out, std::size_t i, int packet, Mask mask, Real z, [[maybe_unused]] TriangleId id) {
-  const DepthState& state = c.draw.state.depth;
-  if (c.draw.kernels.discards) mask = mask & mask_from_bits<Mask>(out.keep[i]);
-  if constexpr (kTracesShading<Shading>) {
-    c.statistics.trace->set_depth(id, packet, bits(mask), z, load<Real>(&c.tile.depth[static_cast<std::size_t>(packet) * kLanes]));
-    c.statistics.trace->set_outcome(id, packet, bits(mask), FragmentOutcome::depth_failed);  // unless something else follows
-  }
-  if (c.stencil != nullptr) {
-    const Mask stencil_passed = stencil_test(*c.stencil, c.tile, packet, mask);
-    const Mask passed = depth_test(state, c.tile, packet, z, stencil_passed);
-    if constexpr (kTracesShading<Shading>)
-      c.statistics.trace->set_outcome(id, packet, bits(mask & !stencil_passed), FragmentOutcome::stencil_failed);
-    update_stencil(*c.stencil, c.tile, packet, mask & !stencil_passed, stencil_passed & !passed, passed);
-    mask = passed;
-  } else if (c.tests_late) {
-    mask = depth_test(state, c.tile, packet, z, mask);
-  }
-  c.statistics.samples_passed += static_cast<uint64_t>(std::popcount(bits(mask)));
-  write_depth(state, c.tile, packet, z, mask);
-  return mask;
-}
-
-template <class Shading>
-void add_to_layers(const Shading& c, const FragmentOutput& out, std::size_t i, int packet, Mask mask, Real z,
-                   [[maybe_unused]] TriangleId id) {
-  const Mask merged = c.layers.add(packet, mask, z, out.packet_color(0, i));
-  c.statistics.layers_merged += static_cast<uint64_t>(std::popcount(bits(merged)));
-  if constexpr (kTracesShading<Shading>) c.statistics.trace->add_layers(id, packet, bits(mask), bits(merged));
-}
 
 // Packets of one triangle.
 template <class Statistics>
@@ -109,11 +31,6 @@ void finish_sample(const Shading& c, const FragmentOutput& out, std::size_t i, i
   const PacketMask drawn{packet.packet, static_cast<uint16_t>(bits(mask))};
   write_colors(c.draw, out, i, std::span(&drawn, 1), c.tile);
   if constexpr (kTracesShading<Shading>) trace_written(c, drawn, c.id);
-}
-
-template <class Shading>
-void count_fragments(const Shading& c, const PacketMask* packets, int count) {
-  for (int i = 0; i < count; ++i) c.statistics.fragments_shaded += static_cast<uint64_t>(std::popcount(packets[i].lanes));
 }
 
 // Runs the fragment function on packets, and calls finish(out, index in the batch, packet) for each of them.
@@ -205,83 +122,7 @@ void shade_pixels(const Shading& c) {
   });
 }
 
-// Runs the tests of packet i of a batch, which is packet k of the queue. Returns the lanes whose color must be written.
-template <class Shading>
-uint16_t finish_queued(const Shading& c, const PacketQueue& queue, std::size_t k, std::size_t i) {
-  const PacketMask& packet = queue.packets[k];
-  const Real z = late_depth(c, c.output, i, queue.depth[k]);
-  const Mask mask = late_tests(c, c.output, i, packet.packet, mask_from_bits<Mask>(packet.lanes), z, queue.ids[k]);
-  if (!c.draw.state.order_independent) return static_cast<uint16_t>(bits(mask));
-  add_to_layers(c, c.output, i, packet.packet, mask, z, queue.ids[k]);
-  return 0;
-}
-
-// Writes packets one by one, so that the color after each of them is known.
-template <class Shading>
-void write_traced(const Shading& c, std::span<const PacketMask> packets, const TriangleId* ids) {
-  for (std::size_t i = 0; i < packets.size(); ++i) {
-    write_colors(c.draw, c.output, i, packets.subspan(i, 1), c.tile);
-    trace_written(c, packets[i], ids[i]);
-  }
-}
-
-// Runs the late tests of packets that were shaded as packets 0, 1, ... of the output, and writes them. begin: number of the first in the
-// queue.
-template <class Shading>
-void finish_batch(const Shading& c, PacketQueue& queue, std::size_t begin, std::size_t n) {
-  PacketMask* packets = &queue.packets[begin];
-  for (std::size_t i = 0; c.mode != VisibilityMode::early && i < n; ++i) packets[i].lanes = finish_queued(c, queue, begin + i, i);
-  if (c.draw.state.order_independent) return;
-  const std::span<const PacketMask> written(packets, n);
-  if constexpr (kTracesShading<Shading>) {
-    write_traced(c, written, &queue.ids[begin]);
-  } else {
-    write_colors(c.draw, c.output, 0, written, c.tile);
-  }
-}
-
-// Shades packets of the queue as they are. Returns their number.
-template <class Shading>
-std::size_t shade_batch(const Shading& c, PacketQueue& queue, std::size_t begin) {
-  const std::size_t n = std::min(std::size_t{kPacketBatch}, static_cast<std::size_t>(queue.count) - begin);
-  c.draw.kernels.fragment(c.draw.shader.get(), {queue.batch(c.context, c.tile, begin, n), &c.output});
-  count_fragments(c, &queue.packets[begin], static_cast<int>(n));
-  if constexpr (kTracesShading<Shading>) {
-    for (std::size_t i = 0; i < n; ++i) trace_shaded(c, c.output, i, queue.packets[begin + i], queue.ids[begin + i]);
-  }
-  finish_batch(c, queue, begin, n);
-  return n;
-}
-
-// The same, but moves the pixels together first.
-template <class Shading>
-std::size_t shade_packed(const Shading& c, PacketQueue& queue, std::size_t begin, PackedFragments& packed) {
-  const std::span<const PacketMask> packets(&queue.packets[begin], static_cast<std::size_t>(queue.count) - begin);
-  const std::size_t count = pack(packets, &queue.ids[begin], packed.pixels);
-  c.draw.kernels.fragment(c.draw.shader.get(), {packed.pixels.batch(c.context, c.tile), &packed.output});
-  c.statistics.fragments_shaded += packed.pixels.count;
-  for (std::size_t done = 0, pixel = 0; done < count;) {
-    const std::size_t n = std::min(std::size_t{kPacketBatch}, count - done);
-    pixel = unpack(c.draw.kernels, packed.output, pixel, packets.subspan(done, n), c.output);
-    finish_batch(c, queue, begin + done, n);
-    done += n;
-  }
-  return count;
-}
-
 }  // namespace
-
-template <class Statistics>
-void shade_queued(const DrawInTile& d, PacketQueue& queue, TransparentLayers& layers, FragmentOutput& output, PackedFragments& packed,
-                  Statistics& statistics) {
-  const ImmediateShading<Statistics> c{d.context, d.draw, d.mode, d.tile, layers, output, nullptr, true, statistics};
-  const auto count = static_cast<std::size_t>(queue.count);
-  const bool packs = !kTraces<Statistics> && pays_to_pack(d.draw, std::span(queue.packets).first(count));
-  for (std::size_t begin = 0; begin < count;) begin += packs ? shade_packed(c, queue, begin, packed) : shade_batch(c, queue, begin);
-  queue.count = 0;
-}
-template void shade_queued(const DrawInTile&, PacketQueue&, TransparentLayers&, FragmentOutput&, PackedFragments&, PassStatistics&);
-template void shade_queued(const DrawInTile&, PacketQueue&, TransparentLayers&, FragmentOutput&, PackedFragments&, TracedStatistics&);
 
 template <class Statistics>
 void shade_immediate(const PassContext& context, const Draw& draw, TriangleId id, VisibilityMode mode, const CoverageList& list, Tile& tile,

@@ -5,7 +5,6 @@
 
 #include <memory>
 
-#include "halfspace/raster/shade/packed_fragments.h"
 #include "halfspace/raster/shade/shade_deferred.h"
 #include "halfspace/raster/tile/layers.h"
 #include "halfspace/raster/tile/tile.h"
@@ -18,7 +17,6 @@ struct TileMemory {
   CoverageList coverage;
   PacketQueue queue;
   DeferredShading shading;
-  PackedFragments packed;
   TransparentLayers layers;
   ColorBuffer post_color;                 ///< in the format of the post step's target
   std::unique_ptr<TileMemory> next_idle;  ///< next element in the pool

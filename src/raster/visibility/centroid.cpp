@@ -39,4 +39,13 @@ void find_centroids(const PassContext& context, int x, int y, const TriangleId* 
   }
 }
 
+const SamplePosition* find_centroids(const PacketBatch& batch, std::span<SamplePosition> out) {
+  for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) {
+    const int packet = batch.packets[i].packet;
+    find_centroids(*batch.context, batch.tile_x0 + packet_x(packet), batch.tile_y0 + packet_y(packet), nullptr, batch.packet_ids[i],
+                   &out[i * kLanes]);
+  }
+  return out.data();
+}
+
 }  // namespace halfspace

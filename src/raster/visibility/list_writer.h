@@ -14,9 +14,10 @@
 
 namespace halfspace {
 
-/// Queues the packets of a draw with one sample per pixel. In VisibilityMode::early, depth is tested and written before a packet is queued.
-/// In all other modes, depth is tested after the shader. Lanes that already fail the test are dropped if they cannot pass it later.
-template <class S>
+/// Queues the packets of a draw. In VisibilityMode::early, depth is tested and written before a packet is queued. In all other modes, depth
+/// is tested after the shader. Lanes that already fail the test are dropped if they cannot pass it later. In a multisampled tile, begin()
+/// and begin_sample() must be called before the packets of each sample of a triangle.
+template <class S, bool multisampled>
 class ListWriter {
  public:
   using Statistics = S;
@@ -36,6 +37,14 @@ class ListWriter {
   bool tests() const { return tests_; }
   bool writes_depth() const { return writes_depth_; }
   CompareOp compare_op() const { return compare_; }
+
+  /// Starts a triangle.
+  void begin() { first_ = queue_.count; }
+  /// Starts a sample of the triangle.
+  void begin_sample(int sample) {
+    sample_ = static_cast<std::size_t>(sample);
+    shift_ = packet_shift(sample_plane(tile_.samples, sample, tile_.size));
+  }
 
   /// See OpaqueWriter.
   template <class Z>
@@ -90,11 +99,28 @@ class ListWriter {
 
   HS_INLINE void add(TriangleId id, int packet, uint32_t lanes, const Real& z) {
     if (is_final_) statistics_.samples_passed += static_cast<uint64_t>(std::popcount(lanes));
+    if constexpr (multisampled) return add_sample(id, packet - shift_, lanes, z);
     const auto i = static_cast<std::size_t>(queue_.count);
     queue_.packets[i] = {static_cast<uint16_t>(packet), static_cast<uint16_t>(lanes)};
     queue_.ids[i] = id;
     if (lists_depth_) queue_.depth[i] = z;
     queue_.count += lanes != 0 ? 1 : 0;
+  }
+  /// Adds the current sample of the pixels of a packet, which the triangle may already have in the queue for other samples.
+  HS_INLINE void add_sample(TriangleId id, int packet, uint32_t lanes, const Real& z) {
+    if (lanes == 0) return;
+    int i = queue_.position[static_cast<std::size_t>(packet)];
+    if (i < first_ || i >= queue_.count || queue_.packets[static_cast<std::size_t>(i)].packet != packet) {
+      i = queue_.count++;
+      queue_.position[static_cast<std::size_t>(packet)] = static_cast<uint16_t>(i);
+      queue_.packets[static_cast<std::size_t>(i)] = {static_cast<uint16_t>(packet), 0};
+      queue_.ids[static_cast<std::size_t>(i)] = id;
+      queue_.sample_lanes[static_cast<std::size_t>(i)] = {};
+    }
+    const auto n = static_cast<std::size_t>(i);
+    queue_.packets[n].lanes = static_cast<uint16_t>(queue_.packets[n].lanes | lanes);
+    queue_.sample_lanes[n][sample_] = static_cast<uint16_t>(lanes);
+    if (lists_depth_) queue_.sample_depth(tile_, n, static_cast<int>(sample_)) = z;
   }
   /// Adds a pixel to the last element of the queue if it has the same packet and triangle, otherwise as a new element.
   HS_INLINE void add_pixel(TriangleId id, int packet, int lane, float z) {
@@ -119,6 +145,10 @@ class ListWriter {
   CompareOp compare_;
   bool is_final_, tests_, writes_depth_, lists_depth_;
   bool has_test_;  // depth is tested before or after the shader
+  // Only for multisampled tiles:
+  int first_ = 0;           // position of the triangle's first packet in the queue
+  std::size_t sample_ = 0;  // current sample
+  int shift_ = 0;           // distance of its packets from those of sample 0
 };
 
 }  // namespace halfspace

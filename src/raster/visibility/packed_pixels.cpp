@@ -24,6 +24,8 @@ std::size_t packets_that_fit(std::span<const PacketMask> packets, std::size_t& p
 
 }  // namespace
 
+bool can_pack(const Draw& draw, const Tile& tile) { return tile.samples == 1 || !draw.kernels.uses_centroid; }
+
 bool pays_to_pack(const Draw& draw, std::span<const PacketMask> packets) {
   if (draw.kernels.is_constant || draws_points(draw.state)) return false;
   std::size_t pixels = 0;
@@ -41,14 +43,18 @@ PacketBatch PackedPixels::batch(const PassContext& context, const Tile& tile) co
           .pixels = pixels.data()};
 }
 
-std::size_t pack(std::span<const PacketMask> packets, const TriangleId* ids, PackedPixels& out) {
+namespace {
+
+// Implements pack(). tile_size: packets are in a sample plane of a tile of this size. ids_of(n): triangles of packet n, one per lane.
+template <class F>
+HS_INLINE std::size_t pack_packets(std::span<const PacketMask> packets, int tile_size, PackedPixels& out, const F& ids_of) {
   const std::size_t taken = packets_that_fit(packets, out.count);
   std::size_t to = 0;
   for (std::size_t n = 0; n < taken; ++n) {
     const auto [packet, lanes] = packets[n];
-    const Int pixels = ((lane_y() + packet_y(packet)) << 16) | (lane_x() + packet_x(packet));
-    store(&out.pixels[to], pack_lanes(pixels, lanes));
-    store(&out.ids[to], Int(std::bit_cast<int32_t>(ids[n])));
+    const int x = packet_x(packet) & (tile_size - 1), y = packet_y(packet) & (tile_size - 1);
+    store(&out.pixels[to], pack_lanes(((lane_y() + y) << 16) | (lane_x() + x), lanes));
+    store(&out.ids[to], ids_of(n));
     to += static_cast<std::size_t>(std::popcount(lanes));
   }
   // The lanes after the last pixel compute with the first pixel and its triangle.
@@ -59,6 +65,18 @@ std::size_t pack(std::span<const PacketMask> packets, const TriangleId* ids, Pac
     out.packets[i] = {static_cast<uint16_t>(i), static_cast<uint16_t>(rest >= kLanes ? kAllBits<Mask> : (1u << rest) - 1)};
   }
   return taken;
+}
+
+}  // namespace
+
+std::size_t pack(std::span<const PacketMask> packets, const TriangleId* ids, PackedPixels& out) {
+  return pack_packets(packets, kMaxTileSize, out, [&](std::size_t n) { return Int(std::bit_cast<int32_t>(ids[n])); });
+}
+
+std::size_t pack_visible(std::span<const PacketMask> packets, const TriangleId* ids, int tile_size, PackedPixels& out) {
+  return pack_packets(packets, tile_size, out, [&](std::size_t n) {
+    return pack_lanes(load<Int>(ids + static_cast<std::size_t>(packets[n].packet) * kLanes), packets[n].lanes);
+  });
 }
 
 uint16_t unpack_keep(const uint16_t* packed, std::size_t first, uint32_t lanes) {

@@ -13,7 +13,7 @@ namespace halfspace {
 
 struct Draw;
 
-/// Covered pixels of consecutive packets of one draw with one sample per pixel, in their order.
+/// Covered pixels of consecutive packets of one draw that is shaded per pixel, in their order.
 struct PackedPixels {
   static constexpr std::size_t kCapacity = kPacketBatch * kLanes;
 
@@ -27,6 +27,9 @@ struct PackedPixels {
   PacketBatch batch(const PassContext& context, const Tile& tile) const;
 };
 
+/// Returns false if the kernels need the positions of centroid varyings, which packed pixels do not have.
+bool can_pack(const Draw& draw, const Tile& tile);
+
 /// Returns true if packing saves at least a quarter of the packets. Returns false for draws with a constant shader, and for points, because
 /// a packed packet can show many of them and their values can only be merged one by one.
 bool pays_to_pack(const Draw& draw, std::span<const PacketMask> packets);
@@ -34,6 +37,9 @@ bool pays_to_pack(const Draw& draw, std::span<const PacketMask> packets);
 /// Packs the pixels of as many packets as fit, from the start of the list. ids: the triangle of each packet. Returns the number of these
 /// packets, which is at least kPacketBatch if the list has that many.
 std::size_t pack(std::span<const PacketMask> packets, const TriangleId* ids, PackedPixels& out);
+
+/// The same for packets of visible pixels. ids: the triangle of each pixel of the tile's storage; tile_size: Tile::size.
+std::size_t pack_visible(std::span<const PacketMask> packets, const TriangleId* ids, int tile_size, PackedPixels& out);
 
 /// Returns the keep mask of a packet with the given lanes, from those of packed ones. first: number of the first pixel of the packet. Reads
 /// one element after the last packed packet.

@@ -8,12 +8,14 @@
 
 namespace halfspace {
 
-/// Used for draws with one sample per pixel. The VisibilityMode of the draw determines whether the packets have passed the depth test.
+/// The VisibilityMode of the draw determines whether the packets have passed the depth test. In a multisampled tile, packets are numbered
+/// as in the sample plane of sample 0, and each has the lanes and depths of all samples.
 struct PacketQueue {
   /// If the queue contains at least this many packets, it must be shaded before a triangle is added. The arrays have room for the packets
-  /// of one more triangle and for one element after the last one.
+  /// of one more triangle and for one element after the last one. A multisampled triangle has at most kPackets samples of packets.
   static constexpr int kShadeAt = 64;
   static constexpr std::size_t kCapacity = kShadeAt + kPackets + 1;
+  static constexpr std::size_t kDepthCapacity = kShadeAt * kMaxSamples + kPackets + 1;
 
   bool is_full() const { return count >= kShadeAt; }
   /// Returns n packets for a kernel, starting with packet `begin`.
@@ -25,12 +27,25 @@ struct PacketQueue {
             .packets = &packets[begin],
             .count = static_cast<int>(n)};
   }
+  /// Returns sample s of packet i as a packet of the tile's storage. The tile must be multisampled.
+  PacketMask sample(const Tile& tile, std::size_t i, int s) const {
+    const int shift = packet_shift(sample_plane(tile.samples, s, tile.size));
+    return {static_cast<uint16_t>(packets[i].packet + shift), sample_lanes[i][static_cast<std::size_t>(s)]};
+  }
+  /// Returns the depth of sample s of packet i.
+  Real& sample_depth(const Tile& tile, std::size_t i, int s) {
+    return depth[i * static_cast<std::size_t>(tile.samples) + static_cast<std::size_t>(s)];
+  }
 
   int count = 0;
-  std::array<PacketMask, kCapacity> packets;
+  std::array<PacketMask, kCapacity> packets;  ///< in a multisampled tile, the lanes in which any sample is covered
   std::array<TriangleId, kCapacity> ids;
-  /// Depth of the triangle, represented as in Tile::depth. Not valid for VisibilityMode::early and cover_only.
-  alignas(64) std::array<Real, kCapacity> depth;
+  /// Lanes of each sample; only valid in a multisampled tile.
+  std::array<std::array<uint16_t, kMaxSamples>, kCapacity> sample_lanes;
+  /// For each packet of pixels, its position in the queue, if the triangle that was added last covers it.
+  std::array<uint16_t, kPackets> position{};
+  /// Depth of the triangle, represented as in Tile::depth; see sample_depth(). Not valid for VisibilityMode::early and cover_only.
+  alignas(64) std::array<Real, kDepthCapacity> depth;
 };
 
 }  // namespace halfspace

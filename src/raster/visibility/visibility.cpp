@@ -307,7 +307,7 @@ DrawInTile::DrawInTile(const PassContext& f, const Draw& d, VisibilityMode m, Ti
       fetches_vertices(m == VisibilityMode::deferred && fetches_vertices_ahead(d)),
       is_opaque(draws_without_shader(*this) && !(d.state.stencil && t.has_stencil)),
       has_stencil(draws_without_shader(*this) && d.state.stencil && t.has_stencil && t.samples == 1),
-      is_queued(!is_opaque && t.samples == 1 && (d.sample_mask & 1) != 0 && !(d.state.stencil && t.has_stencil)) {}
+      is_queued(!is_opaque && (t.samples == 1 ? (d.sample_mask & 1) != 0 : !d.shades_samples) && !(d.state.stencil && t.has_stencil)) {}
 
 namespace {
 

@@ -53,7 +53,7 @@ struct DrawInTile {
   bool fetches_vertices;          ///< prefetch vertices: they belong to points, or are shared by several triangles
   bool is_opaque;                 ///< only coverage and depth determine visibility
   bool has_stencil;               ///< coverage, depth and the stencil test determine visibility, with one sample per pixel
-  bool is_queued;                 ///< one sample per pixel and no stencil test; packets are listed in a PacketQueue until the shader runs
+  bool is_queued;                 ///< shaded per pixel, without a stencil test; packets are listed in a PacketQueue until the shader runs
 };
 
 // Statistics is PassStatistics, or TracedStatistics to trace fragments (raster/trace/tile_trace.h).
@@ -66,9 +66,6 @@ void rasterize(const DrawInTile& d, uint32_t chunk, uint32_t index, CoverageList
 /// The same for a triangle of an opaque draw (visibility_blocks.cpp).
 template <class Statistics>
 void rasterize_opaque(const DrawInTile& d, const Triangle& t, TriangleId id, Statistics& statistics);
-/// The same for one sample of each pixel.
-template <class Statistics>
-void rasterize_opaque_sample(const DrawInTile& d, const Triangle& t, TriangleId id, int sample, Statistics& statistics);
 /// The same for a triangle of a queued draw, which is added to the queue.
 template <class Statistics>
 void rasterize_queued(const DrawInTile& d, const Triangle& t, TriangleId id, PacketQueue& queue, Statistics& statistics);
@@ -83,6 +80,13 @@ void rasterize_small_with_stencil(const DrawInTile& d, uint32_t chunk, std::span
 template <class Statistics>
 std::size_t rasterize_small_queued(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, PacketQueue& queue,
                                    Statistics& statistics);
+
+/// rasterize_small() and rasterize_small_queued() for a multisampled tile (visibility_samples.cpp).
+template <class Statistics>
+void rasterize_small_samples(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, Statistics& statistics);
+template <class Statistics>
+std::size_t rasterize_small_samples_queued(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, PacketQueue& queue,
+                                           Statistics& statistics);
 
 /// Runs the visibility function for all packets of a queue, tests and writes them, and empties the queue (visibility_queue.cpp). d: the
 /// draw of the queue, which is deferred or depth_only.

@@ -130,14 +130,6 @@ void write_full_tile(const DrawInTile& d, const Triangle& t, TriangleId id, cons
 }
 
 template <class Statistics>
-void rasterize_opaque_sample(const DrawInTile& d, const Triangle& t, TriangleId id, int sample, Statistics& statistics) {
-  OpaqueWriter writer(d, statistics);
-  rasterize_triangle(d, t, id, sample, writer);
-}
-template void rasterize_opaque_sample(const DrawInTile&, const Triangle&, TriangleId, int, PassStatistics&);
-template void rasterize_opaque_sample(const DrawInTile&, const Triangle&, TriangleId, int, TracedStatistics&);
-
-template <class Statistics>
 void rasterize_opaque(const DrawInTile& d, const Triangle& t, TriangleId id, Statistics& statistics) {
   OpaqueWriter writer(d, statistics);
   for (int s = 0; s < d.tile.samples; ++s) {
@@ -149,8 +141,17 @@ template void rasterize_opaque(const DrawInTile&, const Triangle&, TriangleId, T
 
 template <class Statistics>
 void rasterize_queued(const DrawInTile& d, const Triangle& t, TriangleId id, PacketQueue& queue, Statistics& statistics) {
-  ListWriter writer(d, queue, statistics);
-  rasterize_triangle(d, t, id, 0, writer);
+  if (d.tile.samples == 1) {
+    ListWriter<Statistics, false> writer(d, queue, statistics);
+    return rasterize_triangle(d, t, id, 0, writer);
+  }
+  ListWriter<Statistics, true> writer(d, queue, statistics);
+  writer.begin();
+  for (int s = 0; s < d.tile.samples; ++s) {
+    if ((d.draw.sample_mask >> s & 1) == 0) continue;
+    writer.begin_sample(s);
+    rasterize_triangle(d, t, id, s, writer);
+  }
 }
 template void rasterize_queued(const DrawInTile&, const Triangle&, TriangleId, PacketQueue&, PassStatistics&);
 template void rasterize_queued(const DrawInTile&, const Triangle&, TriangleId, PacketQueue&, TracedStatistics&);

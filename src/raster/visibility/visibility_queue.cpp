@@ -5,6 +5,7 @@
 #include <bit>
 #include <utility>
 
+#include "halfspace/raster/visibility/centroid.h"
 #include "halfspace/raster/visibility/depth_bounds.h"
 #include "halfspace/raster/visibility/opaque_writer.h"
 #include "halfspace/raster/visibility/packed_pixels.h"
@@ -35,18 +36,31 @@ HS_INLINE void write_decided(const DrawInTile& d, TriangleId id, int packet, uin
   }
 }
 
+// Finishes one sample of packet k of the queue, which is `sample` in the tile's storage. keep, depth: what the shader returned. z: depth of
+// the triangle.
+template <class Writer>
+HS_INLINE void finish_decided(const DrawInTile& d, TriangleId id, const PacketMask& sample, uint32_t keep, Real depth, Real z,
+                              Writer& writer) {
+  const uint32_t kept = keep & sample.lanes;
+  if constexpr (kTraces<typename Writer::Statistics>)
+    writer.statistics().trace->set_outcome(id, sample.packet, sample.lanes & ~kept, FragmentOutcome::discarded);
+  write_decided(d, id, sample.packet, kept, d.draw.kernels.writes_depth ? depth : z, writer);
+}
+
 // Finishes n packets of the queue. result(i, lanes) returns the keep mask and the depth of packet i.
 template <class Writer, class F>
-HS_INLINE void write_batch_decided(const DrawInTile& d, const PacketQueue& queue, std::size_t begin, std::size_t n, Writer& writer,
-                                   F result) {
-  using Statistics = typename Writer::Statistics;
+HS_INLINE void write_batch_decided(const DrawInTile& d, PacketQueue& queue, std::size_t begin, std::size_t n, Writer& writer, F result) {
   for (std::size_t i = 0; i < n; ++i) {
-    const auto [packet, lanes] = queue.packets[begin + i];
-    const auto [keep, depth] = result(i, lanes);
-    const uint32_t kept = keep & lanes;
-    if constexpr (kTraces<Statistics>)
-      writer.statistics().trace->set_outcome(queue.ids[begin + i], packet, lanes & ~kept, FragmentOutcome::discarded);
-    write_decided(d, queue.ids[begin + i], packet, kept, d.draw.kernels.writes_depth ? depth : queue.depth[begin + i], writer);
+    const std::size_t k = begin + i;
+    const auto [keep, depth] = result(i, queue.packets[k].lanes);
+    if (d.tile.samples == 1) {
+      finish_decided(d, queue.ids[k], queue.packets[k], keep, depth, queue.depth[k], writer);
+      continue;
+    }
+    for (int s = 0; s < d.tile.samples; ++s) {
+      const PacketMask sample = queue.sample(d.tile, k, s);
+      if (sample.lanes != 0) finish_decided(d, queue.ids[k], sample, keep, depth, queue.sample_depth(d.tile, k, s), writer);
+    }
   }
 }
 
@@ -58,7 +72,7 @@ void decide_queued(const DrawInTile& d, PacketQueue& queue, Statistics& statisti
   PackedPixels packed;
   Decisions decisions;
   const auto end = static_cast<std::size_t>(queue.count);
-  const bool packs = pays_to_pack(d.draw, std::span(queue.packets).first(end));
+  const bool packs = can_pack(d.draw, d.tile) && pays_to_pack(d.draw, std::span(queue.packets).first(end));
   for (std::size_t begin = 0; begin < end;) {
     const std::span<const PacketMask> rest(&queue.packets[begin], end - begin);
     std::size_t n;
@@ -75,8 +89,10 @@ void decide_queued(const DrawInTile& d, PacketQueue& queue, Statistics& statisti
       });
     } else {
       n = std::min(std::size_t{kPacketBatch}, rest.size());
-      d.draw.kernels.visibility(d.draw.shader.get(),
-                                {queue.batch(d.context, d.tile, begin, n), decisions.keep.data(), decisions.depth.data()});
+      VisibilityBatch batch{queue.batch(d.context, d.tile, begin, n), decisions.keep.data(), decisions.depth.data()};
+      std::array<SamplePosition, kPacketBatch * kLanes> centroids;
+      if (d.tile.samples > 1 && d.draw.kernels.uses_centroid) batch.centroids = find_centroids(batch, centroids);
+      d.draw.kernels.visibility(d.draw.shader.get(), batch);
       write_batch_decided(d, queue, begin, n, writer, [&](std::size_t i, uint32_t) {
         return std::pair<uint32_t, Real>(decisions.keep[i], d.draw.kernels.writes_depth ? decisions.depth[i] : Real(0.0f));
       });

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Visibility of small triangles in opaque draws. Up to W triangles of a bin are prepared at once, one per lane, in int32. Then they are
-// written one by one, in submission order. This is done for each sample of the pixels, because each has its own depth.
+// Visibility of small triangles with one sample per pixel. Up to W triangles of a bin are prepared at once, one per lane, in int32. Then
+// they are written one by one, in submission order.
 #include <algorithm>
 #include <bit>
 
@@ -10,35 +10,16 @@
 #include "halfspace/raster/primitives/small_coverage.h"
 #include "halfspace/raster/visibility/list_writer.h"
 #include "halfspace/raster/visibility/opaque_writer.h"
+#include "halfspace/raster/visibility/small_triangle.h"
 #include "halfspace/raster/visibility/stencil_writer.h"
 
 namespace halfspace {
 
 namespace {
 
-// Larger triangles are rasterized in blocks.
-constexpr int kMaxSpan = 48;  // px
 constexpr int kMaxCovered = std::popcount(kCoveredBits);
 
-template <class T>
-using PerTriangle = std::array<T, static_cast<std::size_t>(kLanes)>;
-
-// Edge function of a triangle: its value at the first sample of the grid, and its steps from pixel to pixel.
-struct SmallEdge {
-  int32_t e, step_x, step_y;
-};
-
-// Depth planes: z0 + e1·z_edge1 + e2·z_edge2, clamped to [low, high]. e1 and e2 are the values of edges 1 and 2 without bias. Lanes are
-// triangles, or pixels of one triangle.
-struct SmallDepth {
-  Real z0, z_edge1, z_edge2, low, high;
-
-  HS_INLINE Real at(DepthFormat format, Int e1, Int e2) const {
-    return depth_value(format, clamp(fma(to_real<Real>(e1), z_edge1, fma(to_real<Real>(e2), z_edge2, z0)), low, high));
-  }
-};
-
-// Data for writing one sample of up to W small triangles, computed for all of them at once.
+// Data for writing up to W small triangles, computed for all of them at once.
 class SmallTriangles {
  public:
   // indices: 1 to W triangles of the chunk.
@@ -56,7 +37,8 @@ class SmallTriangles {
     const PixelBox<Int> box = pixel_box(x, y, SampleSpan{at.x, at.x}, SampleSpan{at.y, at.y});
     const Int covered = (flags >> static_cast<int>(kCoveredShift)) & static_cast<int32_t>(kCoveredBits);
     known_ = bits(covered != Int(0));
-    wide_ = bits(max_of(x) - min_of(x) > Int(kMaxSpan * kSubPixels) || max_of(y) - min_of(y) > Int(kMaxSpan * kSubPixels)) & ~known_;
+    wide_ =
+        bits(max_of(x) - min_of(x) > Int(kMaxSmallSpan * kSubPixels) || max_of(y) - min_of(y) > Int(kMaxSmallSpan * kSubPixels)) & ~known_;
     if (known_ != 0) find_pixels(d, x, y, intersect(box, d.draw.bounds), covered, depth);
     if ((known_ | wide_) == kAllBits<Mask>) return;
     const PixelBox<Int> seen = intersect(box, d.bounds);
@@ -138,8 +120,7 @@ class TrianglePackets {
       edge_[i] = triangles.edge(i, k);
       first_[i] = lane_x() * edge_[i].step_x + lane_y() * edge_[i].step_y + edge_[i].e;
     }
-    const float low = d.draw.depth_low, high = std::clamp(t.z_max, low, d.draw.depth_high);
-    depth_ = {Real(t.z0), Real(t.z_edge1), Real(t.z_edge2), Real(low), Real(high)};
+    depth_ = small_depth(t, d.draw.depth_low, d.draw.depth_high);
   }
 
   void visit() {
@@ -156,7 +137,7 @@ class TrianglePackets {
 
  private:
   static constexpr int kFewPackets = 40;
-  static constexpr std::size_t kMaxPackets = (kMaxSpan / kPacketWidth + 2) * (kMaxSpan / kPacketHeight + 2);
+  static constexpr std::size_t kMaxPackets = (kMaxSmallSpan / kPacketWidth + 2) * (kMaxSmallSpan / kPacketHeight + 2);
 
   // A packet with covered pixels.
   struct Covered {
@@ -256,13 +237,11 @@ HS_INLINE void write_triangle(const DrawInTile& d, const SmallTriangles& triangl
 
 template <class Statistics>
 void rasterize_small(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, Statistics& statistics) {
+  if (d.tile.samples > 1) return rasterize_small_samples(d, chunk, indices, statistics);
   OpaqueWriter writer(d, statistics);
-  for (int s = 0; s < d.tile.samples; ++s) {
-    if ((d.draw.sample_mask >> s & 1) == 0) continue;
-    const SmallTriangles triangles(d, SampleGrid(d.tile, s), d.context.chunks[chunk], indices);
-    const auto large = [&](const Triangle& t, TriangleId id) { rasterize_opaque_sample(d, t, id, s, statistics); };
-    for (std::size_t k = 0; k < indices.size(); ++k) write_triangle(d, triangles, k, chunk, indices[k], writer, large);
-  }
+  const SmallTriangles triangles(d, SampleGrid(d.tile, 0), d.context.chunks[chunk], indices);
+  const auto large = [&](const Triangle& t, TriangleId id) { rasterize_opaque(d, t, id, statistics); };
+  for (std::size_t k = 0; k < indices.size(); ++k) write_triangle(d, triangles, k, chunk, indices[k], writer, large);
 }
 
 void rasterize_small_with_stencil(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, PassStatistics& statistics) {
@@ -280,8 +259,9 @@ template void rasterize_small(const DrawInTile&, uint32_t, std::span<const uint1
 template <class Statistics>
 std::size_t rasterize_small_queued(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, PacketQueue& queue,
                                    Statistics& statistics) {
+  if (d.tile.samples > 1) return rasterize_small_samples_queued(d, chunk, indices, queue, statistics);
   const SmallTriangles triangles(d, SampleGrid(d.tile, 0), d.context.chunks[chunk], indices);
-  ListWriter writer(d, queue, statistics);
+  ListWriter<Statistics, false> writer(d, queue, statistics);
   const auto large = [&](const Triangle& t, TriangleId id) { rasterize_queued(d, t, id, queue, statistics); };
   std::size_t k = 0;
   do {

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Shades the packets of a PacketQueue.
+#include <algorithm>
+#include <bit>
+
+#include "halfspace/raster/shade/late_tests.h"
+#include "halfspace/raster/visibility/centroid.h"
+
+namespace halfspace {
+
+namespace {
+
+// Runs the tests of a packet whose colors are packet i of the output. z: depth of the triangle. Returns the lanes whose color must be
+// written.
+template <class Shading>
+uint16_t finish_queued(const Shading& c, const PacketMask& packet, std::size_t i, Real z, TriangleId id) {
+  z = late_depth(c, c.output, i, z);
+  const Mask mask = late_tests(c, c.output, i, packet.packet, mask_from_bits<Mask>(packet.lanes), z, id);
+  if (!c.draw.state.order_independent) return static_cast<uint16_t>(bits(mask));
+  add_to_layers(c, c.output, i, packet.packet, mask, z, id);
+  return 0;
+}
+
+// Writes packets one by one, so that the color after each of them is known.
+template <class Shading>
+void write_traced(const Shading& c, std::span<const PacketMask> packets, const TriangleId* ids) {
+  for (std::size_t i = 0; i < packets.size(); ++i) {
+    write_colors(c.draw, c.output, i, packets.subspan(i, 1), c.tile);
+    trace_written(c, packets[i], ids[i]);
+  }
+}
+
+template <class Shading>
+void write_queued(const Shading& c, std::span<const PacketMask> packets, const TriangleId* ids) {
+  if constexpr (kTracesShading<Shading>) {
+    write_traced(c, packets, ids);
+  } else {
+    write_colors(c.draw, c.output, 0, packets, c.tile);
+  }
+}
+
+// Finishes sample s of packets of the queue; see finish_batch().
+template <class Shading>
+void finish_sample_batch(const Shading& c, PacketQueue& queue, std::size_t begin, std::size_t n, int s) {
+  std::array<PacketMask, kPacketBatch> packets;
+  for (std::size_t i = 0; i < n; ++i) {
+    PacketMask& p = packets[i] = queue.sample(c.tile, begin + i, s);
+    if (p.lanes != 0 && c.draw.state.alpha_to_coverage)
+      p.lanes = static_cast<uint16_t>(p.lanes & bits(alpha_covers(c.output.packet_color(0, i)[3], c.tile.samples, s)));
+    if (p.lanes != 0 && c.mode != VisibilityMode::early)
+      p.lanes = finish_queued(c, p, i, queue.sample_depth(c.tile, begin + i, s), queue.ids[begin + i]);
+  }
+  if (!c.draw.state.order_independent) write_queued(c, std::span(packets).first(n), &queue.ids[begin]);
+}
+
+// Runs the late tests of packets that were shaded as packets 0, 1, ... of the output, and writes them. begin: number of the first in the
+// queue.
+template <class Shading>
+void finish_batch(const Shading& c, PacketQueue& queue, std::size_t begin, std::size_t n) {
+  if (c.tile.samples > 1) {
+    for (int s = 0; s < c.tile.samples; ++s) finish_sample_batch(c, queue, begin, n, s);
+    return;
+  }
+  PacketMask* packets = &queue.packets[begin];
+  for (std::size_t i = 0; c.mode != VisibilityMode::early && i < n; ++i)
+    packets[i].lanes = finish_queued(c, packets[i], i, queue.depth[begin + i], queue.ids[begin + i]);
+  if (!c.draw.state.order_independent) write_queued(c, {packets, n}, &queue.ids[begin]);
+}
+
+// Records that packet i of the output was shaded, which is packet k of the queue.
+template <class Shading>
+void trace_queued(const Shading& c, const PacketQueue& queue, std::size_t k, std::size_t i) {
+  if (c.tile.samples == 1) return trace_shaded(c, c.output, i, queue.packets[k], queue.ids[k]);
+  for (int s = 0; s < c.tile.samples; ++s) trace_shaded(c, c.output, i, queue.sample(c.tile, k, s), queue.ids[k]);
+}
+
+// Shades packets of the queue as they are. Returns their number.
+template <class Shading>
+std::size_t shade_batch(const Shading& c, PacketQueue& queue, std::size_t begin) {
+  const std::size_t n = std::min(std::size_t{kPacketBatch}, static_cast<std::size_t>(queue.count) - begin);
+  FragmentBatch batch{queue.batch(c.context, c.tile, begin, n), &c.output};
+  std::array<SamplePosition, kPacketBatch * kLanes> centroids;
+  if (c.tile.samples > 1 && c.draw.kernels.uses_centroid) batch.centroids = find_centroids(batch, centroids);
+  c.draw.kernels.fragment(c.draw.shader.get(), batch);
+  count_fragments(c, &queue.packets[begin], static_cast<int>(n));
+  if constexpr (kTracesShading<Shading>) {
+    for (std::size_t i = 0; i < n; ++i) trace_queued(c, queue, begin + i, i);
+  }
+  finish_batch(c, queue, begin, n);
+  return n;
+}
+
+// The same, but moves the pixels together first.
+template <class Shading>
+std::size_t shade_packed(const Shading& c, PacketQueue& queue, std::size_t begin, PackedFragments& packed) {
+  const std::span<const PacketMask> packets(&queue.packets[begin], static_cast<std::size_t>(queue.count) - begin);
+  const std::size_t count = pack(packets, &queue.ids[begin], packed.pixels);
+  c.draw.kernels.fragment(c.draw.shader.get(), {packed.pixels.batch(c.context, c.tile), &packed.output});
+  c.statistics.fragments_shaded += packed.pixels.count;
+  for (std::size_t done = 0, pixel = 0; done < count;) {
+    const std::size_t n = std::min(std::size_t{kPacketBatch}, count - done);
+    pixel = unpack(c.draw.kernels, packed.output, pixel, packets.subspan(done, n), c.output);
+    finish_batch(c, queue, begin + done, n);
+    done += n;
+  }
+  return count;
+}
+
+}  // namespace
+
+template <class Statistics>
+void shade_queued(const DrawInTile& d, PacketQueue& queue, TransparentLayers& layers, FragmentOutput& output, PackedFragments& packed,
+                  Statistics& statistics) {
+  const ImmediateShading<Statistics> c{d.context, d.draw, d.mode, d.tile, layers, output, nullptr, true, statistics};
+  const auto count = static_cast<std::size_t>(queue.count);
+  const bool packs = !kTraces<Statistics> && can_pack(d.draw, d.tile) && pays_to_pack(d.draw, std::span(queue.packets).first(count));
+  for (std::size_t begin = 0; begin < count;) begin += packs ? shade_packed(c, queue, begin, packed) : shade_batch(c, queue, begin);
+  queue.count = 0;
+}
+template void shade_queued(const DrawInTile&, PacketQueue&, TransparentLayers&, FragmentOutput&, PackedFragments&, PassStatistics&);
+template void shade_queued(const DrawInTile&, PacketQueue&, TransparentLayers&, FragmentOutput&, PackedFragments&, TracedStatistics&);
+
+}  // namespace halfspace

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Lists the visible pixels of a tile that deferred shading must shade, as packets that show one draw.
+#pragma once
+
+#include <span>
+
+#include "halfspace/raster/visibility/visibility.h"
+
+namespace halfspace {
+
+/// Pixels of a packet that show the same draw.
+struct ShadingWork {
+  const Draw* draw;
+  PacketMask packet;
+};
+
+using ShadingWorkList = std::array<ShadingWork, kMaxTilePixels>;
+
+/// Selects the pending pixels to shade, by whether their draw is shaded per pixel or per sample.
+enum class Share : uint8_t { per_pixel, per_sample };
+
+/// Lists the visible pixels of one sample plane by packet. A packet that shows several draws has an entry for each. ids: triangle of each
+/// pixel of the tile's storage. Returns the entries.
+std::span<ShadingWork> list_work(const PassContext& context, const Tile& tile, const TriangleId* ids, const SamplePlane& plane, Share share,
+                                 ShadingWorkList& work);
+
+/// Returns false if no draw of the pass runs its fragment function per sample. A long list of draws is not searched for each tile.
+bool may_shade_samples(const PassContext& context);
+
+/// Lists the visible pixels of a multisampled tile that are shaded per pixel. Each triangle that is visible in a pixel is listed once. The
+/// triangles of a pixel are written to the sample planes of `layers`, in the order of the samples in which they are visible: the first to
+/// plane 0, the second to plane 1, and so on. The packets of the entries are those of `layers`. Returns the entries.
+std::span<ShadingWork> list_layers(const PassContext& context, const Tile& tile, std::array<TriangleId, kMaxTilePixels>& layers,
+                                   ShadingWorkList& work);
+
+/// Moves the packets of the first draw of `work` to `packets` and returns their number. `work` becomes the other entries, in their order.
+std::size_t take_draw(std::span<ShadingWork>& work, std::span<PacketMask> packets);
+/// The same for work that is sorted by draw.
+std::size_t take_sorted_draw(std::span<ShadingWork>& work, std::span<PacketMask> packets);
+
+}  // namespace halfspace

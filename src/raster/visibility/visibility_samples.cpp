@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Visibility of small triangles in multisampled tiles. Like visibility_small.cpp, but the coverage of all samples of a packet is computed
+// together: the edge functions of a sample differ from those of the first sample by a constant.
+#include <bit>
+
+#include "halfspace/raster/pipeline/pixel_box.h"
+#include "halfspace/raster/pipeline/triangle_lanes.h"
+#include "halfspace/raster/visibility/list_writer.h"
+#include "halfspace/raster/visibility/opaque_writer.h"
+#include "halfspace/raster/visibility/small_triangle.h"
+
+namespace halfspace {
+
+namespace {
+
+// The samples that a draw can write in a tile, and the distance of their packets from those of sample 0.
+struct SampleSet {
+  explicit SampleSet(const DrawInTile& d) {
+    for (int s = 0; s < d.tile.samples; ++s) {
+      if ((d.draw.sample_mask >> s & 1) == 0) continue;
+      shift[count] = packet_shift(sample_plane(d.tile.samples, s, d.tile.size));
+      index[count++] = s;
+    }
+  }
+
+  std::size_t count = 0;
+  std::array<int, kMaxSamples> index, shift;
+};
+
+// Edge functions of up to W small triangles, computed for all of them at once.
+class SampledTriangles {
+ public:
+  // indices: 1 to W triangles of the chunk.
+  SampledTriangles(const DrawInTile& d, const SampleSet& samples, const Chunk& chunk, std::span<const uint16_t> indices) {
+    const auto triangle = [&](int k) { return &chunk.triangles[indices[std::min(static_cast<std::size_t>(k), indices.size() - 1)]]; };
+    const auto [x, y] = load_corners(triangle);
+    constexpr int32_t max_span = kMaxSmallSpan * kSubPixels;
+    wide_ = bits(max_of(x) - min_of(x) > Int(max_span) || max_of(y) - min_of(y) > Int(max_span));
+    const PixelBox<Int> box = intersect(pixel_box(x, y, d.context.samples_at, d.context.samples_at), d.bounds);
+    store(rect_x0_.data(), box.x0 - d.tile.x0);
+    store(rect_y0_.data(), box.y0 - d.tile.y0);
+    store(rect_x1_.data(), box.x1 - d.tile.x0);
+    store(rect_y1_.data(), box.y1 - d.tile.y0);
+    // As in SmallTriangles. Relative to the corner of the tile.
+    const Int x_first(d.tile.x0 * kSubPixels), y_first(d.tile.y0 * kSubPixels);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t a = (i + 1) % 3, b = (i + 2) % 3;
+      const Int ex = x[b] - x[a], ey = y[b] - y[a], bias = fill_bias(ex, ey);
+      const Int corner = ey * (x[a] - x_first) - ex * (y[a] - y_first) - bias;
+      store(step_x_[i].data(), -ey << kSubPixelBits);
+      store(step_y_[i].data(), ex << kSubPixelBits);
+      store(bias_[i].data(), bias);
+      for (std::size_t s = 0; s < samples.count; ++s) {
+        const SamplePosition at = sample_position(d.tile.samples, samples.index[s]);
+        store(e_[s][i].data(), corner - ey * at.x + ex * at.y);
+      }
+    }
+  }
+
+  bool is_wide(std::size_t k) const { return (wide_ >> k & 1) != 0; }
+  // Pixels that may have covered samples.
+  TileRect rect(std::size_t k) const { return {rect_x0_[k], rect_y0_[k], rect_x1_[k], rect_y1_[k]}; }
+  // Edge i at sample s of the set, in the first pixel of the tile. With the bias subtracted.
+  int32_t edge(std::size_t i, std::size_t s, std::size_t k) const { return e_[s][i][k]; }
+  int32_t step_x(std::size_t i, std::size_t k) const { return step_x_[i][k]; }
+  int32_t step_y(std::size_t i, std::size_t k) const { return step_y_[i][k]; }
+  int32_t bias(std::size_t i, std::size_t k) const { return bias_[i][k]; }
+
+ private:
+  alignas(64) PerTriangle<int32_t> rect_x0_, rect_y0_, rect_x1_, rect_y1_;
+  alignas(64) std::array<PerTriangle<int32_t>, 3> step_x_, step_y_, bias_;
+  alignas(64) std::array<std::array<PerTriangle<int32_t>, 3>, kMaxSamples> e_;
+  uint32_t wide_;
+};
+
+// Finds and writes the packets of one of the triangles.
+template <class Writer>
+class SampledPackets {
+ public:
+  // t: triangle k of `triangles`.
+  SampledPackets(const DrawInTile& d, const SampleSet& samples, const SampledTriangles& triangles, std::size_t k, const Triangle& t,
+                 TriangleId id, Writer& writer)
+      : d_(d),
+        samples_(samples),
+        id_(id),
+        writer_(writer),
+        rect_(triangles.rect(k)),
+        needs_bounds_test_(d.bounds != PixelBounds{d.tile.x0, d.tile.y0, d.tile.x0 + d.tile.size, d.tile.y0 + d.tile.size}),
+        depth_(small_depth(t, d.draw.depth_low, d.draw.depth_high)),
+        bounds_(depth_bounds(t, d.draw, d.tile.depth_format)) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      step_x_[i] = triangles.step_x(i, k);
+      step_y_[i] = triangles.step_y(i, k);
+      lanes_[i] = lane_x() * step_x_[i] + lane_y() * step_y_[i];
+      bias_[i] = triangles.bias(i, k);
+      highest_[i] = triangles.edge(i, 0, k);
+      for (std::size_t s = 0; s < samples.count; ++s) {
+        e_[s][i] = triangles.edge(i, s, k);
+        highest_[i] = std::max(highest_[i], e_[s][i]);
+      }
+    }
+  }
+
+  void visit() {
+    if (rect_.x0 >= rect_.x1 || rect_.y0 >= rect_.y1) return;
+    const int column0 = rect_.x0 / kPacketWidth, column1 = (rect_.x1 - 1) / kPacketWidth;
+    const int row0 = rect_.y0 / kPacketHeight, row1 = (rect_.y1 - 1) / kPacketHeight;
+    const bool has_many = (column1 - column0 + 1) * (row1 - row0 + 1) > kFewPackets;
+    for (int row = row0; row <= row1; ++row) {
+      for (int column = column0; column <= column1; ++column) list(column, row, has_many);
+    }
+    for (std::size_t i = 0; i < listed_; ++i) write(list_[i]);
+  }
+
+ private:
+  static constexpr int kFewPackets = 6;
+  static constexpr int kMaxSide = largest_tile(2);
+  static constexpr std::size_t kMaxPackets = std::size_t{kMaxSide / kPacketWidth} * (kMaxSide / kPacketHeight);
+
+  // A packet of pixels with covered samples.
+  struct Covered {
+    uint16_t packet;  // of sample 0
+    std::array<uint16_t, kMaxSamples> lanes;
+    int32_t e1, e2;  // offsets of edges 1 and 2 from their values in the first packet of the tile
+  };
+
+  // Lists a packet if it has covered samples. All packets are listed before the first one is written, without a branch that depends on
+  // the result. may_skip: first checks whether any pixel can have covered samples.
+  HS_INLINE void list(int column, int row, bool may_skip) {
+    const int x = column * kPacketWidth, y = row * kPacketHeight;
+    std::array<int32_t, 3> at;
+    for (std::size_t i = 0; i < 3; ++i) at[i] = step_x_[i] * x + step_y_[i] * y;
+    if (may_skip) {
+      const Int best = (lanes_[0] + (at[0] + highest_[0])) | (lanes_[1] + (at[1] + highest_[1])) | (lanes_[2] + (at[2] + highest_[2]));
+      if (negative_bits(best) == kAllBits<Mask>) return;
+    }
+    const uint32_t seen = needs_bounds_test_ ? bits(inside(rect_, x, y)) : kAllBits<Mask>;
+    Covered& c = list_[listed_];
+    c.packet = static_cast<uint16_t>(packet_at(x, y));
+    c.e1 = at[1];
+    c.e2 = at[2];
+    uint32_t any = 0;
+    for (std::size_t s = 0; s < samples_.count; ++s) {
+      const Int edges = (lanes_[0] + (at[0] + e_[s][0])) | (lanes_[1] + (at[1] + e_[s][1])) | (lanes_[2] + (at[2] + e_[s][2]));
+      const uint32_t covered = seen & ~negative_bits(edges);
+      c.lanes[s] = static_cast<uint16_t>(covered);
+      any |= covered;
+    }
+    listed_ += any != 0 ? 1 : 0;
+  }
+
+  HS_INLINE void write(const Covered& c) {
+    for (std::size_t s = 0; s < samples_.count; ++s) {
+      if (c.lanes[s] == 0) continue;
+      const int packet = c.packet + samples_.shift[s];
+      const auto z_at = [&] {
+        return depth_.at(d_.tile.depth_format, lanes_[1] + (c.e1 + e_[s][1] + bias_[1]), lanes_[2] + (c.e2 + e_[s][2] + bias_[2]));
+      };
+      if constexpr (requires { writer_.begin_sample(0); }) writer_.begin_sample(samples_.index[s]);
+      const bool passed = writer_.write(id_, packet, c.lanes[s], z_at);
+      if (passed && writer_.writes_depth()) widen_hiz(writer_.compare_op(), d_.tile, packet / kPacketsPerBlock, bounds_.low, bounds_.high);
+    }
+  }
+
+  const DrawInTile& d_;
+  const SampleSet& samples_;
+  TriangleId id_;
+  Writer& writer_;
+  TileRect rect_;
+  bool needs_bounds_test_;
+  std::array<int32_t, 3> step_x_, step_y_, bias_;
+  std::array<Int, 3> lanes_;                           // offsets from the corner of a packet to its pixels
+  std::array<std::array<int32_t, 3>, kMaxSamples> e_;  // edges at the samples of the first pixel of the tile
+  std::array<int32_t, 3> highest_;                     // their largest values
+  SmallDepth depth_;
+  DepthBounds bounds_;
+  std::size_t listed_ = 0;
+  std::array<Covered, kMaxPackets + 1> list_;  // the element after the last one may be written
+};
+
+}  // namespace
+
+template <class Statistics>
+void rasterize_small_samples(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, Statistics& statistics) {
+  const SampleSet samples(d);
+  const SampledTriangles triangles(d, samples, d.context.chunks[chunk], indices);
+  OpaqueWriter writer(d, statistics);
+  for (std::size_t k = 0; k < indices.size(); ++k) {
+    const Triangle& t = d.context.chunks[chunk].triangles[indices[k]];
+    const TriangleId id = triangle_id(chunk, indices[k]);
+    if (triangles.is_wide(k)) {
+      rasterize_opaque(d, t, id, statistics);
+    } else {
+      SampledPackets(d, samples, triangles, k, t, id, writer).visit();
+    }
+  }
+}
+template void rasterize_small_samples(const DrawInTile&, uint32_t, std::span<const uint16_t>, PassStatistics&);
+template void rasterize_small_samples(const DrawInTile&, uint32_t, std::span<const uint16_t>, TracedStatistics&);
+
+template <class Statistics>
+std::size_t rasterize_small_samples_queued(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, PacketQueue& queue,
+                                           Statistics& statistics) {
+  const SampleSet samples(d);
+  const SampledTriangles triangles(d, samples, d.context.chunks[chunk], indices);
+  ListWriter<Statistics, true> writer(d, queue, statistics);
+  std::size_t k = 0;
+  do {
+    const Triangle& t = d.context.chunks[chunk].triangles[indices[k]];
+    const TriangleId id = triangle_id(chunk, indices[k]);
+    if (triangles.is_wide(k)) {
+      rasterize_queued(d, t, id, queue, statistics);
+    } else {
+      writer.begin();
+      SampledPackets(d, samples, triangles, k, t, id, writer).visit();
+    }
+  } while (++k < indices.size() && !queue.is_full());
+  return k;
+}
+template std::size_t rasterize_small_samples_queued(const DrawInTile&, uint32_t, std::span<const uint16_t>, PacketQueue&, PassStatistics&);
+template std::size_t rasterize_small_samples_queued(const DrawInTile&, uint32_t, std::span<const uint16_t>, PacketQueue&,
+                                                    TracedStatistics&);
+
+}  // namespace halfspace
