@@ -58,8 +58,8 @@ struct DrawInTile {
 
 // Statistics is PassStatistics, or TracedStatistics to trace fragments (raster/trace/tile_trace.h).
 
-/// Rasterizes triangle `index` of chunk `chunk` in the tile. list may only be null for VisibilityMode::deferred and depth_only. Must not be
-/// called for queued draws.
+/// Rasterizes triangle `index` of chunk `chunk` in the tile (visibility_general.cpp). list may only be null for VisibilityMode::deferred
+/// and depth_only. Must not be called for queued draws.
 template <class Statistics>
 void rasterize(const DrawInTile& d, uint32_t chunk, uint32_t index, CoverageList* list, Statistics& statistics);
 

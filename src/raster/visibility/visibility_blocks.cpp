@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Visibility of draws where only coverage and depth determine visibility, and of queued draws. The results are the same as with
-// visibility.cpp, which supports all draws. Small triangles with one sample per pixel are drawn by visibility_small.cpp.
+// visibility_general.cpp, which supports all draws. Small triangles with one sample per pixel are drawn by visibility_small.cpp.
 #include <algorithm>
 
 #include "halfspace/raster/pipeline/pixel_box.h"
