@@ -22,17 +22,8 @@ enum class TexelFormat : uint8_t {
 
 namespace detail {
 
-/// Returns the channels that Value has: all (vec4), red, green and blue (vec3), or alpha (R).
-template <class Value, class R>
-HS_INLINE Value channels_of(const vec4<R>& rgba) {
-  if constexpr (std::is_same_v<Value, R>)
-    return rgba.w;
-  else
-    return Value(rgba);
-}
-
-/// Unpacks channels of an 8-bit texel for filtering. Value selects them as in channels_of. sRGB colors become linear values; other
-/// channels remain codes, 0 to 255.
+/// Unpacks channels of an 8-bit texel for filtering: all (Value is vec4), or red, green and blue (vec3). sRGB colors become linear values;
+/// other channels remain codes, 0 to 255.
 template <class Value, TexelFormat format, class R>
 HS_INLINE Value decode_rgba8(IntOf<R> texel) {
   const auto color = [&] {
@@ -45,8 +36,6 @@ HS_INLINE Value decode_rgba8(IntOf<R> texel) {
   const auto alpha = [&] { return to_real<R>((texel >> 24) & 255); };
   if constexpr (std::is_same_v<Value, vec3<R>>)
     return color();
-  else if constexpr (std::is_same_v<Value, R>)
-    return alpha();
   else
     return {color(), alpha()};
 }

@@ -173,8 +173,6 @@ HS_INLINE Value filtered_by_channel(const TexelSquare<R>& s) {
       return lerp(decode_rgba8<Value, format, R>(of.left), decode_rgba8<Value, format, R>(of.right), s.along);
     };
     return lerp(row(lower), row(upper), s.across);
-  } else if constexpr (std::is_same_v<Value, R>) {
-    return filtered_codes<R>(lower, upper, s.along, s.across, 3);
   } else {
     Value mean;
     for (int k = 0; k < (std::is_same_v<Value, vec3<R>> ? 3 : 4); ++k) mean[k] = filtered_codes<R>(lower, upper, s.along, s.across, k);
@@ -192,14 +190,55 @@ HS_INLINE vec4<R> filtered_halfs(const TexelSquare<R>& s) {
   return lerp(row(s.lower), row(s.upper), s.across);
 }
 
+// ---- only alpha ---------------------------------------------------------------------------------------------------------
+
+/// Loads base[i] and base[i + 1] into the low and the high half of each lane.
+HS_INLINE int32_t gather_adjacent(const uint16_t* base, int32_t i) { return static_cast<int32_t>(base[i] | uint32_t{base[i + 1]} << 16); }
+template <int W>
+HS_INLINE IntN<W> gather_adjacent(const uint16_t* base, IntN<W> i) {
+  using V [[maybe_unused]] = typename IntN<W>::V;
+#ifdef __AVX512F__
+  if constexpr (W == 16) return IntN<W>((V)_mm512_mask_i32gather_epi32(_mm512_setzero_si512(), kAll16, (__m512i)i.v, base, 2));
+#endif
+#ifdef __AVX2__
+  [[maybe_unused]] const auto* words = reinterpret_cast<const int32_t*>(base);
+  if constexpr (W == 8) return IntN<W>((V)_mm256_i32gather_epi32(words, (__m256i)i.v, 2));
+  if constexpr (W == 4) return IntN<W>((V)_mm_i32gather_epi32(words, (__m128i)i.v, 2));
+#endif
+  IntN<W> r;
+  for (int k = 0; k < W; ++k) r.v[k] = gather_adjacent(base, i.v[k]);
+  return r;
+}
+template <class H>
+HS_INLINE IntPair<H> gather_adjacent(const uint16_t* base, IntPair<H> i) {
+  return {gather_adjacent(base, i.low), gather_adjacent(base, i.high)};
+}
+
+/// The 2x2 alpha codes that a lookup mixes.
+template <class R>
+struct AlphaSquare {
+  const uint16_t* columns;  ///< of the texture: the code of each texel in the low byte, and of the one above it in the high byte
+  IntOf<R> left;            ///< index of the left column; the right one follows it in memory
+  R along, across;          ///< weights of the right and the upper texels
+};
+
+/// Filters alpha, in codes. One gather loads all four. The bits are the same as those of alpha in the filters of four channels: the sum
+/// along a row is exact.
+template <class R>
+HS_INLINE R filtered_alpha(const AlphaSquare<R>& s) {
+  const IntOf<R> codes = gather_adjacent(s.columns, s.left);
+  const auto code = [&](int byte) { return to_real<R>((codes >> 8 * byte) & 255); };
+  return lerp(lerp(code(0), code(2), s.along), lerp(code(1), code(3), s.along), s.across);
+}
+
 // ---- all lanes and formats ----------------------------------------------------------------------------------------------
 
 /// Filters 2x2 texels and returns linear values (rgba16f) or the units of decode_rgba8. Value selects the channels: vec4, and for 8-bit
-/// formats also vec3 (no alpha) or R (only alpha).
+/// formats also vec3 (no alpha).
 template <class Value, TexelFormat format, class R>
 HS_INLINE Value filtered(const TexelSquare<R>& s) {
   if constexpr (kFiltersByTexel<R> && format != TexelFormat::srgb8a8)
-    return channels_of<Value>(filtered_by_texel<format>(s));
+    return Value(filtered_by_texel<format>(s));
   else if constexpr (format == TexelFormat::rgba16f)
     return filtered_halfs(s);
   else

@@ -208,6 +208,7 @@ template std::vector<Image<glm::vec4>> mip_chain(const Image<glm::vec4>&, TexelF
 Texture2D::Texture2D(const Image<glm::u8vec4>& base, TexelFormat format, const Workers* workers) : format_(format) {
   HS_CHECK(format == TexelFormat::rgba8 || format == TexelFormat::srgb8a8);
   add_chain(base, workers);
+  add_alphas();
 }
 Texture2D::Texture2D(const Image<uint8_t>& base) : format_(TexelFormat::r8) { add_chain(base, nullptr); }
 Texture2D::Texture2D(const Image<uint16_t>& base) : format_(TexelFormat::r16) { add_chain(base, nullptr); }
@@ -219,6 +220,7 @@ Texture2D::Texture2D(const Image<glm::vec4>& base, TexelFormat format, const Wor
 Texture2D::Texture2D(std::span<const Image<glm::u8vec4>> levels, TexelFormat format) : format_(format) {
   HS_CHECK(format == TexelFormat::rgba8 || format == TexelFormat::srgb8a8);
   add_levels(levels);
+  add_alphas();
 }
 Texture2D::Texture2D(std::span<const Image<glm::vec4>> levels, TexelFormat format) : format_(format) {
   HS_CHECK(format == TexelFormat::rgba16f || format == TexelFormat::rgba32f);
@@ -275,6 +277,21 @@ void Texture2D::add_level(const Image<Texel>& image, const Workers* workers) {
     for (const Texel& t : row) put(texels_.data(), at++, t, format_);
     put(texels_.data(), at, row.front(), format_);
   });
+}
+
+void Texture2D::add_alphas() {
+  const auto alpha = [](int32_t texel) { return static_cast<uint16_t>(static_cast<uint32_t>(texel) >> 24); };
+  const std::size_t end = texels_.size() - kRowSlack;
+  const bool varies = std::any_of(texels_.begin(), texels_.begin() + static_cast<std::ptrdiff_t>(end),
+                                  [&](int32_t texel) { return alpha(texel) != alpha(texels_[0]); });
+  if (!varies) return;
+  alphas_.resize(end);
+  for (std::size_t l = 0; l < static_cast<std::size_t>(levels_); ++l) {
+    const auto pitch = static_cast<std::size_t>(pitch_[l]);
+    std::size_t i = static_cast<std::size_t>(offset_[l]) - pitch - 1;  // the first texel of the border
+    for (const std::size_t last_row = i + pitch * static_cast<std::size_t>(height_[l] + 1); i < last_row; ++i)
+      alphas_[i] = static_cast<uint16_t>(alpha(texels_[i]) | alpha(texels_[i + pitch]) << 8);
+  }
 }
 
 /// Returns an index in texels, counted from the start of the allocation.

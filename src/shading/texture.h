@@ -112,6 +112,7 @@ class Texture2D {
   void add_levels(std::span<const Image<Texel>> levels);
   template <class Texel>
   void add_level(const Image<Texel>& image, const Workers* workers);
+  void add_alphas();
   std::size_t index_of(int level, int x, int row) const;
 
   /// Returns whether CommonLookup supports this sampler.
@@ -129,7 +130,8 @@ class Texture2D {
   // A lookup for any sampler, for one format (texels.h).
   template <class R, class Texels>
   struct AnyLookup;
-  // A lookup in rgba8, srgb8a8 or rgba16f, for common samplers. Value selects the channels: vec4, vec3 (no alpha) or R (only alpha).
+  // A lookup in rgba8, srgb8a8 or rgba16f, for common samplers. Value selects the channels: vec4, vec3 (no alpha) or, if alphas_ is not
+  // empty, R (only alpha).
   template <class Value, TexelFormat texel_format, class R>
   struct CommonLookup;
   template <class R, class Function>
@@ -160,6 +162,9 @@ class Texture2D {
   // All levels, in the layout of texels.h. Each level has a border of one texel that repeats the opposite edge, so that neighbors are
   // adjacent in memory even across the seams. The last texels are followed by a few words that gather_row may read.
   std::vector<int32_t, CacheLineAllocator<int32_t>> texels_;
+  // Only for 8-bit formats with four channels whose alpha is not the same everywhere: the alpha code of each texel in the low byte, and of
+  // the texel above it in the high byte. sample_alpha finds all it needs with one load.
+  std::vector<uint16_t, CacheLineAllocator<uint16_t>> alphas_;
 };
 
 /// Computes all mip levels below base, largest first. base is not included; the last level is 1 x 1.
@@ -229,8 +234,12 @@ struct Texture2D::CommonLookup {
     const Level<R> l = texture.level<R>(level_index);
     const Axis<R> x = clamped(axis(st.x, l.columns), l.width, sampler.wrap_s), y = clamped(axis(st.y, l.rows), l.height, sampler.wrap_t);
     const IntOf<R> row = y.i * l.pitch + (l.offset + x.i);  // adds the product last, because it has the longest latency
-    return detail::filtered<Value, texel_format>(
-        detail::TexelSquare<R>{texture.texels_.data(), row, row + l.pitch, x.fraction, y.fraction, x.steps});
+    if constexpr (std::is_same_v<Value, R>) {
+      return detail::filtered_alpha(detail::AlphaSquare<R>{texture.alphas_.data(), row, x.fraction, y.fraction});
+    } else {
+      return detail::filtered<Value, texel_format>(
+          detail::TexelSquare<R>{texture.texels_.data(), row, row + l.pitch, x.fraction, y.fraction, x.steps});
+    }
   }
 
   /// Filters one or two levels, in filtering units.
@@ -304,7 +313,7 @@ vec4<R> Texture2D::sample_level(const Sampler& sampler, const vec2<R>& uv, std::
 template <class Value, class R>
 HS_INLINE Value Texture2D::sample_channels(const Sampler& sampler, const vec2<R>& uv, const vec2<R>& duv_dx, const vec2<R>& duv_dy) const {
   if (format_ != TexelFormat::rgba8 || !is_common(sampler) || sampler.anisotropy > 1) {
-    return detail::channels_of<Value>(sample_any<R>(sampler, uv, duv_dx, duv_dy));
+    return Value(sample_any<R>(sampler, uv, duv_dx, duv_dy));
   }
   const CommonLookup<Value, TexelFormat::rgba8, R> lookup{*this, sampler};
   return lookup.finish(lookup(uv, levels_of(sampler, duv_dx, duv_dy)));
@@ -320,7 +329,14 @@ vec3<R> Texture2D::sample_rgb(const Sampler& sampler, const vec2<R>& uv, const v
 }
 template <Number R>
 R Texture2D::sample_alpha(const Sampler& sampler, const vec2<R>& uv, const vec2<R>& duv_dx, const vec2<R>& duv_dy) const {
-  return sample_channels<R, R>(sampler, uv, duv_dx, duv_dy);
+  if constexpr (!std::is_same_v<R, double>) {
+    if (format_ <= TexelFormat::srgb8a8 && is_common(sampler) && sampler.anisotropy <= 1) {
+      const CommonLookup<R, TexelFormat::rgba8, R> lookup{*this, sampler};
+      if (alphas_.empty()) return lookup.finish(R(static_cast<float>(static_cast<uint32_t>(texels_[0]) >> 24)));
+      return lookup.finish(lookup(uv, levels_of(sampler, duv_dx, duv_dy)));
+    }
+  }
+  return sample_any<R>(sampler, uv, duv_dx, duv_dy).w;
 }
 
 }  // namespace halfspace

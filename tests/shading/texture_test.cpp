@@ -375,6 +375,36 @@ TEST(Texture, LookupsOfFewerChannelsReturnTheBitsOfSample) {
   }
 }
 
+// Alpha has a lookup of its own. Textures with the same alpha everywhere do not look it up.
+TEST(Texture, AlphaOfLanesHasTheBitsOfSample) {
+  using R = FragmentReal;
+  std::mt19937 random(31);
+  std::uniform_real_distribution<float> coordinate(-2, 3), change(-0.1f, 0.1f);
+  const auto values = [&](auto& distribution) {
+    R r{};
+    for (int i = 0; i < kWidthOf<R>; ++i) set_lane(r, i, distribution(random));
+    return r;
+  };
+  Image<glm::u8vec4> same_alpha = noise(33, 20, 28);
+  for (glm::u8vec4& texel : std::span(same_alpha.data(), 33 * 20)) texel.w = 77;
+  Sampler anisotropic;
+  anisotropic.anisotropy = 4;
+  for (const TexelFormat format : {TexelFormat::rgba8, TexelFormat::srgb8a8}) {
+    for (const Texture2D& texture : {Texture2D(noise(33, 20, 28), format), Texture2D(same_alpha, format)}) {
+      for (const Sampler& sampler : {Sampler{}, kBilinearClamp, kNearest, anisotropic}) {
+        for (int i = 0; i < 50; ++i) {
+          const vec2<R> uv(values(coordinate), values(coordinate)), dx(values(change), values(change)), dy(values(change), values(change));
+          const R alpha = texture.sample_alpha(sampler, uv, dx, dy);
+          for (int k = 0; k < kWidthOf<R>; ++k) {
+            const auto in_lane = [k](const vec2<R>& v) { return vec2<float>(lane(v.x, k), lane(v.y, k)); };
+            EXPECT_EQ(lane(alpha, k), texture.sample(sampler, in_lane(uv), in_lane(dx), in_lane(dy)).w);
+          }
+        }
+      }
+    }
+  }
+}
+
 TEST(Texture, ExtremeCoordinatesAndDerivativesReturnValuesInRange) {
   const Texture2D texture(noise(7, 9, 13), TexelFormat::rgba8);
   const float wild[] = {0.0f, -0.0f, 0.5f,  1.0f,  -1.0f,  0x1p-149f, -0x1p-149f, -0x1p-30f, 8388609.0f, -8388609.5f,
