@@ -101,7 +101,7 @@ void add_channels(std::vector<ExrChannel>& channels, FrameValue value, const Ima
       for (std::size_t x = 0; x < static_cast<std::size_t>(image.width()); ++x)
         std::memcpy(row.data() + 4 * x, from + 4 * (x * count + k), 4);
     };
-    channels.push_back({channel_name(value, k), std::is_same_v<T, uint32_t> ? ExrSample::id : ExrSample::number, fill});
+    channels.push_back({channel_name(value, k), std::is_same_v<T, uint32_t> ? ExrSample::uint32 : ExrSample::float32, fill});
   }
 }
 

@@ -47,7 +47,7 @@ struct SceneMesh {
 /// A draw call.
 struct SceneObject {
   std::size_t mesh, material;
-  glm::dmat4 world_from_object;  ///< keeps the directions of the normals, apart from their length
+  glm::dmat4 world_from_object;  ///< also transforms the normals, up to their length
 };
 
 struct SceneLight {

@@ -46,8 +46,8 @@ class MemoryStream : public Imf::OStream {
 };
 
 Imf::PixelType type_of(ExrSample sample) {
-  if (sample == ExrSample::half) return Imf::HALF;
-  return sample == ExrSample::number ? Imf::FLOAT : Imf::UINT;
+  if (sample == ExrSample::float16) return Imf::HALF;
+  return sample == ExrSample::float32 ? Imf::FLOAT : Imf::UINT;
 }
 
 Imf::Header header_of(int width, int height, std::span<const ExrChannel> channels, const ImageText& text) {

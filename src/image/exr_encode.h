@@ -12,7 +12,7 @@
 
 namespace halfspace {
 
-inline constexpr std::size_t sample_bytes(ExrSample s) { return s == ExrSample::half ? 2 : 4; }
+inline constexpr std::size_t sample_bytes(ExrSample s) { return s == ExrSample::float16 ? 2 : 4; }
 
 /// Encodes a single-part scanline file with ZIP compression. Equal samples give equal bytes. Throws OutputError, with a message that
 /// begins with path. Nothing is written to path.

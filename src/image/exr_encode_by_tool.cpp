@@ -14,11 +14,11 @@ namespace halfspace {
 namespace {
 
 bool tool_can_write(std::span<const ExrChannel> channels) {
-  if (channels.size() == 1) return channels[0].name == "Z" && channels[0].sample == ExrSample::number;
+  if (channels.size() == 1) return channels[0].name == "Z" && channels[0].sample == ExrSample::float32;
   constexpr const char* kNames[] = {"R", "G", "B", "A"};
   if (channels.size() != 3 && channels.size() != 4) return false;
   return std::equal(channels.begin(), channels.end(), kNames,
-                    [](const ExrChannel& c, const char* name) { return c.name == name && c.sample == ExrSample::half; });
+                    [](const ExrChannel& c, const char* name) { return c.name == name && c.sample == ExrSample::float16; });
 }
 
 }  // namespace
@@ -31,7 +31,7 @@ std::vector<std::byte> encode_exr(const std::filesystem::path& path, int width, 
   header.width = width;
   header.height = height;
   header.channels = static_cast<uint32_t>(channels.size());
-  header.sample = channels.size() == 1 ? Sample::number : Sample::half;
+  header.sample = channels.size() == 1 ? Sample::float32 : Sample::float16;
   const std::size_t size = sample_bytes(header.sample);
   std::vector<std::byte> samples(size * static_cast<std::size_t>(width));
   return encode_by_tool(path, "openexr", header, [&](int y, std::span<std::byte> row) {

@@ -96,12 +96,12 @@ std::vector<ExrChannel> color_channels(const Image<glm::vec4>& image);
 void write_depth_exr(const std::filesystem::path& path, const Image<float>& depth);
 
 /// Types of OpenEXR samples: a 16-bit or 32-bit float, or a 32-bit unsigned integer (OpenEXR's HALF, FLOAT and UINT).
-enum class ExrSample { half, number, id };
+enum class ExrSample { float16, float32, uint32 };
 
 struct ExrChannel {
   /// For example "R" or "normal.X".
   std::string name;
-  ExrSample sample = ExrSample::number;
+  ExrSample sample = ExrSample::float32;
   /// Writes the samples of row y, counted from the top, into row, which is aligned for the type. May be called several times per row.
   std::function<void(int y, std::span<std::byte> row)> fill_row;
 };

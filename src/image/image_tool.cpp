@@ -25,8 +25,8 @@ namespace {
   fail_writing(path, "cannot write (" + what + ")");
 }
 
-// The result of a request. `done` and `last` mean a complete answer; after `last`, the tool must not be used any further.
-enum class Talk { done, last, tool_ended };
+// The result of a request. `answered` and `answered_last` mean a complete answer; after `answered_last`, the tool must not be reused.
+enum class Exchange { answered, answered_last, tool_ended };
 
 // Why there was no answer.
 struct ToolFailure {
@@ -34,19 +34,19 @@ struct ToolFailure {
   bool started = true;
 };
 
-// Lends a tool of the pool to talk(tool), which sends a request and receives the answer. If a tool has ended that had served earlier
-// requests, the earlier ones may have damaged it, or something may have killed it meanwhile; talk is then called again with a new one. A
-// time limit is not tried twice.
+// Lends a tool of the pool to exchange(tool), which sends a request and receives the answer. If a tool that has served earlier requests
+// ends, those requests may have damaged it or something else may have killed it, so exchange is called again with a new tool. A request
+// that reaches the time limit is not repeated.
 template <class F>
-std::optional<ToolFailure> talk_to_tool(ToolPool& pool, const std::filesystem::path& program, F&& talk) {
+std::optional<ToolFailure> exchange_with_tool(ToolPool& pool, const std::filesystem::path& program, F&& exchange) {
   for (;;) {
     ToolPool::Lease lease(pool);
     const bool used = lease.tool().running();
     const int error = used ? 0 : lease.tool().start(program);
     if (error != 0) return ToolFailure{std::strerror(error), false};
-    const Talk result = talk(lease.tool());
-    if (result == Talk::done) lease.keep();
-    if (result != Talk::tool_ended) return std::nullopt;
+    const Exchange result = exchange(lease.tool());
+    if (result == Exchange::answered) lease.keep();
+    if (result != Exchange::tool_ended) return std::nullopt;
     const int signal = lease.tool().wait();
     if (!used || signal == SIGXCPU || signal == SIGALRM)
       return ToolFailure{signal == 0 ? "ended early" : std::string("died: ") + ::strsignal(signal)};
@@ -81,33 +81,33 @@ bool receive_pixels(ToolProcess& tool, const PictureHeader& h, const std::string
 }
 
 template <class Picture>
-Talk receive_samples(ToolProcess& tool, const PictureHeader& h, const std::string& name, Picture& picture, std::string& message) {
+Exchange receive_samples(ToolProcess& tool, const PictureHeader& h, const std::string& name, Picture& picture, std::string& message) {
   bool complete = false;
   switch (h.sample) {
-    case Sample::code8: complete = receive_pixels<Picture, 0>(tool, h, name, picture); break;
-    case Sample::code16: complete = receive_pixels<Picture, 1>(tool, h, name, picture); break;
-    case Sample::number: complete = receive_pixels<Picture, 2>(tool, h, name, picture); break;
-    default: message = "cannot be read: the decoder has a different version than this program"; return Talk::last;
+    case Sample::uint8: complete = receive_pixels<Picture, 0>(tool, h, name, picture); break;
+    case Sample::uint16: complete = receive_pixels<Picture, 1>(tool, h, name, picture); break;
+    case Sample::float32: complete = receive_pixels<Picture, 2>(tool, h, name, picture); break;
+    default: message = "cannot be read: the decoder has a different version than this program"; return Exchange::answered_last;
   }
-  return complete ? Talk::done : Talk::tool_ended;
+  return complete ? Exchange::answered : Exchange::tool_ended;
 }
 
 // Receives the decoder's answer, a picture or a message.
 template <class Picture>
-Talk receive_picture(ToolProcess& tool, uint32_t channels, const std::string& name, Picture& picture, std::string& message) {
+Exchange receive_picture(ToolProcess& tool, uint32_t channels, const std::string& name, Picture& picture, std::string& message) {
   PictureHeader h;
-  if (!tool.receive(&h, sizeof h)) return Talk::tool_ended;
+  if (!tool.receive(&h, sizeof h)) return Exchange::tool_ended;
   if (h.magic == kImageToolMagic && h.width == 0) {
     std::optional<std::string> text = receive_message(tool, h.message_bytes);
-    if (!text) return Talk::tool_ended;
+    if (!text) return Exchange::tool_ended;
     if (h.height != 0) throw LimitError(name + ": " + *text);
     message = *std::move(text);
-    return Talk::done;
+    return Exchange::answered;
   }
   if (h.magic == kImageToolMagic) check_image_size(static_cast<uint64_t>(h.width), static_cast<uint64_t>(h.height), name);
   if (h.magic != kImageToolMagic || h.channels != channels) {
     message = "cannot be read: the decoder has a different version than this program";
-    return Talk::last;
+    return Exchange::answered_last;
   }
   return receive_samples(tool, h, name, picture, message);
 }
@@ -135,8 +135,8 @@ Picture read_by_tool(ImageSource& source, ToolTask task) {
   const int file = source.descriptor();
   Picture picture;
   std::string message;
-  const auto failure = talk_to_tool(program.pool, program.path, [&](ToolProcess& tool) {
-    if (!tool.send_with_descriptor(&request, sizeof request, file)) return Talk::tool_ended;
+  const auto failure = exchange_with_tool(program.pool, program.path, [&](ToolProcess& tool) {
+    if (!tool.send_with_descriptor(&request, sizeof request, file)) return Exchange::tool_ended;
     return receive_picture(tool, task == ToolTask::read_gray ? 1 : 4, source.name(), picture, message);
   });
   if (failure && !failure->started) {
@@ -159,21 +159,21 @@ bool send_rows(ToolProcess& tool, const PictureHeader& header, const std::functi
 }
 
 // Receives the encoder's answer, a file or a message.
-Talk receive_file(ToolProcess& tool, uint64_t max_bytes, std::vector<std::byte>& file, std::string& message) {
+Exchange receive_file(ToolProcess& tool, uint64_t max_bytes, std::vector<std::byte>& file, std::string& message) {
   FileHeader h;
-  if (!tool.receive(&h, sizeof h)) return Talk::tool_ended;
+  if (!tool.receive(&h, sizeof h)) return Exchange::tool_ended;
   if (h.magic != kImageToolMagic || h.file_bytes > max_bytes) {
     message = std::string(kImageToolName) + " has a different version than this program";
-    return Talk::last;
+    return Exchange::answered_last;
   }
   if (h.file_bytes == 0) {
     std::optional<std::string> text = receive_message(tool, h.message_bytes);
-    if (!text) return Talk::tool_ended;
+    if (!text) return Exchange::tool_ended;
     message = *std::move(text);
-    return Talk::last;
+    return Exchange::answered_last;
   }
   file.resize(h.file_bytes);
-  return tool.receive(file.data(), file.size()) ? Talk::done : Talk::tool_ended;
+  return tool.receive(file.data(), file.size()) ? Exchange::answered : Exchange::tool_ended;
 }
 
 }  // namespace
@@ -192,11 +192,11 @@ std::vector<std::byte> encode_by_tool(const std::filesystem::path& path, const c
   const uint64_t max_bytes = 2 * row_bytes(header) * static_cast<uint64_t>(header.height) + (1 << 20);
   std::vector<std::byte> file;
   std::string message;
-  const auto failure = talk_to_tool(image_tool_pool(), program, [&](ToolProcess& tool) {
+  const auto failure = exchange_with_tool(image_tool_pool(), program, [&](ToolProcess& tool) {
     // An encoder that reports an error ends before it has received all rows; its answer contains the reason.
     const bool sent = tool.send(&request, sizeof request) && tool.send(&header, sizeof header) && send_rows(tool, header, fill_row);
-    const Talk result = receive_file(tool, max_bytes, file, message);
-    return sent || !message.empty() ? result : Talk::tool_ended;
+    const Exchange result = receive_file(tool, max_bytes, file, message);
+    return sent || !message.empty() ? result : Exchange::tool_ended;
   });
   if (failure && !failure->started) cannot_write(path, program.string() + " does not start: " + failure->text);
   if (failure) cannot_write(path, std::string("the ") + format + " encoder " + failure->text);
@@ -211,7 +211,7 @@ std::vector<std::byte> encode_codes_by_tool(const std::filesystem::path& path, c
   header.width = image.width();
   header.height = image.height();
   header.channels = channels;
-  header.sample = Sample::code8;
+  header.sample = Sample::uint8;
   return encode_by_tool(path, format, header, [&](int y, std::span<std::byte> row) {
     std::byte* to = row.data();
     for (const glm::u8vec4& texel : image.row(y)) {

@@ -41,7 +41,7 @@ int exr_sample(const glm::vec4& t, int channel) {
 
 ExrChannel exr_channel(const Image<glm::vec4>& image, int channel) {
   constexpr const char* kNames[] = {"R", "G", "B", "A"};
-  return {kNames[channel], ExrSample::half, [&image, channel](int y, std::span<std::byte> row) {
+  return {kNames[channel], ExrSample::float16, [&image, channel](int y, std::span<std::byte> row) {
             std::byte* to = row.data();
             for (const glm::vec4& texel : image.row(y)) {
               const uint16_t half = static_cast<uint16_t>(exr_sample(texel, channel));
@@ -79,7 +79,7 @@ void write_hdr(const std::filesystem::path& path, const Image<glm::vec4>& image)
   header.width = image.width();
   header.height = image.height();
   header.channels = 3;
-  header.sample = Sample::number;
+  header.sample = Sample::float32;
   write_file(path, encode_by_tool(path, "hdr", header, [&](int y, std::span<std::byte> row) {
                std::byte* to = row.data();
                for (const glm::vec4& texel : image.row(y)) {
@@ -154,7 +154,7 @@ void write_image(const std::filesystem::path& path, const Image<glm::vec4>& imag
 }
 
 void write_depth_exr(const std::filesystem::path& path, const Image<float>& depth) {
-  const ExrChannel z = {"Z", ExrSample::number,
+  const ExrChannel z = {"Z", ExrSample::float32,
                         [&](int y, std::span<std::byte> row) { std::ranges::copy(std::as_bytes(depth.row(y)), row.begin()); }};
   write_exr(path, depth.width(), depth.height(), {&z, 1});
 }

@@ -25,7 +25,7 @@ class Exr : public ImageToolTest {
  protected:
   void SetUp() override {
     ImageToolTest::SetUp();
-    const ExrChannel id = {"id", ExrSample::id, [](int, std::span<std::byte> row) { std::ranges::fill(row, std::byte{0}); }};
+    const ExrChannel id = {"id", ExrSample::uint32, [](int, std::span<std::byte> row) { std::ranges::fill(row, std::byte{0}); }};
     try {
       write_exr(directory / "probe.exr", 1, 1, {&id, 1});
     } catch (const OutputError&) {
@@ -54,7 +54,7 @@ std::vector<uint16_t> finite_halves() {
 
 TEST_F(Exr, ChannelNamesAreReadFromTheHeader) {
   const std::vector<float> zeros(6);
-  const std::vector<ExrChannel> channels{channel("normal.X", ExrSample::number, zeros), channel("depth.Z", ExrSample::number, zeros)};
+  const std::vector<ExrChannel> channels{channel("normal.X", ExrSample::float32, zeros), channel("depth.Z", ExrSample::float32, zeros)};
   write_exr(directory / "a.exr", 3, 2, channels, {.software = "test", .comment = "chlist"});
   EXPECT_EQ(exr_channel_names(directory / "a.exr"), (std::vector<std::string>{"depth.Z", "normal.X"}));
   const std::string whole = read_bytes(directory / "a.exr");
@@ -70,7 +70,7 @@ TEST_F(Exr, ChannelNamesAreReadFromTheHeader) {
 TEST_F(Exr, HalfsAreBitExact) {
   const std::vector<uint16_t> halves = finite_halves();
   const int width = 512, height = static_cast<int>(halves.size()) / width;
-  const ExrChannel y = channel("Y", ExrSample::half, halves);
+  const ExrChannel y = channel("Y", ExrSample::float16, halves);
   write_exr(directory / "a.exr", width, height, {&y, 1});
   const Image<float> again = read_gray(directory / "a.exr");
   ASSERT_EQ(again.height(), height);
@@ -83,7 +83,7 @@ TEST_F(Exr, FloatsAreBitExact) {
   std::vector<float> floats;
   for (int i = 0; i < 300 * 7; ++i)
     floats.push_back(std::ldexp(1.0f + static_cast<float>(i) / 2100.0f, i % 250 - 130) * (i % 2 == 0 ? 1.0f : -1.0f));
-  const ExrChannel z = channel("Z", ExrSample::number, floats);
+  const ExrChannel z = channel("Z", ExrSample::float32, floats);
   write_exr(directory / "a.exr", 7, 300, {&z, 1});
   const Image<float> again = read_gray(directory / "a.exr");
   EXPECT_EQ(std::memcmp(again.data(), floats.data(), floats.size() * sizeof(float)), 0);
@@ -93,8 +93,8 @@ TEST_F(Exr, FloatsAreBitExact) {
 TEST_F(Exr, StoresChannelsOfAllTypesInOneFile) {
   const std::vector<uint32_t> id = {0xfffffffeu}, depth = {0x7f800000u};  // the largest id but one; infinity
   const std::vector<uint16_t> alpha = {0x3c01};
-  const ExrChannel channels[] = {channel("object", ExrSample::id, id), channel("Z", ExrSample::number, depth),
-                                 channel("normal.X", ExrSample::half, alpha)};
+  const ExrChannel channels[] = {channel("object", ExrSample::uint32, id), channel("Z", ExrSample::float32, depth),
+                                 channel("normal.X", ExrSample::float16, alpha)};
   write_exr(directory / "a.exr", 1, 1, channels);
   const std::string file = read_bytes(directory / "a.exr");
   EXPECT_TRUE(file.ends_with(memory_of(depth) + memory_of(alpha) + memory_of(id)));
@@ -106,7 +106,7 @@ TEST_F(Exr, StoresChannelsOfAllTypesInOneFile) {
 
 TEST_F(Exr, HasOnlyTheRequiredAttributes) {
   const std::vector<float> sample = {1.0f};
-  const ExrChannel z = channel("Z", ExrSample::number, sample);
+  const ExrChannel z = channel("Z", ExrSample::float32, sample);
   write_exr(directory / "a.exr", 1, 1, {&z, 1});
   const std::string file = read_bytes(directory / "a.exr");
   for (const char* present : {"channels", "compression", "dataWindow", "displayWindow", "lineOrder", "pixelAspectRatio"}) {
@@ -128,7 +128,7 @@ TEST_F(Exr, StoresTheSameBlocksAsOpenImageIo) {
   header.width = light.width();
   header.height = light.height();
   header.channels = 4;
-  header.sample = Sample::half;
+  header.sample = Sample::float16;
   const auto fill_row = [&](int y, std::span<std::byte> row) {
     for (std::size_t i = 0; i < 4 * static_cast<std::size_t>(light.width()); ++i) {
       const glm::vec4 t = light.at(static_cast<int>(i / 4), y);

@@ -66,11 +66,11 @@ inline std::string png16_row(const std::vector<uint16_t>& codes, int width, int 
 }
 
 /// Values of TIFF's SampleFormat tag.
-enum class TiffSamples : uint16_t { code = 1, whole = 2, number = 3 };
+enum class TiffSampleFormat : uint16_t { unsigned_integer = 1, signed_integer = 2, floating_point = 3 };
 
 /// Builds an uncompressed grayscale TIFF with one row; T is the sample type.
 template <class T>
-std::string gray_tiff_row(const std::vector<T>& samples, TiffSamples kind) {
+std::string gray_tiff_row(const std::vector<T>& samples, TiffSampleFormat format) {
   static_assert(std::endian::native == std::endian::little);
   const uint32_t width = static_cast<uint32_t>(samples.size());
   constexpr uint32_t kFirst = 8;  // file offset of the samples
@@ -85,7 +85,7 @@ std::string gray_tiff_row(const std::vector<T>& samples, TiffSamples kind) {
                                                    {277, 1},
                                                    {278, 1},
                                                    {279, bytes},
-                                                   {339, static_cast<uint32_t>(kind)}};
+                                                   {339, static_cast<uint32_t>(format)}};
   std::string file = "II*" + std::string(1, '\0') + memory_of<uint32_t>({directory}) + memory_of(samples);
   file.resize(directory);
   file += memory_of<uint16_t>({static_cast<uint16_t>(std::size(entries))});

@@ -66,13 +66,13 @@ TEST_F(ImageNumbers, SixteenBitCodesAreDecodedFromSrgb) {
 }
 
 TEST_F(ToolNumbers, ReadsHeightsFromTiff) {
-  EXPECT_EQ(texels_of(read_gray(put("8.tif", gray_tiff_row<uint8_t>({0, 51, 255}, TiffSamples::code)))),
+  EXPECT_EQ(texels_of(read_gray(put("8.tif", gray_tiff_row<uint8_t>({0, 51, 255}, TiffSampleFormat::unsigned_integer)))),
             (std::vector<float>{0.0f, 0.2f, 1.0f}));
-  EXPECT_EQ(texels_of(read_gray(put("16.tif", gray_tiff_row<uint16_t>({0, 1, 65535}, TiffSamples::code)))),
+  EXPECT_EQ(texels_of(read_gray(put("16.tif", gray_tiff_row<uint16_t>({0, 1, 65535}, TiffSampleFormat::unsigned_integer)))),
             (std::vector<float>{0.0f, 1.0f / 65535.0f, 1.0f}));
   const std::vector<float> numbers = {-10994.25f, 0.1f, 1e30f};
-  EXPECT_EQ(texels_of(read_gray(put("float.tif", gray_tiff_row(numbers, TiffSamples::number)))), numbers);
-  EXPECT_EQ(texels_of(read_gray(put("signed.tif", gray_tiff_row<int16_t>({-32767, 0, 32767}, TiffSamples::whole)))),
+  EXPECT_EQ(texels_of(read_gray(put("float.tif", gray_tiff_row(numbers, TiffSampleFormat::floating_point)))), numbers);
+  EXPECT_EQ(texels_of(read_gray(put("signed.tif", gray_tiff_row<int16_t>({-32767, 0, 32767}, TiffSampleFormat::signed_integer)))),
             (std::vector<float>{-1.0f, 0.0f, 1.0f}));
 }
 
@@ -114,7 +114,7 @@ TEST_F(ToolNumbers, RejectsNaNAndReportsThePixel) {
 }
 
 TEST_F(ToolNumbers, RejectsFloatFilesAsEightBitImages) {
-  const std::filesystem::path tiff = put("a.tif", gray_tiff_row<float>({1.0f, 2.0f}, TiffSamples::number));
+  const std::filesystem::path tiff = put("a.tif", gray_tiff_row<float>({1.0f, 2.0f}, TiffSampleFormat::floating_point));
   EXPECT_TRUE(reports(input_error([&] { read_image(tiff); }), tiff.string(), {"linear values", "16-bit codes", "PNG"}));
   const std::filesystem::path pfm_file = put("a.pfm", pfm(1, 1, {1.0f, 2.0f, 3.0f}));
   EXPECT_TRUE(reports(input_error([&] { read_image(pfm_file); }), pfm_file.string(), {"PFM", "linear values", "16-bit codes", "PNG"}));

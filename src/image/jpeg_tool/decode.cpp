@@ -106,7 +106,7 @@ void decode(const ReadRequest& request) {
   check_claimed_size(request, decoder.width(), decoder.height(), channels);
   const std::vector<uint8_t> pixels = decoder.decode(channels);
   const auto edge = [](unsigned pixels_per_side) { return static_cast<int32_t>(pixels_per_side); };
-  put_answer(PictureHeader{kImageToolMagic, edge(decoder.width()), edge(decoder.height()), channels, Sample::code8, 0}, "");
+  put_answer(PictureHeader{kImageToolMagic, edge(decoder.width()), edge(decoder.height()), channels, Sample::uint8, 0}, "");
   std::fwrite(pixels.data(), 1, pixels.size(), stdout);
 }
 

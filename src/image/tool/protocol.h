@@ -39,16 +39,16 @@ struct ToolRequest {
 };
 
 /// The type of one channel of a pixel: an 8-bit or 16-bit code that spans its full range, a half or a float.
-enum class Sample : uint32_t { code8, code16, half, number };
+enum class Sample : uint32_t { uint8, uint16, float16, float32 };
 
-inline constexpr std::size_t sample_bytes(Sample s) { return s == Sample::code8 ? 1 : s == Sample::number ? 4 : 2; }
+inline constexpr std::size_t sample_bytes(Sample s) { return s == Sample::uint8 ? 1 : s == Sample::float32 ? 4 : 2; }
 
 struct PictureHeader {
   uint32_t magic = kImageToolMagic;
   int32_t width = 0, height = 0;
   /// 1 (gray, or depth when writing), 3 or 4.
   uint32_t channels = 0;
-  Sample sample = Sample::code8;
+  Sample sample = Sample::uint8;
   uint32_t message_bytes = 0;
 };
 

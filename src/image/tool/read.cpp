@@ -20,7 +20,7 @@ namespace {
 // A decoded image with the requested channels: all channels of the file, or only the first.
 struct Picture {
   int width = 0, height = 0, channels = 0, alpha_channel = -1;
-  Sample sample = Sample::code8;
+  Sample sample = Sample::uint8;
   std::vector<std::byte> pixels;
 };
 
@@ -42,8 +42,8 @@ Failure damaged(const ReadRequest& request, const std::string& why) {
 
 // Codes of up to 16 bits stay codes. All other types become floats; signed and 32-bit integers are scaled to a maximum of 1.
 Sample sample_of(const OIIO::TypeDesc& type) {
-  if (type.basetype == OIIO::TypeDesc::UINT8) return Sample::code8;
-  return type.basetype == OIIO::TypeDesc::UINT16 ? Sample::code16 : Sample::number;
+  if (type.basetype == OIIO::TypeDesc::UINT8) return Sample::uint8;
+  return type.basetype == OIIO::TypeDesc::UINT16 ? Sample::uint16 : Sample::float32;
 }
 
 void check_spec(const OIIO::ImageSpec& spec, const ReadRequest& request) {
@@ -58,8 +58,8 @@ void check_spec(const OIIO::ImageSpec& spec, const ReadRequest& request) {
 }
 
 OIIO::TypeDesc type_of(Sample sample) {
-  if (sample == Sample::code8) return OIIO::TypeDesc::UINT8;
-  return sample == Sample::code16 ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::FLOAT;
+  if (sample == Sample::uint8) return OIIO::TypeDesc::UINT8;
+  return sample == Sample::uint16 ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::FLOAT;
 }
 
 Picture read_picture(const ReadRequest& request) {
@@ -82,7 +82,7 @@ Picture read_picture(const ReadRequest& request) {
 std::vector<std::byte> opaque(Sample sample) {
   std::vector<std::byte> bytes(sample_bytes(sample), std::byte{255});
   const float one = 1.0f;
-  if (sample == Sample::number) std::memcpy(bytes.data(), &one, sizeof one);
+  if (sample == Sample::float32) std::memcpy(bytes.data(), &one, sizeof one);
   return bytes;
 }
 

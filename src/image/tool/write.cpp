@@ -58,20 +58,20 @@ PictureHeader receive_header() {
   receive(&h, sizeof h);
   if (h.magic != kImageToolMagic) throw Failure{std::string(kImageToolName) + " has a different version than the program that started it"};
   check_image_size(static_cast<uint64_t>(h.width), static_cast<uint64_t>(h.height), "picture");
-  if ((h.channels != 1 && h.channels != 3 && h.channels != 4) || h.sample > Sample::number) throw Failure{"the image header is damaged"};
+  if ((h.channels != 1 && h.channels != 3 && h.channels != 4) || h.sample > Sample::float32) throw Failure{"the image header is damaged"};
   return h;
 }
 
 OIIO::TypeDesc type_of(Sample sample) {
-  if (sample == Sample::code8) return OIIO::TypeDesc::UINT8;
-  if (sample == Sample::code16) return OIIO::TypeDesc::UINT16;
-  return sample == Sample::half ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::FLOAT;
+  if (sample == Sample::uint8) return OIIO::TypeDesc::UINT8;
+  if (sample == Sample::uint16) return OIIO::TypeDesc::UINT16;
+  return sample == Sample::float16 ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::FLOAT;
 }
 
 OIIO::ImageSpec spec_of(const PictureHeader& h, const std::string& format) {
   OIIO::ImageSpec spec(h.width, h.height, static_cast<int>(h.channels), type_of(h.sample));
   if (h.channels == 1) spec.channelnames = {"Z"};
-  spec.attribute("oiio:ColorSpace", h.sample == Sample::code8 ? "sRGB" : "Linear");
+  spec.attribute("oiio:ColorSpace", h.sample == Sample::uint8 ? "sRGB" : "Linear");
   spec.attribute("oiio:UnassociatedAlpha", format == "tiff" ? 1 : 0);  // store the pixels unchanged
   spec.attribute("DateTime", "");  // OpenImageIO would write the current time, and equal images would give different files
   spec.attribute("compression", format == "jpeg" ? "jpeg:95" : "zip");
