@@ -12,7 +12,7 @@
 namespace halfspace {
 
 /// Directed edge (ex, ey) starting at (x0, y0), with the edge function E(x, y) = ex·(y − y0) − ey·(x − x0). E is positive to the left of
-/// the edge, which is the inside a counter-clockwise triangle. Coordinates are in 1/256 px, and E is in (1/256 px)².
+/// the edge, which is the inside of a counter-clockwise triangle. Coordinates are in 1/256 px, and E is in (1/256 px)².
 struct Edge {
   int32_t x0, y0, ex, ey;
 
