@@ -85,7 +85,7 @@ void check_alpha(const SceneFile& scene, const std::filesystem::path& out, Image
     throw UsageError("-o is '" + out.string() + "', but the background is transparent; expected a file name ending in .png, .tif or .exr");
 }
 
-RenderJob understand(const RenderArguments& args) {
+RenderJob parse_job(const RenderArguments& args) {
   set_limits(args.limits);
   const PictureSize size = parse_size(args.size);
   const int threads = parse_threads(args.threads);
@@ -275,7 +275,7 @@ void protect_inputs(const RenderJob& job, const std::string& scene) {
 void render_command(const RenderArguments& args) {
   const auto start = std::chrono::steady_clock::now();
   std::optional<StageDisplay> reading(std::in_place, "reading " + args.scene);
-  RenderJob job = understand(args);
+  RenderJob job = parse_job(args);
   if (args.print) {
     std::cout << chosen(job).print();
     return;

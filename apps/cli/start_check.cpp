@@ -15,16 +15,16 @@
 
 namespace {
 
-void say(const char* text) {
+void write_error(const char* text) {
   if (write(STDERR_FILENO, text, strlen(text)) < 0) _exit(1);
 }
 
 __attribute__((constructor(101))) void exit_on_unsupported_processor() {
   const char* missing = halfspace::missing_cpu_features();
   if (missing[0] == '\0') return;
-  say("halfspace: ");
-  say(missing);
-  say("\n");
+  write_error("halfspace: ");
+  write_error(missing);
+  write_error("\n");
   _exit(1);
 }
 

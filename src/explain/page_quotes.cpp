@@ -25,7 +25,7 @@ constexpr std::array kRanges{
                "return (values(0"},
     QuoteRange{"coverage", "raster/pipeline/edge.h", "HS_INLINE auto is_top_left(I ex, I ey)", "return ey < I(0)"},
     QuoteRange{"depth", "raster/visibility/depth_plane.h", "const Real z = fma(w1, Real(z_edge1_)", "return depth_value("},
-    QuoteRange{"depth", "raster/visibility/depth_bounds.h", "case CompareOp::greater: return say(", "case CompareOp::greater: return"},
+    QuoteRange{"depth", "raster/visibility/depth_bounds.h", "case CompareOp::greater: return outcome(", "case CompareOp::greater: return"},
     QuoteRange{"interpolation", "shading/pixel.h", "const R e0 = difference_of_products(t.e1x - dx", "return {p.p1, p.p2"},
     QuoteRange{"varyings", "shading/pixel.h", "HS_INLINE R interpolate(const Weights<R>& w", "return fma(w.p2, delta2"},
     QuoteRange{"mips", "shading/footprint.h", "HS_INLINE R squared_scale_factor(", "return max("},

@@ -9,11 +9,11 @@ namespace halfspace {
 namespace {
 
 // The neighbors of texel i on both sides, and their distance in texels.
-struct Neighbours {
+struct Neighbors {
   int before, after, distance;
 };
 
-Neighbours neighbours(int i, int size, Wrap wrap) {
+Neighbors neighbors(int i, int size, Wrap wrap) {
   if (wrap == Wrap::repeat) return {(i + size - 1) % size, (i + 1) % size, 2};
   const int before = std::max(i - 1, 0), after = std::min(i + 1, size - 1);
   if (wrap == Wrap::mirrored) return {before, after, 2};  // the edge texel repeats beyond the edge
@@ -26,9 +26,9 @@ Image<glm::vec4> height_slopes(const Image<float>& heights, Wrap wrap_s, Wrap wr
   const int width = heights.width(), height = heights.height();
   Image<glm::vec4> slopes(width, height);
   for (int y = 0; y < height; ++y) {
-    const Neighbours v = neighbours(y, height, wrap_t);
+    const Neighbors v = neighbors(y, height, wrap_t);
     for (int x = 0; x < width; ++x) {
-      const Neighbours u = neighbours(x, width, wrap_s);
+      const Neighbors u = neighbors(x, width, wrap_s);
       const float du = (heights.at(u.after, y) - heights.at(u.before, y)) * static_cast<float>(width) / static_cast<float>(u.distance);
       const float dv = (heights.at(x, v.after) - heights.at(x, v.before)) * static_cast<float>(height) / static_cast<float>(v.distance);
       slopes.at(x, y) = {du, dv, 0.0f, 0.0f};

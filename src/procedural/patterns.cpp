@@ -91,14 +91,14 @@ HS_INLINE Real chance(Real column, Real row, int32_t seed) {
   return unit_fraction<Real>(mix_bits(cell));
 }
 
-HS_INLINE Real modulo_whole(Real x, float period) { return x - Real(period) * floor(x * Real(1.0f / period)); }
+HS_INLINE Real modulo_period(Real x, float period) { return x - Real(period) * floor(x * Real(1.0f / period)); }
 
 constexpr glm::vec3 kMortar(168, 160, 148), kBrickDark(118, 54, 40), kBrickRed(164, 82, 60), kBrickPale(186, 118, 88);
 
 TexelMaterial bricks(const Place& p) {
   constexpr float kColumns = 4.0f, kRows = 8.0f;
   const Real y = p.v * Real(kRows), row = floor(y);
-  const Real x = fma(p.u, Real(kColumns), Real(0.5f) * modulo_whole(row, 2.0f)), column = modulo_whole(floor(x), kColumns);
+  const Real x = fma(p.u, Real(kColumns), Real(0.5f) * modulo_period(row, 2.0f)), column = modulo_period(floor(x), kColumns);
   const Real fine = tiled_cloud(p.u, p.v, 64, 64, 3, p.texels, 1401), wear = tiled_cloud(p.u, p.v, 16, 16, 4, p.texels, 1411);
   // A brick is twice as long as it is high, so the joint is doubled along y to be equally wide along both axes. Noise wears the
   // edges.

@@ -86,17 +86,17 @@ Vec day_light(const Vec& d, const DaySky& sky, const Daylight& day) {
 
 constexpr glm::vec3 kNightZenith(0.0008f, 0.0011f, 0.0024f), kNightHorizon(0.0020f, 0.0026f, 0.0038f), kNightGround(0.0005f);
 constexpr glm::vec3 kGalacticPole(0.62f, 0.35f, -0.7022f);  // unit vector
-constexpr glm::vec3 kGalacticCentre(0.5418f, 0.4564f, 0.7058f);
+constexpr glm::vec3 kGalacticCenter(0.5418f, 0.4564f, 0.7058f);
 
 // A band of unresolved stars, brighter towards the galactic center, behind dust clouds.
 Vec milky_way(const Vec& d) {
   const Real across = dot(d, kGalacticPole) + Real(0.05f) * cloud(scaled(d, 3.0f, 1.1f, 2.2f, 3.3f), 3, 601);
   const Real band = max(exp(across * across * Real(-22.0f)) - Real(1e-3f), Real(0.0f));
   if (none(band > Real(0.0f))) return Vec(Real(0.0f));
-  const Real centre = Real(0.55f) + Real(0.45f) * dot(d, kGalacticCentre);
+  const Real center = Real(0.55f) + Real(0.45f) * dot(d, kGalacticCenter);
   const Real grain = max(Real(0.75f) + Real(0.5f) * cloud(scaled(d, 6.0f, 7.4f, 0.3f, 5.2f), 6, 621), Real(0.0f));
   const Real dust = step(0.05f, 0.55f, cloud(scaled(d, 5.0f, 2.6f, 9.1f, 4.4f), 5, 641)) * exp(across * across * Real(-120.0f));
-  return Vec(Real(0.0046f), Real(0.0047f), Real(0.0054f)) * (band * centre * grain * (Real(1.0f) - Real(0.85f) * dust));
+  return Vec(Real(0.0046f), Real(0.0047f), Real(0.0054f)) * (band * center * grain * (Real(1.0f) - Real(0.85f) * dust));
 }
 
 Vec night_light(const Vec& d, const NightSky& sky) {

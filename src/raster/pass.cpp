@@ -36,7 +36,7 @@ Chunk take_or_make(std::vector<Chunk>& from) {
 }
 // Clears all chunks and moves them to `to`, in reverse order. take_or_make() then returns them in the original order, so that each chunk is
 // reused with memory of about the right size.
-void put_aside(std::vector<Chunk>& chunks, std::vector<Chunk>& to) {
+void recycle_chunks(std::vector<Chunk>& chunks, std::vector<Chunk>& to) {
   for (auto c = chunks.rbegin(); c != chunks.rend(); ++c) {
     c->clear();
     to.push_back(std::move(*c));
@@ -304,7 +304,7 @@ PassStatistics PassState::run(TileRunner& tiles, const Workers& workers) {
   Round round{.first = true, .last = false};
   std::size_t next = 0;
   do {
-    put_aside(context_.chunks, memory.chunks);
+    recycle_chunks(context_.chunks, memory.chunks);
     next = set_up_chunks(plan, next, memory, workers, statistics);
     round.last = next == plan.chunks.size();
     if (!round.last) {
@@ -316,7 +316,7 @@ PassStatistics PassState::run(TileRunner& tiles, const Workers& workers) {
   } while (!round.last);
   return_draw_list(std::exchange(context_.draws, {}));
   context_.memory->release();
-  put_aside(context_.chunks, memory.chunks);
+  recycle_chunks(context_.chunks, memory.chunks);
   memory.shaded = std::exchange(context_.shaded, {});
   return_pass_memory(std::move(memory));
   return statistics;

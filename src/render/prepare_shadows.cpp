@@ -107,16 +107,16 @@ PassStatistics draw_depth(const glm::dmat4& clip_from_world, double near, double
 }
 
 // A visible point and the width of a pixel there. The points are taken from a low-resolution depth map of the view.
-struct SeenPlace {
+struct VisiblePoint {
   glm::dvec3 position_rws;
   double pixel;
 };
-std::vector<SeenPlace> seen_places(const View& view, const Placed& placed, const Workers& workers) {
+std::vector<VisiblePoint> visible_points(const View& view, const Placed& placed, const Workers& workers) {
   constexpr int kWidth = 96, kHeight = 54;
   Image<float> depth(kWidth, kHeight);
   draw_depth(view.clip_from_world, view.near, view.far, placed, false, ShadowFaces::front, depth, workers);
   const glm::dmat4 world_from_clip = glm::inverse(view.clip_from_world);
-  std::vector<SeenPlace> places;
+  std::vector<VisiblePoint> places;
   for (int row = 0; row < kHeight; ++row) {
     for (int x = 0; x < kWidth; ++x) {
       if (depth.at(x, row) == 0.0f) continue;
@@ -131,9 +131,9 @@ std::vector<SeenPlace> seen_places(const View& view, const Placed& placed, const
 
 // Returns the 95th percentile of the shadow map texel size, in pixels, over the visible points that are inside a shadow view. Returns 0 if
 // there are no such points.
-double footprint_of(const std::vector<ShadowView>& views, const std::vector<SeenPlace>& places, float margin) {
+double footprint_of(const std::vector<ShadowView>& views, const std::vector<VisiblePoint>& places, float margin) {
   std::vector<double> footprints;
-  for (const SeenPlace& place : places) {
+  for (const VisiblePoint& place : places) {
     for (const ShadowView& view : views) {
       const ShadowCoordinates<float> p = place_on(view, vec3<float>(place.position_rws));
       if (!holds(view, p, margin)) continue;
@@ -157,7 +157,7 @@ std::vector<LightView> ScenePreparation::shadow_views(const LightDescription& li
 
 int ScenePreparation::shadow_resolution(const LightDescription& light, const ShadowSettings& settings) const {
   if (scene_.shadow.resolution != 0) return scene_.shadow.resolution;
-  const std::vector<SeenPlace> places = seen_places(view_, {out_.meshes, out_.spheres}, assets_.workers_);
+  const std::vector<VisiblePoint> places = visible_points(view_, {out_.meshes, out_.spheres}, assets_.workers_);
   int size = 256;
   for (; size < kMaxShadowTexels; size *= 2) {
     std::vector<ShadowView> views;

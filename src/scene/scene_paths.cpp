@@ -51,7 +51,7 @@ void complete(std::vector<std::string>& words, SceneDescription& scene, const st
 }
 
 // Returns the names that may follow words[0], for suggestions if words[1] is unknown.
-std::vector<std::string_view> things_in(SceneDescription& scene, std::string_view collection) {
+std::vector<std::string_view> member_names(SceneDescription& scene, std::string_view collection) {
   std::vector<std::string_view> names;
   for_each_collection(scene, [&](const char* name, const char*, auto& list) {
     if (name == collection) names = names_of(list);
@@ -136,7 +136,7 @@ FoundKey find_key(SceneDescription& scene, std::string_view path, const std::str
   if (!section_at(scene, words).empty()) throw InputError(where + "is a section; expected " + joined(words) + ".KEY");
   const Section section = section_at(scene, std::span(words).first(words.size() - 1));
   if (section.empty()) {
-    const std::vector<std::string_view> things = things_in(scene, words[0]);
+    const std::vector<std::string_view> things = member_names(scene, words[0]);
     if (words.size() > 2 && contains(things, words[1]))
       throw InputError(where + "no such key; expected " + words[0] + "." + words[1] + ".KEY");
     const std::string_view thing = words.size() > 1 ? std::string_view(words[1]) : std::string_view(words[0]);

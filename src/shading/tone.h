@@ -52,7 +52,7 @@ HS_INLINE R luminance(const vec3<R>& rgb) {
 
 /// Clamps a channel to [0, kMaxLight]. NaN becomes 0.
 template <Number R>
-HS_INLINE R sound_light(R x) {
+HS_INLINE R clamp_light(R x) {
   return clamp(x, 0.0f, kMaxLight);
 }
 
@@ -79,7 +79,7 @@ HS_INLINE R tone_curve(ToneCurve curve, R x, float white) {
 template <Number R>
 HS_INLINE DisplayLight<R> tone_map(const SceneLight<R>& light, const ToneMapping& tone) {
   vec3<R> c;
-  for (int k = 0; k < 3; ++k) c[k] = min(sound_light(light.rgb[k]) * R(tone.exposure), R(kMaxLight));
+  for (int k = 0; k < 3; ++k) c[k] = min(clamp_light(light.rgb[k]) * R(tone.exposure), R(kMaxLight));
   if (tone.on == ToneOn::luminance) {
     const R y = luminance(c);
     const R factor = tone_curve(tone.curve, y, tone.white) / max(y, R(1e-30f));

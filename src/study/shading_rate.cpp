@@ -25,7 +25,7 @@ constexpr const char* kLitScene = R"({{
 
 // Excludes the silhouette from the comparison: where only one of the two images shows the sphere, replaces the pixel with the reference.
 // Returns the number of these pixels as a fraction of the sphere's pixels.
-double leave_silhouette_out(Image<glm::vec4>& light, const Image<double>& truth) {
+double exclude_silhouette(Image<glm::vec4>& light, const Image<double>& truth) {
   int moved = 0, sphere = 0;
   for (std::size_t i = 0; i < truth.texels().size(); ++i) {
     const bool is_sphere = truth.data()[i] > 0.0;
@@ -69,7 +69,7 @@ Study study_shading_rate(const StudyOptions& options, const Workers& workers) {
                                {"chord_px", px_per_unit * deepest_chord(uv_sphere(latitudes, 2 * latitudes, 1.0f), 1.0)}},
                 .time = picture.time};
       Image<glm::vec4> inside = picture.light;
-      const double moved = leave_silhouette_out(inside, truth.exact);
+      const double moved = exclude_silhouette(inside, truth.exact);
       set_picture_error(v, inside, truth.light, PictureError::rms);
       v.error = rms_error(inside, truth.exact);
       v.measures.push_back({"silhouette_share", moved});

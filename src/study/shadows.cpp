@@ -14,11 +14,11 @@ namespace {
 
 // Estimates the error of the ray-cast reference: the fraction of pixels whose result changes when the surface point is moved by about a
 // float rounding error.
-double share_in_doubt(const PreparedScene& scene, int width, int height, const Workers& workers) {
+double ambiguous_fraction(const PreparedScene& scene, int width, int height, const Workers& workers) {
   const RayScene rays(scene.meshes, scene.view.eye_ws), casters(scene.meshes, scene.view.eye_ws, true);
   const Image<std::optional<RayHit>> hits = primary_hits(rays, scene.view, width, height, workers);
   const RayLight light{scene.lights.front().light, 0.0, 1};
-  int64_t doubtful = 0, all = 0;
+  int64_t ambiguous = 0, all = 0;
   for (const std::optional<RayHit>& hit : hits.texels()) {
     if (!hit) continue;
     ++all;
@@ -27,9 +27,9 @@ double share_in_doubt(const PreparedScene& scene, int width, int height, const W
       return light_truth(casters, light, hit->position_rws + aside * step, hit->face_normal_ws, 0).share > 0.5f;
     };
     const bool here = lit({0, 0, 0});
-    doubtful += here != lit({1, 0, 0}) || here != lit({0, 1, 0}) || here != lit({0, 0, 1});
+    ambiguous += here != lit({1, 0, 0}) || here != lit({0, 1, 0}) || here != lit({0, 0, 1});
   }
-  return static_cast<double>(doubtful) / static_cast<double>(std::max<int64_t>(all, 1));
+  return static_cast<double>(ambiguous) / static_cast<double>(std::max<int64_t>(all, 1));
 }
 
 // Sums over the scenes for one variant.
@@ -110,7 +110,7 @@ Study study_on(const std::string& name, int width, int height) {
 }
 
 // The error of the reference is at least that of a tenth of one wrong pixel.
-void set_truth_error(Study& study, double doubt, int width, int height) { study.truth.error = std::max(doubt, 0.1 / (width * height)); }
+void set_truth_error(Study& study, double error, int width, int height) { study.truth.error = std::max(error, 0.1 / (width * height)); }
 
 }  // namespace
 
@@ -119,14 +119,14 @@ Study study_shadows(const StudyOptions& options, const Workers& workers) {
   Study study = study_on("shadows", width, height);
   SceneAssets assets(workers);
   Sums sums;
-  std::map<std::string, double> doubts;
+  std::map<std::string, double> errors;
   for_each_shadow_case(false, [&](const ShadowCase& c) {
     if (c.factor == "angle" || (options.quick && c.factor != "resolution")) return;
     const std::string name = name_of(c.factor, c);
     if (name.empty()) return;
     const ShadowScore score = validate(c.scene, c.description, {width, height, 1}, assets, workers).lights.front().score;
     PreparedScene scene = assets.prepare(c.description, width, height);
-    if (!doubts.contains(c.scene)) doubts[c.scene] = share_in_doubt(scene, width, height, workers);
+    if (!errors.contains(c.scene)) errors[c.scene] = ambiguous_fraction(scene, width, height, workers);
     const Timing time = time_of(
         [&] {
           scene = assets.prepare(c.description, width, height);  // reuses the meshes and draws the shadow maps
@@ -135,9 +135,9 @@ Study study_shadows(const StudyOptions& options, const Workers& workers) {
         options);
     sums.add(name, c.factor, score, time);
   });
-  double doubt = 0.0;
-  for (const auto& [scene, share] : doubts) doubt += share / static_cast<double>(doubts.size());
-  set_truth_error(study, doubt, width, height);
+  double error = 0.0;
+  for (const auto& [scene, share] : errors) error += share / static_cast<double>(errors.size());
+  set_truth_error(study, error, width, height);
   study.variants = sums.variants();
   return study;
 }

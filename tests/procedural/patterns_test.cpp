@@ -142,7 +142,7 @@ TEST(PatternsLook, MatchesTheName) {
   EXPECT_TRUE(grass.y > grass.x && grass.x > grass.z) << "green";
   EXPECT_TRUE(bark.x > bark.y && bark.y > bark.z && bark.x < 140) << "brown";
   EXPECT_GT(bricks.x, 1.3 * bricks.y) << "red";
-  EXPECT_LT(std::abs(rock.x - rock.z), 30) << "grey";
+  EXPECT_LT(std::abs(rock.x - rock.z), 30) << "gray";
   const PatternMaps facade = procedural_pattern(Pattern::facade, 128, Workers(2));
   int lit = 0, shiny = 0, both = 0;
   for (int y = 0; y < 128; ++y) {

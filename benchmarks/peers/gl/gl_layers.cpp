@@ -49,7 +49,7 @@ void main() {
 )";
 constexpr std::string_view kNothing = "void main() {}\n";
 
-std::string shared_by(Layers kind) {
+std::string shared_glsl(Layers kind) {
   std::string text(kGlslLight);
   text += kind == Layers::blended ? "#define ALPHA 0.5\n" : "#define ALPHA 1.0\n";
   if (kind == Layers::perforated) text += "#define PERFORATED\n";
@@ -61,14 +61,14 @@ class LayerWorkload final : public GlWorkload {
   LayerWorkload(const GlInput& in, Layers kind, bool front_to_back, int count)
       : GlWorkload(in),
         kind_(kind),
-        program_(shared_by(kind), kVertex, kFragment),
+        program_(shared_glsl(kind), kVertex, kFragment),
         mesh_(floats_of(std::span<const LayerMesh::value_type>(layer_mesh(in.size, front_to_back, count))), {3, 3, 3}) {
     const LayerShader shader = layer_shader(in.size);
     program_.set("clip_from_eye", shader.clip_from_eye);
     program_.set("light_es", shader.light_es);
     if (kind == Layers::perforated) texture_.emplace(*in.assets.checker(), GL_REPEAT);
     if (kind == Layers::prepass) {
-      depth_program_.emplace(shared_by(kind), kVertex, kNothing);
+      depth_program_.emplace(shared_glsl(kind), kVertex, kNothing);
       depth_program_->set("clip_from_eye", shader.clip_from_eye);
     }
   }

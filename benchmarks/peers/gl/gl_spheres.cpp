@@ -51,7 +51,7 @@ void main() {
 }
 )";
 
-std::string shared_by(Light light, bool bright) {
+std::string shared_glsl(Light light, bool bright) {
   std::string text(kGlslLight);
   if (light == Light::vertex) text += "#define LIGHT_OF_VERTEX smooth\n";
   if (light == Light::flat) text += "#define LIGHT_OF_VERTEX flat\n";
@@ -62,7 +62,7 @@ std::string shared_by(Light light, bool bright) {
 class SphereDrawing {
  public:
   SphereDrawing(const SphereUniforms& uniforms, const SphereMesh& mesh, Light light, bool bright = false)
-      : program_(shared_by(light, bright), kVertex, kFragment),
+      : program_(shared_glsl(light, bright), kVertex, kFragment),
         texture_(*uniforms.texture, GL_CLAMP_TO_EDGE),
         mesh_(floats_of(std::span<const SphereVertex>(mesh.vertices)), {3, 3, 2}, mesh.indices) {
     program_.set("clip_from_world", uniforms.clip_from_world);

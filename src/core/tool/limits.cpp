@@ -14,7 +14,7 @@
 namespace halfspace {
 
 // PR_SET_PDEATHSIG would not do: it follows the thread that started this process, which may end long before its program.
-void end_with_the_reader() {
+void exit_with_reader() {
   std::thread([] {
     pollfd output = {STDOUT_FILENO, 0, 0};
     while (::poll(&output, 1, -1) < 0 && errno == EINTR) {

@@ -8,7 +8,7 @@
 namespace halfspace {
 
 /// Ends this process when the reader of standard output is gone.
-void end_with_the_reader();
+void exit_with_reader();
 
 /// Limits the address space of this process in bytes, and disables core dumps.
 void limit_memory(uint64_t bytes);

@@ -65,7 +65,7 @@ bool handle(const ToolHandlers& handlers, const ToolRequest& request, int file) 
 
 int serve_requests(const ToolHandlers& handlers) {
   limit_memory(kAddressSpace);
-  end_with_the_reader();
+  exit_with_reader();
   ToolRequest request;
   int file = -1;
   while (receive_request(request, file)) {

@@ -89,7 +89,7 @@ int main(int argc, char** argv) {
     std::fputs("halfspace-draco-tool is started by halfspace; usage: halfspace-draco-tool serve\n", stderr);
     return 2;
   }
-  halfspace::end_with_the_reader();
+  halfspace::exit_with_reader();
   halfspace::limit_time(halfspace::kSeconds);
   while (halfspace::serve_one()) {
   }

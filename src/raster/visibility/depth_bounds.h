@@ -16,15 +16,15 @@ enum class BlockTest : uint8_t { none_passes, some_may, all_pass };
 
 /// Compares depths in [low, high] with the bounds of stored depths.
 inline BlockTest test_bounds(CompareOp op, float low, float high, float hiz_min, float hiz_max) {
-  const auto say = [](bool none, bool all) { return none ? BlockTest::none_passes : all ? BlockTest::all_pass : BlockTest::some_may; };
+  const auto outcome = [](bool none, bool all) { return none ? BlockTest::none_passes : all ? BlockTest::all_pass : BlockTest::some_may; };
   switch (op) {
     case CompareOp::never: return BlockTest::none_passes;
-    case CompareOp::less: return say(low >= hiz_max, high < hiz_min);
-    case CompareOp::less_equal: return say(low > hiz_max, high <= hiz_min);
-    case CompareOp::greater: return say(high <= hiz_min, low > hiz_max);
-    case CompareOp::greater_equal: return say(high < hiz_min, low >= hiz_max);
-    case CompareOp::equal: return say(high < hiz_min || low > hiz_max, false);
-    case CompareOp::not_equal: return say(false, high < hiz_min || low > hiz_max);
+    case CompareOp::less: return outcome(low >= hiz_max, high < hiz_min);
+    case CompareOp::less_equal: return outcome(low > hiz_max, high <= hiz_min);
+    case CompareOp::greater: return outcome(high <= hiz_min, low > hiz_max);
+    case CompareOp::greater_equal: return outcome(high < hiz_min, low >= hiz_max);
+    case CompareOp::equal: return outcome(high < hiz_min || low > hiz_max, false);
+    case CompareOp::not_equal: return outcome(false, high < hiz_min || low > hiz_max);
     case CompareOp::always: return BlockTest::all_pass;
   }
   return BlockTest::some_may;
