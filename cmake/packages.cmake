@@ -4,7 +4,7 @@ set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME halfspace)
 set(CPACK_PACKAGE_VENDOR "The Halfspace authors")
 set(CPACK_PACKAGE_CONTACT "The Halfspace authors <halfspace@example.org>")
-set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "Renderer that runs on the CPU")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "CPU renderer for models and scenes")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 
@@ -61,8 +61,8 @@ execute_process(COMMAND ${Python3_EXECUTABLE} ${halfspace_SOURCE_DIR}/scripts/de
   ${CPACK_DEBIAN_PACKAGE_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE} ${CPACK_PACKAGE_CONTACT} ${changelog} COMMAND_ERROR_IS_FATAL ANY)
 foreach(component runtime dev python)
   string(TOUPPER ${component} upper)
-  set(CPACK_DEBIAN_${upper}_DESCRIPTION "Halfspace renders model files, scene files and the passes of other programs
-without a GPU or a graphics driver.
+  set(CPACK_DEBIAN_${upper}_DESCRIPTION "Halfspace renders model files and scene files without a GPU or a graphics
+driver. As a C++20 library, it provides the OpenGL pipeline.
 ${CPACK_COMPONENT_${upper}_DESCRIPTION}")
   set(folder ${CMAKE_INSTALL_DATADIR}/doc/${CPACK_DEBIAN_${upper}_PACKAGE_NAME})
   install(FILES ${halfspace_SOURCE_DIR}/cmake/debian/copyright ${changelog} DESTINATION ${folder} COMPONENT ${component})

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A shader of one's own, as an extension module: draws triangles of a NumPy array with stripes along x into a NumPy image.
+// A custom shader in an extension module: draws the triangles of a NumPy array into a NumPy image, with stripes along x.
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
@@ -61,7 +61,7 @@ void draw(const Array<float>& positions, Array<uint8_t> image, float count) {
   pass.run(halfspace::Workers(halfspace::Workers::cores()));
 }
 
-// A precondition of the library that does not hold becomes an exception of Python. Otherwise, it would end the process.
+// A violated precondition of the library raises a Python exception. Without a handler, it would end the process.
 [[noreturn]] void throw_failed_check(const halfspace::CheckFailure& failure) { throw std::runtime_error(failure.message); }
 
 }  // namespace
