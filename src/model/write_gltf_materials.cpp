@@ -80,13 +80,13 @@ class MaterialWriter {
     add_clearcoat(json);
     if (m.ior != 1.5f) out_.extend(json, "KHR_materials_ior", {{"ior", m.ior}});
     if (m.unlit) out_.extend(json, "KHR_materials_unlit", OutputJson::object());
-    if (m.opacity_map.texture >= 0) leave_out("opacity map", "glTF stores opacity in the alpha channel of the base color");
-    if (m.bump_map.texture >= 0 && m.normal_map.texture < 0) leave_out("bump map", "glTF supports only normal maps");
+    if (m.opacity_map.texture >= 0) omit("opacity map", "glTF stores opacity in the alpha channel of the base color");
+    if (m.bump_map.texture >= 0 && m.normal_map.texture < 0) omit("bump map", "glTF supports only normal maps");
     out_.add("materials", std::move(json));
   }
 
  private:
-  void leave_out(const char* map, const char* reason) {
+  void omit(const char* map, const char* reason) {
     out_.warn(fmt::format("the {} of material '{}' is omitted: {}", map, material_->name, reason));
   }
 
@@ -113,7 +113,7 @@ class MaterialWriter {
 
   void add_texture(OutputJson& object, const char* key, const TextureUse& use, std::optional<Channel> channel = std::nullopt) {
     if (!has_image(use)) return;
-    if (channel && use.channel != *channel) return leave_out(key, "glTF does not permit its channel");
+    if (channel && use.channel != *channel) return omit(key, "glTF does not permit its channel");
     OutputJson json = {{"index", use.texture}};
     if (use.uv_set != 0) json["texCoord"] = use.uv_set;
     if (use.uv_transform != glm::mat3x2(1.0f)) out_.extend(json, "KHR_texture_transform", transform_json(use.uv_transform));
@@ -137,7 +137,7 @@ class MaterialWriter {
     if (roughness && fits) {
       add_texture(json, "metallicRoughnessTexture", m.roughness_map, Channel::green);
     } else if (metallic || roughness) {
-      leave_out("metallic or roughness map", "glTF stores both in the blue and green channels of one image");
+      omit("metallic or roughness map", "glTF stores both in the blue and green channels of one image");
     }
     return json;
   }

@@ -28,8 +28,8 @@ class PlyWriter {
   }
 
   std::size_t vertices() const { return vertices_; }
-  bool leaves_out_lines() const { return has_lines_; }
-  bool leaves_out_points() const { return has_points_ && faces_ > 0; }
+  bool omits_lines() const { return has_lines_; }
+  bool omits_points() const { return has_points_ && faces_ > 0; }
 
   std::vector<std::byte> bytes() const {
     std::vector<std::byte> out;
@@ -115,8 +115,8 @@ WrittenModel write_ply(const Model& model, const std::string& stem) {
   written.files.push_back({stem + ".ply", writer.bytes()});
   if (model.materials.size() > 1 || !model.textures.empty())
     written.warnings.emplace_back("PLY stores one mesh with vertex colors: no materials or textures");
-  if (writer.leaves_out_lines()) written.warnings.emplace_back("lines are omitted");
-  if (writer.leaves_out_points()) written.warnings.emplace_back("points are omitted, because the file has faces");
+  if (writer.omits_lines()) written.warnings.emplace_back("lines are omitted");
+  if (writer.omits_points()) written.warnings.emplace_back("points are omitted, because the file has faces");
   return written;
 }
 
