@@ -52,13 +52,13 @@ class DrawShading {
 
   void shade(std::span<const PacketMask> packets) {
     const bool may_pack = !kTraces<Statistics> && !draw_.shades_samples && can_pack(draw_, tile_);
-    const bool packs = may_pack && pays_to_pack(draw_, packets);
+    const bool packs = may_pack && pays_to_pack(packets);
     if (packs) return shade_packed(packets);
     if (!job_.spreads) return shade_plane(packets, job_.plane);
     for (int n = 0; n < tile_.samples; ++n) {
       const SamplePlane plane = sample_plane(tile_.samples, n, tile_.size);
       const std::span<const PacketMask> in_plane = packets_in(plane, packets);
-      if (n > 0 && may_pack && pays_to_pack(draw_, in_plane)) {
+      if (n > 0 && may_pack && pays_to_pack(in_plane)) {
         shade_packed(in_plane);
       } else {
         shade_plane(in_plane, plane);

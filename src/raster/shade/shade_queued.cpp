@@ -114,7 +114,7 @@ void shade_queued(const DrawInTile& d, PacketQueue& queue, TransparentLayers& la
                   Statistics& statistics) {
   const ImmediateShading<Statistics> c{d.context, d.draw, d.mode, d.tile, layers, output, nullptr, true, statistics};
   const auto count = static_cast<std::size_t>(queue.count);
-  const bool packs = !kTraces<Statistics> && can_pack(d.draw, d.tile) && pays_to_pack(d.draw, std::span(queue.packets).first(count));
+  const bool packs = !kTraces<Statistics> && packs_queue(d.draw, d.tile, std::span(queue.packets).first(count));
   for (std::size_t begin = 0; begin < count;) begin += packs ? shade_packed(c, queue, begin, packed) : shade_batch(c, queue, begin);
   queue.count = 0;
 }

@@ -113,6 +113,48 @@ Real packet_depth(Real x, Real y, const PacketTriangleIds& packet) noexcept {
   return z;
 }
 
+namespace {
+
+// Vertices of a different triangle in each lane.
+struct VertexLanes {
+  std::array<Int, 3> x, y;
+  std::array<Real, 3> inv_w;
+};
+
+// Loads vertex k of each lane from a row of `screen`.
+void load_vertex(const ShadedVertices& shaded, Int row, std::size_t k, VertexLanes& out) {
+  static_assert(sizeof(ScreenVertex) == 4 * sizeof(float));
+  std::array<int32_t, kLanes> vertex;
+  store(vertex.data(), row);
+  const auto words =
+      load_aos4<Int>([&](int lane) { return &shaded.screen[static_cast<std::size_t>(vertex[static_cast<std::size_t>(lane)])]; });
+  out.x[k] = words[0];
+  out.y[k] = words[1];
+  out.inv_w[k] = as_real(words[3]);
+}
+
+// Replaces the vertices by the corners of points; see point_sprite_corners(). triangle(lane): the point.
+template <class F>
+void set_point_corners(const F& triangle, PointOrigin origin, VertexLanes& v) {
+  const auto [x, y] = load_corners(triangle);
+  const bool upper = origin == PointOrigin::upper_left;
+  const Int low = y[0], high = y[1] + 1;
+  v.x = {x[0], x[1] + 1, x[0]};
+  v.y = {upper ? high : low, upper ? high : low, upper ? low : high};
+  v.inv_w[1] = v.inv_w[2] = v.inv_w[0];
+}
+
+// Sets the third corner of lines, which is next to the first one. triangle(lane): the line.
+template <class F>
+void set_line_corner(const F& triangle, VertexLanes& v) {
+  const auto [x, y] = load_corners(triangle);
+  v.x[2] = x[2];
+  v.y[2] = y[2];
+  v.inv_w[2] = v.inv_w[0];
+}
+
+}  // namespace
+
 bool gather_rows(const PassContext& context, const TriangleId* ids, uint32_t lanes, TriangleLanes<Real>& triangles, Mask& front,
                  TriangleRows& rows) {
   const Draw& draw = draw_of(context, ids[std::countr_zero(lanes)]);
@@ -122,25 +164,19 @@ bool gather_rows(const PassContext& context, const TriangleId* ids, uint32_t lan
   const auto triangle = [&](int k) { return at[static_cast<std::size_t>(k)]; };
   const std::array<Int, 4> ends = load_vertices_and_flags(triangle);
   const Int flags = ends[3];
-  if (any((flags & Int(static_cast<int32_t>(kClipped | kPointSprite | kLine))) != Int(0))) return false;
+  if (any((flags & Int(static_cast<int32_t>(kClipped))) != Int(0))) return false;
+  const bool points = at[0]->is(kPointSprite), lines = at[0]->is(kLine);  // the same for all primitives of a draw
   find_primitives(context, ids, lanes, draw, rows);
   rows.varyings = shaded.varyings.get();
-  rows.row = {ends[0], ends[1], ends[2]};
+  rows.row = {ends[0], ends[1], lines ? ends[0] : ends[2]};
   const Int provoking = (flags >> static_cast<int>(kProvokingShift)) & 3;
   rows.provoking_row = select(provoking == Int(0), ends[0], select(provoking == Int(1), ends[1], ends[2]));
   front = (flags & Int(static_cast<int32_t>(kFrontFacing))) != Int(0);
-  static_assert(sizeof(ScreenVertex) == 4 * sizeof(float));
-  std::array<Int, 3> x, y;
-  std::array<Real, 3> q;
-  for (std::size_t k = 0; k < 3; ++k) {
-    std::array<int32_t, kLanes> vertex;
-    store(vertex.data(), rows.row[k]);
-    const auto words =
-        load_aos4<Int>([&](int lane) { return &shaded.screen[static_cast<std::size_t>(vertex[static_cast<std::size_t>(lane)])]; });
-    x[k] = words[0];
-    y[k] = words[1];
-    q[k] = as_real(words[3]);
-  }
+  VertexLanes v;
+  for (std::size_t k = 0; k < (points ? 1u : lines ? 2u : 3u); ++k) load_vertex(shaded, rows.row[k], k, v);
+  if (points) set_point_corners(triangle, draw.state.point_origin, v);
+  if (lines) set_line_corner(triangle, v);
+  auto& [x, y, q] = v;
   // Vertex 0 is the one with the smallest 1/w, or the first of several, as in triangle_scalars().
   const Mask two = (q[2] < q[0]) & (q[2] < q[1]), one = (q[1] < q[0]) & !two;
   rotate_lanes(one, two, x);

@@ -24,13 +24,18 @@ std::size_t packets_that_fit(std::span<const PacketMask> packets, std::size_t& p
 
 }  // namespace
 
-bool can_pack(const Draw& draw, const Tile& tile) { return tile.samples == 1 || !draw.kernels.uses_centroid; }
+bool can_pack(const Draw& draw, const Tile& tile) {
+  return !draw.kernels.is_constant && (tile.samples == 1 || !draw.kernels.uses_centroid);
+}
 
-bool pays_to_pack(const Draw& draw, std::span<const PacketMask> packets) {
-  if (draw.kernels.is_constant || draws_points(draw.state)) return false;
+bool pays_to_pack(std::span<const PacketMask> packets) {
   std::size_t pixels = 0;
   for (const PacketMask& p : packets) pixels += static_cast<std::size_t>(std::popcount(p.lanes));
   return pixels * 4 <= packets.size() * kLanes * 3;
+}
+
+bool packs_queue(const Draw& draw, const Tile& tile, std::span<const PacketMask> packets) {
+  return can_pack(draw, tile) && !draws_points(draw.state) && pays_to_pack(packets);
 }
 
 PacketBatch PackedPixels::batch(const PassContext& context, const Tile& tile) const {

@@ -27,12 +27,16 @@ struct PackedPixels {
   PacketBatch batch(const PassContext& context, const Tile& tile) const;
 };
 
-/// Returns false if the kernels need the positions of centroid varyings, which packed pixels do not have.
+/// Returns true if the pixels of a draw can be packed: false for draws with a constant shader, and if the kernels need the positions of
+/// centroid varyings.
 bool can_pack(const Draw& draw, const Tile& tile);
 
-/// Returns true if packing saves at least a quarter of the packets. Returns false for draws with a constant shader, and for points, because
-/// a packed packet can show many of them and their values can only be merged one by one.
-bool pays_to_pack(const Draw& draw, std::span<const PacketMask> packets);
+/// Returns true if packing saves at least a quarter of the packets.
+bool pays_to_pack(std::span<const PacketMask> packets);
+
+/// Returns true if the packets of a queue should be packed. False for points: a queue has all overlapping points, of which each packet
+/// shows one, so that its values are not gathered.
+bool packs_queue(const Draw& draw, const Tile& tile, std::span<const PacketMask> packets);
 
 /// Packs the pixels of as many packets as fit, from the start of the list. ids: the triangle of each packet. Returns the number of these
 /// packets, which is at least kPacketBatch if the list has that many.

@@ -72,7 +72,7 @@ void decide_queued(const DrawInTile& d, PacketQueue& queue, Statistics& statisti
   PackedPixels packed;
   Decisions decisions;
   const auto end = static_cast<std::size_t>(queue.count);
-  const bool packs = can_pack(d.draw, d.tile) && pays_to_pack(d.draw, std::span(queue.packets).first(end));
+  const bool packs = packs_queue(d.draw, d.tile, std::span(queue.packets).first(end));
   for (std::size_t begin = 0; begin < end;) {
     const std::span<const PacketMask> rest(&queue.packets[begin], end - begin);
     std::size_t n;
