@@ -100,16 +100,31 @@ TEST(PackedFragments, ReturnResultsToTheirLanes) {
 
 TEST(PackedPixels, AreUsedWhereTheySaveAQuarterOfThePackets) {
   if (kLanes == 1) GTEST_SKIP() << "a packet of one lane is always full";
-  const ShaderKernels kernels;
-  Draw draw(kernels, KeptShader(nullptr, [](const void*) {}), nullptr, {}, {});
   std::vector<PacketMask> packets(4, PacketMask{0, static_cast<uint16_t>(kAllBits<Mask>)});
-  EXPECT_FALSE(pays_to_pack(draw, packets));
+  EXPECT_FALSE(pays_to_pack(packets));
   packets[0].lanes = 1;  // with this one, three full packets and one lane need four again
-  EXPECT_FALSE(pays_to_pack(draw, packets));
+  EXPECT_FALSE(pays_to_pack(packets));
   packets[1].lanes = 1;
-  EXPECT_TRUE(pays_to_pack(draw, packets));
+  EXPECT_TRUE(pays_to_pack(packets));
+}
+
+TEST(PackedPixels, AreNotUsedInQueuesOfPointsOrForConstantOrCentroidShaders) {
+  if (kLanes == 1) GTEST_SKIP() << "a packet of one lane is always full";
+  ShaderKernels kernels;
+  Draw draw(kernels, KeptShader(nullptr, [](const void*) {}), nullptr, {}, {});
+  const auto tile = std::make_unique<Tile>();
+  const std::vector<PacketMask> packets(4, PacketMask{0, 1});
+  EXPECT_TRUE(packs_queue(draw, *tile, packets));
   draw.state.topology = Topology::points;
-  EXPECT_FALSE(pays_to_pack(draw, packets));
+  EXPECT_FALSE(packs_queue(draw, *tile, packets));
+  EXPECT_TRUE(can_pack(draw, *tile));
+  kernels.uses_centroid = true;
+  EXPECT_TRUE(can_pack(draw, *tile));
+  tile->samples = 4;
+  EXPECT_FALSE(can_pack(draw, *tile));
+  kernels.uses_centroid = false;
+  kernels.is_constant = true;
+  EXPECT_FALSE(can_pack(draw, *tile));
 }
 
 }  // namespace

@@ -137,10 +137,10 @@ void load_vertex(const ShadedVertices& shaded, Int row, std::size_t k, VertexLan
 template <class F>
 void set_point_corners(const F& triangle, PointOrigin origin, VertexLanes& v) {
   const auto [x, y] = load_corners(triangle);
-  const bool upper = origin == PointOrigin::upper_left;
+  const bool is_upper = origin == PointOrigin::upper_left;
   const Int low = y[0], high = y[1] + 1;
   v.x = {x[0], x[1] + 1, x[0]};
-  v.y = {upper ? high : low, upper ? high : low, upper ? low : high};
+  v.y = {is_upper ? high : low, is_upper ? high : low, is_upper ? low : high};
   v.inv_w[1] = v.inv_w[2] = v.inv_w[0];
 }
 

@@ -22,6 +22,11 @@ void set_hiz(Tile& tile, int block, float low, float high) {
   tile.hiz_writes[b] = 0;
 }
 
+// Returns true if the rectangle contains the block with corner (x, y).
+bool contains_block(const TileRect& rect, int x, int y) {
+  return x >= rect.x0 && y >= rect.y0 && x + kBlockSize <= rect.x1 && y + kBlockSize <= rect.y1;
+}
+
 template <bool small, class Writer>
 void rasterize_blocks(const DrawInTile& d, const Triangle& t, const TileEdges& tile_edges, const SampleGrid& grid, const TileRect& rect,
                       TriangleId id, Writer& writer) {
@@ -48,7 +53,8 @@ void rasterize_blocks(const DrawInTile& d, const Triangle& t, const TileEdges& t
         continue;
       }
       const int first = block * kPacketsPerBlock;
-      if (coverage == BlockCoverage::whole && test == BlockTest::all_pass && !needs_bounds_test) {
+      const bool is_cut = needs_bounds_test && !contains_block(rect, x, y);
+      if (coverage == BlockCoverage::whole && test == BlockTest::all_pass && !is_cut) {
         for (int p = first; p < first + kPacketsPerBlock; ++p)
           writer.write_whole(id, p, [&] { return plane.at(edges, packet_x(p), packet_y(p)); });
         if (writer.writes_depth()) set_hiz(tile, block, low, high);
@@ -57,7 +63,7 @@ void rasterize_blocks(const DrawInTile& d, const Triangle& t, const TileEdges& t
           const int px = packet_x(p), py = packet_y(p);
           if (px >= rect.x1 || py >= rect.y1 || px + kPacketWidth <= rect.x0 || py + kPacketHeight <= rect.y0) continue;
           Mask mask = coverage == BlockCoverage::whole ? Mask(true) : edges.inside(px, py);
-          if (needs_bounds_test) mask = mask & inside(rect, px, py);
+          if (is_cut) mask = mask & inside(rect, px, py);
           if (any(mask)) writer.write(id, p, bits(mask), [&] { return plane.at(edges, px, py); });
         }
         if (writer.writes_depth()) widen_hiz(writer.compare_op(), tile, block, low, high);
