@@ -100,6 +100,34 @@ TEST(Multisample, PerSampleShadingUsesSamplePositions) {
   }
 }
 
+// Draws that blend are shaded in order, from a queue that has the pixels of several triangles. This blending replaces the color, so the
+// result is the same as without it.
+TEST(Multisample, BlendedTrianglesCoverTheSameSamples) {
+  const BlendState replace{.source_color = BlendFactor::one,
+                           .destination_color = BlendFactor::zero,
+                           .source_alpha = BlendFactor::one,
+                           .destination_alpha = BlendFactor::zero};
+  Random r(7);
+  std::vector<glm::vec4> p;
+  for (int i = 0; i < 300; ++i) {
+    const Point at{r.integer(0, 64 * 256), r.integer(0, 64 * 256)};
+    for (int k = 0; k < 3; ++k) p.push_back(clip_position({at.x + r.integer(-1500, 1500), at.y + r.integer(-1500, 1500)}, 64, 64));
+  }
+  const auto draw = [&](int samples, const DrawState& state) {
+    Image<glm::vec4> image(64, 64);
+    Pass pass(64, 64, rgba32f_target(image), {}, {.samples = samples});
+    pass.draw(PlaceShader{}, make_vertex_view(stream(p)), state);
+    pass.run(one_worker());
+    return image;
+  };
+  for (const int n : {2, 4, 8}) {
+    const Image<glm::vec4> opaque = draw(n, {}), blended = draw(n, {.blend = replace});
+    for (int y = 0; y < 64; ++y) {
+      for (int x = 0; x < 64; ++x) ASSERT_EQ(pixel(blended, x, y), pixel(opaque, x, y)) << n << " samples: " << x << ' ' << y;
+    }
+  }
+}
+
 // OpenGL 4.6, section 17.3.1: alpha 0 covers nothing, alpha 1 covers everything, and coverage never decreases with alpha.
 TEST(Multisample, AlphaToCoverageIsMonotonic) {
   const std::vector<glm::vec4> p = square({0, 0}, {16 * 256, 16 * 256});

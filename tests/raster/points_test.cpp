@@ -69,6 +69,24 @@ TEST(Points, CoordinateSupportsBothOrigins) {
   }
 }
 
+// Each column shows another point, so the values of the points are gathered: point c covers columns c − 2 to c + 1, and later points hide
+// earlier ones.
+TEST(Points, CoordinatesOfOverlappingPointsAreTheirOwn) {
+  std::vector<glm::vec4> p;
+  for (int c = 1; c <= 30; ++c) p.push_back(clip_position({c * 256, 8 * 256}, 32, 16));
+  for (const PointOrigin origin : {PointOrigin::upper_left, PointOrigin::lower_left}) {
+    const Image<glm::vec4> image = draw_points(p, 4.0f, {.point_origin = origin});
+    for (int y = 6; y < 10; ++y) {
+      for (int x = 0; x < 32; ++x) {
+        const int c = std::min(x + 2, 30);
+        const float t = (static_cast<float>(y) + 0.5f - 6.0f) / 4.0f;
+        EXPECT_EQ(pixel(image, x, y).x, (static_cast<float>(x - c) + 2.5f) / 4.0f) << x << ' ' << y;
+        EXPECT_EQ(pixel(image, x, y).y, origin == PointOrigin::upper_left ? 1.0f - t : t) << x << ' ' << y;
+      }
+    }
+  }
+}
+
 TEST(Points, AreClippedByFootprintAndNotByCenter) {
   // The centers are outside on several sides; one is far outside the guard band, and its square still reaches into the picture.
   const Image<glm::vec4> left = draw_points({clip_position({-3 * 256, 8 * 256}, 32, 16)}, 10.0f);
