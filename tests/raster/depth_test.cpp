@@ -641,5 +641,22 @@ TEST(Depth, AShaderWithoutAFragmentFunctionDecidesCoverageOfDepthDraws) {
   }
 }
 
+// The depth bounds of a block must include all triangles of a draw that the shader decides. If they missed the second triangle, the third
+// would replace the whole tile.
+TEST(Depth, TrianglesOfADrawThatTheShaderDecidesAllWidenTheBoundsOfABlock) {
+  Image<float> depth(64, 64);
+  const auto corner_at = [](float z) { return std::vector<glm::vec4>{{-1, -1, z, 1}, {-0.5f, -1, z, 1}, {-1, -0.5f, z, 1}}; };  // 16 px
+  std::vector<glm::vec4> corners = corner_at(0.5f);
+  for (const glm::vec4& corner : corner_at(-0.5f)) corners.push_back(corner);
+  const std::vector<glm::vec4> behind_corner = full_screen(0.0f);
+  Pass pass(64, 64, {}, d32f_target(depth));
+  pass.draw_depth(LeftHalf{}, make_vertex_view(stream(corners)));
+  pass.draw_depth(PositionShader{}, make_vertex_view(stream(behind_corner)));
+  pass.run(one_worker());
+  for (int y = 0; y < 8; ++y) {
+    for (int x = 0; x < 8; ++x) EXPECT_EQ(pixel(depth, x, y), x < 4 ? 0.25f : 0.5f) << x << ' ' << y;
+  }
+}
+
 }  // namespace
 }  // namespace halfspace::raster_test

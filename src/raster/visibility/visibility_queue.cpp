@@ -20,55 +20,70 @@ struct Decisions {
   alignas(64) std::array<Real, kPacketBatch + 1> depth;  ///< if the shader writes depth
 };
 
-// Tests and writes a packet of which the shader keeps some lanes. z: depth from the triangle, or from the shader if it writes depth.
+// Tests and writes packets of which the shader keeps some lanes.
 template <class Writer>
-HS_INLINE void write_decided(const DrawInTile& d, TriangleId id, int packet, uint32_t kept, Real z, Writer& writer) {
-  const Draw& draw = d.draw;
-  const DepthFormat format = d.tile.depth_format;
-  if (draw.kernels.writes_depth) z = depth_value(format, clamp(z, Real(draw.depth_low), Real(draw.depth_high)));
-  if (!writer.write_decided(id, packet, kept, z) || !writer.writes_depth()) return;
-  const int block = packet / kPacketsPerBlock;
-  if (draw.kernels.writes_depth) {
-    widen_hiz(CompareOp::always, d.tile, block, depth_value(format, draw.depth_low), depth_value(format, draw.depth_high));
-  } else {
-    const DepthBounds bounds = depth_bounds(triangle_of(d.context, id), draw, format);
-    widen_hiz(writer.compare_op(), d.tile, block, bounds.low, bounds.high);
-  }
-}
+class DecidedPackets {
+ public:
+  DecidedPackets(const DrawInTile& d, PacketQueue& queue, Writer& writer) : d_(d), queue_(queue), writer_(writer) {}
 
-// Finishes one sample of packet k of the queue, which is `sample` in the tile's storage. keep, depth: what the shader returned. z: depth of
-// the triangle.
-template <class Writer>
-HS_INLINE void finish_decided(const DrawInTile& d, TriangleId id, const PacketMask& sample, uint32_t keep, Real depth, Real z,
-                              Writer& writer) {
-  const uint32_t kept = keep & sample.lanes;
-  if constexpr (kTraces<typename Writer::Statistics>)
-    writer.statistics().trace->set_outcome(id, sample.packet, sample.lanes & ~kept, FragmentOutcome::discarded);
-  write_decided(d, id, sample.packet, kept, d.draw.kernels.writes_depth ? depth : z, writer);
-}
-
-// Finishes n packets of the queue. result(i, lanes) returns the keep mask and the depth of packet i.
-template <class Writer, class F>
-HS_INLINE void write_batch_decided(const DrawInTile& d, PacketQueue& queue, std::size_t begin, std::size_t n, Writer& writer, F result) {
-  for (std::size_t i = 0; i < n; ++i) {
-    const std::size_t k = begin + i;
-    const auto [keep, depth] = result(i, queue.packets[k].lanes);
-    if (d.tile.samples == 1) {
-      finish_decided(d, queue.ids[k], queue.packets[k], keep, depth, queue.depth[k], writer);
-      continue;
-    }
-    for (int s = 0; s < d.tile.samples; ++s) {
-      const PacketMask sample = queue.sample(d.tile, k, s);
-      if (sample.lanes != 0) finish_decided(d, queue.ids[k], sample, keep, depth, queue.sample_depth(d.tile, k, s), writer);
+  // Finishes n packets of the queue. result(i, lanes) returns the keep mask and the depth of packet i.
+  template <class F>
+  HS_INLINE void finish_batch(std::size_t begin, std::size_t n, F result) {
+    for (std::size_t i = 0; i < n; ++i) {
+      const std::size_t k = begin + i;
+      const auto [keep, depth] = result(i, queue_.packets[k].lanes);
+      if (d_.tile.samples == 1) {
+        finish(queue_.ids[k], queue_.packets[k], keep, depth, queue_.depth[k]);
+        continue;
+      }
+      for (int s = 0; s < d_.tile.samples; ++s) {
+        const PacketMask sample = queue_.sample(d_.tile, k, s);
+        if (sample.lanes != 0) finish(queue_.ids[k], sample, keep, depth, queue_.sample_depth(d_.tile, k, s));
+      }
     }
   }
-}
+
+ private:
+  // Finishes one sample of a packet, which is `sample` in the tile's storage. keep, depth: what the shader returned. z: depth of the
+  // triangle.
+  HS_INLINE void finish(TriangleId id, const PacketMask& sample, uint32_t keep, Real depth, Real z) {
+    const uint32_t kept = keep & sample.lanes;
+    if constexpr (kTraces<typename Writer::Statistics>)
+      writer_.statistics().trace->set_outcome(id, sample.packet, sample.lanes & ~kept, FragmentOutcome::discarded);
+    const Draw& draw = d_.draw;
+    const DepthFormat format = d_.tile.depth_format;
+    const bool replaces = draw.kernels.writes_depth;
+    if (replaces) z = depth_value(format, clamp(depth, Real(draw.depth_low), Real(draw.depth_high)));
+    if (!writer_.write_decided(id, sample.packet, kept, z) || !writer_.writes_depth()) return;
+    const int block = sample.packet / kPacketsPerBlock;
+    if (replaces) {
+      widen_hiz(CompareOp::always, d_.tile, block, depth_value(format, draw.depth_low), depth_value(format, draw.depth_high));
+    } else {
+      const DepthBounds& bounds = bounds_of(id);
+      widen_hiz(writer_.compare_op(), d_.tile, block, bounds.low, bounds.high);
+    }
+  }
+
+  // Returns the depth bounds of a triangle. Consecutive packets usually belong to the same one.
+  const DepthBounds& bounds_of(TriangleId id) {
+    if (id != bounds_id_) bounds_ = depth_bounds(triangle_of(d_.context, id), d_.draw, d_.tile.depth_format);
+    bounds_id_ = id;
+    return bounds_;
+  }
+
+  const DrawInTile& d_;
+  PacketQueue& queue_;
+  Writer& writer_;
+  TriangleId bounds_id_ = kNoTriangle;
+  DepthBounds bounds_{};
+};
 
 }  // namespace
 
 template <class Statistics>
 void decide_queued(const DrawInTile& d, PacketQueue& queue, Statistics& statistics) {
   OpaqueWriter writer(d, statistics);
+  DecidedPackets decided(d, queue, writer);
   PackedPixels packed;
   Decisions decisions;
   const auto end = static_cast<std::size_t>(queue.count);
@@ -80,7 +95,7 @@ void decide_queued(const DrawInTile& d, PacketQueue& queue, Statistics& statisti
       n = pack(rest, &queue.ids[begin], packed);
       d.draw.kernels.visibility(d.draw.shader.get(), {packed.batch(d.context, d.tile), decisions.keep.data(), decisions.depth.data()});
       std::size_t next = 0;
-      write_batch_decided(d, queue, begin, n, writer, [&](std::size_t, uint32_t lanes) {
+      decided.finish_batch(begin, n, [&](std::size_t, uint32_t lanes) {
         const std::size_t first = next;
         next += static_cast<std::size_t>(std::popcount(lanes));
         const Real depth =
@@ -93,7 +108,7 @@ void decide_queued(const DrawInTile& d, PacketQueue& queue, Statistics& statisti
       std::array<SamplePosition, kPacketBatch * kLanes> centroids;
       if (d.tile.samples > 1 && d.draw.kernels.uses_centroid) batch.centroids = find_centroids(batch, centroids);
       d.draw.kernels.visibility(d.draw.shader.get(), batch);
-      write_batch_decided(d, queue, begin, n, writer, [&](std::size_t i, uint32_t) {
+      decided.finish_batch(begin, n, [&](std::size_t i, uint32_t) {
         return std::pair<uint32_t, Real>(decisions.keep[i], d.draw.kernels.writes_depth ? decisions.depth[i] : Real(0.0f));
       });
     }
