@@ -117,16 +117,17 @@ def main():
     write_manual("halfspace", output_of(args.program, "--help"), version, names)
     for command, name in zip(commands, names):
         groups = []
+        if command in ("render", "explain"):
+            groups.append(option_group("Options for model files", output_of(args.program, command, "--help-model")))
         if command == "render":
-            groups = [option_group("Options for model files", output_of(args.program, command, "--help-model")),
-                      option_group("Options for what is written", output_of(args.program, command, "--help-output"))]
+            groups.append(option_group("Options for what is written", output_of(args.program, command, "--help-output")))
         write_manual(name, output_of(args.program, command, "--help"), version, ["halfspace"], groups)
     if args.bench:
         write_manual("halfspace-bench", output_of(args.bench, "--help"), version, ["halfspace"])
     if args.view:
-        view_help = output_of(args.view, "--help")
-        write_manual("halfspace-view", view_help, version, ["halfspace"])
-        write_view_completions(args.folder, view_help, output_of(args.program, "list", "--names").split())
+        view_help, model_help = output_of(args.view, "--help"), output_of(args.view, "--help-model")
+        write_manual("halfspace-view", view_help, version, ["halfspace"], [option_group("Options for model files", model_help)])
+        write_view_completions(args.folder, view_help + model_help, output_of(args.program, "list", "--names").split())
 
     write(args.folder / "bash-completion" / "completions" / "halfspace", output_of(args.program, "completion", "bash"))
     write(args.folder / "fish" / "vendor_completions.d" / "halfspace.fish", output_of(args.program, "completion", "fish"))

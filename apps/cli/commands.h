@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The subcommands of `halfspace`. They throw UsageError, DifferenceError, InputError or OutputError. Only main.cpp, which declares
-// their options, includes the command-line parser, because it is slow to compile.
+// The subcommands of `halfspace`. They throw UsageError, DifferenceError, InputError or OutputError. Only main.cpp and
+// options.cpp, which declare their options, include the command-line parser, because it is slow to compile.
 #pragma once
 
 #include <functional>

@@ -12,34 +12,11 @@
 #include "cli/command_line.h"
 #include "cli/commands.h"
 #include "cli/errors.h"
+#include "cli/options.h"
 
 namespace halfspace {
 
 namespace {
-
-// Adds --set KEY=VALUE, which can be given several times.
-void add_set_option(CLI::App* command, std::vector<std::string>& settings) {
-  command->add_option("--set", settings, "Set a key (see 'halfspace list SCENE')")
-      ->type_name("KEY=VALUE")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-}
-
-void add_limit_options(CLI::App* command, LimitArguments& args, const std::string& group = "Options") {
-  command->add_option("--max-memory", args.memory, "Maximum memory for files and images, e.g. 4G")->type_name("SIZE")->group(group);
-  command->add_option("--max-pixels", args.pixels, "Maximum pixels of an image (default 268435456)")->type_name("N")->group(group);
-}
-
-// Prints a group of options that the help of the command omits, and ends the program successfully.
-void print_group(const CLI::App* command, const char* group, const char* title) {
-  std::cout << title << '\n';
-  for (const CLI::Option* option : command->get_options()) {
-    if (option->get_group() != group) continue;
-    const std::string name = "--" + option->get_lnames().front() + (option->get_type_name().empty() ? "" : " " + option->get_type_name());
-    std::cout << fmt::format("  {:<26}{}\n", name, option->get_description());
-  }
-  throw CLI::Success();
-}
 
 // Adds the options for the output. They are listed by --help-output, so that the help of the command fits on a screen.
 void add_output_options(CLI::App* command, OutputArguments& args) {
@@ -63,42 +40,6 @@ void add_output_options(CLI::App* command, OutputArguments& args) {
       ->group(kOutputGroup);
 }
 
-// Adds the options for model files. They are listed by --help-model, so that the help of the command fits on a screen.
-void add_model_options(CLI::App* command, ModelArguments& args) {
-  const auto add = [&](const char* name, std::string& value, const char* help, const char* type) {
-    command->add_option(name, value, help)->type_name(type)->group(kUnlistedGroup);
-  };
-  const auto add_flag = [&](const char* name, bool& value, const char* help) {
-    command->add_flag(name, value, help)->group(kUnlistedGroup);
-  };
-  add("--yaw", args.yaw, "Angle around the model, in degrees (default 35)", "A");
-  add("--pitch", args.pitch, "Angle above the horizon, in degrees (default 18)", "A");
-  add("--zoom", args.zoom, "Divide the camera distance by F (default 1)", "F");
-  add("--fov", args.fov, "Vertical field of view, in degrees (default 35)", "DEGREES");
-  add("--eye", args.eye, "Position of the camera", "X,Y,Z");
-  add("--look-at", args.look_at, "Point at the center of the image", "X,Y,Z");
-  add("--up", args.up, "Direction that points up (default 0,1,0)", "X,Y,Z");
-  add_flag("--inside", args.inside, "Place the camera inside the model");
-  add("--turntable", args.turntable, "Render N frames around the model", "N");
-  add("--environment", args.environment, "Panorama that lights the model", "FILE");
-  add("--background", args.background, "Background: #rrggbb, environment or transparent", "COLOR");
-  add_flag("--no-floor", args.no_floor, "Draw no shadow below the model");
-  add("--up-axis", args.up_axis, "Axis that points up: y or z (default: z for STL)", "AXIS");
-  add("--scene", args.model_scene, "Scene of the file to render", "NAME");
-  add("--animation", args.animation, "Animation of the file to play", "NAME");
-  add("--variant", args.variant, "Material variant of the file to use", "NAME");
-  add_flag("--allow-outside", args.allow_outside, "Read files outside of the folder of the model");
-  command
-      ->add_flag_callback(
-          "--help-model",
-          [command] {
-            print_group(command, kUnlistedGroup,
-                        "More options of 'halfspace render'. Most of them apply only to model files (.obj .gltf .glb .ply .stl).");
-          },
-          "Print these options and exit")
-      ->group(kUnlistedGroup);
-}
-
 void add_render_command(CLI::App& program) {
   CLI::App* command = program.add_subcommand("render", "Render a scene to an image or to numbered frames");
   const auto args = std::make_shared<RenderArguments>();
@@ -106,9 +47,7 @@ void add_render_command(CLI::App& program) {
   command->add_option("-o,--output", args->out, ".png .jpg .tif .exr .hdr (see --help-output)")->type_name("OUT");
   command->add_option("--size", args->size, "Size in pixels (default 1920x1080)")->type_name("WxH");
   add_set_option(command, args->set);
-  command->add_option("--camera", args->camera, "Name of one of the scene's cameras")->type_name("NAME");
-  command->add_option("--shading", args->shading, "Shading: none, flat, provoking, gouraud or phong")->type_name("RATE");
-  command->add_option("--time", args->time, "Seconds into the animation (default 0)")->type_name("S");
+  add_view_options(command, args->camera, args->shading, args->time);
   command->add_option("--frames", args->frames, "Render frames A to B as OUT_0000.png, ...")->type_name("A..B");
   command->add_option("--fps", args->fps, "Frames per second (default 30)")->type_name("N");
   command->add_option("--max-error", args->max_error, "Use the cheapest model with edges within PX px")->type_name("PX");
@@ -121,7 +60,7 @@ void add_render_command(CLI::App& program) {
   command->add_flag("--naive", args->naive, "Draw with simple loops; report the difference")->group(kUnlistedGroup);
   add_output_options(command, args->output);
   add_model_options(command, args->model);
-  add_limit_options(command, args->limits, kUnlistedGroup);
+  add_limit_options(command, args->limits, false);
   command->footer(
       "Examples:\n"
       "  halfspace render earth -o earth.png --size 1280x720\n"
@@ -139,12 +78,10 @@ void add_explain_command(CLI::App& program) {
   command->add_flag("--json", args->json, "Print the history of the pixel as JSON instead");
   command->add_option("--size", args->size, "Size in pixels (default 640x360)")->type_name("WxH");
   add_set_option(command, args->set);
-  command->add_option("--camera", args->camera, "Name of one of the scene's cameras")->type_name("NAME");
-  command->add_option("--shading", args->shading, "Shading: none, flat, provoking, gouraud or phong")->type_name("RATE");
-  command->add_option("--time", args->time, "Seconds into the animation (default 0)")->type_name("S");
+  add_view_options(command, args->camera, args->shading, args->time);
   command->add_option("--threads", args->threads, "Threads (default: one per core)")->type_name("N");
   add_model_options(command, args->model);
-  add_limit_options(command, args->limits, kUnlistedGroup);
+  add_limit_options(command, args->limits, false);
   command->footer(
       "Examples:\n"
       "  halfspace explain earth -o earth.html\n"

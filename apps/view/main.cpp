@@ -9,7 +9,7 @@
 #include "cli/arguments.h"
 #include "cli/command_line.h"
 #include "cli/errors.h"
-#include "cli/model_arguments.h"
+#include "cli/options.h"
 #include "cli/scene_arguments.h"
 #include "view/ui_scale.h"
 #include "view/view_app.h"
@@ -20,19 +20,17 @@ namespace {
 
 // Option values as given on the command line. An empty string means that the option was not given.
 struct ViewArguments {
-  std::string scene, size = "1280x720", camera, time, threads, ui_scale, frames, events, record;
+  std::string scene, size = "1280x720", camera, shading, time, threads, ui_scale, frames, events, record;
   std::vector<std::string> set;
+  ModelArguments model;
+  LimitArguments limits;
   bool no_window = false;
 };
 
 void add_options(CLI::App& program, ViewArguments& args) {
-  program.add_option("SCENE", args.scene, "Scene, scene file or model file (.obj .gltf .glb .ply .stl)")->required()->type_name("");
-  program.add_option("--set", args.set, "Set a key of the scene; repeatable")
-      ->type_name("KEY=VALUE")
-      ->allow_extra_args(false)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  program.add_option("--camera", args.camera, "Name of one of the scene's cameras")->type_name("NAME");
-  program.add_option("--time", args.time, "Seconds into the animation (default 0)")->type_name("S");
+  program.add_option("SCENE", args.scene, "Scene, scene file or model file (see --help-model)")->required()->type_name("");
+  add_set_option(&program, args.set);
+  add_view_options(&program, args.camera, args.shading, args.time);
   program.add_option("--size", args.size, "Size of the window in pixels (default 1280x720)")->type_name("WxH");
   program.add_option("--ui-scale", args.ui_scale, "Scale of text and panels (default: Xft.dpi / 96)")->type_name("F");
   program.add_option("--threads", args.threads, "Threads (default: one per core)")->type_name("N");
@@ -40,15 +38,18 @@ void add_options(CLI::App& program, ViewArguments& args) {
   program.add_flag("--no-window", args.no_window, "With --frames: render the same frames without a window");
   program.add_option("--events", args.events, "Replay the input events in the file; for tests")->type_name("FILE");
   program.add_option("--record", args.record, "Write every frame to the folder; for tests")->type_name("DIR");
+  add_model_options(&program, args.model);
+  add_limit_options(&program, args.limits, false);
   program.footer(
       "Press h in the window for the list of keys.\n\n"
       "Examples:\n"
       "  halfspace-view earth\n"
-      "  halfspace-view chair.glb --size 1920x1080 --ui-scale 2");
+      "  halfspace-view chair.glb --yaw 120 --environment studio.hdr --ui-scale 2");
 }
 
 ViewOptions options_of(const ViewArguments& args) {
   const PictureSize size = parse_size(args.size);
+  check_picture(size, 2 * sizeof(glm::u8vec4));  // the scene, and the frame with panels
   ViewOptions options;
   options.name = std::filesystem::path(args.scene).stem().string();
   options.width = size.width;
@@ -76,11 +77,13 @@ void print(const RunTimes& times, const ViewOptions& options) {
 }
 
 void run(const ViewArguments& args) {
+  set_limits(args.limits);
   const ViewOptions options = options_of(args);
   const double time = args.time.empty() ? 0.0 : parse_real("--time", args.time, -1e9, 1e9, "seconds, for example 2.5");
-  OpenedScene opened = open_scene_or_model(args.scene, ModelArguments{}, static_cast<double>(options.width) / options.height, 30.0);
+  OpenedScene opened = open_scene_or_model(args.scene, args.model, static_cast<double>(options.width) / options.height, 30.0);
   const auto camera = opened.camera_names.find(args.camera);
   set_scene(opened.scene, args.set, camera == opened.camera_names.end() ? args.camera : camera->second);
+  set_shading(opened.scene, args.shading);
   Viewer viewer(std::move(opened), time);
   const RunTimes times = args.no_window ? run_without_window(viewer, options) : ViewApp(std::move(viewer), options).run();
   if (options.frames) print(times, options);

@@ -25,6 +25,7 @@ SKIPPED = 77  # ctest shows the test as skipped
 PROGRAMS = Path(".")
 WIDTH, HEIGHT = 320, 180
 MESSAGE_ROWS = 40  # at the bottom, where messages are shown
+BOX = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"  # a corner of a box, as an OBJ file
 STILL = ["--set", "animation.speed=0"]
 
 
@@ -177,9 +178,30 @@ class Events(Folder):
         self.run_events("particles", ["1 key f12", "2 key f12"], 3)
         self.assertTrue((self.folder / "particles-view-2.png").exists())
 
+    def test_a_model_is_viewed_as_render_views_it(self):
+        model, panorama = self.folder / "box.obj", self.folder / "panorama.png"
+        model.write_text(BOX)
+        subprocess.run([program("halfspace"), "render", "earth", "-o", panorama, "--size", "64x32"], check=True)
+        plain = self.rendered(model)
+        for options in (["--yaw", "120", "--pitch", "40", "--zoom", "1.5"], ["--eye", "2,2,2", "--look-at", "0,0.5,0", "--fov", "50"],
+                        ["--up-axis", "z"], ["--environment", panorama, "--background", "environment"], ["--background", "#203040"],
+                        ["--shading", "none", "--set", "post.exposure=1"], ["--inside"]):
+            with self.subTest(options):
+                first = self.pictures(model, [], 1, *options)[0]
+                self.assertEqual(first, self.rendered(model, *options))
+                self.assertTrue(first != plain, "the option has an effect")
+
+    def test_turntable_moves_the_camera_around_the_model(self):
+        model = self.folder / "box.obj"
+        model.write_text(BOX)
+        turn = self.folder / "turn.png"
+        subprocess.run([program("halfspace"), "render", model, "-o", turn, "--size", f"{WIDTH}x{HEIGHT}", "--turntable", "8"], check=True)
+        expected = [picture_of(self.folder / f"turn_{i:04}.png") for i in (1, 2, 3)]
+        self.assertEqual(self.pictures(model, [], 3, "--turntable", "8"), expected)
+
     def test_a_dropped_model_is_opened_and_a_bad_file_is_not(self):
         model = self.folder / "box.obj"
-        model.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n")
+        model.write_text(BOX)
         (self.folder / "bad.obj").write_text("f 1 2 3\n")
         frames = self.run_events("earth", [f"1 drop {model}", f"2 drop {self.folder / 'bad.obj'}", "3 drop nothing.json"], 4, *STILL)
         frames = [picture_of(frame)[:HEIGHT - 3 * MESSAGE_ROWS] for frame in frames]  # messages contain long paths
@@ -219,7 +241,9 @@ class Events(Folder):
         for arguments, code, words in [(["earth"], 3, "display"), (["erth"], 3, "earth"), (["earth", "--size", "0x0"], 2, "--size"),
                                        (["earth", "--no-window"], 2, "--frames"), (["earth", "--ui-scale", "9"], 2, "--ui-scale"),
                                        (["earth", "--frames", "0"], 2, "--frames"), (["earth", "--camera", "nort"], 3, "north"),
-                                       (["earth", "--set", "earth.x=1"], 3, "earth.x"), ([], 2, "SCENE")]:
+                                       (["earth", "--set", "earth.x=1"], 3, "earth.x"), ([], 2, "SCENE"),
+                                       (["earth", "--yaw", "20"], 2, "--yaw"), (["earth", "--shading", "phnog"], 2, "phong"),
+                                       (["earth", "--max-pixels", "1000"], 3, "--max-pixels")]:
             with self.subTest(arguments):
                 done = subprocess.run([program("halfspace-view"), *arguments], env=environment, capture_output=True, text=True)
                 self.assertEqual(done.returncode, code)
@@ -271,9 +295,15 @@ class Desktop(Folder):
         self.process = subprocess.Popen([program("halfspace-view"), scene, "--size", size, "--threads", "2", *options],
                                         cwd=self.folder, env=self.environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         self.addCleanup(self.stop)
-        find = ("xdotool", "search", "--all", "--onlyvisible", "--pid", self.process.pid, "--name", "^halfspace-view")
-        self.window = self.wait_for(lambda: self.tool(*find, check=False).split()[:1], "window opens")[0]
+        self.window = self.wait_for(self.window_id, "window opens")
         self.tool("xdotool", "windowactivate", "--sync", self.window)
+
+    def window_id(self):
+        """Returns the window of the program, or nothing if it is not visible yet. Fails if the program has ended."""
+        if self.process.poll() is not None:
+            self.fail(f"halfspace-view ended with code {self.process.returncode}: {self.process.communicate()[1]}")
+        find = ("xdotool", "search", "--all", "--onlyvisible", "--pid", self.process.pid, "--name", "^halfspace-view")
+        return next(iter(self.tool(*find, check=False).split()), None)
 
     def stop(self):
         if self.process.poll() is None:

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Declarations of options that several commands and programs have.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/limit_arguments.h"
+#include "cli/model_arguments.h"
+
+namespace CLI {
+class App;
+}
+
+namespace halfspace {
+
+/// Adds --set KEY=VALUE, which can be given several times.
+void add_set_option(CLI::App* command, std::vector<std::string>& settings);
+
+/// Adds the options of the view that scenes and models have: --camera, --shading and --time.
+void add_view_options(CLI::App* command, std::string& camera, std::string& shading, std::string& time);
+
+/// Adds the options for model files. They are listed by --help-model, so that the help of the command fits on a screen.
+void add_model_options(CLI::App* command, ModelArguments& args);
+
+/// Adds --max-memory and --max-pixels. If they are unlisted, --help-model lists them.
+void add_limit_options(CLI::App* command, LimitArguments& args, bool is_listed = true);
+
+/// Prints a group of options that the help of the command omits, and ends the program successfully.
+void print_group(const CLI::App* command, const char* group, const std::string& title);
+
+}  // namespace halfspace
