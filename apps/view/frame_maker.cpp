@@ -55,7 +55,9 @@ void FrameMaker::render(const SceneDescription& scene, int divisor, Overlay over
   divisor_ = divisor;
   if (divisor > 1) {
     description_.head.samples = 1;
-    assets_->expect(scene, frame.width(), frame.height());  // so that a coarse frame does not choose smaller maps
+    int& texels = description_.shadow.resolution;
+    if (texels != 0) texels = std::max(texels / divisor, kMinShadowTexels);  // 0 follows the size of the picture
+    assets_->expect(scene, frame.width(), frame.height());                   // so that a coarse frame does not choose smaller maps
     small_ = Image<glm::u8vec4>((frame.width() + divisor - 1) / divisor, (frame.height() + divisor - 1) / divisor);
   }
   Image<glm::u8vec4>& picture = divisor > 1 ? small_ : frame;

@@ -47,8 +47,8 @@ class FrameMaker {
   /// Starts a new scene and releases the maps and meshes of the previous one.
   void open(const OpenedScene& opened);
 
-  /// Renders a picture of the size of `frame`. With a divisor greater than 1, renders fewer pixels with one sample each and enlarges them.
-  /// Throws InputError.
+  /// Renders a picture of the size of `frame`. With a divisor greater than 1, renders fewer pixels with one sample each and enlarges them;
+  /// shadow maps are smaller by the same factor. Throws InputError.
   void render(const SceneDescription& scene, int divisor, Overlay overlay, Image<glm::u8vec4>& frame);
 
   /// Returns the history of a pixel of the last frame, which must exist. Its first line starts with `title`.

@@ -70,6 +70,21 @@ TEST(FrameMaker, ACoarseFrameHasEnlargedPixels) {
   }
 }
 
+TEST(FrameMaker, ACoarseFrameHasSmallerShadowMaps) {
+  Frame frame;
+  frame.scene = SceneFile::open("shadow-plane");
+  frame.maker.open({frame.scene, {}, nullptr, {}});
+  const auto samples = [&](int divisor) {
+    frame.render(Overlay::none, divisor);
+    return frame.maker.statistics().samples_passed;
+  };
+  const uint64_t full = samples(1), coarse = samples(4);
+  EXPECT_LT(coarse, full / 8) << "a quarter of the width and height, and some samples of primitives at edges";
+  frame.scene.set(std::vector<std::string>{"shadow.resolution=256"});
+  const uint64_t small = samples(1) - kSize * kSize;  // without those of the picture
+  EXPECT_GT(samples(4), small / 2) << "256 texels is the minimum";
+}
+
 TEST(FrameMaker, OverdrawCountsTheSurfacesOfAPixel) {
   Frame frame;
   frame.render(Overlay::overdraw);
