@@ -7,7 +7,7 @@ World space is right-handed. A camera looks along -z with y up, as in OpenGL; wi
 from __future__ import annotations
 
 import math
-from typing import Any, Callable, Optional
+from typing import Any, Callable, Dict, Optional, Tuple
 
 import numpy as np
 
@@ -19,17 +19,23 @@ _TURN = np.diag([1.0, -1.0, -1.0, 1.0])
 
 
 class Camera:
-    """A view of a scene. Use one of the class methods. Cameras are immutable and can be used with any scene and from any thread."""
+    """A view of a scene. Use one of the class methods. Cameras are immutable and can be used with any scene, from any thread, and in other
+    processes: they can be pickled."""
 
-    __slots__ = ("_for_size", "_text")
+    __slots__ = ("_for_size", "_text", "_made_by")
 
-    def __init__(self, for_size: Callable[[int, int], Any], text: str) -> None:
-        """Not for users: `for_size` returns the camera of _core for an image of width x height pixels."""
+    def __init__(self, for_size: Callable[[int, int], Any], text: str, made_by: Tuple[str, Dict[str, Any]]) -> None:
+        """Not for users: `for_size` returns the camera of _core for an image of width x height pixels. made_by: the class method and the
+        arguments that make an equal camera."""
         self._for_size = for_size
         self._text = text
+        self._made_by = made_by
 
     def __repr__(self) -> str:
         return self._text
+
+    def __reduce__(self) -> Any:
+        return _make, self._made_by
 
     @classmethod
     def look_at(cls, position: Any, target: Any = (0.0, 0.0, 0.0), up: Any = (0.0, 1.0, 0.0), *, fov: float = 45.0,
@@ -50,7 +56,8 @@ class Camera:
         tall = 0.0 if height is None else _check.number("height", height, 1e-9, 1e9)
         _check_planes(near, far)
         camera = _core.Camera.look_at(eye, aim, top, float(fov), tall, float(near), float(far))
-        return cls(lambda width, height: camera, f"Camera.look_at({eye}, {aim})")
+        made_by = {"position": eye, "target": aim, "up": top, "fov": fov, "height": height, "near": near, "far": far}
+        return cls(lambda width, height: camera, f"Camera.look_at({eye}, {aim})", ("look_at", made_by))
 
     @classmethod
     def from_pose(cls, pose: Any, *, fov: float = 45.0, near: float = 0.1, far: float = 1000.0) -> "Camera":
@@ -63,7 +70,7 @@ class Camera:
         def for_size(width: int, height: int) -> Any:
             return _matrices(world, _frustum(scale * height / width, scale, 0.0, 0.0, 0.0, near, far))
 
-        return cls(for_size, f"Camera.from_pose(fov={fov:g})")
+        return cls(for_size, f"Camera.from_pose(fov={fov:g})", ("from_pose", {"pose": world, "fov": fov, "near": near, "far": far}))
 
     @classmethod
     def from_matrices(cls, projection: Any, *, view: Any = None, pose: Any = None) -> "Camera":
@@ -79,7 +86,7 @@ class Camera:
             raise fail("view, pose", "both or none are given", "one of them")
         world = _pose(pose, None) if view is None else _inverse("view", view)
         camera = _matrices(world, clip)
-        return cls(lambda width, height: camera, "Camera.from_matrices(...)")
+        return cls(lambda width, height: camera, "Camera.from_matrices(...)", ("from_matrices", {"projection": clip, "pose": world}))
 
     @classmethod
     def from_intrinsics(cls, K: Any, *, extrinsics: Any = None, pose: Any = None, near: float = 0.05, far: float = 1000.0) -> "Camera":
@@ -103,7 +110,12 @@ class Camera:
             center_x, center_y = 2.0 * (cx + 0.5) / width - 1.0, 1.0 - 2.0 * (cy + 0.5) / height
             return _matrices(world, _frustum(2.0 * fx / width, 2.0 * fy / height, -2.0 * skew / width, center_x, center_y, near, far))
 
-        return cls(for_size, f"Camera.from_intrinsics(fx={fx:g}, fy={fy:g}, cx={cx:g}, cy={cy:g}, skew={skew:g})")
+        return cls(for_size, f"Camera.from_intrinsics(fx={fx:g}, fy={fy:g}, cx={cx:g}, cy={cy:g}, skew={skew:g})",
+                   ("from_intrinsics", {"K": k, "pose": world, "near": near, "far": far}))
+
+
+def _make(method: str, arguments: Dict[str, Any]) -> Camera:
+    return getattr(Camera, method)(**arguments)
 
 
 def _check_planes(near: float, far: float) -> None:

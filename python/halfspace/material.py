@@ -60,7 +60,7 @@ class Material:
         channel, as in glTF. normal_texture is in tangent space with green up; it needs texture coordinates.
     """
 
-    __slots__ = ("_core", "_textures")
+    __slots__ = ("_core", "_textures", "_text")
 
     def __init__(self, base_color: Sequence[float] = (0.8, 0.8, 0.8), *, metallic: float = 0.0, roughness: float = 0.6, specular: float = 1.0,
                  ior: float = 1.5, emissive: Sequence[float] = (0.0, 0.0, 0.0), clearcoat: float = 0.0, clearcoat_roughness: float = 0.0,
@@ -68,7 +68,9 @@ class Material:
                  normal_scale: float = 1.0, occlusion_strength: float = 1.0, base_color_texture: Any = None,
                  metallic_roughness_texture: Any = None, normal_texture: Any = None, occlusion_texture: Any = None,
                  emissive_texture: Any = None) -> None:
-        color = _check.numbers("base_color", np.asarray(base_color, dtype=float).ravel(), (None,))
+        if isinstance(base_color, str):
+            raise fail("base_color", f"is {base_color!r}", "3 or 4 numbers from 0 to 1")
+        color = _check.numbers("base_color", base_color, (None,))
         if color.size not in (3, 4) or color.min() < 0.0 or color.max() > 1.0:
             raise fail("base_color", f"is {np.asarray(base_color).tolist()}", "3 or 4 numbers from 0 to 1")
         rgba = (*color[:3], color[3] if color.size == 4 else 1.0)
@@ -85,12 +87,17 @@ class Material:
         m.alpha_mode = getattr(_core.AlphaMode, mode)
         m.unlit, m.double_sided = bool(unlit), bool(double_sided)
         self._core = m
+        shown = ", ".join(f"{x:g}" for x in rgba)
+        self._text = f"Material(({shown}), metallic={metallic:g}, roughness={roughness:g}, alpha_mode={mode!r})"
         self._textures = [(texture, uses) for texture, uses in (
             (_texture("base_color_texture", base_color_texture), (("base_color", "red"),)),
             (_texture("metallic_roughness_texture", metallic_roughness_texture), (("roughness", "green"), ("metallic", "blue"))),
             (_texture("normal_texture", normal_texture), (("normal", "red"),)),
             (_texture("occlusion_texture", occlusion_texture), (("occlusion", "red"),)),
             (_texture("emissive_texture", emissive_texture), (("emissive", "red"),))) if texture is not None]
+
+    def __repr__(self) -> str:
+        return self._text
 
     def _materials(self) -> Any:
         """Returns the material with its textures for _core."""

@@ -80,7 +80,7 @@ class Mesh:
         """
         for name in ("vertices", "faces"):
             if not hasattr(mesh, name):
-                raise fail("mesh", f"a {type(mesh).__name__} has no {name}", "an object like trimesh.Trimesh")
+                raise fail("mesh", f"a {type(mesh).__name__} has no {name}", "a halfspace.Mesh or an object like trimesh.Trimesh")
         vertices, faces = np.asarray(mesh.vertices), np.asarray(mesh.faces)
         visual = getattr(mesh, "visual", None)
         kind = getattr(visual, "kind", None)

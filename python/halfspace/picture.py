@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import os
-from typing import Optional, Union
+from typing import Any, Optional, Union
 
 import numpy as np
 
@@ -19,6 +19,10 @@ class Picture(np.ndarray):
     are float32 of shape (height, width, 4) and contain light before exposure and tone curve. Row 0 is the top row. Slices and results of
     calculations are ordinary arrays of this class; only those that still have the shape of an image can be saved.
     """
+
+    def __array_wrap__(self, array: np.ndarray, context: Any = None, return_scalar: bool = False) -> Any:
+        # A mean or maximum is a number, not a picture.
+        return array[()] if array.ndim == 0 else super().__array_wrap__(array, context)
 
     def _is_codes(self) -> bool:
         return self.dtype == np.uint8 and self.ndim == 3 and self.shape[2] in (3, 4) and self.size > 0

@@ -314,6 +314,11 @@ class Scene:
         self._flush()
         return self._core.objects()
 
+    def __repr__(self) -> str:
+        names = self.objects
+        shown = ", ".join(names[:4]) + (", ..." if len(names) > 4 else "")
+        return f"Scene({len(names)} object{'' if len(names) == 1 else 's'}{': ' if names else ''}{shown})"
+
     def _repr_png_(self) -> Optional[bytes]:
         return self.render((640, 360))._repr_png_()
 

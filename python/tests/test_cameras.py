@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Cameras: the pixels to which points are projected, and the conventions of their arguments."""
 
+import pickle
+
 import numpy as np
 import pytest
 
@@ -129,6 +131,22 @@ def test_exact_spheres_reject_off_center_cameras():
     assert scene.render((32, 32), camera=halfspace.Camera.from_intrinsics(centered, pose=pose)).any()
     with pytest.raises(halfspace.InputError, match="camera: exact spheres need a symmetric view"):
         scene.render((32, 32), camera=halfspace.Camera.from_intrinsics(moved(centered, 1), pose=pose))
+
+
+@pytest.mark.parametrize("camera", [
+    halfspace.Camera.look_at((1, 2, 3), (0, 0.5, 0), (0, 0, 1), fov=30, near=0.5, far=20),
+    halfspace.Camera.look_at((1, 2, 3), height=2),
+    halfspace.Camera.from_pose(look_at_pose((1.0, 2.0, 3.0), (0.0, 0.0, 0.0)), fov=50),
+    halfspace.Camera.from_matrices(np.diag([1.0, 1.0, -0.1, 1.0]), view=np.eye(4)),
+    halfspace.Camera.from_intrinsics(np.array([[60.0, 2, 30], [0, 55, 20], [0, 0, 1]]), extrinsics=np.eye(4)[:3] + [[0, 0, 0, 0], [0, 0, 0, 0], [0, 0, 0, 4]]),
+])
+def test_a_pickled_camera_shows_the_same(camera):
+    scene = halfspace.Scene(lighting="none")
+    scene.merge({"ambient": 1, "objects": {"ball": {"shape": "uv_sphere", "rotation": [20, 30, 0]}}})
+    again = pickle.loads(pickle.dumps(camera))
+    assert repr(again) == repr(camera)
+    picture = scene.render((64, 48), camera=camera)
+    assert picture.any() and np.array_equal(scene.render((64, 48), camera=again), picture)
 
 
 @pytest.mark.parametrize("make, words", [

@@ -87,6 +87,7 @@ def test_progress_can_use_the_scene_and_end_the_batch():
 def test_a_scene_can_be_displayed():
     scene = halfspace.Scene.load("moon")
     assert scene._repr_png_() == scene.render((640, 360))._repr_png_()
+    assert repr(scene) == "Scene(1 object: moon)" and repr(halfspace.Scene()) == "Scene(0 objects)"
 
 
 def test_the_text_of_a_scene_can_be_loaded(tmp_path):
