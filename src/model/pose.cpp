@@ -71,7 +71,7 @@ class Poser {
       add_node(i);
       stack.insert(stack.end(), nodes_[i].children.rbegin(), nodes_[i].children.rend());
     }
-    add_bounds();
+    if (options_.bounds) add_bounds();
     return std::move(result_);
   }
 

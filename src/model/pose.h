@@ -14,6 +14,7 @@ struct PoseOptions {
   int animation = -1;  ///< index in Model::animations; -1: none is applied
   double time = 0.0;   ///< seconds; clamped to the range of each channel
   int variant = -1;    ///< index in Model::variants; -1: the default materials
+  bool bounds = true;  ///< also compute the bounds, which takes time for each vertex
 };
 
 /// One mesh at one place.
@@ -38,7 +39,7 @@ struct PosedModel {
   std::vector<PosedMesh> meshes;
   std::vector<PosedCamera> cameras;
   std::vector<PosedLight> lights;
-  /// Bounds of all positions in world space; low > high if there are none.
+  /// Bounds of all positions in world space; low > high if there are none or PoseOptions::bounds is false.
   glm::dvec3 low{std::numeric_limits<double>::infinity()}, high{-std::numeric_limits<double>::infinity()};
 };
 

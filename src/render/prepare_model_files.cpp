@@ -150,7 +150,9 @@ std::shared_ptr<const ModelAsset> ScenePreparation::model_asset(const ObjectDesc
 
 void ScenePreparation::add_model(int object, const std::string& path, const ObjectDescription& o) {
   const std::shared_ptr<const ModelAsset> model = model_asset(o, path);
-  const auto posed = std::make_shared<const PosedModel>(pose(model->model, pose_options(model->model, o, path)));
+  PoseOptions options = pose_options(model->model, o, path);
+  options.bounds = false;
+  const auto posed = std::make_shared<const PosedModel>(pose(model->model, options));
   out_.assets.push_back(posed);
   const glm::dmat4 turn = turn_of(o, model->model);
   load_images(o, model->model, *posed);

@@ -132,6 +132,12 @@ TEST(Pose, KeepsNegativeScale) {
   EXPECT_EQ(pose(model, {}).low, glm::dvec3(-1, 0, 0));
 }
 
+TEST(Pose, ComputesBoundsOnlyIfWanted) {
+  const PosedModel posed = pose(pose_model(), {.bounds = false});
+  EXPECT_GT(posed.low.x, posed.high.x);
+  EXPECT_FALSE(posed.meshes.empty());
+}
+
 TEST(Pose, PlacesInstances) {
   Model model = pose_model();
   model.nodes[0].transform.translation = {0, 0, 7};
