@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Declarations of options that several commands and programs have.
+// Declarations of options that several commands and programs share.
 #pragma once
 
 #include <string>
@@ -18,7 +18,7 @@ namespace halfspace {
 /// Adds --set KEY=VALUE, which can be given several times.
 void add_set_option(CLI::App* command, std::vector<std::string>& settings);
 
-/// Adds the options of the view that scenes and models have: --camera, --shading and --time.
+/// Adds the view options that apply to scenes and models: --camera, --shading and --time.
 void add_view_options(CLI::App* command, std::string& camera, std::string& shading, std::string& time);
 
 /// Adds the options for model files. They are listed by --help-model, so that the help of the command fits on a screen.

@@ -64,7 +64,7 @@ def setting_text(key: str, value: Any) -> str:
         array = _numbers(key, value)
         text = ",".join(repr(float(x)) for x in array) if array.ndim == 1 else json.dumps(array.tolist())
     else:
-        raise fail(key, f"is a {type(value).__name__}", "a bool, a number, a string or a sequence of numbers")
+        raise fail(key, f"is of type {type(value).__name__}", "a bool, a number, a string or a sequence of numbers")
     return f"{key}={text}"
 
 

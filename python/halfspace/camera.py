@@ -25,7 +25,7 @@ class Camera:
     __slots__ = ("_for_size", "_text", "_made_by")
 
     def __init__(self, for_size: Callable[[int, int], Any], text: str, made_by: Tuple[str, Dict[str, Any]]) -> None:
-        """Not for users: `for_size` returns the camera of _core for an image of width x height pixels. made_by: the class method and the
+        """Internal: `for_size` returns the camera of _core for an image of width x height pixels. made_by: the class method and the
         arguments that make an equal camera."""
         self._for_size = for_size
         self._text = text

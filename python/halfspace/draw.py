@@ -158,11 +158,11 @@ def colored(clip_from_object: Any, color: Sequence[float] = (1.0, 1.0, 1.0, 1.0)
 def _placing(clip_from_world: Any, world_from_object: Any, eye: Any, lights: Iterable[Any], two_sided: bool) -> Any:
     world = np.eye(4) if world_from_object is None else world_from_object
     if not isinstance(lights, Iterable):
-        raise fail("lights", f"is a {type(lights).__name__}", "a list of lights")
+        raise fail("lights", f"is of type {type(lights).__name__}", "a list of lights")
     lights = list(lights)
     for i, one in enumerate(lights):
         if not isinstance(one, _core.Light):
-            raise fail(f"lights[{i}]", f"is a {type(one).__name__}", "a light of draw.light()")
+            raise fail(f"lights[{i}]", f"is of type {type(one).__name__}", "a light of draw.light()")
     return _core.Placing(_check.numbers("clip_from_world", clip_from_world, (4, 4)), _check.transforms("world_from_object", world)[0],
                          _check.vector("eye", eye), lights, bool(two_sided))
 

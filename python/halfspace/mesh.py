@@ -55,7 +55,7 @@ class Mesh:
             material = Material((0.8, 0.8, 0.8) if rgba is None else (1.0, 1.0, 1.0),
                                 alpha_mode="blend" if rgba is not None and rgba[:, 3].min() < 1.0 else "opaque")
         if not isinstance(material, Material):
-            raise fail("material", f"is a {type(material).__name__}", "a halfspace.Material")
+            raise fail("material", f"is of type {type(material).__name__}", "a halfspace.Material")
         self._model = _core.Model(positions, unit, uv, rgba, None, None if index is None else index.ravel(),
                                   getattr(_core.Topology, topology), uv_origin == "lower_left", material._materials(),
                                   _check.number("crease", crease, 0.0, 180.0) or -1.0)
@@ -80,7 +80,7 @@ class Mesh:
         """
         for name in ("vertices", "faces"):
             if not hasattr(mesh, name):
-                raise fail("mesh", f"a {type(mesh).__name__} has no {name}", "a halfspace.Mesh or an object like trimesh.Trimesh")
+                raise fail("mesh", f"an object of type {type(mesh).__name__} has no {name}", "a halfspace.Mesh or an object like trimesh.Trimesh")
         vertices, faces = np.asarray(mesh.vertices), np.asarray(mesh.faces)
         visual = getattr(mesh, "visual", None)
         kind = getattr(visual, "kind", None)

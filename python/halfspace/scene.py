@@ -337,7 +337,7 @@ class Scene:
         if camera is None:
             return None
         if not isinstance(camera, Camera):
-            raise fail("camera", f"is a {type(camera).__name__}", "a halfspace.Camera or None")
+            raise fail("camera", f"is of type {type(camera).__name__}", "a halfspace.Camera or None")
         return camera._for_size(width, height)
 
     def _flush(self) -> None:

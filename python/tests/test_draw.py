@@ -205,8 +205,8 @@ IMAGE = np.zeros((2, 2, 4), np.uint8)
     (lambda: draw.Pass(IMAGE).draw(draw.colored(np.eye(4)), positions=plane(), colors=np.ones((5, 4))), "arrays: have 6, 5 rows; expected"),
     (lambda: draw.Pass(IMAGE).draw(draw.colored(np.eye(4)), positions=plane(), colors=np.ones((6, 4)), indices=[6, 0, 0]),
      "indices: has the index 6; expected indices from 0 to 5"),
-    (lambda: draw.phong(np.eye(4), eye=(0, 0, 1), lights=["sun"]), "lights[0]: is a str; expected a light of draw.light()"),
-    (lambda: draw.metallic(np.eye(4), eye=(0, 0, 1), lights=draw.light()), "lights: is a Light; expected a list of lights"),
+    (lambda: draw.phong(np.eye(4), eye=(0, 0, 1), lights=["sun"]), "lights[0]: is of type str; expected a light of draw.light()"),
+    (lambda: draw.metallic(np.eye(4), eye=(0, 0, 1), lights=draw.light()), "lights: is of type Light; expected a list of lights"),
     (lambda: draw.colored(np.eye(3)), "clip_from_object: has the shape (3, 3); expected (4, 4)"),
 ])
 def test_wrong_draws_are_reported(make, words):

@@ -74,10 +74,10 @@ def test_errors_match_the_command_line(program, call, arguments):
     ({"threads": 0}, "threads: is 0; expected"),
     ({"time": float("nan")}, "time: is nan; expected"),
     ({"yaw": 3}, "yaw: applies only to model files"),
-    ({"set": {"moon.radius": object()}}, "moon.radius: is a object; expected"),
+    ({"set": {"moon.radius": object()}}, "moon.radius: is of type object; expected"),
     ({"set": {"moon.color": ["a", "b"]}}, "moon.color: has elements that are not numbers; expected a sequence of numbers"),
     ({"set": {"moon.color": [[1, 2], [3]]}}, "moon.color: has elements that are not numbers; expected a sequence of numbers"),
-    ({"camera": 5}, "camera: is a int; expected"),
+    ({"camera": 5}, "camera: is of type int; expected"),
 ])
 def test_wrong_arguments_are_reported(arguments, words):
     with pytest.raises(halfspace.InputError) as error:

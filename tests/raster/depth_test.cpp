@@ -641,9 +641,9 @@ TEST(Depth, AShaderWithoutAFragmentFunctionDecidesCoverageOfDepthDraws) {
   }
 }
 
-// The depth bounds of a block must include all triangles of a draw that the shader decides. If they missed the second triangle, the third
-// would replace the whole tile.
-TEST(Depth, TrianglesOfADrawThatTheShaderDecidesAllWidenTheBoundsOfABlock) {
+// The depth bounds of a block must include all triangles whose shader has a visibility function. If they missed the second triangle, the
+// third would replace the whole tile.
+TEST(Depth, AllTrianglesWithAVisibilityFunctionWidenTheBoundsOfTheirBlock) {
   Image<float> depth(64, 64);
   const auto corner_at = [](float z) { return std::vector<glm::vec4>{{-1, -1, z, 1}, {-0.5f, -1, z, 1}, {-1, -0.5f, z, 1}}; };  // 16 px
   std::vector<glm::vec4> corners = corner_at(0.5f);

@@ -69,7 +69,7 @@ TEST(Points, CoordinateSupportsBothOrigins) {
   }
 }
 
-// Each column shows another point, so the values of the points are gathered: point c covers columns c − 2 to c + 1, and later points hide
+// Each column shows a different point, so the values of the points are gathered: point c covers columns c − 2 to c + 1, and later points hide
 // earlier ones.
 TEST(Points, CoordinatesOfOverlappingPointsAreTheirOwn) {
   std::vector<glm::vec4> p;

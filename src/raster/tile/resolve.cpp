@@ -20,7 +20,7 @@ HS_INLINE PacketColor mean_of(std::array<PacketColor, kMaxSamples>& colors, int 
   return mean;
 }
 
-// The distances of the packets of all samples from those of sample 0.
+// The distance, in packets, from the pixels of sample 0 to those of each sample.
 std::array<int, kMaxSamples> sample_shifts(const Tile& tile) {
   std::array<int, kMaxSamples> shifts{};
   for (int s = 0; s < tile.samples; ++s) shifts[static_cast<std::size_t>(s)] = packet_shift(sample_plane(tile.samples, s, tile.size));

@@ -34,8 +34,8 @@ bool can_pack(const Draw& draw, const Tile& tile);
 /// Returns true if packing saves at least a quarter of the packets.
 bool pays_to_pack(std::span<const PacketMask> packets);
 
-/// Returns true if the packets of a queue should be packed. False for points: a queue has all overlapping points, of which each packet
-/// shows one, so that its values are not gathered.
+/// Returns true if the packets of a queue should be packed. False for points: a queue lists each of the overlapping points in packets of
+/// its own, so no values are gathered.
 bool packs_queue(const Draw& draw, const Tile& tile, std::span<const PacketMask> packets);
 
 /// Packs the pixels of as many packets as fit, from the start of the list. ids: the triangle of each packet. Returns the number of these

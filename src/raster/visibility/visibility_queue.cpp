@@ -20,7 +20,7 @@ struct Decisions {
   alignas(64) std::array<Real, kPacketBatch + 1> depth;  ///< if the shader writes depth
 };
 
-// Tests and writes packets of which the shader keeps some lanes.
+// Tests and writes packets in which the shader keeps some lanes.
 template <class Writer>
 class DecidedPackets {
  public:
