@@ -110,8 +110,9 @@ std::string explain_page(const SceneDescription& description, const PreparedScen
                          const Workers& workers) {
   const FrameTrace trace = trace_frame(scene, workers);
   const glm::ivec2 pixel = options.pixel.value_or(trace.busiest_pixel());
-  Image<glm::vec4> light(trace.width, trace.height);
-  render(scene, light, workers);
+  // The light of the frame as its tiles stored it. Without HDR they store codes, so the light is rendered again.
+  Image<glm::vec4> light = scene.post.hdr ? trace.light : Image<glm::vec4>(trace.width, trace.height);
+  if (!scene.post.hdr) render(scene, light, workers);
   const ValuePictures values = value_pictures(scene, workers);
   PageJson json{{"scene", options.scene}, {"command", options.command}, {"title", description.head.title}, {"version", options.version}};
   visit_set_up_scene(scene, workers, [&](const PassContext& context, int round) {

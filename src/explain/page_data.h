@@ -21,7 +21,7 @@ struct PageInput {
   const PreparedScene& scene;
   const PassContext& context;
   const StageGeometry& geometry;
-  const Image<glm::vec4>& light;
+  const Image<glm::vec4>& light;  ///< linear, before exposure and tone curve
   const ValuePictures& values;
   glm::ivec2 pixel;    ///< the example pixel, counted from the upper left
   uint32_t primitive;  ///< the primitive that is visible at the example pixel, or kNoPrimitive

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "halfspace/core/hash.h"
 #include "halfspace/explain/page_data.h"
 #include "halfspace/explain/page_encode.h"
 #include "halfspace/raster/pipeline/edge.h"
@@ -13,8 +14,15 @@ namespace halfspace {
 namespace {
 
 // Maximum number of triangles in the wireframe of the example's draw and in that of all other draws, and maximum number of clipped
-// triangles. A wireframe is sampled in runs of kWireRun consecutive triangles, which are usually neighbors.
-constexpr std::size_t kMaxWireTriangles = 4000, kWireRun = 32, kMaxClipped = 24;
+// triangles. A larger wireframe is a random sample of runs of kWireRun consecutive triangles, which are usually neighbors. Every n-th run
+// would follow the rows of the mesh: a sphere would look like a spiral.
+constexpr std::size_t kMaxWireTriangles = 12000, kWireRun = 8, kMaxClipped = 24;
+
+// Returns true for one of `every` runs of primitives, on average.
+bool is_in_sample(uint32_t primitive, std::size_t every) {
+  const auto run = static_cast<int32_t>(primitive / kWireRun);
+  return static_cast<uint32_t>(mix_bits(run)) % every == 0;
+}
 
 PageJson json_of_triangle(const PassContext& context, const Draw& draw, const Triangle& t) {
   PageJson json{{"x", t.x},
@@ -190,7 +198,7 @@ PageJson wireframe_json(const PageInput& in) {
   std::vector<uint8_t> outcomes;
   for (uint32_t i = 0; i < all.size(); ++i) {
     const std::size_t every = all[i].draw == example ? own_step : step;
-    if (i / kWireRun % every != 0 && i != in.primitive) continue;
+    if (i != in.primitive && !is_in_sample(i, every)) continue;
     const auto corners = corners_ws(in, all[i]);
     if (!corners) continue;
     positions.insert(positions.end(), corners->begin(), corners->end());

@@ -164,6 +164,7 @@ PageJson tone_json(const PageInput& in) {
   const StageTone t = stage_tone(in.scene, in.light, in.workers);
   const ToneSteps s = tone_steps(in.scene, t.tone, rgb(in.light.at(in.pixel.x, in.pixel.y)));
   return {{"hdr", t.hdr},
+          {"half", t.hdr && in.scene.post.format == LightFormat::rgba16f},
           {"exposure", t.tone.exposure},
           {"auto", in.scene.post.hdr && in.scene.post.auto_exposure},
           {"log_average", t.log_average},

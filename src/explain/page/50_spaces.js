@@ -2,7 +2,7 @@
 
 chapter({
   id: "frame", title: "One frame", kicker: "Start",
-  lead: () => `This page explains how Halfspace rendered one frame of the scene <b>${escapeHtml(sceneName)}</b>${DATA.title ? ` (${escapeHtml(DATA.title)})` : ""} with ${W} × ${H} pixels. All numbers were computed by the renderer for this frame. Follow one ${isTriangle ? "triangle" : "primitive"} from its mesh to the screen.`,
+  lead: () => `This page explains how Halfspace rendered one frame of the scene <b>${escapeHtml(sceneName)}</b>${DATA.title && DATA.title !== sceneName.replace(/\.[^.]*$/, "") ? ` (${escapeHtml(DATA.title)})` : ""} with ${W} × ${H} pixels. All numbers were computed by the renderer for this frame. Follow one ${isTriangle ? "triangle" : "primitive"} from its mesh to the screen.`,
   steps: () => [
     {name: "The picture", caption: `The ring marks pixel (${PIXEL}), the example of this page. ${DATA.overdraw.most === 0 ? "Nothing is drawn in this frame." : `${plural(FRAME.fragments[PIXEL[1] * W + PIXEL[0]], "fragment competes", "fragments compete")} for it. The visible fragment belongs to ${exampleName}.`}`,
       draw: () => picture(DATA.pictures.final, "The rendered picture, with a ring around the example pixel", {overlay: (pen, s) => ring(pen, s, PIXEL)})},
@@ -157,14 +157,14 @@ const viewToWorld = () => { const i = inverseAffine(M.view_from_world); return (
 const exampleCorners = (to) => (EX && EX.vertices[0].ws ? EX.vertices.map((v) => to(v.ws)).filter((p) => p !== null) : null);
 
 function spaceSteps() {
-  const some = (step) => (step > 1 ? ` One of every ${step} primitives is shown.` : "");
+  const some = (step) => (step > 1 ? ` A random sample of about one in ${step} primitives is shown.` : "");
   const back = viewToWorld(), object = EX ? DATA.draws[EX.draw].world_from_object : null;
   const toObject = (p) => transform(inverseAffine(object), p).slice(0, 3);
   const size = (list) => Math.max(...list.flatMap((t) => t.corners).flat().map(Math.abs), 0.1);
   return [
     {name: "Object space", caption: `The mesh of <i>${escapeHtml(EX.object)}</i> in its own coordinates, as it was modeled.${some(DATA.wire.own_step)}`,
       draw: () => { const own = wireIn(toObject).filter((t) => t.draw === EX.draw); return wireCanvas("Wireframe of the mesh in object space", own, axes(size(own) * 1.2), exampleCorners(toObject)); }},
-    {name: "World space", caption: `Every object is scaled, rotated and moved to its position. The colored lines show the view volume of the camera at ${vec(M.eye, 4)}.${some(DATA.wire.step)}`,
+    {name: "World space", caption: `Every object is scaled, rotated and moved to its position. The colored lines show the view volume of the camera at ${vec(M.eye, 4)}.${some(Math.max(DATA.wire.step, DATA.wire.own_step))}`,
       draw: () => wireCanvas("Wireframe of all objects in world space, with the camera", wireIn((p) => p), frustumLines().map((l) => ({...l, points: l.points.map(back)})), exampleCorners((p) => p))},
     {name: "View space", caption: "The same scene, transformed so that the camera is at the origin and looks along −z. x points to the right and y up.",
       draw: () => wireCanvas("Wireframe in view space, with the camera at the origin", wireIn((p) => toView(p).slice(0, 3)), [...frustumLines(), ...axes(visibleDepth() / 4)], exampleCorners((p) => toView(p).slice(0, 3)))},
@@ -197,7 +197,11 @@ function windowWires(pen, s) {
 }
 
 const column = (name, values, digits = 6) => `${name.padEnd(8)}${values.map((v) => fmt(v, digits).padStart(14)).join("")}`;
-const matrixRows = (m) => [0, 1, 2, 3].map((r) => [0, 1, 2, 3].map((c) => fmt(m[4 * c + r], 5).padStart(11)).join(" "));
+// Elements that are only rounding errors are shown as 0.
+const matrixRows = (m) => {
+  const negligible = 1e-14 * Math.max(...m.map(Math.abs));
+  return [0, 1, 2, 3].map((r) => [0, 1, 2, 3].map((c) => fmt(Math.abs(m[4 * c + r]) < negligible ? 0 : m[4 * c + r], 5).padStart(11)).join(" "));
+};
 
 function spaceFormulas() {
   const v = EX.vertices[0], rows = (v.ws ? [["object", [...v.os, 1]], ["world", [...v.ws, 1]], ["view", [...v.vs, 1]]] : []).concat([["clip", v.clip], ["NDC", v.ndc]]);

@@ -117,7 +117,7 @@ chapter({
     {name: t.name[0].toUpperCase() + t.name.slice(1), caption: `The mean luminance is ${num(mean3(t.mean), 4)}, and the luminance at the example pixel is ${num(mean3(t.value), 4)}.`, draw: () => picture(t.picture, `The term “${t.name}”`, {overlay: (pen, s) => ring(pen, s, PIXEL)})},
     ...(t.shadow ? [{name: `Shadow factor of ${t.name.split(", ")[1]}`, caption: "The fraction of this light that reaches the surface: white is all, black is none. Surfaces that face away from the light are transparent in this picture.", draw: () => picture(t.shadow, `The shadow factor of ${t.name.split(", ")[1]}`, {overlay: (pen, s) => ring(pen, s, PIXEL)})}] : []),
   ]), {name: "Sum", caption: "The sum of all terms, after exposure, tone curve and encoding, is the final picture.", draw: () => picture(DATA.pictures.final, "The sum of all terms", {overlay: (pen, s) => ring(pen, s, PIXEL)})}],
-  formula: () => [`color = sum of the terms, at pixel (${PIXEL}):\n\n${TERMS.map((t) => `${t.name.padEnd(22)} ${t.value.map((v) => fmt(v, 5).padStart(11)).join(" ")}`).join("\n")}\n${"sum".padEnd(22)} <b>${sumOf(TERMS.map((t) => t.value)).map((v) => fmt(v, 5).padStart(11)).join(" ")}</b>\n${"rendered".padEnd(22)} ${DATA.tone.pixel.light.map((v) => fmt(v, 5).padStart(11)).join(" ")}`],
+  formula: () => [`color = sum of the terms, at pixel (${PIXEL}):\n\n${TERMS.map((t) => `${t.name.padEnd(22)} ${t.value.map((v) => fmt(v, 5).padStart(11)).join(" ")}`).join("\n")}\n${"sum".padEnd(22)} <b>${sumOf(TERMS.map((t) => t.value)).map((v) => fmt(v, 5).padStart(11)).join(" ")}</b>\n${(DATA.tone.half ? "stored as half floats" : "rendered").padEnd(22)} ${DATA.tone.pixel.light.map((v) => fmt(v, 5).padStart(11)).join(" ")}`],
   exercises: () => {
     const best = TERMS.reduce((a, b) => (mean3(b.mean) > mean3(a.mean) ? b : a)), sum = sumOf(TERMS.map((t) => t.value));
     return [
@@ -143,6 +143,12 @@ function mapPicture() {
   return box;
 }
 
+// Says how the pixel of the lookup was chosen if it is not the example pixel.
+function nearestPixel() {
+  if (SHADOW.pixel.join() === PIXEL.join()) return "";
+  return LOOK.factor > 0 && LOOK.factor < 1 ? ", a pixel near the example pixel that is partially in shadow," : ", a pixel near the example pixel that the map covers,";
+}
+
 function lookupPicture() {
   const n = LOOK.side, reach = (n - 1) / 2, g = gridPicture(0, 0, n, n, "The texels around the point; gray texels occlude it", (x, y) => ({fill: LOOK.lit[y * n + x] ? "var(--accent-soft)" : "var(--soft)", opacity: LOOK.lit[y * n + x] ? 1 : 0.75}));
   const [px, py] = g.to((LOOK.x - LOOK.i + reach) * SUB, (LOOK.y - LOOK.j + reach) * SUB);
@@ -165,7 +171,7 @@ chapter({
   steps: () => [
     {name: "Seen from the light", caption: `The shadow map of <i>${escapeHtml(SHADOW.light)}</i>${SHADOW.views > 1 ? `, view ${SHADOW.view + 1} of ${SHADOW.views}` : ""}. Bright texels are near the light, and black texels are empty.${LOOK ? " The ring marks the point of the next step." : ""}`, draw: mapPicture},
     ...(LOOK ? [
-      {name: "One pixel", caption: `Pixel (${SHADOW.pixel}) reads the map at texel (${LOOK.i}, ${LOOK.j}).`, draw: () => picture(DATA.pictures.final, "The picture, with a ring around the pixel whose shadow is looked up", {overlay: (pen, s) => ring(pen, s, SHADOW.pixel)})},
+      {name: "One pixel", caption: `Pixel (${SHADOW.pixel})${nearestPixel()} reads the map at texel (${LOOK.i}, ${LOOK.j}).`, draw: () => picture(DATA.pictures.final, "The picture, with a ring around the pixel whose shadow is looked up", {overlay: (pen, s) => ring(pen, s, SHADOW.pixel)})},
       {name: "The texels around the point", caption: `Gray texels are nearer to the light than the plane of the surface, so they occlude the point. The dot marks the point. The filter ${SHADOW.filter} computes a shadow factor of ${num(LOOK.factor, 5)}.`, draw: lookupPicture}] : []),
   ],
   formula: () => (LOOK ? [`texel (${LOOK.i}, ${LOOK.j}), point at (${fmt(LOOK.x, 7)}, ${fmt(LOOK.y, 7)}):\n\n<em>d</em> = depth + bias = ${fmt(LOOK.depth, 8)} + ${fmt(LOOK.biased - LOOK.depth, 4)} = ${fmt(LOOK.biased, 8)}\nplane: ${fmt(LOOK.dx, 4)} per texel to the right, ${fmt(LOOK.dy, 4)} up\n\nlit = <em>d</em> + slope · distance to the center of the texel ≥ depth in the map\n\nmap: ${fmt(LOOK.texels[(LOOK.side * LOOK.side - 1) / 2], 8)} → <b>${LOOK.lit[(LOOK.side * LOOK.side - 1) / 2] ? "lit" : "in shadow"}</b>      after the filter: <b>${fmt(LOOK.factor, 6)}</b>`] : []),
