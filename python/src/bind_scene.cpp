@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Scenes. Every function that waits or renders releases the GIL.
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cstring>
 #include <memory>
+#include <span>
 
 #include "bindings.h"
 #include "matrices.h"
@@ -20,13 +22,23 @@ using Release = py::call_guard<py::gil_scoped_release>;
 /// How pixels are returned: 8-bit sRGB codes with 3 or 4 channels, or linear light.
 enum class PixelKind { rgb, rgba, light };
 
-// Copies an image to `out` without alpha.
-void copy_rgb(const Image<glm::u8vec4>& image, uint8_t* out) {
-  for (const glm::u8vec4& texel : image.texels()) {
+// Copies texels to `out` without alpha.
+void copy_rgb(std::span<const glm::u8vec4> texels, uint8_t* out) {
+  for (const glm::u8vec4& texel : texels) {
     *out++ = texel.x;
     *out++ = texel.y;
     *out++ = texel.z;
   }
+}
+
+// Copies an image to `out` without alpha, with several threads.
+void copy_image_rgb(const Image<glm::u8vec4>& image, uint8_t* out, const Workers& workers) {
+  constexpr std::size_t kPart = std::size_t{1} << 16;  // texels
+  const std::span<const glm::u8vec4> texels = image.texels();
+  workers.for_each(static_cast<int>((texels.size() + kPart - 1) / kPart), [&](int part) {
+    const std::size_t first = static_cast<std::size_t>(part) * kPart;
+    copy_rgb(texels.subspan(first, std::min(kPart, texels.size() - first)), out + 3 * first);
+  });
 }
 
 template <class Pixel>
@@ -40,7 +52,10 @@ py::array render_rgb(SceneCore& scene, const Shot& shot, PictureSize size) {
   py::array_t<uint8_t> array({py::ssize_t{size.height}, py::ssize_t{size.width}, py::ssize_t{3}});
   uint8_t* out = array.mutable_data();
   const py::gil_scoped_release release;
-  copy_rgb(picture_of<glm::u8vec4>(scene, shot, size), out);
+  Image<glm::u8vec4> picture = scene.take_picture(size);
+  render(scene.prepare(shot, size), picture, scene.workers());
+  copy_image_rgb(picture, out, scene.workers());
+  scene.keep_picture(std::move(picture));
   return array;
 }
 
@@ -96,8 +111,9 @@ py::array render_batch(SceneCore& scene, int width, int height, const std::vecto
   std::vector<Shot> shots = shots_of(times, cameras);
   for (Shot& shot : shots) shot.transparent = transparent;
   const PictureSize size{width, height};
+  const auto copy = [](const Image<glm::u8vec4>& image, uint8_t* out) { copy_rgb(image.texels(), out); };
   switch (kind) {
-    case PixelKind::rgb: return render_array<glm::u8vec4, uint8_t>(scene, shots, size, 3, progress, copy_rgb);
+    case PixelKind::rgb: return render_array<glm::u8vec4, uint8_t>(scene, shots, size, 3, progress, copy);
     case PixelKind::rgba: return render_array<glm::u8vec4, uint8_t>(scene, shots, size, 4, progress, copy_texels<glm::u8vec4>);
     case PixelKind::light: break;
   }

@@ -134,6 +134,20 @@ PreparedScene SceneCore::prepare(const Shot& shot, PictureSize size) {
   return state_.prepare(shot, size, assets_);
 }
 
+Image<glm::u8vec4> SceneCore::take_picture(PictureSize size) {
+  std::unique_lock lock(mutex_);
+  Image<glm::u8vec4> kept = std::move(picture_);
+  picture_ = {};
+  lock.unlock();
+  if (kept.width() == size.width && kept.height() == size.height) return kept;
+  return {size.width, size.height};
+}
+
+void SceneCore::keep_picture(Image<glm::u8vec4> picture) {
+  const std::lock_guard lock(mutex_);
+  picture_ = std::move(picture);
+}
+
 void SceneCore::expect(std::span<const double> times, PictureSize size) {
   const std::lock_guard lock(mutex_);
   const auto time_of = [&](int i) { return times[static_cast<std::size_t>(i)]; };

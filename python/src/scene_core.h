@@ -60,6 +60,10 @@ class SceneCore {
   void forget_model(const std::string& file);
 
   PreparedScene prepare(const Shot& shot, PictureSize size);
+  /// Returns an image with arbitrary contents. It is the one that was kept last if that has this size.
+  Image<glm::u8vec4> take_picture(PictureSize size);
+  /// Keeps an image for the next frame, because allocating one clears it.
+  void keep_picture(Image<glm::u8vec4> picture);
   /// Announces frames, so that generated maps do not change between them.
   void expect(std::span<const double> times, PictureSize size);
   /// Prepares all shots and calls render(index, scene, workers) for each, several at a time from several threads.
@@ -88,9 +92,10 @@ class SceneCore {
   }
   void warn(const std::string& problem);
 
-  mutable std::mutex mutex_;  ///< guards the state and the assets
+  mutable std::mutex mutex_;  ///< guards the state, the assets and the picture
   State state_;
   const std::map<std::string, std::string> camera_names_;  ///< names in the model and the corresponding names in the scene
+  Image<glm::u8vec4> picture_;
   std::mutex warnings_mutex_;
   std::vector<std::string> warnings_;
   std::set<std::string> warned_;

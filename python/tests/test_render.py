@@ -46,6 +46,23 @@ def test_threads_do_not_change_the_pixels():
     assert np.array_equal(one, halfspace.render("moon", size=SMALL, threads=3))
 
 
+@pytest.mark.parametrize("size", [(301, 307), (33, 7), (1, 1)])  # pixels are copied in parts of 65536
+def test_pictures_of_several_parts_and_of_one_have_the_pixels_of_the_command_line(command_line, size):
+    path = command_line("three-lights", "--size", f"{size[0]}x{size[1]}")
+    assert same_bytes(halfspace.render("three-lights", size=size), path)
+
+
+@pytest.mark.parametrize("name, hide", [("earth", {"earth.visible": False}), ("day-night", {"time.hours": 23}), ("particles", {"particles.count": 0})])
+def test_a_picture_keeps_nothing_of_the_one_before(name, hide):
+    scene, fresh = halfspace.Scene.load(name), halfspace.Scene.load(name)
+    before = scene.render(SMALL)
+    scene.set(hide)
+    fresh.set(hide)
+    after = scene.render(SMALL)
+    assert not np.array_equal(after, before)
+    assert np.array_equal(after, fresh.render(SMALL))
+
+
 def test_alpha_is_the_fourth_channel():
     four = halfspace.render("moon", size=SMALL, alpha=True)
     assert four.shape == (90, 160, 4) and four[0, 0, 3] == 0 and four[45, 80, 3] == 255
@@ -105,6 +122,7 @@ def test_warnings_are_python_warnings(tmp_path):
 def test_pictures_can_be_displayed_and_saved(tmp_path):
     picture = halfspace.render("moon", size=SMALL)
     assert picture._repr_png_().startswith(b"\x89PNG")
+    assert type(picture.max()) is np.uint8 and type(picture.mean()) is np.float64 and type(picture + 1) is halfspace.Picture
     assert picture[0]._repr_png_() is None and picture.astype(float)._repr_png_() is None
     with pytest.raises(halfspace.InputError, match="path: is .*picture.xyz"):
         picture.save(tmp_path / "picture.xyz")
