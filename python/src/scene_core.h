@@ -60,7 +60,7 @@ class SceneCore {
   void forget_model(const std::string& file);
 
   PreparedScene prepare(const Shot& shot, PictureSize size);
-  /// Returns an image with arbitrary contents. It is the one that was kept last if that has this size.
+  /// Returns the image that keep_picture() kept if it has this size, or a new one. Its contents are arbitrary.
   Image<glm::u8vec4> take_picture(PictureSize size);
   /// Keeps an image for the next frame, because allocating one clears it.
   void keep_picture(Image<glm::u8vec4> picture);

@@ -14,8 +14,8 @@ namespace halfspace {
 namespace {
 
 // Maximum number of triangles in the wireframe of the example's draw and in that of all other draws, and maximum number of clipped
-// triangles. A larger wireframe is a random sample of runs of kWireRun consecutive triangles, which are usually neighbors. Every n-th run
-// would follow the rows of the mesh: a sphere would look like a spiral.
+// triangles. A larger wireframe is a random sample of runs of kWireRun consecutive triangles, which are usually neighbors. Drawing every
+// n-th run instead would follow the rows of the mesh, and a sphere would look like a spiral.
 constexpr std::size_t kMaxWireTriangles = 12000, kWireRun = 8, kMaxClipped = 24;
 
 // Returns true for one of `every` runs of primitives, on average.
