@@ -10,6 +10,7 @@
 // rgba16f: two words per texel, red in the low half of the first. rgba32f: four words per texel.
 #pragma once
 
+#include "halfspace/core/parallel.h"
 #include "halfspace/shading/texture.h"
 
 namespace halfspace::detail {
@@ -101,6 +102,19 @@ using Channels = RealN<4>;
 inline Channels clamped_texel(const glm::vec4& v) {
   const auto x = load<Channels>(&v.x);
   return select(x == x, clamp(x, Channels(-kMaxTexel), Channels(kMaxTexel)), Channels(0.0f));
+}
+
+/// Returns the channels of an rgba16f texel.
+inline IntN<4> half_channels(const glm::vec4& v) { return float_to_finite_half(clamped_texel(v)); }
+
+/// Returns the width or height of the next level.
+constexpr int half_size(int size) { return size <= 2 ? 1 : size / 2; }
+
+/// Calls f(row) for every row, using the workers if there are any.
+template <class F>
+void for_each_row(const Workers* workers, int rows, const F& f) {
+  if (workers != nullptr && rows > 1) return workers->for_each(rows, f);
+  for (int row = 0; row < rows; ++row) f(row);
 }
 
 }  // namespace halfspace::detail

@@ -12,6 +12,7 @@
 #include <random>
 #include <vector>
 
+#include "halfspace/core/lane_bytes.h"
 #include "halfspace/core/lane_pairs.h"
 #include "halfspace/core/vec.h"
 #include "support/constants.h"
@@ -253,13 +254,13 @@ void expect_bytes_are_converted() {
   constexpr int width = sizeof(I) / sizeof(int32_t);
   std::array<uint8_t, 17> bytes;  // one more than the most lanes, and not aligned
   for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<uint8_t>(255 - 13 * i);
-  I values = load_bytes<I>(&bytes[1]);
+  I values = load_u8<I>(&bytes[1]);
   std::array<uint8_t, 18> stored{};
   for (int i = 0; i < width; ++i) {
     EXPECT_EQ(lane(values, i), bytes[static_cast<std::size_t>(i) + 1]);
     set_lane(values, i, lane(values, i) + 0x1200);  // only the low byte is stored
   }
-  store_bytes(&stored[1], values);
+  store_u8(&stored[1], values);
   for (std::size_t i = 0; i < stored.size(); ++i) {
     const bool is_written = i >= 1 && i <= static_cast<std::size_t>(width);
     EXPECT_EQ(stored[i], is_written ? bytes[i] : 0) << i;

@@ -131,6 +131,25 @@ TEST(Texture, MipOfEvenSizeIsTheMeanOfFourTexels) {
   EXPECT_EQ(mip_chain(image, TexelFormat::srgb8a8)[0].at(0, 0).w, 0);
 }
 
+// Rows are converted several texels at a time, and their ends one by one.
+TEST(Texture, MipRowsOfAnyLengthAreMeansOfFourTexels) {
+  for (int width = 1; width <= 21; ++width) {
+    const Image<glm::u8vec4> image = noise(2 * width, 2, static_cast<unsigned>(width));
+    const Image<glm::u8vec4> codes = mip_chain(image, TexelFormat::rgba8)[0], colors = mip_chain(image, TexelFormat::srgb8a8)[0];
+    for (int x = 0; x < width; ++x) {
+      for (glm::length_t c = 0; c < 4; ++c) {
+        const auto mean = [&](const auto& number) {
+          const auto column = [&](int i) { return number(image.at(i, 0)[c]) + number(image.at(i, 1)[c]); };
+          return 0.25f * (column(2 * x) + column(2 * x + 1));
+        };
+        const int code = round_to_int(mean([](uint8_t t) { return static_cast<float>(t); }));
+        EXPECT_EQ(codes.at(x, 0)[c], code) << width;
+        EXPECT_EQ(colors.at(x, 0)[c], c == 3 ? code : linear_to_srgb(mean([](uint8_t t) { return kSrgbToLinear[t]; }))) << width;
+      }
+    }
+  }
+}
+
 TEST(Texture, MipOfOddSizeWeightsByArea) {
   Image<glm::u8vec4> image(5, 1);
   for (int x = 0; x < 5; ++x) image.at(x, 0) = glm::u8vec4(x == 0 ? 250 : 0, x == 1 ? 250 : 0, x == 2 ? 250 : 0, 0);

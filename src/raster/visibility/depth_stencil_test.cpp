@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "halfspace/raster/visibility/depth_stencil_test.h"
 
+#include "halfspace/core/lane_bytes.h"
+
 namespace halfspace {
 
 namespace {
 
-Int load_values(const Tile& tile, int packet) { return load_bytes<Int>(&tile.stencil[static_cast<std::size_t>(packet) * kLanes]); }
+Int load_values(const Tile& tile, int packet) { return load_u8<Int>(&tile.stencil[static_cast<std::size_t>(packet) * kLanes]); }
 
 Int apply(StencilOp op, Int value, Int reference) {
   const Int max_value(0xff);
@@ -36,7 +38,7 @@ void update_stencil(const StencilFace& face, Tile& tile, int packet, Mask failed
   value = select(depth_failed, apply(face.depth_fail, old, reference), value);
   value = select(passed, apply(face.pass, old, reference), value);
   value = (value & write) | (old & ~write);
-  store_bytes(&tile.stencil[static_cast<std::size_t>(packet) * kLanes], value);
+  store_u8(&tile.stencil[static_cast<std::size_t>(packet) * kLanes], value);
 }
 
 }  // namespace halfspace
