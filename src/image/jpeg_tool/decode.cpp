@@ -62,14 +62,17 @@ class JpegDecoder {
     std::vector<uint8_t> pixels(std::size_t{width()} * height() * channels);
     std::vector<uint8_t> row(std::size_t{width()} * static_cast<unsigned>(codec_.num_components));
     check(errors_.run([&] {
-      const bool inks = codec_.jpeg_color_space == JCS_CMYK || codec_.jpeg_color_space == JCS_YCCK;
+      const J_COLOR_SPACE space = codec_.jpeg_color_space;
+      const bool inks = space == JCS_CMYK || space == JCS_YCCK;
+      const bool direct = channels == 4 && (space == JCS_GRAYSCALE || space == JCS_RGB || space == JCS_YCbCr);
       if (inks) codec_.out_color_space = JCS_CMYK;
+      if (direct) codec_.out_color_space = JCS_EXT_RGBA;  // with alpha 255
       jpeg_start_decompress(&codec_);
-      uint8_t* scanline = row.data();
       while (codec_.output_scanline < codec_.output_height) {
         uint8_t* to = pixels.data() + std::size_t{codec_.output_scanline} * width() * channels;
+        uint8_t* scanline = direct ? to : row.data();
         jpeg_read_scanlines(&codec_, &scanline, 1);
-        put_row(row.data(), inks, channels, to);
+        if (!direct) put_row(row.data(), inks, channels, to);
       }
     }));
     return pixels;
