@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 namespace halfspace {
@@ -56,6 +57,29 @@ TEST(Tangents, AreWeightedByAngles) {
   EXPECT_NEAR(mesh.tangents[0].x, mean.x, 1e-6);
   EXPECT_NEAR(mesh.tangents[0].y, mean.y, 1e-6);
   EXPECT_EQ(mesh.tangents[1], glm::vec4(1, 0, 0, 1));
+}
+
+// The expected tangents were computed with M. Mikkelsen's algorithm, in single precision (npm package mikktspace 1.1.1). The sign of w is
+// inverted, because v points down in our textures.
+TEST(Tangents, EqualThoseOfMikkTSpace) {
+  ModelMesh mesh;
+  mesh.positions = {{0, 0, 2}, {3, 0, 0}, {1, 3, 1}, {-2, 2, 0}, {-3, 0, 1}, {-1, -3, 0}, {2, -2, 1}};
+  for (const glm::vec3& n : {glm::vec3(0, 1, 4), glm::vec3(3, 0, 1), glm::vec3(1, 2, 1), glm::vec3(-1, 2, 2), glm::vec3(-3, 0, 1),
+                             glm::vec3(-1, -2, 2), glm::vec3(2, -2, 1)}) {
+    mesh.normals.push_back(n / std::sqrt(glm::dot(n, n)));
+  }
+  mesh.uvs[0] = {{0.5f, 0.5f}, {0.9f, 0.4f}, {0.7f, 0.9f}, {0.2f, 0.8f}, {0.1f, 0.5f}, {0.4f, 0.1f}, {0.8f, 0.2f}};
+  mesh.indices = {0, 1, 2, 0, 2, 3, 0, 3, 4, 0, 4, 5, 0, 5, 6, 0, 6, 1};
+  add_tangents(mesh, 0);
+  const glm::vec3 expected[] = {{0.9948342f, 0.0984818f, -0.0246204f},  {0.3059611f, 0.2527412f, -0.9178833f},
+                                {0.9119779f, -0.3450155f, -0.2219471f}, {0.9177800f, 0.0675965f, 0.3912935f},
+                                {0.3162278f, 0.0f, 0.9486833f},         {0.9217107f, -0.0816736f, 0.3791818f},
+                                {0.7419935f, 0.5511642f, -0.3816589f}};
+  ASSERT_EQ(mesh.tangents.size(), std::size(expected));
+  for (std::size_t i = 0; i < mesh.tangents.size(); ++i) {
+    for (glm::length_t c = 0; c < 3; ++c) EXPECT_NEAR(mesh.tangents[i][c], expected[i][c], 1e-6f) << i;  // rounding of single precision
+    EXPECT_EQ(mesh.tangents[i].w, -1.0f);
+  }
 }
 
 TEST(Tangents, AverageVerticesThatAreEqual) {
