@@ -7,6 +7,7 @@
 #include <cmath>
 #include <deque>
 
+#include "halfspace/core/resource_limits.h"
 #include "halfspace/core/trig_double.h"
 #include "halfspace/core/units.h"
 #include "halfspace/render/preparation.h"
@@ -29,6 +30,11 @@ struct ShadowMaps {
 };
 
 bool is_moment_filter(ShadowFilter f) { return f == ShadowFilter::vsm || f == ShadowFilter::moments; }
+
+uint64_t map_bytes(std::size_t views, int size, ShadowFilter filter) {
+  const std::size_t texel = sizeof(float) + (is_moment_filter(filter) ? sizeof(glm::vec4) : 0);
+  return uint64_t{views} * static_cast<uint64_t>(size) * static_cast<uint64_t>(size) * texel;
+}
 
 ShadowSettings settings_of(const ShadowDescription& d, const LightDescription& light) {
   ShadowSettings s;
@@ -178,6 +184,7 @@ void ScenePreparation::add_shadows() {
     shadow.settings = settings_of(d, l);
     const int size = shadow_resolution(l, shadow.settings);
     const std::vector<LightView> views = shadow_views(l, shadow.settings, size);
+    const MemoryClaim claim(map_bytes(views.size(), size, shadow.settings.filter), "lights." + out_.lights[i].name + " (shadow maps)");
     const auto maps = std::make_shared<ShadowMaps>();
     for (const LightView& view : views) {
       maps->views.push_back(to_shading(view, size, view_.eye_ws));

@@ -62,6 +62,13 @@ TEST_F(Limits, LargeFile) {
   expect_rejected({"info", "a.stl"}, {"a.stl", "68719476736 bytes", "--max-memory"});
 }
 
+// Each light of a model file has shadow maps, and a small file can contain many lights.
+TEST_F(Limits, ShadowMaps) {
+  expect_rejected(
+      {"render", "earth", "--size", "64x36", "--set", "shadow.method=hard", "--set", "shadow.resolution=8192", "--max-memory", "200M"},
+      {"lights.sun", "shadow maps", "512 MiB", "--max-memory"});
+}
+
 TEST_F(Limits, SizeOfTheOutput) {
   expect_rejected({"render", "earth", "-o", "a.exr", "--size", "16384x16384", "--max-memory", "1G"}, {"--size 16384x16384", "4096 MiB"});
   expect_rejected({"render", "earth", "--size", "100x50", "--max-pixels", "4999"}, {"--size", "100x50", "4999"});
