@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <system_error>
 
@@ -60,6 +61,12 @@ std::vector<std::byte> file_bytes(const std::filesystem::path& file, std::size_t
   }
   bytes.resize(done);
   return bytes;
+}
+
+std::span<const std::byte> without_byte_order_mark(std::span<const std::byte> bytes) {
+  constexpr std::array kMark{std::byte{0xef}, std::byte{0xbb}, std::byte{0xbf}};
+  const bool marked = bytes.size() >= kMark.size() && std::ranges::equal(bytes.first(kMark.size()), kMark);
+  return marked ? bytes.subspan(kMark.size()) : bytes;
 }
 
 }  // namespace halfspace

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <span>
 #include <vector>
 
 namespace halfspace {
@@ -10,5 +11,9 @@ namespace halfspace {
 /// Reads a whole file. Throws InputError if it is missing, a directory, unreadable or not a regular file, and LimitError if it is larger
 /// than `max_bytes`.
 std::vector<std::byte> file_bytes(const std::filesystem::path& file, std::size_t max_bytes);
+
+/// Returns the bytes after the byte order mark of UTF-8, which some editors write at the start of text files, or all bytes if there is
+/// none.
+std::span<const std::byte> without_byte_order_mark(std::span<const std::byte> bytes);
 
 }  // namespace halfspace

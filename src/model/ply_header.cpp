@@ -150,9 +150,16 @@ class HeaderParser {
   bool has_format_ = false;
 };
 
+// Some programs write the names of coordinates in upper case.
+bool is_same_name(std::string_view a, std::string_view b) {
+  const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c | 0x20) : c; };
+  return std::ranges::equal(a, b, {}, lower, lower);
+}
+
 int find(const std::vector<PlyProperty>& properties, std::initializer_list<std::string_view> names, bool is_list) {
   const auto found = std::ranges::find_if(properties, [&](const PlyProperty& p) {
-    return p.count_type.has_value() == is_list && std::ranges::find(names, p.name) != names.end();
+    const auto has_name = [&](std::string_view name) { return is_same_name(p.name, name); };
+    return p.count_type.has_value() == is_list && std::ranges::any_of(names, has_name);
   });
   return found == properties.end() ? -1 : static_cast<int>(found - properties.begin());
 }

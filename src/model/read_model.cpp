@@ -41,7 +41,7 @@ Reader reader_by_contents(std::span<const std::byte> bytes, std::string_view tex
   if (text.starts_with("glTF")) return read_gltf;
   if (text.starts_with("ply\n") || text.starts_with("ply\r")) return read_ply;
   if (is_binary_stl(bytes)) return read_stl;
-  const std::size_t begin = text.find_first_not_of(" \t\r\n", text.starts_with("\xef\xbb\xbf") ? 3 : 0);
+  const std::size_t begin = text.find_first_not_of(" \t\r\n");
   if (begin != std::string_view::npos && text[begin] == '{') return read_gltf;
   return is_text_stl(bytes) ? read_stl : nullptr;
 }
@@ -57,7 +57,6 @@ Reader reader_by_extension(const std::string& extension) {
 Reader reader_of(const std::filesystem::path& file, std::span<const std::byte> bytes) {
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   const std::string extension = lower_extension(file);
-  if (extension == ".obj") return read_obj;  // OBJ has no signature
   if (const Reader reader = reader_by_contents(bytes, text)) return reader;
   if (const Reader reader = reader_by_extension(extension)) return reader;
   if (looks_like_obj(text)) return read_obj;
@@ -79,7 +78,8 @@ Model read_model(const std::filesystem::path& file, const ReadModelOptions& opti
   left.max_memory = static_cast<std::size_t>(std::min<uint64_t>(options.max_memory, memory_left()));
   const std::vector<std::byte> bytes = file_bytes(file, left.max_memory);
   if (bytes.empty()) throw InputError(fmt::format("{}: the file is empty; expected a glTF, OBJ, PLY or STL file", file.string()));
-  return reader_of(file, bytes)(file, bytes, left);
+  const std::span<const std::byte> contents = without_byte_order_mark(bytes);
+  return reader_of(file, contents)(file, contents, left);
 }
 
 }  // namespace halfspace

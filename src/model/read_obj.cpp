@@ -95,7 +95,7 @@ class Libraries {
     std::error_code ignored;
     const std::filesystem::path model_folder = std::filesystem::absolute(file_, ignored).parent_path();
     const std::filesystem::path folder = path.parent_path().lexically_relative(model_folder.lexically_normal());
-    for (MtlMaterial& material : parse_mtl(path.filename().string(), text_of(bytes), warnings_)) {
+    for (MtlMaterial& material : parse_mtl(path.filename().string(), text_of(without_byte_order_mark(bytes)), warnings_)) {
       if (!numbers_.try_emplace(material.name, materials_.size()).second) continue;
       material.folder = folder == "." ? std::string() : folder.generic_string();
       materials_.push_back(std::move(material));

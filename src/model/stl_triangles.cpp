@@ -33,12 +33,12 @@ class TextParser {
 
   StlTriangles parse() {
     expect("solid");
-    skip_line();
+    skip_name();
     for (std::string_view word = next(); !word.empty(); word = next()) {
       if (is(word, "facet")) {
         facet();
       } else if (is(word, "solid") || is(word, "endsolid")) {
-        skip_line();  // the rest is a name
+        skip_name();
       } else {
         fail(word, "'facet' or 'endsolid'");
       }
@@ -66,8 +66,19 @@ class TextParser {
     return text_.substr(begin, at_ - begin);
   }
 
-  void skip_line() {
-    while (at_ < text_.size() && text_[at_] != '\n' && text_[at_] != '\r') ++at_;
+  /// Skips the rest of the line, which is a name. In files without line ends, the name ends before "facet normal".
+  void skip_name() {
+    std::size_t facet = std::string_view::npos;  // where the previous word begins if it is "facet"
+    for (;;) {
+      while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\t')) ++at_;
+      const std::size_t begin = at_;
+      while (at_ < text_.size() && !is_space(text_[at_])) ++at_;
+      const std::string_view word = text_.substr(begin, at_ - begin);
+      if (word.empty()) return;
+      if (facet != std::string_view::npos && is(word, "normal")) break;
+      facet = is(word, "facet") ? begin : std::string_view::npos;
+    }
+    at_ = facet;
   }
 
   void expect(std::string_view keyword) {

@@ -101,6 +101,15 @@ TEST(Ply, AcceptsAllLineEnds) {
   }
 }
 
+TEST(Ply, IgnoresTheCaseOfPropertyNames) {
+  const Model model =
+      ply_model(ascii("element vertex 1\nproperty float X\nproperty float Y\nproperty float Z\nproperty uchar Red\n"
+                      "property uchar Green\nproperty uchar Blue\n",
+                      "1 2 3 255 0 0\n"));
+  EXPECT_EQ(model.meshes[0].origin, glm::dvec3(1, 2, 3));
+  EXPECT_EQ(model.meshes[0].colors.at(0), glm::vec4(1, 0, 0, 1));
+}
+
 TEST(Ply, ConvertsColorsAndTextureCoordinates) {
   const std::string header = "element vertex 3\n" + kXyz +
                              "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty uchar alpha\n"

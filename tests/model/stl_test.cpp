@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -74,6 +75,13 @@ TEST(Stl, AcceptsUpperCaseAndBlanks) {
   std::string spaced = "  \r\n";
   for (const char c : text) spaced += c == '\n' ? "\r\n\t " : std::string(1, c);
   EXPECT_EQ(stl_model(spaced).meshes[0].indices.size(), 36u);
+}
+
+// Without line ends, nothing but the next keywords ends the name of a solid.
+TEST(Stl, ReadsTextsOfOneLine) {
+  std::string text = text_cube(0.0);
+  std::ranges::replace(text, '\n', ' ');
+  EXPECT_EQ(stl_model(text).meshes[0].indices.size(), 36u);
 }
 
 TEST(Stl, ReadsColorsOfBinaryFiles) {
