@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "halfspace/model/gltf_materials.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 #include <nlohmann/json.hpp>
+#include <set>
 
 namespace halfspace {
 
@@ -148,6 +153,30 @@ ModelMaterial gltf_default_material() {
   return material;
 }
 
+namespace {
+
+// Meshes have two sets of texture coordinates. A material with at most two of the file's sets uses these; its maps then refer to one of
+// them.
+void choose_uv_sets(GltfDocument& document, const GltfValue& json, ModelMaterial& m) {
+  const std::array maps{
+      &m.base_color_map,          &m.metallic_map,         &m.roughness_map, &m.specular_map,  &m.specular_color_map, &m.clearcoat_map,
+      &m.clearcoat_roughness_map, &m.clearcoat_normal_map, &m.normal_map,    &m.occlusion_map, &m.emissive_map,       &m.opacity_map};
+  std::set<int> used;
+  for (const TextureUse* map : maps) {
+    if (map->texture >= 0) used.insert(map->uv_set);
+  }
+  if (used.empty() || *used.rbegin() <= 1) return;
+  m.uv_sets = {*used.begin(), used.size() > 1 ? *std::next(used.begin()) : -1};
+  if (used.size() > 2) {
+    document.warn_at(json, "",
+                     fmt::format("uses {} sets of texture coordinates; all but {} and {} are replaced by {}", used.size(), m.uv_sets[0],
+                                 m.uv_sets[1], m.uv_sets[0]));
+  }
+  for (TextureUse* map : maps) map->uv_set = map->uv_set == m.uv_sets[1] ? 1 : 0;
+}
+
+}  // namespace
+
 std::vector<ModelMaterial> gltf_materials(GltfDocument& document, GltfTextures& textures) {
   std::vector<ModelMaterial> materials;
   for (const GltfValue& json : document.list("materials")) {
@@ -157,6 +186,7 @@ std::vector<ModelMaterial> gltf_materials(GltfDocument& document, GltfTextures& 
     read_surface_maps(document, textures, json, material);
     read_alpha(document, json, material);
     read_extensions(document, textures, json, material);
+    choose_uv_sets(document, json, material);
     materials.push_back(std::move(material));
   }
   return materials;

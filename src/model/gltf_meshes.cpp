@@ -70,8 +70,8 @@ class MeshReader {
     }
     std::vector<uint32_t> subset;
     if (!mesh.indices.empty() && mesh.indices.size() < count) subset = compact_indices(mesh.indices);
-    read_vertices(accessors_, json, count, subset, mesh);
     read_material(json, mesh);
+    read_vertices(accessors_, json, count, subset, model_.materials[static_cast<std::size_t>(mesh.material)].uv_sets, mesh);
     complete(json, mesh);
     if (!mesh.targets.empty() || !mesh.joints.empty()) owner.deformed_vertices += mesh.positions.size();
     owner.parts.push_back(static_cast<int>(model_.meshes.size()));
@@ -114,6 +114,10 @@ class MeshReader {
       for (const int variant : document_.indices(mapping, "variants", model_.variants.size())) {
         mesh.variant_materials[static_cast<std::size_t>(variant)] = material;
       }
+    }
+    const auto uv_sets = [&](int material) { return model_.materials[static_cast<std::size_t>(material)].uv_sets; };
+    if (std::ranges::any_of(mesh.variant_materials, [&](int material) { return uv_sets(material) != uv_sets(mesh.material); })) {
+      document_.warn_at(json, "", "its variants use other sets of texture coordinates than its material; these are not supported");
     }
   }
 

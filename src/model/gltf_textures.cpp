@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "halfspace/core/trig_double.h"
@@ -112,6 +113,16 @@ bool GltfTextures::locate_image(int index) {
   return image.bytes != nullptr || !image.file.empty();
 }
 
+namespace {
+
+// Returns the number of the set of texture coordinates in the file.
+int uv_set_of(const GltfDocument& document, const GltfValue& json, int fallback) {
+  constexpr uint64_t kMaxSet = 1000;  // no mesh has a larger one
+  return static_cast<int>(std::min(document.integer(json, "texCoord", static_cast<uint64_t>(fallback)), kMaxSet));
+}
+
+}  // namespace
+
 TextureUse GltfTextures::use(const GltfValue& object, const char* key, Channel channel) {
   const GltfValue* json = document_.find(object, key);
   if (json == nullptr) return {};
@@ -119,13 +130,11 @@ TextureUse GltfTextures::use(const GltfValue& object, const char* key, Channel c
   use.channel = channel;
   const GltfValue& info = document_.object(object, key);
   const int texture = document_.required_index(info, "index", model_.textures.size());
-  uint64_t uv_set = document_.integer(info, "texCoord", 0);
+  use.uv_set = uv_set_of(document_, info, 0);
   if (const GltfValue* transform = document_.extension(info, "KHR_texture_transform")) {
-    uv_set = document_.integer(*transform, "texCoord", uv_set);
+    use.uv_set = uv_set_of(document_, *transform, use.uv_set);
     use.uv_transform = uv_transform(document_, *transform);
   }
-  if (uv_set > 1) document_.warn_at(info, "texCoord", fmt::format("set {} is not supported; using set 0", uv_set));
-  use.uv_set = uv_set == 1 ? 1 : 0;
   if (model_.textures[static_cast<std::size_t>(texture)].image < 0) {
     document_.warn_at(info, "index", "the texture has no image in a supported format; it is skipped");
     return {};

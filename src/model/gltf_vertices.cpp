@@ -172,14 +172,17 @@ MorphTarget read_target(VertexReader reader, const ModelMesh& mesh) {
 
 }  // namespace
 
-void read_vertices(GltfAccessors& accessors, const GltfValue& primitive, std::size_t count, GltfSubset subset, ModelMesh& mesh) {
+void read_vertices(GltfAccessors& accessors, const GltfValue& primitive, std::size_t count, GltfSubset subset,
+                   const std::array<int, 2>& uv_sets, ModelMesh& mesh) {
   GltfDocument& document = accessors.document();
   VertexReader reader(accessors, document.object(primitive, "attributes"), count, subset);
   mesh.positions = reader.positions("POSITION");
   if (reader.has("NORMAL")) mesh.normals = reader.normals();
   if (reader.has("TANGENT") && !mesh.normals.empty()) mesh.tangents = reader.tangents();
-  if (reader.has("TEXCOORD_0")) mesh.uvs[0] = reader.bounded<glm::vec2>("TEXCOORD_0", kMaxTextureCoordinate);
-  if (reader.has("TEXCOORD_1")) mesh.uvs[1] = reader.bounded<glm::vec2>("TEXCOORD_1", kMaxTextureCoordinate);
+  for (std::size_t i = 0; i < uv_sets.size(); ++i) {
+    const std::string name = fmt::format("TEXCOORD_{}", uv_sets[i]);
+    if (uv_sets[i] >= 0 && reader.has(name.c_str())) mesh.uvs[i] = reader.bounded<glm::vec2>(name.c_str(), kMaxTextureCoordinate);
+  }
   if (reader.has("COLOR_0")) mesh.colors = reader.colors();
   read_skin_attributes(document, reader, mesh);
   const GltfValue& targets = document.objects(primitive, "targets");

@@ -10,7 +10,8 @@ namespace halfspace {
 
 /// Reads the attributes of a primitive for all vertices, or for a subset. Values that are not finite are errors in positions, and replaced
 /// with a warning elsewhere. Normals and tangents get unit length. Tangents without normals are skipped, and so are attributes that a mesh
-/// does not have.
-void read_vertices(GltfAccessors& accessors, const GltfValue& primitive, std::size_t count, GltfSubset subset, ModelMesh& mesh);
+/// does not have. uv_sets: the numbers of the sets of texture coordinates to read, or -1.
+void read_vertices(GltfAccessors& accessors, const GltfValue& primitive, std::size_t count, GltfSubset subset,
+                   const std::array<int, 2>& uv_sets, ModelMesh& mesh);
 
 }  // namespace halfspace

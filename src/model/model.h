@@ -61,9 +61,10 @@ enum class AlphaMode : uint8_t { opaque, mask, blend };
 /// of other kinds.
 struct ModelMaterial {
   std::string name;
-  glm::vec4 base_color{1.0f};  ///< linear; w is the opacity
-  TextureUse base_color_map;   ///< its alpha channel multiplies the opacity
-  TextureUse opacity_map;      ///< a separate opacity map; multiplies the opacity
+  std::array<int, 2> uv_sets{0, 1};  ///< sets of the file that ModelMesh::uvs contain if the mesh has this material; -1: none
+  glm::vec4 base_color{1.0f};        ///< linear; w is the opacity
+  TextureUse base_color_map;         ///< its alpha channel multiplies the opacity
+  TextureUse opacity_map;            ///< a separate opacity map; multiplies the opacity
   AlphaMode alpha_mode = AlphaMode::opaque;
   float alpha_cutoff = 0.5f;
   float metallic = 0.0f, roughness = 1.0f;

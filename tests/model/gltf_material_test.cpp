@@ -138,6 +138,33 @@ TEST(GltfMaterial, TransformsTextureCoordinates) {
   EXPECT_NEAR(v.y, 0.25f, 1e-6f);
 }
 
+// A mesh has the two sets of texture coordinates that its material uses, whatever their numbers are.
+TEST(GltfMaterial, UsesAnyTwoSetsOfTextureCoordinates) {
+  GltfBuilder file = file_with_texture();
+  const auto texture = [](int set) { return GltfJson{{"index", 0}, {"texCoord", set}}; };
+  file.add("materials", {{"emissiveTexture", texture(3)}, {"occlusionTexture", texture(1)}});
+  file.add("materials", {{"emissiveTexture", texture(2)}});
+  file.add("materials", {{"emissiveTexture", texture(3)}, {"occlusionTexture", texture(1)}, {"normalTexture", texture(4)}});
+  GltfJson attributes = {{"POSITION", file.triangle()}};
+  for (int set = 0; set < 4; ++set) {
+    const auto u = 0.125f * static_cast<float>(set);
+    attributes["TEXCOORD_" + std::to_string(set)] = file.accessor<float>({u, 0, u, 0, u, 0}, 2);
+  }
+  for (int material = 0; material < 3; ++material) file.mesh_node({{"attributes", attributes}, {"material", material}});
+  const Model model = file.read();
+  const auto u_of = [&](std::size_t mesh, const TextureUse& use) {
+    return model.meshes.at(mesh).uvs[static_cast<std::size_t>(use.uv_set)].at(0).x;
+  };
+  EXPECT_EQ(u_of(0, model.materials[0].emissive_map), 0.375f);
+  EXPECT_EQ(u_of(0, model.materials[0].occlusion_map), 0.125f);
+  EXPECT_EQ(u_of(1, model.materials[1].emissive_map), 0.25f);
+  EXPECT_TRUE(model.meshes[1].uvs[1].empty());
+  EXPECT_EQ(u_of(2, model.materials[2].emissive_map), 0.375f);
+  EXPECT_EQ(u_of(2, model.materials[2].normal_map), 0.125f);
+  ASSERT_EQ(model.warnings.size(), 1u);
+  EXPECT_NE(model.warnings[0].find("uses 3 sets"), std::string::npos);
+}
+
 TEST(GltfMaterial, MapsSamplers) {
   GltfBuilder file = file_with_texture();
   file.add("samplers", {{"magFilter", 9728}, {"minFilter", 9729}, {"wrapS", 33071}, {"wrapT", 33648}});
