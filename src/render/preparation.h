@@ -174,7 +174,8 @@ class ScenePreparation {
   void add_bumps(MetallicMaterial& surface, const ObjectDescription& o, const Model& model, int mesh, const ModelMaterial& material);
 
   // prepare_model_materials.cpp
-  void load_images(const ObjectDescription& o, const Model& model, const PosedModel& posed);
+  std::vector<std::pair<int, bool>> wanted_images(const ObjectDescription& o, const Model& model, const PosedModel& posed);
+  void load_images(const ObjectDescription& o, const Model& model, const std::vector<std::pair<int, bool>>& list, bool lit);
   const Texture2D* model_texture(const std::filesystem::path& file, int image, bool color);
   MetallicMaterial metallic_material(const ObjectDescription& o, const Model& model, const ModelMaterial& m, bool has_uvs);
 

@@ -148,6 +148,22 @@ std::shared_ptr<const ModelAsset> ScenePreparation::model_asset(const ObjectDesc
   });
 }
 
+namespace {
+
+const ModelMaterial& material_of(const Model& model, const PosedMesh& part) {
+  static const ModelMaterial kDefault{};
+  return part.material < 0 ? kDefault : model.materials[static_cast<std::size_t>(part.material)];
+}
+
+// Returns true if the part is drawn with a metallic-roughness material that is not unlit.
+bool is_lit(const SceneDescription& scene, const ObjectDescription& o, const Model& model, const PosedMesh& part) {
+  const ModelMesh& mesh = part.deformed != nullptr ? *part.deformed : model.meshes[static_cast<std::size_t>(part.mesh)];
+  const ModelMaterial& material = material_of(model, part);
+  return mesh.topology == MeshTopology::triangles && !material.unlit && override_of(scene, o, material.name) == nullptr;
+}
+
+}  // namespace
+
 void ScenePreparation::add_model(int object, const std::string& path, const ObjectDescription& o) {
   const std::shared_ptr<const ModelAsset> model = model_asset(o, path);
   PoseOptions options = pose_options(model->model, o, path);
@@ -155,7 +171,8 @@ void ScenePreparation::add_model(int object, const std::string& path, const Obje
   const auto posed = std::make_shared<const PosedModel>(pose(model->model, options));
   out_.assets.push_back(posed);
   const glm::dmat4 turn = turn_of(o, model->model);
-  load_images(o, model->model, *posed);
+  const bool lit = std::ranges::any_of(posed->meshes, [&](const PosedMesh& part) { return is_lit(scene_, o, model->model, part); });
+  load_images(o, model->model, wanted_images(o, model->model, *posed), lit);
   int instance = 0;
   for (const glm::dmat4& place : places_of(scene_, o)) {
     for (const PosedMesh& part : posed->meshes) {
@@ -170,11 +187,10 @@ void ScenePreparation::add_model(int object, const std::string& path, const Obje
 
 void ScenePreparation::add_part(int object, const ObjectDescription& o, const std::string& path,
                                 const std::shared_ptr<const ModelAsset>& model, const PosedMesh& part, const glm::dmat4& world) {
-  static const ModelMaterial kDefault{};
   const auto mesh_index = static_cast<std::size_t>(part.mesh);
   const ModelMesh& mesh = part.deformed != nullptr ? *part.deformed : model->model.meshes[mesh_index];
   if (mesh.positions.empty() || model->indices[mesh_index].size() == 0 || glm::determinant(glm::dmat3(world)) == 0.0) return;
-  const ModelMaterial& material = part.material < 0 ? kDefault : model->model.materials[static_cast<std::size_t>(part.material)];
+  const ModelMaterial& material = material_of(model->model, part);
   const std::shared_ptr<const Indices> indices(model, &model->indices[mesh_index]);
   MeshStreams streams = streams_of(mesh);
   const auto neutral = [&] {

@@ -39,19 +39,19 @@ std::string image_recipe(const std::filesystem::path& file, int image, bool colo
 }
 
 // Decodes an image of a model.
-Texture2D decoded(const std::filesystem::path& file, const ModelImage& source, bool color) {
+Texture2D decoded(const std::filesystem::path& file, const ModelImage& source, bool color, const Workers& workers) {
   const TexelFormat format = color ? TexelFormat::srgb8a8 : TexelFormat::rgba8;
-  if (source.pixels != nullptr) return Texture2D(*source.pixels, format);
+  if (source.pixels != nullptr) return Texture2D(*source.pixels, format, &workers);
   const Image<glm::u8vec4> picture =
       source.bytes != nullptr ? read_image(*source.bytes, file.string() + ": " + source.name) : read_image(source.file);
-  return Texture2D(picture, format);
+  return Texture2D(picture, format, &workers);
 }
 
 }  // namespace
 
-// Decodes all images that the materials of a posed model use, in parallel.
-void ScenePreparation::load_images(const ObjectDescription& o, const Model& model, const PosedModel& posed) {
-  std::set<std::pair<int, bool>> wanted;  // image, and whether it is a color map
+// Returns the images that the materials of a posed model use and that are not loaded yet, and whether each is a color map.
+std::vector<std::pair<int, bool>> ScenePreparation::wanted_images(const ObjectDescription& o, const Model& model, const PosedModel& posed) {
+  std::set<std::pair<int, bool>> wanted;
   for (const PosedMesh& part : posed.meshes) {
     if (part.material < 0) continue;
     const auto uses = uses_of(model.materials[static_cast<std::size_t>(part.material)]);
@@ -61,21 +61,33 @@ void ScenePreparation::load_images(const ObjectDescription& o, const Model& mode
       if (image >= 0 && !assets_.cache_.contains(image_recipe(o.file.path, image, is_color(i)))) wanted.emplace(image, is_color(i));
     }
   }
-  if (wanted.empty()) return;
+  return {wanted.begin(), wanted.end()};
+}
+
+// Decodes these images, in parallel. At the same time it filters the environment if `lit`, because few images do not occupy all threads.
+void ScenePreparation::load_images(const ObjectDescription& o, const Model& model, const std::vector<std::pair<int, bool>>& list,
+                                   bool lit) {
+  if (list.empty()) return;
   const auto start = std::chrono::steady_clock::now();
-  const std::vector<std::pair<int, bool>> list(wanted.begin(), wanted.end());
   std::vector<std::optional<Texture2D>> textures(list.size());
   std::vector<std::string> problems(list.size());
-  assets_.workers_.for_each(static_cast<int>(list.size()), [&](int i) {
-    const auto [image, color] = list[static_cast<std::size_t>(i)];
+  const auto load = [&](std::size_t i) {
+    const auto [image, color] = list[i];
     const ModelImage& source = model.images[static_cast<std::size_t>(image)];
     if (source.file.empty() && source.bytes == nullptr && source.pixels == nullptr) return;  // the reader has warned
     try {
-      textures[static_cast<std::size_t>(i)].emplace(decoded(o.file.path, source, color));
+      textures[i].emplace(decoded(o.file.path, source, color, assets_.workers_));
     } catch (const LimitError&) {
       throw;
     } catch (const InputError& e) {  // the material is drawn without it
-      problems[static_cast<std::size_t>(i)] = e.what();
+      problems[i] = e.what();
+    }
+  };
+  assets_.workers_.for_each(static_cast<int>(list.size()) + 1, [&](int i) {
+    if (i > 0) {
+      load(static_cast<std::size_t>(i - 1));
+    } else if (lit) {
+      environment_light();
     }
   });
   for (std::size_t i = 0; i < list.size(); ++i) {
