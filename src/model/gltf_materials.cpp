@@ -149,6 +149,7 @@ void convert_specular_glossiness(const glm::dvec3& diffuse, const glm::dvec3& sp
 ModelMaterial gltf_default_material() {
   ModelMaterial material;
   material.name = "default";
+  material.is_default = true;
   material.metallic = 1.0f;
   return material;
 }

@@ -61,6 +61,7 @@ enum class AlphaMode : uint8_t { opaque, mask, blend };
 /// of other kinds.
 struct ModelMaterial {
   std::string name;
+  bool is_default = false;           ///< stands for the missing material of a mesh
   std::array<int, 2> uv_sets{0, 1};  ///< sets of the file that ModelMesh::uvs contain if the mesh has this material; -1: none
   glm::vec4 base_color{1.0f};        ///< linear; w is the opacity
   TextureUse base_color_map;         ///< its alpha channel multiplies the opacity

@@ -68,6 +68,7 @@ glm::mat3x2 uv_transform(const MtlTexture& texture) {
 ModelMaterial default_mtl_material(bool vertex_colors) {
   ModelMaterial material;
   material.name = "default";
+  material.is_default = true;
   material.base_color = glm::vec4(glm::vec3(vertex_colors ? 1.0f : kDefaultGray), 1.0f);
   material.roughness = kDefaultRoughness;
   material.double_sided = true;

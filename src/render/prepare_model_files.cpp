@@ -2,6 +2,7 @@
 //
 // Objects of shape `file`: model files with their own meshes and materials.
 #include <algorithm>
+#include <cmath>
 #include <span>
 
 #include "halfspace/core/text.h"
@@ -9,6 +10,7 @@
 #include "halfspace/model/tangents.h"
 #include "halfspace/render/model_asset.h"
 #include "halfspace/render/preparation.h"
+#include "halfspace/render/wireframe.h"
 #include "halfspace/scene/material_overrides.h"
 
 namespace halfspace {
@@ -155,6 +157,13 @@ const ModelMaterial& material_of(const Model& model, const PosedMesh& part) {
   return part.material < 0 ? kDefault : model.materials[static_cast<std::size_t>(part.material)];
 }
 
+// Returns the width of the points of a cloud in pixels: a quarter of their distance if they covered a square of the picture's height
+// evenly, between 2 and 12 px in a picture with 720 rows.
+float point_size(std::size_t count, int height_px) {
+  const auto height = static_cast<float>(height_px);
+  return std::max(1.0f, std::clamp(0.25f * height / std::sqrt(static_cast<float>(count)), height / 360.0f, height / 60.0f));
+}
+
 // Returns true if the part is drawn with a metallic-roughness material that is not unlit.
 bool is_lit(const SceneDescription& scene, const ObjectDescription& o, const Model& model, const PosedMesh& part) {
   const ModelMesh& mesh = part.deformed != nullptr ? *part.deformed : model.meshes[static_cast<std::size_t>(part.mesh)];
@@ -198,10 +207,11 @@ void ScenePreparation::add_part(int object, const ObjectDescription& o, const st
     return asset<NeutralStreams>(recipe("neutral streams", vertices), [&] { return NeutralStreams(vertices); });
   };
   if (mesh.topology != MeshTopology::triangles) {
+    const bool colored = !streams.colors.empty() || !material.is_default;
     if (streams.colors.empty()) streams.colors = neutral()->colors;
-    const ColoredPrimitives shader{glm::mat4(view_.clip_from_world * world), material.base_color};
+    const ColoredPrimitives shader{glm::mat4(view_.clip_from_world * world), colored ? material.base_color : line_color(out_.clear_color)};
     DrawState state = opaque_state(CullMode::none, false);
-    state.point_size = std::max(1.0f, static_cast<float>(view_.height_px) / 360.0f);
+    state.point_size = point_size(model->indices[mesh_index].size(), view_.height_px);
     state.topology = mesh.topology == MeshTopology::points ? Topology::points : Topology::lines;
     out_.draws.push_back({shader, make_vertex_view(stream(streams.positions), stream(streams.colors)), indices, state});
     out_.draws.back().source = {object, 0, streams, world};

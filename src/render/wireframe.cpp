@@ -27,17 +27,13 @@ DrawKind kind_of(const PreparedDraw& draw) {
       draw.shader);
 }
 
-// Returns the color of lines that are visible on a background with this linear color.
-glm::vec4 line_color(const glm::vec4& background) {
-  const float luminance = 0.2126f * background.x + 0.7152f * background.y + 0.0722f * background.z;
-  constexpr float kMiddle = 0.18f;
-  return luminance > kMiddle ? glm::vec4(0, 0, 0, 1) : glm::vec4(1.0f);
-}
-
 // Draws the triangles of a mesh in one color. `color` must outlive the draw.
 PreparedDraw plain_draw(const PlacedMesh& mesh, const View& view, const Palette& color, const DrawState& state) {
   const ColoredPrimitives shader{glm::mat4(view.clip_from_world * mesh.world_from_object)};
-  return {shader, make_vertex_view(stream(mesh.positions), per_instance(stream(std::span<const glm::vec4>(color)))), mesh.indices, state,
+  return {shader,
+          make_vertex_view(stream(mesh.positions), per_instance(stream(std::span<const glm::vec4>(color)))),
+          mesh.indices,
+          state,
           {mesh.object, 0, {mesh.positions, mesh.normals, {}, {}, {}, {}}, mesh.world_from_object}};
 }
 
@@ -46,6 +42,12 @@ PreparedDraw plain_draw(const PlacedMesh& mesh, const View& view, const Palette&
 constexpr DepthOffset kBehindEdges{.slope = -1.5f, .constant = -4.0f};
 
 }  // namespace
+
+glm::vec4 line_color(const glm::vec4& background) {
+  const float luminance = 0.2126f * background.x + 0.7152f * background.y + 0.0722f * background.z;
+  constexpr float kMiddle = 0.18f;
+  return luminance > kMiddle ? glm::vec4(0, 0, 0, 1) : glm::vec4(1.0f);
+}
 
 bool make_wireframe(PreparedScene& scene, const SceneDescription& description, HiddenLines hidden) {
   const auto colors = std::make_shared<const std::array<Palette, 2>>(

@@ -65,6 +65,25 @@ TEST_F(Models, PositionAndSizeOfTheModelDoNotMatter) {
   }
 }
 
+// Points and lines without a color of their own contrast with the background, and few points are larger than many.
+TEST_F(Models, PointsAndLinesAreVisible) {
+  const auto dark_pixels = [&](const std::string& elements, const std::string& background) {
+    std::string text = cube(0.0, 1.0);
+    text = text.substr(0, text.find("f ")) + elements;
+    write("points.obj", text);
+    const Outcome o = run({"render", "points.obj", "--size", "320x180", "--no-floor", "--background", background});
+    EXPECT_EQ(o.err, "");
+    int count = 0;
+    const Image<glm::u8vec4> image = picture("points-render.png");
+    const int level = image.at(1, 1).x;
+    for (const glm::u8vec4& t : image.texels()) count += std::abs(t.x - level) > 100 ? 1 : 0;
+    return count;
+  };
+  EXPECT_GE(dark_pixels("p 1 2 3 4 5 6 7 8\n", "#ffffff"), 4 * 9);  // 3x3 pixels each; some may overlap
+  EXPECT_GE(dark_pixels("p 1 2 3 4 5 6 7 8\n", "#000000"), 4 * 9);
+  EXPECT_GE(dark_pixels("l 1 2 4 3 1 5 6 8 7 5\n", "#a0a0a0"), 100);
+}
+
 TEST_F(Models, ThreadsDoNotMatter) {
   write("cube.obj", cube(0.0, 1.0));
   EXPECT_EQ(run({"render", "cube.obj", "--size", "160x90", "--threads", "1", "-o", "one.png"}).exit_code, 0);
