@@ -36,7 +36,7 @@ class FragmentEvaluator {
       std::copy_n(place.triangle.source.primitive, row.size(), row.begin());
       face_ = from_components<PrimitiveOf<S, float>, float>(row);
     }
-    barycentrics_ = submitted_weights(place.triangle, px_.weights, glm::dvec2(px_.x, px_.y));
+    barycentrics_ = submitted_weights(place.triangle, corner_weights(), glm::dvec2(px_.x, px_.y));
     if constexpr (kLightsVertices<S>) unchanged_ = vertices_of(shader);
   }
   FragmentEvaluator(const FragmentEvaluator&) = delete;
@@ -68,11 +68,22 @@ class FragmentEvaluator {
     return {c.x, c.y, c.z, c.w};
   }
 
+  static TriangleLanes<float> lanes_of(const detail::TriangleScalars<kCount>& s) {
+    return {s.x0, s.y0, s.e1x, s.e1y, s.e2x, s.e2y, s.area, s.q0, s.q1, s.q2, s.q_unscale, s.planar};
+  }
+
   void set_triangle() {
-    const detail::TriangleScalars<kCount> s = detail::triangle_scalars<V>(place_.triangle.source);
-    lanes_ = {s.x0, s.y0, s.e1x, s.e1y, s.e2x, s.e2y, s.area, s.q0, s.q1, s.q2, s.q_unscale};
+    const detail::TriangleScalars<kCount> s =
+        detail::scalars_in_cell<V>(place_.triangle.source, PlaneCell::of(place_.pixel.x, place_.pixel.y));
+    lanes_ = lanes_of(s);
     components_ = {s.value0, s.delta1, s.delta2};
     px_.front_facing = s.front;
+  }
+
+  // Returns the weights of the corners, also if the shader receives planes.
+  Weights<float> corner_weights() const {
+    const TriangleLanes<float> t = lanes_of(detail::triangle_scalars<V>(place_.triangle.source));
+    return weights_at<kUsesNoPerspective<V>>(t, px_.x * kSubPixels - t.x0, px_.y * kSubPixels - t.y0);
   }
 
   // The same formulas as in raster/shade/fragment_kernel.h.

@@ -10,11 +10,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "halfspace/core/image.h"
 #include "halfspace/raster/draw_state.h"
 #include "halfspace/raster/naive_steps.h"
+#include "halfspace/raster/shade/plane_anchor.h"
 #include "halfspace/raster/vertex_input.h"
 #include "halfspace/raster/visibility/depth_stencil_test.h"
 #include "halfspace/shading/contract.h"
@@ -77,6 +79,29 @@ void for_each_covered(std::array<std::array<int64_t, 2>, 3> p, const Rect& bound
   }
 }
 
+// The input of interpolation.
+template <class R, class V>
+struct Surface {
+  TriangleLanes<R> lanes;
+  ComponentLanes<R, kComponents<V>> components;
+};
+// Replaces the weights by planes if the triangle has them in a cell (raster/shade/plane_anchor.h).
+template <class V>
+void use_planes(const std::array<ScreenPoint<float>, 3>& p, const std::array<std::array<float, kComponents<V>>, 3>& values,
+                const PlaneCell& cell, Surface<float, V>& s) {
+  const auto corner = [&](std::size_t i) { return PlaneCorner{p[i].x, p[i].y, p[i].inv_w}; };
+  const PlaneAnchor anchor = plane_anchor({corner(0), corner(1), corner(2)}, cell);
+  if (!anchor.is_valid) return;
+  s.lanes = {static_cast<float>(anchor.x), static_cast<float>(anchor.y), 0.0f, 0.0f, 0.0f, 0.0f, 1.0f, p[0].inv_w, 0.0f, 0.0f, 1.0f, true};
+  for (std::size_t i = 0; i < kComponents<V>; ++i) {
+    if (kInterpolations<V>[i] == Interpolation::flat) continue;
+    const std::array<float, 3> plane = anchor.plane(values[0][i], values[1][i], values[2][i]);
+    s.components.value0[i] = plane[0];
+    s.components.delta1[i] = plane[1];
+    s.components.delta2[i] = plane[2];
+  }
+}
+
 // Step 5: interpolate, shade and depth-test the pixels of one triangle. See shading/pixel.h for the formulas.
 template <class R, class S, class V>
 void rasterize(NaiveTarget<R>& target, const S& shader, const std::array<const Vertex<R, V>*, 3>& in, const PrimitiveOf<S, R>& face,
@@ -92,25 +117,34 @@ void rasterize(NaiveTarget<R>& target, const S& shader, const std::array<const V
   while (p[o[0]].inv_w > std::min(p[o[1]].inv_w, p[o[2]].inv_w)) std::rotate(o.begin(), o.begin() + 1, o.end());  // smallest 1/w first
   const ScreenPoint<R>&a = p[o[0]], &b = p[o[1]], &c = p[o[2]];
   const auto real = [](int64_t i) { return static_cast<R>(i); };
-  TriangleLanes<R> t{real(a.x), real(a.y), real(b.x - a.x), real(b.y - a.y), real(c.x - a.x), real(c.y - a.y), R(0), a.inv_w, b.inv_w,
-                     c.inv_w,   R(1)};
-  t.area = difference_of_products(t.e1x, t.e2y, t.e1y, t.e2x);
-  ComponentLanes<R, kComponents<V>> lanes;
-  const auto v0 = to_components<R>(in[o[0]]->varyings), v1 = to_components<R>(in[o[1]]->varyings),
-             v2 = to_components<R>(in[o[2]]->varyings);
+  Surface<R, V> whole;
+  whole.lanes = {real(a.x), real(a.y), real(b.x - a.x), real(b.y - a.y), real(c.x - a.x), real(c.y - a.y), R(0), a.inv_w, b.inv_w,
+                 c.inv_w,   R(1)};
+  whole.lanes.area = difference_of_products(whole.lanes.e1x, whole.lanes.e2y, whole.lanes.e1y, whole.lanes.e2x);
+  const std::array<std::array<R, kComponents<V>>, 3> values{to_components<R>(in[o[0]]->varyings), to_components<R>(in[o[1]]->varyings),
+                                                            to_components<R>(in[o[2]]->varyings)};
   for (std::size_t i = 0; i < kComponents<V>; ++i) {
     const bool flat = kInterpolations<V>[i] == Interpolation::flat;
-    lanes.value0[i] = flat ? to_components<R>(provoking)[i] : v0[i];
-    lanes.delta1[i] = v1[i] - v0[i];
-    lanes.delta2[i] = v2[i] - v0[i];
+    whole.components.value0[i] = flat ? to_components<R>(provoking)[i] : values[0][i];
+    whole.components.delta1[i] = values[1][i] - values[0][i];
+    whole.components.delta2[i] = values[2][i] - values[0][i];
   }
+  std::optional<PlaneCell> cell;
+  Surface<R, V> surface = whole;
   for_each_covered({{{a.x, a.y}, {b.x, b.y}, {c.x, c.y}}}, bounds, [&](int x, int y) {
+    if constexpr (kIsFloat<R>) {
+      if (cell != PlaneCell::of(x, y)) {
+        cell = PlaneCell::of(x, y);
+        surface = whole;
+        use_planes<V>({a, b, c}, values, *cell, surface);
+      }
+    }
     Pixel<R> px;
-    px.triangle = &t;
-    px.component_lanes = &lanes;
-    px.dx = real(x * 256 + 128 - a.x);
-    px.dy = real(y * 256 + 128 - a.y);
-    px.weights = weights_at(t, px.dx, px.dy);
+    px.triangle = &surface.lanes;
+    px.component_lanes = &surface.components;
+    px.dx = real(x * 256 + 128) - surface.lanes.x0;
+    px.dy = real(y * 256 + 128) - surface.lanes.y0;
+    px.weights = weights_at(surface.lanes, px.dx, px.dy);
     px.x = real(x) + R(0.5f);
     px.y = real(y) + R(0.5f);
     px.quad_x = real(x & 1);
@@ -120,8 +154,8 @@ void rasterize(NaiveTarget<R>& target, const S& shader, const std::array<const V
     px.find_z = [](const Pixel<R>& pixel) { return *static_cast<const R*>(pixel.z_source); };
     px.z_source = &z;
     px.front_facing = front;
-    const auto fragment =
-        call_fragment<S, R>(shader, interpolate_all<V>(px.weights, lanes, std::make_index_sequence<kComponents<V>>()), face, px);
+    const auto fragment = call_fragment<S, R>(
+        shader, interpolate_all<V>(px.weights, surface.components, std::make_index_sequence<kComponents<V>>()), face, px);
     if constexpr (kDiscards<S>)
       if (!fragment.keep) return;
     if constexpr (kWritesDepth<S>) z = fragment.depth;

@@ -14,6 +14,10 @@
 // no cancellation, for any shape of the triangle and any ratio of w. A value is a = a0 + p1·(a1 − a0) + p2·(a2 − a0), which
 // reproduces constants exactly but can double an error of the weights. `normalized` therefore removes the rounding errors of the
 // division and the sum from the weights. The error of a is then less than 3e-7 of the largest |ai|.
+//
+// If w is the same at all corners of a large triangle, a is linear in the window, and no division is needed. Such a triangle is given as
+// planes (TriangleLanes::planar): v0 is then a point near the pixel (raster/shade/plane_anchor.h), d is the offset from it, and
+//   a = a0 + dx·(∂a/∂x) + dy·(∂a/∂y).
 #pragma once
 
 #include <array>
@@ -26,20 +30,23 @@ namespace halfspace {
 /// The triangle of each lane, prepared for interpolation. Positions are window coordinates in 24.8 fixed point.
 template <class R>
 struct TriangleLanes {
-  R x0, y0;              ///< v0 in 1/256 px: an integer with |x| ≤ 2^22, stored as float
+  R x0, y0;              ///< v0, or the anchor of planes, in 1/256 px: an integer with |x| ≤ 2^22, stored as float
   R e1x, e1y, e2x, e2y;  ///< edge vectors from v0 in 1/256 px
   R area;                ///< A > 0, in (1/256 px)²
   R q0, q1, q2;          ///< 1/w of the vertices times q_scale; the largest is in [1, 2)
   R q_unscale;           ///< 1/q_scale, a power of two
+  /// The lanes whose triangle is given as planes: q0 is their 1/w, the area is 1 and the edges are not used.
+  MaskOf<R> planar{false};
 };
 
-/// Interpolation weights at a point of the triangle.
+/// Interpolation weights at a point of the triangle. For planes, they are the offset from the anchor.
 template <class R>
 struct Weights {
   R p1, p2;       ///< perspective-correct weights of v1, v2
   R b1, b2;       ///< linear weights of v1, v2 in window space; equal to p1 and p2 if no varying needs them
   R denominator;  ///< D as defined above; 1/w at the point is D / A · q_unscale
-  R inverse;      ///< 1 / D
+  R p1_x, p2_x;   ///< derivatives of p1 and p2 along x, per pixel
+  R p1_y, p2_y;   ///< the same along y
 };
 
 /// n1 and n2 divided by the sum of n0, n1 and n2. Because the sum and the quotients are rounded, the three weights do not add up to
@@ -58,15 +65,54 @@ HS_INLINE Normalized<R> normalized(R n0, R n1, R n2) {
   return {fma(p1, rest, p1), fma(p2, rest, p2), sum, inverse};
 }
 
-/// Returns the weights at the offset (dx, dy) from v0. linear: also compute the linear weights in window space.
-template <bool linear = true, class R>
-HS_INLINE Weights<R> weights_at(const TriangleLanes<R>& t, R dx, R dy) {
+/// The derivatives of the perspective-correct weights along one axis, per pixel.
+template <class R>
+struct WeightSlopes {
+  R p1, p2;
+};
+/// Returns the derivatives along x. For those along y, x takes the place of y, and the sign of sub_pixels is negative. inverse: 1 / D; r:
+/// the y offset from v0; r1 and r2: the y components of the edges; sub_pixels: per pixel.
+///
+/// Along x, dp1 = q1·(E1'·D − E1·D') / D². The terms with q1 cancel. E1 and E2 both vanish at v0, so E1'·E2 − E1·E2' is A·(y − y0), and
+/// likewise at v2 for E0. Therefore
+///   dp1 = q1·A·(q2·r − q0·(r − r2)) / D²,  dp2 = q2·A·(q0·(r − r1) − q1·r) / D².
+/// No accuracy is lost if w differs strongly between vertices.
+template <class R>
+HS_INLINE WeightSlopes<R> weight_slopes(const TriangleLanes<R>& t, R inverse, R r, R r1, R r2, R sub_pixels) {
+  const R scale = sub_pixels * t.area * inverse * inverse;
+  return {t.q1 * scale * difference_of_products(t.q2, r, t.q0, r - r2), t.q2 * scale * difference_of_products(t.q0, r - r1, t.q1, r)};
+}
+
+/// Returns the weights at the offset (dx, dy) from v0 of triangles that are not given as planes.
+template <bool linear, class R>
+HS_INLINE Weights<R> perspective_weights_at(const TriangleLanes<R>& t, R dx, R dy) {
   const R e0 = difference_of_products(t.e1x - dx, t.e2y - dy, t.e1y - dy, t.e2x - dx);
   const R e1 = difference_of_products(dx, t.e2y, dy, t.e2x);
   const R e2 = difference_of_products(t.e1x, dy, t.e1y, dx);
   const Normalized<R> p = normalized(e0 * t.q0, e1 * t.q1, e2 * t.q2);
   const Normalized<R> b = linear ? normalized(e0, e1, e2) : p;
-  return {p.p1, p.p2, b.p1, b.p2, p.sum, p.inverse};
+  const WeightSlopes<R> x = weight_slopes(t, p.inverse, dy, t.e1y, t.e2y, R(256)),
+                        y = weight_slopes(t, p.inverse, dx, t.e1x, t.e2x, R(-256));
+  return {p.p1, p.p2, b.p1, b.p2, p.sum, x.p1, x.p2, y.p1, y.p2};
+}
+
+/// Returns the weights at the offset (dx, dy) from v0. linear: also compute the linear weights in window space.
+template <bool linear = true, class R>
+HS_INLINE Weights<R> weights_at(const TriangleLanes<R>& t, R dx, R dy) {
+  const Weights<R> plane{dx, dy, dx, dy, t.q0, R(256), R(0), R(0), R(256)};
+  if (all(t.planar)) return plane;
+  const Weights<R> w = perspective_weights_at<linear>(t, dx, dy);
+  if (!any(t.planar)) return w;
+  const auto pick = [&](R of_plane, R other) { return select(t.planar, of_plane, other); };
+  return {pick(plane.p1, w.p1),
+          pick(plane.p2, w.p2),
+          pick(plane.b1, w.b1),
+          pick(plane.b2, w.b2),
+          pick(plane.denominator, w.denominator),
+          pick(plane.p1_x, w.p1_x),
+          pick(plane.p2_x, w.p2_x),
+          pick(plane.p1_y, w.p1_y),
+          pick(plane.p2_y, w.p2_y)};
 }
 
 /// Interpolates one component, given its value at v0 and the differences to v1 and v2.
@@ -84,9 +130,9 @@ HS_INLINE R interpolate(const Weights<R>& w, R value0, R delta1, R delta2) {
 /// The component values of the triangle in each lane, for the N components of a Varyings struct.
 template <class R, std::size_t N>
 struct ComponentLanes {
-  std::array<R, N> value0;  ///< at v0; for flat components the value of the provoking vertex
-  std::array<R, N> delta1;  ///< value at v1 − value at v0
-  std::array<R, N> delta2;  ///< value at v2 − value at v0
+  std::array<R, N> value0;  ///< at v0 or the anchor; for flat components the value of the provoking vertex
+  std::array<R, N> delta1;  ///< value at v1 − value at v0; for planes, the derivative along x per 1/256 px
+  std::array<R, N> delta2;  ///< value at v2 − value at v0; for planes, the derivative along y per 1/256 px
 };
 
 /// Interpolates all components of the varyings V with weights w.
@@ -121,12 +167,12 @@ struct Pixel {
   /// helper lanes.
   template <class V, class F>
   HS_INLINE F ddx(F V::*member) const {
-    return derivative(member, dy, triangle->e1y, triangle->e2y, R(256));
+    return derivative(member, weights.p1_x, weights.p2_x);
   }
   /// Returns d/dy of a varying, per pixel; y points up.
   template <class V, class F>
   HS_INLINE F ddy(F V::*member) const {
-    return derivative(member, dx, triangle->e1x, triangle->e2x, R(-256));
+    return derivative(member, weights.p1_y, weights.p2_y);
   }
 
   /// Returns the position of the pixel within a point, from 0 to 1: left to right, and top to bottom or bottom to top as set by
@@ -148,7 +194,7 @@ struct Pixel {
   const TriangleLanes<R>* triangle;
   const void* component_lanes;  ///< ComponentLanes<R, kComponents<V>> of the shader's Varyings V
   Weights<R> weights;
-  R dx, dy;          ///< pixel position − v0, in 1/256 px
+  R dx, dy;          ///< pixel position − v0 or the anchor, in 1/256 px
   R quad_x, quad_y;  ///< 0 or 1: position of the pixel within its quad
   R (*find_z)(const Pixel&);
   const void* z_source;  ///< data for find_z
@@ -159,18 +205,10 @@ struct Pixel {
     return *static_cast<const ComponentLanes<R, kComponents<V>>*>(component_lanes);
   }
 
-  // Along x, dp1 = q1·(E1'·D − E1·D') / D². The terms with q1 cancel. E1 and E2 both vanish at v0, so E1'·E2 − E1·E2' is
-  // A·(y − y0), and likewise at v2 for E0. With r = y − y0, and r1 and r2 the y components of the edges,
-  //   dp1 = q1·A·(q2·r − q0·(r − r2)) / D²,  dp2 = q2·A·(q0·(r − r1) − q1·r) / D².
-  // The derivatives along y have x in place of y and the opposite sign. No accuracy is lost if w differs strongly between vertices.
   template <class V, class F>
-  HS_INLINE F derivative(F V::*member, R r, R r1, R r2, R sub_pixels) const {
+  HS_INLINE F derivative(F V::*member, R dp1, R dp2) const {
     using Traits = detail::FieldTraits<F>;
     static_assert(Traits::interpolation == Interpolation::smooth, "only smooth varyings have derivatives");
-    const TriangleLanes<R>& t = *triangle;
-    const R scale = sub_pixels * t.area * weights.inverse * weights.inverse;
-    const R dp1 = t.q1 * scale * difference_of_products(t.q2, r, t.q0, r - r2);
-    const R dp2 = t.q2 * scale * difference_of_products(t.q0, r - r1, t.q1, r);
     const std::size_t first = first_component(member);
     const auto& c = components<V>();
     std::array<R, Traits::components> out;

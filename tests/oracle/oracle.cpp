@@ -819,6 +819,81 @@ Surface make_surface(const WindowTriangle& t, std::span<const Interpolation> int
 
 namespace {
 
+// The part of a triangle's extent along one axis that lies in a cell of 64 pixels, in 1/256 px.
+struct CellPart {
+  int64_t begin, end;
+
+  int64_t center() const { return begin + (end - begin) / 2; }
+  double reach() const { return static_cast<double>(end - center()); }
+};
+
+constexpr int64_t kCellSize = 64;
+
+CellPart part_in_cell(int64_t a, int64_t b, int64_t c, int64_t cell) {
+  const int64_t low = cell * kCellSize * 256;
+  return {std::max(std::min({a, b, c}), low), std::min(std::max({a, b, c}), low + kCellSize * 256)};
+}
+
+// A barycentric weight, as a plane through the center of a cell's part.
+struct WeightPlane {
+  double at_center, along_x, along_y;
+
+  // Whether the rounding errors of a value that is 1 at this corner and −1 at the others stay below 5 · 2^-24. They are those of the value
+  // at the center, the step along x, the step along y, the sum of the first two, and the result:
+  // |1 − 2 · at_center| + step_x + step_y + (1 + step_y) + 1.
+  bool is_accurate(const CellPart& x, const CellPart& y) const {
+    const double step_x = 2 * std::abs(along_x) * x.reach(), step_y = 2 * std::abs(along_y) * y.reach();
+    return std::abs(1 - 2 * at_center) + step_x + 2 * step_y <= 3;
+  }
+};
+
+}  // namespace
+
+// If w is constant, the values of a large triangle are planes through the center of the part of the cell that the triangle's box overlaps,
+// unless the rounding errors of some values could exceed 5 · 2^-24 of the largest value.
+Surface surface_in_cell(const WindowTriangle& t, const Surface& whole, std::span<const Interpolation> interpolations, int64_t cell_x,
+                        int64_t cell_y) {
+  const auto& [a, b, c] = t.corner;
+  constexpr int64_t large = 63 * 256;
+  const auto extent = [](int64_t u, int64_t v, int64_t w) { return std::max({u, v, w}) - std::min({u, v, w}); };
+  if (t.is_point || t.is_line || a.inv_w != b.inv_w || a.inv_w != c.inv_w) return whole;
+  if (extent(a.x, b.x, c.x) <= large && extent(a.y, b.y, c.y) <= large) return whole;
+  const CellPart x = part_in_cell(a.x, b.x, c.x, cell_x), y = part_in_cell(a.y, b.y, c.y, cell_y);
+  const double scale = 1.0 / static_cast<double>((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x));
+  // The weight of the corner opposite to the edge from `from` to `to`.
+  const auto weight = [&](const Corner& from, const Corner& to) {
+    const int64_t ex = to.x - from.x, ey = to.y - from.y;
+    return WeightPlane{static_cast<double>(ex * (y.center() - from.y) - ey * (x.center() - from.x)) * scale,
+                       static_cast<double>(-ey) * scale, static_cast<double>(ex) * scale};
+  };
+  const WeightPlane of_b = weight(c, a), of_c = weight(a, b);
+  const WeightPlane of_a{1.0 - (of_b.at_center + of_c.at_center), of_b.along_x + of_c.along_x, of_b.along_y + of_c.along_y};
+  if (!of_a.is_accurate(x, y) || !of_b.is_accurate(x, y) || !of_c.is_accurate(x, y)) return whole;
+  Surface s = whole;
+  s.lanes = TriangleLanes<float>{.x0 = static_cast<float>(x.center()),
+                                 .y0 = static_cast<float>(y.center()),
+                                 .e1x = 0,
+                                 .e1y = 0,
+                                 .e2x = 0,
+                                 .e2y = 0,
+                                 .area = 1,
+                                 .q0 = whole.lanes.q0,
+                                 .q1 = whole.lanes.q1,
+                                 .q2 = whole.lanes.q2,
+                                 .q_unscale = whole.lanes.q_unscale,
+                                 .planar = true};
+  for (std::size_t i = 0; i < interpolations.size(); ++i) {
+    if (interpolations[i] == Interpolation::flat) continue;
+    const double first{a.varyings[i]}, to_b = double{b.varyings[i]} - first, to_c = double{c.varyings[i]} - first;
+    s.value0[i] = static_cast<float>(first + (of_b.at_center * to_b + of_c.at_center * to_c));
+    s.delta1[i] = static_cast<float>(of_b.along_x * to_b + of_c.along_x * to_c);
+    s.delta2[i] = static_cast<float>(of_b.along_y * to_b + of_c.along_y * to_c);
+  }
+  return s;
+}
+
+namespace {
+
 // Returns the sum of three numbers, and the fractions of the second and the third. Rounding can keep the three fractions from adding up to
 // 1; the difference is distributed in proportion to the fractions.
 std::array<float, 3> share(const std::array<float, 3>& n) {
@@ -838,15 +913,30 @@ SurfacePoint surface_point(const Surface& s, const WindowTriangle& t, const Dept
   SurfacePoint p{};
   p.dx = static_cast<float>(at.x) - l.x0;
   p.dy = static_cast<float>(at.y) - l.y0;
+  // Shaders receive the depth from float determinants, even for triangles whose tested depth uses exact integers.
+  const auto [z1, z2] = t.is_point ? std::pair{0.0f, 0.0f} : float_determinants(t, at);
+  p.z = depth_sum(t, state, z1, z2);
+  if (l.planar) {
+    p.weights = {p.dx, p.dy, p.dx, p.dy, l.q0, 256.0f, 0.0f, 0.0f, 256.0f};
+    return p;
+  }
   const float e0 = determinant(l.e1x - p.dx, l.e2y - p.dy, l.e1y - p.dy, l.e2x - p.dx);
   const float e1 = determinant(p.dx, l.e2y, p.dy, l.e2x);
   const float e2 = determinant(l.e1x, p.dy, l.e1y, p.dx);
   const std::array<float, 3> linear = share({e0, e1, e2});
   const std::array<float, 3> perspective = share({e0 * l.q0, e1 * l.q1, e2 * l.q2});
-  p.weights = {perspective[1], perspective[2], linear[1], linear[2], perspective[0], 1.0f / perspective[0]};
-  // Shaders receive the depth from float determinants, even for triangles whose tested depth uses exact integers.
-  const auto [z1, z2] = t.is_point ? std::pair{0.0f, 0.0f} : float_determinants(t, at);
-  p.z = depth_sum(t, state, z1, z2);
+  // See weight_slopes in shading/pixel.h.
+  const float inverse = 1.0f / perspective[0];
+  const float per_x = 256.0f * l.area * inverse * inverse, per_y = -256.0f * l.area * inverse * inverse;
+  p.weights = {perspective[1],
+               perspective[2],
+               linear[1],
+               linear[2],
+               perspective[0],
+               l.q1 * per_x * determinant(l.q2, p.dy, l.q0, p.dy - l.e2y),
+               l.q2 * per_x * determinant(l.q0, p.dy - l.e1y, l.q1, p.dy),
+               l.q1 * per_y * determinant(l.q2, p.dx, l.q0, p.dx - l.e2x),
+               l.q2 * per_y * determinant(l.q0, p.dx - l.e1x, l.q1, p.dx)};
   return p;
 }
 
@@ -1119,9 +1209,11 @@ std::vector<WindowTriangle> Renderer::window_triangles(const DrawState& state, c
 void Renderer::rasterize(const DrawState& state, const ShaderFacts& facts, const WindowTriangle& t, const FragmentFunction& shade) {
   const Surface surface = make_surface(t, facts.interpolations);
   const Box box = intersect(covered_box(t, target_.samples()), allowed_pixels(target_, state));
+  Surface in_cell;
   for (int64_t y = box.y0; y < box.y1; ++y) {
     for (int64_t x = box.x0; x < box.x1; ++x) {
-      draw_pixel(state, facts, t, surface, static_cast<int>(x), static_cast<int>(y), shade);
+      if (x == box.x0 || x % kCellSize == 0) in_cell = surface_in_cell(t, surface, facts.interpolations, x / kCellSize, y / kCellSize);
+      draw_pixel(state, facts, t, in_cell, static_cast<int>(x), static_cast<int>(y), shade);
     }
   }
 }

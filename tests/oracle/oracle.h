@@ -140,7 +140,7 @@ struct ShaderFacts {
   std::span<const Interpolation> interpolations;
 };
 
-/// Input of interpolation for one triangle. Vertex 0 is the one with the smallest 1/w.
+/// Input of interpolation for one triangle. Vertex 0 is the one with the smallest 1/w. If the lanes are planar, the values are planes.
 struct Surface {
   TriangleLanes<float> lanes;
   std::vector<float> value0, delta1, delta2;
@@ -149,11 +149,14 @@ struct Surface {
 /// A point on the surface of a triangle and its interpolation weights.
 struct SurfacePoint {
   Weights<float> weights;
-  float dx, dy;  ///< from vertex 0, in 1/256 px
+  float dx, dy;  ///< from vertex 0 or the center of the planes, in 1/256 px
   float z;       ///< window depth as passed to shaders
 };
 
 Surface make_surface(const WindowTriangle& t, std::span<const Interpolation> interpolations);
+/// Returns the input of interpolation for the pixels of a cell of 64 x 64 pixels. whole: the result of make_surface().
+Surface surface_in_cell(const WindowTriangle& t, const Surface& whole, std::span<const Interpolation> interpolations, int64_t cell_x,
+                        int64_t cell_y);
 SurfacePoint surface_point(const Surface& s, const WindowTriangle& t, const DepthState& state, const Point& at);
 float component_at(const Surface& s, const SurfacePoint& p, Interpolation mode, std::size_t component);
 

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
+#include "halfspace/raster/shade/plane_anchor.h"
 #include "raster/raster_test.h"
 
 namespace halfspace::raster_test {
@@ -252,6 +254,46 @@ TEST(Interpolation, LinearValuesStayWithinTolerance) {
       e.report((std::string("linear ") + name_of(shape) + ' ' + name_of(values)).c_str());
     }
   }
+}
+
+// Large triangles with constant w are given as planes, unless they are so thin that the rounding errors would be too large. The errors are
+// largest if the values are 1 and −1.
+TEST(Interpolation, PlanesStayWithinTolerance) {
+  Random r(900);
+  Error e;
+  int cells = 0, planes = 0;
+  for (int i = 0; i < effort(400); ++i) {
+    Scene s{{}, {}, 192, 160};
+    const double w = r.magnitude(1e-3, 1e3), size = r.magnitude(50, 2000);
+    const double x = r.real(0.0, 192.0), y = r.real(0.0, 160.0), turn = r.real(0.0, 6.28), height = r.magnitude(1e-3, 1.0),
+                 tilt = r.real(0.0, 6.28);
+    for (int k = 0; k < 3; ++k) {
+      const double angle = turn + 2.0944 * k + r.real(-0.9, 0.9), reach = size * r.real(0.3, 1.0);
+      const double along = reach * std::cos(angle), across = reach * height * std::sin(angle);
+      s.positions.push_back(
+          clip_at(s, x + along * std::cos(tilt) - across * std::sin(tilt), y + along * std::sin(tilt) + across * std::cos(tilt), w));
+    }
+    s.values = {glm::vec4(1, 1, 1, -1), glm::vec4(1, 1, -1, 1), glm::vec4(1, -1, 1, 1)};
+    const ExactPlane exact = s.plane();
+    const ShadedVertices v = shade(ValueShader{}, s.view(), {0, 0, s.width, s.height});
+    std::array<PlaneCorner, 3> corners;
+    for (std::size_t k = 0; k < 3; ++k) corners[k] = {v.screen[k].x, v.screen[k].y, v.screen[k].inv_w};
+    if (exact.area() < 0) std::swap(corners[1], corners[2]);
+    std::optional<PlaneCell> cell;
+    bool is_plane = false;
+    for_each_covered(draw(ValueShader{}, s), [&](int px, int py, const glm::vec4& p) {
+      if (cell != PlaneCell::of(px, py)) {
+        cell = PlaneCell::of(px, py);
+        is_plane = plane_anchor(corners, *cell).is_valid;
+        ++cells;
+        planes += is_plane ? 1 : 0;
+      }
+      for (int k = 0; is_plane && k < 4; ++k) e.add(std::fabs(static_cast<Exact>(p[k]) - exact.smooth(k, center_of(px), center_of(py))));
+    });
+  }
+  e.report("planes");
+  EXPECT_LE(e.most, kTolerance);
+  EXPECT_GT(planes, cells / 10);
 }
 
 // The accuracy is only specified for ratios up to 1e4. No step suffers from cancellation, however, so the error does not grow beyond that.

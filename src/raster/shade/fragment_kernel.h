@@ -24,9 +24,9 @@ HS_INLINE PacketPixels pixels_of(const PacketBatch& batch, int a, int b) {
     const I packed(load<Int>(batch.pixels + at(a)), load<Int>(batch.pixels + at(b)));
     return {(packed & I(0xffff)) + I(batch.tile_x0), (packed >> 16) + I(batch.tile_y0), {}};
   }
-  const int packet_a = batch.packets[a].packet, packet_b = batch.packets[b].packet;
-  PacketPixels pixels{I(lane_x() + (batch.tile_x0 + packet_x(packet_a)), lane_x() + (batch.tile_x0 + packet_x(packet_b))),
-                      I(lane_y() + (batch.tile_y0 + packet_y(packet_a)), lane_y() + (batch.tile_y0 + packet_y(packet_b))),
+  const PacketPosition in_a = kPacketPositions[batch.packets[a].packet], in_b = kPacketPositions[batch.packets[b].packet];
+  PacketPixels pixels{I(lane_x() + (batch.tile_x0 + in_a.x), lane_x() + (batch.tile_x0 + in_b.x)),
+                      I(lane_y() + (batch.tile_y0 + in_a.y), lane_y() + (batch.tile_y0 + in_b.y)),
                       {}};
   if (batch.centroids != nullptr) pixels.centroids = {batch.centroids + at(a), batch.centroids + at(b)};
   return pixels;
@@ -141,7 +141,7 @@ HS_FLATTEN void fragment_kernel(const void* shader, const FragmentBatch& batch) 
     return;
   }
   PacketTriangles<n, p, kUsesPrimitiveId<S>> triangles;
-  RecentTriangles<F, kUsesPrimitiveId<S>> recent;
+  RecentTriangles<F, kUsesPrimitiveId<S>> recent(cell_of(batch));
   for (int first = 0; first < batch.count; first += 2) {
     const int second = std::min(first + 1, batch.count - 1);  // if the count is odd, the last packet is shaded twice
     const PacketMask a = batch.packets[first], b = batch.packets[second];
@@ -221,7 +221,7 @@ HS_INLINE void decide_pair(const S& s, const VisibilityBatch& batch, int a, int 
 template <class S>
 __attribute__((noinline)) HS_FLATTEN void packed_visibility_kernel(const S& s, const VisibilityBatch& batch) {
   PacketTriangles<kComponents<typename S::template Varyings<FragmentReal>>, 0> triangles;
-  RecentTriangles<typename S::template Varyings<float>> recent;
+  RecentTriangles<typename S::template Varyings<float>> recent(cell_of(batch));
   for (int first = 0; first < batch.count; first += 2) {
     const int second = std::min(first + 1, batch.count - 1);  // if the count is odd, the last packet is evaluated twice
     find_triangles<0>(batch, first, recent, triangles);
@@ -235,7 +235,7 @@ HS_FLATTEN void visibility_kernel(const void* shader, const VisibilityBatch& bat
   const S& s = *static_cast<const S*>(shader);
   if (batch.ids != nullptr) return packed_visibility_kernel(s, batch);
   PacketTriangles<kComponents<typename S::template Varyings<FragmentReal>>, 0> triangles;
-  RecentTriangles<typename S::template Varyings<float>> recent;
+  RecentTriangles<typename S::template Varyings<float>> recent(cell_of(batch));
   // Initializes all values, which GCC 12 cannot derive from `only`.
   triangles.only = {batch.packet_ids[0], batch.packet_ids[0]};
   const auto& scalars = recent.first(*batch.context, batch.packet_ids[0]);

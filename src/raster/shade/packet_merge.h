@@ -15,11 +15,21 @@ namespace halfspace {
 
 namespace detail {
 
+/// Returns the cell of a batch's pixels. They belong to one tile, and thereby to one cell.
+HS_INLINE PlaneCell cell_of(const PacketBatch& batch) {
+  const int32_t packed = batch.pixels != nullptr ? batch.pixels[0] : 0;
+  const int packet = batch.packets[0].packet;
+  const int x = batch.pixels != nullptr ? packed & 0xffff : packet_x(packet), y = batch.pixels != nullptr ? packed >> 16 : packet_y(packet);
+  return PlaneCell::of(batch.tile_x0 + x, batch.tile_y0 + y);
+}
+
 /// Cache of recently used triangles. Adjacent packets usually show the same ones.
 template <class V, bool with_id = false>
 class RecentTriangles {
  public:
   using Scalars = TriangleScalars<kComponents<V>, with_id>;
+
+  explicit RecentTriangles(const PlaneCell& cell) : cell_(cell) {}
 
   /// Returns the values of the first triangle. The cache must be empty.
   HS_INLINE const Scalars& first(const PassContext& context, TriangleId id) { return add(context, id); }
@@ -44,9 +54,10 @@ class RecentTriangles {
     const std::size_t place = next_;
     next_ = (next_ + 1) % kMaxCount;
     ids_[place] = id;
-    return scalars_[place] = scalars_of<V, with_id>(context, id);
+    return scalars_[place] = scalars_of<V, with_id>(context, id, cell_);
   }
 
+  PlaneCell cell_;
   std::array<TriangleId, kMaxCount> ids_ = kNone;
   std::array<Scalars, kMaxCount> scalars_;
   std::size_t next_ = 0;  ///< the entry that is replaced next
@@ -105,6 +116,7 @@ template <int i, std::size_t N, std::size_t P, bool with_id>
 HS_INLINE void spread_triangle(const TriangleScalars<N, with_id>& s, PacketTriangles<N, P, with_id>& out) {
   for_each_value<i>(out, [&](Real& lanes, auto value) { lanes = Real(value(s)); });
   half<i>(out.front) = Mask(s.front);
+  half<i>(out.lanes.planar) = Mask(s.planar);
 }
 
 /// Merges the values of two triangles into packet i. Lanes that show the second triangle get its values. All other lanes get the values of
@@ -114,14 +126,16 @@ HS_INLINE void merge_two(const TriangleScalars<N, with_id>& first, const Triangl
                          PacketTriangles<N, P, with_id>& out) {
   for_each_value<i>(out, [&](Real& lanes, auto value) { lanes = select(shows_second, Real(value(second)), Real(value(first))); });
   half<i>(out.front) = select(shows_second, Mask(second.front), Mask(first.front));
+  half<i>(out.lanes.planar) = select(shows_second, Mask(second.planar), Mask(first.planar));
 }
 
 /// Copies the values of another triangle to the lanes of packet i that show it.
 template <int i, std::size_t N, std::size_t P, bool with_id>
 HS_INLINE void add_triangle(const TriangleScalars<N, with_id>& s, Mask shows, PacketTriangles<N, P, with_id>& out) {
   for_each_value<i>(out, [&](Real& lanes, auto value) { lanes = select(shows, Real(value(s)), lanes); });
-  Mask& front = half<i>(out.front);
+  Mask &front = half<i>(out.front), &planar = half<i>(out.lanes.planar);
   front = select(shows, Mask(s.front), front);
+  planar = select(shows, Mask(s.planar), planar);
 }
 
 /// Loads up to four consecutive components of the rows at `at`, starting with component k: the flat ones or all others. The remaining
@@ -243,6 +257,7 @@ HS_INLINE void find_triangles(const PacketBatch& batch, int n, RecentTriangles<V
   TriangleLanes<Real> lanes;
   if (gather_rows(context, ids, packet.lanes, lanes, half<i>(t.front), rows)) {
     for_each_corner_value<i>(t.lanes, [&](Real& to, auto value) { to = value(lanes); });
+    half<i>(t.lanes.planar) = lanes.planar;
     return gather_components<i, V>(rows, t);
   }
   merge_many<i>(context, ids, first_lane_of_each(packet_ids, ids, packet.lanes, kLanes), recent, t);

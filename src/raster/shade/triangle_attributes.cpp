@@ -93,6 +93,12 @@ void find_triangle(const PassContext& context, TriangleId id, TriangleSource& s)
   }
 }
 
+PlaneAnchor plane_anchor_of(const TriangleSource& s, const PlaneCell& cell) {
+  std::array<PlaneCorner, 3> corners;
+  for (std::size_t i = 0; i < 3; ++i) corners[i] = {s.vertex[i]->x, s.vertex[i]->y, s.vertex[i]->inv_w};
+  return plane_anchor(corners, cell);
+}
+
 Real packet_depth(Real x, Real y, const PacketTriangleIds& packet) noexcept {
   const Real x_sub = x * Real(kSubPixels), y_sub = y * Real(kSubPixels);
   Real z(0.0f);
@@ -177,6 +183,8 @@ bool gather_rows(const PassContext& context, const TriangleId* ids, uint32_t lan
   if (points) set_point_corners(triangle, draw.state.point_origin, v);
   if (lines) set_line_corner(triangle, v);
   auto& [x, y, q] = v;
+  const Mask may_have_planes = (flags & Int(static_cast<int32_t>(kSmall | kPointSprite | kLine))) == Int(0);
+  if (any(may_have_planes & (q[0] == q[1]) & (q[0] == q[2]))) return false;
   // Vertex 0 is the one with the smallest 1/w, or the first of several, as in triangle_scalars().
   const Mask two = (q[2] < q[0]) & (q[2] < q[1]), one = (q[1] < q[0]) & !two;
   rotate_lanes(one, two, x);
@@ -186,7 +194,7 @@ bool gather_rows(const PassContext& context, const TriangleId* ids, uint32_t lan
   const detail::ScaledInverseW<Real> w = detail::scaled(q[0], q[1], q[2]);
   const auto real = [](Int i) { return to_real<Real>(i); };
   triangles = {real(x[0]), real(y[0]), real(x[1] - x[0]), real(y[1] - y[0]), real(x[2] - x[0]), real(y[2] - y[0]), Real(0.0f), w.q0,
-               w.q1,       w.q2,       w.unscale};
+               w.q1,       w.q2,       w.unscale,         Mask(false)};
   triangles.area = difference_of_products(triangles.e1x, triangles.e2y, triangles.e1y, triangles.e2x);
   return true;
 }

@@ -6,6 +6,7 @@
 #include <bit>
 
 #include "halfspace/raster/shade/fragment_batch.h"
+#include "halfspace/raster/shade/plane_anchor.h"
 #include "halfspace/shading/contract.h"
 
 namespace halfspace {
@@ -19,6 +20,13 @@ struct TriangleSource {
   const float* flat_varyings;  ///< row of the provoking vertex
   const float* primitive;      ///< row of the primitive stage, or null
 };
+/// Returns false if a triangle is certainly not given as planes.
+HS_INLINE bool may_have_planes(const TriangleSource& s) {
+  return !s.triangle->is(kSmall | kPointSprite | kLine) && s.vertex[0]->inv_w == s.vertex[1]->inv_w &&
+         s.vertex[0]->inv_w == s.vertex[2]->inv_w;
+}
+/// Returns the anchor of a triangle's planes for the pixels of a cell.
+PlaneAnchor plane_anchor_of(const TriangleSource& source, const PlaneCell& cell);
 /// Finds the data of a triangle.
 void find_triangle(const PassContext& context, TriangleId id, TriangleSource& out);
 
@@ -30,8 +38,8 @@ struct TriangleRows {
   std::array<const float*, kLanes> primitive;  ///< rows of the primitive stage
 };
 /// Gathers the triangles of `lanes`. lanes must not be empty, and all triangles must belong to the same draw. Other lanes repeat the first
-/// triangle. Returns false if a primitive is clipped or is a point or a line, or if the draw has too many vertices; outputs are then
-/// unspecified.
+/// triangle. Returns false if a primitive is clipped, is a point or a line, or may be given as planes, or if the draw has too many
+/// vertices; outputs are then unspecified.
 bool gather_rows(const PassContext& context, const TriangleId* ids, uint32_t lanes, TriangleLanes<Real>& triangles, Mask& front,
                  TriangleRows& rows);
 
@@ -69,6 +77,7 @@ struct TriangleScalars {
   std::array<float, N> value0, delta1, delta2;
   const float* primitive;  ///< row of the primitive stage, or null
   bool front;
+  bool planar;                                                                        ///< see TriangleLanes
   [[no_unique_address]] MemberIf<with_id, ComponentLanes<float, 2>, 0> barycentrics;  ///< weights of the submitted vertices 1 and 2
 };
 
@@ -110,6 +119,7 @@ HS_INLINE TriangleScalars<N, with_id> triangle_scalars(const TriangleSource& s) 
   }
   r.primitive = s.primitive;
   r.front = s.triangle->is(kFrontFacing);
+  r.planar = false;
   if constexpr (with_id) {
     const std::array<float, 2> at0 = submitted_weights(s, a, N), at1 = submitted_weights(s, b, N), at2 = submitted_weights(s, c, N);
     for (std::size_t k = 0; k < 2; ++k) {
@@ -121,12 +131,48 @@ HS_INLINE TriangleScalars<N, with_id> triangle_scalars(const TriangleSource& s) 
   return r;
 }
 
+/// Replaces the interpolation data by planes. Triangles with the same 1/w at all corners keep the order of their vertices.
+template <class V, bool with_id, std::size_t N>
+void use_planes(const TriangleSource& s, const PlaneAnchor& anchor, TriangleScalars<N, with_id>& r) {
+  r.planar = true;
+  r.x0 = static_cast<float>(anchor.x);
+  r.y0 = static_cast<float>(anchor.y);
+  r.e1x = r.e1y = r.e2x = r.e2y = 0.0f;
+  r.area = 1.0f;
+  const auto set = [&](float& value, float& slope_x, float& slope_y, float a0, float a1, float a2) {
+    const std::array<float, 3> plane = anchor.plane(a0, a1, a2);
+    value = plane[0];
+    slope_x = plane[1];
+    slope_y = plane[2];
+  };
+  for (std::size_t i = 0; i < N; ++i) {
+    if (kInterpolations<V>[i] == Interpolation::flat) continue;
+    set(r.value0[i], r.delta1[i], r.delta2[i], s.varyings[0][i], s.varyings[1][i], s.varyings[2][i]);
+  }
+  if constexpr (with_id) {
+    const std::array<float, 2> at0 = submitted_weights(s, 0, N), at1 = submitted_weights(s, 1, N), at2 = submitted_weights(s, 2, N);
+    for (std::size_t k = 0; k < 2; ++k)
+      set(r.barycentrics.value0[k], r.barycentrics.delta1[k], r.barycentrics.delta2[k], at0[k], at1[k], at2[k]);
+  }
+}
+
+/// The same for the pixels of a cell, where the triangle may be given as planes.
+template <class V, bool with_id = false>
+HS_INLINE TriangleScalars<kComponents<V>, with_id> scalars_in_cell(const TriangleSource& s, const PlaneCell& cell) {
+  TriangleScalars<kComponents<V>, with_id> scalars = triangle_scalars<V, with_id>(s);
+  if (may_have_planes(s)) {
+    const PlaneAnchor anchor = plane_anchor_of(s, cell);
+    if (anchor.is_valid) use_planes<V>(s, anchor, scalars);
+  }
+  return scalars;
+}
+
 /// The same for a triangle id.
 template <class V, bool with_id = false>
-HS_INLINE TriangleScalars<kComponents<V>, with_id> scalars_of(const PassContext& context, TriangleId id) {
+HS_INLINE TriangleScalars<kComponents<V>, with_id> scalars_of(const PassContext& context, TriangleId id, const PlaneCell& cell) {
   TriangleSource source;
   find_triangle(context, id, source);
-  return triangle_scalars<V, with_id>(source);
+  return scalars_in_cell<V, with_id>(source, cell);
 }
 
 }  // namespace detail
