@@ -8,6 +8,7 @@
 
 #include "halfspace/core/lanes.h"
 #include "halfspace/raster/tile/blend.h"
+#include "halfspace/raster/tile/blend_programs.h"
 #include "halfspace/raster/tile/tile.h"
 #include "halfspace/raster/visibility/visibility.h"
 
@@ -37,6 +38,9 @@ struct FragmentBatch : PacketBatch {
   /// If not null, the kernel encodes the first color of each packet as rgba8 and writes it here, indexed like the pixels of the tile's
   /// storage; there is no other output. Only for ShaderKernels::color.
   int32_t* codes = nullptr;
+  /// If it has a program, the kernel blends the color of each packet into the buffer, in the order of the packets; there is no other
+  /// output. Only for shaders that return one color, without keep mask and depth.
+  BlendTarget blend = {};
 };
 
 /// Computes the colors of a draw with a constant shader and stores them as packet 0 of out.

@@ -75,9 +75,25 @@ void trace_queued(const Shading& c, const PacketQueue& queue, std::size_t k, std
   for (int s = 0; s < c.tile.samples; ++s) trace_shaded(c, c.output, i, queue.sample(c.tile, k, s), queue.ids[k]);
 }
 
+// Returns the buffer into which the kernel can blend the colors of the queue, if no test follows.
+template <class Shading>
+BlendTarget direct_blend(const Shading& c) {
+  const std::optional<BlendState>& blend = blend_of(c.draw.state, 0);
+  const bool is_single = c.tile.samples == 1 && c.tile.color_count == 1 && c.draw.kernels.color_count == 1;
+  const bool is_supported = !kTracesShading<Shading> && c.mode == VisibilityMode::early && !c.draw.kernels.is_constant;
+  if (!is_single || !is_supported || !blend || !color_mask_of(c.draw.state, 0).all()) return {};
+  return {blend_programs(c.tile.color[0].format, *blend).packet, &c.tile.color[0], &*blend};
+}
+
 // Shades packets of the queue as they are. Returns their number.
 template <class Shading>
 std::size_t shade_batch(const Shading& c, PacketQueue& queue, std::size_t begin) {
+  if (const BlendTarget blend = direct_blend(c); blend.program != nullptr) {
+    const std::size_t rest = static_cast<std::size_t>(queue.count) - begin;
+    c.draw.kernels.fragment(c.draw.shader.get(), {queue.batch(c.context, c.tile, begin, rest), &c.output, nullptr, blend});
+    count_fragments(c, &queue.packets[begin], static_cast<int>(rest));
+    return rest;
+  }
   const std::size_t n = std::min(std::size_t{kPacketBatch}, static_cast<std::size_t>(queue.count) - begin);
   FragmentBatch batch{queue.batch(c.context, c.tile, begin, n), &c.output};
   std::array<SamplePosition, kPacketBatch * kLanes> centroids;

@@ -38,8 +38,8 @@ struct TriangleRows {
   std::array<const float*, kLanes> primitive;  ///< rows of the primitive stage
 };
 /// Gathers the triangles of `lanes`. lanes must not be empty, and all triangles must belong to the same draw. Other lanes repeat the first
-/// triangle. Returns false if a primitive is clipped, is a point or a line, or may be given as planes, or if the draw has too many
-/// vertices; outputs are then unspecified.
+/// triangle. Returns false if a primitive is clipped or may be given as planes, or if the draw has too many vertices; outputs are then
+/// unspecified.
 bool gather_rows(const PassContext& context, const TriangleId* ids, uint32_t lanes, TriangleLanes<Real>& triangles, Mask& front,
                  TriangleRows& rows);
 

@@ -116,7 +116,8 @@ void write_batch(ColorBuffer& buffer, std::span<const PacketMask> packets, const
     if (buffer.format == ColorFormat::srgb8a8) return replace_packed<ColorFormat::srgb8a8>(buffer, packets, src);
   }
   if (state.blend && state.mask.all()) {
-    if (const BlendProgram program = blend_program(buffer.format, *state.blend)) return program(buffer, packets, src, src1, *state.blend);
+    if (const BlendProgram program = blend_programs(buffer.format, *state.blend).batch)
+      return program(buffer, packets, src, src1, *state.blend);
   }
   for (std::size_t i = 0; i < packets.size(); ++i)
     write_color(buffer, packets[i].packet, mask_from_bits<Mask>(packets[i].lanes), src[i], src1[i], state);

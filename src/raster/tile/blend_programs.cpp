@@ -10,22 +10,33 @@ namespace halfspace {
 
 namespace {
 
-// The equation is `add`.
 struct BlendFactors {
   BlendFactor source_color, destination_color, source_alpha, destination_alpha;
 
   bool operator==(const BlendFactors&) const = default;
 };
+// A state that is known at compile time. Color and alpha have the same equation.
+struct BlendOperation {
+  BlendEquation equation;
+  BlendFactors factors;
+
+  bool operator==(const BlendOperation&) const = default;
+};
 
 using enum BlendFactor;
-constexpr BlendFactors kOver{src_alpha, one_minus_src_alpha, one, one_minus_src_alpha};
-constexpr BlendFactors kOverSameAlpha{src_alpha, one_minus_src_alpha, src_alpha, one_minus_src_alpha};
-constexpr BlendFactors kPremultiplied{one, one_minus_src_alpha, one, one_minus_src_alpha};
-constexpr BlendFactors kAddAlpha{src_alpha, one, one, one};
-constexpr BlendFactors kAddSameAlpha{src_alpha, one, src_alpha, one};
-constexpr BlendFactors kAdd{one, one, one, one};
-constexpr BlendFactors kMultiply{dst_color, zero, dst_color, zero};
-constexpr BlendFactors kMultiplySource{zero, src_color, zero, src_color};
+constexpr BlendOperation sum_of(const BlendFactors& factors) { return {BlendEquation::add, factors}; }
+constexpr BlendOperation kOver = sum_of({src_alpha, one_minus_src_alpha, one, one_minus_src_alpha});
+constexpr BlendOperation kOverSameAlpha = sum_of({src_alpha, one_minus_src_alpha, src_alpha, one_minus_src_alpha});
+constexpr BlendOperation kPremultiplied = sum_of({one, one_minus_src_alpha, one, one_minus_src_alpha});
+constexpr BlendOperation kAddAlpha = sum_of({src_alpha, one, one, one});
+constexpr BlendOperation kAddSameAlpha = sum_of({src_alpha, one, src_alpha, one});
+constexpr BlendOperation kAdd = sum_of({one, one, one, one});
+constexpr BlendOperation kMultiply = sum_of({dst_color, zero, dst_color, zero});
+constexpr BlendOperation kMultiplySource = sum_of({zero, src_color, zero, src_color});
+constexpr BlendOperation kConstant = sum_of({constant_color, one_minus_constant_color, constant_color, one_minus_constant_color});
+constexpr BlendOperation kSubtractAlpha{BlendEquation::reverse_subtract, {src_alpha, one, src_alpha, one}};
+constexpr BlendOperation kMin{BlendEquation::min, {one, one, one, one}};
+constexpr BlendOperation kMax{BlendEquation::max, {one, one, one, one}};
 
 template <ColorFormat format>
 HS_INLINE void write_packet(ColorBuffer& buffer, std::size_t first, Mask mask, const PacketColor& c) {
@@ -58,12 +69,17 @@ HS_INLINE void blend_packet(ColorBuffer& buffer, const PacketMask& packet, Packe
   write_packet<format>(buffer, first, mask_from_bits<Mask>(packet.lanes), out);
 }
 
-template <ColorFormat format, BlendFactors factors>
+template <ColorFormat format, BlendOperation operation>
 void blend_packets(ColorBuffer& buffer, std::span<const PacketMask> packets, const PacketColor* src, const PacketColor*,
-                   const BlendState&) {
-  constexpr glm::vec4 no_constant(0.0f);
+                   const BlendState& s) {
   for (std::size_t i = 0; i < packets.size(); ++i)
-    blend_packet<format>(buffer, packets[i], src[i], src[i], BlendEquation::add, BlendEquation::add, factors, no_constant);
+    blend_packet<format>(buffer, packets[i], src[i], src[i], operation.equation, operation.equation, operation.factors, s.constant);
+}
+
+template <ColorFormat format, BlendOperation operation>
+void blend_one(ColorBuffer& buffer, PacketMask packet, const BlendState& s, Real r, Real g, Real b, Real a) {
+  const PacketColor src{r, g, b, a};
+  blend_packet<format>(buffer, packet, src, src, operation.equation, operation.equation, operation.factors, s.constant);
 }
 
 // For all other states.
@@ -76,28 +92,49 @@ void blend_by_state(ColorBuffer& buffer, std::span<const PacketMask> packets, co
 }
 
 template <ColorFormat format>
-BlendProgram program_of(const BlendState& s) {
-  if (s.color_equation != BlendEquation::add || s.alpha_equation != BlendEquation::add) return blend_by_state<format>;
-  const BlendFactors factors{s.source_color, s.destination_color, s.source_alpha, s.destination_alpha};
-  if (factors == kOver) return blend_packets<format, kOver>;
-  if (factors == kOverSameAlpha) return blend_packets<format, kOverSameAlpha>;
-  if (factors == kPremultiplied) return blend_packets<format, kPremultiplied>;
-  if (factors == kAddAlpha) return blend_packets<format, kAddAlpha>;
-  if (factors == kAddSameAlpha) return blend_packets<format, kAddSameAlpha>;
-  if (factors == kAdd) return blend_packets<format, kAdd>;
-  if (factors == kMultiply) return blend_packets<format, kMultiply>;
-  if (factors == kMultiplySource) return blend_packets<format, kMultiplySource>;
-  return blend_by_state<format>;
+void blend_one_by_state(ColorBuffer& buffer, PacketMask packet, const BlendState& s, Real r, Real g, Real b, Real a) {
+  const PacketColor src{r, g, b, a};
+  blend_by_state<format>(buffer, std::span(&packet, 1), &src, &src, s);
+}
+
+template <ColorFormat format>
+constexpr BlendPrograms kByState{blend_by_state<format>, blend_one_by_state<format>};
+template <ColorFormat format, BlendOperation operation>
+constexpr BlendPrograms kCompiled{blend_packets<format, operation>, blend_one<format, operation>};
+
+// Returns the factors of a state. They do not matter for the minimum and the maximum.
+BlendFactors factors_of(const BlendState& s) {
+  if (s.color_equation == BlendEquation::min || s.color_equation == BlendEquation::max) return {one, one, one, one};
+  return {s.source_color, s.destination_color, s.source_alpha, s.destination_alpha};
+}
+
+template <ColorFormat format>
+BlendPrograms programs_of(const BlendState& s) {
+  if (s.color_equation != s.alpha_equation) return kByState<format>;
+  const BlendOperation operation{s.color_equation, factors_of(s)};
+  if (operation == kOver) return kCompiled<format, kOver>;
+  if (operation == kOverSameAlpha) return kCompiled<format, kOverSameAlpha>;
+  if (operation == kPremultiplied) return kCompiled<format, kPremultiplied>;
+  if (operation == kAddAlpha) return kCompiled<format, kAddAlpha>;
+  if (operation == kAddSameAlpha) return kCompiled<format, kAddSameAlpha>;
+  if (operation == kAdd) return kCompiled<format, kAdd>;
+  if (operation == kMultiply) return kCompiled<format, kMultiply>;
+  if (operation == kMultiplySource) return kCompiled<format, kMultiplySource>;
+  if (operation == kConstant) return kCompiled<format, kConstant>;
+  if (operation == kSubtractAlpha) return kCompiled<format, kSubtractAlpha>;
+  if (operation == kMin) return kCompiled<format, kMin>;
+  if (operation == kMax) return kCompiled<format, kMax>;
+  return kByState<format>;
 }
 
 }  // namespace
 
-BlendProgram blend_program(ColorFormat format, const BlendState& s) {
+BlendPrograms blend_programs(ColorFormat format, const BlendState& s) {
   switch (format) {
-    case ColorFormat::rgba8: return program_of<ColorFormat::rgba8>(s);
-    case ColorFormat::srgb8a8: return program_of<ColorFormat::srgb8a8>(s);
-    case ColorFormat::rgba16f: return program_of<ColorFormat::rgba16f>(s);
-    default: return nullptr;
+    case ColorFormat::rgba8: return programs_of<ColorFormat::rgba8>(s);
+    case ColorFormat::srgb8a8: return programs_of<ColorFormat::srgb8a8>(s);
+    case ColorFormat::rgba16f: return programs_of<ColorFormat::rgba16f>(s);
+    default: return {};
   }
 }
 

@@ -13,8 +13,22 @@ namespace halfspace {
 /// Blends one color per packet with the existing colors, in the order of the packets. src1: second colors, for dual-source blending.
 using BlendProgram = void (*)(ColorBuffer& buffer, std::span<const PacketMask> packets, const PacketColor* src, const PacketColor* src1,
                               const BlendState& state);
+/// Blends the color of one packet, which stays in registers. Not for dual-source blending.
+using BlendPacketProgram = void (*)(ColorBuffer& buffer, PacketMask packet, const BlendState& state, Real r, Real g, Real b, Real a);
 
-/// Returns the function for a state, or null if there is none for the format. It writes all four channels.
-BlendProgram blend_program(ColorFormat format, const BlendState& state);
+/// The functions for a state. They write all four channels.
+struct BlendPrograms {
+  BlendProgram batch = nullptr;
+  BlendPacketProgram packet = nullptr;
+};
+/// Returns the functions for a state, or null if there are none for the format.
+BlendPrograms blend_programs(ColorFormat format, const BlendState& state);
+
+/// A color buffer into which a fragment kernel blends directly.
+struct BlendTarget {
+  BlendPacketProgram program = nullptr;
+  ColorBuffer* buffer = nullptr;
+  const BlendState* state = nullptr;
+};
 
 }  // namespace halfspace

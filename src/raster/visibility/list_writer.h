@@ -48,13 +48,14 @@ class ListWriter {
 
   /// See OpaqueWriter.
   template <class Z>
-  HS_INLINE bool write(TriangleId id, int packet, uint32_t covered, const Z& z_at) {
+  HS_INLINE bool write(TriangleId id, int packet, uint32_t covered, const Z& z_at, bool passes = false) {
     statistics_.samples_tested += static_cast<uint64_t>(std::popcount(covered));
     if constexpr (kTraces<Statistics>) trace(id, packet, covered, z_at());
     uint32_t passed = covered;
+    const bool tests = tests_ && (!passes || writes_depth_);
     Real z(0.0f);
-    if (tests_ || lists_depth_) z = z_at();
-    if (tests_) {
+    if (tests || lists_depth_) z = z_at();
+    if (tests) {
       float* depth = &tile_.depth[static_cast<std::size_t>(packet) * kLanes];
       const Real old = load<Real>(depth);
       passed &= bits(compare(compare_, z, old));

@@ -33,9 +33,9 @@ class OpaqueWriter {
   CompareOp compare_op() const { return compare_; }
 
   /// Tests and writes lanes of a packet. covered: bit mask of the lanes; z_at(): returns their depth, called only if there is a depth test.
-  /// Returns true if a lane passed.
+  /// passes: the depth test passes in all lanes. Returns true if a lane passed.
   template <class Z>
-  HS_INLINE bool write(TriangleId id, int packet, uint32_t covered, const Z& z_at) {
+  HS_INLINE bool write(TriangleId id, int packet, uint32_t covered, const Z& z_at, [[maybe_unused]] bool passes = false) {
     statistics_.samples_tested += static_cast<uint64_t>(std::popcount(covered));
     if constexpr (kTraces<Statistics>) trace(id, packet, covered, z_at());
     return test_and_write(id, packet, covered, z_at);

@@ -20,7 +20,7 @@ struct PacketBatch {
   const TriangleId* ids = nullptr;         ///< triangle of each pixel of the tile; null if each packet shows only one, see packet_ids
   const TriangleId* packet_ids = nullptr;  ///< triangle of each packet; only used if ids is null
   const PacketMask* packets = nullptr;
-  int count = 0;                              ///< ≤ kPacketBatch, unless FragmentBatch::codes is set
+  int count = 0;                              ///< ≤ kPacketBatch, unless FragmentBatch::codes or blend is set
   const SamplePosition* centroids = nullptr;  ///< positions of centroid varyings, W for each packet; null if the same as position
   /// If not null, the position of each pixel in the tile, (y << 16) | x, W for each packet; see PackedPixels. `ids` is then indexed in the
   /// same order, and packet i is number i.

@@ -64,7 +64,9 @@ void rasterize_blocks(const DrawInTile& d, const Triangle& t, const TileEdges& t
           if (px >= rect.x1 || py >= rect.y1 || px + kPacketWidth <= rect.x0 || py + kPacketHeight <= rect.y0) continue;
           Mask mask = coverage == BlockCoverage::whole ? Mask(true) : edges.inside(px, py);
           if (is_cut) mask = mask & inside(rect, px, py);
-          if (any(mask)) writer.write(id, p, bits(mask), [&] { return plane.at(edges, px, py); });
+          if (any(mask))
+            writer.write(
+                id, p, bits(mask), [&] { return plane.at(edges, px, py); }, test == BlockTest::all_pass);
         }
         if (writer.writes_depth()) widen_hiz(writer.compare_op(), tile, block, low, high);
       }
@@ -130,6 +132,7 @@ void write_full_tile(const DrawInTile& d, const Triangle& t, TriangleId id, cons
   const BlockEdges edges(tile_edges);
   PassStatistics counted_before;
   OpaqueWriter writer(d, counted_before);
+  if (d.mode == VisibilityMode::depth_only && !writer.writes_depth()) return;
   for (int p = 0; p < kPackets; ++p) writer.write_whole(id, p, [&] { return plane.at(edges, packet_x(p), packet_y(p)); });
   if (!writer.writes_depth()) return;
   for (int b = 0; b < kBlocks; ++b) set_hiz(d.tile, b, bounds.low, bounds.high);
