@@ -300,22 +300,6 @@ HS_INLINE void store(S* p, const T& t) {
   std::memcpy(p, &t, sizeof t);
 }
 
-/// Loads one byte per lane, from 0 to 255. p need not be aligned.
-template <class I>
-HS_INLINE I load_bytes(const uint8_t* p) {
-  if constexpr (std::is_same_v<I, int32_t>) {
-    return *p;
-  } else {
-    return I(__builtin_convertvector(load<typename detail::Vectors<sizeof(I) / sizeof(int32_t)>::B>(p), typename I::V));
-  }
-}
-/// Stores the low byte of each lane.
-HS_INLINE void store_bytes(uint8_t* p, int32_t i) { *p = static_cast<uint8_t>(i); }
-template <int W>
-HS_INLINE void store_bytes(uint8_t* p, IntN<W> i) {
-  store(p, __builtin_convertvector(i.v, typename detail::Vectors<W>::B));
-}
-
 HS_INLINE float gather(const float* base, int32_t i) { return base[i]; }
 HS_INLINE int32_t gather(const int32_t* base, int32_t i) { return base[i]; }
 /// Loads base[i] lane by lane. Every lane must have a valid index, even if its result is not used.
