@@ -81,7 +81,7 @@ def main():
         for picture, t in zip(pictures, text):
             cells += ["-label", f"{picture.stem} {t} s", str(picture) if picture.exists() else "xc:white"]
     subprocess.run(["montage", *cells, "-tile", "4x", "-geometry", "480x270+4+4", "out/peers.png"], check=True)
-    print(f"out/peers.png; {slower} models for which f3d takes less than twice the time")
+    print(f"out/peers.png; {slower} models for which f3d takes less than twice as long")
 
 
 if __name__ == "__main__":

@@ -156,8 +156,8 @@ ModelMaterial gltf_default_material() {
 
 namespace {
 
-// Meshes have two sets of texture coordinates. A material with at most two of the file's sets uses these; its maps then refer to one of
-// them.
+// Meshes store two sets of texture coordinates. A material that uses at most two of the file's sets gets these, and each of its maps refers
+// to one of them.
 void choose_uv_sets(GltfDocument& document, const GltfValue& json, ModelMaterial& m) {
   const std::array maps{
       &m.base_color_map,          &m.metallic_map,         &m.roughness_map, &m.specular_map,  &m.specular_color_map, &m.clearcoat_map,

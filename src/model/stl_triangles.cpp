@@ -66,7 +66,7 @@ class TextParser {
     return text_.substr(begin, at_ - begin);
   }
 
-  /// Skips the rest of the line, which is a name. In files without line ends, the name ends before "facet normal".
+  /// Skips the rest of the line, which is a name. In files without line breaks, the name ends before "facet normal".
   void skip_name() {
     std::size_t facet = std::string_view::npos;  // where the previous word begins if it is "facet"
     for (;;) {

@@ -157,8 +157,8 @@ const ModelMaterial& material_of(const Model& model, const PosedMesh& part) {
   return part.material < 0 ? kDefault : model.materials[static_cast<std::size_t>(part.material)];
 }
 
-// Returns the width of the points of a cloud in pixels: a quarter of their distance if they covered a square of the picture's height
-// evenly, between 2 and 12 px in a picture with 720 rows.
+// Returns the width of the points of a cloud in pixels: a quarter of the distance between points that cover a square of the picture's
+// height evenly, limited to 2 to 12 px in a picture with 720 rows.
 float point_size(std::size_t count, int height_px) {
   const auto height = static_cast<float>(height_px);
   return std::max(1.0f, std::clamp(0.25f * height / std::sqrt(static_cast<float>(count)), height / 360.0f, height / 60.0f));

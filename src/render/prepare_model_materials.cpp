@@ -64,7 +64,7 @@ std::vector<std::pair<int, bool>> ScenePreparation::wanted_images(const ObjectDe
   return {wanted.begin(), wanted.end()};
 }
 
-// Decodes these images, in parallel. At the same time it filters the environment if `lit`, because few images do not occupy all threads.
+// Decodes these images in parallel. If `lit`, filters the environment at the same time, because a few images do not keep all threads busy.
 void ScenePreparation::load_images(const ObjectDescription& o, const Model& model, const std::vector<std::pair<int, bool>>& list,
                                    bool lit) {
   if (list.empty()) return;

@@ -65,7 +65,7 @@ TEST_F(Models, PositionAndSizeOfTheModelDoNotMatter) {
   }
 }
 
-// Points and lines without a color of their own contrast with the background, and few points are larger than many.
+// Points and lines without a color of their own contrast with the background, and the points of small clouds are larger.
 TEST_F(Models, PointsAndLinesAreVisible) {
   const auto dark_pixels = [&](const std::string& elements, const std::string& background) {
     std::string text = cube(0.0, 1.0);

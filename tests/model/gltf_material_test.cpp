@@ -138,7 +138,7 @@ TEST(GltfMaterial, TransformsTextureCoordinates) {
   EXPECT_NEAR(v.y, 0.25f, 1e-6f);
 }
 
-// A mesh has the two sets of texture coordinates that its material uses, whatever their numbers are.
+// A mesh has the two sets of texture coordinates that its material uses, regardless of their numbers.
 TEST(GltfMaterial, UsesAnyTwoSetsOfTextureCoordinates) {
   GltfBuilder file = file_with_texture();
   const auto texture = [](int set) { return GltfJson{{"index", 0}, {"texCoord", set}}; };

@@ -18,7 +18,7 @@ const std::string kPly =
     "property list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
 const std::string kStl = "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid\n";
 
-TEST_F(ReadModelFile, SkipsTheByteOrderMarkOfTexts) {
+TEST_F(ReadModelFile, SkipsTheByteOrderMarkOfTextFiles) {
   put("a.mtl", kByteOrderMark + std::string("newmtl red\nKd 1 0 0\n"));
   put("a.obj", kByteOrderMark + ("mtllib a.mtl\nusemtl red\n" + kObj));
   put("a.ply", kByteOrderMark + kPly);

@@ -77,8 +77,8 @@ TEST(Stl, AcceptsUpperCaseAndBlanks) {
   EXPECT_EQ(stl_model(spaced).meshes[0].indices.size(), 36u);
 }
 
-// Without line ends, nothing but the next keywords ends the name of a solid.
-TEST(Stl, ReadsTextsOfOneLine) {
+// Without line breaks, the name of a solid ends at the next keywords.
+TEST(Stl, ReadsTextFilesOfOneLine) {
   std::string text = text_cube(0.0);
   std::ranges::replace(text, '\n', ' ');
   EXPECT_EQ(stl_model(text).meshes[0].indices.size(), 36u);

@@ -15,7 +15,7 @@ namespace halfspace {
 
 namespace detail {
 
-/// Returns the cell of a batch's pixels. They belong to one tile, and thereby to one cell.
+/// Returns the cell of a batch's pixels. They belong to one tile, and therefore to one cell.
 HS_INLINE PlaneCell cell_of(const PacketBatch& batch) {
   const int32_t packed = batch.pixels != nullptr ? batch.pixels[0] : 0;
   const int packet = batch.packets[0].packet;
