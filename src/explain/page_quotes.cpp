@@ -36,7 +36,7 @@ constexpr std::array kRanges{
     QuoteRange{"shadows", "shading/shadow_bias.h", "case ShadowBias::automatic:", "automatic_lift(s, tangent_of"},
     QuoteRange{"tone", "shading/tone.h", "HS_INLINE R tone_curve(ToneCurve curve", "case ToneCurve::aces:"},
     QuoteRange{"srgb", "core/srgb_curve.h", "static constexpr FixedPower power_of", "return min(select("},
-    QuoteRange{"samples", "raster/tile/resolve.cpp", "// Samples are added pairwise.", "for (Real& x : mean)"},
+    QuoteRange{"samples", "raster/tile/resolve.cpp", "// Returns the mean of `samples` colors.", "for (Real& x : mean)"},
     QuoteRange{"layers", "raster/tile/layers.cpp", "Mask TransparentLayers::add(", "return "},
     QuoteRange{"final", "raster/tile_worker.cpp", "load(tile);", "if (has_post_step) run_post_step("},
 };

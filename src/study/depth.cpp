@@ -105,8 +105,9 @@ Study study_depth(const StudyOptions& options, const Workers& workers) {
   Study study{
       .name = "depth",
       .title = "Depth formats: surfaces in the wrong order",
-      .setting = fmt::format("{:.0f} pairs of quads separated by 1/10,000 of their distance, near plane at 0.1, {}x{}; labels: format, far/near",
-                             cells, size, size),
+      .setting =
+          fmt::format("{:.0f} pairs of quads separated by 1/10,000 of their distance, near plane at 0.1, {}x{}; labels: format, far/near",
+                      cells, size, size),
       .error_name = fmt::format("fraction of pairs in the wrong order (zero is plotted at {:.0e})", 0.1 / cells),
       .time_name = "frame",
       .truth = {"by construction (the nearer quad is white)", 0.1 / cells, "a tenth of one pair, as a fraction of all pairs"},

@@ -92,7 +92,7 @@ Study study_texture_filter(const StudyOptions& options, const Workers& workers) 
       .setting = fmt::format("A checkered plane seen from a height of 1 unit, {}x{}; 512x512 texels per tile, sRGB", width, height),
       .error_name = "RMS error of linear light over the image",
       .time_name = "frame",
-      .truth = {"1,024 bilinear lookups per pixel, in double", truth.error, "half the RMS difference between two halves of the lookups",
+      .truth = {"1,024 bilinear lookups per pixel, in double", truth.error, "half the RMS difference between two halves",
                 codes_of(truth.mean)},
   };
   // A quad in eye space (y up, −z forward) from below the lower edge of the image almost to the horizon; u = x and v = −z in tiles.

@@ -69,8 +69,8 @@ TEST(Points, CoordinateSupportsBothOrigins) {
   }
 }
 
-// Each column shows a different point, so the values of the points are gathered: point c covers columns c − 2 to c + 1, and later points hide
-// earlier ones.
+// Each column shows a different point, so the values of the points are gathered: point c covers columns c − 2 to c + 1, and later points
+// hide earlier ones.
 TEST(Points, CoordinatesOfOverlappingPointsAreTheirOwn) {
   std::vector<glm::vec4> p;
   for (int c = 1; c <= 30; ++c) p.push_back(clip_position({c * 256, 8 * 256}, 32, 16));
