@@ -314,6 +314,20 @@ TEST(PassTrace, CountsMatchTheStatisticsAndTheImage) {
   }
 }
 
+TEST(PassTrace, EverySampleOfAHiddenPointHasAFragment) {
+  Traced t(4);
+  t.draw(ConstantShader(kRed), whole(-0.5f));
+  t.draw(ConstantShader(kRed), part(-0.6f));  // the full-tile triangle is written
+  DrawState points = kAlphaBlendState;
+  points.topology = Topology::points;
+  points.point_size = 40.0f;
+  t.draw(ConstantShader(kGreen), {{0, 0, 0.5f, 1}}, points);
+  t.run();
+  int rejected = 0;
+  for (const FragmentOutcome outcome : t.outcomes(30, 30)) rejected += outcome == block_rejected ? 1 : 0;
+  EXPECT_EQ(rejected, 4);
+}
+
 TEST(PassTrace, EveryCoveredSampleHasAFragment) {
   // Without a depth test, nothing is rejected and all covered samples are listed.
   Traced tested, untested;

@@ -184,7 +184,8 @@ class DrawRangeSetup {
     }
   }
 
-  // Appends the edges of a triangle that need not be clipped. The result is the same as that of clip(), which would copy the vertices.
+  // Appends the edges of a triangle that need not be clipped. The result is that of clip() if all varyings are finite; clip() would copy
+  // the vertices.
   void append_outline(const std::array<uint32_t, 3>& id) {
     const auto vertex = [&](std::size_t i) -> const ScreenVertex& { return shaded_.screen[id[i % 3]]; };
     const int64_t area = orient2d(vertex(0), vertex(1), vertex(2));

@@ -35,8 +35,8 @@ struct FragmentOutput {
 /// Packets for a fragment kernel. If `pixels` is set, colors are stored as color_plane().
 struct FragmentBatch : PacketBatch {
   FragmentOutput* out;
-  /// If not null, the kernel encodes the first color of each packet as rgba8 and writes it here, indexed like the pixels of the tile's
-  /// storage; there is no other output. Only for ShaderKernels::color.
+  /// If not null, the kernel encodes the first color of each packet as rgba8 and writes it here; there is no other output. Indexed like the
+  /// pixels of the tile's storage, or of a packed batch. Only for ShaderKernels::color.
   int32_t* codes = nullptr;
   /// If it has a program, the kernel blends the color of each packet into the buffer, in the order of the packets; there is no other
   /// output. Only for shaders that return one color, without keep mask and depth.

@@ -10,6 +10,8 @@ namespace halfspace {
 
 namespace {
 
+static_assert(PlaneCell::kSize % kMaxTileSize == 0, "a tile must not be in two cells");
+
 struct Span {
   int64_t low, high;
 

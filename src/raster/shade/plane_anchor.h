@@ -8,8 +8,8 @@
 // the center of the part of the cell that the bounding box of the triangle overlaps. A tile is never in two cells.
 //
 // The value at the anchor and the slopes are computed in double and rounded to float once. Let M be the largest |value| of the corners,
-// u = 2^-24, and (dx, dy) the offset of a pixel. Rounding of the value at the anchor, both slopes, the first sum (value − slope_y·dy) and
-// the result gives an error of at most
+// u = 2^-24, and (dx, dy) the offset of a point of the triangle. Rounding of the value at the anchor, both slopes, the first sum
+// (value − slope_y·dy) and the result gives an error of at most
 //   u·(|a| + |slope_x·dx| + |slope_y·dy| + (M + |slope_y·dy|) + M).
 // The bound is a convex function of the values of the corners, so it is largest if all of them are ±M: either they are equal, and it is
 // 3·u·M, or one of them differs, say at corner k with the barycentric weight b and the slopes gx and gy at the anchor, and it is

@@ -8,7 +8,7 @@
 
 namespace halfspace {
 
-/// Scratch memory for shade_deferred().
+/// Scratch memory for shade_deferred(). shade_queued() uses the first two members.
 struct DeferredShading {
   FragmentOutput output;  ///< not on the stack, because a kernel with many colors needs most of a small stack
   PackedFragments packed;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Depth test and writes for opaque draws (the common case): one sample per pixel, and only coverage and depth determine visibility.
+// Depth test and writes for opaque draws (the common case): only coverage and depth determine visibility. Samples are written one by one.
 #pragma once
 
 #include <bit>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Visibility of draws where only coverage and depth determine visibility, and of queued draws. The results are the same as with
-// visibility_general.cpp, which supports all draws. Small triangles with one sample per pixel are drawn by visibility_small.cpp.
+// visibility_general.cpp, which supports all draws. Most small triangles are drawn by visibility_small.cpp and visibility_samples.cpp.
 #include <algorithm>
 
 #include "halfspace/raster/pipeline/pixel_box.h"
@@ -76,7 +76,7 @@ void rasterize_blocks(const DrawInTile& d, const Triangle& t, const TileEdges& t
 
 // A point covers a rectangle and has a constant depth.
 template <class Writer>
-void rasterize_point(const DrawInTile& d, const Triangle& t, const TileRect& rect, TriangleId id, Writer& writer) {
+void rasterize_point(const DrawInTile& d, const Triangle& t, const SampleGrid& grid, const TileRect& rect, TriangleId id, Writer& writer) {
   const auto [low, high] = depth_bounds(t, d.draw, d.tile.depth_format);
   const Real z(low);
   for (int by = rect.y0 & ~(kBlockSize - 1); by < rect.y1; by += kBlockSize) {
@@ -84,7 +84,7 @@ void rasterize_point(const DrawInTile& d, const Triangle& t, const TileRect& rec
       const int block = by / kBlockSize * kBlocksPerRow + bx / kBlockSize;
       if (writer.tests() && test_block(writer.compare_op(), d.tile, block, low, high) == BlockTest::none_passes) {
         if constexpr (kTraces<typename Writer::Statistics>)
-          trace_rejected_block({d, t, id, SampleGrid(d.tile, 0), low, high}, block, *writer.statistics().trace);
+          trace_rejected_block({d, t, id, grid, low, high}, block, *writer.statistics().trace);
         continue;
       }
       const int x1 = std::min(bx + kBlockSize, rect.x1), y1 = std::min(by + kBlockSize, rect.y1);
@@ -104,7 +104,7 @@ void rasterize_triangle(const DrawInTile& d, const Triangle& t, TriangleId id, i
   const PixelBounds b = pixel_bounds(d.draw, t, d.bounds, grid.position);
   if (b.empty()) return;
   const TileRect rect{b.x0 - grid.x0, b.y0 - grid.y0, b.x1 - grid.x0, b.y1 - grid.y0};
-  if (t.is(kPointSprite)) return rasterize_point(d, t, rect, id, writer);
+  if (t.is(kPointSprite)) return rasterize_point(d, t, grid, rect, id, writer);
   if (t.is(kLine) && line_pixels(d.draw.state.line_width) == 1) return rasterize_thin_line(d, t, b, id, writer);
   const TileEdges edges = tile_edges(d.draw, t, grid, d.tile.size);
   if (edges.outside) return;

@@ -184,6 +184,7 @@ class SampledPackets {
 template <class Statistics>
 void rasterize_small_samples(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, Statistics& statistics) {
   const SampleSet samples(d);
+  if (samples.count == 0) return;
   const SampledTriangles triangles(d, samples, d.context.chunks[chunk], indices);
   OpaqueWriter writer(d, statistics);
   for (std::size_t k = 0; k < indices.size(); ++k) {
@@ -203,6 +204,7 @@ template <class Statistics>
 std::size_t rasterize_small_samples_queued(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, PacketQueue& queue,
                                            Statistics& statistics) {
   const SampleSet samples(d);
+  if (samples.count == 0) return indices.size();
   const SampledTriangles triangles(d, samples, d.context.chunks[chunk], indices);
   ListWriter<Statistics, true> writer(d, queue, statistics);
   std::size_t k = 0;
