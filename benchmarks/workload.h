@@ -35,9 +35,9 @@ class Workload {
   virtual void frame(const Workers& workers) = 0;
   /// Returns the image drawn by the last frame.
   virtual WorkloadPicture picture() const = 0;
-  /// False for rows of the matrix, and scenes, that have no truth in double precision; truth() must not be called then.
+  /// False for matrix rows and scenes that have no reference image in double precision; truth() must not be called then.
   virtual bool has_truth() const { return true; }
-  /// Computes the truth with the naive pipeline, or analytically where possible. Slow.
+  /// Computes the reference image with the naive pipeline, or analytically where possible. Slow.
   virtual WorkloadTruth truth() const = 0;
   /// For the matrix and the scenes drawn by another renderer: the picture that Halfspace draws, to compare with. Null for all other
   /// workloads.

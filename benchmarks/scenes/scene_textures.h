@@ -26,7 +26,7 @@ SceneTexels marble_tiles(TexelSize size, glm::vec3 a, glm::vec3 b, int squares);
 SceneTexels boards(TexelSize size, glm::vec3 dark, glm::vec3 light, int count, int seed);
 /// Rows of round roof tiles.
 SceneTexels roof_tiles(TexelSize size, glm::vec3 clay, glm::ivec2 tiles);
-/// A carpet with a border along both sides of u.
+/// A carpet with borders at u = 0 and u = 1.
 SceneTexels carpet(TexelSize size);
 /// Gold stars on blue.
 SceneTexels starry_vault(TexelSize size);

@@ -49,7 +49,7 @@ def _numbers(key: str, value: Any) -> np.ndarray:
 
 
 def setting_text(key: str, value: Any) -> str:
-    """Returns "KEY=VALUE" for a value of Python or NumPy."""
+    """Returns "KEY=VALUE" for a Python or NumPy value."""
     if isinstance(value, (bool, np.bool_)):
         text = "true" if value else "false"
     elif isinstance(value, str):

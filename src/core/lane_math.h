@@ -152,7 +152,7 @@ HS_INLINE R copy_sign_bits(R magnitude, IntOf<R> sign) {
 
 }  // namespace detail
 
-/// Returns 2^x. The error is at most 0.96 ulp, also for subnormal results; integers give exact results. Returns 0 for x < −150
+/// Returns 2^x. The error is at most 0.96 ulp, even for subnormal results; integers give exact results. Returns 0 for x < −150
 /// and infinity for x >= 128.
 template <Number R>
 HS_INLINE R exp2(R x) {

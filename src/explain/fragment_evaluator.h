@@ -49,7 +49,7 @@ class FragmentEvaluator {
   /// Returns the color of the shader that the evaluator was created with.
   glm::vec4 color(const S& shader) const { return color_of(shader, from_components<V, float>(varyings_), face_); }
 
-  /// Returns the color of a shader with the same geometry but other uniforms.
+  /// Returns the color of a shader with the same geometry but different uniforms.
   glm::vec4 color_with(const S& shader) const {
     if constexpr (kLightsVertices<S>) {
       const std::array<V, 3> vertices = vertices_of(shader);

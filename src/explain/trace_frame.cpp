@@ -23,7 +23,7 @@ void for_each_traced_pixel(const TileFragments& tile, const PassTrace& trace, co
   }
 }
 
-// Removes fragments from the end until the maximum is met, first those that were not shaded. Returns the number of removed fragments.
+// Limits the number of fragments to the maximum. Removes unshaded ones first, starting at the end. Returns how many were removed.
 uint32_t limit_fragments(std::vector<TracedFragment>& fragments) {
   if (fragments.size() <= FrameTrace::kMaxFragments) return 0;
   const auto excess = static_cast<uint32_t>(fragments.size()) - FrameTrace::kMaxFragments;

@@ -32,7 +32,7 @@ Fade fade_along_v(double v) {
   return {f.value, 0.0, v > 0.5 ? -f.slope : f.slope};
 }
 
-// Adds a row of a side, sectors + 1 points from u = 0 to u = 1, and returns the index of the first.
+// Adds sectors + 1 vertices at equal steps from u = 0 to u = 1, and returns the index of the first.
 template <class F>
 int add_row(SurfaceMesh& mesh, int sectors, F point) {
   int first = -1;

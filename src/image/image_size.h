@@ -13,7 +13,7 @@ struct ImageSize {
 };
 
 /// Returns the size of an image that the readers of image_io.h support. PNG and JPEG are not decoded; the header suffices. Throws
-/// InputError, which begins with the path or `name`.
+/// InputError with a message that begins with the path or `name`.
 ImageSize image_size(const std::filesystem::path& path);
 ImageSize image_size(std::span<const std::byte> file, const std::string& name);
 

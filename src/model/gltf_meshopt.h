@@ -14,7 +14,7 @@ namespace halfspace {
 enum class MeshoptMode : uint8_t { attributes, triangles, indices };
 enum class MeshoptFilter : uint8_t { none, octahedral, quaternion, exponential };
 
-/// Contents of a compressed buffer view. `stride` and `count` are valid for `mode` and `filter`.
+/// Contents of a compressed buffer view. `stride` and `count` have been checked against `mode` and `filter`.
 struct MeshoptStream {
   MeshoptMode mode = MeshoptMode::attributes;
   MeshoptFilter filter = MeshoptFilter::none;

@@ -44,7 +44,7 @@ struct InspectedTriangle {
   std::array<glm::vec4, 3> position_cs;  ///< clip-space positions of the submitted vertices
 };
 
-/// Finds triangles of a context, which must outlive it.
+/// Finds the triangles of a PassContext. The context must outlive the inspector.
 class TriangleInspector {
  public:
   explicit TriangleInspector(const PassContext& context);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Ray casting into the triangles of a scene: the reference that rendered images are compared with. This is a wrapper of Embree
+// Casts rays against the triangles of a scene, as the reference that rendered images are compared with. This is a wrapper around Embree
 // (versions 3.13 and 4) in its robust mode, in which rays do not slip between adjacent triangles.
 #pragma once
 

@@ -12,8 +12,8 @@
 
 namespace halfspace {
 
-/// Assets by their recipe: a text that lists everything the asset is made from. A recipe always makes the same type of asset. Not
-/// thread-safe.
+/// Assets with a string as the key. The key, called the recipe, lists everything the asset is made from, and a recipe always results in
+/// the same type of asset. Not thread-safe.
 class AssetCache {
  public:
   bool contains(const std::string& recipe) const { return entries_.contains(recipe); }

@@ -125,7 +125,7 @@ class FrameRenderer {
     return run_(pass);
   }
 
-  // Renders the light of the whole view, and displays it with a second pass.
+  // Renders the whole view to an image of linear light, and converts it to pixel values in a second pass.
   template <class Pixel, class F>
   PassStatistics metered(ColorTarget (*target)(Image<Pixel>&), F display) const {
     const MemoryClaim claim(static_cast<uint64_t>(width_) * static_cast<uint64_t>(height_) * sizeof(Pixel), "post.auto_exposure");

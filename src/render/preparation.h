@@ -83,7 +83,7 @@ MapEdges edges_of(Shape shape);
 /// Returns the sampler for a texture.
 Sampler make_sampler(const TextureDescription& t);
 
-/// Returns the maximum displacement of the shape by its heights, in object space.
+/// Returns the maximum distance by which the height map displaces the shape, in object space.
 double relief_height(const ObjectDescription& o);
 
 /// Returns the world-from-object transform of each copy of an object, which includes the placements of its ancestors.

@@ -270,7 +270,7 @@ Section section_of(ShadowDescription& s) {
                          {.unit = "px", .low = 0.1, .high = 100}),
       key<&T::constant>("constant", "Constant part of the bias", {.unit = "texels", .low = 0, .high = 1000}),
       key<&T::slope>("slope", "Multiplier for the bias that grows with the angle of incidence", {.low = 0, .high = 1000}),
-      key<&T::max_slope>("max_slope", "Maximum tangent of the angle of incidence in the bias, except for auto", {.low = 0, .high = 1e6}),
+      key<&T::max_slope>("max_slope", "Upper limit of the tangent of the angle of incidence; not used by auto", {.low = 0, .high = 1e6}),
       key<&T::radius>("radius", "Filter radius of vogel, vsm and moments", {.unit = "texels", .low = 0, .high = 16}),
       key<&T::faces>("faces", "Mesh faces that cast shadows, as seen from the light; spheres always use the front"),
       key<&T::cascades>("cascades", "Number of cascades of a directional light", {.low = 1, .high = 4}),

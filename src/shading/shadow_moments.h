@@ -70,7 +70,7 @@ HS_INLINE R four_moment_shadow(const ShadowView& view, const ShadowCoordinates<R
   const R half = R(-0.5f) * c1 * inverse_c2;
   const R root = sqrt(max(half * half - c0 * inverse_c2, R(0)));
   const R z1 = half - root, z2 = half + root;
-  // The fraction of the distribution closer than z0: none, the weight at z1, or all except the weight at z0.
+  // The fraction of the distribution in front of z0: 0 if z0 ≤ z1, the weight at z1 if z1 < z0 ≤ z2, and otherwise 1 − the weight at z0.
   const R at_z1 = (z0 * z2 - m.x * (z0 + z2) + m.y) / ((z2 - z1) * (z0 - z1));
   const R at_z0 = (z1 * z2 - m.x * (z1 + z2) + m.y) / ((z0 - z1) * (z0 - z2));
   const R shadow = select(z0 <= z1, R(0), select(z0 <= z2, at_z1, R(1) - at_z0));

@@ -44,7 +44,7 @@ inline constexpr bool kFiltersByTexel<RealPair<H>> = kFiltersByTexel<H>;
 #if defined(__AVX2__) && defined(__F16C__)
 template <>
 inline constexpr bool kFiltersByTexel<RealN<8>> = true;
-/// Copies word k of each 128-bit part to all words of the part.
+/// Broadcasts element k of each 128-bit part to all four elements of that part.
 template <int k>
 HS_INLINE RealN<8> spread_word(RealN<8> r) {
   return RealN<8>((RealN<8>::V)_mm256_shuffle_ps((__m256)r.v, (__m256)r.v, k * 0x55));

@@ -34,8 +34,8 @@ struct Absent {};
 template <bool present, class T, int tag>
 using MemberIf = std::conditional_t<present, T, Absent<tag>>;
 
-/// A smooth varying that is evaluated inside the triangle (centroid in GLSL): if the pixel is partially covered and shaded once for
-/// several samples, at the first covered sample instead of the center.
+/// A smooth varying that is evaluated inside the triangle (centroid in GLSL). If a pixel is partially covered and shaded once for several
+/// samples, the varying is evaluated at the first covered sample instead of the pixel center.
 template <class T>
 struct Centroid {
   T value;

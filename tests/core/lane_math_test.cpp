@@ -90,7 +90,7 @@ TEST(LaneMath, UnitPowIsWithinErrorBound) {
   double worst = 0.0;
   for (int i = 0; i < 1 << 20; ++i) {
     const float y = std::exp2(exponent(random));
-    // Half of the bases are close to 1, where the result is not yet 0 for a large exponent.
+    // Half of the bases are so close to 1 that large exponents do not make the result underflow to 0.
     const float x = (i & 1) != 0 ? unit(random) : 1.0f - unit(random) * std::min(1.0f, 8.0f / y);
     worst = std::max(worst, std::fabs(static_cast<double>(unit_pow(x, y)) - std::pow(static_cast<double>(x), static_cast<double>(y))));
   }

@@ -271,8 +271,8 @@ std::size_t min_memory(bool with_normals, bool with_joints) {
   return high;
 }
 
-// Flat normals copy the vertices. The copies of two sets of joints and weights have 48 bytes per vertex, and 16 of them are in the bound
-// for meshes without joints.
+// Flat normals duplicate the vertices. Two sets of joints and weights add 48 bytes to each new vertex, of which the memory bound for meshes
+// without joints already includes 16.
 TEST(GltfHostile, CountsTheJointsOfCopiedVertices) {
   const std::size_t joints = min_memory(true, true) - min_memory(true, false);
   const std::size_t copied_joints = min_memory(false, true) - min_memory(false, false);

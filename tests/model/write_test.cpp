@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Models that are written and read again.
+// Round trips: models are written and read back.
 #include "halfspace/model/write_model.h"
 
 #include <gtest/gtest.h>

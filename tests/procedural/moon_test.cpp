@@ -144,7 +144,7 @@ TEST(MoonCraters, SizesFollowAPowerLaw) {
 }
 
 // Without wobble, a crater has the same profile everywhere: the relief depends only on the distance on the sphere, even where the crater
-// crosses the seam or a pole. Distances have a float error of 1e-7, and slopes reach 4 km per 0.02.
+// crosses the seam or a pole. Distances on the unit sphere have a float error of 1e-7; heights change by up to 4 km per 0.02.
 TEST(MoonCraters, AreRoundOnTheSphere) {
   Crater crater = moon_craters(2048).all.back();
   std::fill(std::begin(crater.wobble), std::end(crater.wobble), 0.0f);

@@ -150,7 +150,7 @@ TEST(ChordError, PartCountsAreRoundedUpToFewSteps) {
   EXPECT_EQ(part_step(96), 96);
 }
 
-// Compares with the motion of a sphere's outline in the image, computed in double, when its radius changes.
+// The expected value is how far the silhouette of a sphere moves in the image when its radius changes, computed in double.
 TEST(PixelsPerUnit, MatchTheMotionOfAnOutline) {
   CameraDescription camera;
   camera.position = {0, 0, 5};

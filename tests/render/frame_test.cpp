@@ -181,7 +181,7 @@ TEST(Frame, CropsEqualTheWhole) {
         ASSERT_EQ(part_normal.at(x, y), normal.at(crop.x + x, crop.y + y));
       }
     }
-    // auto_exposure measures the whole view, so the crop does not save fragments of the picture.
+    // auto_exposure measures the whole view, so cropping does not reduce the number of fragments shaded for the picture.
     const uint64_t picture = scene.post.auto_exposure ? whole_statistics.fragments_shaded : 4u * 37u * 21u;
     EXPECT_LE(statistics.fragments_shaded, picture + 2u * 4u * 37u * 21u);
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Bump maps of models that a program provides.
+// Bump maps of models that are built in memory instead of read from a file.
 #include <gtest/gtest.h>
 
 #include <vector>

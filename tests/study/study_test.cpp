@@ -116,7 +116,7 @@ TEST_P(Studies, ProduceCompleteData) {
   ASSERT_GE(study.variants.size(), 3u);
   EXPECT_GT(study.truth.error, 0.0) << "every reference has an error";
   // The chart does not wrap its two lines of text. draw_charts_test.py tests that lines of this length fit.
-  constexpr std::size_t kCharacters = 118, kErrorCharacters = 29;  // of a line; of "reference: ", "; error 1.0e-09 (" and ")"
+  constexpr std::size_t kCharacters = 118, kErrorCharacters = 29;  // per line; in "reference: ; error 1.0e-09 ()"
   EXPECT_LE(study.setting.size(), kCharacters);
   EXPECT_LE(study.truth.method.size() + study.truth.error_method.size() + kErrorCharacters, kCharacters);
   std::set<std::string> names;

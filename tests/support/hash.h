@@ -9,7 +9,7 @@ namespace halfspace {
 class Hash {
  public:
   void add(uint64_t number) { value_ = (value_ ^ number) * 0x100000001b3u; }
-  /// Adds all channels of an image of codes.
+  /// Adds all channels of an image with integer texels.
   template <class Image>
   void add_codes(const Image& image) {
     for (const auto& t : image.texels()) {

@@ -38,7 +38,7 @@ struct ToolRequest {
   uint64_t max_pixels = 0, max_bytes = 0;
 };
 
-/// The type of one channel of a pixel: an 8-bit or 16-bit code that spans its full range, a half or a float.
+/// The type of one channel of a pixel: an 8-bit or 16-bit unsigned normalized integer, a half or a float.
 enum class Sample : uint32_t { uint8, uint16, float16, float32 };
 
 inline constexpr std::size_t sample_bytes(Sample s) { return s == Sample::uint8 ? 1 : s == Sample::float32 ? 4 : 2; }

@@ -11,7 +11,7 @@ namespace halfspace {
 
 namespace {
 
-// Converts a message of the decoder so that it can be part of a single line.
+// Converts a decoder message to a single line.
 std::string one_line(std::string text) {
   for (char& c : text) {
     if (static_cast<unsigned char>(c) < 0x20) c = ' ';

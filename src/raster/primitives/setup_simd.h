@@ -15,7 +15,7 @@ class TriangleBatch {
   /// supported, because they depend on the slope of each triangle.
   static bool serves(const Draw& draw);
 
-  /// Sets the vertex slots of all lanes to 3·count indices minus base. count is 1 to W; the remaining lanes repeat the last triangle.
+  /// Sets the vertex slots of `count` triangles (1 to W), one per lane, to their indices − base. The other lanes repeat the last triangle.
   void put_list(const uint32_t* indices, int count, uint32_t base);
   /// The same for consecutive indices: first, first + 1, …
   void put_sequence(uint32_t first, int count, uint32_t base);

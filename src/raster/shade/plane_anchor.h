@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Varyings of large triangles with the same w at all corners. They are linear in the window, so they are evaluated from planes instead of
-// barycentric weights (shading/pixel.h). A plane refers to an anchor near the pixel, because a float cannot hold the value at a distant
-// point and the slopes accurately enough.
+// barycentric weights (shading/pixel.h). A plane is relative to an anchor near the pixel, because a float cannot hold the value at a
+// distant point and the slopes accurately enough.
 //
 // The anchor depends only on the triangle and the cell of the pixel: the window is divided into cells of 64x64 pixels, and the anchor is
 // the center of the part of the cell that the bounding box of the triangle overlaps. A tile is never in two cells.

@@ -22,8 +22,8 @@ struct PacketBatch {
   const PacketMask* packets = nullptr;
   int count = 0;                              ///< ≤ kPacketBatch, unless FragmentBatch::codes or blend is set
   const SamplePosition* centroids = nullptr;  ///< positions of centroid varyings, W for each packet; null if the same as position
-  /// If not null, the position of each pixel in the tile, (y << 16) | x, W for each packet; see PackedPixels. `ids` is then indexed in the
-  /// same order, and packet i is number i.
+  /// If not null, the pixels are packed (see PackedPixels): packet i contains pixels i·W to i·W + W − 1 of this list. Each is stored as
+  /// (y << 16) | x relative to the tile, and `ids` has the same order.
   const int32_t* pixels = nullptr;
 };
 

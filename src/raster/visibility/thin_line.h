@@ -33,8 +33,8 @@ class ThinLine {
   bool y_major() const { return y_major_; }
   bool is_empty() const { return major_delta_ == 0; }
 
-  /// Returns the row of the pixel in column i, or its column in row i. Rounding the quotient to double cannot move it to the next integer:
-  /// it is below 2^15, and its distance from an integer is 0 or at least 2^-32.
+  /// Returns the row of the line's pixel in column i, or its column in row i if the line is y-major. Rounding the quotient to double cannot
+  /// move it to the next integer: it is below 2^15, and its distance from an integer is 0 or at least 2^-32.
   int minor(int i) const {
     const int64_t along = int64_t{i} * kSubPixels + kSubPixels / 2 - major0_;
     const int64_t above = int64_t{major_delta_} * (minor0_ - kSubPixels) + int64_t{minor_delta_} * along + low_bias_;

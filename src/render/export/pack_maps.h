@@ -5,9 +5,9 @@
 
 namespace halfspace {
 
-/// Combines maps of materials that glTF stores in one image: metalness and roughness (blue and green), base color and opacity, and moves
-/// the specular map to the alpha channel. The new images are PNG with 8 bits per channel, as large as the larger of the two maps. Maps that
-/// already fit are left alone. Maps whose texture coordinates or samplers differ stay as they are, and so do images that are not in memory.
+/// Combines material maps that glTF stores in one image: metalness (blue) with roughness (green), and base color with opacity. Moves the
+/// specular map to the alpha channel. The new images are 8-bit PNG and as large as the larger of the two maps. Maps do not change if they
+/// already fit, if their texture coordinates or samplers differ, or if an image is not in memory.
 void pack_maps(Model& model);
 
 }  // namespace halfspace
