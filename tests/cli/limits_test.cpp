@@ -37,7 +37,7 @@ TEST_F(Limits, TextureOfSixtyThousandPixelsPerSide) {
 TEST_F(Limits, TextureThatIsValidButExceedsTheLimits) {
   write_png(directory / "large.png", Image<glm::u8vec4>(4096, 4096));
   write_model("large.png");
-  expect_rejected({"render", "a.obj", "--size", "64x36", "--max-memory", "100M"}, {"large.png", "160 MiB", "100 MiB (--max-memory)"});
+  expect_rejected({"render", "a.obj", "--size", "64x36", "--max-memory", "100M"}, {"large.png", "208 MiB", "100 MiB (--max-memory)"});
   expect_rejected({"render", "a.obj", "--size", "64x36", "--max-pixels", "16777215"}, {"large.png", "4096x4096", "16777215"});
   EXPECT_EQ(run({"render", "a.obj", "--size", "64x36", "--max-pixels", "16777216"}).exit_code, 0);
 }

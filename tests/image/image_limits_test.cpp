@@ -65,7 +65,7 @@ TEST_F(ImageLimits, PngPixelsAreLimited) {
 TEST_F(ImageLimits, MemoryOfPngIsLimited) {
   write_image(directory / "a.png", Image<glm::u8vec4>(8192, 8192));
   limit(resource_limits().max_memory - memory_left() + (uint64_t{200} << 20), kMaxImagePixels);
-  EXPECT_TRUE(reports(limit_error("a.png"), (directory / "a.png").string(), {"640 MiB", "--max-memory"}));
+  EXPECT_TRUE(reports(limit_error("a.png"), (directory / "a.png").string(), {"832 MiB", "--max-memory"}));
 }
 
 class ToolImageLimits : public ImageLimits {
