@@ -63,7 +63,7 @@ TEST(ShadowViews, DirectionalViewContainsReceiversAndCasterDepths) {
   }
 }
 
-// The view is square and therefore wider than a long strip of receivers. It also contains points beside the strip, on which casters
+// The view is square and therefore wider than a long strip of receivers. It also contains points next to the strip, on which casters
 // above them can cast shadows.
 TEST(ShadowViews, DirectionalViewContainsCastersOverItsWholeSquare) {
   const glm::dmat3 axes = light_axes({0, 0, 1});
