@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "halfspace/raster/pipeline/line.h"
 #include "halfspace/raster/pipeline/pixel_box.h"
 #include "halfspace/raster/primitives/small_coverage.h"
 
@@ -90,35 +89,6 @@ Cull set_up_triangle(const Draw& draw, const PassContext& context, const std::ar
   out.flags |= static_cast<uint32_t>(covered_flags(box, covered));
   if (front) out.flags |= kFrontFacing;
   return Cull::none;
-}
-
-Cull set_up_line(const Draw& draw, const PassContext& context, const std::array<const ScreenVertex*, 2>& v,
-                 const std::array<uint32_t, 2>& index, uint32_t provoking, Facing facing, Triangle& out) {
-  const LineRange range = line_range(*v[0], *v[1], line_pixels(draw.state.line_width));
-  const std::size_t near = v[1]->z < v[0]->z ? 1 : 0;
-  const ScreenVertex &a = *v[near], &b = *v[1 - near];
-  const int32_t dx = b.x - a.x, dy = b.y - a.y;
-  if (dx == 0 && dy == 0) return Cull::degenerate;
-  out.x = {a.x, b.x, a.x - dy};
-  out.y = {a.y, b.y, a.y + dx};
-  out.z0 = a.z;
-  out.z_max = b.z;
-  const double length2 = static_cast<double>(int64_t{dx} * dx + int64_t{dy} * dy);
-  out.z_edge1 = static_cast<float>((static_cast<double>(b.z) - static_cast<double>(a.z)) / length2);
-  out.z_edge2 = 0.0f;
-  out.vertex = {index[near], index[1 - near], range.packed()};
-  out.flags = kLine | (provoking == near ? 0u : 1u) << kProvokingShift | (facing == Facing::back ? 0u : kFrontFacing);
-  return pixel_bounds(draw, out, draw.bounds, context.samples_at).empty() ? Cull::no_sample : Cull::none;
-}
-
-std::array<ScreenVertex, 4> line_rectangle(const ScreenVertex& a, const ScreenVertex& b, float width) {
-  const double dx = b.x - a.x, dy = b.y - a.y;
-  const double scale = static_cast<double>(std::clamp(width, 0.0f, 4096.0f)) * (kSubPixels / 2) / std::sqrt(dx * dx + dy * dy);
-  const auto nx = static_cast<int32_t>(std::nearbyint(-dy * scale)), ny = static_cast<int32_t>(std::nearbyint(dx * scale));
-  return {ScreenVertex{a.x - nx, a.y - ny, a.z, a.inv_w},
-          {b.x - nx, b.y - ny, b.z, b.inv_w},
-          {b.x + nx, b.y + ny, b.z, b.inv_w},
-          {a.x + nx, a.y + ny, a.z, a.inv_w}};
 }
 
 }  // namespace halfspace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Setup of one primitive. Input: snapped vertices. Output: a Triangle, or the reason why the primitive is culled.
+// Setup of one triangle. Input: snapped vertices. Output: a Triangle, or the reason why it is culled.
 #pragma once
 
 #include "halfspace/raster/pipeline/pass_context.h"
@@ -22,13 +22,5 @@ enum class Facing : uint8_t { by_winding, front, back };
 /// are set.
 Cull set_up_triangle(const Draw& draw, const PassContext& context, const std::array<const ScreenVertex*, 3>& v,
                      const std::array<uint32_t, 3>& index, uint32_t provoking, Facing facing, Triangle& out);
-
-/// Sets up a line from two snapped vertices, for passes with one sample per pixel.
-Cull set_up_line(const Draw& draw, const PassContext& context, const std::array<const ScreenVertex*, 2>& v,
-                 const std::array<uint32_t, 2>& index, uint32_t provoking, Facing facing, Triangle& out);
-
-/// Returns the corners of the rectangle that represents a multisampled line. They are in counter-clockwise order: right of a, right of b,
-/// left of b, left of a, as seen in the direction of the line. The end points must differ.
-std::array<ScreenVertex, 4> line_rectangle(const ScreenVertex& a, const ScreenVertex& b, float width);
 
 }  // namespace halfspace

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What the files of setup share for one draw range: its input, and the functions that count culled primitives and note clipped ones.
+#pragma once
+
+#include "halfspace/raster/pipeline/pass_context.h"
+#include "halfspace/raster/primitives/primitive_assembly.h"
+#include "halfspace/raster/primitives/setup_scalar.h"
+
+namespace halfspace {
+
+/// Vertex slots of a primitive, in the order of its indices. A point has the same slot three times, and a line has its second slot twice.
+using PrimitiveSlots = std::array<uint32_t, 3>;
+
+struct SetupRange {
+  const PassContext& context;
+  Chunk& chunk;
+  uint32_t range;  ///< index in chunk.ranges
+  const Draw& draw;
+  const ShadedVertices& shaded;
+  Assembly assembly;  ///< the remaining primitives
+  uint32_t instance;
+  uint32_t slot_base;  ///< slot of a vertex = its index − slot_base (modulo 2^32)
+
+  SetupRange(const PassContext& context_, Chunk& chunk_, uint32_t range_)
+      : context(context_),
+        chunk(chunk_),
+        range(range_),
+        draw(context_.draws[chunk_.ranges[range_].draw]),
+        shaded(context_.shaded[chunk_.ranges[range_].draw]),
+        assembly(draw, chunk_.ranges[range_].first),
+        instance(chunk_.ranges[range_].instance),
+        slot_base(shaded.first - instance * shaded.count) {}
+
+  PrimitiveSlots next_slots() {
+    PrimitiveSlots slots = assembly.next();
+    for (uint32_t& s : slots) s -= slot_base;
+    return slots;
+  }
+
+  /// Returns the position of the provoking vertex among the three indices of a primitive.
+  uint32_t provoking() const { return draw.state.provoking == ProvokingVertex::first ? 0 : 2; }
+
+  const float* clip_distances_of(uint32_t slot) const {
+    return shaded.clip_distances.get() + std::size_t{slot} * static_cast<std::size_t>(shaded.clip_distance_count);
+  }
+  /// Returns a bit mask of the clip distances for which a vertex is outside.
+  uint32_t beyond_distances(uint32_t slot) const {
+    uint32_t beyond = 0;
+    for (int k = 0; k < shaded.clip_distance_count; ++k) {
+      if (!(clip_distances_of(slot)[k] >= 0.0f)) beyond |= 1u << k;
+    }
+    return beyond;
+  }
+
+  const ScreenVertex& clip_vertex(uint32_t index) const { return chunk.clip_vertices[index].screen; }
+
+  /// Counts n primitives that were culled for the given reason.
+  void count(Cull why, uint64_t n = 1) const {
+    PassStatistics& s = chunk.statistics;
+    if (why == Cull::degenerate) s.culled_degenerate += n;
+    if (why == Cull::face) s.culled_face += n;
+    if (why == Cull::no_sample) s.culled_no_sample += n;
+  }
+
+  /// Stores the source of the pieces from index `before` to the end, for the primitive stage.
+  void note_source(std::size_t before, const PrimitiveSlots& slots) const {
+    if (chunk.triangles.size() != before) chunk.clip_sources.push_back({static_cast<uint32_t>(before), slots});
+  }
+
+  /// Sets up a triangle with set_up_triangle() and appends it, unless it is culled. Returns the reason if it is.
+  Cull append_triangle(const std::array<const ScreenVertex*, 3>& v, const std::array<uint32_t, 3>& index, uint32_t flags,
+                       uint32_t provoking, Facing facing) const {
+    Triangle t;
+    const Cull why = set_up_triangle(draw, context, v, index, provoking, facing, t);
+    return append(why, t, flags);
+  }
+  /// The same for three clip vertices.
+  Cull append_clip_triangle(const std::array<uint32_t, 3>& index, Facing facing) const {
+    return append_triangle({&clip_vertex(index[0]), &clip_vertex(index[1]), &clip_vertex(index[2])}, index, kClipped, 0, facing);
+  }
+
+  /// Appends a primitive with additional flags, unless it is culled. Returns why.
+  Cull append(Cull why, Triangle& t, uint32_t flags) const {
+    if (why != Cull::none) return why;
+    t.flags |= flags | range << kDrawRangeShift;
+    chunk.triangles.push_back(t);
+    return Cull::none;
+  }
+};
+
+}  // namespace halfspace
