@@ -32,6 +32,7 @@ struct BenchArguments {
   std::string sweep;              // empty: the table of workloads instead of a series
   bool matrix = false;            // the rows of the matrix instead of the table of workloads
   bool scenes = false;            // the composed scenes instead of the table of workloads
+  std::string model;              // a model file instead of the table of workloads
   std::string size = "1920x1080";
   std::string threads;  // empty: one per core
   std::string seconds = "1";
@@ -161,18 +162,27 @@ void report(const BenchProgram& program, const BenchArguments& args, const Workl
   if (!args.out.empty()) write_pictures(args.out, kind.name, workload.picture());
 }
 
-std::span<const WorkloadKind> kinds_of(const BenchProgram& program, const BenchArguments& args) {
+template <class Kinds>
+std::vector<WorkloadKind> list_of(const Kinds& kinds) {
+  return {kinds.begin(), kinds.end()};
+}
+
+std::vector<WorkloadKind> kinds_of(const BenchProgram& program, const BenchArguments& args) {
   if (args.scenes && args.matrix) throw UsageError("--scenes cannot be combined with --matrix");
   if (args.scenes && !args.sweep.empty()) throw UsageError("--scenes cannot be combined with --sweep");
   if (args.matrix && !program.matrix) throw UsageError("--matrix: " + program.name + " does not draw the matrix");
   if (args.scenes && !program.scenes) throw UsageError("--scenes: " + program.name + " does not draw the scenes");
-  if (args.matrix) return program.matrix();
-  if (args.scenes) return program.scenes();
+  if (!args.model.empty() && !program.model) throw UsageError("--model: " + program.name + " does not draw model files");
+  if (!args.model.empty() && (args.matrix || args.scenes || !args.sweep.empty()))
+    throw UsageError("--model cannot be combined with --matrix, --scenes or --sweep");
+  if (args.matrix) return list_of(program.matrix());
+  if (args.scenes) return list_of(program.scenes());
+  if (!args.model.empty()) return program.model(args.model);
   const std::string& sweep = args.sweep;
-  if (sweep.empty()) return program.kinds();
+  if (sweep.empty()) return list_of(program.kinds());
   std::vector<std::string_view> names;
   for (const Sweep& s : program.sweeps()) {
-    if (s.name == sweep) return s.kinds;
+    if (s.name == sweep) return list_of(s.kinds);
     names.emplace_back(s.name);
   }
   throw UsageError("--sweep: unknown series '" + sweep + "'" + suggestion(sweep, names));
@@ -199,7 +209,7 @@ void run_bench(const BenchProgram& program, const BenchArguments& args) {
   const PictureSize size = parse_size(args.size);
   const int threads = parse_threads(args.threads);
   const double seconds = parse_real("--seconds", args.seconds, 0.0, 3600.0, "0 to 3600, for example 2.5");
-  const std::span<const WorkloadKind> all = kinds_of(program, args);
+  const std::vector<WorkloadKind> all = kinds_of(program, args);
   std::vector<const WorkloadKind*> kinds = chosen_workloads(all, args.only);
   if (args.list) return list_workloads(all);
   if (!args.out.empty()) make_directory(args.out);
@@ -230,6 +240,7 @@ void parse_and_run(CLI::App& app, const BenchProgram& program, int argc, char** 
   app.add_option("--sweep", args.sweep, "Run a series: triangle_size, triangle_count, overdraw, varyings")->type_name("NAME");
   app.add_flag("--matrix", args.matrix, "Run one scene with many states, one at a time, instead of the workloads");
   app.add_flag("--scenes", args.scenes, "Run three composed scenes, five cameras each, instead of the workloads");
+  app.add_option("--model", args.model, "Run a model file, with 1 and 4 samples, instead of the workloads")->type_name("FILE");
   app.add_option("--size", args.size, "Image size (default: 1920x1080)")->type_name("WxH");
   app.add_option("--threads", args.threads, "Threads, including the main one (default: one per core)")->type_name("N");
   app.add_option("--seconds", args.seconds, "Time per workload; 0: one frame each (default: 1)")->type_name("S");

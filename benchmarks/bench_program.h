@@ -29,8 +29,9 @@ struct BenchProgram {
   /// The workloads and sweeps that the program can draw.
   std::function<std::span<const WorkloadKind>()> kinds;
   std::function<std::span<const Sweep>()> sweeps;
-  std::function<std::span<const WorkloadKind>()> matrix;  ///< empty if the program does not draw the matrix
-  std::function<std::span<const WorkloadKind>()> scenes;  ///< empty if the program does not draw the scenes
+  std::function<std::span<const WorkloadKind>()> matrix;                    ///< empty if the program does not draw the matrix
+  std::function<std::span<const WorkloadKind>()> scenes;                    ///< empty if the program does not draw the scenes
+  std::function<std::vector<WorkloadKind>(const std::string& file)> model;  ///< empty if the program does not draw model files
   /// The first fields of each line of --json output, which identify the renderer.
   std::function<nlohmann::ordered_json()> identity;
 };

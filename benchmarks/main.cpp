@@ -5,6 +5,7 @@
 #include "halfspace/core/cpu.h"
 #include "halfspace/core/lanes.h"
 #include "matrix.h"
+#include "model_workload.h"
 #include "scenes/scene.h"
 
 // The launcher of a portable build calls this function (see cmake/program.cmake).
@@ -18,6 +19,7 @@ extern "C" int halfspace_bench_main(int argc, char** argv) {
                             .sweeps = [] { return sweeps(); },
                             .matrix = [] { return matrix_workloads(); },
                             .scenes = [] { return scene_workloads(); },
+                            .model = model_workloads,
                             .identity =
                                 [] {
                                   return nlohmann::ordered_json{{"program", "halfspace"}, {"arch", build_arch()}, {"lanes", kLanes}};

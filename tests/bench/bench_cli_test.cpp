@@ -35,17 +35,16 @@ TEST_P(BenchMistake, IsReportedInOneLine) {
   EXPECT_TRUE(reports(outcome.text.substr(0, outcome.text.size() - 1), "halfspace-bench: " + GetParam().place, GetParam().keywords));
 }
 
-INSTANTIATE_TEST_SUITE_P(All, BenchMistake,
-                         testing::Values(Mistake{"--only fil", "--only", {"'fil'", "'fill'"}},
-                                         Mistake{"--sweep overdrew", "--sweep", {"'overdrew'", "'overdraw'"}},
-                                         Mistake{"--scenes --matrix", "--scenes", {"--matrix"}},
-                                         Mistake{"--scenes --sweep overdraw", "--scenes", {"--sweep"}},
-                                         Mistake{"--size 0x4", "--size", {"'0x4'", "WxH"}},
-                                         Mistake{"--threads 0", "--threads", {"'0'", "1 to 1024"}},
-                                         Mistake{"--seconds -1", "--seconds", {"'-1'", "0 to 3600"}},
-                                         Mistake{"--sise 4x4", "unknown option", {"'--sise'", "'--size'"}},
-                                         Mistake{"--only fill tiny_1m", "unexpected argument", {"'tiny_1m'", "--help"}},
-                                         Mistake{"fill", "unexpected argument", {"'fill'", "--help"}}));
+INSTANTIATE_TEST_SUITE_P(
+    All, BenchMistake,
+    testing::Values(Mistake{"--only fil", "--only", {"'fil'", "'fill'"}},
+                    Mistake{"--sweep overdrew", "--sweep", {"'overdrew'", "'overdraw'"}},
+                    Mistake{"--scenes --matrix", "--scenes", {"--matrix"}}, Mistake{"--scenes --sweep overdraw", "--scenes", {"--sweep"}},
+                    Mistake{"--model a.glb --scenes", "--model", {"--scenes"}}, Mistake{"--size 0x4", "--size", {"'0x4'", "WxH"}},
+                    Mistake{"--threads 0", "--threads", {"'0'", "1 to 1024"}}, Mistake{"--seconds -1", "--seconds", {"'-1'", "0 to 3600"}},
+                    Mistake{"--sise 4x4", "unknown option", {"'--sise'", "'--size'"}},
+                    Mistake{"--only fill tiny_1m", "unexpected argument", {"'tiny_1m'", "--help"}},
+                    Mistake{"fill", "unexpected argument", {"'fill'", "--help"}}));
 
 TEST(BenchCli, HelpFitsOnAScreenAndEndsWithTwoExamples) {
   const Outcome outcome = bench("--help");
@@ -56,6 +55,14 @@ TEST(BenchCli, HelpFitsOnAScreenAndEndsWithTwoExamples) {
   for (const std::string& line : lines) EXPECT_LE(line.size(), 100u) << line;
   EXPECT_TRUE(lines[lines.size() - 2].starts_with("  halfspace-bench ")) << outcome.text;
   EXPECT_TRUE(lines[lines.size() - 1].starts_with("  halfspace-bench ")) << outcome.text;
+}
+
+TEST(BenchCli, ReportsFilesThatAreNotModels) {
+  const Outcome missing = bench("--model nothing.glb --seconds 0 --json"), text = bench("--model nothing.txt --seconds 0 --json");
+  EXPECT_EQ(missing.exit_code, 3);
+  EXPECT_NE(missing.text.find("nothing.glb"), std::string::npos) << missing.text;
+  EXPECT_EQ(text.exit_code, 3);
+  EXPECT_NE(text.text.find("expected .glb"), std::string::npos) << text.text;
 }
 
 TEST(BenchCli, JsonHasOneLinePerWorkload) {

@@ -5,9 +5,13 @@
 #include <gtest/gtest.h>
 
 #include "bench/program.h"
+#include "halfspace/geometry/shapes.h"
+#include "halfspace/model/write_model.h"
 #include "matrix.h"
+#include "model_workload.h"
 #include "scenes/scene.h"
 #include "support/errors.h"
+#include "support/files.h"
 #include "sweeps.h"
 
 #ifndef HALFSPACE_BENCH_GL_PROGRAM
@@ -101,6 +105,61 @@ TEST(BenchGl, DrawsTheSameScenes) {
   if (rows.empty()) GTEST_SKIP() << "no OpenGL";
   EXPECT_EQ(rows.size(), scene_rows().size());
   for (const nlohmann::json& row : rows) expect_same_picture(row, 0.01);
+}
+
+// Writes a model of spheres with different materials. The last one is mirrored and seen from inside.
+void write_spheres(const std::filesystem::path& file, bool colored) {
+  Model model;
+  const Mesh sphere = uv_sphere(48, 96, 0.45f);
+  ModelMesh mesh;
+  mesh.positions = sphere.positions;
+  mesh.normals = sphere.normals;
+  mesh.indices = sphere.indices;
+  if (colored) mesh.colors.assign(mesh.positions.size(), glm::vec4(0.5f));
+  for (int i = 0; i < 6; ++i) {
+    const auto step = static_cast<float>(i % 3);
+    ModelMaterial material;
+    material.base_color = {0.9f, 0.3f + 0.2f * step, 0.1f, 1.0f};
+    material.metallic = i < 3 ? 0.0f : 1.0f - 0.25f * step;
+    material.roughness = 0.1f + 0.4f * step;
+    material.specular = i == 1 ? 0.5f : 1.0f;
+    material.emissive = i == 2 ? glm::vec3(0.0f, 0.1f, 0.3f) : glm::vec3(0.0f);
+    material.double_sided = i == 5;
+    model.materials.push_back(material);
+    mesh.material = i;
+    if (i == 5) mesh.indices.resize(mesh.indices.size() / 2);
+    model.meshes.push_back(mesh);
+    ModelNode node;
+    node.transform.translation = {i % 3, i / 3, 0};
+    if (i == 5) node.transform.scale = {1, -1, 1};
+    node.meshes = {i};
+    model.nodes.push_back(node);
+  }
+  model.scenes = {{"", {0, 1, 2, 3, 4, 5}}};
+  const std::vector<std::byte> bytes = written_model(model, file, ModelFormat::glb).files.at(0).bytes;
+  write_bytes(file, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
+TEST(BenchGl, DrawsTheSameModel) {
+  const TemporaryFolder folder;
+  write_spheres(folder.path() / "spheres.glb", false);
+  const std::vector<nlohmann::json> rows = drawn_by_gl("--model " + (folder.path() / "spheres.glb").string());
+  if (rows.empty()) GTEST_SKIP() << "no OpenGL";
+  EXPECT_EQ(rows.size(), model_rows().size());
+  for (const nlohmann::json& row : rows) expect_same_picture(row, 0.01);
+}
+
+TEST(BenchGl, RefusesModelsThatItsShaderCannotDraw) {
+  const std::string program = HALFSPACE_BENCH_GL_PROGRAM;
+  const TemporaryFolder folder;
+  const std::string plain = (folder.path() / "plain.glb").string(), colored = (folder.path() / "colored.glb").string();
+  write_spheres(plain, false);
+  write_spheres(colored, true);
+  const std::string rest = " --size 16x16 --seconds 0 --threads 1";
+  if (program.empty() || test::run_program(program, "--model " + plain + rest).exit_code != 0) GTEST_SKIP() << "no OpenGL";
+  const Outcome outcome = test::run_program(program, "--model " + colored + rest, "2>&1 >/dev/null");
+  EXPECT_EQ(outcome.exit_code, 3);
+  for (const char* words : {"colored.glb", "vertex colors"}) EXPECT_NE(outcome.text.find(words), std::string::npos) << outcome.text;
 }
 
 // Rays hit the triangles, so only the outline and the edges of the checkerboard can differ. At this size the outline is 1.5% of the sphere,

@@ -16,6 +16,7 @@ int main(int argc, char** argv) {
                             .sweeps = [] { return embree_sweeps(); },
                             .matrix = {},
                             .scenes = {},
+                            .model = {},
                             .identity =
                                 [] {
                                   return nlohmann::ordered_json{{"program", "embree"}, {"arch", build_arch()}, {"lanes", kLanes}};

@@ -8,6 +8,7 @@
 #include "cli/errors.h"
 #include "peers/gl/gl_context.h"
 #include "peers/gl/gl_matrix.h"
+#include "peers/gl/gl_model.h"
 #include "peers/gl/gl_scenes.h"
 #include "peers/gl/gl_workload.h"
 
@@ -33,6 +34,7 @@ int run(int argc, char** argv) {
                             .sweeps = [] { return gl_sweeps(); },
                             .matrix = [] { return gl_matrix_workloads(); },
                             .scenes = [] { return gl_scene_workloads(); },
+                            .model = gl_model_workloads,
                             .identity =
                                 [&] {
                                   return nlohmann::ordered_json{{"program", driver}, {"renderer", context->description()}};
