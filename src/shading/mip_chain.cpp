@@ -127,6 +127,16 @@ Taps<Number> taps_of(int size, int i) {
   return {2 * i, 3, {(n - at) / whole, n / whole, (at + 1) / whole}};
 }
 
+/// Averages squares of 2x2 texels of two rows.
+template <class Number, class Sum>
+void halve_rows(const Sum* first, const Sum* second, std::span<Sum> to) {
+  for (Sum& v : to) {
+    v = Number(0.25f) * ((first[0] + second[0]) + (first[1] + second[1]));
+    first += 2;
+    second += 2;
+  }
+}
+
 /// Computes the next level of an image of the given size. row_of(r, buffer) returns a pointer to row r, and may use the buffer for it.
 template <class Texel, class RowOf>
 Image<SumOf<Texel>> next_level(int width, int height, const RowOf& row_of, const Workers* workers) {
@@ -140,11 +150,7 @@ Image<SumOf<Texel>> next_level(int width, int height, const RowOf& row_of, const
     detail::for_each_row(workers, to.height(), [&](int y) {
       std::vector<Sum, DefaultInitAllocator<Sum>> buffer(2 * row_length);
       const Sum *first = row_of(2 * y, buffer.data()), *second = row_of(2 * y + 1, buffer.data() + row_length);
-      for (Sum& v : to.row(y)) {
-        v = Number(0.25f) * ((first[0] + second[0]) + (first[1] + second[1]));
-        first += 2;
-        second += 2;
-      }
+      halve_rows<Number>(first, second, to.row(y));
     });
     return to;
   }
@@ -178,7 +184,22 @@ std::vector<Image<Texel>> mip_chain(const Image<Texel>& base, TexelFormat format
     average_row(base.row(r), buffer, format);
     return static_cast<const Sum*>(buffer);
   };
-  Image<Sum> averaged = next_level<Texel>(base.width(), base.height(), base_row, workers);
+  Image<Sum> averaged;
+  if (base.width() % 4 == 0 && base.height() % 4 == 0) {
+    // The second level reads each row of the first one once, so the sums of the first level, the largest, are not stored.
+    Image<Texel>& level = levels.emplace_back(base.width() / 2, base.height() / 2);
+    const auto row_length = static_cast<std::size_t>(base.width());
+    const auto level_row = [&](int r, Sum* buffer) {
+      std::vector<Sum, DefaultInitAllocator<Sum>> rows(2 * row_length);
+      const std::span<Sum> sums(buffer, row_length / 2);
+      halve_rows<typename Averaging<Texel>::Number>(base_row(2 * r, rows.data()), base_row(2 * r + 1, rows.data() + row_length), sums);
+      texel_row(std::span<const Sum>(sums), level.row(r).data(), format);
+      return static_cast<const Sum*>(buffer);
+    };
+    averaged = next_level<Texel>(level.width(), level.height(), level_row, workers);
+  } else {
+    averaged = next_level<Texel>(base.width(), base.height(), base_row, workers);
+  }
   while (true) {
     Image<Texel>& level = levels.emplace_back(averaged.width(), averaged.height());
     detail::for_each_row(workers, level.height(), [&](int y) { texel_row(std::as_const(averaged).row(y), level.row(y).data(), format); });
