@@ -54,10 +54,14 @@ Reader reader_by_extension(const std::string& extension) {
   return nullptr;
 }
 
+/// Returns true if the bytes begin with a byte order mark of UTF-16.
+bool is_utf16(std::string_view text) { return text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"); }
+
 Reader reader_of(const std::filesystem::path& file, std::span<const std::byte> bytes) {
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   const std::string extension = lower_extension(file);
   if (const Reader reader = reader_by_contents(bytes, text)) return reader;
+  if (is_utf16(text)) throw InputError(fmt::format("{}: the text is UTF-16; expected UTF-8 or ASCII", file.string()));
   if (const Reader reader = reader_by_extension(extension)) return reader;
   if (looks_like_obj(text)) return read_obj;
   throw InputError(fmt::format("{}: unknown model format; expected glTF (.gltf, .glb), OBJ, PLY or STL", file.string()));

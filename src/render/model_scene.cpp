@@ -34,8 +34,12 @@ struct Frame {
   glm::dvec3 point(const glm::dvec3& p) const { return (p - origin) * scale; }
 };
 
-Frame frame_of(const ModelBounds& b) {
-  constexpr double kFar = 100.0, kSmall = 1e-2, kLarge = 1e4;
+Frame frame_of(const ModelBounds& b, const std::filesystem::path& file) {
+  constexpr double kFar = 100.0, kSmall = 1e-2, kLarge = 1e4, kSmallest = 0.5 / kMaxCount;
+  if (b.radius < kSmallest) {
+    throw InputError(fmt::format("{}: the model is too small to be scaled: the radius of its bounds is {:.3g}; expected at least {:g}",
+                                 file.string(), b.radius, kSmallest));
+  }
   Frame frame;
   if (glm::length(b.center) > kFar * b.radius) frame.origin = b.center;
   if (b.radius < kSmall || b.radius > kLarge) {
@@ -194,7 +198,7 @@ GeneratedScene model_scene(const std::filesystem::path& file, const ModelView& v
   shown.model_variant = view.variant;
   const PosedModel posed = pose(model, pose_options(model, shown, file.string()));
   const ModelBounds b = bounds_of(posed, file);
-  const Frame frame = frame_of(b);
+  const Frame frame = frame_of(b, file);
   const bool own_lights = !posed.lights.empty();
   OrderedJson scene = {{"version", 1}, {"title", file.filename().string()}, {"samples", 4}, {"camera", "view"}};
   std::map<std::string, std::string> camera_names;

@@ -89,6 +89,21 @@ std::string read_text(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
+// Throws if the file does not begin like a scene file. Files that are not scenes at all, such as a model whose name has no extension, get a
+// message that lists the formats instead of one about JSON.
+void check_format(const std::filesystem::path& path) {
+  std::error_code error;
+  if (path.extension() == ".json" || !std::filesystem::is_regular_file(path, error)) return;
+  std::string start(4096, '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.read(start.data(), static_cast<std::streamsize>(start.size()));
+  start.resize(static_cast<std::size_t>(file.gcount()));
+  const std::size_t mark = start.starts_with("\xef\xbb\xbf") ? 3 : 0, first = start.find_first_not_of(" \t\r\n", mark);
+  if (first == std::string::npos || start[first] == '{' || start[first] == '/') return;
+  fail(path.string(),
+       "the format is not recognized; expected a scene file (JSON), or a model file ending in .obj, .gltf, .glb, .ply or .stl");
+}
+
 // ---- JSON → description ----------------------------------------------------------------------------------------
 
 // Names consist of characters that have no other meaning in a dotted path.
@@ -128,7 +143,8 @@ class Reader {
   const Json& collection(const char* name) const {
     static const Json none = Json::object();
     if (!json_.contains(name)) return none;
-    if (!json_[name].is_object()) fail(context_.source, std::string(name) + ": expected an object that maps names to objects: { \"name\": { … }, … }");
+    if (!json_[name].is_object())
+      fail(context_.source, std::string(name) + ": expected an object that maps names to objects: { \"name\": { … }, … }");
     return json_[name];
   }
 
@@ -257,6 +273,7 @@ SceneFile SceneFile::open(const std::string& name_or_file) {
     throw InputError("unknown scene '" + name_or_file + "'" + suggestion(name_or_file, names));
   }
   const std::filesystem::path directory = path.is_absolute() ? path.parent_path() : working_directory() / path.parent_path();
+  check_format(path);
   return parse(read_text(path), name_or_file, directory);
 }
 

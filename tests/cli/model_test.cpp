@@ -54,7 +54,7 @@ TEST_F(Models, PositionAndSizeOfTheModelDoNotMatter) {
   struct Case {
     double center, size;
   };
-  for (const Case& c : {Case{5e6, 1.0}, Case{-5e6, 1.0}, Case{0.0, 1e-6}, Case{0.0, 1e6}}) {
+  for (const Case& c : {Case{5e6, 1.0}, Case{-5e6, 1.0}, Case{0.0, 1e-6}, Case{0.0, 1e-9}, Case{0.0, 1e6}}) {
     const Image<glm::u8vec4> other = cube_picture(c.center, c.size);
     int differ = 0;
     for (std::size_t i = 0; i < expected.texels().size(); ++i) {
@@ -291,6 +291,8 @@ TEST_F(Models, MistakesAreReportedInOneLine) {
   write("cube.obj", cube(0.0, 1.0));
   write("bad.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n");
   write("empty.obj", "");
+  write("tiny.obj", cube(0.0, 1e-40));
+  write("cube", cube(0.0, 1.0));
   struct WrongCommand {
     std::vector<std::string> words;
     int exit_code;
@@ -300,6 +302,8 @@ TEST_F(Models, MistakesAreReportedInOneLine) {
       {{"render", "none.obj"}, 3, "none.obj"},
       {{"render", "bad.obj"}, 3, "bad.obj:4"},
       {{"render", "empty.obj"}, 3, "empty.obj"},
+      {{"render", "tiny.obj"}, 3, "tiny.obj: the model is too small"},
+      {{"render", "cube"}, 3, "cube: the format is not recognized"},
       {{"info", "none.glb"}, 3, "none.glb"},
       {{"render", "cube.obj", "--yaw", "much"}, 2, "--yaw"},
       {{"render", "cube.obj", "--eye", "1,2"}, 2, "--eye"},

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "halfspace/model/model.h"
+#include "support/errors.h"
 #include "support/folder_test.h"
 
 namespace halfspace {
@@ -40,6 +41,18 @@ TEST_F(ReadModelFile, TrustsTheContentsMoreThanTheExtension) {
   EXPECT_EQ(read_model(directory / "stl.obj").format, "STL");
   EXPECT_EQ(read_model(directory / "ply.stl").format, "PLY");
   EXPECT_EQ(read_model(directory / "obj.txt").format, "OBJ");
+}
+
+TEST_F(ReadModelFile, ReportsUtf16) {
+  std::string little = "\xff\xfe", big = "\xfe\xff";
+  for (const char c : kObj) {
+    little += {c, '\0'};
+    big += {'\0', c};
+  }
+  for (const std::string& text : {little, big}) {
+    const std::filesystem::path file = put("a.obj", text);
+    EXPECT_TRUE(reports(input_error([&] { read_model(file); }), file.string(), {"UTF-16", "UTF-8"}));
+  }
 }
 
 }  // namespace

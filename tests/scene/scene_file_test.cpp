@@ -437,6 +437,18 @@ TEST(SceneFile, UnknownScenesSuggestTheClosestName) {
   EXPECT_TRUE(reports(input_error([] { SceneFile::open("none.json"); }), "none.json", {"no such"}));
 }
 
+TEST(SceneFile, FilesInOtherFormatsGetAListOfFormats) {
+  const TemporaryFolder folder;
+  const auto error = [&](const char* name, std::string_view text) {
+    write_bytes(folder.path() / name, text);
+    return input_error([&] { SceneFile::open((folder.path() / name).string()); });
+  };
+  EXPECT_TRUE(reports(error("model", "v 0 0 0\n"), (folder.path() / "model").string(), {"not recognized", "scene file", ".glb"}));
+  EXPECT_TRUE(reports(error("scene.json", "v 0 0 0\n"), (folder.path() / "scene.json").string(), {"invalid JSON"}));
+  EXPECT_TRUE(reports(error("scene", "// a comment\n{,}"), (folder.path() / "scene").string(), {"invalid JSON"}));
+  EXPECT_EQ(error("good", " \n{\"version\": 1}"), "(no error)");
+}
+
 // ---- time ------------------------------------------------------------------------------------------------------
 
 TEST(Animation, RateOrbitAndKeyframesFollowTheirFormulas) {
