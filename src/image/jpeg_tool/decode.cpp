@@ -9,6 +9,7 @@
 #include <new>
 #include <vector>
 
+#include "halfspace/core/cache_line_allocator.h"
 #include "halfspace/image/jpeg_errors.h"
 #include "halfspace/image/tool/failure.h"
 #include "halfspace/image/tool/protocol.h"
@@ -40,6 +41,8 @@ class MappedFile {
 // the black channel is then the reflected light.
 uint8_t light_of(uint8_t color, uint8_t black) { return static_cast<uint8_t>((color * black + 127) / 255); }
 
+using Pixels = std::vector<uint8_t, CacheLineAllocator<uint8_t>>;
+
 class JpegDecoder {
  public:
   explicit JpegDecoder(const MappedFile& file) {
@@ -58,8 +61,8 @@ class JpegDecoder {
   unsigned height() const { return codec_.image_height; }
 
   // Decodes to 1 channel (the first) or to RGBA.
-  std::vector<uint8_t> decode(unsigned channels) {
-    std::vector<uint8_t> pixels(std::size_t{width()} * height() * channels);
+  Pixels decode(unsigned channels) {
+    Pixels pixels(std::size_t{width()} * height() * channels);
     std::vector<uint8_t> row(std::size_t{width()} * static_cast<unsigned>(codec_.num_components));
     check(errors_.run([&] {
       const J_COLOR_SPACE space = codec_.jpeg_color_space;
@@ -107,7 +110,7 @@ void decode(const ReadRequest& request) {
   JpegDecoder decoder(file);
   const unsigned channels = request.gray ? 1 : 4;
   check_claimed_size(request, decoder.width(), decoder.height(), channels);
-  const std::vector<uint8_t> pixels = decoder.decode(channels);
+  const Pixels pixels = decoder.decode(channels);
   const auto edge = [](unsigned pixels_per_side) { return static_cast<int32_t>(pixels_per_side); };
   put_answer(PictureHeader{kImageToolMagic, edge(decoder.width()), edge(decoder.height()), channels, Sample::uint8, 0}, "");
   std::fwrite(pixels.data(), 1, pixels.size(), stdout);
