@@ -658,5 +658,43 @@ TEST(Depth, AllTrianglesWithAVisibilityFunctionWidenTheBoundsOfTheirBlock) {
   }
 }
 
+// Two planes that cross at a grazing angle, so that blocks with a crossing contain depths that differ by a few units in the last place. The
+// result must be that of each triangle drawn alone.
+TEST(Depth, TestsOfBlocksAgreeWithTestsOfPixels) {
+  constexpr int kSize = 128;
+  Random r(17);
+  for (int i = 0; i < effort(400); ++i) {
+    const double steepness = r.magnitude(1e-7, 1.0), twist = r.magnitude(1e-9, 1e-2);
+    std::vector<glm::vec4> both;
+    for (int k = 0; k < 2; ++k) {
+      const double to_x = steepness + r.real(-twist, twist), to_y = steepness * 0.3 + r.real(-twist, twist);
+      for (int corner = 0; corner < 3; ++corner) {
+        const double x = r.real(-4.0, 4.0), y = r.real(-4.0, 4.0);
+        both.push_back({static_cast<float>(x), static_cast<float>(y),
+                        static_cast<float>(std::clamp(0.5 + (x * to_x + y * to_y) / 12, 0.0, 1.0)), 1.0f});
+      }
+    }
+    DrawState state;
+    state.depth.clip = ClipDepth::zero_to_one;
+    const auto half = [&](std::ptrdiff_t k) { return std::vector<glm::vec4>(both.begin() + 3 * k, both.begin() + 3 * k + 3); };
+    const Image<float> first = draw_depth(kSize, kSize, half(0), state, 1.0f), second = draw_depth(kSize, kSize, half(1), state, 1.0f);
+    const Image<float> together = draw_depth(kSize, kSize, both, state, 1.0f);
+    for (int y = 0; y < kSize; ++y) {
+      for (int x = 0; x < kSize; ++x) ASSERT_EQ(together.at(x, y), std::min(first.at(x, y), second.at(x, y))) << i << ": " << x << ' ' << y;
+    }
+  }
+}
+
+// Both triangles span the same depths, but in every block the second is behind the first.
+TEST(Depth, TiltedTrianglesAreRejectedInBlocks) {
+  Image<float> depth(64, 64);
+  const auto tilted = [](float z) { return std::vector<glm::vec4>{{-1, -1, z - 0.4f, 1}, {3, -1, z + 0.4f, 1}, {-1, 3, z - 0.4f, 1}}; };
+  const std::vector<glm::vec4> near = tilted(0.0f), far = tilted(0.1f);
+  Pass pass(64, 64, {}, d32f_target(depth));
+  pass.draw_depth(PositionShader{}, make_vertex_view(stream(near)));
+  pass.draw_depth(PositionShader{}, make_vertex_view(stream(far)));
+  EXPECT_EQ(pass.run(one_worker()).samples_tested, 64u * 64u);
+}
+
 }  // namespace
 }  // namespace halfspace::raster_test

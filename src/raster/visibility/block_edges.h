@@ -40,8 +40,10 @@ struct BlockEdges {
       fall[i] = std::min(0, at.step_x[i] * last) + std::min(0, at.step_y[i] * last);
     }
   }
-  /// value() returns edge i at pixel (x, y); values() returns it for all pixels of a packet.
-  int32_t value(std::size_t i, int x, int y) const { return at.e[i] + at.step_x[i] * x + at.step_y[i] * y; }
+  /// value() returns edge i at pixel (x, y); values() returns it for all pixels of a packet. value_step() returns how much it changes over
+  /// x and y pixels.
+  int32_t value_step(std::size_t i, int x, int y) const { return at.step_x[i] * x + at.step_y[i] * y; }
+  int32_t value(std::size_t i, int x, int y) const { return at.e[i] + value_step(i, x, y); }
   HS_INLINE Int values(std::size_t i, int packet_x, int packet_y) const { return lanes[i] + value(i, packet_x, packet_y); }
   HS_INLINE Mask inside(int packet_x, int packet_y) const {
     return (values(0, packet_x, packet_y) | values(1, packet_x, packet_y) | values(2, packet_x, packet_y)) >= Int(0);

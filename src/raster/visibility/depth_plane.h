@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 
 #include "halfspace/raster/tile/tile_format.h"
 #include "halfspace/raster/visibility/tile_edges.h"
@@ -18,6 +19,49 @@ inline DepthBounds depth_bounds(const Triangle& t, const Draw& draw, DepthFormat
   const float high = std::clamp(t.z_max, draw.depth_low, draw.depth_high);
   return {depth_value(format, std::clamp(t.z0, draw.depth_low, high)), depth_value(format, high)};
 }
+
+/// Bounds of a triangle's depth in rectangles of a tile. They are much tighter than those of the whole triangle if the triangle is large
+/// and seen at an angle.
+class DepthInTile {
+ public:
+  DepthInTile(const Triangle& t, const Draw& draw, const SampleGrid& grid, DepthFormat format)
+      : format_(format),
+        low_(std::clamp(t.z0, draw.depth_low, draw.depth_high)),
+        high_(std::clamp(t.z_max, draw.depth_low, draw.depth_high)),
+        is_plane_(!t.is(kLine | kPointSprite)) {
+    if (!is_plane_) return;
+    const double z0 = static_cast<double>(t.z0), z1 = static_cast<double>(t.z_edge1), z2 = static_cast<double>(t.z_edge2);
+    const double e1x = t.x[1] - t.x[0], e1y = t.y[1] - t.y[0], e2x = t.x[2] - t.x[0], e2y = t.y[2] - t.y[0];
+    const double x = grid.x_sub() - t.x[0], y = grid.y_sub() - t.y[0];
+    const double by_x = e2y * z1 - e1y * z2, by_y = e1x * z2 - e2x * z1;
+    z_ = z0 + by_x * x + by_y * y;
+    step_x_ = by_x * kSubPixels;
+    step_y_ = by_y * kSubPixels;
+    // The first term is four times the rounding error of DepthPlane, whose terms are not negative in covered pixels. The second term is
+    // more than the rounding error of this class in any pixel of the tile.
+    const double reach = kMaxTileSize * kSubPixels;
+    const double terms = (std::abs(e2y) * z1 + std::abs(e1y) * z2) * (std::abs(x) + reach) +
+                         (std::abs(e1x) * z2 + std::abs(e2x) * z1) * (std::abs(y) + reach);
+    margin_ = 0x1p-20 * (2 * std::abs(z0) + std::abs(static_cast<double>(t.z_max))) + 0x1p-48 * terms;
+  }
+
+  /// Returns the bounds in a rectangle. x, y: its first pixel in the tile's storage.
+  HS_INLINE DepthBounds at(int x, int y, int width, int height) const {
+    if (!is_plane_) return {depth_value(format_, low_), depth_value(format_, high_)};
+    const double half_x = 0.5 * (width - 1), half_y = 0.5 * (height - 1);
+    const double center = z_ + step_x_ * (x + half_x) + step_y_ * (y + half_y);
+    const double reach = std::abs(step_x_) * half_x + std::abs(step_y_) * half_y + margin_;
+    const auto value = [&](double z) { return depth_value(format_, std::clamp(static_cast<float>(z), low_, high_)); };
+    return {value(center - reach), value(center + reach)};
+  }
+
+ private:
+  DepthFormat format_;
+  float low_, high_;  // of the whole triangle
+  bool is_plane_;
+  double z_ = 0, step_x_ = 0, step_y_ = 0;  // depth at the first sample of the grid, and its steps from pixel to pixel
+  double margin_ = 0;
+};
 
 /// Computes the depth of a triangle at the samples of packets. `small` is true for triangles with kSmall.
 template <bool small>

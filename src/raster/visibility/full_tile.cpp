@@ -6,12 +6,22 @@
 
 namespace halfspace {
 
+namespace {
+
+// Returns the depth bounds of a triangle in the tile.
+DepthBounds depth_of(const DrawInTile& d, const Triangle& t) {
+  const SampleGrid grid(d.tile, 0);
+  return DepthInTile(t, d.draw, grid, d.tile.depth_format).at(0, 0, d.tile.size, d.tile.size);
+}
+
+}  // namespace
+
 template <class Statistics>
 bool FullTileOccluder::test_or_write(const DrawInTile& d, const Triangle& t, TriangleId id, Statistics& statistics) {
   const bool replaces_depth = d.tile.depth_format == DepthFormat::none || (d.tests && d.draw.state.depth.write);
   const bool covers = may_cover(t) && d.is_opaque && d.tile.samples == 1 && replaces_depth && !d.needs_bounds_test && covers_tile(d, t);
   if (covers || (pending_ && d.is_opaque)) {
-    const DepthBounds depth = depth_bounds(t, d.draw, d.tile.depth_format);
+    const DepthBounds depth = depth_of(d, t);
     const CompareOp op = d.draw.state.depth.compare;
     const BlockTest test = !d.tests   ? BlockTest::all_pass
                            : pending_ ? test_bounds(op, depth.low, depth.high, pending_->depth.low, pending_->depth.high)
@@ -38,7 +48,7 @@ template bool FullTileOccluder::test_or_write(const DrawInTile&, const Triangle&
 
 void FullTileOccluder::trace_rejected(const DrawInTile& d, const Triangle& t, TriangleId id, TileTrace& trace) const {
   const SampleGrid grid(d.tile, 0);
-  const DepthBounds depth = depth_bounds(t, d.draw, d.tile.depth_format);
+  const DepthBounds depth = depth_of(d, t);
   const RejectedPrimitive primitive{d, t, id, grid, depth.low, depth.high};
   if (pending_) {
     trace_rejected_tile(primitive, pending_->depth.low, pending_->depth.high, trace);
@@ -65,7 +75,7 @@ void FullTileOccluder::trace_passed(const DrawInTile& d, const Triangle& t, Tria
 }
 
 void FullTileOccluder::write() {
-  if (pending_) write_full_tile(pending_->draw, *pending_->triangle, pending_->id, pending_->depth);
+  if (pending_) write_full_tile(pending_->draw, *pending_->triangle, pending_->id);
   pending_.reset();
 }
 

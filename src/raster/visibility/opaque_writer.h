@@ -13,8 +13,13 @@
 
 namespace halfspace {
 
-/// Tests and writes the triangles of an opaque draw in a tile.
-template <class S>
+/// The most common state of draws: depth test "less" with depth writes.
+inline bool writes_nearest(const DrawInTile& d) {
+  return d.tests && d.draw.state.depth.write && d.draw.state.depth.compare == CompareOp::less;
+}
+
+/// Tests and writes the triangles of an opaque draw in a tile. nearest: compiled for draws with writes_nearest().
+template <class S, bool nearest = false>
 class OpaqueWriter {
  public:
   using Statistics = S;
@@ -23,14 +28,14 @@ class OpaqueWriter {
       : tile_(d.tile),
         statistics_(statistics),
         compare_(d.draw.state.depth.compare),
-        tests_(d.tests),
+        tests_depth_(d.tests),
         writes_depth_(d.tests && d.draw.state.depth.write),
         writes_id_(d.mode == VisibilityMode::deferred) {}
 
   Statistics& statistics() const { return statistics_; }
-  bool tests() const { return tests_; }
-  bool writes_depth() const { return writes_depth_; }
-  CompareOp compare_op() const { return compare_; }
+  bool tests() const { return nearest || tests_depth_; }
+  bool writes_depth() const { return nearest || writes_depth_; }
+  CompareOp compare_op() const { return nearest ? CompareOp::less : compare_; }
 
   /// Tests and writes lanes of a packet. covered: bit mask of the lanes; z_at(): returns their depth, called only if there is a depth test.
   /// passes: the depth test passes in all lanes. Returns true if a lane passed.
@@ -51,12 +56,12 @@ class OpaqueWriter {
   HS_INLINE void write_pixel(TriangleId id, std::size_t pixel, float z) {
     ++statistics_.samples_tested;
     if constexpr (kTraces<Statistics>) trace(id, static_cast<int>(pixel / kLanes), 1u << pixel % kLanes, Real(z));
-    if (tests_ && !compare(compare_, z, tile_.depth[pixel])) return;
+    if (tests() && !compare(compare_op(), z, tile_.depth[pixel])) return;
     ++statistics_.samples_passed;
     if (writes_id_) tile_.visibility[pixel] = id;
-    if (!writes_depth_) return;
+    if (!writes_depth()) return;
     tile_.depth[pixel] = z;
-    widen_hiz(compare_, tile_, static_cast<int>(pixel / kPixelsPerBlock), z, z);
+    widen_hiz(compare_op(), tile_, static_cast<int>(pixel / kPixelsPerBlock), z, z);
   }
 
   /// Writes a packet in which all lanes are covered and pass the depth test.
@@ -65,7 +70,7 @@ class OpaqueWriter {
     statistics_.samples_tested += kLanes;
     statistics_.samples_passed += kLanes;
     if constexpr (kTraces<Statistics>) trace(id, packet, kAllBits<Mask>, z_at());
-    if (writes_depth_) store(&tile_.depth[static_cast<std::size_t>(packet) * kLanes], z_at());
+    if (writes_depth()) store(&tile_.depth[static_cast<std::size_t>(packet) * kLanes], z_at());
     if (writes_id_) store(&tile_.visibility[static_cast<std::size_t>(packet) * kLanes], Int(std::bit_cast<int32_t>(id)));
   }
 
@@ -73,15 +78,15 @@ class OpaqueWriter {
   // Records fragments before they are tested and written.
   void trace(TriangleId id, int packet, uint32_t covered, Real z) {
     const Real old = load<Real>(&tile_.depth[static_cast<std::size_t>(packet) * kLanes]);
-    const uint32_t passed = tests_ ? covered & bits(compare(compare_, z, old)) : covered;
+    const uint32_t passed = tests() ? covered & bits(compare(compare_op(), z, old)) : covered;
     statistics_.trace->add(id, packet, passed, writes_id_ ? FragmentOutcome::hidden_before_shading : FragmentOutcome::depth_only, z, old,
-                           tests_);
-    statistics_.trace->add(id, packet, covered & ~passed, FragmentOutcome::depth_failed, z, old, tests_);
+                           tests());
+    statistics_.trace->add(id, packet, covered & ~passed, FragmentOutcome::depth_failed, z, old, tests());
   }
   // The same for fragments that a ListWriter has recorded.
   void trace_decided(TriangleId id, int packet, uint32_t kept, Real z) {
     const Real old = load<Real>(&tile_.depth[static_cast<std::size_t>(packet) * kLanes]);
-    const uint32_t passed = tests_ ? kept & bits(compare(compare_, z, old)) : kept;
+    const uint32_t passed = tests() ? kept & bits(compare(compare_op(), z, old)) : kept;
     statistics_.trace->set_depth(id, packet, kept, z, old);
     statistics_.trace->set_outcome(id, packet, passed, writes_id_ ? FragmentOutcome::hidden_before_shading : FragmentOutcome::depth_only);
     statistics_.trace->set_outcome(id, packet, kept & ~passed, FragmentOutcome::depth_failed);
@@ -91,10 +96,10 @@ class OpaqueWriter {
   HS_INLINE bool test_and_write(TriangleId id, int packet, uint32_t covered, const Z& z_at) {
     float* depth = &tile_.depth[static_cast<std::size_t>(packet) * kLanes];
     uint32_t passed = covered;
-    if (tests_) {
+    if (tests()) {
       const Real old = load<Real>(depth), z = z_at();
-      passed &= bits(compare(compare_, z, old));
-      if (writes_depth_) store(depth, select(mask_from_bits<Mask>(passed), z, old));
+      passed &= bits(compare(compare_op(), z, old));
+      if (writes_depth()) store(depth, select(mask_from_bits<Mask>(passed), z, old));
     }
     statistics_.samples_passed += static_cast<uint64_t>(std::popcount(passed));
     if (writes_id_ && passed != 0) {
@@ -107,7 +112,7 @@ class OpaqueWriter {
   Tile& tile_;
   Statistics& statistics_;
   CompareOp compare_;
-  bool tests_, writes_depth_, writes_id_;
+  bool tests_depth_, writes_depth_, writes_id_;
 };
 
 }  // namespace halfspace

@@ -96,9 +96,8 @@ void decide_queued(const DrawInTile& d, PacketQueue& queue, Statistics& statisti
 /// Returns true if a triangle of an opaque draw covers all pixels of the tile's storage.
 bool covers_tile(const DrawInTile& d, const Triangle& t);
 
-/// Writes the depth and id of a triangle that covers the whole tile and passes everywhere. bounds: depth bounds of the triangle. Does not
-/// change any statistics.
-void write_full_tile(const DrawInTile& d, const Triangle& t, TriangleId id, const DepthBounds& bounds);
+/// Writes the depth and id of a triangle that covers the whole tile and passes everywhere. Does not change any statistics.
+void write_full_tile(const DrawInTile& d, const Triangle& t, TriangleId id);
 
 /// Depth test of a packet: returns the lanes of mask that pass. z is represented as in Tile::depth.
 Mask depth_test(const DepthState& state, const Tile& tile, int packet, Real z, Mask mask);

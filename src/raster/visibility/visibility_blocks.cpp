@@ -14,11 +14,11 @@ namespace halfspace {
 
 namespace {
 
-// Sets the bounds of a block after all its depth values were replaced by values in [low, high].
-void set_hiz(Tile& tile, int block, float low, float high) {
+// Sets the bounds of a block after all its depth values were replaced by values within them.
+void set_hiz(Tile& tile, int block, const DepthBounds& depth) {
   const auto b = static_cast<std::size_t>(block);
-  tile.hiz_min[b] = low;
-  tile.hiz_max[b] = high;
+  tile.hiz_min[b] = depth.low;
+  tile.hiz_max[b] = depth.high;
   tile.hiz_writes[b] = 0;
 }
 
@@ -27,47 +27,90 @@ bool contains_block(const TileRect& rect, int x, int y) {
   return x >= rect.x0 && y >= rect.y0 && x + kBlockSize <= rect.x1 && y + kBlockSize <= rect.y1;
 }
 
+// Finds the covered packets of one block after the other and writes them.
+template <bool small, class Writer>
+class BlockPackets {
+ public:
+  BlockPackets(const DrawInTile& d, const Triangle& t, const TileEdges& tile_edges, const SampleGrid& grid, const TileRect& rect,
+               TriangleId id, Writer& writer)
+      : edges_(tile_edges), plane_(t, tile_edges, d.draw, grid, d.tile.depth_format), rect_(rect), id_(id), writer_(writer) {
+    for (int p = 0; p < kPacketsPerBlock; ++p) {
+      for (std::size_t i = 0; i < 3; ++i) step_[static_cast<std::size_t>(p)][i] = edges_.value_step(i, packet_x(p), packet_y(p));
+    }
+  }
+
+  const BlockEdges& edges() const { return edges_; }
+
+  // Writes a block that is covered everywhere and passes everywhere. x, y: its corner.
+  void write_whole(int block, int x, int y) {
+    for (int p = 0; p < kPacketsPerBlock; ++p)
+      writer_.write_whole(id_, block * kPacketsPerBlock + p, [&] { return plane_.at(edges_, x + packet_x(p), y + packet_y(p)); });
+  }
+
+  // Writes the covered packets of any other block. passes: the depth test passes everywhere.
+  void write_some(int block, int x, int y, bool is_cut, bool passes) {
+    const std::array<Int, 3> corner{edges_.values(0, x, y), edges_.values(1, x, y), edges_.values(2, x, y)};
+    // The result is nearly random and would often be mispredicted, so the code has no branch for it.
+    std::size_t listed = 0;
+    for (int p = 0; p < kPacketsPerBlock; ++p) {
+      const std::array<int32_t, 3>& step = step_[static_cast<std::size_t>(p)];
+      uint32_t lanes = kAllBits<Mask> & ~negative_bits((corner[0] + step[0]) | (corner[1] + step[1]) | (corner[2] + step[2]));
+      if (is_cut) lanes &= bits(inside(rect_, x + packet_x(p), y + packet_y(p)));
+      list_[listed] = {static_cast<uint16_t>(p), static_cast<uint16_t>(lanes)};
+      listed += lanes != 0 ? 1 : 0;
+    }
+    for (std::size_t i = 0; i < listed; ++i) {
+      const int p = list_[i].packet;
+      const auto z_at = [&] { return plane_.at(edges_, x + packet_x(p), y + packet_y(p)); };
+      writer_.write(id_, block * kPacketsPerBlock + p, list_[i].lanes, z_at, passes);
+    }
+  }
+
+ private:
+  BlockEdges edges_;
+  DepthPlane<small> plane_;
+  TileRect rect_;
+  TriangleId id_;
+  Writer& writer_;
+  std::array<std::array<int32_t, 3>, kPacketsPerBlock> step_;  // of the edges, from the first packet of a block to each packet
+  std::array<PacketMask, kPacketsPerBlock + 1> list_;          // covered packets of a block; the element after the last one may be written
+};
+
 template <bool small, class Writer>
 void rasterize_blocks(const DrawInTile& d, const Triangle& t, const TileEdges& tile_edges, const SampleGrid& grid, const TileRect& rect,
                       TriangleId id, Writer& writer) {
   Tile& tile = d.tile;
-  const DepthPlane<small> plane(t, tile_edges, d.draw, grid, tile.depth_format);
-  const BlockEdges edges(tile_edges);
-  const auto [low, high] = depth_bounds(t, d.draw, tile.depth_format);
+  const DepthInTile depth(t, d.draw, grid, tile.depth_format);
   const bool needs_bounds_test = d.needs_bounds_test || t.is(kPointSprite | kLine);
   const bool spans_many = (rect.x1 - rect.x0) * (rect.y1 - rect.y0) >= kMaxTilePixels / 4;
-  if (spans_many && writer.tests() && test_tile(writer.compare_op(), tile, low, high) == BlockTest::none_passes) {
-    if constexpr (kTraces<typename Writer::Statistics>) trace_rejected_tile({d, t, id, grid, low, high}, *writer.statistics().trace);
-    return;
+  if (spans_many && writer.tests()) {
+    const auto [low, high] = depth.at(rect.x0, rect.y0, rect.x1 - rect.x0, rect.y1 - rect.y0);
+    if (test_tile(writer.compare_op(), tile, low, high) == BlockTest::none_passes) {
+      if constexpr (kTraces<typename Writer::Statistics>) trace_rejected_tile({d, t, id, grid, low, high}, *writer.statistics().trace);
+      return;
+    }
   }
+  BlockPackets<small, Writer> packets(d, t, tile_edges, grid, rect, id, writer);
   constexpr int mask_to_block = ~(kBlockSize - 1);
   for (int y = rect.y0 & mask_to_block; y < rect.y1; y += kBlockSize) {
     for (int x = rect.x0 & mask_to_block; x < rect.x1; x += kBlockSize) {
-      const BlockCoverage coverage = block_coverage(edges, x, y);
+      const BlockCoverage coverage = block_coverage(packets.edges(), x, y);
       if (coverage == BlockCoverage::none) continue;
       const int block = y / kBlockSize * kBlocksPerRow + x / kBlockSize;
+      const auto [low, high] = depth.at(x, y, kBlockSize, kBlockSize);
       const BlockTest test = writer.tests() ? test_block(writer.compare_op(), tile, block, low, high) : BlockTest::all_pass;
       if (test == BlockTest::none_passes) {
         if constexpr (kTraces<typename Writer::Statistics>)
           trace_rejected_block({d, t, id, grid, low, high}, block, *writer.statistics().trace);
         continue;
       }
-      const int first = block * kPacketsPerBlock;
       const bool is_cut = needs_bounds_test && !contains_block(rect, x, y);
-      if (coverage == BlockCoverage::whole && test == BlockTest::all_pass && !is_cut) {
-        for (int p = first; p < first + kPacketsPerBlock; ++p)
-          writer.write_whole(id, p, [&] { return plane.at(edges, packet_x(p), packet_y(p)); });
-        if (writer.writes_depth()) set_hiz(tile, block, low, high);
+      const bool passes = test == BlockTest::all_pass;
+      if (coverage == BlockCoverage::whole && passes && !is_cut) {
+        packets.write_whole(block, x, y);
+        if (writer.writes_depth()) set_hiz(tile, block, {low, high});
       } else {
-        for (int p = first; p < first + kPacketsPerBlock; ++p) {
-          const int px = packet_x(p), py = packet_y(p);
-          if (px >= rect.x1 || py >= rect.y1 || px + kPacketWidth <= rect.x0 || py + kPacketHeight <= rect.y0) continue;
-          Mask mask = coverage == BlockCoverage::whole ? Mask(true) : edges.inside(px, py);
-          if (is_cut) mask = mask & inside(rect, px, py);
-          if (any(mask))
-            writer.write(
-                id, p, bits(mask), [&] { return plane.at(edges, px, py); }, test == BlockTest::all_pass);
-        }
+        packets.write_some(block, x, y, is_cut, passes);
         if (writer.writes_depth()) widen_hiz(writer.compare_op(), tile, block, low, high);
       }
     }
@@ -125,25 +168,30 @@ bool covers_tile(const DrawInTile& d, const Triangle& t) {
   return whole;
 }
 
-void write_full_tile(const DrawInTile& d, const Triangle& t, TriangleId id, const DepthBounds& bounds) {
+void write_full_tile(const DrawInTile& d, const Triangle& t, TriangleId id) {
   const SampleGrid grid(d.tile, 0);
   const TileEdges tile_edges{};
   const DepthPlane<false> plane(t, tile_edges, d.draw, grid, d.tile.depth_format);
   const BlockEdges edges(tile_edges);
   PassStatistics counted_before;
-  OpaqueWriter writer(d, counted_before);
+  OpaqueWriter<PassStatistics> writer(d, counted_before);
   if (d.mode == VisibilityMode::depth_only && !writer.writes_depth()) return;
   for (int p = 0; p < kPackets; ++p) writer.write_whole(id, p, [&] { return plane.at(edges, packet_x(p), packet_y(p)); });
   if (!writer.writes_depth()) return;
-  for (int b = 0; b < kBlocks; ++b) set_hiz(d.tile, b, bounds.low, bounds.high);
+  const DepthInTile depth(t, d.draw, grid, d.tile.depth_format);
+  for (int b = 0; b < kBlocks; ++b)
+    set_hiz(d.tile, b, depth.at(b % kBlocksPerRow * kBlockSize, b / kBlocksPerRow * kBlockSize, kBlockSize, kBlockSize));
 }
 
 template <class Statistics>
 void rasterize_opaque(const DrawInTile& d, const Triangle& t, TriangleId id, Statistics& statistics) {
-  OpaqueWriter writer(d, statistics);
-  for (int s = 0; s < d.tile.samples; ++s) {
-    if ((d.draw.sample_mask >> s & 1) != 0) rasterize_triangle(d, t, id, s, writer);
-  }
+  const auto rasterize_samples = [&](auto writer) {
+    for (int s = 0; s < d.tile.samples; ++s) {
+      if ((d.draw.sample_mask >> s & 1) != 0) rasterize_triangle(d, t, id, s, writer);
+    }
+  };
+  if (writes_nearest(d)) return rasterize_samples(OpaqueWriter<Statistics, true>(d, statistics));
+  rasterize_samples(OpaqueWriter<Statistics>(d, statistics));
 }
 template void rasterize_opaque(const DrawInTile&, const Triangle&, TriangleId, PassStatistics&);
 template void rasterize_opaque(const DrawInTile&, const Triangle&, TriangleId, TracedStatistics&);
@@ -151,8 +199,9 @@ template void rasterize_opaque(const DrawInTile&, const Triangle&, TriangleId, T
 template <class Statistics>
 void rasterize_queued(const DrawInTile& d, const Triangle& t, TriangleId id, PacketQueue& queue, Statistics& statistics) {
   if (d.tile.samples == 1) {
-    ListWriter<Statistics, false> writer(d, queue, statistics);
-    return rasterize_triangle(d, t, id, 0, writer);
+    const auto rasterize_sample = [&](auto writer) { rasterize_triangle(d, t, id, 0, writer); };
+    if (lists_undecided(d)) return rasterize_sample(ListWriter<Statistics, false, true>(d, queue, statistics));
+    return rasterize_sample(ListWriter<Statistics, false>(d, queue, statistics));
   }
   ListWriter<Statistics, true> writer(d, queue, statistics);
   writer.begin();

@@ -238,10 +238,13 @@ HS_INLINE void write_triangle(const DrawInTile& d, const SmallTriangles& triangl
 template <class Statistics>
 void rasterize_small(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, Statistics& statistics) {
   if (d.tile.samples > 1) return rasterize_small_samples(d, chunk, indices, statistics);
-  OpaqueWriter writer(d, statistics);
   const SmallTriangles triangles(d, SampleGrid(d.tile, 0), d.context.chunks[chunk], indices);
   const auto large = [&](const Triangle& t, TriangleId id) { rasterize_opaque(d, t, id, statistics); };
-  for (std::size_t k = 0; k < indices.size(); ++k) write_triangle(d, triangles, k, chunk, indices[k], writer, large);
+  const auto write_all = [&](auto writer) {
+    for (std::size_t k = 0; k < indices.size(); ++k) write_triangle(d, triangles, k, chunk, indices[k], writer, large);
+  };
+  if (writes_nearest(d)) return write_all(OpaqueWriter<Statistics, true>(d, statistics));
+  write_all(OpaqueWriter<Statistics>(d, statistics));
 }
 
 void rasterize_small_with_stencil(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, PassStatistics& statistics) {
@@ -261,13 +264,16 @@ std::size_t rasterize_small_queued(const DrawInTile& d, uint32_t chunk, std::spa
                                    Statistics& statistics) {
   if (d.tile.samples > 1) return rasterize_small_samples_queued(d, chunk, indices, queue, statistics);
   const SmallTriangles triangles(d, SampleGrid(d.tile, 0), d.context.chunks[chunk], indices);
-  ListWriter<Statistics, false> writer(d, queue, statistics);
   const auto large = [&](const Triangle& t, TriangleId id) { rasterize_queued(d, t, id, queue, statistics); };
-  std::size_t k = 0;
-  do {
-    write_triangle(d, triangles, k, chunk, indices[k], writer, large);
-  } while (++k < indices.size() && !queue.is_full());
-  return k;
+  const auto write_all = [&](auto writer) {
+    std::size_t k = 0;
+    do {
+      write_triangle(d, triangles, k, chunk, indices[k], writer, large);
+    } while (++k < indices.size() && !queue.is_full());
+    return k;
+  };
+  if (lists_undecided(d)) return write_all(ListWriter<Statistics, false, true>(d, queue, statistics));
+  return write_all(ListWriter<Statistics, false>(d, queue, statistics));
 }
 template std::size_t rasterize_small_queued(const DrawInTile&, uint32_t, std::span<const uint16_t>, PacketQueue&, PassStatistics&);
 template std::size_t rasterize_small_queued(const DrawInTile&, uint32_t, std::span<const uint16_t>, PacketQueue&, TracedStatistics&);
