@@ -106,7 +106,11 @@ class Installation(unittest.TestCase):
         if not (PREFIX / "bin" / "halfspace").exists():
             self.skipTest("the build has no programs")
         pages = {path.name.removesuffix(".gz"): path for path in (PREFIX / "share" / "man" / "man1").iterdir()}  # packages have compressed pages
-        texts = {name: (gzip.open if path.suffix == ".gz" else open)(path, "rt").read() for name, path in pages.items()}
+        def text(path):
+            with gzip.open(path, "rt") if path.suffix == ".gz" else open(path) as page:
+                return page.read()
+
+        texts = {name: text(path) for name, path in pages.items()}
         self.assertIn(r"\-\-aov", texts["halfspace-render.1"])
         for name, path in pages.items():
             result = run("man", "--warnings", "-E", "UTF-8", "-Tutf8", "-l", path, env={**os.environ, "LC_ALL": "C.UTF-8", "MANWIDTH": "80"})
