@@ -330,10 +330,11 @@ vec3<R> Texture2D::sample_rgb(const Sampler& sampler, const vec2<R>& uv, const v
 template <Number R>
 R Texture2D::sample_alpha(const Sampler& sampler, const vec2<R>& uv, const vec2<R>& duv_dx, const vec2<R>& duv_dy) const {
   if constexpr (!std::is_same_v<R, double>) {
-    if (format_ <= TexelFormat::srgb8a8 && is_common(sampler) && sampler.anisotropy <= 1) {
+    if (format_ <= TexelFormat::srgb8a8) {
       const CommonLookup<R, TexelFormat::rgba8, R> lookup{*this, sampler};
-      if (alphas_.empty()) return lookup.finish(R(static_cast<float>(static_cast<uint32_t>(texels_[0]) >> 24)));
-      return lookup.finish(lookup(uv, levels_of(sampler, duv_dx, duv_dy)));
+      const bool has_border = sampler.wrap_s == Wrap::border || sampler.wrap_t == Wrap::border;
+      if (alphas_.empty() && !has_border) return lookup.finish(R(static_cast<float>(static_cast<uint32_t>(texels_[0]) >> 24)));
+      if (is_common(sampler) && sampler.anisotropy <= 1) return lookup.finish(lookup(uv, levels_of(sampler, duv_dx, duv_dy)));
     }
   }
   return sample_any<R>(sampler, uv, duv_dx, duv_dy).w;

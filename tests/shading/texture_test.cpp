@@ -406,11 +406,12 @@ TEST(Texture, AlphaOfLanesHasTheBitsOfSample) {
   };
   Image<glm::u8vec4> same_alpha = noise(33, 20, 28);
   for (glm::u8vec4& texel : std::span(same_alpha.data(), 33 * 20)) texel.w = 77;
-  Sampler anisotropic;
+  Sampler anisotropic, bordered;
   anisotropic.anisotropy = 4;
+  bordered.wrap_t = Wrap::border;
   for (const TexelFormat format : {TexelFormat::rgba8, TexelFormat::srgb8a8}) {
     for (const Texture2D& texture : {Texture2D(noise(33, 20, 28), format), Texture2D(same_alpha, format)}) {
-      for (const Sampler& sampler : {Sampler{}, kBilinearClamp, kNearest, anisotropic}) {
+      for (const Sampler& sampler : {Sampler{}, kBilinearClamp, kNearest, anisotropic, bordered}) {
         for (int i = 0; i < 50; ++i) {
           const vec2<R> uv(values(coordinate), values(coordinate)), dx(values(change), values(change)), dy(values(change), values(change));
           const R alpha = texture.sample_alpha(sampler, uv, dx, dy);
