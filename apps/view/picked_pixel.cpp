@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "view/picked_pixel.h"
 
-#include <ranges>
+#include <algorithm>
 #include <span>
 
 #include "halfspace/explain/history_text.h"
@@ -12,10 +12,9 @@ namespace {
 
 // Returns the object of the last fragment that changed the color, or an empty string.
 std::string visible_object(const PixelHistory& history) {
-  for (const FragmentDetail& f : history.fragments | std::views::reverse) {
-    if (f.fragment.outcome >= FragmentOutcome::shaded) return f.object == "background" ? "" : f.object;
-  }
-  return {};
+  const auto changed = [](const FragmentDetail& f) { return f.fragment.outcome >= FragmentOutcome::shaded; };
+  const auto last = std::find_if(history.fragments.rbegin(), history.fragments.rend(), changed);
+  return last == history.fragments.rend() || last->object == "background" ? "" : last->object;
 }
 
 }  // namespace
