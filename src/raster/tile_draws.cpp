@@ -67,8 +67,7 @@ class TileDraws {
         const Draw& draw = context_.draws[chunk.ranges[chunk.triangles[t].range()].draw];
         if (!here || &here->draw != &draw) begin_draw(draw, here);
         const uint64_t passed_before = statistics_.samples_passed;
-        const bool in_groups = here->is_opaque || here->is_queued || (here->has_stencil && !kTraces<Statistics>);
-        const std::size_t small = in_groups && !occluder.is_pending() ? small_run(chunk, bin.subspan(i)) : 0;
+        const std::size_t small = draws_groups(here->rasterizer) && !occluder.is_pending() ? small_run(chunk, bin.subspan(i)) : 0;
         for (std::size_t k = i; k < i + std::max<std::size_t>(small, 1); ++k) {
           prefetch(ahead(k + kTrianglesAhead));
           if (here->fetches_vertices) prefetch_vertex(context_, chunk, ahead(k + kVerticesAhead));
@@ -113,7 +112,7 @@ class TileDraws {
   // Called before a triangle is drawn. Shades the pending pixels of the tile if the draw shades immediately. A draw that does not write
   // color does not affect them.
   void begin_triangle(const DrawInTile& d) {
-    if (d.mode == VisibilityMode::deferred || d.mode == VisibilityMode::depth_only) {
+    if (shades_later(d.mode)) {
       pending_ |= d.mode == VisibilityMode::deferred;
       return;
     }
@@ -124,7 +123,7 @@ class TileDraws {
 
   // Runs the shader for the packets in the queue, which belong to the draw.
   void finish_queue(const DrawInTile& d) {
-    if (d.mode == VisibilityMode::deferred || d.mode == VisibilityMode::depth_only) {
+    if (shades_later(d.mode)) {
       decide_queued(d, memory_.queue, statistics_);
     } else {
       shade_queued(d, memory_.queue, memory_.layers, memory_.shading.output, memory_.shading.packed, statistics_);
@@ -139,14 +138,17 @@ class TileDraws {
     if (d->draw.state.query) statistics_.add_to_query(*d->draw.state.query, statistics_.samples_passed - passed_before);
   }
 
+  // Returns true if draw_small() supports the draws of a rasterizer. With a stencil test, small triangles are traced one by one.
+  static bool draws_groups(Rasterizer r) { return r != Rasterizer::general && !(kTraces<Statistics> && r == Rasterizer::stencil); }
+
   // Draws small triangles of one draw, 1 to W. Returns how many were drawn.
   std::size_t draw_small(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices) {
-    if (d.is_opaque) {
+    if (d.rasterizer == Rasterizer::opaque) {
       rasterize_small(d, chunk, indices, statistics_);
       return indices.size();
     }
     if constexpr (!kTraces<Statistics>) {
-      if (d.has_stencil) {
+      if (d.rasterizer == Rasterizer::stencil) {
         rasterize_small_with_stencil(d, chunk, indices, statistics_);
         return indices.size();
       }
@@ -156,13 +158,18 @@ class TileDraws {
     return count;
   }
 
-  void draw_triangle(const DrawInTile& d, uint32_t chunk, uint32_t index) {
-    if (d.is_queued) {
-      rasterize_queued(d, context_.chunks[chunk].triangles[index], triangle_id(chunk, index), memory_.queue, statistics_);
+  void draw_triangle(const DrawInTile& d, uint32_t chunk, uint16_t index) {
+    const Triangle& t = context_.chunks[chunk].triangles[index];
+    if (d.rasterizer == Rasterizer::opaque) {
+      if (is_small_triangle(t)) return rasterize_small(d, chunk, {&index, 1}, statistics_);
+      return rasterize_opaque(d, t, triangle_id(chunk, index), statistics_);
+    }
+    if (d.rasterizer == Rasterizer::queued) {
+      rasterize_queued(d, t, triangle_id(chunk, index), memory_.queue, statistics_);
       if (memory_.queue.is_full()) finish_queue(d);
       return;
     }
-    if (d.mode == VisibilityMode::deferred || d.mode == VisibilityMode::depth_only) return rasterize(d, chunk, index, nullptr, statistics_);
+    if (shades_later(d.mode)) return rasterize(d, chunk, index, nullptr, statistics_);
     CoverageList& list = memory_.coverage;
     list.count = 0;
     rasterize(d, chunk, index, &list, statistics_);

@@ -89,12 +89,7 @@ class DrawShading {
     for (; !packets.empty(); packets = packets.subspan(static_cast<std::size_t>(batch.count))) {
       batch.packets = packets.data();
       batch.count = static_cast<int>(std::min(packets.size(), most));
-      for (std::size_t i = 0; needs_centroid && i < static_cast<std::size_t>(batch.count); ++i) {
-        const int p = packets[i].packet;
-        find_centroids(context_, batch.tile_x0 + packet_x(p), batch.tile_y0 + packet_y(p), job_.ids + p * kLanes, kNoTriangle,
-                       &centroids[i * kLanes]);
-      }
-      if (needs_centroid) batch.centroids = centroids.data();
+      if (needs_centroid) batch.centroids = find_centroids(batch, centroids);
       draw_.kernels.color(draw_.shader.get(), batch);
       const std::span<const PacketMask> shaded = packets.first(static_cast<std::size_t>(batch.count));
       if (batch.codes == nullptr) {

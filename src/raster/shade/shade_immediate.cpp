@@ -42,20 +42,14 @@ void shade_packets(const Shading& c, const PacketMask* packets, int count, const
   ids.fill(c.id);
   for (int begin = 0; begin < count; begin += kPacketBatch) {
     const int n = std::min(kPacketBatch, count - begin);
-    const bool needs_centroid = c.draw.kernels.uses_centroid && c.tile.samples > 1 && !c.draw.shades_samples;
-    for (int i = 0; needs_centroid && i < n; ++i) {
-      const int p = packets[begin + i].packet;
-      find_centroids(c.context, c.tile.x0 + packet_x(p), c.tile.y0 + packet_y(p), nullptr, c.id,
-                     &centroids[static_cast<std::size_t>(i * kLanes)]);
-    }
-    const PacketBatch batch{.context = &c.context,
-                            .tile_x0 = c.tile.x0 - plane.x,
-                            .tile_y0 = c.tile.y0 - plane.y,
-                            .position = at,
-                            .packet_ids = ids.data(),
-                            .packets = packets + begin,
-                            .count = n,
-                            .centroids = needs_centroid ? centroids.data() : nullptr};
+    PacketBatch batch{.context = &c.context,
+                      .tile_x0 = c.tile.x0 - plane.x,
+                      .tile_y0 = c.tile.y0 - plane.y,
+                      .position = at,
+                      .packet_ids = ids.data(),
+                      .packets = packets + begin,
+                      .count = n};
+    if (needs_centroids(c.draw, c.tile.samples)) batch.centroids = find_centroids(batch, centroids);
     c.draw.kernels.fragment(c.draw.shader.get(), {batch, &out});
     count_fragments(c, packets + begin, n);
     for (int i = 0; i < n; ++i) finish(out, static_cast<std::size_t>(i), packets[begin + i]);

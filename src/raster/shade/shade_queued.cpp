@@ -97,7 +97,7 @@ std::size_t shade_batch(const Shading& c, PacketQueue& queue, std::size_t begin)
   const std::size_t n = std::min(std::size_t{kPacketBatch}, static_cast<std::size_t>(queue.count) - begin);
   FragmentBatch batch{queue.batch(c.context, c.tile, begin, n), &c.output};
   std::array<SamplePosition, kPacketBatch * kLanes> centroids;
-  if (c.tile.samples > 1 && c.draw.kernels.uses_centroid) batch.centroids = find_centroids(batch, centroids);
+  if (needs_centroids(c.draw, c.tile.samples)) batch.centroids = find_centroids(batch, centroids);
   c.draw.kernels.fragment(c.draw.shader.get(), batch);
   count_fragments(c, &queue.packets[begin], static_cast<int>(n));
   if constexpr (kTracesShading<Shading>) {

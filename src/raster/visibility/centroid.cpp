@@ -17,34 +17,32 @@ bool covers_sample(const Triangle& t, int64_t x, int64_t y) {
 }
 
 SamplePosition centroid(const Triangle& t, int samples, int x, int y) {
-  const SamplePosition center{kSubPixels / 2, kSubPixels / 2};
   int covered = 0;
-  SamplePosition first = center;
+  SamplePosition first = kPixelCenter;
   for (int s = samples - 1; s >= 0; --s) {
     const SamplePosition p = sample_position(samples, s);
     if (!covers_sample(t, int64_t{x} * kSubPixels + p.x, int64_t{y} * kSubPixels + p.y)) continue;
     ++covered;
     first = p;
   }
-  return covered == samples ? center : first;
+  return covered == samples ? kPixelCenter : first;
+}
+
+// Computes the centroid positions of packet i of a batch.
+void find_packet_centroids(const PacketBatch& batch, std::size_t i, SamplePosition* out) {
+  const int packet = batch.packets[i].packet;
+  const int x = batch.tile_x0 + packet_x(packet), y = batch.tile_y0 + packet_y(packet);
+  for (int lane = 0; lane < kLanes; ++lane) {
+    const TriangleId id = batch.ids != nullptr ? batch.ids[packet * kLanes + lane] : batch.packet_ids[i];
+    out[lane] = id == kNoTriangle ? kPixelCenter
+                                  : centroid(triangle_of(*batch.context, id), batch.context->samples, x + block_x(lane), y + block_y(lane));
+  }
 }
 
 }  // namespace
 
-void find_centroids(const PassContext& context, int x, int y, const TriangleId* ids, TriangleId uniform, SamplePosition* out) {
-  for (int i = 0; i < kLanes; ++i) {
-    const TriangleId id = ids != nullptr ? ids[i] : uniform;
-    out[i] = {kSubPixels / 2, kSubPixels / 2};
-    if (id != kNoTriangle) out[i] = centroid(triangle_of(context, id), context.samples, x + block_x(i), y + block_y(i));
-  }
-}
-
 const SamplePosition* find_centroids(const PacketBatch& batch, std::span<SamplePosition> out) {
-  for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) {
-    const int packet = batch.packets[i].packet;
-    find_centroids(*batch.context, batch.tile_x0 + packet_x(packet), batch.tile_y0 + packet_y(packet), nullptr, batch.packet_ids[i],
-                   &out[i * kLanes]);
-  }
+  for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) find_packet_centroids(batch, i, &out[i * kLanes]);
   return out.data();
 }
 

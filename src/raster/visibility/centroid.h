@@ -11,11 +11,11 @@
 
 namespace halfspace {
 
-/// Computes the W centroid positions of a packet whose lower left pixel is (x, y). Lane i shows triangle ids[i], or `uniform` if ids is
-/// null. Lanes without a triangle get the pixel center.
-void find_centroids(const PassContext& context, int x, int y, const TriangleId* ids, TriangleId uniform, SamplePosition* out);
+/// Returns true if a draw has centroid varyings whose positions must be computed: if its shader runs once for several samples.
+inline bool needs_centroids(const Draw& draw, int samples) { return draw.kernels.uses_centroid && samples > 1 && !draw.shades_samples; }
 
-/// Computes the centroid positions of a batch with packet_ids, and returns out.data().
+/// Computes the centroid positions of the packets of a batch, W for each, and returns out.data(). Pixels without a triangle get their
+/// center. The batch must not be packed.
 const SamplePosition* find_centroids(const PacketBatch& batch, std::span<SamplePosition> out);
 
 }  // namespace halfspace

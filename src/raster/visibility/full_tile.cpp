@@ -18,9 +18,11 @@ DepthBounds depth_of(const DrawInTile& d, const Triangle& t) {
 
 template <class Statistics>
 bool FullTileOccluder::test_or_write(const DrawInTile& d, const Triangle& t, TriangleId id, Statistics& statistics) {
+  const bool is_opaque = d.rasterizer == Rasterizer::opaque;
   const bool replaces_depth = d.tile.depth_format == DepthFormat::none || (d.tests && d.draw.state.depth.write);
-  const bool covers = may_cover(t) && d.is_opaque && d.tile.samples == 1 && replaces_depth && !d.needs_bounds_test && covers_tile(d, t);
-  if (covers || (pending_ && d.is_opaque)) {
+  const bool covers =
+      may_cover(t) && is_opaque && d.tile.size == kMaxTileSize && replaces_depth && !d.needs_bounds_test && covers_tile(d, t);
+  if (covers || (pending_ && is_opaque)) {
     const DepthBounds depth = depth_of(d, t);
     const CompareOp op = d.draw.state.depth.compare;
     const BlockTest test = !d.tests   ? BlockTest::all_pass

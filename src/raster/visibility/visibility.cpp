@@ -35,29 +35,32 @@ bool fetches_vertices_ahead(const Draw& draw) {
   return draws_points(draw.state) || draw.indices->used_count() < draw.primitive_count;
 }
 
-// Returns true if the shader does not take part in visibility. The members before is_opaque must be set.
-bool draws_without_shader(const DrawInTile& d) {
-  const bool shades_later = d.mode == VisibilityMode::deferred || d.mode == VisibilityMode::depth_only;
-  return shades_later && !d.runs_visibility_function && (d.tile.samples > 1 || (d.draw.sample_mask & 1) != 0);
+// Returns true if the shader's visibility function must be called before the fragment function.
+bool must_run_visibility_function(const Draw& draw, VisibilityMode mode) {
+  return shades_later(mode) && draw.kernels.visibility != nullptr;
 }
 
 }  // namespace
+
+Rasterizer choose_rasterizer(const Draw& draw, VisibilityMode mode, const Tile& tile) {
+  const bool shader_decides = !shades_later(mode) || must_run_visibility_function(draw, mode);
+  if (draw.state.stencil && tile.has_stencil) return !shader_decides && tile.samples == 1 ? Rasterizer::stencil : Rasterizer::general;
+  if (!shader_decides) return Rasterizer::opaque;
+  return tile.samples == 1 || !draw.shades_samples ? Rasterizer::queued : Rasterizer::general;
+}
 
 DrawInTile::DrawInTile(const PassContext& f, const Draw& d, VisibilityMode m, Tile& t)
     : context(f),
       draw(d),
       mode(m),
+      rasterizer(choose_rasterizer(d, m, t)),
       tile(t),
       bounds{std::max(d.bounds.x0, t.x0), std::max(d.bounds.y0, t.y0), std::min(d.bounds.x1, t.x0 + t.width),
              std::min(d.bounds.y1, t.y0 + t.height)},
-      needs_bounds_test(t.size != kMaxTileSize || bounds.x0 > t.x0 || bounds.y0 > t.y0 || d.bounds.x1 < t.x0 + t.size ||
-                        d.bounds.y1 < t.y0 + t.size),
+      needs_bounds_test(bounds != PixelBounds{t.x0, t.y0, t.x0 + t.size, t.y0 + t.size}),
       tests(tests_depth(d.state.depth, t)),
-      runs_visibility_function((m == VisibilityMode::deferred || m == VisibilityMode::depth_only) && d.kernels.visibility != nullptr),
-      fetches_vertices(m == VisibilityMode::deferred && fetches_vertices_ahead(d)),
-      is_opaque(draws_without_shader(*this) && !(d.state.stencil && t.has_stencil)),
-      has_stencil(draws_without_shader(*this) && d.state.stencil && t.has_stencil && t.samples == 1),
-      is_queued(!is_opaque && (t.samples == 1 ? (d.sample_mask & 1) != 0 : !d.shades_samples) && !(d.state.stencil && t.has_stencil)) {}
+      runs_visibility_function(must_run_visibility_function(d, m)),
+      fetches_vertices(m == VisibilityMode::deferred && fetches_vertices_ahead(d)) {}
 
 Mask depth_test(const DepthState& state, const Tile& tile, int packet, Real z, Mask mask) {
   if (!tests_depth(state, tile)) return mask;

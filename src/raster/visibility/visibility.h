@@ -35,8 +35,22 @@ enum class VisibilityMode : uint8_t {
   cover_only   ///< list covered samples; depth is tested after shading, because the shader replaces it
 };
 
+/// Returns true if visibility is complete without the fragment function, which runs later or never.
+constexpr bool shades_later(VisibilityMode mode) { return mode == VisibilityMode::deferred || mode == VisibilityMode::depth_only; }
+
 /// Returns the mode for a draw. Depth is tested before shading where this does not change the result (OpenGL 4.6, section 15.2.4).
 VisibilityMode visibility_mode(const Draw& draw);
+
+/// The function that rasterizes the triangles of a draw in a tile.
+enum class Rasterizer : uint8_t {
+  opaque,   ///< only coverage and depth determine visibility: rasterize_opaque()
+  stencil,  ///< coverage, depth and the stencil test do, with one sample per pixel: rasterize_small_with_stencil() or rasterize()
+  queued,   ///< the shader does, which runs per pixel, without a stencil test: rasterize_queued()
+  general   ///< all others: rasterize()
+};
+
+/// Returns the rasterizer for a draw with the given mode.
+Rasterizer choose_rasterizer(const Draw& draw, VisibilityMode mode, const Tile& tile);
 
 /// Values that all triangles of a draw in one tile share.
 struct DrawInTile {
@@ -45,28 +59,26 @@ struct DrawInTile {
   const PassContext& context;
   const Draw& draw;
   VisibilityMode mode;
+  Rasterizer rasterizer;
   Tile& tile;
   PixelBounds bounds;             ///< bounds of the draw in the tile
   bool needs_bounds_test;         ///< covered pixels of the tile can be outside bounds
   bool tests;                     ///< depth is tested in this stage, unless the stencil test requires that it is tested later
   bool runs_visibility_function;  ///< the shader's visibility function must be called
   bool fetches_vertices;          ///< prefetch vertices: they belong to points, or are shared by several triangles
-  bool is_opaque;                 ///< only coverage and depth determine visibility
-  bool has_stencil;               ///< coverage, depth and the stencil test determine visibility, with one sample per pixel
-  bool is_queued;                 ///< shaded per pixel, without a stencil test; packets are listed in a PacketQueue until the shader runs
 };
 
 // Statistics is PassStatistics, or TracedStatistics to trace fragments (raster/trace/tile_trace.h).
 
-/// Rasterizes triangle `index` of chunk `chunk` in the tile (visibility_general.cpp). list may only be null for VisibilityMode::deferred
-/// and depth_only. Must not be called for queued draws.
+/// Rasterizes triangle `index` of chunk `chunk` in the tile (visibility_general.cpp). For Rasterizer::stencil and general. list may only be
+/// null if shades_later(d.mode).
 template <class Statistics>
 void rasterize(const DrawInTile& d, uint32_t chunk, uint32_t index, CoverageList* list, Statistics& statistics);
 
 /// The same for a triangle of an opaque draw (visibility_blocks.cpp).
 template <class Statistics>
 void rasterize_opaque(const DrawInTile& d, const Triangle& t, TriangleId id, Statistics& statistics);
-/// The same for a triangle of a queued draw, which is added to the queue.
+/// The same for a triangle of a queued draw. Its packets are listed in the queue until the shader runs.
 template <class Statistics>
 void rasterize_queued(const DrawInTile& d, const Triangle& t, TriangleId id, PacketQueue& queue, Statistics& statistics);
 /// Returns true if the triangle can be drawn by rasterize_small().
@@ -74,7 +86,7 @@ inline bool is_small_triangle(const Triangle& t) { return (t.flags & (kSmall | k
 /// Rasterizes small triangles of an opaque draw in order. indices: 1 to W triangles of the chunk.
 template <class Statistics>
 void rasterize_small(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, Statistics& statistics);
-/// The same for a draw with has_stencil.
+/// The same for a draw with Rasterizer::stencil.
 void rasterize_small_with_stencil(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, PassStatistics& statistics);
 /// The same for a queued draw. Stops when the queue is full. Returns the number of triangles that were added to the queue, at least 1.
 template <class Statistics>
@@ -89,7 +101,7 @@ std::size_t rasterize_small_samples_queued(const DrawInTile& d, uint32_t chunk, 
                                            Statistics& statistics);
 
 /// Runs the visibility function for all packets of a queue, tests and writes them, and empties the queue (visibility_queue.cpp). d: the
-/// draw of the queue, which is deferred or depth_only.
+/// draw of the queue, with shades_later(d.mode).
 template <class Statistics>
 void decide_queued(const DrawInTile& d, PacketQueue& queue, Statistics& statistics);
 

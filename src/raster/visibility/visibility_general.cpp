@@ -55,7 +55,7 @@ HS_INLINE void finish_packet(const Visit& c, int packet, Mask mask, Real z) {
   if (c.writes && c.mode != VisibilityMode::test_only) {
     store(&tile.depth[first], select(mask, z, load<Real>(&tile.depth[first])));
   }
-  if (c.mode == VisibilityMode::deferred || c.mode == VisibilityMode::depth_only) {
+  if (shades_later(c.mode)) {
     c.statistics.samples_passed += static_cast<uint64_t>(std::popcount(lanes));
     if (c.mode == VisibilityMode::deferred) {
       store(&tile.visibility[first], select(mask, Int(std::bit_cast<int32_t>(c.id)), load<Int>(&tile.visibility[first])));
@@ -95,22 +95,17 @@ void run_visibility_function(const Visit& c) {
   if (pending.count == 0) return;
   const auto count = static_cast<std::size_t>(pending.count);
   std::array<SamplePosition, kPacketBatch * kLanes> centroids;
-  const bool needs_centroid = c.draw.kernels.uses_centroid && c.tile.samples > 1 && !c.draw.shades_samples;
-  for (std::size_t i = 0; needs_centroid && i < count; ++i) {
-    const int packet = pending.packets[i].packet;
-    find_centroids(c.context, c.grid.x0 + packet_x(packet), c.grid.y0 + packet_y(packet), nullptr, c.id, &centroids[i * kLanes]);
-  }
   std::array<TriangleId, kPacketBatch> ids;
   ids.fill(c.id);
   std::array<uint16_t, kPacketBatch> keep;
-  const PacketBatch packets{.context = &c.context,
-                            .tile_x0 = c.grid.x0,
-                            .tile_y0 = c.grid.y0,
-                            .position = c.draw.shades_samples ? c.grid.position : kPixelCenter,
-                            .packet_ids = ids.data(),
-                            .packets = pending.packets.data(),
-                            .count = pending.count,
-                            .centroids = needs_centroid ? centroids.data() : nullptr};
+  PacketBatch packets{.context = &c.context,
+                      .tile_x0 = c.grid.x0,
+                      .tile_y0 = c.grid.y0,
+                      .position = c.draw.shades_samples ? c.grid.position : kPixelCenter,
+                      .packet_ids = ids.data(),
+                      .packets = pending.packets.data(),
+                      .count = pending.count};
+  if (needs_centroids(c.draw, c.tile.samples)) packets.centroids = find_centroids(packets, centroids);
   c.draw.kernels.visibility(c.draw.shader.get(), {packets, keep.data(), pending.depth.data()});
   for (std::size_t i = 0; i < count; ++i) {
     const auto [packet, lanes] = pending.packets[i];
@@ -248,13 +243,6 @@ void rasterize_sample(Visit& c, const PixelBounds& b) {
 template <class Statistics>
 void rasterize(const DrawInTile& d, uint32_t chunk, uint32_t index, CoverageList* list, Statistics& statistics) {
   const Triangle& t = d.context.chunks[chunk].triangles[index];
-  if (d.is_opaque && is_small_triangle(t)) {
-    const auto one = static_cast<uint16_t>(index);
-    return rasterize_small(d, chunk, {&one, 1}, statistics);
-  }
-  const bool shades_later = d.mode == VisibilityMode::deferred || d.mode == VisibilityMode::depth_only;
-  if (shades_later && !d.runs_visibility_function && !(d.draw.state.stencil && d.tile.has_stencil))
-    return rasterize_opaque(d, t, triangle_id(chunk, index), statistics);
   const StencilFace* stencil = stencil_face(d.draw.state, d.tile, t.is(kFrontFacing));
   // If the shader determines visibility later, both tests are postponed as well, because stencil updates depend on the final result.
   const bool late = d.mode == VisibilityMode::test_only && stencil != nullptr;

@@ -106,7 +106,7 @@ void decide_queued(const DrawInTile& d, PacketQueue& queue, Statistics& statisti
       n = std::min(std::size_t{kPacketBatch}, rest.size());
       VisibilityBatch batch{queue.batch(d.context, d.tile, begin, n), decisions.keep.data(), decisions.depth.data()};
       std::array<SamplePosition, kPacketBatch * kLanes> centroids;
-      if (d.tile.samples > 1 && d.draw.kernels.uses_centroid) batch.centroids = find_centroids(batch, centroids);
+      if (needs_centroids(d.draw, d.tile.samples)) batch.centroids = find_centroids(batch, centroids);
       d.draw.kernels.visibility(d.draw.shader.get(), batch);
       decided.finish_batch(begin, n, [&](std::size_t i, uint32_t) {
         return std::pair<uint32_t, Real>(decisions.keep[i], d.draw.kernels.writes_depth ? decisions.depth[i] : Real(0.0f));

@@ -86,7 +86,6 @@ class SampledPackets {
         id_(id),
         writer_(writer),
         rect_(triangles.rect(k)),
-        needs_bounds_test_(d.bounds != PixelBounds{d.tile.x0, d.tile.y0, d.tile.x0 + d.tile.size, d.tile.y0 + d.tile.size}),
         depth_(small_depth(t, d.draw.depth_low, d.draw.depth_high)),
         bounds_(depth_bounds(t, d.draw, d.tile.depth_format)) {
     for (std::size_t i = 0; i < 3; ++i) {
@@ -135,7 +134,7 @@ class SampledPackets {
       const Int best = (lanes_[0] + (at[0] + highest_[0])) | (lanes_[1] + (at[1] + highest_[1])) | (lanes_[2] + (at[2] + highest_[2]));
       if (negative_bits(best) == kAllBits<Mask>) return;
     }
-    const uint32_t seen = needs_bounds_test_ ? bits(inside(rect_, x, y)) : kAllBits<Mask>;
+    const uint32_t seen = d_.needs_bounds_test ? bits(inside(rect_, x, y)) : kAllBits<Mask>;
     Covered& c = list_[listed_];
     c.packet = static_cast<uint16_t>(packet_at(x, y));
     c.e1 = at[1];
@@ -168,7 +167,6 @@ class SampledPackets {
   TriangleId id_;
   Writer& writer_;
   TileRect rect_;
-  bool needs_bounds_test_;
   std::array<int32_t, 3> step_x_, step_y_, bias_;
   std::array<Int, 3> lanes_;                           // offsets from the corner of a packet to its pixels
   std::array<std::array<int32_t, 3>, kMaxSamples> e_;  // edges at the samples of the first pixel of the tile

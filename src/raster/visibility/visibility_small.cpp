@@ -23,7 +23,7 @@ constexpr int kMaxCovered = std::popcount(kCoveredBits);
 class SmallTriangles {
  public:
   // indices: 1 to W triangles of the chunk.
-  HS_INLINE SmallTriangles(const DrawInTile& d, const SampleGrid& grid, const Chunk& chunk, std::span<const uint16_t> indices) {
+  HS_INLINE SmallTriangles(const DrawInTile& d, const Chunk& chunk, std::span<const uint16_t> indices) {
     const auto triangle = [&](int k) { return &chunk.triangles[indices[std::min(static_cast<std::size_t>(k), indices.size() - 1)]]; };
     static_assert(offsetof(Triangle, z_edge1) == offsetof(Triangle, z0) + sizeof(float) &&
                   offsetof(Triangle, z_max) == offsetof(Triangle, z0) + 3 * sizeof(float));
@@ -33,6 +33,7 @@ class SmallTriangles {
     const Real low(d.draw.depth_low), high = clamp(as_real(depths[3]), low, Real(d.draw.depth_high));
     const SmallDepth depth{as_real(depths[0]), as_real(depths[1]), as_real(depths[2]), low, high};
 
+    const SampleGrid grid(d.tile, 0);
     const SamplePosition at = grid.position;
     const PixelBox<Int> box = pixel_box(x, y, SampleSpan{at.x, at.x}, SampleSpan{at.y, at.y});
     const Int covered = (flags >> static_cast<int>(kCoveredShift)) & static_cast<int32_t>(kCoveredBits);
@@ -238,7 +239,7 @@ HS_INLINE void write_triangle(const DrawInTile& d, const SmallTriangles& triangl
 template <class Statistics>
 void rasterize_small(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, Statistics& statistics) {
   if (d.tile.samples > 1) return rasterize_small_samples(d, chunk, indices, statistics);
-  const SmallTriangles triangles(d, SampleGrid(d.tile, 0), d.context.chunks[chunk], indices);
+  const SmallTriangles triangles(d, d.context.chunks[chunk], indices);
   const auto large = [&](const Triangle& t, TriangleId id) { rasterize_opaque(d, t, id, statistics); };
   const auto write_all = [&](auto writer) {
     for (std::size_t k = 0; k < indices.size(); ++k) write_triangle(d, triangles, k, chunk, indices[k], writer, large);
@@ -248,7 +249,7 @@ void rasterize_small(const DrawInTile& d, uint32_t chunk, std::span<const uint16
 }
 
 void rasterize_small_with_stencil(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, PassStatistics& statistics) {
-  const SmallTriangles triangles(d, SampleGrid(d.tile, 0), d.context.chunks[chunk], indices);
+  const SmallTriangles triangles(d, d.context.chunks[chunk], indices);
   StencilWriter writer(d, statistics);
   for (std::size_t k = 0; k < indices.size(); ++k) {
     const auto large = [&](const Triangle&, TriangleId) { rasterize(d, chunk, indices[k], nullptr, statistics); };
@@ -263,7 +264,7 @@ template <class Statistics>
 std::size_t rasterize_small_queued(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, PacketQueue& queue,
                                    Statistics& statistics) {
   if (d.tile.samples > 1) return rasterize_small_samples_queued(d, chunk, indices, queue, statistics);
-  const SmallTriangles triangles(d, SampleGrid(d.tile, 0), d.context.chunks[chunk], indices);
+  const SmallTriangles triangles(d, d.context.chunks[chunk], indices);
   const auto large = [&](const Triangle& t, TriangleId id) { rasterize_queued(d, t, id, queue, statistics); };
   const auto write_all = [&](auto writer) {
     std::size_t k = 0;
