@@ -4,6 +4,7 @@
 #include "halfspace/shading/texture.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cstring>
 
 #include "halfspace/shading/texels.h"
@@ -55,7 +56,7 @@ void put(int32_t* words, std::size_t i, const glm::vec4& t, TexelFormat format) 
 Texture2D::Texture2D(const Image<glm::u8vec4>& base, TexelFormat format, const Workers* workers) : format_(format) {
   HS_CHECK(format == TexelFormat::rgba8 || format == TexelFormat::srgb8a8);
   add_chain(base, workers);
-  add_alphas();
+  add_alphas(workers);
 }
 Texture2D::Texture2D(const Image<uint8_t>& base) : format_(TexelFormat::r8) { add_chain(base, nullptr); }
 Texture2D::Texture2D(const Image<uint16_t>& base) : format_(TexelFormat::r16) { add_chain(base, nullptr); }
@@ -67,7 +68,7 @@ Texture2D::Texture2D(const Image<glm::vec4>& base, TexelFormat format, const Wor
 Texture2D::Texture2D(std::span<const Image<glm::u8vec4>> levels, TexelFormat format) : format_(format) {
   HS_CHECK(format == TexelFormat::rgba8 || format == TexelFormat::srgb8a8);
   add_levels(levels);
-  add_alphas();
+  add_alphas(nullptr);
 }
 Texture2D::Texture2D(std::span<const Image<glm::vec4>> levels, TexelFormat format) : format_(format) {
   HS_CHECK(format == TexelFormat::rgba16f || format == TexelFormat::rgba32f);
@@ -126,19 +127,30 @@ void Texture2D::add_level(const Image<Texel>& image, const Workers* workers) {
   });
 }
 
-void Texture2D::add_alphas() {
+void Texture2D::add_alphas(const Workers* workers) {
   const auto alpha = [](int32_t texel) { return static_cast<uint16_t>(static_cast<uint32_t>(texel) >> 24); };
-  const std::size_t end = texels_.size() - kRowSlack;
-  const bool varies = std::any_of(texels_.begin(), texels_.begin() + static_cast<std::ptrdiff_t>(end),
-                                  [&](int32_t texel) { return alpha(texel) != alpha(texels_[0]); });
+  // Calls f(first, pitch) for all rows but the last of each level, with the borders. first: index of the first texel of the row.
+  const auto for_each_row = [&](const auto& f) {
+    for (std::size_t l = 0; l < static_cast<std::size_t>(levels_); ++l) {
+      const auto pitch = static_cast<std::size_t>(pitch_[l]);
+      const std::size_t begin = static_cast<std::size_t>(offset_[l]) - pitch - 1;
+      detail::for_each_row(workers, height_[l] + 1, [&](int row) { f(begin + static_cast<std::size_t>(row) * pitch, pitch); });
+    }
+  };
+  // The last row repeats another one, so it need not be checked.
+  std::atomic<bool> varies = false;
+  for_each_row([&](std::size_t first, std::size_t pitch) {
+    if (varies.load(std::memory_order_relaxed)) return;
+    const int32_t* row = texels_.data() + first;
+    if (std::any_of(row, row + pitch, [&](int32_t texel) { return alpha(texel) != alpha(texels_[0]); }))
+      varies.store(true, std::memory_order_relaxed);
+  });
   if (!varies) return;
-  alphas_.resize(end);
-  for (std::size_t l = 0; l < static_cast<std::size_t>(levels_); ++l) {
-    const auto pitch = static_cast<std::size_t>(pitch_[l]);
-    std::size_t i = static_cast<std::size_t>(offset_[l]) - pitch - 1;  // the first texel of the border
-    for (const std::size_t last_row = i + pitch * static_cast<std::size_t>(height_[l] + 1); i < last_row; ++i)
+  alphas_.resize(texels_.size() - kRowSlack);
+  for_each_row([&](std::size_t first, std::size_t pitch) {
+    for (std::size_t i = first; i < first + pitch; ++i)
       alphas_[i] = static_cast<uint16_t>(alpha(texels_[i]) | alpha(texels_[i + pitch]) << 8);
-  }
+  });
 }
 
 /// Returns an index in texels, counted from the start of the allocation.

@@ -112,7 +112,7 @@ class Texture2D {
   void add_levels(std::span<const Image<Texel>> levels);
   template <class Texel>
   void add_level(const Image<Texel>& image, const Workers* workers);
-  void add_alphas();
+  void add_alphas(const Workers* workers);
   std::size_t index_of(int level, int x, int row) const;
 
   /// Returns whether CommonLookup supports this sampler.
