@@ -9,6 +9,7 @@
 #include "halfspace/core/hash.h"
 #include "halfspace/core/trig_double.h"
 #include "halfspace/geometry/camera.h"
+#include "halfspace/scene/lights.h"
 
 namespace halfspace {
 
@@ -113,9 +114,9 @@ VisibilityScore compare_visibility(const ShadowPicture& picture, const Image<std
 
 LightTruth light_truth(const RayScene& casters, const RayLight& light, const glm::dvec3& position_rws, const glm::dvec3& face_normal_ws,
                        uint32_t seed) {
-  const bool directional = light.light.type == LightType::directional;
+  const bool distant = kind_of(light.light.type).is_distant;
   const glm::dvec3 place(light.light.place_rws);
-  const glm::dvec3 axis = directional ? place : unit_or_zero(place - position_rws);
+  const glm::dvec3 axis = distant ? place : unit_or_zero(place - position_rws);
   // Offset the origin by more than the errors of Embree's hit and of the float vertices, which are a few 2^-24 of the largest coordinate.
   const double scale = std::max({std::abs(position_rws.x), std::abs(position_rws.y), std::abs(position_rws.z), 1e-3});
   const glm::dvec3 outwards = glm::dot(face_normal_ws, axis) >= 0.0 ? face_normal_ws : -face_normal_ws;
@@ -126,8 +127,8 @@ LightTruth light_truth(const RayScene& casters, const RayLight& light, const glm
   for (int cell = 0; cell < strata * strata; ++cell) {
     const glm::dvec2 p = light.size > 0.0 ? disk_point(cell, strata, seed) * light.size : glm::dvec2(0.0);
     const glm::dvec3 aside = side * p.x + up * p.y;
-    const glm::dvec3 direction = directional ? axis + aside : place + aside - origin;
-    arrived += !casters.occluded(glm::vec3(origin), glm::vec3(direction), 0.0f, directional ? kFar : 1.0f);
+    const glm::dvec3 direction = distant ? axis + aside : place + aside - origin;
+    arrived += !casters.occluded(glm::vec3(origin), glm::vec3(direction), 0.0f, distant ? kFar : 1.0f);
   }
   const double n = strata * strata, share = arrived / n;
   // This is the standard error of independent rays; stratification makes the true one smaller.

@@ -9,6 +9,7 @@
 #include "halfspace/core/trig_double.h"
 #include "halfspace/geometry/camera.h"
 #include "halfspace/render/shadow/shadow_views.h"
+#include "halfspace/scene/lights.h"
 #include "halfspace/shading/shadow_bias.h"
 
 namespace halfspace {
@@ -39,9 +40,9 @@ class EdgeFinder {
   EdgeFinder(const RayScene& rays, const RayScene& casters, const RayLight& light) : rays_(rays), casters_(casters), light_(light) {}
 
   double distance(const RayHit& hit, const glm::dvec3& face_normal_ws, bool lit, double texel, double radius) const {
-    const bool directional = light_.light.type == LightType::directional;
+    const bool distant = kind_of(light_.light.type).is_distant;
     const glm::dvec3 axis =
-        directional ? glm::dvec3(light_.light.place_rws) : unit_or_zero(glm::dvec3(light_.light.place_rws) - hit.position_rws);
+        distant ? glm::dvec3(light_.light.place_rws) : unit_or_zero(glm::dvec3(light_.light.place_rws) - hit.position_rws);
     const glm::dvec3 right = unit_or_zero(glm::cross(std::abs(axis.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0), axis));
     const glm::dvec3 up = glm::cross(axis, right);
     const double lean = glm::dot(face_normal_ws, axis);

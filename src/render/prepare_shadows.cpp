@@ -14,6 +14,7 @@
 #include "halfspace/render/shadow/moment_map.h"
 #include "halfspace/render/shadow/shadow_fit.h"
 #include "halfspace/render/sphere_camera.h"
+#include "halfspace/scene/lights.h"
 #include "halfspace/shading/depth_only.h"
 #include "halfspace/shading/shadow_bias.h"
 #include "halfspace/shading/sphere_depth.h"
@@ -46,7 +47,7 @@ ShadowSettings settings_of(const ShadowDescription& d, const LightDescription& l
   s.slope = static_cast<float>(d.slope);
   s.max_slope = static_cast<float>(d.max_slope);
   s.radius = static_cast<float>(d.radius);
-  if (light.type == LightType::directional) {
+  if (kind_of(light.type).is_distant) {
     const SinCosDouble half = sincos_radians(light.size * kRadiansPerDegree);
     s.light_radius = static_cast<float>(half.sin / half.cos);
   } else {

@@ -4,6 +4,7 @@
 // all based on them.
 #include "halfspace/scene/description.h"
 
+#include "halfspace/scene/lights.h"
 #include "halfspace/scene/shapes.h"
 
 namespace halfspace {
@@ -11,10 +12,6 @@ namespace halfspace {
 template <>
 struct ChoiceNames<Projection> {
   static constexpr std::array<std::string_view, 2> names{"perspective", "orthographic"};
-};
-template <>
-struct ChoiceNames<LightType> {
-  static constexpr std::array<std::string_view, 3> names{"directional", "point", "spot"};
 };
 template <>
 struct ChoiceNames<Falloff> {
@@ -123,19 +120,20 @@ Section section_of(LightDescription& l) {
   static const std::vector<Key> keys{
       key<&T::type>("type", "Type of light"),
       key<&T::direction>("direction", "Direction towards the light, any length; a spot light shines the opposite way",
-                         {.only = "directional spot"}),
-      key<&T::position>("position", "Position of the light", {.unit = "units", .only = "point spot"}),
+                         {.only = lights_with("direction")}),
+      key<&T::position>("position", "Position of the light", {.unit = "units", .only = lights_with("position")}),
       key<&T::color>("color", "Color, linear", {.low = 0}),
       key<&T::intensity>("intensity", "Multiplier for the color", {.low = 0}),
       key<&T::ambient>("ambient", "Multiplier for the light's ambient contribution, which is the same everywhere", {.low = 0}),
       key<&T::diffuse>("diffuse", "Multiplier for the light's diffuse contribution", {.low = 0}),
       key<&T::specular>("specular", "Multiplier for the light's specular contribution", {.low = 0}),
-      key<&T::falloff>("falloff", "Falloff with distance: by attenuation, or physical (1 / d^2)", {.only = "point spot"}),
-      key<&T::attenuation>("attenuation", "Coefficients c, l, q of 1 / (c + l d + q d^2) at distance d", {.low = 0, .only = "point spot"}),
+      key<&T::falloff>("falloff", "Falloff with distance: by attenuation, or physical (1 / d^2)", {.only = lights_with("falloff")}),
+      key<&T::attenuation>("attenuation", "Coefficients c, l, q of 1 / (c + l d + q d^2) at distance d",
+                           {.low = 0, .only = lights_with("attenuation")}),
       key<&T::inner>("inner", "Angle from the axis up to which the light has full intensity",
-                     {.unit = "degrees", .low = 0, .high = 180, .only = "spot"}),
+                     {.unit = "degrees", .low = 0, .high = 180, .only = lights_with("inner")}),
       key<&T::outer>("outer", "Angle from the axis beyond which there is no light",
-                     {.unit = "degrees", .low = 0.01, .high = 180, .only = "spot"}),
+                     {.unit = "degrees", .low = 0.01, .high = 180, .only = lights_with("outer")}),
       key<&T::shadow>("shadow", "Whether the light casts shadows"),
       key<&T::size>("size", "Radius; for a directional light, half the angle it subtends, in degrees", {.low = 0, .high = 1e6}),
   };

@@ -12,6 +12,7 @@
 #include "halfspace/core/text.h"
 #include "halfspace/core/vec.h"
 #include "halfspace/scene/animation.h"
+#include "halfspace/scene/lights.h"
 #include "halfspace/scene/material_overrides.h"
 #include "halfspace/scene/scene_paths.h"
 #include "halfspace/scene/shapes.h"
@@ -41,10 +42,11 @@ void check(const LightDescription& l, const std::string& where) {
   if (l.attenuation.x + l.attenuation.y + l.attenuation.z < kMinTerm) {
     reject(where + ".attenuation", "is zero; expected a sum of at least " + number_text(kMinTerm));
   }
-  if (l.type == LightType::spot && l.inner > l.outer)
+  if (kind_of(l.type).has_cone && l.inner > l.outer)
     reject(where + ".inner", number_text(l.inner) + " is greater than outer; expected at most " + number_text(l.outer));
-  if (l.type == LightType::directional && l.size > 45.0)
-    reject(where + ".size", number_text(l.size) + " degrees is too large for a directional light; expected at most 45");
+  if (kind_of(l.type).is_distant && l.size > 45.0)
+    reject(where + ".size",
+           number_text(l.size) + " degrees is too large for a " + std::string(kind_of(l.type).name) + " light; expected at most 45");
 }
 
 void check(const ShadowDescription& s, const std::string& where) {

@@ -3,11 +3,9 @@
 
 #include <algorithm>
 #include <array>
-#include <list>
 #include <numbers>
-#include <string>
 
-#include "halfspace/core/text.h"
+#include "halfspace/scene/kind_table.h"
 #include "halfspace/scene/shape_tessellation.h"
 
 namespace halfspace {
@@ -194,24 +192,11 @@ constexpr ShapeKind kKinds[]{
      .set_parts = no_parts},
 };
 
-// kind_of looks rows up by the value of the enumeration.
-constexpr bool is_in_order() {
-  for (std::size_t i = 0; i < std::size(kKinds); ++i) {
-    if (kKinds[i].shape != static_cast<Shape>(i)) return false;
-  }
-  return std::size(kKinds) == kShapes;
-}
-static_assert(is_in_order());
-
-constexpr std::array<std::string_view, kShapes> names_of_kinds() {
-  std::array<std::string_view, kShapes> names{};
-  std::ranges::transform(kKinds, names.begin(), &ShapeKind::name);
-  return names;
-}
+static_assert(std::size(kKinds) == kShapes && is_in_order(kKinds, &ShapeKind::shape));
 
 }  // namespace
 
-constinit const std::array<std::string_view, kShapes> ChoiceNames<Shape>::names = names_of_kinds();
+constinit const std::array<std::string_view, kShapes> ChoiceNames<Shape>::names = names_of(kKinds);
 
 const ShapeKind& kind_of(Shape shape) { return kKinds[static_cast<std::size_t>(shape)]; }
 
@@ -222,15 +207,6 @@ int part_step(int minimum) {
   return 2 * minimum <= 3 * power ? 3 * power / 2 : 2 * power;
 }
 
-const char* shapes_with(std::string_view key) {
-  static std::list<std::string> lists;
-  std::string& list = lists.emplace_back();
-  for (const ShapeKind& kind : kKinds) {
-    if (!has_word(kind.keys, key)) continue;
-    if (!list.empty()) list += ' ';
-    list += kind.name;
-  }
-  return list.c_str();
-}
+const char* shapes_with(std::string_view key) { return names_with(kKinds, key); }
 
 }  // namespace halfspace

@@ -11,6 +11,7 @@
 #include "halfspace/render/export/append_model.h"
 #include "halfspace/render/export/scene_materials.h"
 #include "halfspace/render/model_asset.h"
+#include "halfspace/scene/lights.h"
 
 namespace halfspace {
 
@@ -209,9 +210,8 @@ class SceneExporter {
     light.color = glm::vec3(d.color.linear * d.diffuse);
     light.intensity = d.intensity * std::numbers::pi;
     if (light.intensity <= 0.0 || light.color == glm::vec3(0.0f)) return;
-    light.type = d.type == LightType::directional ? ModelLightType::directional
-                 : d.type == LightType::spot      ? ModelLightType::spot
-                                                  : ModelLightType::point;
+    const LightKind& kind = kind_of(d.type);
+    light.type = kind.is_distant ? ModelLightType::directional : kind.has_cone ? ModelLightType::spot : ModelLightType::point;
     const float largest = std::max({light.color.x, light.color.y, light.color.z});
     if (largest > 1.0f) {
       light.color /= largest;
@@ -220,12 +220,12 @@ class SceneExporter {
     constexpr double kMinCone = 1e-4;
     light.outer = std::clamp(d.outer * kRadiansPerDegree, kMinCone, std::numbers::pi / 2.0);
     light.inner = std::clamp(d.inner * kRadiansPerDegree, 0.0, light.outer - 0.5 * kMinCone);
-    if (d.type != LightType::directional && d.falloff != Falloff::physical) warn("lights get physical falloff");
+    if (!kind.is_distant && d.falloff != Falloff::physical) warn("lights get physical falloff");
     if (d.specular != d.diffuse) warn("lights shine with the same color for diffuse and specular light");
     ModelNode node;
     node.name = name;
     node.light = static_cast<int>(model_.lights.size());
-    node.matrix = looking_along(d.type == LightType::directional ? glm::dvec3(0.0) : d.position, -d.direction, {0, 1, 0});
+    node.matrix = looking_along(kind.is_distant ? glm::dvec3(0.0) : d.position, -d.direction, {0, 1, 0});
     model_.lights.push_back(light);
     add_root(std::move(node));
   }

@@ -12,6 +12,7 @@
 
 #include "halfspace/render/particles.h"
 #include "halfspace/render/preparation.h"
+#include "halfspace/scene/lights.h"
 #include "halfspace/scene/scene_check.h"
 #include "halfspace/scene/shapes.h"
 #include "halfspace/shading/tone.h"
@@ -90,7 +91,7 @@ bool may_shade_by_vertex(const ObjectDescription& o, const SceneDescription& sce
   const bool is_shadowed = scene.shadow.method != ShadowMethod::none && o.receives_shadow;
   const bool is_metered = scene.post.hdr && scene.post.auto_exposure;
   return s.shading == ShadingRate::phong && is_smooth && !is_shadowed && !is_metered &&
-         std::ranges::all_of(scene.lights, [](const auto& light) { return light.second.type == LightType::directional; });
+         std::ranges::all_of(scene.lights, [](const auto& light) { return kind_of(light.second.type).is_distant; });
 }
 
 // Size and visibility of an object in the image.

@@ -6,6 +6,7 @@
 
 #include "halfspace/core/units.h"
 #include "halfspace/geometry/camera.h"
+#include "halfspace/scene/lights.h"
 
 namespace halfspace {
 
@@ -167,13 +168,10 @@ std::vector<LightView> fitted_views(const View& view, const std::vector<PlacedMe
                                     const LightDescription& light, const ShadowDescription& shadow, int size, double margin) {
   const ViewFinder finder(view, meshes, spheres, size, margin);
   if (finder.nothing_received()) return {};
-  switch (light.type) {
-    case LightType::directional: return finder.directional(light.direction, shadow.cascades, shadow.cascade_growth);
-    case LightType::spot:
-      if (light.outer > kWidestSpot) break;
-      return finder.spot(light.position, -light.direction, 2.0 * light.outer * kRadiansPerDegree);
-    case LightType::point: break;
-  }
+  const LightKind& kind = kind_of(light.type);
+  if (kind.is_distant) return finder.directional(light.direction, shadow.cascades, shadow.cascade_growth);
+  if (kind.has_cone && light.outer <= kWidestSpot)
+    return finder.spot(light.position, -light.direction, 2.0 * light.outer * kRadiansPerDegree);
   return finder.cube(light.position);
 }
 
