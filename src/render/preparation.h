@@ -1,25 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Implementation of SceneAssets::prepare, one file per topic: prepare_maps.cpp, prepare_patterns.cpp, prepare_meshes.cpp,
-// prepare_surface.cpp, prepare_objects.cpp, prepare_shadows.cpp, prepare_environments.cpp, prepare_background.cpp,
-// prepare_spheres.cpp, prepare_particles.cpp, prepare_models.cpp. Private header of these files and prepared_scene.cpp.
+// Implementation of SceneAssets::prepare, one file per topic: prepare_meshes.cpp, prepare_surface.cpp, prepare_objects.cpp,
+// prepare_shadows.cpp, prepare_background.cpp, prepare_spheres.cpp, prepare_particles.cpp, prepare_models.cpp. Private header of these
+// files and prepared_scene.cpp. Maps and environments have classes of their own: scene_maps.h, scene_environments.h.
 #pragma once
 
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "halfspace/core/resource_limits.h"
 #include "halfspace/geometry/height_field.h"
 #include "halfspace/geometry/mesh.h"
 #include "halfspace/geometry/relief_detail.h"
 #include "halfspace/model/pose.h"
-#include "halfspace/procedural/earth.h"
-#include "halfspace/procedural/moon.h"
-#include "halfspace/procedural/patterns.h"
 #include "halfspace/render/model_asset.h"
 #include "halfspace/render/prepared_scene.h"
+#include "halfspace/render/scene_environments.h"
+#include "halfspace/render/scene_maps.h"
 #include "halfspace/render/shadow/shadow_views.h"
+#include "halfspace/render/used_assets.h"
 #include "halfspace/render/view.h"
 
 namespace halfspace {
@@ -38,56 +37,17 @@ struct SurfaceStreams {
   std::span<const glm::vec2> uvs;
 };
 
-// Builds the cache key of an asset from the parameters it is made with.
-template <class... T>
-std::string recipe(const T&... parts) {
-  std::string text;
-  const auto add = [&](const auto& part) {
-    if constexpr (std::is_arithmetic_v<std::decay_t<decltype(part)>>) {
-      text += number_text(static_cast<double>(part)) + " ";
-    } else {
-      text += std::string(part) + " ";
-    }
-  };
-  (add(parts), ...);
-  return text;
-}
-
 // Returns the cache key of a model file.
 inline std::string model_recipe(const std::filesystem::path& file) { return recipe("model", file.string()); }
-
-// Calls `read` and prepends the scene key that refers to the file to its error messages.
-template <class F>
-auto read_for(const std::string& key, F read) {
-  try {
-    return read();
-  } catch (const LimitError& e) {
-    throw LimitError(key + ": " + e.what());
-  } catch (const InputError& e) {
-    throw InputError(key + ": " + e.what());
-  }
-}
-
-// A texture as used by one object.
-struct MapUse {
-  TextureDescription texture;
-  int width;  // width of a generated map, otherwise 0
-};
-
-/// Returns true if the source is the height map of a pattern.
-bool is_pattern_height(TextureSource source);
 
 /// Returns how a map continues beyond its edges on a shape.
 MapEdges edges_of(Shape shape);
 
-/// Returns the sampler for a texture.
-Sampler make_sampler(const TextureDescription& t);
-
-/// Returns the maximum distance by which the height map displaces the shape, in object space.
-double relief_height(const ObjectDescription& o);
-
 /// Returns the world-from-object transform of each copy of an object, which includes the placements of its ancestors.
 std::vector<glm::dmat4> places_of(const SceneDescription& scene, const ObjectDescription& o);
+
+/// Returns the camera that the scene selects.
+const CameraDescription& camera_of(const SceneDescription& scene);
 
 /// Returns the draw of a lit surface with the shader variant that has the minimum features it needs.
 PreparedDraw surface_draw(const LitSurface& s, ShadingRate rate, NormalDetail detail, const SurfaceStreams& mesh,
@@ -107,46 +67,12 @@ class ScenePreparation {
     std::string recipe;
   };
 
-  const CameraDescription& camera() const;
-
-  // Returns the asset with this recipe and keeps it alive with the prepared scene, or returns null if it does not exist yet.
-  template <class T>
-  std::shared_ptr<const T> existing(const std::string& recipe) {
-    std::shared_ptr<const T> found = assets_.cache_.find<T>(recipe);
-    if (found != nullptr) out_.assets.push_back(found);
-    return found;
-  }
-  // The same, but an asset that does not exist yet is made by calling `make`.
-  template <class T, class F>
-  std::shared_ptr<const T> asset(const std::string& recipe, F make) {
-    if (!assets_.cache_.contains(recipe)) assets_.cache_.add(recipe, std::make_shared<const T>(make()));
-    return existing<T>(recipe);
-  }
-
-  // prepare_maps.cpp
-  int width_for(const ObjectDescription& o) const;
-  const TextureDescription& texture_named(const std::string& name) const;
-  MapUse use_of(const MapValue& map, const ObjectDescription& o) const;
-  std::shared_ptr<const MoonMaps> moon_maps(int width);
-  std::shared_ptr<const EarthMaps> earth_maps(int width);
-  // Returns true if the scene has a texture with this source.
-  bool has_texture(TextureSource source) const;
-  // where: the path of the key, for error messages.
-  std::shared_ptr<const Texture2D> color_texture(const MapUse& use, const std::string& where);
-  std::shared_ptr<const Texture2D> data_texture(const MapUse& use, const std::string& where);
-  std::shared_ptr<const Image<float>> heights(const MapUse& use, const std::string& where);
-  std::shared_ptr<const HeightField> height_field(const MapUse& use, const ObjectDescription& o, const std::string& where);
-
   // prepare_surface.cpp
   void add_factor(LitSurface& s, MaterialFactor factor, const glm::dvec3& constant, const MapValue& map, const ObjectDescription& o,
                   const std::string& where);
   LitSurface surface_of(const ObjectDescription& o, const std::string& path);
   DetailMap normal_map(const ObjectDescription& o, const std::string& where);
   DetailMap bump_map(const ObjectDescription& o, const std::string& where);
-
-  // prepare_patterns.cpp
-  std::shared_ptr<const PatternMaps> pattern_maps(const MapUse& use);
-  std::shared_ptr<const Texture2D> pattern_texture(const MapUse& use);
 
   // prepare_meshes.cpp
   std::shared_ptr<const MeshAsset> mesh_of(const ObjectDescription& o, const Relief& relief);
@@ -204,19 +130,6 @@ class ScenePreparation {
   StarSky star_sky(double density, double brightness) const;
   EnvironmentSky environment_sky();
 
-  // prepare_environments.cpp
-  const std::pair<std::string, EnvironmentDescription>& environment_named(const std::string& name) const;
-  EnvironmentBlend background_light();
-  EnvironmentBlend reflected_environment();
-  const EnvironmentBlend* surroundings();
-  const EnvironmentLightBlend* environment_light();
-  Environment environment_of(const std::string& name, const EnvironmentDescription& e);
-  std::shared_ptr<const EnvironmentMap> environment_map(const std::string& path, const EnvironmentDescription& e);
-  std::shared_ptr<const EnvironmentMap> panorama(const std::string& path, const EnvironmentDescription& e);
-  std::shared_ptr<const EnvironmentMap> generated_sky(const EnvironmentDescription& e);
-  int panorama_width() const;
-  int face_size() const;
-
   SceneAssets& assets_;
   const SceneDescription& scene_;
   View view_;
@@ -224,11 +137,13 @@ class ScenePreparation {
   std::span<const Light> lights_;
   std::span<const Light> shadowless_lights_;  // used by objects that do not receive shadows
   glm::dvec3 ambient_;
-  std::shared_ptr<const EnvironmentBlend> environments_;            // null: not needed so far
-  std::shared_ptr<const EnvironmentLightBlend> environment_light_;  // null: not needed so far
   std::vector<PreparedDraw> blended_;
   bool needs_light_ = false;  // whether a surface has been added that is black without light
   PreparedScene out_;
+  // These refer to the members above.
+  UsedAssets used_;
+  SceneMaps maps_;
+  SceneEnvironments environments_;
 };
 
 }  // namespace halfspace

@@ -30,9 +30,9 @@ EnvironmentSky ScenePreparation::environment_sky() {
   const BackgroundDescription& b = scene_.background;
   EnvironmentSky sky;
   set_view(sky, view_);
-  sky.environment = background_light();
+  sky.environment = environments_.background();
   const auto stars_of = [&](const std::string& name) {
-    const EnvironmentDescription& e = environment_named(name).second;
+    const EnvironmentDescription& e = environments_.named(name).second;
     return e.type == EnvironmentType::night_sky ? star_sky(e.stars, e.star_brightness) : StarSky{.density = 0.0f};
   };
   sky.first_stars = stars_of(b.environment);

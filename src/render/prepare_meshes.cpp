@@ -59,7 +59,8 @@ MapEdges edges_of(Shape shape) { return maker_of(shape).edges; }
 // vertices.
 std::shared_ptr<const MeshAsset> ScenePreparation::sphere_of(const ObjectDescription& o, const Relief& relief) {
   const ReliefNormals normals = o.normals == NormalSource::undisplaced ? ReliefNormals::undisplaced : ReliefNormals::displaced;
-  return asset<MeshAsset>(recipe("displaced sphere", o.radius, o.latitudes, o.longitudes, relief.recipe, static_cast<int>(normals)), [&] {
+  const std::string words = recipe("displaced sphere", o.radius, o.latitudes, o.longitudes, relief.recipe, static_cast<int>(normals));
+  return used_.asset<MeshAsset>(words, [&] {
     const HeightField filtered = relief.field->filtered(o.longitudes, assets_.workers_);
     return MeshAsset(displaced_uv_sphere(o.latitudes, o.longitudes, static_cast<float>(o.radius), filtered, o.height_scale, o.height_zero,
                                          assets_.workers_, normals));
@@ -71,7 +72,7 @@ std::shared_ptr<const MeshAsset> ScenePreparation::mesh_of(const ObjectDescripti
   const std::string words = recipe("mesh", static_cast<int>(o.shape), o.radius, o.tube, o.length, o.size, o.latitudes, o.longitudes,
                                    o.level, o.segments, o.tiles_u, o.tiles_v, relief.recipe);
   const auto make = maker_of(o.shape).make;
-  return asset<MeshAsset>(words, [&] {
+  return used_.asset<MeshAsset>(words, [&] {
     Mesh mesh;
     if (relief.field != nullptr) {
       const HeightField filtered = relief.field->filtered(kind_of(o).columns(o), assets_.workers_);

@@ -66,15 +66,15 @@ void ScenePreparation::add_bumps(MetallicMaterial& surface, const ObjectDescript
   const ModelImage& image = model.images[static_cast<std::size_t>(texture.image)];
   if (image.file.empty() && image.bytes == nullptr && image.pixels == nullptr) return;
   const std::string file = o.file.path.string();
-  const double size = *asset<double>(recipe("model uv size", file, mesh, use.uv_set), [&] { return uv_size(m, use.uv_set); });
+  const double size = *used_.asset<double>(recipe("model uv size", file, mesh, use.uv_set), [&] { return uv_size(m, use.uv_set); });
   const glm::vec2 u = use.uv_transform[0], v = use.uv_transform[1];
   const double map_scale = std::sqrt(std::fabs(double{u.x} * v.y - double{u.y} * v.x));
   if (size == 0.0) return;
   try {
     const Sampler& sampler = texture.sampler;
-    const auto bumps =
-        asset<ModelBumps>(recipe("model bumps", file, texture.image, static_cast<int>(sampler.wrap_s), static_cast<int>(sampler.wrap_t)),
-                          [&] { return bumps_of(heights_of(image), sampler); });
+    const auto bumps = used_.asset<ModelBumps>(
+        recipe("model bumps", file, texture.image, static_cast<int>(sampler.wrap_s), static_cast<int>(sampler.wrap_t)),
+        [&] { return bumps_of(heights_of(image), sampler); });
     PlacedMap& map = surface.maps[kNormalMap];
     map.map = &bumps->map;
     map.sampler = sampler;

@@ -143,7 +143,7 @@ ModelAsset::ModelAsset(Model m) : model(std::move(m)) {
 }
 
 std::shared_ptr<const ModelAsset> ScenePreparation::model_asset(const ObjectDescription& o, const std::string& where) {
-  return asset<ModelAsset>(model_recipe(o.file.path), [&] {
+  return used_.asset<ModelAsset>(model_recipe(o.file.path), [&] {
     ModelAsset model = read_for(where + ".file", [&] { return ModelAsset(read_model(o.file.path)); });
     assets_.warn_of(o.file.path, model);
     return model;
@@ -204,7 +204,7 @@ void ScenePreparation::add_part(int object, const ObjectDescription& o, const st
   MeshStreams streams = streams_of(mesh);
   const auto neutral = [&] {
     const std::size_t vertices = mesh.positions.size();
-    return asset<NeutralStreams>(recipe("neutral streams", vertices), [&] { return NeutralStreams(vertices); });
+    return used_.asset<NeutralStreams>(recipe("neutral streams", vertices), [&] { return NeutralStreams(vertices); });
   };
   if (mesh.topology != MeshTopology::triangles) {
     const bool colored = !streams.colors.empty() || !material.is_default;

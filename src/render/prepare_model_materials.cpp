@@ -87,19 +87,20 @@ void ScenePreparation::load_images(const ObjectDescription& o, const Model& mode
     if (i > 0) {
       load(static_cast<std::size_t>(i - 1));
     } else if (lit) {
-      environment_light();
+      environments_.light();
     }
   });
   for (std::size_t i = 0; i < list.size(); ++i) {
     if (!problems[i].empty()) assets_.warn_once(problems[i]);
-    if (textures[i]) asset<Texture2D>(image_recipe(o.file.path, list[i].first, list[i].second), [&] { return std::move(*textures[i]); });
+    if (textures[i])
+      used_.asset<Texture2D>(image_recipe(o.file.path, list[i].first, list[i].second), [&] { return std::move(*textures[i]); });
   }
   out_.images_ms += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
 // Returns a texture that load_images has loaded, or null if there is no such image.
 const Texture2D* ScenePreparation::model_texture(const std::filesystem::path& file, int image, bool color) {
-  return existing<Texture2D>(image_recipe(file, image, color)).get();
+  return used_.existing<Texture2D>(image_recipe(file, image, color)).get();
 }
 
 MetallicMaterial ScenePreparation::metallic_material(const ObjectDescription& o, const Model& model, const ModelMaterial& m, bool has_uvs) {
@@ -125,7 +126,7 @@ MetallicMaterial ScenePreparation::metallic_material(const ObjectDescription& o,
   out.alpha_cutoff = m.alpha_cutoff;
   out.unlit = m.unlit;
   out.blends = m.alpha_mode == AlphaMode::blend;
-  out.environment = m.unlit ? nullptr : environment_light();
+  out.environment = m.unlit ? nullptr : environments_.light();
   if (!has_uvs) return out;
   const auto uses = uses_of(m);
   const PlacedMap* previous = nullptr;  // the last map that has a texture

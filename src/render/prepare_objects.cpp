@@ -37,9 +37,9 @@ void ScenePreparation::place(PlacedSurface& s, glm::dmat4 world) const {
 
 ScenePreparation::Relief ScenePreparation::relief_of(const ObjectDescription& o, const std::string& path) {
   if (!is_displaced(o)) return {};
-  const MapUse use = use_of(o.height, o);
+  const MapUse use = maps_.use_of(o.height, o);
   Relief r;
-  r.field = height_field(use, o, path + ".height");
+  r.field = maps_.height_field(use, o, path + ".height");
   r.recipe = recipe(static_cast<int>(use.texture.source), use.texture.file.path.string(), use.width, o.height_smoothing, o.height_scale,
                     o.height_zero);
   return r;
@@ -49,13 +49,14 @@ ScenePreparation::Relief ScenePreparation::relief_of(const ObjectDescription& o,
 DetailMap ScenePreparation::slopes_of(const Relief& relief, const ObjectDescription& o) {
   DetailMap d;
   if (relief.field == nullptr || o.shape != Shape::uv_sphere || o.normals != NormalSource::pixel) return d;
-  const int width = std::min(width_for(o), relief.field->width());
-  d.map = asset<Texture2D>(recipe("slopes", relief.recipe, width, o.radius), [&] {
-            const HeightField filtered = relief.field->filtered(width, assets_.workers_);
-            return Texture2D(slope_map(filtered, width, std::max(1, width / 2), o.radius, o.height_scale, o.height_zero, assets_.workers_),
-                             TexelFormat::rgba16f, &assets_.workers_);
-          }).get();
-  d.sampler = make_sampler(use_of(o.height, o).texture);
+  const int width = std::min(maps_.width_for(o), relief.field->width());
+  const auto map = used_.asset<Texture2D>(recipe("slopes", relief.recipe, width, o.radius), [&] {
+    const HeightField filtered = relief.field->filtered(width, assets_.workers_);
+    return Texture2D(slope_map(filtered, width, std::max(1, width / 2), o.radius, o.height_scale, o.height_zero, assets_.workers_),
+                     TexelFormat::rgba16f, &assets_.workers_);
+  });
+  d.map = map.get();
+  d.sampler = make_sampler(maps_.use_of(o.height, o).texture);
   d.sampler.wrap_t = Wrap::clamp;
   return d;
 }

@@ -8,8 +8,8 @@ namespace halfspace {
 
 std::shared_ptr<const Particles> ScenePreparation::particles(const ParticlesDescription& p, const std::string& path) {
   if (!p.file.path.empty()) {
-    return asset<Particles>(recipe("particles", p.file.path.string(), p.radius, p.orbit_radius),
-                            [&] { return read_for(path + ".file", [&] { return read_particles(p.file.path, p); }); });
+    return used_.asset<Particles>(recipe("particles", p.file.path.string(), p.radius, p.orbit_radius),
+                                  [&] { return read_for(path + ".file", [&] { return read_particles(p.file.path, p); }); });
   }
   return p.count == 0 ? nullptr : std::make_shared<const Particles>(make_particles(p));
 }

@@ -41,7 +41,7 @@ SphereImpostors ScenePreparation::sphere_impostors(bool receives_shadow) const {
   if (!view_.symmetric)
     throw InputError("camera: exact spheres need a symmetric view; expected a camera without skew and with a centered view axis");
   SphereImpostors s;
-  s.lens = intersection_of(camera(), view_);
+  s.lens = intersection_of(camera_of(scene_), view_);
   s.world_from_camera = glm::mat3(glm::dmat3(view_.right_ws, view_.up_ws, view_.forward_ws));
   s.to_eye_ws = glm::vec3(view_.to_eye_ws);
   s.lights = receives_shadow ? lights_ : shadowless_lights_;

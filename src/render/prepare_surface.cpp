@@ -14,8 +14,8 @@ void ScenePreparation::add_factor(LitSurface& s, MaterialFactor factor, const gl
   if (const auto* color = std::get_if<Color>(&map)) f.constant = glm::vec3(constant * color->linear);
   const bool unread = o.surface.shading == ShadingRate::none && factor != kColor && factor != kEmissive;
   if (!is_map(map) || unread || f.constant == glm::vec3(0.0f) || (!o.surface.textured && factor != kShininess)) return;
-  const MapUse use = use_of(map, o);
-  f.map = (factor == kShininess ? data_texture(use, where) : color_texture(use, where)).get();
+  const MapUse use = maps_.use_of(map, o);
+  f.map = (factor == kShininess ? maps_.data_texture(use, where) : maps_.color_texture(use, where)).get();
   f.sampler = make_sampler(use.texture);
 }
 
@@ -32,7 +32,7 @@ LitSurface ScenePreparation::surface_of(const ObjectDescription& o, const std::s
   add_factor(s, kSpecular, d.specular.linear, d.specular_map, o, path + ".specular_map");
   add_factor(s, kEmissive, d.emissive.linear, d.emissive_map, o, path + ".emissive_map");
   if (d.reflection.linear != glm::dvec3(0.0) && d.shading == ShadingRate::phong) {
-    s.surroundings = surroundings();
+    s.surroundings = environments_.surroundings();
     s.reflection = glm::vec3(d.reflection.linear);
   }
   s.model = s.factors[kSpecular].constant == glm::vec3(0.0f) ? LightModel::lambert : d.model;
@@ -47,9 +47,9 @@ LitSurface ScenePreparation::surface_of(const ObjectDescription& o, const std::s
 }
 
 DetailMap ScenePreparation::normal_map(const ObjectDescription& o, const std::string& where) {
-  const MapUse use = use_of(o.surface.normal_map, o);
+  const MapUse use = maps_.use_of(o.surface.normal_map, o);
   DetailMap d;
-  d.map = data_texture(use, where).get();
+  d.map = maps_.data_texture(use, where).get();
   d.sampler = make_sampler(use.texture);
   d.strength = static_cast<float>(o.surface.normal_strength);
   d.flip_green = o.surface.normal_flip_green;
@@ -57,7 +57,7 @@ DetailMap ScenePreparation::normal_map(const ObjectDescription& o, const std::st
 }
 
 DetailMap ScenePreparation::bump_map(const ObjectDescription& o, const std::string& where) {
-  const MapUse use = use_of(o.surface.bump_map, o);
+  const MapUse use = maps_.use_of(o.surface.bump_map, o);
   DetailMap d;
   d.sampler = make_sampler(use.texture);
   d.strength = static_cast<float>(o.surface.bump_scale);
@@ -65,15 +65,12 @@ DetailMap ScenePreparation::bump_map(const ObjectDescription& o, const std::stri
   const auto words = [&](const char* what, auto... more) {
     return recipe(what, static_cast<int>(use.texture.source), use.texture.file.path.string(), use.width, more...);
   };
-  const auto map = [&] { return heights(use, where); };
-  if (d.difference) {
-    d.map = asset<Texture2D>(words("bumps"), [&] { return Texture2D(codes16(*map())); }).get();
-  } else {
-    const Wrap s = d.sampler.wrap_s, t = d.sampler.wrap_t;
-    d.map = asset<Texture2D>(words("bump_slopes", static_cast<int>(s), static_cast<int>(t)), [&] {
-              return Texture2D(height_slopes(*map(), s, t), TexelFormat::rgba16f, &assets_.workers_);
-            }).get();
-  }
+  const auto codes = [&] { return Texture2D(codes16(*maps_.heights(use, where))); };
+  const Wrap s = d.sampler.wrap_s, t = d.sampler.wrap_t;
+  const auto slopes = [&] { return Texture2D(height_slopes(*maps_.heights(use, where), s, t), TexelFormat::rgba16f, &assets_.workers_); };
+  const auto map = d.difference ? used_.asset<Texture2D>(words("bumps"), codes)
+                                : used_.asset<Texture2D>(words("bump_slopes", static_cast<int>(s), static_cast<int>(t)), slopes);
+  d.map = map.get();
   return d;
 }
 

@@ -47,6 +47,13 @@ glm::dvec3 ambient_of(const SceneDescription& scene) {
 
 }  // namespace
 
+const CameraDescription& camera_of(const SceneDescription& scene) {
+  for (const auto& [name, camera] : scene.cameras) {
+    if (name == scene.head.camera) return camera;
+  }
+  return scene.cameras.front().second;
+}
+
 DrawState opaque_state(CullMode cull, bool mirrored) {
   DrawState state;
   state.cull = cull;
@@ -63,7 +70,13 @@ DrawState sprite_state() {
 }
 
 ScenePreparation::ScenePreparation(SceneAssets& assets, const SceneDescription& scene, int width, int height)
-    : assets_(assets), scene_(scene), view_(make_view(camera(), width, height)), ambient_(ambient_of(scene)) {
+    : assets_(assets),
+      scene_(scene),
+      view_(make_view(camera_of(scene), width, height)),
+      ambient_(ambient_of(scene)),
+      used_(assets.cache_, out_.assets),
+      maps_(scene, view_, assets.widths_, used_, assets.workers_),
+      environments_(scene, view_, {assets.panorama_width_, assets.face_size_}, maps_, used_, assets.workers_) {
   out_.view = view_;
   out_.lights = shining_lights(scene, view_.eye_ws);
   const auto shadows = std::make_shared<std::vector<Shadow>>(out_.lights.size());
@@ -114,19 +127,13 @@ PreparedScene ScenePreparation::prepare() {
   return std::move(out_);
 }
 
-const CameraDescription& ScenePreparation::camera() const {
-  for (const auto& [name, camera] : scene_.cameras) {
-    if (name == scene_.head.camera) return camera;
-  }
-  return scene_.cameras.front().second;
-}
-
 void ScenePreparation::expect() {
   for (const auto& [name, object] : scene_.objects) {
-    if (object.visible) assets_.widths_[name] = width_for(object);
+    if (object.visible) assets_.widths_[name] = maps_.width_for(object);
   }
-  assets_.panorama_width_ = panorama_width();
-  assets_.face_size_ = face_size();
+  const EnvironmentSizes sizes = environments_.sizes();
+  assets_.panorama_width_ = sizes.panorama_width;
+  assets_.face_size_ = sizes.face;
 }
 
 void SceneAssets::expect(const SceneDescription& scene, int width, int height) { ScenePreparation(*this, scene, width, height).expect(); }

@@ -120,10 +120,10 @@ Presence presence_of(const SceneDescription& scene, const ObjectDescription& o, 
 
 std::shared_ptr<const ReliefDetail> ScenePreparation::relief_detail(const ObjectDescription& o, const std::string& path) {
   if (!is_map(o.height)) return nullptr;
-  const MapUse use = use_of(o.height, o);
-  return asset<ReliefDetail>(
+  const MapUse use = maps_.use_of(o.height, o);
+  return used_.asset<ReliefDetail>(
       recipe("detail", static_cast<int>(use.texture.source), use.texture.file.path.string(), use.width, o.height_smoothing),
-      [&] { return ReliefDetail(*heights(use, path + ".height"), o.height_smoothing, assets_.workers_); });
+      [&] { return ReliefDetail(*maps_.heights(use, path + ".height"), o.height_smoothing, assets_.workers_); });
 }
 
 // `authored` must be an element of the scene's objects, because width_for finds it by its address.

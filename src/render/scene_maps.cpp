@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Maps of objects, read from files or generated at the resolution that the view needs.
+// Maps of objects. The patterns are in scene_patterns.cpp.
+#include "halfspace/render/scene_maps.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -63,35 +65,36 @@ double depth_of_plane(const ObjectDescription& o, const glm::dmat4& world_from_o
 // Width of generated maps on models, because the size of a map on their surface is not known.
 constexpr int kModelMapWidth = 1024;
 
-// Returns the map width, in texels along u, that the object needs. At the point nearest to the eye, a texel then spans at most two pixels,
+// At the point nearest to the eye, a texel then spans at most two pixels,
 // unless that would require a width above 4096.
-int ScenePreparation::width_for(const ObjectDescription& o) const {
+int SceneMaps::width_for(const ObjectDescription& o) const {
   if (o.shape == Shape::file) return kModelMapWidth;
   // Displaced parts outside the view can cast shadows into it.
   const bool shades = is_map(o.height) && o.casts_shadow && scene_.shadow.method != ShadowMethod::none;
+  const CameraDescription& camera = camera_of(scene_);
   double max_px = 0.0;
   for (const glm::dmat4& world : places_of(scene_, o)) {
     const double scale = std::max({glm::length(world[0]), glm::length(world[1]), glm::length(world[2])});
     const double nearest = o.shape == Shape::plane && !shades ? depth_of_plane(o, world, view_) : distance_of_ball(o, world, scale, view_);
     const double distance = std::max(nearest, view_.near);
-    const double height = camera().type == Projection::orthographic ? camera().height : 2.0 * view_.tan_y * distance;
+    const double height = camera.type == Projection::orthographic ? camera.height : 2.0 * view_.tan_y * distance;
     max_px = std::max(max_px, kind_of(o).extent(o).map_width * scale / height * view_.height_px);
   }
   const auto is_this = [&](const auto& entry) { return &entry.second == &o; };
-  const auto expected = assets_.widths_.find(std::ranges::find_if(scene_.objects, is_this)->first);
-  int width = expected == assets_.widths_.end() ? 256 : expected->second;
+  const auto expected = min_widths_.find(std::ranges::find_if(scene_.objects, is_this)->first);
+  int width = expected == min_widths_.end() ? 256 : expected->second;
   while (width < 4096 && 2 * width < max_px) width *= 2;
   return width;
 }
 
-const TextureDescription& ScenePreparation::texture_named(const std::string& name) const {
+const TextureDescription& SceneMaps::texture_named(const std::string& name) const {
   const TextureDescription& t = std::ranges::find_if(scene_.textures, [&](const auto& entry) { return entry.first == name; })->second;
   if (t.source == TextureSource::file && t.file.path.empty())
     throw InputError("textures." + name + ".file: missing; expected an image file");
   return t;
 }
 
-MapUse ScenePreparation::use_of(const MapValue& map, const ObjectDescription& o) const {
+MapUse SceneMaps::use_of(const MapValue& map, const ObjectDescription& o) const {
   TextureDescription t;
   if (const auto* file = std::get_if<FilePath>(&map)) {
     t.file = *file;
@@ -104,15 +107,15 @@ MapUse ScenePreparation::use_of(const MapValue& map, const ObjectDescription& o)
   return {t, is_pattern(t.source) ? std::clamp(width_for(o) / o.tiles_u, kMinPattern, kMaxPattern) : width_for(o)};
 }
 
-std::shared_ptr<const MoonMaps> ScenePreparation::moon_maps(int width) {
-  return asset<MoonMaps>(recipe("moon", width), [&] { return procedural_moon(width, assets_.workers_); });
+std::shared_ptr<const MoonMaps> SceneMaps::moon_maps(int width) {
+  return used_.asset<MoonMaps>(recipe("moon", width), [&] { return procedural_moon(width, workers_); });
 }
 
-std::shared_ptr<const EarthMaps> ScenePreparation::earth_maps(int width) {
-  return asset<EarthMaps>(recipe("earth", width), [&] { return procedural_earth_maps(width, width / 2, assets_.workers_); });
+std::shared_ptr<const EarthMaps> SceneMaps::earth_maps(int width) {
+  return used_.asset<EarthMaps>(recipe("earth", width), [&] { return procedural_earth_maps(width, width / 2, workers_); });
 }
 
-bool ScenePreparation::has_texture(TextureSource source) const {
+bool SceneMaps::has_texture(TextureSource source) const {
   return std::any_of(scene_.textures.begin(), scene_.textures.end(), [&](const auto& named) { return named.second.source == source; });
 }
 
@@ -126,71 +129,71 @@ namespace {
 
 }  // namespace
 
-std::shared_ptr<const Texture2D> ScenePreparation::color_texture(const MapUse& use, const std::string& where) {
+std::shared_ptr<const Texture2D> SceneMaps::color_texture(const MapUse& use, const std::string& where) {
   if (is_pattern(use.texture.source) && !is_pattern_height(use.texture.source)) return pattern_texture(use);
   switch (use.texture.source) {
     case TextureSource::file:
-      return asset<Texture2D>(recipe("color", use.texture.file.path.string()), [&] {
-        return Texture2D(read_for(where, [&] { return read_image(use.texture.file.path); }), TexelFormat::srgb8a8, &assets_.workers_);
+      return used_.asset<Texture2D>(recipe("color", use.texture.file.path.string()), [&] {
+        return Texture2D(read_for(where, [&] { return read_image(use.texture.file.path); }), TexelFormat::srgb8a8, &workers_);
       });
     case TextureSource::earth_color:
-      return asset<Texture2D>(recipe("earth_color", use.width), [&] {
+      return used_.asset<Texture2D>(recipe("earth_color", use.width), [&] {
         const bool has_relief = has_texture(TextureSource::earth_height) || has_texture(TextureSource::earth_normal);
-        return Texture2D(has_relief ? earth_maps(use.width)->color : procedural_earth(use.width, use.width / 2, assets_.workers_),
-                         TexelFormat::srgb8a8, &assets_.workers_);
+        return Texture2D(has_relief ? earth_maps(use.width)->color : procedural_earth(use.width, use.width / 2, workers_),
+                         TexelFormat::srgb8a8, &workers_);
       });
     case TextureSource::moon_color:
-      return asset<Texture2D>(recipe("moon_color", use.width),
-                              [&] { return Texture2D(moon_maps(use.width)->color, TexelFormat::srgb8a8, &assets_.workers_); });
+      return used_.asset<Texture2D>(recipe("moon_color", use.width),
+                                    [&] { return Texture2D(moon_maps(use.width)->color, TexelFormat::srgb8a8, &workers_); });
     default: fail_not(where, use.texture, "a color map");
   }
 }
 
 // Textures that are not decoded from sRGB: normals, exponents.
-std::shared_ptr<const Texture2D> ScenePreparation::data_texture(const MapUse& use, const std::string& where) {
+std::shared_ptr<const Texture2D> SceneMaps::data_texture(const MapUse& use, const std::string& where) {
   switch (use.texture.source) {
     case TextureSource::file:
-      return asset<Texture2D>(recipe("data", use.texture.file.path.string()), [&] {
-        return Texture2D(read_for(where, [&] { return read_image(use.texture.file.path); }), TexelFormat::rgba8, &assets_.workers_);
+      return used_.asset<Texture2D>(recipe("data", use.texture.file.path.string()), [&] {
+        return Texture2D(read_for(where, [&] { return read_image(use.texture.file.path); }), TexelFormat::rgba8, &workers_);
       });
     case TextureSource::earth_normal:
-      return asset<Texture2D>(recipe("earth_normal", use.width), [&] {
+      return used_.asset<Texture2D>(recipe("earth_normal", use.width), [&] {
         MapUse relief = use;
         relief.texture.source = TextureSource::earth_height;
-        return Texture2D(procedural_earth_normals(*heights(relief, where), assets_.workers_), TexelFormat::rgba16f, &assets_.workers_);
+        return Texture2D(procedural_earth_normals(*heights(relief, where), workers_), TexelFormat::rgba16f, &workers_);
       });
     default: fail_not(where, use.texture, "a data map");
   }
 }
 
-std::shared_ptr<const Image<float>> ScenePreparation::heights(const MapUse& use, const std::string& where) {
+std::shared_ptr<const Image<float>> SceneMaps::heights(const MapUse& use, const std::string& where) {
   if (is_pattern_height(use.texture.source)) {
-    return asset<Image<float>>(recipe("pattern heights", static_cast<int>(use.texture.source), use.width),
-                               [&] { return unit_numbers(pattern_maps(use)->height); });
+    return used_.asset<Image<float>>(recipe("pattern heights", static_cast<int>(use.texture.source), use.width),
+                                     [&] { return unit_numbers(pattern_maps(use)->height); });
   }
   switch (use.texture.source) {
     case TextureSource::file:
-      return asset<Image<float>>(recipe("numbers", use.texture.file.path.string()),
-                                 [&] { return read_for(where, [&] { return read_gray(use.texture.file.path); }); });
+      return used_.asset<Image<float>>(recipe("numbers", use.texture.file.path.string()),
+                                       [&] { return read_for(where, [&] { return read_gray(use.texture.file.path); }); });
     case TextureSource::earth_height:
-      return asset<Image<float>>(recipe("earth_height", use.width), [&] {
+      return used_.asset<Image<float>>(recipe("earth_height", use.width), [&] {
         if (has_texture(TextureSource::earth_color)) return earth_maps(use.width)->height;
-        return procedural_earth_heights(use.width, use.width / 2, assets_.workers_);
+        return procedural_earth_heights(use.width, use.width / 2, workers_);
       });
     case TextureSource::moon_height:
-      return asset<Image<float>>(recipe("moon_height", use.width), [&] { return unit_numbers(moon_maps(use.width)->height); });
+      return used_.asset<Image<float>>(recipe("moon_height", use.width), [&] { return unit_numbers(moon_maps(use.width)->height); });
     default: fail_not(where, use.texture, "a height map");
   }
 }
 
 // Returns the smoothed height map as a function on the object's surface.
-std::shared_ptr<const HeightField> ScenePreparation::height_field(const MapUse& use, const ObjectDescription& o, const std::string& where) {
+std::shared_ptr<const HeightField> SceneMaps::height_field(const MapUse& use, const ObjectDescription& o, const std::string& where) {
   const std::shared_ptr<const Image<float>> map = heights(use, where);
   if (map->width() < 2) throw InputError(where + ": " + use.texture.file.path.string() + ": is one texel wide; expected a height map");
   const MapEdges edges = edges_of(o.shape);
-  return asset<HeightField>(recipe("field", static_cast<int>(use.texture.source), use.texture.file.path.string(), use.width,
-                                   o.height_smoothing, static_cast<int>(edges)),
-                            [&] { return HeightField(*map, o.height_smoothing, assets_.workers_, edges); });
+  return used_.asset<HeightField>(recipe("field", static_cast<int>(use.texture.source), use.texture.file.path.string(), use.width,
+                                         o.height_smoothing, static_cast<int>(edges)),
+                                  [&] { return HeightField(*map, o.height_smoothing, workers_, edges); });
 }
 
 }  // namespace halfspace

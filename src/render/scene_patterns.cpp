@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Textures of procedural patterns, generated at the resolution that the view needs.
-#include "halfspace/render/preparation.h"
+#include "halfspace/render/scene_maps.h"
 
 namespace halfspace {
 
@@ -32,16 +32,16 @@ bool is_pattern_height(TextureSource source) {
          source == TextureSource::hills_height;
 }
 
-std::shared_ptr<const PatternMaps> ScenePreparation::pattern_maps(const MapUse& use) {
+std::shared_ptr<const PatternMaps> SceneMaps::pattern_maps(const MapUse& use) {
   const Pattern pattern = pattern_of(use.texture.source);
-  return asset<PatternMaps>(recipe("pattern", static_cast<int>(pattern), use.width),
-                            [&] { return procedural_pattern(pattern, use.width, assets_.workers_); });
+  return used_.asset<PatternMaps>(recipe("pattern", static_cast<int>(pattern), use.width),
+                                  [&] { return procedural_pattern(pattern, use.width, workers_); });
 }
 
 // Color maps are decoded from sRGB; factors are not.
-std::shared_ptr<const Texture2D> ScenePreparation::pattern_texture(const MapUse& use) {
+std::shared_ptr<const Texture2D> SceneMaps::pattern_texture(const MapUse& use) {
   const TextureSource source = use.texture.source;
-  return asset<Texture2D>(recipe("pattern texture", static_cast<int>(source), use.width), [&] {
+  return used_.asset<Texture2D>(recipe("pattern texture", static_cast<int>(source), use.width), [&] {
     const std::shared_ptr<const PatternMaps> maps = pattern_maps(use);
     if (source == TextureSource::facade_specular) return Texture2D(maps->specular, TexelFormat::rgba8);
     return Texture2D(source == TextureSource::facade_emissive ? maps->emissive : maps->color, TexelFormat::srgb8a8);

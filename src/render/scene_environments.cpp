@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Environments, read from files or generated at the resolution that the view needs.
+// Environments are read from files, or generated at the resolution that the view needs.
+#include "halfspace/render/scene_environments.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,7 +14,6 @@
 #include "halfspace/image/image_io.h"
 #include "halfspace/procedural/earth.h"
 #include "halfspace/procedural/sky.h"
-#include "halfspace/render/preparation.h"
 
 namespace halfspace {
 
@@ -103,21 +104,21 @@ EnvironmentMap uniform(const Color& color) {
 }  // namespace
 
 // Returns the panorama width that the view needs: texels in the center of the image span at most two pixels, up to a width of 4096.
-int ScenePreparation::panorama_width() const {
+int SceneEnvironments::panorama_width() const {
   const double circumference_px = std::numbers::pi / view_.tan_y * view_.height_px;
-  int width = std::max(256, assets_.panorama_width_);
+  int width = std::max(256, minimum_.panorama_width);
   while (width < 4096 && 2 * width < circumference_px) width *= 2;
   return width;
 }
 
 // The same for a face of a cube map, whose texels are largest in its center.
-int ScenePreparation::face_size() const {
-  int size = std::max(64, assets_.face_size_);
+int SceneEnvironments::face_size() const {
+  int size = std::max(64, minimum_.face);
   while (size < 1024 && size < view_.height_px / (2.0 * view_.tan_y)) size *= 2;
   return size;
 }
 
-std::shared_ptr<const EnvironmentMap> ScenePreparation::environment_map(const std::string& path, const EnvironmentDescription& e) {
+std::shared_ptr<const EnvironmentMap> SceneEnvironments::environment_map(const std::string& path, const EnvironmentDescription& e) {
   switch (e.type) {
     case EnvironmentType::equirect:
     case EnvironmentType::globe: return panorama(path, e);
@@ -125,60 +126,60 @@ std::shared_ptr<const EnvironmentMap> ScenePreparation::environment_map(const st
       const std::array<fs::path, 6> files = read_for(path, [&] { return face_files(e); });
       std::string words = "cube ";
       for (const fs::path& file : files) words += recipe(file.string());
-      return asset<EnvironmentMap>(words, [&] { return read_for(path, [&] { return read_cube(files); }); });
+      return used_.asset<EnvironmentMap>(words, [&] { return read_for(path, [&] { return read_cube(files); }); });
     }
     default: return generated_sky(e);
   }
 }
 
-std::shared_ptr<const EnvironmentMap> ScenePreparation::panorama(const std::string& path, const EnvironmentDescription& e) {
+std::shared_ptr<const EnvironmentMap> SceneEnvironments::panorama(const std::string& path, const EnvironmentDescription& e) {
   if (const auto* color = std::get_if<Color>(&e.map)) {
     const glm::dvec3& c = color->linear;
-    return asset<EnvironmentMap>(recipe("uniform", c.x, c.y, c.z), [&] { return uniform(*color); });
+    return used_.asset<EnvironmentMap>(recipe("uniform", c.x, c.y, c.z), [&] { return uniform(*color); });
   }
   TextureDescription texture;
   if (const auto* file = std::get_if<FilePath>(&e.map)) {
     texture.file = *file;
   } else {
-    texture = texture_named(std::get<TextureName>(e.map).name);
+    texture = maps_.texture_named(std::get<TextureName>(e.map).name);
   }
   const int width = texture.width != 0 ? texture.width : panorama_width();
   switch (texture.source) {
     case TextureSource::file:
-      return asset<EnvironmentMap>(recipe("panorama", texture.file.path.string()),
-                                   [&] { return read_panorama(texture.file.path, path + ".map"); });
+      return used_.asset<EnvironmentMap>(recipe("panorama", texture.file.path.string()),
+                                         [&] { return read_panorama(texture.file.path, path + ".map"); });
     case TextureSource::earth_color:
-      return asset<EnvironmentMap>(recipe("earth_color panorama", width), [&] {
-        return EnvironmentMap(procedural_earth(width, width / 2, assets_.workers_), TexelFormat::srgb8a8);
+      return used_.asset<EnvironmentMap>(recipe("earth_color panorama", width), [&] {
+        return EnvironmentMap(procedural_earth(width, width / 2, workers_), TexelFormat::srgb8a8);
       });
     case TextureSource::moon_color:
-      return asset<EnvironmentMap>(recipe("moon_color panorama", width),
-                                   [&] { return EnvironmentMap(moon_maps(width)->color, TexelFormat::srgb8a8); });
+      return used_.asset<EnvironmentMap>(recipe("moon_color panorama", width),
+                                         [&] { return EnvironmentMap(maps_.moon_maps(width)->color, TexelFormat::srgb8a8); });
     default: throw InputError(path + ".map: is not a color map; expected one");
   }
 }
 
-std::shared_ptr<const EnvironmentMap> ScenePreparation::generated_sky(const EnvironmentDescription& e) {
+std::shared_ptr<const EnvironmentMap> SceneEnvironments::generated_sky(const EnvironmentDescription& e) {
   const int size = e.size != 0 ? e.size : face_size();
   if (e.type == EnvironmentType::night_sky) {
-    return asset<EnvironmentMap>(recipe("night_sky", size, e.milky_way), [&] {
+    return used_.asset<EnvironmentMap>(recipe("night_sky", size, e.milky_way), [&] {
       const NightSky sky{static_cast<float>(e.milky_way)};
-      return EnvironmentMap(procedural_night_sky(size, sky, assets_.workers_), TexelFormat::rgba16f);
+      return EnvironmentMap(procedural_night_sky(size, sky, workers_), TexelFormat::rgba16f);
     });
   }
   if (e.type == EnvironmentType::studio) {
-    return asset<EnvironmentMap>(recipe("studio", size),
-                                 [&] { return EnvironmentMap(procedural_studio(size, assets_.workers_), TexelFormat::rgba16f); });
+    return used_.asset<EnvironmentMap>(recipe("studio", size),
+                                       [&] { return EnvironmentMap(procedural_studio(size, workers_), TexelFormat::rgba16f); });
   }
   // The sun direction is given in world space, so rotating the sky moves the clouds but not the sun.
   const glm::dvec3 sun = unit_or_zero(glm::transpose(glm::dmat3(world_from_object({.rotation = e.rotation}))) * e.sun);
-  return asset<EnvironmentMap>(recipe("day_sky", size, sun.x, sun.y, sun.z, e.clouds), [&] {
+  return used_.asset<EnvironmentMap>(recipe("day_sky", size, sun.x, sun.y, sun.z, e.clouds), [&] {
     const DaySky sky{kMapFromWorld * glm::vec3(sun), static_cast<float>(e.clouds)};
-    return EnvironmentMap(procedural_day_sky(size, sky, assets_.workers_), TexelFormat::rgba16f);
+    return EnvironmentMap(procedural_day_sky(size, sky, workers_), TexelFormat::rgba16f);
   });
 }
 
-Environment ScenePreparation::environment_of(const std::string& name, const EnvironmentDescription& e) {
+Environment SceneEnvironments::environment_of(const std::string& name, const EnvironmentDescription& e) {
   Environment out;
   out.map = environment_map("environments." + name, e).get();
   const glm::mat3 world_from_turned(glm::dmat3(world_from_object({.rotation = e.rotation})));
@@ -187,71 +188,65 @@ Environment ScenePreparation::environment_of(const std::string& name, const Envi
   return out;
 }
 
-// Returns the first environment if the name is empty.
-const std::pair<std::string, EnvironmentDescription>& ScenePreparation::environment_named(const std::string& name) const {
+const std::pair<std::string, EnvironmentDescription>& SceneEnvironments::named(const std::string& name) const {
   const auto found = std::ranges::find_if(scene_.environments, [&](const auto& e) { return e.first == name; });
   return found == scene_.environments.end() ? scene_.environments.front() : *found;
 }
 
-// Prepares the two environments, or only one if the other is not visible.
-EnvironmentBlend ScenePreparation::background_light() {
+EnvironmentBlend SceneEnvironments::background() {
   const BackgroundDescription& b = scene_.background;
   const auto make = [&](const std::string& name) {
-    const auto& [found, e] = environment_named(name);
+    const auto& [found, e] = named(name);
     return environment_of(found, e);
   };
-  EnvironmentBlend light;
-  light.weight = b.second.empty() ? 0.0f : static_cast<float>(b.weight);
-  if (light.weight < 1.0f) light.first = make(b.environment);
-  if (light.weight > 0.0f) light.second = make(b.second);
-  return light;
+  EnvironmentBlend blend;
+  blend.weight = b.second.empty() ? 0.0f : static_cast<float>(b.weight);
+  if (blend.weight < 1.0f) blend.first = make(b.environment);
+  if (blend.weight > 0.0f) blend.second = make(b.second);
+  return blend;
 }
 
 // Returns the environment that the scene's reflections show.
-EnvironmentBlend ScenePreparation::reflected_environment() {
-  EnvironmentBlend light;
+EnvironmentBlend SceneEnvironments::reflected() {
+  EnvironmentBlend blend;
   if (const std::string& name = scene_.reflections.environment; !name.empty()) {
-    light.first = environment_of(name, environment_named(name).second);
+    blend.first = environment_of(name, named(name).second);
   } else if (scene_.background.type == BackgroundType::environment) {
-    light = background_light();
+    blend = background();
   } else {
     EnvironmentDescription color;
     color.map = scene_.background.color;
-    light.first = environment_of("background", color);
+    blend.first = environment_of("background", color);
   }
-  return light;
+  return blend;
 }
 
-// Returns the environment that surfaces reflect, or null if reflections are off.
-const EnvironmentBlend* ScenePreparation::surroundings() {
+const EnvironmentBlend* SceneEnvironments::surroundings() {
   if (!scene_.reflections.on) return nullptr;
-  if (environments_ == nullptr) {
-    environments_ = std::make_shared<const EnvironmentBlend>(reflected_environment());
-    out_.assets.push_back(environments_);
+  if (surroundings_ == nullptr) {
+    surroundings_ = std::make_shared<const EnvironmentBlend>(reflected());
+    used_.keep(surroundings_);
   }
-  return environments_.get();
+  return surroundings_.get();
 }
 
-// Returns the filtered environment that lights metallic-roughness surfaces, or null if reflections are off.
-const EnvironmentLightBlend* ScenePreparation::environment_light() {
+const EnvironmentLightBlend* SceneEnvironments::light() {
   constexpr int kFilteredSize = 128;
   if (!scene_.reflections.on) return nullptr;
-  if (environment_light_ == nullptr) {
-    const EnvironmentBlend blend = reflected_environment();
+  if (light_ == nullptr) {
+    const EnvironmentBlend blend = reflected();
     const auto filtered = [&](const Environment& e) -> EnvironmentLight {
       if (e.map == nullptr) return {};
       // The address identifies the map, because both assets are dropped from the cache together.
       const auto address = std::to_string(reinterpret_cast<std::uintptr_t>(e.map));
-      return {asset<FilteredEnvironment>(recipe("filtered", address),
-                                         [&] { return FilteredEnvironment(*e.map, kFilteredSize, assets_.workers_); })
-                  .get(),
-              e.map_from_world, e.brightness};
+      const auto make = [&] { return FilteredEnvironment(*e.map, kFilteredSize, workers_); };
+      return {used_.asset<FilteredEnvironment>(recipe("filtered", address), make).get(), e.map_from_world, e.brightness};
     };
-    environment_light_ =
+    light_ =
         std::make_shared<const EnvironmentLightBlend>(EnvironmentLightBlend{filtered(blend.first), filtered(blend.second), blend.weight});
-    out_.assets.push_back(environment_light_);
+    used_.keep(light_);
   }
-  return environment_light_.get();
+  return light_.get();
 }
 
 }  // namespace halfspace

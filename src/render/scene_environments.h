@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The environments of a scene: what its background shows, and what its surfaces reflect.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "halfspace/render/scene_maps.h"
+#include "halfspace/shading/environment_light.h"
+
+namespace halfspace {
+
+// Minimum sizes of generated environments, in texels.
+struct EnvironmentSizes {
+  int panorama_width = 0, face = 0;
+};
+
+class SceneEnvironments {
+ public:
+  // Keeps references to all arguments but the sizes.
+  SceneEnvironments(const SceneDescription& scene, const View& view, const EnvironmentSizes& minimum, SceneMaps& maps, UsedAssets& used,
+                    const Workers& workers)
+      : scene_(scene), view_(view), minimum_(minimum), maps_(maps), used_(used), workers_(workers) {}
+
+  // Returns the sizes that the view needs, at least the minimum.
+  EnvironmentSizes sizes() const { return {panorama_width(), face_size()}; }
+
+  // Returns the first environment if the name is empty.
+  const std::pair<std::string, EnvironmentDescription>& named(const std::string& name) const;
+  // Prepares the two environments of the background, or only one if the other is not visible.
+  EnvironmentBlend background();
+  // Returns the environment that surfaces reflect, or null if reflections are off.
+  const EnvironmentBlend* surroundings();
+  // Returns the filtered environment that lights metallic-roughness surfaces, or null if reflections are off.
+  const EnvironmentLightBlend* light();
+
+ private:
+  EnvironmentBlend reflected();
+  Environment environment_of(const std::string& name, const EnvironmentDescription& e);
+  std::shared_ptr<const EnvironmentMap> environment_map(const std::string& path, const EnvironmentDescription& e);
+  std::shared_ptr<const EnvironmentMap> panorama(const std::string& path, const EnvironmentDescription& e);
+  std::shared_ptr<const EnvironmentMap> generated_sky(const EnvironmentDescription& e);
+  int panorama_width() const;
+  int face_size() const;
+
+  const SceneDescription& scene_;
+  const View& view_;
+  EnvironmentSizes minimum_;
+  SceneMaps& maps_;
+  UsedAssets& used_;
+  const Workers& workers_;
+  std::shared_ptr<const EnvironmentBlend> surroundings_;  // null: not needed so far
+  std::shared_ptr<const EnvironmentLightBlend> light_;    // null: not needed so far
+};
+
+}  // namespace halfspace
