@@ -104,6 +104,9 @@ std::vector<Vertex<float, V>> clipped_polygon(const Piece<float, V>& t, const Vi
   return kept;
 }
 
+// Largest distance of a vertex from the center of the viewport in double, in pixels.
+inline constexpr double kReach = 0x1p19;
+
 template <class R, class V>
 std::vector<Vertex<R, V>> clipped_polygon(const Piece<R, V>& t, const Viewport& viewport, const DepthState& depth, std::size_t) {
   const R near_w = depth.clip == ClipDepth::negative_one_to_one ? R(1) : R(0);
@@ -111,6 +114,12 @@ std::vector<Vertex<R, V>> clipped_polygon(const Piece<R, V>& t, const Viewport& 
   polygon = clip(polygon, [](const vec4<R>& p) { return p.w - R(kMinW); });
   polygon = clip(polygon, [&](const vec4<R>& p) { return p.z + near_w * p.w; });
   polygon = clip(polygon, [](const vec4<R>& p) { return p.w - p.z; });
+  // Keeps window coordinates in the range of snap(), and products of their differences in the range of int64.
+  const R reach_x = R(kReach) / R(viewport.half_width), reach_y = R(kReach) / R(viewport.half_height);
+  polygon = clip(polygon, [&](const vec4<R>& p) { return reach_x * p.w - p.x; });
+  polygon = clip(polygon, [&](const vec4<R>& p) { return reach_x * p.w + p.x; });
+  polygon = clip(polygon, [&](const vec4<R>& p) { return reach_y * p.w - p.y; });
+  polygon = clip(polygon, [&](const vec4<R>& p) { return reach_y * p.w + p.y; });
   for (Vertex<R, V>& v : polygon) v.window = to_window(v.pos_clip, viewport, depth);
   return polygon;
 }

@@ -60,6 +60,17 @@ TEST_P(WorkloadPictures, MatchDoublePrecision) {
   EXPECT_TRUE(*workload->picture().color == first);
 }
 
+// At this size, corners of the floor are more than 2^20 px from the picture, beyond the range of snapped positions.
+TEST(LargeWorkloadPictures, FloorMatchesDoublePrecision) {
+  WorkloadAssets assets;
+  const auto floor = std::ranges::find(workloads(), std::string_view("aniso_floor"), &WorkloadKind::name);
+  const std::unique_ptr<Workload> workload = floor->prepare({512, 512}, assets);
+  workload->frame(Workers(1));
+  const PictureErrors errors = picture_errors(workload->picture(), workload->truth(), depth_tolerance(floor->name));
+  EXPECT_GT(errors.covered, 512 * 512 / 5);
+  EXPECT_LE(errors.colors_off, errors.covered / 1000) << "worst " << errors.worst_color << "/255";
+}
+
 std::string name_of(const testing::TestParamInfo<WorkloadKind>& info) { return std::string(info.param.name); }
 
 INSTANTIATE_TEST_SUITE_P(All, WorkloadPictures, testing::ValuesIn(workloads().begin(), workloads().end()), name_of);
