@@ -63,7 +63,15 @@ set(HALFSPACE_BUILD_LANES ${lanes})
 target_compile_definitions(halfspace_flags INTERFACE HALFSPACE_LANES=${lanes})
 # Contraction of a*b + c would make results depend on the compiler; errno only costs time. -Wno-psabi suppresses a note that g++ prints
 # wherever wide vectors are passed by value.
-target_compile_options(halfspace_flags INTERFACE -march=${HALFSPACE_ARCH} -ffp-contract=off -fno-math-errno -Wno-psabi)
+set(halfspace_common_options -ffp-contract=off -fno-math-errno -Wno-psabi)
+target_compile_options(halfspace_flags INTERFACE -march=${HALFSPACE_ARCH} ${halfspace_common_options})
+# Gives a program the include path and the options of halfspace_flags, but another instruction set. It must not link halfspace_flags, whose
+# -march would follow this one and override it.
+function(halfspace_set_arch target arch)
+  target_include_directories(${target} PRIVATE $<TARGET_PROPERTY:halfspace_flags,INTERFACE_INCLUDE_DIRECTORIES>)
+  target_compile_features(${target} PRIVATE cxx_std_20)
+  target_compile_options(${target} PRIVATE -march=${arch} ${halfspace_common_options})
+endfunction()
 if(arch_macros MATCHES "__AVX512F__")
   target_compile_options(halfspace_flags INTERFACE -mprefer-vector-width=512)
   set(vector_bits 512)
