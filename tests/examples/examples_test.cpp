@@ -12,21 +12,21 @@
 #include "halfspace/core/image.h"
 #include "halfspace/core/srgb.h"
 #include "halfspace/image/image_io.h"
+#include "support/temporary_folder.h"
 
 namespace halfspace {
 namespace {
 
 using Picture = Image<glm::u8vec4>;
 
-// Runs example-NAME in the temporary folder of the test and returns the image it writes.
+// Runs example-NAME and returns the image it writes.
 Picture run_example(const std::string& name) {
-  const std::filesystem::path out = std::filesystem::path(testing::TempDir()) / ("example-" + name + ".png");
+  const TemporaryFolder folder;
+  const std::filesystem::path out = folder.path() / (name + ".png");
   const std::string command =
       std::string(HALFSPACE_EXAMPLES_DIR) + "/example-" + name + " '" + out.string() + "' > '" + out.string() + ".txt'";
   EXPECT_EQ(std::system(command.c_str()), 0) << command;
-  Picture picture = read_image(out);
-  std::filesystem::remove(out);
-  return picture;
+  return read_image(out);
 }
 
 uint8_t srgb(float linear) { return static_cast<uint8_t>(linear_to_srgb(linear)); }

@@ -12,6 +12,7 @@
 
 #include "halfspace/core/image.h"
 #include "halfspace/image/image_io.h"
+#include "support/temporary_folder.h"
 
 namespace halfspace {
 namespace {
@@ -52,9 +53,9 @@ Lesson run_lesson(int number) {
     const std::string stem = entry.path().stem().string();
     if (entry.path().extension() == ".cpp" && stem.starts_with(digits)) lesson.name = stem;
   }
-  const std::filesystem::path folder = testing::TempDir();
-  const std::filesystem::path out = folder / ("lesson" + digits + (number <= 3 ? ".ppm" : ".png")),
-                              printed = folder / ("lesson" + digits + ".txt");
+  const TemporaryFolder folder;
+  const std::filesystem::path out = folder.path() / ("lesson" + digits + (number <= 3 ? ".ppm" : ".png")),
+                              printed = folder.path() / ("lesson" + digits + ".txt");
   const std::string command =
       std::string(HALFSPACE_EXAMPLES_DIR) + "/lesson-" + lesson.name + " '" + out.string() + "' > '" + printed.string() + "'";
   EXPECT_EQ(std::system(command.c_str()), 0) << command;
@@ -62,8 +63,6 @@ Lesson run_lesson(int number) {
   lesson.output.assign(std::istreambuf_iterator<char>(text), {});
   lesson.picture = number <= 3 ? read_ppm(out) : read_image(out);
   lesson.in_docs = read_image(std::filesystem::path(HALFSPACE_LESSONS_DOCS_DIR) / "images" / (digits + ".png"));
-  std::filesystem::remove(out);
-  std::filesystem::remove(printed);
   return lesson;
 }
 
