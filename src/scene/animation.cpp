@@ -77,8 +77,8 @@ void check_animation(SceneDescription& scene, const AnimationDescription& a, con
   const std::size_t size = is_vector(key) ? 3 : 1;
   const auto check_size = [&](const char* name, std::size_t got) {
     if (got != size) {
-      throw InputError(source + ": " + path + "." + name + ": expected " + (size == 3 ? "[x, y, z]" : "one number") + ", since " +
-                       a.target + " is one");
+      throw InputError(source + ": " + path + "." + name + ": expected " + (size == 3 ? "[x, y, z]" : "one number") + ", as the value of " +
+                       a.target + " requires");
     }
   };
   if (a.type == AnimationType::rate) check_size("rate", a.rate.size());

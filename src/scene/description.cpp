@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Tables of all scene keys, continued in description_environment.cpp. Scene files, --set, `halfspace list` and the JSON Schema are
-// all based on them.
+// Tables of all scene keys, continued in description_environment.cpp. They define scene files, --set, `halfspace list` and the JSON Schema.
 #include "halfspace/scene/description.h"
 
 #include "halfspace/scene/lights.h"
@@ -93,7 +92,7 @@ constexpr const char* kGenerated =
 Section section_of(SceneHead& s) {
   static const std::vector<Key> keys{
       key<&SceneHead::title>("title", "Title of the scene, in one line"),
-      key<&SceneHead::camera>("camera", "Name of the camera to render from; empty: the first"),
+      key<&SceneHead::camera>("camera", "Name of the camera to render from; empty: the first camera"),
       key<&SceneHead::ambient>("ambient", "Ambient light, linear", {.low = 0, .high = kMaxCount}),
       key<&SceneHead::samples>("samples", "Samples per pixel for antialiasing: 1, 2, 4 or 8", {.low = 1, .high = 8}),
   };
@@ -172,16 +171,16 @@ Section section_of(SurfaceDescription& s) {
       key<&T::emissive_map>("emissive_map", "Map that multiplies the emitted light", {.low = 0}),
       key<&T::reflection>("reflection", "Factor for reflections of the environment; requires shading phong", {.low = 0, .high = 1e3}),
       key<&T::textured>("textured", "Whether color maps are used"),
-      key<&T::model>("model", "Specular highlight: none, from the reflected ray, from the half vector"),
+      key<&T::model>("model", "Reflection model: diffuse only, or with a highlight from the reflected ray or from the half vector"),
       key<&T::shading>("shading", "How often lighting is computed: never, per triangle, per vertex, per pixel"),
       key<&T::two_sided>("two_sided", "Whether both sides are visible; planes are always two-sided"),
-      key<&T::normal>("normal", "Source of normal detail; auto: normal_map if given, otherwise bump_map"),
+      key<&T::normal>("normal", "Source of surface detail; auto: normal_map if given, otherwise bump_map"),
       key<&T::normal_map>("normal_map", "Tangent-space normal map, green up; a color instead of a map turns it off", {.low = 0}),
       key<&T::normal_strength>("normal_strength", "Scale of the slopes in the normal map", {.low = 0, .high = 1000}),
       key<&T::normal_flip_green>("normal_flip_green", "Whether green points down in the normal map"),
       key<&T::bump_map>("bump_map", "Height map for bump mapping; a color instead of a map turns it off", {.low = 0}),
       key<&T::bump_scale>("bump_scale", "Height difference between the map values 0 and 1", {.unit = "units", .low = -1e6, .high = 1e6}),
-      key<&T::bump_method>("bump_method", "Slope of bumps: gradient of the filtered heights, or differences within 2x2 pixels"),
+      key<&T::bump_method>("bump_method", "Bump slopes: from the gradient of the filtered heights, or from differences within 2x2 pixels"),
   };
   return {{keys, &s}};
 }
@@ -236,20 +235,20 @@ Section section_of(ObjectDescription& o) {
                              {.only = shapes_with("model_variant")}),
       key<&T::model_materials>("model_materials", "Materials that replace those of the file, as NAME=MATERIAL, NAME=MATERIAL",
                                {.only = shapes_with("model_materials")}),
-      key<&T::shadow_only>("shadow_only", "Whether only the shadows on the plane are drawn, over the background",
+      key<&T::shadow_only>("shadow_only", "Whether to draw only the shadows on the plane, over the background",
                            {.only = shapes_with("shadow_only")}),
       key<&T::visible>("visible", "Whether the object is drawn"),
       key<&T::casts_shadow>("casts_shadow", "Whether the object casts shadows"),
       key<&T::receives_shadow>("receives_shadow", "Whether the object receives shadows, including its own"),
-      key<&T::height>("height", "Height map that displaces the surface; a color: none", {.low = 0}),
+      key<&T::height>("height", "Height map that displaces the surface; a color instead of a map turns displacement off", {.low = 0}),
       key<&T::height_scale>("height_scale", "Height difference between the map values 0 and 1",
                             {.unit = "units", .low = -1e6, .high = 1e6}),
       key<&T::height_zero>("height_zero", "Map value that leaves the surface undisplaced", {.low = 0, .high = 1}),
       key<&T::height_smoothing>("height_smoothing", "Standard deviation of the Gaussian that smooths the heights",
                                 {.unit = "texels", .low = 0, .high = 64}),
-      key<&T::normals>("normals", "Normals of a displaced surface: per pixel, per vertex, or undisplaced",
+      key<&T::normals>("normals", "Normals of a displaced surface: per pixel, per vertex, or those of the undisplaced surface",
                        {.only = shapes_with("normals")}),
-      key<&T::material>("material", "Name of a material; keys of the object override it; empty: a file keeps its own"),
+      key<&T::material>("material", "Name of a material; keys of the object override it; empty: model files keep their own materials"),
       key<&T::parent>("parent", "Name of the object that position, rotation and scale are relative to; empty: none"),
   };
   Section section{{keys, &o}};
@@ -264,15 +263,15 @@ Section section_of(ShadowDescription& s) {
       key<&T::bias>("bias", "Bias method against self-shadowing"),
       key<&T::resolution>("resolution", "Width of a shadow map, at least 256; 0: chosen by footprint",
                           {.unit = "texels", .low = 0, .high = kMaxShadowTexels}),
-      key<&T::footprint>("footprint", "With resolution 0: maximum size of a shadow texel on 95 % of the image",
+      key<&T::footprint>("footprint", "With resolution 0: maximum size of a shadow texel on 95% of the image",
                          {.unit = "px", .low = 0.1, .high = 100}),
       key<&T::constant>("constant", "Constant part of the bias", {.unit = "texels", .low = 0, .high = 1000}),
-      key<&T::slope>("slope", "Multiplier for the bias that grows with the angle of incidence", {.low = 0, .high = 1000}),
-      key<&T::max_slope>("max_slope", "Upper limit of the tangent of the angle of incidence; not used by auto", {.low = 0, .high = 1e6}),
+      key<&T::slope>("slope", "Multiplier for the slope-dependent part of the bias", {.low = 0, .high = 1000}),
+      key<&T::max_slope>("max_slope", "Upper limit for the tangent of the angle of incidence; not used by auto", {.low = 0, .high = 1e6}),
       key<&T::radius>("radius", "Filter radius of vogel, vsm and moments", {.unit = "texels", .low = 0, .high = 16}),
       key<&T::faces>("faces", "Mesh faces that cast shadows, as seen from the light; spheres always use the front"),
       key<&T::cascades>("cascades", "Number of cascades of a directional light", {.low = 1, .high = 4}),
-      key<&T::cascade_growth>("cascade_growth", "0: cascades of equal depth, 1: depths in geometric progression", {.low = 0, .high = 1}),
+      key<&T::cascade_growth>("cascade_growth", "0: cascades of equal depth; 1: depths in geometric progression", {.low = 0, .high = 1}),
   };
   return {{keys, &s}};
 }
@@ -287,7 +286,7 @@ Section section_of(AnimationDescription& a) {
       key<&T::a>("a", "Semi-axis of the ellipse, reached at phase 0", {.unit = "units", .only = "orbit"}),
       key<&T::b>("b", "Semi-axis of the ellipse, reached a quarter turn later", {.unit = "units", .only = "orbit"}),
       key<&T::mean>("mean", "Mean of the wave", {.only = "wave"}),
-      key<&T::swing>("swing", "Amplitude of the wave, added at phase 0; the result is clamped to the key's range", {.only = "wave"}),
+      key<&T::swing>("swing", "Amplitude of the wave, reached at phase 0; the result is clamped to the key's range", {.only = "wave"}),
       key<&T::period>("period", "Duration of one period", {.unit = "s", .low = kTiny, .only = "orbit wave"}),
       key<&T::phase>("phase", "Phase at time 0", {.unit = "turns", .only = "orbit wave"}),
       key<&T::keys>("keys", "Keyframes as rows [seconds, value]", {.only = "keyframes"}),

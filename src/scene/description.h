@@ -49,7 +49,7 @@ struct LightDescription {
   glm::dvec3 position{0, 0, 5};
   Color color{glm::dvec3(1.0)};
   double intensity = 1.0;
-  double ambient = 0.0;  ///< these three are factors of color and intensity; ambient light is not attenuated
+  double ambient = 0.0;  ///< ambient, diffuse and specular multiply color · intensity; ambient light is not attenuated
   double diffuse = 1.0, specular = 1.0;
   Falloff falloff = Falloff::attenuation;
   glm::dvec3 attenuation{1, 0, 0};
@@ -131,7 +131,7 @@ struct SurfaceDescription {
 std::string_view first_map(const SurfaceDescription& s);
 
 /// `sphere` has no mesh: it is ray traced per pixel (shading/sphere_impostor.h), and its surface cannot have maps. `file` is a model file,
-/// which has its own materials. Each shape has a row in the table of scene/shapes.cpp.
+/// which has its own materials. Each shape has a row in the table in scene/shapes.cpp.
 enum class Shape : uint8_t { uv_sphere, icosphere, sphere, plane, cube, cylinder, cone, torus, torus_knot, file };
 inline constexpr std::size_t kShapes = 10;
 /// The up axis of a model file. `automatic`: z for STL, otherwise y.
@@ -246,7 +246,7 @@ struct ShadowDescription {
   ShadowMethod method = ShadowMethod::none;
   ShadowBias bias = ShadowBias::automatic;
   int resolution = 2048;   ///< width in texels; 0: chosen by `footprint`
-  double footprint = 1.0;  ///< maximum size of a texel in pixels, on 95 % of the image
+  double footprint = 1.0;  ///< maximum size of a texel in pixels, on 95% of the image
   double constant = 1.0;   ///< texels
   double slope = 1.0;
   double max_slope = 16.0;
@@ -378,7 +378,7 @@ void for_each_single(Scene& scene, F&& visit) {
   visit("post", "Conversion of light to pixel values; linear files (.exr, .hdr) are written without it", scene.post);
   visit("shadow", "How shadows are computed", scene.shadow);
   visit("particles", "Spheres drawn as points", scene.particles);
-  visit("animation", "Settings of all animations", scene.animation);
+  visit("animation", "Settings for all animations", scene.animation);
   visit("time", "The time of day", scene.time);
 }
 

@@ -70,7 +70,7 @@ Section section_of(EnvironmentDescription& e) {
   using T = EnvironmentDescription;
   static const std::vector<Key> keys{
       key<&T::type>("type", "Panorama, map of a globe seen from its center, six cube map faces, or a generated sky"),
-      key<&T::map>("map", "Panorama or map of a globe; a color: uniform light", {.low = 0, .only = "equirect globe"}),
+      key<&T::map>("map", "Panorama or map of a globe; a color gives uniform light", {.low = 0, .only = "equirect globe"}),
       key<&T::folder>("folder", "Folder with files named right, left, top, bottom, front and back", {.only = "cube"}),
       key<&T::right>("right", "Face at +x; if empty, read from the folder", {.only = "cube"}),
       key<&T::left>("left", "Face at -x; if empty, read from the folder", {.only = "cube"}),
@@ -117,7 +117,7 @@ Section section_of(ReflectionsDescription& r) {
 Section section_of(PostDescription& p) {
   using T = PostDescription;
   static const std::vector<Key> keys{
-      key<&T::hdr>("hdr", "Keep light above 1 for exposure and tone mapping; off: the other keys of post are ignored"),
+      key<&T::hdr>("hdr", "Whether to keep light above 1 for exposure and tone mapping; if off, the other keys of post are ignored"),
       key<&T::format>("format", "Format in which light is stored; the largest half float is 65504"),
       key<&T::exposure>("exposure", "Multiplier for the light", {.low = 0, .high = 1e9}),
       key<&T::auto_exposure>("auto_exposure", "Whether to also multiply by key_value / log-average luminance of the image"),

@@ -35,7 +35,7 @@ struct TextureName {
   std::string name;
 };
 
-/// What covers a surface: a single color, a texture of the scene, or an image file.
+/// The value of a map key: a single color, a texture of the scene, or an image file.
 using MapValue = std::variant<Color, TextureName, FilePath>;
 inline bool is_map(const MapValue& value) { return !std::holds_alternative<Color>(value); }
 
@@ -47,7 +47,7 @@ using Keyframes = std::vector<std::pair<double, Numbers>>;
 
 enum class KeyType : uint8_t { boolean, integer, number, vector, color, choice, text, file, map, numbers, keyframes };
 
-/// Names of the values of an enumeration, in order. Must be specialized for every enumeration that is the type of a key.
+/// Names of the values of an enumeration, in order. Must be specialized for every enumeration used as the type of a key.
 template <class E>
 struct ChoiceNames;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Functions of tables with one row per value of an enumeration (shapes.cpp, lights.cpp). Each row has a name, and a list of the keys that
-// only some rows have.
+// Functions for tables with one row per enumerator (shapes.cpp, lights.cpp). Each row has a name and lists its keys that some other rows
+// lack.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,8 @@
 
 namespace halfspace {
 
-/// Returns true if row i is that of value i, so that a row can be looked up by its value. value: the member with the value.
+/// Returns true if row i describes enumerator i for every i, so that enumerators can index the table. value: the member that holds the
+/// enumerator.
 template <class Kind, std::size_t n, class Value>
 constexpr bool is_in_order(const Kind (&kinds)[n], Value Kind::*value) {
   for (std::size_t i = 0; i < n; ++i) {

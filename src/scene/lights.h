@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the program knows about each type of light: one row of a table per type. light_at() in shading/lighting.h computes the light.
+// The properties of each light type, as a table with one row per type. light_at() in shading/lighting.h computes the light.
 #pragma once
 
 #include <array>
@@ -31,8 +31,8 @@ struct LightKind {
 /// Returns the row of a type.
 const LightKind& kind_of(LightType type);
 
-/// Returns the names of the types that have a key, separated by spaces, as Limits::only needs them. The string lives until the program
-/// ends.
+/// Returns the names of the types that have a key, separated by spaces, in the form that Limits::only requires. The string lives until the
+/// program ends.
 const char* lights_with(std::string_view key);
 
 }  // namespace halfspace

@@ -22,10 +22,10 @@ namespace halfspace {
 namespace {
 
 constexpr double kMinScale = 1e-6, kMinTerm = 1e-6;
-constexpr int64_t kMaxVertices = int64_t{1} << 23;  // per mesh: 0.6 GB
+constexpr int64_t kMaxVertices = int64_t{1} << 23;  // per mesh; this many take 0.6 GB
 constexpr int kMaxPatternWidth = 4096;              // 14 bytes per texel; patterns are square
 constexpr int64_t kMaxCopies = 65536;
-constexpr int64_t kMaxDrawnVertices = int64_t{1} << 25;  // total over all visible copies: 2 GB while a frame is rendered
+constexpr int64_t kMaxDrawnVertices = int64_t{1} << 25;  // over all visible copies; this many take 2 GB while a frame is rendered
 
 [[noreturn]] void reject(const std::string& where, const std::string& what) { throw InputError(where + ": " + what); }
 
@@ -81,8 +81,8 @@ void check(const ObjectDescription& o, const std::string& where) {
   for (std::size_t i = 0; i < o.instances.size(); ++i) check(o.instances[i], fmt::format("{}.{}.{}", where, kInstances, i));
   if (kind.vertices(o) > kMaxVertices) reject(where + ".longitudes", "more than 2^23 vertices; expected fewer latitudes or longitudes");
   if (kind.is_ring && o.tube >= o.radius)
-    reject(where + ".tube", number_text(o.tube) + " closes the hole of the ring; expected less than radius, " + number_text(o.radius));
-  if (kind.is_ring && o.latitudes < 3) reject(where + ".latitudes", "2 do not form a tube; expected at least 3");
+    reject(where + ".tube", number_text(o.tube) + " closes the hole of the ring; expected less than the radius, " + number_text(o.radius));
+  if (kind.is_ring && o.latitudes < 3) reject(where + ".latitudes", "2 bands do not form a tube; expected at least 3");
   if (const std::string_view key = mesh_only_key(o); o.shape == Shape::sphere && !key.empty()) {
     reject(where + "." + std::string(key),
            std::string("is not supported by the shape sphere, which cannot have maps, a reflection, two visible sides, ") +

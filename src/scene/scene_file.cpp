@@ -48,8 +48,8 @@ std::string reason_of(const std::exception& e) {
   return what;
 }
 
-// Parser callback that rejects duplicate names in an object, of which JSON libraries silently keep one, and deep nesting, which
-// could exhaust the stack.
+// Parser callback that rejects duplicate names in an object, which JSON libraries silently drop, and deep nesting, which could exhaust the
+// stack.
 class OnceOnly {
  public:
   explicit OnceOnly(const std::string& source) : source_(source) {}
@@ -294,7 +294,7 @@ void SceneFile::set(std::span<const std::string> settings) {
     read_value(found.field, parse_text(*found.field.key, std::string_view(setting).substr(equals + 1), path, context), path, context);
     Json& section = at_words(json, std::span(found.words).first(found.words.size() - 1));
     section[found.words.back()] = value_of(found.field);
-    // Another kind of section has other keys: remove those that the new kind lacks.
+    // A different kind of section can have different keys: remove those that the new kind lacks.
     const Section fields = section_at(next.description_, std::span(found.words).first(found.words.size() - 1));
     if (found.field.key == &fields.front().keys.front() && found.field.key->type == KeyType::choice) drop_foreign_keys(fields, section);
   }
@@ -320,7 +320,8 @@ SceneDescription SceneFile::at(double seconds) const {
   return scene;
 }
 
-// Objects copy the keys of their material that they do not override, so animated materials are written to the JSON, which is read again.
+// Objects copy those keys of their material that they do not override. To apply an animated material, its keys are therefore written to the
+// JSON, which is then read again.
 SceneDescription SceneFile::with_materials_at(double time) const {
   SceneDescription scene = description_;
   Json json;

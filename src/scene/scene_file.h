@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Scene files: JSON with comments, strictly checked. A SceneFile is opened by the name of a shipped scene or a file name. Single
-// keys can be overridden. It provides the description of the scene at any time.
+// keys can be overridden. It provides the description of the scene at any time of its animations.
 #pragma once
 
 #include <memory>

@@ -45,10 +45,10 @@ Section section_at(SceneDescription& scene, std::span<const std::string> words);
 /// Returns the reserved words at the top level of a scene file.
 std::vector<std::string_view> top_words(SceneDescription& scene);
 
-/// Returns the name of the object or particle system that a number stands for, as in FrameImages::object (render/frame.h): "particles" for
-/// the first particle system, and "background" for −1.
+/// Returns the name of the object or particle system with the given index in FrameImages::object (render/frame.h): "particles" for the
+/// first particle system, and "background" for −1.
 std::string object_name(const SceneDescription& scene, int object);
-/// Returns the path of this object or particle system, for example "objects.moon".
+/// Like object_name, but returns the path, for example "objects.moon".
 std::string object_path(const SceneDescription& scene, int object);
 
 /// Returns the item with that name, or null.

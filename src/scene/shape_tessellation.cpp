@@ -21,9 +21,9 @@ double chord_error_of_circle(double radius, int n) {
   return 2.0 * radius * s * s;  // 1 − cos x = 2 sin²(x/2)
 }
 
-// Length whose ratio to the tube's radius gives the ratio of the chord errors along the knot and around its tube. The error along the knot
-// (torus_knot.cpp) is an eighth of the maximum second derivative of the curve, divided by n². The maximum is at the outermost point, where
-// the center line contributes 36.8π²·R and the tube's radius 52π²·t.
+// With n segments along the knot and around its tube, the ratio of the two chord errors equals the ratio of this length to the tube's
+// radius. The error along the knot (torus_knot.cpp) is an eighth of the maximum second derivative of the curve, divided by n². The maximum
+// is at the outermost point, where the center line contributes 36.8π²·R and the tube's radius 52π²·t.
 double knot_bend(const Object& o) { return 4.6 * o.radius + 6.5 * o.tube; }
 
 int scaled(int parts, double factor) { return std::max(3, static_cast<int>(std::ceil(parts * factor))); }

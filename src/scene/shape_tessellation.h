@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Functions of the table in shapes.cpp: errors of tessellated shapes, and tessellations. ShapeKind documents their results.
+// Functions for the table in shapes.cpp: the errors of tessellated shapes, and the choice of a tessellation. ShapeKind documents them.
 #pragma once
 
 #include "halfspace/scene/description.h"

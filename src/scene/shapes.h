@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the program knows about each shape without making its mesh: one row of a table per shape. prepare_meshes.cpp makes the meshes.
+// The properties of each shape that do not require its mesh, as a table with one row per shape. prepare_meshes.cpp creates the meshes.
 #pragma once
 
 #include <cstdint>
@@ -28,7 +28,7 @@ struct ShapeKind {
   std::string_view name;
   std::string_view keys;  ///< keys of ObjectDescription that only some shapes have, separated by spaces
   bool is_ring;           ///< a closed tube
-  bool has_flat_faces;    ///< heights are then the only reason for more than one part
+  bool has_flat_faces;    ///< only height maps need more than one part
   bool is_sphere_mesh;    ///< its smooth surface is a sphere of radius ObjectDescription::radius
   int max_parts;          ///< for set_parts
 
@@ -48,11 +48,12 @@ struct ShapeKind {
   double (*chord_error)(const ObjectDescription& o);
   /// Returns the angle between the normals at the ends of a quad's diagonal, in radians.
   double (*diagonal_angle)(const ObjectDescription& o);
-  /// Sets the tessellation: `parts` from top to bottom, or around a tube, or along an edge. The count in the other direction is chosen to
-  /// give both directions the same chord error. An icosphere gets the lowest level whose triangles are small enough.
+  /// Sets the tessellation: `parts` is the number of parts from top to bottom, around a tube, or along an edge. The count in the other
+  /// direction is chosen to give both directions the same chord error. An icosphere gets the lowest level whose triangles are small enough.
   ///
-  /// places_maps: texture coordinates must also be accurate to within the chord error. This only affects cones. Their bands narrow
-  /// towards the apex, so interpolation across a triangle bends straight lines of a map, by up to s/4n for sectors of width s and n bands.
+  /// places_maps: texture coordinates must also be accurate to within the chord error. This only affects cones. Their bands narrow towards
+  /// the apex, so interpolation across a triangle bends straight lines of a map by up to s/4n, where s is the width of a sector and n the
+  /// number of bands.
   void (*set_parts)(ObjectDescription& o, int parts, bool places_maps);
 };
 
@@ -60,15 +61,15 @@ struct ShapeKind {
 const ShapeKind& kind_of(Shape shape);
 inline const ShapeKind& kind_of(const ObjectDescription& o) { return kind_of(o.shape); }
 
-/// Returns the names of the shapes that have a key, separated by spaces, as Limits::only needs them. The string lives until the program
-/// ends.
+/// Returns the names of the shapes that have a key, separated by spaces, in the form that Limits::only requires. The string lives until the
+/// program ends.
 const char* shapes_with(std::string_view key);
 
 /// Rounds up to one of the part counts used for meshes: 1, 2, 3, 4, 6, 8, 12, 16, … There are only a few, so that a moving
 /// camera rarely changes a mesh.
 int part_step(int minimum);
 
-/// Returns the object with the tessellation of ShapeKind::set_parts.
+/// Returns the object with the tessellation that ShapeKind::set_parts chooses.
 inline ObjectDescription with_parts(ObjectDescription o, int parts, bool places_maps) {
   kind_of(o).set_parts(o, parts, places_maps);
   return o;
