@@ -10,10 +10,10 @@
 
 namespace halfspace {
 
-/// Allocates zeroed memory that starts on a cache line boundary, so that code can write whole lines. Blocks of 4 MiB or more
-/// are mapped directly from the system, on huge pages where available. The kernel clears such pages when they are first
-/// touched, on the thread that touches them, and allocating and freeing them is much faster: a program with gigabytes of
-/// images exits without delay. Throws std::bad_alloc on failure.
+/// Allocates zeroed memory that starts on a cache line boundary, so that code can write whole lines. Blocks of 4 MiB or more are mapped
+/// directly from the system, on huge pages where available. The kernel clears each such page on the thread that first touches it.
+/// Allocating and freeing such blocks is much faster, so a program with gigabytes of images exits without delay. Throws std::bad_alloc on
+/// failure.
 void* allocate_lines(std::size_t bytes);
 /// Frees memory returned by allocate_lines. bytes must be the value passed to that call.
 void free_lines(void* memory, std::size_t bytes) noexcept;

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Two kinds of failure. A broken precondition is a mistake of the caller: HS_CHECK reports it in every build, and HS_DCHECK
-// (for inner loops) only in builds with asserts. An invalid file or argument is a mistake of the user and throws InputError.
+// Two kinds of failure. A broken precondition is a bug in the caller: HS_CHECK reports it in every build, and HS_DCHECK (for inner loops)
+// only in builds with assertions. An invalid file or argument is a user error and throws InputError.
 //
-// A failed check prints one line and aborts, unless the host program has set a check handler. A handler may throw, so
-// that the host survives the mistake:
+// A failed check prints one line and aborts, unless the host program has set a check handler. A handler may throw, so that the host program
+// keeps running:
 //
 //   set_check_handler([](const CheckFailure& failure) { throw std::logic_error(failure.message); });
 //
-// After such an exception, an object that the failed call was modifying may only be destroyed. This applies to a Pass whose
-// draw() or run() ended this way.
+// After such an exception, an object that the failed call was modifying may only be destroyed. This applies to a Pass if the exception left
+// its draw() or run().
 #pragma once
 
 #include <concepts>
@@ -31,8 +31,8 @@ class OutputError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Describes a failed check: its location in the source, and a one-line message with the condition. For comparisons the
-/// message includes both values, for example "width % 2 == 0 (1 vs 0)".
+/// Describes a failed check: its source location, and a one-line message with the condition. For comparisons the message includes both
+/// values, for example "width % 2 == 0 (1 vs 0)".
 struct CheckFailure {
   const char* file;
   int line;
@@ -43,15 +43,15 @@ struct CheckFailure {
 /// printed and the program aborts.
 using CheckHandler = void (*)(const CheckFailure& failure);
 
-/// Sets the handler for the whole process and returns the previous one. With a null handler, which is the default, a failed
-/// check prints and aborts immediately, so that a debugger shows the stack of the check.
+/// Sets the handler for the whole process and returns the previous one. With a null handler, which is the default, a failed check prints
+/// and aborts immediately, so that a debugger shows the call stack of the check.
 ///
-/// When a handler is set, a check that fails in a task of Workers::for_each ends the task with an internal exception.
-/// for_each then calls the handler on its calling thread once all tasks have stopped. If a check fails in a noexcept
-/// function, or where the host does not allow exceptions, the program ends in std::terminate.
+/// When a handler is set, a check that fails in a task of Workers::for_each ends the task with an internal exception. for_each then calls
+/// the handler on its calling thread once all tasks have stopped. If a check fails in a noexcept function, or where the host does not allow
+/// exceptions, std::terminate is called.
 ///
-/// Safe to call from any thread at any time. If several threads call the library concurrently, the handler may be called
-/// concurrently as well.
+/// Safe to call from any thread at any time. If several threads call the library concurrently, the handler may be called concurrently as
+/// well.
 CheckHandler set_check_handler(CheckHandler handler) noexcept;
 
 namespace detail {

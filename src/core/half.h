@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Conversion between float and half (IEEE 754 binary16), for scalars and lanes. Uses the F16C instructions where the build
-// has them; otherwise bit operations produce the same bits (checked by tests/core/half_test.cpp).
+// Conversion between float and half (IEEE 754 binary16), for scalars and lanes. Uses the F16C instructions if the build has them; otherwise
+// bit operations produce identical results (checked by tests/core/half_test.cpp).
 //
 // Lanes store one half per int, in the low 16 bits. The high 16 bits are 0 in results and ignored in arguments.
 #pragma once
@@ -21,8 +21,8 @@ HS_INLINE IntOf<R> float_to_half_by_bits(R x) {
   using I = IntOf<R>;
   const I sign = (as_int(x) >> 16) & 0x8000;
   const I i = as_int(x) & 0x7fffffff;
-  // Normal halves (2^-14 and above): rebias the exponent from 127 to 15 and round off 13 mantissa bits, ties to even. Inputs
-  // are clamped to 2^16, which becomes infinity; 65520 … 2^16 becomes infinity through the carry of the rounding.
+  // Normal halves (2^-14 and above): rebias the exponent from 127 to 15 and round off 13 mantissa bits, ties to even. Inputs are clamped to
+  // 2^16, which becomes infinity. For inputs from 65520, rounding carries into the exponent, which gives infinity as well.
   const I clamped = min(i, I(0x47800000));
   const I normal = (clamped - 0x38000000 + 0xfff + ((clamped >> 13) & 1)) >> 13;
   // Smaller values: the ulp of a float near 0.5 is 2^-24, which is also the ulp of a subnormal half, so the addition rounds.

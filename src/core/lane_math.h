@@ -3,16 +3,16 @@
 // Elementary functions with bit-identical results at every SIMD width, on every CPU and with every compiler: exp2 log2 exp log
 // pow unit_pow inverse_sqrt sin cos atan2 atan asin acos.
 //
-// A single template serves float and lanes of float. It uses only + − × ÷ sqrt, fma and bit operations, all of them correctly
-// rounded, so each lane holds exactly what the scalar code would compute. libm is not used because it selects its code by CPU.
-// For double the functions call std and serve as accuracy reference, with no guarantee about bits. (x86-64-v2 has no fma
-// instruction; fma then calls libm, which is also exact but slow.)
+// A single template serves float and lanes of float. It uses only + − × ÷ sqrt, fma and bit operations, all of them correctly rounded, so
+// each lane holds exactly what the scalar code would compute. libm is not used because it selects its code by CPU. For double, the
+// functions call their std counterparts. They serve as the accuracy reference and are not guaranteed to be bit-identical. (x86-64-v2 has no
+// fma instruction; fma then calls libm, which is also exact but slow.)
 //
-// Method: split off the exponent or the quadrant exactly (Cody and Waite, Software Manual for the Elementary Functions, 1980),
-// then evaluate a minimax polynomial. The coefficients come from scripts/fit_polynomials.py, which also prints the error of
-// each fit. Error bounds are in ulps of the exact result, where correct rounding is 0.5. They were measured over all floats of
-// the domain, except for pow and atan2, which were measured on random pairs; tests/core/lane_math_test.cpp repeats a part of
-// this. NaN inputs give NaN unless stated otherwise.
+// Method: split off the exponent or the quadrant exactly (Cody and Waite, Software Manual for the Elementary Functions, 1980), then
+// evaluate a minimax polynomial. The coefficients come from scripts/fit_polynomials.py, which also prints the error of each fit. Error
+// bounds are in ulps of the exact result; correct rounding has an error of at most 0.5 ulp. The bounds were measured over all floats of the
+// domain, except for pow and atan2, which were measured on random pairs. tests/core/lane_math_test.cpp repeats part of the measurement. NaN
+// inputs give NaN unless stated otherwise.
 //
 // Call these as halfspace::exp2(x), or from within namespace halfspace. Elsewhere an unqualified call with a float argument
 // resolves to libm's function.
@@ -84,9 +84,9 @@ HS_INLINE MantissaExponent<R> split_normal(R x) {
   const IntOf<R> i = (as_int(x) & 0x7fffffff) - root_half;  // clearing the sign avoids an overflow for x < 0
   return {as_real((i & 0x7fffff) + root_half), i >> 23};
 }
-/// Returns log2(x) for 2^-126 <= x < infinity, where c is a polynomial for log2(1 + f)/f. With x = m·2^e, the error of the
-/// polynomial is relative to log2(m). Zero and subnormal x give some number below −125; infinity and NaN give some number that
-/// is at least 128.
+/// Returns log2(x) for 2^-126 <= x < infinity, where c is a polynomial for log2(1 + f)/f. With x = m·2^e, the error of the polynomial is
+/// relative to log2(m). Zero and subnormal x give an unspecified number below −125; infinity and NaN give an unspecified number of at least
+/// 128.
 template <class R, std::size_t N>
 HS_INLINE R log2_of_normal(R x, const float (&c)[N]) {
   const MantissaExponent<R> me = split_normal(x);
@@ -298,7 +298,7 @@ HS_INLINE SinCos<R> sin_cos(R x) {
     R r = fma(-n, R(1.57079637f), a);
     r = fma(-n, R(-4.37113883e-08f), r);
     r = fma(-n, R(-1.71512451e-15f), r);
-    r = clamp(r, -1.0f, 1.0f);  // has an effect only for |x| that is out of range
+    r = clamp(r, -1.0f, 1.0f);  // has an effect only if |x| is out of range
     const R z = r * r;
     const R s = fma(r * z, detail::polynomial(z, kSin), r);
     const R c = fma(z, fma(z, detail::polynomial(z, kCos), R(-0.5f)), R(1.0f));

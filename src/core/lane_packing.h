@@ -13,7 +13,7 @@ namespace halfspace {
 
 namespace detail {
 
-/// Lane numbers for each mask of eight lanes, one byte each. to_front: byte k is the number of the lane with the k-th bit that is set.
+/// Lane numbers for each mask of eight lanes, one byte per lane. If to_front, byte k is the number of the lane of the k-th set bit.
 /// Otherwise, byte i is the number of set bits below bit i. The other bytes are 0.
 template <bool to_front>
 inline constexpr std::array<uint64_t, 256> kPackedLanes = [] {
@@ -72,7 +72,7 @@ HS_INLINE RealN<W> unpack_lanes(RealN<W> v, uint32_t lanes) {
 }
 HS_INLINE float unpack_lanes(float v, uint32_t) { return v; }
 
-/// The same for a mask: bit k becomes the k-th bit that is set in `lanes`. The remaining bits are 0.
+/// Like unpack_lanes, for the bits of a mask: bit k moves to the position of the k-th set bit of `lanes`. The remaining bits are 0.
 HS_INLINE uint32_t unpack_bits(uint32_t mask, uint32_t lanes) {
 #ifdef __BMI2__
   return _pdep_u32(mask, lanes);

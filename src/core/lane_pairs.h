@@ -2,9 +2,9 @@
 //
 // Pairs of lanes: two independent groups of lanes that are processed together, one operation at a time.
 //
-// A shader is a long chain of dependent operations, and an out-of-order window of a few hundred instructions finds little else
-// to execute. Interleaving two such chains keeps the execution units busy. RealPair<H>, IntPair<H> and MaskPair<H>, where H is
-// float or RealN<W>, are used like lanes (lanes.h). Each half gives the same bits as if it were computed separately.
+// A shader is a long chain of dependent operations, and an out-of-order window of a few hundred instructions finds little else to execute.
+// Interleaving two such chains keeps the execution units busy. RealPair<H>, IntPair<H> and MaskPair<H>, where H is float or RealN<W>, are
+// used like lanes (lanes.h). The results of each half are bit-identical to those of a separate computation.
 #pragma once
 
 #include <functional>

@@ -42,8 +42,8 @@
 #define HS_INLINE inline __attribute__((always_inline))
 #define HS_FLATTEN __attribute__((flatten))
 
-// Inline namespace for names that do not contain the SIMD width but depend on it. The width becomes part of these names, so objects and
-// libraries that were compiled for different widths do not link with each other.
+// Inline namespace for names that do not contain the SIMD width but depend on it. The width becomes part of these names, so object files
+// and libraries that were compiled for different widths do not link with each other.
 #define HS_JOIN_EXPANDED(a, b) a##b
 #define HS_JOIN(a, b) HS_JOIN_EXPANDED(a, b)
 #define HS_LANES_NAMESPACE HS_JOIN(lanes, HALFSPACE_LANES)

@@ -63,7 +63,8 @@ struct Workers::Impl {
 
 namespace {
 
-/// Set in a child process after fork() if the parent had used TBB: the child has none of TBB's threads, which may have held its locks.
+/// Set in a child process after fork() if the parent had used TBB. The child has none of TBB's threads, and these may have held TBB's
+/// locks.
 std::atomic<bool> lost_tbb = false;
 
 void watch_forks() {
@@ -77,7 +78,7 @@ void watch_forks() {
 struct Workers::Impl {
   explicit Impl(int threads) : arena(std::make_unique<tbb::task_arena>(threads)) { watch_forks(); }
   ~Impl() {
-    if (!works()) static_cast<void>(arena.release());  // releasing an arena takes locks of TBB
+    if (!works()) static_cast<void>(arena.release());  // releasing an arena takes TBB locks
   }
 
   /// Returns null if TBB is not used: for one thread, or for more threads than cores, which TBB does not start.

@@ -13,7 +13,7 @@ namespace halfspace {
 /// A team of threads. Results must never depend on the number of threads, which only determines who runs a task.
 class Workers {
  public:
-  /// Creates a team of threads >= 1, including the calling thread. The count may exceed the number of cores. Other users of TBB
+  /// Creates a team of `threads` >= 1 threads, including the calling thread. The count may exceed the number of cores. Other users of TBB
   /// in the process are not affected. A limit set by the host (tbb::global_control) applies to teams that run on TBB.
   explicit Workers(int threads);
   ~Workers();

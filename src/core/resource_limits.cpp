@@ -25,7 +25,7 @@ LimitState& limit_state() {
   return state;
 }
 
-// Returns the resident memory of this process in bytes if it counts. Returns 0 otherwise, or if the system does not report it.
+// Returns the resident memory of this process in bytes. Returns 0 if it does not count towards the limit or the system does not report it.
 uint64_t counted_resident_memory() {
   if (!resource_limits().counts_resident) return 0;
   std::ifstream file("/proc/self/statm");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Limits on the memory and the pixels that files may make this process use. Readers compare them with the sizes in the header of a file,
-// before they allocate memory.
+// Limits on the memory that files may make this process use, and on the number of pixels of an image. Readers check the sizes in a file's
+// header against these limits before they allocate memory.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ class LimitError : public InputError {
 
 /// Limits of this process.
 struct ResourceLimits {
-  uint64_t max_memory = default_max_memory();  ///< bytes, all files together
+  uint64_t max_memory = default_max_memory();  ///< bytes, for all files together
   uint64_t max_pixels = kMaxPixels;            ///< in one image
   /// Whether max_memory also covers the resident memory of the process. Programs set this; in a library, most of that memory may belong to
   /// the host.
@@ -41,7 +41,7 @@ void set_resource_limits(const ResourceLimits& limits);
 uint64_t memory_left();
 
 /// Reserves memory that is about to be allocated and filled, so that threads that load files in parallel do not exceed the limit together.
-/// Release it when the memory has been filled: then it counts as resident.
+/// Release the claim once the memory has been filled and therefore counts as resident.
 class MemoryClaim {
  public:
   /// Throws LimitError, whose message begins with `place`, if the memory is not available.

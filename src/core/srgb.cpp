@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The two tables of srgb.h, computed at compile time. The tables need decode(v) to 24 bits, and double arithmetic gives it to about
-// 2^-50. This is sufficient unless an exact value is very close to a rounding boundary. A test with long double checks that: the
-// closest one is at a relative distance of 2^-35.
+// The two tables of srgb.h, computed at compile time. The tables need decode(v) rounded to 24 bits, and double arithmetic has a relative
+// error of about 2^-50. This is sufficient unless an exact value is very close to a rounding boundary. A test with long double checks that:
+// the closest value is at a relative distance of 2^-35.
 #include "halfspace/core/srgb.h"
 
 namespace halfspace {
@@ -34,7 +34,7 @@ constexpr std::array<float, 256> make_decode_table() {
   return table;
 }
 
-/// Returns the bits of the first float that encodes to code c, i.e. is nearer to c than to c − 1.
+/// Returns the bits of the first float that encodes to the 8-bit value c, i.e. that is nearer to c than to c − 1.
 constexpr int32_t threshold_bits(int c) { return bits_at_or_above(decode((c - 0.5) / 255.0)); }
 
 struct EncodeTable {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Conversion between 8-bit codes and linear values, for the sRGB transfer function (IEC 61966-2-1) and for unsigned normalized
-// integers, which can also be decoded from 16 bits. Results are correctly rounded and bit-identical at every width. Nothing here
-// computes a power: decoding uses a table of 256 floats, encoding a table of thresholds. Both tables are computed at compile
-// time using only + − × ÷ (srgb.cpp).
+// Conversion between 8-bit values and linear values, for the sRGB transfer function (IEC 61966-2-1) and for unsigned normalized integers,
+// which can also be decoded from 16 bits. Results are correctly rounded and bit-identical at every width. Nothing here computes a power:
+// decoding uses a table of 256 floats, encoding a table of thresholds. Both tables are computed at compile time using only + − × ÷
+// (srgb.cpp).
 //
 //   decode(v) = v/12.92 for v <= 0.04045, else ((v + 0.055)/1.055)^2.4        encode is its inverse
 #pragma once
@@ -16,9 +16,9 @@ namespace halfspace {
 
 namespace detail {
 
-// The encoder divides [2^-13, 1) into buckets of equal exponent and equal leading 7 mantissa bits. Codes change slowly enough
-// that a bucket has at most one threshold (asserted in srgb.cpp). The entry of a bucket, in 16.16 fixed point, is its first code
-// plus an offset that makes the low 16 bits of a float carry into the code at and above the threshold.
+// The encoder divides [2^-13, 1) into buckets of equal exponent and equal leading 7 mantissa bits. Encoded values change slowly enough that
+// a bucket has at most one threshold (asserted in srgb.cpp). The entry of a bucket, in 16.16 fixed point, is its first encoded value plus
+// an offset. At and above the threshold, this offset makes the low 16 bits of a float carry into the encoded value.
 inline constexpr int32_t kSrgbFirstBits = 0x39000000;  // 2^-13; everything below encodes to 0
 inline constexpr int kSrgbBuckets = 13 * 128;
 extern const std::array<int32_t, kSrgbBuckets> kSrgbEncode;
@@ -31,8 +31,8 @@ alignas(64) extern const std::array<float, 256> kSrgbToLinear;
 #ifdef __AVX512F__
 namespace detail {
 
-/// Returns table[code] for codes 0 … 255, by permuting the table in 16 registers; takes a third of the time of a gather. Five
-/// bits of the code select within two registers, and the other three select the pair.
+/// Returns table[code] for `code` in 0 … 255, by permuting the table in 16 registers; takes a third of the time of a gather. Five bits of
+/// the code select within two registers, and the other three select the pair.
 HS_INLINE RealN<16> permute_256(const float* table, IntN<16> code) {
   const __m512i c = (__m512i)code.v;
   const auto pair = [&](int i) { return _mm512_permutex2var_ps(_mm512_load_ps(table + 32 * i), c, _mm512_load_ps(table + 32 * i + 16)); };
@@ -47,7 +47,7 @@ HS_INLINE RealN<16> permute_256(const float* table, IntN<16> code) {
 }  // namespace detail
 #endif
 
-/// Returns the linear value of each sRGB code, correctly rounded. Every lane of code must be in 0 … 255.
+/// Returns the linear value of each 8-bit sRGB value, correctly rounded. Every lane of code must be in 0 … 255.
 template <Number R>
 HS_INLINE R srgb_to_linear(IntOf<R> code) {
   if constexpr (kIsPair<R>) {
@@ -60,8 +60,8 @@ HS_INLINE R srgb_to_linear(IntOf<R> code) {
   }
 }
 
-/// Returns the sRGB code 0 … 255 nearest to 255·encode(x), for every float x. x < 0 and NaN give 0; x > 1 gives 255. A double
-/// is first rounded to float.
+/// Returns the 8-bit sRGB value, 0 … 255, nearest to 255·encode(x), for every float x. x < 0 and NaN give 0; x > 1 gives 255. A double is
+/// first rounded to float.
 template <Number R>
 HS_INLINE IntOf<R> linear_to_srgb(R x) {
   if constexpr (std::is_same_v<R, double>)
@@ -72,8 +72,8 @@ HS_INLINE IntOf<R> linear_to_srgb(R x) {
   }
 }
 
-/// Returns code/255 for a code in [0, 255], rounded to the nearest float if the code is an integer. Filtered codes, which are
-/// fractional, are allowed too. The function is monotonic, and 255 gives 1.
+/// Returns code/255 for `code` in [0, 255], rounded to the nearest float if `code` is an integer. Filtered values, which are fractional,
+/// are allowed too. The function is monotonic, and 255 gives 1.
 template <Number R>
 HS_INLINE R unorm8_to_linear(R code) {
   if constexpr (std::is_same_v<R, double>)
@@ -85,7 +85,7 @@ HS_INLINE R unorm8_to_linear(R code) {
   }
 }
 
-/// Returns code/65535 for a code in [0, 65535], with the same properties as unorm8_to_linear.
+/// Returns code/65535 for `code` in [0, 65535], with the same properties as unorm8_to_linear.
 template <Number R>
 HS_INLINE R unorm16_to_linear(R code) {
   if constexpr (std::is_same_v<R, double>)
@@ -97,8 +97,8 @@ HS_INLINE R unorm16_to_linear(R code) {
   }
 }
 
-/// Returns the code 0 … 255 nearest to 255·x, for every float x. x < 0 and NaN give 0; x > 1 gives 255. No float lies halfway
-/// between two codes.
+/// Returns the integer 0 … 255 nearest to 255·x, for every float x. x < 0 and NaN give 0; x > 1 gives 255. No float lies halfway between
+/// two results.
 template <Number R>
 HS_INLINE IntOf<R> linear_to_unorm8(R x) {
   if constexpr (std::is_same_v<R, double>)

@@ -6,8 +6,8 @@
 
 namespace halfspace {
 
-/// Encodes a linear value x in [0, 1] with the sRGB transfer function (IEC 61966-2-1). The result is in [0, 1] and not quantized.
-/// For 8-bit codes use linear_to_srgb (core/srgb.h), which is exact.
+/// Encodes a linear value x in [0, 1] with the sRGB transfer function (IEC 61966-2-1). The result is in [0, 1] and not quantized. For 8-bit
+/// values use linear_to_srgb (core/srgb.h), which is exact.
 template <Number R>
 HS_INLINE R srgb_curve(R x) {
   static constexpr FixedPower power_of(1.0f / 2.4f);

@@ -31,9 +31,9 @@ std::vector<std::filesystem::path> tool_folders() {
   if (const std::filesystem::path* set = tool_folder.load(); set != nullptr && !set->empty()) return {*set};
   std::filesystem::path folder = this_binary().parent_path();
   if (folder.empty()) return {};
-  // The loader selects a library for the processor in LIB/glibc-hwcaps/LEVEL.
+  // For some processors, the loader selects a library in LIB/glibc-hwcaps/LEVEL.
   if (folder.parent_path().filename() == "glibc-hwcaps") folder = folder.parent_path().parent_path();
-  // The Python module of a package has one extension per instruction set, in halfspace/LEVEL.
+  // The packaged Python module has one extension module per instruction set, in halfspace/LEVEL.
   if (folder.filename() == "x86-64-v3" || folder.filename() == "x86-64-v4") folder = folder.parent_path();
   // An installed Python module is in PREFIX/lib/python3/dist-packages/halfspace or PREFIX/lib/python3.N/site-packages/halfspace.
   const std::filesystem::path parent = folder.parent_path().filename();

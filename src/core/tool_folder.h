@@ -10,9 +10,9 @@ namespace halfspace {
 /// not affected.
 void set_tool_folder(const std::filesystem::path& folder);
 
-/// Returns the path of a decoder program, or an empty path if it is not installed. Searches the folder that set_tool_folder() set. Without
-/// one, searches the folder of the program or shared library that contains this code, its subfolder halfspace, and the library folder of an
-/// installation whose programs are there.
+/// Returns the path of a decoder program, or an empty path if it is not installed. Searches the folder that set_tool_folder() set. If none
+/// is set, searches the folder of the program or shared library that contains this code, its subfolder halfspace, and the folder in which
+/// the installation keeps the decoder programs.
 std::filesystem::path find_tool(const char* name);
 
 }  // namespace halfspace

@@ -31,8 +31,8 @@ bool move_above_streams(int& fd) {
   return true;
 }
 
-// Creates the channels to and from the child; [0] and [2] are our ends. Returns 0, or the errno of the failure. The channel to
-// the child is a socket pair, because unlike a pipe it can be written without SIGPIPE after the reader has exited.
+// Creates the channels to and from the child; [0] and [2] are our ends. Returns 0, or the errno of the failure. The channel to the child is
+// a socket pair: unlike a pipe, it can be written to without raising SIGPIPE after the reader has exited.
 int open_ends(int (&ends)[4]) {
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, &ends[0]) != 0 || ::pipe2(&ends[2], O_CLOEXEC) != 0) return errno;
   for (int& fd : ends) {
@@ -128,7 +128,7 @@ bool ToolProcess::receive(void* memory, std::size_t bytes) {
 }
 
 int ToolProcess::wait() {
-  ::shutdown(to_, SHUT_RDWR);  // a tool that still waits for input ends
+  ::shutdown(to_, SHUT_RDWR);  // ends a tool that still waits for input
   int status = 0;
   while (::waitpid(child_, &status, 0) < 0) {
     if (errno != EINTR) break;

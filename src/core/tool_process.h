@@ -27,10 +27,10 @@ class ToolProcess {
   /// Sends all bytes to the tool's standard input. Returns false if the tool has ended; no signal is raised.
   bool send(const void* memory, std::size_t bytes);
 
-  /// The same, together with a descriptor, which the tool receives a copy of.
+  /// Like send(), but also passes the tool a copy of a file descriptor.
   bool send_with_descriptor(const void* memory, std::size_t bytes, int descriptor);
 
-  /// Fills the memory from the tool's standard output. Returns false if the tool ended before that.
+  /// Fills the memory from the tool's standard output. Returns false if the tool ended before the memory was full.
   bool receive(void* memory, std::size_t bytes);
 
   /// Waits for the tool to exit and returns the signal that terminated it, or 0.

@@ -104,8 +104,8 @@ HS_INLINE std::array<I, 4> load_aos4(const Place& place) {
   }
 }
 
-/// Stores lane k of the four words to the 16 bytes at place(k); the inverse of load_aos4. The order of the stores is unspecified:
-/// lanes may share a place only if it does not matter which of them remains.
+/// Stores lane k of the four words to the 16 bytes at place(k); the inverse of load_aos4. The order of the stores is unspecified, so two
+/// lanes may share a place only if it does not matter which of them is stored last.
 template <class I, class Place>
 HS_INLINE void store_aos4(const std::array<I, 4>& words, const Place& place) {
   using namespace detail;
@@ -145,10 +145,10 @@ HS_INLINE std::array<I, 3> load_aos3(const int32_t* p) {
   }
 }
 
-/// The number of words that gather_row may read past the last requested one: for N = 2 it reads four words.
+/// How many words gather_row may read past the last requested one: for N = 2 it reads four words.
 inline constexpr std::size_t kRowSlack = 2;
 
-/// The indices in the lanes of i, as scalars. They must not be negative. Two of them leave the register with one operation.
+/// The indices in the lanes of i, as scalars. They must not be negative. Each operation extracts two of them from the register.
 template <int W>
 class ScalarIndices {
  public:

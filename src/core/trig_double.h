@@ -46,10 +46,10 @@ inline SinCosDouble sincos_small(double hi, double lo) {
 
 }  // namespace detail
 
-/// Returns the sine and cosine of `turns` full turns (1 is 360°), within 1 ulp of the true value. |turns| must be below 2^50.
+/// Returns the sine and cosine of `turns` full turns (1 is 360°), within 1 ulp of the exact value. |turns| must be below 2^50.
 inline SinCosDouble sincos_turns(double turns) {
   const double quarters = std::rint(4.0 * turns);
-  const double rest = std::fma(-0.25, quarters, turns);  // exact, because |rest| ≤ 1/8 and rest is a multiple of the last bit of turns
+  const double rest = std::fma(-0.25, quarters, turns);  // exact, because |rest| ≤ 1/8 and rest is a multiple of ulp(turns)
   // 2π as the sum of two doubles; the second is 2π − (double)2π.
   constexpr double kHigh = 2.0 * std::numbers::pi;
   constexpr double kLow = 2.4492935982947064e-16;

@@ -7,9 +7,9 @@
 // in.normal + light, dot(n, light), world_from_object * position. A vec<float> or vec<double> converts back to the GLM type with
 // the same component type.
 //
-// All functions (dot, length, normalize, …) are found by argument-dependent lookup, from any namespace. Each has a fixed order
-// of operations, so that float and lanes give the same bits. The dot product of three components rounds once per component.
-// GLM's dot product does not, so the two differ in the last bit.
+// All functions (dot, length, normalize, …) are found by argument-dependent lookup, from any namespace. Each has a fixed order of
+// operations, so that results for float and for lanes are bit-identical. The dot product of three components rounds once per component.
+// GLM's does not, so the last bits of the two may differ.
 //
 // An expression of two uniforms is a uniform and is computed once, by GLM. The product of a uniform vector and a varying scalar
 // is a vec3<R> for lanes but a glm::vec3 for float. Store it in a vec3<R> before passing it to dot, length, normalize or reflect.

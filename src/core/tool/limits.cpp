@@ -13,7 +13,7 @@
 
 namespace halfspace {
 
-// PR_SET_PDEATHSIG would not do: it follows the thread that started this process, which may end long before its program.
+// PR_SET_PDEATHSIG would not work: it signals the end of the thread that started this process, which may be long before its program ends.
 void exit_with_reader() {
   std::thread([] {
     pollfd output = {STDOUT_FILENO, 0, 0};
@@ -36,8 +36,8 @@ void limit_memory(uint64_t bytes) {
   ::signal(SIGALRM, SIG_DFL);
 }
 
-// Only the soft limit of CPU time is set, because the next request raises it again. Elapsed time limits decoders that wait for something
-// that never happens.
+// Only the soft limit of CPU time is set, because the next request raises it again. The limit on elapsed time stops decoders that wait for
+// something that never happens.
 void limit_time(unsigned seconds) {
   timespec used = {};
   ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &used);

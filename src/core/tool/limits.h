@@ -13,7 +13,7 @@ void exit_with_reader();
 /// Limits the address space of this process in bytes, and disables core dumps.
 void limit_memory(uint64_t bytes);
 
-/// Ends this process after it has used `seconds` of CPU time from now on, or after five times as many seconds of elapsed time.
+/// Ends this process after another `seconds` of CPU time, or after five times as many seconds of elapsed time.
 void limit_time(unsigned seconds);
 
 }  // namespace halfspace
