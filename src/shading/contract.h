@@ -50,8 +50,8 @@ template <class R>
 struct PrimitiveId {
   IntOf<R> primitive;  ///< 0, 1, … in submission order, including culled primitives; starts again in each instance
   IntOf<R> instance;   ///< 0 … DrawState::instances − 1
-  /// Perspective-correct weights of the vertices of the submitted primitive, even if it was clipped. The vertices have the order of
-  /// OpenGL 4.6, table 13.2, which for lists is the order of the indices. Points have the weights (1, 0, 0), lines (1 − t, t, 0).
+  /// Perspective-correct weights of the vertices of the submitted primitive, even if it was clipped. The vertices are in the order of
+  /// OpenGL 4.6, table 13.2, which is the index order for lists. Points have the weights (1, 0, 0), lines (1 − t, t, 0).
   vec3<R> barycentrics;
 };
 

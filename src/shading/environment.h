@@ -2,20 +2,20 @@
 //
 // Distant light as a function of direction: an equirectangular panorama or the six faces of a cube map.
 //
-// Map space (suffix _ms) is left-handed, with x right, y up and z forward, as seen from inside the map. It is the space of OpenGL
-// cube maps (OpenGL 4.6, section 8.13, table 8.19).
-//   panorama  u = 1/2 + atan2(x, z)/2π, v = angle from +y divided by π; the center shows +z, and the edges on the left and right show −z
+// Map space (suffix _ms) is left-handed, with x right, y up and z forward, as seen from inside the map. It is the space of OpenGL cube maps
+// (OpenGL 4.6, section 8.13, table 8.19).
+//   panorama  u = 1/2 + atan2(x, z)/2π, v = angle from +y divided by π; the center shows +z, and the left and right edges show −z
 //   cube      faces +x −x +y −y +z −z (right, left, top, bottom, front, back), row 0 at the top, as in OpenGL
 //
 // Filtering is seamless. Each level of a panorama has an additional row beyond either pole: the row next to the pole, rotated by
 // half a turn. u wraps around. Each level of a cube face has a border of texels of its neighbors, so that both faces filter the
 // same four texels at a common edge. At a cube corner, where only three faces meet, the fourth texel is the mean of the three.
 //
-// The level of detail is computed from the derivatives of the direction. For a panorama it is the angle that a pixel spans
-// relative to the angle of a texel at the equator, and therefore has no discontinuity at the seam or the poles. (OpenGL's rule
-// uses the derivative of u, which goes to infinity there.) Texels are crowded near the poles, so levels below level 0 are
-// averaged along each row over W/(2H·sin θ) texels at the angle θ from the pole, which is the height of a texel on the sphere.
-// For a cube map the level of detail is OpenGL's.
+// The level of detail is computed from the derivatives of the direction. For a panorama it is the angle that a pixel spans relative to the
+// angle of a texel at the equator, and therefore has no discontinuity at the seam or the poles. (OpenGL's rule uses the derivative of u,
+// which goes to infinity there.) Texels are crowded near the poles. All levels but level 0 are therefore averaged along each row, over
+// W/(2H·sin θ) texels at the angle θ from the pole, which is the height of a texel on the sphere. For a cube map the level of detail is
+// OpenGL's.
 #pragma once
 
 #include <array>
@@ -44,8 +44,8 @@ class EnvironmentMap {
   template <class Texel>
   EnvironmentMap(const std::array<Image<Texel>, 6>& faces, TexelFormat format);
 
-  /// Creates a cube map from given levels, at least one, whose faces are each half the size of those of the previous one. They are linear;
-  /// format is rgba16f or rgba32f.
+  /// Creates a cube map from one or more given levels. The faces of each level are half the size of those of the previous level. Texels are
+  /// linear; format is rgba16f or rgba32f.
   EnvironmentMap(std::span<const std::array<Image<glm::vec4>, 6>> levels, TexelFormat format);
 
   EnvironmentLayout layout() const { return layout_; }
@@ -55,13 +55,13 @@ class EnvironmentMap {
   int width(int level = 0) const { return image(level, 0).width() - (layout_ == EnvironmentLayout::cube ? 2 : 0); }
   int height(int level = 0) const { return image(level, 0).height() - 2; }
 
-  /// Returns the trilinearly filtered linear light from direction d_ms, which may have any length except 0. dx_ms and dy_ms are the
-  /// changes in the direction to the next pixel to the right and to the next pixel up. All inputs are safe: if the direction is 0 or
-  /// not finite, the result is the light of an arbitrary direction.
+  /// Returns the trilinearly filtered linear light from direction d_ms, which may have any length except 0. dx_ms and dy_ms are the changes
+  /// in the direction to the next pixel to the right and to the next pixel up. All inputs are safe: if the direction is 0 or not finite,
+  /// the result is the light from an arbitrary direction.
   template <Number R>
   vec3<R> sample(const vec3<R>& d_ms, const vec3<R>& dx_ms, const vec3<R>& dy_ms) const;
 
-  /// The same for a given level of detail, where 0 is the largest level. It is clamped to the existing levels.
+  /// Like sample, with a given level of detail. Level 0 is the finest; the level of detail is clamped to the existing levels.
   template <Number R>
   vec3<R> sample_level(const vec3<R>& d_ms, std::type_identity_t<R> lod) const;
 

@@ -20,7 +20,7 @@ glm::dvec3 light_of(const glm::vec4& t) { return glm::dvec3(t); }
 void set_light(glm::u8vec4& t, const glm::dvec3& v) { t = glm::u8vec4(linear_to_srgb(v.x), linear_to_srgb(v.y), linear_to_srgb(v.z), 255); }
 void set_light(glm::vec4& t, const glm::dvec3& v) { t = glm::vec4(glm::vec3(v), 1.0f); }
 
-// Averaging equal texels gives exactly that texel: the error of double arithmetic is lost when the mean is rounded.
+// The average of equal texels is exactly that texel: rounding the mean removes the error of double arithmetic.
 template <class Texel, class... More>
 Texel mean(const Texel& a, const More&... more) {
   Texel t;
@@ -70,7 +70,7 @@ Image<Texel> bordered(const Image<Texel>& level) {
   const int width = level.width(), height = level.height();
   Image<Texel> out(width, height + 2);
   for (int row = 0; row < height; ++row) std::copy(level.row(row).begin(), level.row(row).end(), out.row(row + 1).begin());
-  for (int x = 0; x < width; ++x) {  // half a turn around; between two texels if the width is odd
+  for (int x = 0; x < width; ++x) {  // half a turn around the pole; between two texels if the width is odd
     const int a = (x + width / 2) % width, b = (x + (width + 1) / 2) % width;
     out.at(x, 0) = mean(level.at(a, 0), level.at(b, 0));
     out.at(x, height + 1) = mean(level.at(a, height - 1), level.at(b, height - 1));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Filtering of environments, and the table of directional_reflectance.
+// Prefiltering of environments, and the table of directional_reflectance.
 #include "halfspace/shading/environment_light.h"
 
 #include <bit>
@@ -17,7 +17,7 @@ namespace {
 
 using Faces = std::array<Image<glm::vec4>, 6>;
 
-constexpr int kSamples = 64;              // directions per filtered texel
+constexpr int kSamples = 64;               // directions per filtered texel
 constexpr int kIntegrationSamples = 1024;  // per table entry
 constexpr int kTableSize = 32;
 
@@ -44,8 +44,8 @@ Faces make_faces(int size) {
   return faces;
 }
 
-// Calls color(direction, step) for every texel of six faces, with lanes of neighboring texels in a row. direction: through the center
-// of the texel, with a component of ±1; step: to the next texel to the right.
+// Calls color(direction, step) for every texel of six faces; the lanes are neighboring texels of a row. direction points to the center of
+// the texel and has a component of ±1. step is the change to the next texel to the right.
 template <class F>
 Faces filled_faces(int size, const Workers& workers, const F& color) {
   Faces faces = make_faces(size);
@@ -66,8 +66,8 @@ Faces filled_faces(int size, const Workers& workers, const F& color) {
   return faces;
 }
 
-// One direction of incident light relative to the normal +z, its weight, and the level of the base map whose texels are as large as the
-// part of the sphere that the direction stands for.
+// One direction of incident light relative to the normal +z, its weight, and a level of the base map. The texels of this level are as large
+// as the solid angle of the sample.
 struct LobeSample {
   glm::vec3 l;
   float weight, level;
@@ -122,7 +122,8 @@ std::vector<Faces> filtered_levels(const EnvironmentMap& map, int size, const Wo
 }
 
 // Projects the light onto the first nine spherical harmonics and convolves it with the clamped cosine, whose factors relative to π are 1,
-// 2/3 and 1/4. Returns the products with the constants of the basis, which appear once in the projection and once in the evaluation.
+// 2/3 and 1/4. Returns the coefficients times the squared constants of the basis, since each constant occurs in both projection and
+// evaluation.
 std::array<glm::vec3, 9> harmonics_of(const Faces& faces) {
   std::array<glm::dvec3, 9> sums{};
   double whole = 0.0;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Light of a distant environment on metallic-roughness surfaces, by the split-sum approximation: the environment is filtered in advance for
-// the lobes of several roughnesses (B. Karis, "Real shading in Unreal Engine 4", SIGGRAPH 2013), and multiplied by the reflectance of the
-// surface, integrated over all directions. Light that microfacets scatter several times is added by the method of C. Fdez-Agüera,
-// "A multiple-scattering microfacet model for real-time image based lighting", JCGT 8(1), 2019. Diffuse light is represented by nine
-// spherical harmonics (R. Ramamoorthi and P. Hanrahan, "An efficient representation for irradiance environment maps", SIGGRAPH 2001).
+// Image-based lighting of metallic-roughness surfaces by the split-sum approximation (B. Karis, "Real shading in Unreal Engine 4", SIGGRAPH
+// 2013): an environment map that is prefiltered for the lobes of several roughnesses is multiplied by the reflectance of the surface,
+// integrated over all directions. Light that microfacets scatter several times is added by the method of C. Fdez-Agüera, "A
+// multiple-scattering microfacet model for real-time image based lighting", JCGT 8(1), 2019. Diffuse light is represented by nine spherical
+// harmonics (R. Ramamoorthi and P. Hanrahan, "An efficient representation for irradiance environment maps", SIGGRAPH 2001).
 #pragma once
 
 #include <array>
@@ -15,15 +15,15 @@
 
 namespace halfspace {
 
-/// An environment map filtered for rough surfaces, in the map space of the environment.
+/// An environment map prefiltered for rough surfaces, in the map space of the environment.
 struct FilteredEnvironment {
-  static constexpr int kLevels = 6;  ///< of `radiance`: level i is filtered for the roughness i / (kLevels − 1)
+  static constexpr int kLevels = 6;  ///< of `radiance`: level i is prefiltered for the roughness i / (kLevels − 1)
 
   EnvironmentMap radiance;
   std::array<glm::vec3, 9> harmonics;  ///< irradiance / π = Σ harmonics[i]·basis i, with the constants of the basis included
 
-  /// Filters a map. size: face width of level 0, a power of two of at least 2^kLevels. The result is bit-identical for any number of
-  /// workers and any SIMD width.
+  /// Prefilters a map. size: face width of level 0, a power of two that is at least 2^kLevels. The result is bit-identical for any number
+  /// of workers and any SIMD width.
   FilteredEnvironment(const EnvironmentMap& map, int size, const Workers& workers);
 
   /// Returns irradiance / π at a surface with the unit normal n_ms.
@@ -45,7 +45,7 @@ struct FilteredEnvironment {
   explicit FilteredEnvironment(const std::vector<std::array<Image<glm::vec4>, 6>>& levels);
 };
 
-/// A filtered environment with its orientation and brightness.
+/// A prefiltered environment with its orientation and brightness.
 struct EnvironmentLight {
   const FilteredEnvironment* map = nullptr;  ///< not owned
   glm::mat3 map_from_world = kMapFromWorld;
@@ -58,12 +58,12 @@ struct AmbientLight {
   vec3<R> diffuse, specular;
 };
 
-/// A blend of two filtered environments. An environment with weight 0 is not read.
+/// A blend of two prefiltered environments. An environment with weight 0 is not read.
 struct EnvironmentLightBlend {
   EnvironmentLight first, second;
   float weight = 0.0f;  ///< weight of the second, 0 to 1
 
-  /// n_ws and v_ws: unit vectors along the normal and towards the eye. The lobe of a rough surface lies between the reflected view
+  /// n_ws and v_ws: unit vectors along the normal and towards the eye. The lobe of a rough surface points between the reflected view
   /// direction and the normal (S. Lagarde and C. de Rousiers, "Moving Frostbite to physically based rendering", 2014, section 4.9.3).
   template <class R>
   HS_INLINE AmbientLight<R> at(const vec3<R>& n_ws, const vec3<R>& v_ws, R roughness) const {
@@ -80,13 +80,13 @@ struct EnvironmentLightBlend {
   }
 };
 
-/// The integral of a GGX reflection over all directions of incident light: its part that is multiplied by F0, and by F90.
+/// The integral of the GGX reflection over all directions of incident light, as two parts: the factor of F0 and the factor of F90.
 template <class R>
 struct DirectionalReflectance {
   R f0, f90;
 };
 
-/// Looks up the integral in a table that is computed at the first call. The error is below 0.02. roughness and n_v are clamped to [0, 1].
+/// Looks up the integral in a table that is computed on the first call. The error is below 0.02. roughness and n_v are clamped to [0, 1].
 template <class R>
 DirectionalReflectance<R> directional_reflectance(R roughness, R n_v);
 

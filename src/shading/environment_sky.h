@@ -42,7 +42,7 @@ struct EnvironmentSky {
     return {vec4<R>(light, R(1))};
   }
 
-  /// Returns the light of an environment's stars from direction d_ws. They are dimmed below an altitude of 12 degrees.
+  /// Returns the light of an environment's stars from direction d_ws. Stars are dimmed below an altitude of 12 degrees.
   template <class R>
   static vec3<R> star_light(const StarSky& stars, const Environment& sky, const vec3<R>& d_ws) {
     const vec3<R> d_ms = sky.map_from_world * d_ws;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The area that a pixel covers in a texture, and the number and size of the probes with which an anisotropic lookup covers it.
+// The footprint of a pixel in a texture, and the number and size of the probes with which an anisotropic lookup covers it.
 //
 // The derivatives J = (∂st/∂x, ∂st/∂y), here in texels of level 0, map the square of the pixel to the texture. Its inscribed circle
 // becomes an ellipse whose semi-axes are proportional to the singular values of J. EXT_texture_filter_anisotropic allows other
@@ -46,8 +46,8 @@ struct Footprint {
 /// Returns the footprint of a pixel in a level 0 of width x height. duv_dx and duv_dy are the changes in (s, t) to the next
 /// pixel to the right and to the next pixel up. max_probes must be at least 1.
 ///
-/// A ratio of the axes that exceeds an integer by at most 1/1024 of it counts as that integer, since even the ratio of a circle is
-/// 1 only up to rounding. A major axis that is longer than 2^30 texels, infinite or NaN gives one probe at level_of_detail.
+/// Even a circle has an axis ratio of 1 only up to rounding, so a ratio that exceeds an integer by a relative error of at most 1/1024
+/// counts as that integer. A major axis that is longer than 2^30 texels, infinite or NaN gives one probe at level_of_detail.
 template <Number R>
 HS_INLINE Footprint<R> footprint(int width, int height, const vec2<R>& duv_dx, const vec2<R>& duv_dy, int max_probes) {
   const R w(static_cast<float>(width)), h(static_cast<float>(height)), one(1.0f), half(0.5f);

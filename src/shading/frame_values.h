@@ -28,7 +28,7 @@ inline constexpr std::size_t kFrameValues = 11;
 /// Uniforms that are the same for all draws of a frame.
 struct FrameCamera {
   glm::vec3 right_ws{1, 0, 0}, up_ws{0, 1, 0}, forward_ws{0, 0, -1};  ///< unit vectors
-  glm::vec3 eye_ws{0.0f}, eye_low_ws{0.0f};                           ///< the sum is the position of the eye in double
+  glm::vec3 eye_ws{0.0f}, eye_low_ws{0.0f};                           ///< their sum is the position of the eye in double
   bool perspective = true;
 };
 

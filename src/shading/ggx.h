@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The reflection model of metallic-roughness materials, as glTF 2.0 (appendix B) describes it: a GGX microfacet distribution with the
-// height-correlated Smith masking function and Schlick's approximation of the Fresnel term, over a Lambert base.
+// The reflection model of metallic-roughness materials, as glTF 2.0 (appendix B) describes it: a GGX microfacet distribution with
+// height-correlated Smith masking-shadowing and Schlick's approximation of the Fresnel term, over a Lambert base.
 //
 //   D = α² / (π ((n·h)² (α² − 1) + 1)²)
 //   V = 1 / (2 (n·l √((n·v)² (1 − α²) + α²) + n·v √((n·l)² (1 − α²) + α²)))
@@ -25,7 +25,7 @@ inline constexpr float kMinRoughness = 0.045f;
 template <Number R>
 HS_INLINE R ggx_reflection(R alpha, const vec3<R>& n, const vec3<R>& h, R n_l, R n_v) {
   const R a2 = alpha * alpha, n_h = dot(n, h);
-  const vec3<R> sine = cross(n, h);                 // 1 − (n·h)² would cancel for small angles
+  const vec3<R> sine = cross(n, h);  // 1 − (n·h)² would suffer from cancellation at small angles
   // (n·h)² (α² − 1) + 1, which is at least α². A half vector of zero would give 0.
   const R d = max(fma(a2 * n_h, n_h, dot(sine, sine)), a2 * a2);
   const R rest = R(1) - a2;
@@ -33,7 +33,7 @@ HS_INLINE R ggx_reflection(R alpha, const vec3<R>& n, const vec3<R>& h, R n_l, R
   return R(0.5f) * n_l * (a2 / (d * d)) / masking;
 }
 
-/// Returns (1 − cosine)⁵ of the Fresnel term, for a cosine of at most 1.
+/// Returns the factor (1 − cosine)⁵ of Schlick's Fresnel approximation. cosine must be at most 1.
 template <Number R>
 HS_INLINE R schlick_weight(R cosine) {
   const R x = clamp(R(1) - cosine, R(0), R(1)), x2 = x * x;

@@ -45,7 +45,7 @@ enum class ShadowBias : uint8_t {
   receiver_plane,  ///< compares each texel with the plane of the triangle at the texel center
   adaptive,        ///< the same with the plane of the shading normal, and an additional offset (Dou et al., JCGT 3(4), 2014)
   automatic,       ///< the method that performed best in measurements: docs/explanation/shadows.md
-  original         ///< a constant 0.0005 of the depth range
+  original         ///< a constant bias of 0.0005 of the depth range
 };
 
 /// Settings of a shadow lookup. They are the same for all views of a light.
@@ -54,7 +54,7 @@ struct ShadowSettings {
   ShadowBias bias = ShadowBias::automatic;
   float constant = 1.0f;    ///< in texels
   float slope = 1.0f;       ///< factor applied to the depth that a texel spans on the surface
-  float max_slope = 16.0f;  ///< upper limit of the tangent of the light's angle, for the biases that depend on it
+  float max_slope = 16.0f;  ///< upper limit of the tangent of the angle of incidence, for the biases that depend on it
   float radius = 2.0f;      ///< radius in texels of the Vogel disk and of the moment filter
   /// Radius of the light, for pcss: the tangent of half its angular diameter (directional), or in world units (point, spot).
   float light_radius = 0.0f;

@@ -14,7 +14,7 @@ struct OpacityTest {
   std::array<PlacedMap, 2> maps;  ///< factors of the opacity: weighted sums of channels; both maps use the same texture coordinates
   float opacity = 1.0f;
   float cutoff = 0.5f;    ///< covered where opacity ≥ cutoff
-  bool dithered = false;  ///< covers a fraction of the texels equal to the opacity, in an ordered pattern, instead of using the cutoff
+  bool dithered = false;  ///< ignores the cutoff: covers texels in an ordered pattern, in proportion to the opacity
 };
 
 /// colored: vertices have colors, whose alpha multiplies the opacity.

@@ -33,7 +33,7 @@ enum MetallicMap : uint8_t {
 };
 inline constexpr std::size_t kMetallicMaps = 12;
 
-/// A texture, how it is placed, and which channel a property that is a single number reads.
+/// A texture, its placement, and the channel that a scalar property reads.
 struct PlacedMap {
   const Texture2D* map = nullptr;  ///< null: none; not owned
   Sampler sampler{};
@@ -43,7 +43,7 @@ struct PlacedMap {
   bool repeats = false;            ///< the lookup equals that of the previous map with a texture, so its texel is used again
 };
 
-/// Applies a transform of texture coordinates, uv' = transform · (u, v, 1), and its derivatives.
+/// Transforms texture coordinates, uv' = transform · (u, v, 1), and their derivatives.
 template <class R>
 HS_INLINE MapCoordinates<R> transformed(const glm::mat3x2& transform, const MapCoordinates<R>& at) {
   if (transform == glm::mat3x2(1.0f)) return at;
@@ -59,7 +59,7 @@ struct MetallicMaterial : PlacedSurface {
   float metallic = 0.0f, roughness = 1.0f;
   float specular = 1.0f;
   glm::vec3 specular_color{1.0f};
-  float normal_reflectance = 0.04f;  ///< of a non-metal at normal incidence: ((ior − 1) / (ior + 1))²
+  float normal_reflectance = 0.04f;  ///< of a dielectric at normal incidence: ((ior − 1) / (ior + 1))²
   float clearcoat = 0.0f, clearcoat_roughness = 0.0f;
   float normal_scale = 1.0f, clearcoat_normal_scale = 1.0f;
   float occlusion_strength = 1.0f;
@@ -148,7 +148,7 @@ struct MetallicSurface : MetallicMaterial {
   struct Texels {
     vec3<R> base_color{R(1)};
     R opacity{1};
-    std::array<R, kMetallicMaps> number;  ///< of properties that are single numbers
+    std::array<R, kMetallicMaps> number;  ///< of scalar properties
     vec3<R> specular_color{R(1)}, emissive{R(1)};
     vec3<R> normal{R(0), R(0), R(1)}, clearcoat_normal{R(0), R(0), R(1)};  ///< tangent space
   };
@@ -281,7 +281,8 @@ struct MetallicSurface : MetallicMaterial {
       }
     }
 
-    // Light from all directions. Microfacets reflect `single` of it; `multiple` is reflected after further bounces.
+    // Ambient and environment light. `single` is the fraction that microfacets reflect once, `multiple` the fraction reflected after
+    // further bounces.
     const R occlusion = fma(R(occlusion_strength), texels.number[kOcclusionMap] - R(1), R(1));
     const DirectionalReflectance<R> table = directional_reflectance(layer.roughness, layer.n_v);
     const vec3<R> single = layer.f0 * table.f0 + layer.f90 * table.f90;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Computes the smaller levels of a texture.
+// Computes the coarser mip levels of a texture.
 #include <algorithm>
 
 #include "halfspace/core/default_init_allocator.h"
@@ -16,9 +16,9 @@ namespace {
 
 // ---- averaging: number types, and conversion from and to texels ---------------------------------------------------------
 
-/// Number is the type of the weights. Sum holds the channels of a texel in the units that are averaged: linear values for floats and
-/// for the color of srgb8a8, otherwise integer codes. Averaging equal texels is exact: the error of a sum is far less than half a
-/// code, or far less than half an ulp of a float.
+/// Number is the type of the weights. Sum holds the channels of a texel in the units that are averaged: linear values for floats and for
+/// the color of srgb8a8, otherwise integer values. Averaging equal texels is exact: the error of a sum is far less than half an LSB of an
+/// integer, or half an ulp of a float.
 template <class Texel>
 struct Averaging;
 template <>
@@ -81,7 +81,7 @@ void texel_row(std::span<const SumOf<Texel>> from, Texel* to, TexelFormat format
   std::ranges::transform(from, to, [format](const SumOf<Texel>& v) { return to_texel(v, format); });
 }
 
-/// For RGBA codes, the lanes of a vector are the channels of successive texels.
+/// For 8-bit RGBA texels, the lanes of a vector are the channels of successive texels.
 constexpr std::size_t kTexelsPerVector = kLanes / 4;
 
 void average_row(std::span<const glm::u8vec4> from, glm::vec4* to, TexelFormat format) {
@@ -186,7 +186,7 @@ std::vector<Image<Texel>> mip_chain(const Image<Texel>& base, TexelFormat format
   };
   Image<Sum> averaged;
   if (base.width() % 4 == 0 && base.height() % 4 == 0) {
-    // The second level reads each row of the first one once, so the sums of the first level, the largest, are not stored.
+    // The second level reads each row of the first level once, so the sums of the first level, which is the largest, are not stored.
     Image<Texel>& level = levels.emplace_back(base.width() / 2, base.height() / 2);
     const auto row_length = static_cast<std::size_t>(base.width());
     const auto level_row = [&](int r, Sum* buffer) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Texel formats, and decoding of packed texels: 8-bit ones, in a 32-bit word with red in the low byte, and half floats, in two words.
+// Texel formats, and the decoding of packed texels: 8-bit texels in one 32-bit word, red in the low byte, and half-float texels in two
+// words.
 #pragma once
 
 #include "halfspace/core/half.h"
@@ -12,18 +13,18 @@ namespace halfspace {
 
 /// Storage formats of texels. Formats with one channel read as (r, 0, 0, 1).
 enum class TexelFormat : uint8_t {
-  rgba8,    ///< value = code/255
-  srgb8a8,  ///< sRGB-encoded red, green and blue; linear alpha, code/255
-  r8,       ///< value = code/255
-  r16,      ///< value = code/65535
-  rgba16f,  ///< linear halfs, always finite: values are clamped to ±65504, NaN becomes 0
+  rgba8,    ///< value = integer/255
+  srgb8a8,  ///< sRGB-encoded red, green and blue; linear alpha, integer/255
+  r8,       ///< value = integer/255
+  r16,      ///< value = integer/65535
+  rgba16f,  ///< linear half floats, always finite: values are clamped to ±65504, NaN becomes 0
   rgba32f   ///< linear floats, clamped to ±kMaxTexel; NaN becomes 0
 };
 
 namespace detail {
 
 /// Unpacks channels of an 8-bit texel for filtering: all (Value is vec4), or red, green and blue (vec3). sRGB colors become linear values;
-/// other channels remain codes, 0 to 255.
+/// other channels remain integers, 0 to 255.
 template <class Value, TexelFormat format, class R>
 HS_INLINE Value decode_rgba8(IntOf<R> texel) {
   const auto color = [&] {
@@ -69,7 +70,7 @@ HS_INLINE vec4<R> lerp(const vec4<R>& a, const vec4<R>& b, R f) {
   return {lerp(a.x, b.x, f), lerp(a.y, b.y, f), lerp(a.z, b.z, f), lerp(a.w, b.w, f)};
 }
 
-/// Converts the half in the low 16 bits of each word.
+/// Converts the half float in the low 16 bits of each word.
 template <class R>
 HS_INLINE R low_half(IntOf<R> word) {
   if constexpr (kIsPair<R>)
@@ -80,7 +81,7 @@ HS_INLINE R low_half(IntOf<R> word) {
     return half_to_float(word);
 }
 
-/// Unpacks a texel of two words with two halfs each, the first in the low bits.
+/// Unpacks a texel of two words with two half floats each, the first in the low bits.
 template <class R>
 HS_INLINE vec4<R> decode_rgba16f(IntOf<R> first, IntOf<R> second) {
   return {low_half<R>(first), low_half<R>(first >> 16), low_half<R>(second), low_half<R>(second >> 16)};

@@ -15,7 +15,7 @@
 // reproduces constants exactly but can double an error of the weights. `normalized` therefore removes the rounding errors of the
 // division and the sum from the weights. The error of a is then less than 3e-7 of the largest |ai|.
 //
-// If w is the same at all corners of a large triangle, a is linear in the window, and no division is needed. Such a triangle is given as
+// If w is the same at all vertices of a large triangle, a is linear in the window, and no division is needed. Such a triangle is given as
 // planes (TriangleLanes::planar): v0 is then a point near the pixel (raster/shade/plane_anchor.h), d is the offset from it, and
 //   a = a0 + dx·(∂a/∂x) + dy·(∂a/∂y).
 #pragma once
@@ -70,8 +70,8 @@ template <class R>
 struct WeightSlopes {
   R p1, p2;
 };
-/// Returns the derivatives along x. For those along y, x takes the place of y, and the sign of sub_pixels is negative. inverse: 1 / D; r:
-/// the y offset from v0; r1 and r2: the y components of the edges; sub_pixels: per pixel.
+/// Returns the derivatives along x. For those along y, exchange the roles of x and y, and pass a negative sub_pixels. inverse: 1 / D; r:
+/// the y offset from v0; r1 and r2: the y components of the edges; sub_pixels: sub-pixels per pixel.
 ///
 /// Along x, dp1 = q1·(E1'·D − E1·D') / D². The terms with q1 cancel. E1 and E2 both vanish at v0, so E1'·E2 − E1·E2' is A·(y − y0), and
 /// likewise at v2 for E0. Therefore

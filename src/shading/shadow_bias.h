@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Shadow bias, which prevents self-shadowing. A shadow map stores one depth per texel, but the depth of the surface changes
-// within the texel, by its width times the tangent of the light's angle. Each method either moves the point by about that much,
-// or evaluates the depth of the surface at the center of each texel.
+// Shadow bias, which prevents self-shadowing. A shadow map stores one depth per texel, but the depth of the surface changes within the
+// texel, by the width of the texel times the tangent of the angle of incidence. Each method either moves the point by about that much, or
+// evaluates the depth of the surface at the center of each texel.
 #pragma once
 
 #include "halfspace/shading/shadow_view.h"
@@ -22,7 +22,7 @@ inline float filter_reach(const ShadowSettings& s) {
   }
 }
 
-/// Moves the receiver along the face normal by `texels` times the sine of the light's angle, and projects it to the view.
+/// Moves the receiver along the face normal by `texels` times the sine of the angle of incidence, and projects it to the view.
 template <class R>
 HS_INLINE ShadowCoordinates<R> normal_offset_coordinates(const ShadowView& view, const ShadowReceiver<R>& at, R cosine, float texels) {
   const R w = place_on(view, at.position_rws).w;
@@ -37,9 +37,9 @@ HS_INLINE R tangent_of(R cosine, float limit) {
 }
 
 /// Returns the offset in texels that ShadowBias::automatic applies. Within the triangle, its plane is sufficient. Neighboring triangles
-/// deviate from that plane by an amount that grows with the radius of the filter and with the light's angle. Half a texel is added for the
-/// rounding of depths within a texel. The radius is capped at the radius of pcf7: pcss reaches farther, but only for occluders that are far
-/// away.
+/// deviate from that plane by an amount that grows with the radius of the filter and with the angle of incidence. Half a texel is added for
+/// the rounding of depths within a texel. The radius is capped at the radius of pcf7: pcss reaches farther, but only for occluders that are
+/// far away.
 template <class R>
 HS_INLINE R automatic_lift(const ShadowSettings& s, R tangent) {
   return R(kAutomaticLift) * fma(R(1.0f + min(filter_reach(s), 4.0f)), tangent, R(1));

@@ -7,7 +7,7 @@
 //
 // The linear color is
 //   color · (ambient + diffuse · D) + specular · S + emissive       (D and S: shading/lighting.h)
-// at the point of the sphere that the pixel shows. The classic sprite uses the light and view vectors of its center. Only exact
+// at the point of the sphere that is visible in the pixel. The classic sprite uses the light and view vectors of its center. Only exact
 // spheres receive shadows.
 #pragma once
 

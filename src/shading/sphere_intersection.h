@@ -9,14 +9,13 @@
 // e = d·c.z − c, which has z = 0, so that all lengths are of the order of the sphere even if it is far away. The distance δ from a
 // point p = e + s·d of the ray to the sphere satisfies, with a = d·d:
 //   a·δ² + 2·(p·d)·δ + |p|² − r² = 0, δ = (−p·d − √((p·d)² + a·(r² − |p|²))) / a, t = c.z + s + δ, normal = (p + δ·d) / r.
-// If p is the point closest to the center, s = −(e·d)/a, then p·d is only a rounding error, and r² − |p|² is a measure of how deep the
-// ray enters the sphere. At the silhouette it is 0 and consists of the accumulated rounding errors. For that reason d, e, p and this
-// difference are kept as sums of two floats (exact products and sums by Dekker and Knuth). It is then accurate to about 2^-44·r², and
-// the root and the normal have full float precision up to the silhouette. Cases within 2^-38·r² of the limit between hit and miss are
-// decided in double.
+// If p is the point closest to the center, s = −(e·d)/a, then p·d is only a rounding error, and r² − |p|² measures how deep the ray enters
+// the sphere. At the silhouette it is 0 and consists of the accumulated rounding errors. For that reason d, e, p and this difference are
+// kept as sums of two floats (exact products and sums by Dekker and Knuth). It is then accurate to about 2^-44·r², and the root and the
+// normal have full float precision up to the silhouette. Cases within 2^-38·r² of the boundary between hit and miss are decided in double.
 //
-// δ is of the order of the radius. If the eye is close to the sphere (r is more than a fifth of the distance to the center),
-// c.z + s + δ may cancel, and the depth needs δ to more than float precision. One Newton step from s + δ, again in sums of two
+// δ is of the order of the radius. If the eye is close to the sphere (r is more than a fifth of the distance to the center), c.z + s + δ
+// may suffer from cancellation, and the depth needs δ to more than float precision. One Newton step from s + δ, again in sums of two
 // floats, provides it.
 #pragma once
 
@@ -155,7 +154,7 @@ struct SphereIntersection {
  private:
   /// Returns the discriminant of the intersection, computed in double. It is positive if the ray hits the sphere.
   double root_in_double(const glm::vec3& center_cs, float radius, float x, float y) const;
-  // Resolves the rare cases that the precision of two floats cannot decide, about one in many millions of pixels.
+  // Resolves the rare cases that the precision of two floats cannot decide. They occur in about one of many million pixels.
   template <class R>
   HS_INLINE void decide_in_double(MaskOf<R> which, const vec3<R>& c, R radius, R x, R y, R& root) const {
     if constexpr (std::is_same_v<decltype(lane(radius, 0)), float>) {

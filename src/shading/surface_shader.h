@@ -18,8 +18,8 @@ enum class NormalDetail : uint8_t {
   slopes  ///< LitSurface::detail stores the slopes of a displaced sphere; the vertex positions are along its normals
 };
 
-/// mapped: the draw call has texture coordinates and may have maps; otherwise all maps are null. highlight: the material has
-/// specular light. Without it, which only gouraud with maps supports, the varying for it is omitted.
+/// mapped: the draw call has texture coordinates and may have maps; otherwise all maps are null. highlight: the material has specular
+/// light. Without a highlight, the varying for it is omitted; only gouraud with maps supports this.
 template <ShadingRate rate, bool mapped, NormalDetail normal_detail = NormalDetail::none, bool highlight = true>
 struct SurfaceShader : LitSurface {
   static_assert(normal_detail == NormalDetail::none || (rate == ShadingRate::phong && mapped));

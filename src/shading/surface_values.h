@@ -26,7 +26,7 @@ struct SurfaceValueUniforms : PlacedSurface {
   float opacity_cutoff = 0.5f;  ///< masked surfaces are discarded below it
 };
 
-/// masked: pixels whose opacity is below opacity_cutoff are discarded, as by MetallicSurface.
+/// masked: pixels whose opacity is below opacity_cutoff are discarded, as in MetallicSurface.
 template <bool masked>
 struct SurfaceValueShader : SurfaceValueUniforms {
   template <class R>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Bilinear filtering of 2x2 texels of the formats with four channels.
+// Bilinear filtering of 2x2 texels, for formats with four channels.
 //
 // Where the build has the instructions, rgba8 and rgba16f are filtered texel by texel, with all four channels in one register, and the
-// result is transposed. Otherwise each channel is filtered for all lanes. Both ways give the same bits: the sum along a row of rgba8 is an
-// integer below 2^23, which is exact, and everything else is computed with the same operations.
+// result is transposed. Otherwise each channel is filtered for all lanes. Both methods give bit-identical results: the sum along a row of
+// rgba8 is an integer below 2^23, which is exact, and everything else is computed with the same operations.
 #pragma once
 
 #include "halfspace/core/half.h"
@@ -14,7 +14,7 @@
 
 namespace halfspace::detail {
 
-inline constexpr int kFractionBits = 15;  ///< of the weights of texels; kMaxSize of Texture2D is small enough to leave room for them
+inline constexpr int kFractionBits = 15;  ///< of texel weights; Texture2D::kMaxSize leaves room for them
 
 /// Two adjacent texels of a row.
 template <class T>
@@ -22,7 +22,7 @@ struct TexelPair {
   T left, right;
 };
 
-/// The 2x2 texels that a lookup mixes.
+/// The 2x2 texels that a lookup blends.
 template <class R>
 struct TexelSquare {
   const int32_t* words;   ///< of the texture
@@ -150,7 +150,7 @@ HS_INLINE OffsetCode<R> offset_code(IntOf<R> texel, int k) {
   return {as_real(((texel >> (8 * (k - 1))) & 0xff00) | 0x47000000), R(0x1p15f)};
 }
 
-/// Filters channel k of rgba8 texels, in codes.
+/// Filters channel k of rgba8 texels. The result is from 0 to 255.
 template <class R>
 HS_INLINE R filtered_codes(const TexelPair<IntOf<R>>& lower, const TexelPair<IntOf<R>>& upper, R along, R across, int k) {
   const auto row = [&](const TexelPair<IntOf<R>>& of) {
@@ -214,16 +214,16 @@ HS_INLINE IntPair<H> gather_adjacent(const uint16_t* base, IntPair<H> i) {
   return {gather_adjacent(base, i.low), gather_adjacent(base, i.high)};
 }
 
-/// The 2x2 alpha codes that a lookup mixes.
+/// The 2x2 8-bit alpha values that a lookup blends.
 template <class R>
 struct AlphaSquare {
-  const uint16_t* columns;  ///< of the texture: the code of each texel in the low byte, and of the one above it in the high byte
+  const uint16_t* columns;  ///< of the texture: the alpha of each texel in the low byte, and of the one above it in the high byte
   IntOf<R> left;            ///< index of the left column; the right one follows it in memory
   R along, across;          ///< weights of the right and the upper texels
 };
 
-/// Filters alpha, in codes. One gather loads all four. The bits are the same as those of alpha in the filters of four channels: the sum
-/// along a row is exact.
+/// Filters alpha. The result is from 0 to 255. One gather loads all four values. The result is bit-identical to alpha in the four-channel
+/// filters, because the sum along a row is exact.
 template <class R>
 HS_INLINE R filtered_alpha(const AlphaSquare<R>& s) {
   const IntOf<R> codes = gather_adjacent(s.columns, s.left);

@@ -3,8 +3,8 @@
 // The layout of each texel format in the 32-bit words of a texture, and how it is read. There is one struct per format, with
 //
 //   Value               the type that is filtered: R (one channel) or vec4<R>
-//   operator()(i)       loads texel i in the units that are filtered: integer codes or linear values
-//   to_linear(value)    converts such a number, filtered or not, to a linear value
+//   operator()(i)       loads texel i in the units that are filtered: integers or linear values
+//   to_linear(value)    converts such a value, filtered or not, to a linear value
 //
 // rgba8, srgb8a8: one word per texel, red in the low byte. r8, r16: four or two texels per word, the first in the low bits.
 // rgba16f: two words per texel, red in the low half of the first. rgba32f: four words per texel.

@@ -6,11 +6,11 @@
 // OpenGL 4.6, sections 8.14 (scale factor, wrapping, minification, magnification) and 8.15, and EXT_texture_filter_anisotropic.
 // Row 0 of the image is t = 0.
 //
-// Filtering uses integer codes (rgba8, r8, r16, and alpha of srgb8a8) or linear values (color of srgb8a8, the float formats, and all
-// formats if an axis wraps to the border color). Texel fractions are rounded to 1/32768, which is the resolution of a float
-// position at texel 256 and above. As a result, the bilinear code of rgba8 is the exact one rounded once, before the division by
-// 255. For every format, a constant texture gives exactly its constant, a fraction of zero gives exactly the texel, and no result is
-// outside the range of the texels that it mixes.
+// Filtering uses integers (rgba8, r8, r16, and alpha of srgb8a8) or linear values (color of srgb8a8, the float formats, and all formats if
+// an axis wraps to the border color). Texel fractions are rounded to 1/32768, which is the resolution of a float position at texel 256 and
+// above. As a result, a bilinear lookup of rgba8 rounds the exact value once, before the division by 255. For every format, a constant
+// texture gives exactly its constant, a fraction of zero gives exactly the texel, and no result is outside the range of the texels that it
+// blends.
 //
 // Common lookups (rgba8, repeat or clamp, bilinear or trilinear) are inlined into shaders from this header. All others call
 // texture_lookup.cpp.
@@ -40,15 +40,15 @@ class Texture2D {
  public:
   static constexpr int kMaxSize = 32768;  ///< per side; all levels together must be smaller than 8 GiB
 
-  /// Creates an rgba8 or srgb8a8 texture from a level 0 of 1 … kMaxSize texels per side. The smaller levels, down to 1 x 1, are computed
-  /// by mip_chain. If workers are given they share the work; the result is bit-identical.
+  /// Creates an rgba8 or srgb8a8 texture from level 0, which must have 1 … kMaxSize texels per side. The coarser levels, down to 1 x 1, are
+  /// computed by mip_chain. If workers are given they share the work; the result is bit-identical.
   Texture2D(const Image<glm::u8vec4>& base, TexelFormat format, const Workers* workers = nullptr);
   explicit Texture2D(const Image<uint8_t>& base);   ///< r8
   explicit Texture2D(const Image<uint16_t>& base);  ///< r16
   /// rgba16f or rgba32f; base is linear.
   Texture2D(const Image<glm::vec4>& base, TexelFormat format, const Workers* workers = nullptr);
-  /// Creates a texture from given levels, at least one. Each level must be half the size of the previous one, rounded down but at
-  /// least 1. The chain may end before 1 x 1; lookups then use only the given levels.
+  /// Creates a texture from one or more given levels. Each level must be half the size of the previous one, rounded down but at least 1.
+  /// The chain may end before 1 x 1; lookups then use only the given levels.
   Texture2D(std::span<const Image<glm::u8vec4>> levels, TexelFormat format);
   Texture2D(std::span<const Image<glm::vec4>> levels, TexelFormat format);  ///< rgba16f or rgba32f
 
@@ -56,7 +56,7 @@ class Texture2D {
   int height(int level = 0) const { return height_[static_cast<std::size_t>(level)]; }
   int levels() const { return levels_; }
   TexelFormat format() const { return format_; }
-  /// Returns the codes of a texel of an rgba8 or srgb8a8 texture. level, x and row must be valid.
+  /// Returns the stored 8-bit values of a texel of an rgba8 or srgb8a8 texture. level, x and row must be valid.
   glm::u8vec4 texel(int level, int x, int row) const;
   /// Returns the linear color of a texel of any format. level, x and row must be valid.
   glm::vec4 value(int level, int x, int row) const;
@@ -78,14 +78,14 @@ class Texture2D {
   template <Number R>
   R sample_alpha(const Sampler& sampler, const vec2<R>& uv, const vec2<R>& duv_dx, const vec2<R>& duv_dy) const;
 
-  /// Samples at a given level of detail, where 0 is the largest level. lod <= 0 and NaN use the magnification filter.
+  /// Samples at a given level of detail, where 0 is the finest level. lod <= 0 and NaN use the magnification filter.
   template <Number R>
   vec4<R> sample_level(const Sampler& sampler, const vec2<R>& uv, std::type_identity_t<R> lod) const;
 
  private:
   static constexpr std::size_t kMaxLevels = 16;
 
-  // The levels that a lookup reads: index and, for lanes that are between levels, index + 1 with weight fraction.
+  // The levels that a lookup reads: level `index` and, for lanes that are between levels, level index + 1 with the weight `fraction`.
   template <class R>
   struct LevelChoice {
     IntOf<R> index;
@@ -162,19 +162,19 @@ class Texture2D {
   // All levels, in the layout of texels.h. Each level has a border of one texel that repeats the opposite edge, so that neighbors are
   // adjacent in memory even across the seams. The last texels are followed by a few words that gather_row may read.
   std::vector<int32_t, CacheLineAllocator<int32_t>> texels_;
-  // Only for 8-bit formats with four channels whose alpha is not the same everywhere: the alpha code of each texel in the low byte, and of
-  // the texel above it in the high byte. sample_alpha finds all it needs with one load.
+  // Only for 8-bit formats with four channels whose alpha is not the same everywhere: the alpha of each texel in the low byte, and of the
+  // texel above it in the high byte. sample_alpha finds all it needs with one load.
   std::vector<uint16_t, CacheLineAllocator<uint16_t>> alphas_;
 };
 
-/// Computes all mip levels below base, largest first. base is not included; the last level is 1 x 1.
+/// Computes all coarser mip levels of base, finest first. base is not included; the last level is 1 x 1.
 ///
-/// An even size is halved by averaging pairs. An odd size 2n + 1 becomes n: texel i is the area average over
-/// [i, i + 1]·(2n + 1)/n, i.e. three texels with weights n − i, n, i + 1 divided by 2n + 1. This keeps the levels centered and gives
-/// every texel the same total weight. srgb8a8 is averaged in linear light. Each level is computed from the unrounded previous
-/// one, in float (8-bit codes) or double (all others), and only the results are rounded to texels. Channels are averaged
-/// separately, as in OpenGL, so alpha does not weight color. If workers are given they share the work; the result is
-/// bit-identical. Texel is u8vec4 (rgba8, srgb8a8), uint8_t (r8), uint16_t (r16) or vec4 (rgba16f, rgba32f).
+/// An even size is halved by averaging pairs. An odd size 2n + 1 becomes n: texel i is the area average over [i, i + 1]·(2n + 1)/n, i.e.
+/// three texels with weights n − i, n, i + 1 divided by 2n + 1. This keeps the levels centered and gives every texel the same total weight.
+/// srgb8a8 is averaged in linear light. Each level is computed from the unrounded previous one, in float (8-bit formats) or double (all
+/// others), and only the results are rounded to texels. Channels are averaged separately, as in OpenGL, so alpha does not weight color. If
+/// workers are given they share the work; the result is bit-identical. Texel is u8vec4 (rgba8, srgb8a8), uint8_t (r8), uint16_t (r16) or
+/// vec4 (rgba16f, rgba32f).
 template <class Texel>
 std::vector<Image<Texel>> mip_chain(const Image<Texel>& base, TexelFormat format, const Workers* workers = nullptr);
 
@@ -260,13 +260,13 @@ struct Texture2D::CommonLookup {
 
 namespace detail {
 
-/// If the fraction between two levels is below this, only the larger level is read; the value changes by less than contrast/16384. A
-/// quad drawn at its native size has a level of detail of about 1e-7.
+/// If the fractional LOD is below this, only the finer mip level is read. The result changes by less than 1/16384 of the difference between
+/// the levels. A quad drawn at its native size has a level of detail of about 1e-7.
 template <class R>
 inline constexpr float kLevelSnap = std::is_same_v<R, double> ? 0.0f : 0x1p-14f;
 
-/// Coefficients of log2(1 + f)/f for log2_of_normal. Levels of detail are accurate to 2^-16, which changes values by less than
-/// contrast/65536.
+/// Coefficients of log2(1 + f)/f for log2_of_normal. Levels of detail are accurate to 2^-16, so results change by less than 1/65536 of the
+/// difference between the levels.
 inline constexpr float kLevelLog2[] = {1.44264627f, -0.720555007f, 0.485306472f, -0.390892416f, 0.254752129f};
 
 }  // namespace detail

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The lookup of Texture2D for every format, wrap mode and anisotropy. Common lookups of rgba8 are inlined from texture.h, and
-// reach this file only with anisotropy. Lanes are independent: each has its own probes, levels and texels, and lanes that have finished keep
-// their results while others continue.
+// reach this file only with anisotropy. Lanes are independent: each has its own probes, levels and texels, and lanes that have finished
+// keep their results while others continue.
 #include "halfspace/shading/texels.h"
 #include "halfspace/shading/texture.h"
 
@@ -17,7 +17,7 @@ struct Wrapped {
   MaskOf<R> mirrored;  // runs opposite to the image
 };
 
-/// The two texels along one axis that a lookup mixes.
+/// The two texels along one axis that a lookup blends.
 template <class R>
 struct Taps {
   IntOf<R> first, second;  // valid indices

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Conversion from light to codes: exposure, tone mapping, display encoding and dithering.
+// Conversion from linear light to display values: exposure, tone mapping, display encoding and dithering.
 //
 //   SceneLight ── tone_map ──→ DisplayLight ── encode_srgb, encode_gamma ──→ Encoded
-//   linear, unbounded           linear, [0, 1]                                 [0, 1], code/255
+//   linear, unbounded           linear, [0, 1]                                 [0, 1], in 8 bits value/255
 //
 // These are separate types, so that nothing can be encoded twice or displayed without a tone curve.
 //
@@ -65,7 +65,7 @@ HS_INLINE R tone_curve(ToneCurve curve, R x, float white) {
     case ToneCurve::reinhard: return x / (one + x);
     case ToneCurve::reinhard_extended: return x * (one + x / R(white * white)) / (one + x);
     case ToneCurve::exponential: {
-      // Uses the series where 1 − e^(−x) would cancel; the truncation error is below a relative 2e-9.
+      // Uses the series where 1 − e^(−x) would suffer from cancellation; the truncation error is below a relative 2e-9.
       const R series = x * (one - x * (R(1.0f / 2) - x * (R(1.0f / 6) - x * (R(1.0f / 24) - x * R(1.0f / 120)))));
       return select(x < R(0.0625f), series, one - exp(-x));
     }
@@ -117,8 +117,8 @@ HS_INLINE R dither_threshold(IntOf<R> x, IntOf<R> y) {
   return (to_real<R>(rank) + R(0.5f)) * R(1.0f / 64.0f);
 }
 
-/// Rounds each channel down or up to a multiple of 1/255, depending on the threshold. Over an aligned 8x8 block of equal values the
-/// mean is within 1/128 of a code of that value. 0 and 1 are unchanged.
+/// Rounds each channel down or up to a multiple of 1/255, depending on the threshold. Over an aligned 8x8 block of equal values the mean is
+/// within 1/128 LSB of that value. 0 and 1 are unchanged.
 template <Number R>
 HS_INLINE Encoded<R> dithered(const Encoded<R>& e, R threshold) {
   vec3<R> codes;

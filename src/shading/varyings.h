@@ -116,8 +116,8 @@ inline constexpr bool kAny = [] {
   return false;
 }();
 
-// Large structs are copied component by component. gcc compiles a single copy of 896 bytes (seven components of two packets) to a
-// call of memcpy, around which it spills all registers. For up to 640 bytes it does not, and a single copy is faster.
+// Large structs are copied component by component. GCC compiles a single copy of 896 bytes (seven components of two packets) to a memcpy
+// call, around which it spills all registers. For up to 640 bytes it does not, and a single copy is faster.
 template <class R, std::size_t... I>
 HS_INLINE void copy_components(const R* from, R* to, std::index_sequence<I...>) {
   constexpr std::size_t bytes = sizeof...(I) * sizeof(R);
