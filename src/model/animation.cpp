@@ -11,8 +11,8 @@ namespace halfspace {
 
 namespace {
 
-// After this many halvings of at most 90° (between quaternions) the remaining angle α is at most 2.4e-5. Linear interpolation deviates from
-// the arc by less than 0.02·α³ = 3e-16.
+// The angle between two quaternions is at most 90°. After this many halvings, the remaining angle α is at most 2.4e-5, and linear
+// interpolation deviates from the arc by less than 0.02·α³ = 3e-16.
 constexpr int kHalvings = 16;
 
 glm::dquat weighted(const glm::dquat& a, double wa, const glm::dquat& b, double wb) {
@@ -21,7 +21,7 @@ glm::dquat weighted(const glm::dquat& a, double wa, const glm::dquat& b, double 
 
 glm::dquat quaternion_of(const std::vector<double>& v) { return unit_rotation({v[3], v[0], v[1], v[2]}); }
 
-/// Accesses the numbers of a channel as vectors. For cubic keys, parts 0, 1 and 2 are the in-tangent, the value and the out-tangent.
+/// Accesses the values of a channel as vectors. For cubic keys, parts 0, 1 and 2 are the in-tangent, the value and the out-tangent.
 struct Keys {
   const AnimationChannel& channel;
 

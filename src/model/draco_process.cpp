@@ -11,7 +11,7 @@ namespace halfspace {
 
 namespace {
 
-constexpr const char* kOtherVersion = "cannot be decoded: halfspace-draco-tool has a different version than this program";
+constexpr const char* kOtherVersion = "cannot be decoded: halfspace-draco-tool has a different version from this program";
 
 std::size_t component_bytes(uint32_t component) { return component <= 5121 ? 1 : component <= 5123 ? 2 : 4; }
 

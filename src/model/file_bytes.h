@@ -12,8 +12,8 @@ namespace halfspace {
 /// than `max_bytes`.
 std::vector<std::byte> file_bytes(const std::filesystem::path& file, std::size_t max_bytes);
 
-/// Returns the bytes after the byte order mark of UTF-8, which some editors write at the start of text files, or all bytes if there is
-/// none.
+/// Returns the bytes after the byte order mark of UTF-8, which some editors write at the start of text files, or all bytes if there is no
+/// such mark.
 std::span<const std::byte> without_byte_order_mark(std::span<const std::byte> bytes);
 
 }  // namespace halfspace

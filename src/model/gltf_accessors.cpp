@@ -162,7 +162,7 @@ std::vector<uint32_t> GltfAccessors::sparse_indices(const GltfAccessor& accessor
   const bool is_unsigned =
       indices.component == GltfComponent::uint8 || indices.component == GltfComponent::uint16 || indices.component == GltfComponent::uint32;
   if (!is_unsigned) document_.fail(json, "componentType", "is not an unsigned integer; expected 5121, 5123 or 5125");
-  if (indices.count > accessor.count) document_.fail(sparse, "count", "is larger than that of the accessor; expected at most the same");
+  if (indices.count > accessor.count) document_.fail(sparse, "count", "is larger than the accessor's count; expected at most that count");
   const int view = document_.required_index(json, "bufferView", document_.list("bufferViews").size());
   indices.bytes = range(sparse, view, document_.integer(json, "byteOffset", 0), indices.count, size_of(indices.component), indices.stride);
   std::vector<uint32_t> list = read_integers(indices, 1);

@@ -42,7 +42,7 @@ class GltfAccessors {
   /// Like find, but does not locate the data.
   GltfAccessor describe(const GltfValue& object, const char* key) const;
 
-  /// Reads floats or integers as floats. Normalized integers give values in [0, 1] or [−1, 1].
+  /// Reads floats or integers as floats. Normalized integers become values in [0, 1] or [−1, 1].
   std::vector<float> read_floats(const GltfAccessor& accessor, GltfSubset subset = {});
   /// Like read_floats, for accessors with as many components as the vector. T: glm::vec2, vec3, vec4.
   template <class T>

@@ -79,18 +79,18 @@ class ChannelReader {
     const std::size_t per_key = static_cast<std::size_t>(channel.width) * (channel.interpolation == KeyInterpolation::cubic ? 3 : 1);
     if (channel.values.size() != channel.times.size() * per_key) {
       document_.fail(*output.json, "count",
-                     fmt::format("the accessor has {} numbers; expected {} for each of {} times", channel.values.size(), per_key,
+                     fmt::format("the accessor has {} values; expected {} for each of {} keyframes", channel.values.size(), per_key,
                                  channel.times.size()));
     }
     for (const float x : channel.values) {
       if (!(std::abs(static_cast<double>(x)) <= kMaxModelNumber)) {
-        document_.fail(*output.json, "has values that are not finite or larger than 1e18; expected finite values");
+        document_.fail(*output.json, "has values that are not finite or exceed 1e18; expected smaller finite values");
       }
     }
   }
 
   void check_times(const GltfValue& json, const std::vector<float>& times) const {
-    if (times.empty()) document_.fail(json, "count", "is 0; expected at least one time");
+    if (times.empty()) document_.fail(json, "count", "is 0; expected at least one keyframe");
     for (std::size_t i = 0; i < times.size(); ++i) {
       if (!(std::abs(times[i]) <= 1e9f) || (i > 0 && !(times[i] > times[i - 1]))) {
         document_.fail(json, fmt::format("time {} is {}; expected increasing times in seconds", i, times[i]));

@@ -38,16 +38,18 @@ GltfChunks gltf_chunks(const std::filesystem::path& file, std::span<const std::b
   if (bytes.size() < kHeaderSize) fail("the file is truncated; expected at least 12 bytes");
   if (number_at(bytes, 4) != 2) fail(fmt::format("version {}; expected 2", number_at(bytes, 4)));
   const std::size_t length = number_at(bytes, 8);
-  if (length > bytes.size()) fail(fmt::format("the length is {}, but the file has {} bytes; expected a whole file", length, bytes.size()));
+  if (length > bytes.size())
+    fail(fmt::format("the length is {}, but the file has {} bytes; expected a complete file", length, bytes.size()));
   GltfChunks chunks;
   for (std::size_t at = kHeaderSize, number = 0; at < length; ++number) {
     if (length - at < kChunkHeaderSize) fail(fmt::format("chunk {} is truncated; expected 8 bytes or more", number));
     const std::size_t size = number_at(bytes, at);
     const uint32_t type = number_at(bytes, at + 4);
     at += kChunkHeaderSize;
-    if (size > length - at) fail(fmt::format("chunk {} has {} bytes, but {} are left; expected a whole file", number, size, length - at));
+    if (size > length - at)
+      fail(fmt::format("chunk {} has {} bytes, but {} are left; expected a complete file", number, size, length - at));
     const std::span<const std::byte> chunk = bytes.subspan(at, size);
-    if (number == 0 && type != kJsonChunk) fail("the first chunk is of another type; expected a JSON chunk");
+    if (number == 0 && type != kJsonChunk) fail("the first chunk has a different type; expected a JSON chunk");
     if (number == 0) chunks.json = as_text(chunk);
     if (number == 1 && type == kBinaryChunk) chunks.binary = chunk;
     at += size;
@@ -103,8 +105,8 @@ std::span<const std::byte> GltfBuffers::range(const GltfValue& json) {
   const uint64_t offset = document_.integer(json, "byteOffset", 0), length = document_.integer(json, "byteLength");
   const std::span<const std::byte> bytes = buffer(index);
   if (offset > bytes.size() || length > bytes.size() - offset) {
-    document_.fail(json, fmt::format("the range from byte {} with {} bytes is not in the buffer; expected a range in its {} bytes", offset,
-                                     length, bytes.size()));
+    document_.fail(json, fmt::format("the range from byte {} with length {} is not inside the buffer; expected a range inside its {} bytes",
+                                     offset, length, bytes.size()));
   }
   return bytes.subspan(offset, length);
 }

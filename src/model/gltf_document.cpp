@@ -14,7 +14,7 @@ namespace halfspace {
 namespace {
 
 constexpr int kMaxDepth = 256;
-// An upper bound of the memory of a JSON value: a map node with key and value, and the unused capacity of arrays.
+// An upper bound on the memory of a JSON value: a map node with key and value, and the unused capacity of arrays.
 constexpr std::size_t kBytesPerValue = 128;
 constexpr int kMaxPlacedWarnings = 50;
 
@@ -30,7 +30,7 @@ const GltfValue& empty_array() {
 /// Properties of a JSON text that are found without parsing it.
 struct TextSize {
   int depth = 0;           ///< maximum number of open brackets
-  std::size_t values = 1;  ///< upper bound of the number of values
+  std::size_t values = 1;  ///< upper bound on the number of values
 };
 
 TextSize size_of(std::string_view text) {
@@ -258,7 +258,7 @@ int GltfDocument::index_value(const GltfValue& value, std::size_t size) const {
   const double x = value.is_number() ? value.get<double>() : -1.0;
   if (!(x >= 0.0 && x == std::floor(x))) fail(value, "wrong value; expected an index");
   if (!(x < static_cast<double>(size))) {
-    fail(value, size == 0 ? "refers to an item that does not exist; expected an index in a list that is not empty"
+    fail(value, size == 0 ? "is out of range because the list is empty; expected an index into a list with items"
                           : fmt::format("{} is out of range; expected an index from 0 to {}", shown_number(x), size - 1));
   }
   return static_cast<int>(x);

@@ -38,7 +38,7 @@ Wanted wanted_attributes(const GltfDocument& document, const GltfValue& extensio
 
 bool can_decode_draco() { return !find_draco_tool().empty(); }
 
-// The values of an uncompressed copy of the primitive are optional.
+// The primitive may also have uncompressed values, but this is optional.
 void GltfDraco::check_fallback(const GltfValue& primitive) const {
   const GltfAccessor positions = accessors_.describe(document_.object(primitive, "attributes"), "POSITION");
   if (document_.find(*positions.json, "bufferView") != nullptr || document_.find(*positions.json, "sparse") != nullptr) return;

@@ -21,7 +21,7 @@ constexpr std::array<std::string_view, 15> kSupported = {
     "KHR_xmp_json_ld",  // metadata, which has no effect
 };
 
-// Files that require one of these extensions are drawn without it. Missing material extensions also change only the appearance.
+// A file that requires one of these extensions is drawn without it. Missing material extensions also affect only the appearance.
 constexpr std::array<std::string_view, 7> kAppearance = {
     "EXT_lights_ies",     "EXT_lights_image_based",  "EXT_texture_avif", "KHR_animation_pointer",
     "KHR_texture_basisu", "KHR_texture_procedurals", "MSFT_texture_dds",
@@ -47,8 +47,9 @@ void read_gltf_extensions(GltfDocument& document, Model& model) {
   for (const GltfValue& item : document.array(document.root(), "extensionsRequired")) {
     const std::string name = name_of(item);
     if (!is_supported(name) && !changes_only_appearance(name)) {
-      const char* problem = name == kDracoExtension ? "whose decoder, halfspace-draco-tool, is not installed; expected it"
-                                                    : "which is not supported; expected a file without it";
+      const char* problem = name == kDracoExtension
+                                ? "whose decoder, halfspace-draco-tool, is not installed; expected the decoder to be installed"
+                                : "which is not supported; expected a file without it";
       document.fail(item, fmt::format("the file requires the extension {}, {}", gltf_quoted(name), problem));
     }
   }

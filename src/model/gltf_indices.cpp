@@ -15,7 +15,7 @@ std::vector<uint32_t> lines_of_strip(const std::vector<uint32_t>& strip, bool cl
   return list;
 }
 
-// Every other triangle of a strip has the opposite winding.
+// Every second triangle of a strip has the opposite winding.
 std::vector<uint32_t> triangles_of_strip(const std::vector<uint32_t>& strip) {
   std::vector<uint32_t> list;
   for (std::size_t i = 0; i + 2 < strip.size(); ++i) {

@@ -156,8 +156,8 @@ ModelMaterial gltf_default_material() {
 
 namespace {
 
-// Meshes store two sets of texture coordinates. Chooses which of the file's sets a material uses, and makes each of its maps refer to one
-// of the two. If a material uses more than two sets, those with the two lowest numbers are chosen.
+// Meshes store two sets of texture coordinates. Chooses the two of the file's sets that a material uses, and makes each of its maps refer
+// to one of them. If a material uses more than two sets, those with the two lowest numbers are chosen.
 void choose_uv_sets(GltfDocument& document, const GltfValue& json, ModelMaterial& m) {
   const std::array maps{
       &m.base_color_map,          &m.metallic_map,         &m.roughness_map, &m.specular_map,  &m.specular_color_map, &m.clearcoat_map,

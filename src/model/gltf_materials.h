@@ -11,7 +11,7 @@ namespace halfspace {
 /// (approximated by blending) and pbrSpecularGlossiness (converted).
 std::vector<ModelMaterial> gltf_materials(GltfDocument& document, GltfTextures& textures);
 
-/// Returns the default material for primitives without a material. glTF defines it as a rough white metal.
+/// Returns the material of primitives without one. glTF defines it as a rough white metal.
 ModelMaterial gltf_default_material();
 
 /// Converts the factors of KHR_materials_pbrSpecularGlossiness to base color, metallic and roughness, as in the appendix of that extension:

@@ -18,7 +18,7 @@ namespace halfspace {
 
 namespace {
 
-// Upper bounds of the additional memory per vertex that the computation of normals and tangents needs.
+// Upper bounds on the additional memory per vertex for computing normals and tangents.
 constexpr uint64_t kNormalBytes = 64, kTangentBytes = 128;
 
 std::size_t bytes_per_vertex(const ModelMesh& mesh) {
@@ -117,7 +117,8 @@ class MeshReader {
     }
     const auto uv_sets = [&](int material) { return model_.materials[static_cast<std::size_t>(material)].uv_sets; };
     if (std::ranges::any_of(mesh.variant_materials, [&](int material) { return uv_sets(material) != uv_sets(mesh.material); })) {
-      document_.warn_at(json, "", "its variants use other sets of texture coordinates than its material; these are not supported");
+      document_.warn_at(json, "",
+                        "the material variants use different sets of texture coordinates from the material; this is not supported");
     }
   }
 

@@ -76,7 +76,8 @@ class NodeReader {
     if (skin >= 0) check_joints(json, mesh, model_.skins[static_cast<std::size_t>(skin)]);
   }
 
-  // The result is the same for every node. The memory limit checked above also bounds the number of compared vertices.
+  // The result is the same for every node with this mesh and skin. The memory limit checked above also bounds the number of compared
+  // vertices.
   void check_joints(const GltfValue& json, const GltfMesh& mesh, const ModelSkin& skin) {
     for (const int part : mesh.parts) {
       const ModelMesh& m = model_.meshes[static_cast<std::size_t>(part)];
@@ -133,7 +134,7 @@ class NodeReader {
     for (const V& v : values) {
       for (glm::length_t k = 0; k < V::length(); ++k) {
         if (!(std::abs(static_cast<double>(v[k])) <= kMaxModelNumber)) {
-          document_.fail(*accessor.json, "has values that are not finite or larger than 1e18; expected finite values");
+          document_.fail(*accessor.json, "has values that are not finite or exceed 1e18; expected smaller finite values");
         }
       }
     }
@@ -170,7 +171,7 @@ class NodeReader {
       const auto i = static_cast<std::size_t>(n);
       world[i] = matrix_of(model_.nodes[i]);
       if (parents_[i] >= 0) world[i] = world[static_cast<std::size_t>(parents_[i])] * world[i];
-      if (!is_bounded_transform(world[i])) document_.fail(json_[i], "the transform has numbers above 1e18; expected smaller numbers");
+      if (!is_bounded_transform(world[i])) document_.fail(json_[i], "the transform has elements above 1e18; expected smaller elements");
     }
   }
 

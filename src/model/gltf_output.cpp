@@ -7,7 +7,7 @@ namespace halfspace {
 
 namespace {
 
-// Constants of OpenGL.
+// OpenGL constants.
 constexpr int kArrayBuffer = 34962, kElementArrayBuffer = 34963;
 constexpr int kUint16 = 5123, kUint32 = 5125, kFloat = 5126;
 

@@ -34,7 +34,7 @@ ModelSkin skin_of(GltfAccessors& accessors, const GltfValue& json) {
   const std::vector<float> values = accessors.read_floats(accessor);
   for (const float x : values) {
     if (!(std::abs(x) <= 1e18f))
-      document.fail(*accessor.json, "a matrix has values that are not finite or larger than 1e18; expected finite values");
+      document.fail(*accessor.json, "a matrix has values that are not finite or exceed 1e18; expected smaller finite values");
   }
   for (std::size_t i = 0; i < skin.joints.size(); ++i) skin.joint_from_mesh[i] = matrix_of(values.data() + 16 * i);
   return skin;

@@ -13,7 +13,7 @@ namespace halfspace {
 
 namespace {
 
-// Constants of OpenGL.
+// OpenGL constants.
 constexpr uint64_t kNearest = 9728, kLinear = 9729, kNearestMipmapNearest = 9984, kLinearMipmapLinear = 9987;
 constexpr uint64_t kRepeat = 10497, kClampToEdge = 33071, kMirroredRepeat = 33648;
 constexpr int kAnisotropy = 8;
@@ -115,7 +115,7 @@ bool GltfTextures::locate_image(int index) {
 
 namespace {
 
-// Returns the number of the set of texture coordinates in the file.
+// Returns the index of the set of texture coordinates in the file.
 int uv_set_of(const GltfDocument& document, const GltfValue& json, int fallback) {
   constexpr uint64_t kMaxSet = 1000;  // no mesh has a larger one
   return static_cast<int>(std::min(document.integer(json, "texCoord", static_cast<uint64_t>(fallback)), kMaxSet));

@@ -47,7 +47,7 @@ class VertexReader {
     const auto bad = std::ranges::find_if_not(values, [](const glm::vec3& p) { return is_bounded(p, kMaxPosition); });
     if (bad != values.end()) {
       document_.fail(*source.json,
-                     fmt::format("position {} is not finite or larger than 1e18; expected finite positions", bad - values.begin()));
+                     fmt::format("position {} is not finite or exceeds 1e18; expected smaller finite positions", bad - values.begin()));
     }
     return values;
   }

@@ -8,7 +8,7 @@
 
 namespace halfspace {
 
-/// Replaces the vertices of a mesh by copies: vertex i becomes a copy of vertex sources[i], with all its data. Indices are not changed.
+/// Replaces the vertices of a mesh: the new vertex i is a copy of the old vertex sources[i], with all its data. Indices are not changed.
 void copy_vertices(ModelMesh& mesh, std::span<const uint32_t> sources);
 
 }  // namespace halfspace

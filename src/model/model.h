@@ -27,7 +27,7 @@ namespace halfspace {
 
 /// An image: a file, the bytes of a file (PNG, JPEG, ...) that were stored in the model file, or pixels that a program provides.
 struct ModelImage {
-  std::string name;                                     ///< for messages: the path or name that the model file gives
+  std::string name;                                     ///< for messages: the path or name in the model file
   std::filesystem::path file;                           ///< absolute; empty if `bytes` or `pixels` has the image or there is none
   std::shared_ptr<const std::vector<std::byte>> bytes;  ///< null if the image is a file
   std::shared_ptr<const Image<glm::u8vec4>> pixels{};   ///< replaces the other two; never set by readers. Straight alpha
@@ -52,17 +52,17 @@ struct TextureUse {
 
 // ---- materials -------------------------------------------------------------------------------------------------
 
-/// How opacity is used. `mask`: the surface exists where opacity ≥ Material::alpha_cutoff. `blend`: the surface covers its background by
-/// its opacity.
+/// How opacity is used. `mask`: the surface exists where opacity ≥ ModelMaterial::alpha_cutoff. `blend`: the surface is blended over its
+/// background with its opacity.
 enum class AlphaMode : uint8_t { opaque, mask, blend };
 
-/// A metallic-roughness material (glTF 2.0, section 3.9 and appendix B). Every property is its factor times its texture. Color factors
-/// are linear; base color, emissive and specular color textures are encoded in sRGB; all others are linear. Readers convert materials
-/// of other kinds.
+/// A metallic-roughness material (glTF 2.0, section 3.9 and appendix B). Every property is its factor times its texture. Color factors are
+/// linear; base color, emissive and specular color textures are encoded in sRGB; all others are linear. Readers convert other kinds of
+/// materials.
 struct ModelMaterial {
   std::string name;
-  bool is_default = false;           ///< stands for the missing material of a mesh
-  std::array<int, 2> uv_sets{0, 1};  ///< sets of the file that ModelMesh::uvs contain if the mesh has this material; -1: none
+  bool is_default = false;           ///< replaces the missing material of a mesh
+  std::array<int, 2> uv_sets{0, 1};  ///< the file's UV sets that ModelMesh::uvs contains if the mesh has this material; -1: none
   glm::vec4 base_color{1.0f};        ///< linear; w is the opacity
   TextureUse base_color_map;         ///< its alpha channel multiplies the opacity
   TextureUse opacity_map;            ///< a separate opacity map; multiplies the opacity
@@ -70,7 +70,7 @@ struct ModelMaterial {
   float alpha_cutoff = 0.5f;
   float metallic = 0.0f, roughness = 1.0f;
   TextureUse metallic_map, roughness_map;
-  float specular = 1.0f;           ///< scales the reflectance at normal incidence of non-metals (KHR_materials_specular)
+  float specular = 1.0f;           ///< scales the normal-incidence reflectance of non-metals (KHR_materials_specular)
   glm::vec3 specular_color{1.0f};  ///< linear
   TextureUse specular_map, specular_color_map;
   float ior = 1.5f;  ///< index of refraction, ≥ 1
@@ -85,7 +85,7 @@ struct ModelMaterial {
   float occlusion_strength = 1.0f;
   glm::vec3 emissive{0.0f};  ///< linear, may exceed 1
   TextureUse emissive_map;
-  bool unlit = false;  ///< base color is the result; no lighting
+  bool unlit = false;  ///< the base color is the result, without lighting
   bool double_sided = false;
 };
 
@@ -182,7 +182,7 @@ struct AnimationChannel {
   AnimatedProperty property = AnimatedProperty::translation;
   KeyInterpolation interpolation = KeyInterpolation::linear;
   std::vector<float> times;   ///< seconds, strictly increasing
-  std::vector<float> values;  ///< `width` numbers per time; three times as many for `cubic`: in-tangent, value, out-tangent
+  std::vector<float> values;  ///< `width` numbers per keyframe; three times as many for `cubic`: in-tangent, value, out-tangent
   int width = 3;              ///< numbers per value: 3, 4 (rotation as x, y, z, w), or the number of morph targets
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Normals are computed in double and rounded once. Only the angles are floats, with an error of at most 2 ulp (atan2 in lane_math.h). This
-// changes normals by less than 1e-6, and atan2 returns the same bits on every machine.
+// changes normals by less than 1e-6, and atan2 is bit-identical on every machine.
 #include "halfspace/model/normals.h"
 
 #include <algorithm>
@@ -20,7 +20,7 @@
 namespace halfspace {
 
 glm::vec3 unit_vector(const glm::dvec3& n) {
-  constexpr double kRounding = 2e-7;  // of the squared length of a unit vector whose components are floats
+  constexpr double kRounding = 2e-7;  // rounding error of the squared length of a unit vector of floats
   const double squared = glm::dot(n, n);
   return std::fabs(squared - 1.0) <= kRounding ? glm::vec3(n) : glm::vec3(n / std::sqrt(squared));
 }
@@ -30,7 +30,7 @@ namespace {
 constexpr glm::vec3 kDefaultNormal{0.0f, 1.0f, 0.0f};
 constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
 
-// Added to the cosine of an angle between planes, so that rounded positions of a flat surface do not make it sharp.
+// Added to the cosine of the angle between two planes, so that rounded positions do not create creases in a flat surface.
 constexpr double kCosineTolerance = 1e-6;
 
 // Each triangle at an edge is compared with at most 16 others, so that an edge shared by very many triangles does not take quadratic time.
@@ -55,7 +55,7 @@ struct Triangle {
     return length > 0.0 ? n / length : glm::dvec3(0.0);
   }
 
-  /// Returns the angle at a corner in radians. The triangle must not be degenerate.
+  /// Returns the angle at corner k in radians. The triangle must not be degenerate.
   float angle(std::size_t k) const {
     const glm::dvec3 a = corners[(k + 1) % 3] - corners[k], b = corners[(k + 2) % 3] - corners[k];
     const double scale = 1.0 / std::sqrt(glm::dot(a, a) * glm::dot(b, b));
@@ -158,7 +158,7 @@ class Fans {
   void connect(const ModelMesh& mesh, std::span<const uint32_t> points, const Facets& facets, std::span<const uint32_t> corners) {
     parent_.resize(corners.size());
     std::iota(parent_.begin(), parent_.end(), 0u);
-    edges_.clear();  // the other point of an edge and a corner of the triangle
+    edges_.clear();  // for each edge, its other point and a corner of its triangle
     for (uint32_t i = 0; i < corners.size(); ++i) {
       const uint32_t first = corners[i] - corners[i] % 3, k = corners[i] % 3;
       for (const uint32_t other : {(k + 1) % 3, (k + 2) % 3}) edges_.push_back(key(points[mesh.indices[first + other]], i));

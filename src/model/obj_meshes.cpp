@@ -126,10 +126,10 @@ class MeshBuilder {
   }
 
   // Returns the vertex with these indices. Vertices with the same position form a list. At most kMaxSearched entries of the list are
-  // searched before a new vertex is added, so that very many vertices at one position do not take quadratic time.
+  // searched before a new vertex is added, so that many vertices at one position do not take quadratic time.
   uint32_t vertex(const ObjCorner& corner) {
     constexpr int kMaxSearched = 64;
-    uint32_t& last = last_vertex_[corner.position];  // counted over all meshes; less than first_vertex_: of a mesh before this one
+    uint32_t& last = last_vertex_[corner.position];  // counted over all meshes; below first_vertex_, it belongs to an earlier mesh
     const uint32_t newest = last == kNoIndex || last < first_vertex_ ? kNoIndex : last - first_vertex_;
     uint32_t v = newest;
     for (int i = 0; v != kNoIndex && i < kMaxSearched; v = next_[v], ++i) {
@@ -166,10 +166,10 @@ class MeshBuilder {
   float color_scale_ = 1.0f;
   uint32_t first_vertex_ = 0;
   std::vector<uint32_t> last_vertex_;  // per position
-  // Of the current mesh: the indices of each vertex, the vertex before it at the same position, and the smoothing group per triangle.
+  // The current mesh: the indices of each vertex, the previous vertex at the same position, and the smoothing group of each triangle.
   std::vector<ObjCorner> corners_;
   std::vector<uint32_t> next_, smoothing_;
-  // Of the current polygon.
+  // The current polygon.
   std::vector<uint32_t> polygon_, triangles_;
   std::vector<glm::dvec3> places_;
 };

@@ -17,8 +17,9 @@ struct ObjMeshes {
 
 /// Creates one mesh for each combination of material, topology and presence of normals. A mesh has the name of its first object or group.
 /// Corners with equal indices share a vertex. All meshes have the center of the bounds as their origin, so that equal positions of
-/// different meshes stay equal. Colors are sRGB-encoded, with a range of 0 to 255 if any color exceeds 1. Smooth normals are computed for
-/// triangles without normals: within smoothing groups if the file has any, otherwise across edges of at most crease_degrees.
+/// different meshes stay equal. Colors in the file are sRGB-encoded, with a range of 0 to 255 if any color exceeds 1. Smooth normals are
+/// computed for triangles without normals: within smoothing groups if the file has any, otherwise across edges with an angle of at most
+/// crease_degrees.
 ObjMeshes obj_meshes(const ObjText& obj, float crease_degrees);
 
 }  // namespace halfspace

@@ -127,7 +127,7 @@ class ObjParser {
     const char* const end = text.data() + text.size();
     const auto [at, error] = std::from_chars(text.data(), end, value);
     if (at != end || error == std::errc::invalid_argument) {
-      fail(fmt::format("cannot read {} as a corner; expected V, V/VT, V//VN or V/VT/VN", in_quotes(corner)));
+      fail(fmt::format("cannot read {} as the indices of a vertex; expected V, V/VT, V//VN or V/VT/VN", in_quotes(corner)));
     }
     const bool before_first = value == 0 || (value < 0 && value < -static_cast<int64_t>(count));
     if (error != std::errc() || before_first || value >= kNoIndex) {
@@ -145,7 +145,7 @@ class ObjParser {
     std::string_view rest = word;
     std::size_t count = 0;
     for (bool more = true; more; ++count) {
-      if (count == 3) fail(fmt::format("cannot read {} as a corner; expected V, V/VT, V//VN or V/VT/VN", in_quotes(word)));
+      if (count == 3) fail(fmt::format("cannot read {} as the indices of a vertex; expected V, V/VT, V//VN or V/VT/VN", in_quotes(word)));
       const std::size_t slash = rest.find('/');
       more = slash != std::string_view::npos;
       parts[count] = rest.substr(0, slash);
@@ -160,7 +160,8 @@ class ObjParser {
     for (std::string_view word = take_value(rest); !word.empty(); word = take_value(rest)) obj_.corners.push_back(corner(word));
     if (obj_.corners.size() - first < min_corners) {
       obj_.corners.resize(first);
-      return warn_once("few", fmt::format("an element has too few corners (expected at least {}); such elements are skipped", min_corners));
+      return warn_once("few",
+                       fmt::format("an element has too few vertices (expected at least {}); such elements are skipped", min_corners));
     }
     if (state_changed_ || obj_.states.back().topology != topology) {
       obj_.states.push_back({topology, material_, smoothing_, name_});

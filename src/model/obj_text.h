@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Parses a Wavefront OBJ file ("Object Files (.obj)", Advanced Visualizer manual, appendix B1) to lists that correspond to the statements
+// Parses a Wavefront OBJ file ("Object Files (.obj)", Advanced Visualizer manual, appendix B1) into lists that correspond to the statements
 // of the file.
 //
 // This parser is used instead of tinyobjloader, which accepts damaged files: it reads invalid numbers as 0, passes on indices that are out
@@ -60,9 +60,9 @@ struct ObjText {
   }
 };
 
-/// Parses an OBJ file. Polygons have at least 3 corners, polylines 2, and all position indices are in range. `file` is only used in
-/// messages. Throws InputError "FILE:LINE: problem; expected ..." for coordinates that cannot be read and for position indices out of
-/// range. Other invalid statements are ignored, with one warning for each kind. The text must be smaller than 4 GiB.
+/// Parses an OBJ file. Polygons have at least 3 corners, polylines have at least 2, and all position indices are in range. `file` is only
+/// used in messages. Throws InputError "FILE:LINE: problem; expected ..." for coordinates that cannot be read and for position indices out
+/// of range. Other invalid statements are ignored, with one warning for each kind. The text must be smaller than 4 GiB.
 ObjText parse_obj(const std::filesystem::path& file, std::string_view text, std::vector<std::string>& warnings);
 
 }  // namespace halfspace

@@ -9,7 +9,7 @@
 namespace halfspace {
 
 /// Returns the value of a decimal number such as "-1.5e3", or nullopt if the word is not a number. Unlike number_in, it accepts "nan" and
-/// "inf", and returns infinity for numbers that are too large for a double. Readers drop vertices with such values.
+/// "inf", and returns infinity for numbers that are too large for a double. Readers skip vertices with such values.
 inline std::optional<double> parse_number(std::string_view word) {
   if (word.starts_with('+')) word.remove_prefix(1);
   if (word.empty() || word.front() == '+') return std::nullopt;

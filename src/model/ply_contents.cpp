@@ -160,7 +160,7 @@ class ContentsReader {
   void read_faces(const PlyElement& element) {
     const int vertices = element.find_list({"vertex_indices", "vertex_index"}), uvs = element.find_list({"texcoord"});
     const ColorFields color(element);
-    const bool in_strips = first("tristrips") != nullptr;  // these have neither colors nor texture coordinates
+    const bool in_strips = first("tristrips") != nullptr;  // strips have neither colors nor texture coordinates
     const bool has_uvs = uvs >= 0 && !in_strips, has_colors = color.rgb.present() && !in_strips;
     std::size_t length = 0;
     std::vector<double> uv_values;

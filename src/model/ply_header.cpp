@@ -137,8 +137,8 @@ class HeaderParser {
     }
     const std::size_t bytes = contents_.size() - header_.size + 1;
     if (row_bytes > 0 && element.count > bytes / row_bytes) {
-      throw InputError(fmt::format("{}: element {}: declares {} rows; expected at most {}, for which the file has data", file_,
-                                   in_quotes(element.name), element.count, bytes / row_bytes));
+      throw InputError(fmt::format("{}: element {}: declares {} rows; expected at most {}, the most that the rest of the file can hold",
+                                   file_, in_quotes(element.name), element.count, bytes / row_bytes));
     }
   }
 

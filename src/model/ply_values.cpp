@@ -33,7 +33,8 @@ void PlyValues::fail(const std::string& what) const {
 void PlyValues::fail_at_end() const { fail(fmt::format("the file ends here; expected {} rows of this element", element_->count)); }
 
 void PlyValues::fail_length(const PlyProperty& list, double length, std::size_t max_length) const {
-  fail(fmt::format("a list {} of length {}; expected 0 to {}, for which the file has data", in_quotes(list.name), length, max_length));
+  fail(fmt::format("a list {} of length {}; expected 0 to {}, the most that the rest of the file can hold", in_quotes(list.name), length,
+                   max_length));
 }
 
 }  // namespace halfspace

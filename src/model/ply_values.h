@@ -21,7 +21,7 @@ class PlyValues {
   PlyValues(std::string_view data, PlyEncoding encoding, const std::string& file)
       : at_(data.data()), end_(data.data() + data.size()), encoding_(encoding), file_(file) {}
 
-  /// Sets the place that errors name.
+  /// Sets the row that error messages name.
   void set_row(const PlyElement& element, uint64_t row) {
     element_ = &element;
     row_ = row;

@@ -15,7 +15,7 @@ namespace halfspace {
 namespace {
 
 // Bounds are exact up to this total number of placed vertices. For larger models, they are computed from the transformed bounding boxes of
-// the meshes and can be too large.
+// the meshes and are only conservative.
 constexpr std::size_t kMaxBoundedVertices = std::size_t{1} << 27;
 
 glm::dmat4 translation_matrix(const glm::dvec3& t) {
@@ -30,7 +30,7 @@ glm::dmat4 world_from_model(UpAxis up) {
   return {glm::dvec4(1, 0, 0, 0), glm::dvec4(0, 0, -1, 0), glm::dvec4(0, 1, 0, 0), glm::dvec4(0, 0, 0, 1)};
 }
 
-// Returns a rigid transform without mirroring that has the same origin and −z axis.
+// Returns a rigid transform without mirroring that has the same origin and −z direction.
 glm::dmat4 without_scale(const glm::dmat4& m) {
   const auto unit_or = [](const glm::dvec3& v, const glm::dvec3& fallback) {
     const double length = std::sqrt(glm::dot(v, v));

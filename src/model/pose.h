@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A model at one moment: the node hierarchy is resolved, animations, skins and morph targets are applied.
+// A model at one point in time: the node hierarchy is resolved, and animations, skins and morph targets are applied.
 #pragma once
 
 #include <limits>
@@ -14,7 +14,7 @@ struct PoseOptions {
   int animation = -1;  ///< index in Model::animations; -1: none is applied
   double time = 0.0;   ///< seconds; clamped to the range of each channel
   int variant = -1;    ///< index in Model::variants; -1: the default materials
-  bool bounds = true;  ///< also compute the bounds, which takes time for each vertex
+  bool bounds = true;  ///< whether to compute the bounds, which visits each vertex
 };
 
 /// One mesh at one place.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Recognition of vertices with equal positions.
+// Finds vertices with equal positions.
 #pragma once
 
 #include <cstdint>

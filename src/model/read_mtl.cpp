@@ -121,7 +121,7 @@ class MtlParser {
     return value;
   }
 
-  // One number stands for gray. Spectral curves and CIE XYZ colors are not read.
+  // A single number is a gray. Spectral curves and CIE XYZ colors are not read.
   void set_color(const std::string& key, std::string_view rest, std::optional<glm::vec3>& color) {
     glm::vec3 value(0.0f);
     int count = 0;

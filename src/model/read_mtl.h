@@ -38,7 +38,7 @@ struct MtlMaterial {
 };
 
 /// Parses a material library. `name` is only used in warnings. Never fails: a statement that cannot be used is skipped, with one warning
-/// per kind. Keywords are recognized in any case. At most kMaxMtlMaterials materials are read.
+/// per kind. Keywords are not case-sensitive. At most kMaxMtlMaterials materials are read.
 std::vector<MtlMaterial> parse_mtl(std::string_view name, std::string_view text, std::vector<std::string>& warnings);
 inline constexpr std::size_t kMaxMtlMaterials = 65536;
 

@@ -21,7 +21,7 @@ namespace halfspace {
 
 namespace {
 
-// Parsing needs up to 8 times the size of typical files.
+// Parsing a typical file needs up to 8 times its size.
 constexpr std::size_t kMemoryPerByte = 8;
 constexpr std::size_t kMaxBytes = 0xffffffffu;
 
@@ -111,8 +111,8 @@ class Libraries {
   bool missing_ = false;
 };
 
-// Looks up the materials of all states and replaces their numbers with indices into the returned list. All undefined materials share one
-// entry, which is null, and so do elements without a material.
+// Looks up the materials of all states and replaces their numbers with indices into the returned list. All undefined materials and all
+// elements without a material share one entry, which is null.
 std::vector<const MtlMaterial*> resolve_materials(ObjText& obj, const Libraries& libraries, std::vector<std::string>& warnings) {
   std::vector<const MtlMaterial*> used;
   std::map<const MtlMaterial*, int> numbers;

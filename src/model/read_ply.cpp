@@ -22,13 +22,13 @@ namespace halfspace {
 
 namespace {
 
-// Upper bounds of the memory that is needed while a file is read.
+// Upper bounds on the memory that is needed while a file is read.
 constexpr std::size_t kBytesPerVertex = 160, kBytesPerDataByte = 16;
 
 constexpr std::size_t kMaxCorners = 0xffffffffu;
 
 struct Faces {
-  std::vector<uint32_t> triangles;  ///< numbers of corners
+  std::vector<uint32_t> triangles;  ///< indices of corners
   std::size_t short_faces = 0, infinite_faces = 0;
 };
 
@@ -128,7 +128,7 @@ void add_texture(Model& model, const PlyHeader& header, const std::filesystem::p
 Model model_of(PlyContents ply, const std::filesystem::path& file, const ReadModelOptions& options) {
   if (ply.positions.empty()) throw InputError("no vertices; expected an element 'vertex' with at least one row");
   if (ply.corners.size() >= kMaxCorners)
-    throw InputError(fmt::format("the faces have {} corners; expected fewer than 2^32 - 1", ply.corners.size()));
+    throw InputError(fmt::format("the faces have {} vertex indices; expected fewer than 2^32 - 1", ply.corners.size()));
   std::vector<std::string> warnings;
   const auto warn = [&](std::ptrdiff_t count, std::string_view what) {
     if (count > 0) warnings.push_back(fmt::format("{} {}; skipped", count, what));
@@ -145,7 +145,7 @@ Model model_of(PlyContents ply, const std::filesystem::path& file, const ReadMod
   if (mesh.normals.empty() && !ply.normals.empty()) warnings.emplace_back("a normal has no direction; the normals of the file are ignored");
   check_memory(ply.positions.size() * kBytesPerVertex + ply.corners.size() * kBytesPerTriangle, options);
   Faces faces = triangles_of(ply);
-  warn(static_cast<std::ptrdiff_t>(faces.short_faces), "faces with fewer than 3 corners");
+  warn(static_cast<std::ptrdiff_t>(faces.short_faces), "faces with fewer than 3 vertices");
   warn(static_cast<std::ptrdiff_t>(faces.infinite_faces), "faces that use skipped vertices");
   if (faces.triangles.empty()) {
     add_lines_or_points(mesh, ply);

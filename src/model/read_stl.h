@@ -9,7 +9,7 @@
 
 namespace halfspace {
 
-/// Returns whether a file with these contents is a binary STL file: its size is that of the number of triangles that it declares.
+/// Returns whether a file with these contents is a binary STL file: its size matches the number of triangles that it declares.
 bool is_binary_stl(std::span<const std::byte> bytes);
 
 /// Returns whether the contents begin with the word "solid", in any case and possibly after blanks. This is also true for some binary

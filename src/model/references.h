@@ -12,7 +12,7 @@
 namespace halfspace {
 
 /// Finds files that a model refers to. A path that leaves the folder of the model (absolute, with too many "..", or through a symbolic
-/// link) is not opened unless `allow_outside` is set; the file name without folders is searched for in the folder of the model instead.
+/// link) is not opened unless `allow_outside` is set. Instead, the folder of the model is searched for the file name without its folders.
 class References {
  public:
   /// warnings: receives one line for each reference that was not found as written. Must outlive this object.

@@ -19,14 +19,14 @@ bool is_finite(const glm::dvec3& v);
 /// so large that squares of floats would overflow.
 void set_positions(ModelMesh& mesh, std::span<const glm::dvec3> positions);
 
-/// Returns a model with one node, which has the mesh and the name of the file. Its material is gray, or white under vertex colors, and
-/// blended if a vertex color is not opaque.
+/// Returns a model with one node, which has the mesh and is named after the file. Its material is gray, or white if there are vertex
+/// colors, and blended if a vertex color is not opaque.
 Model single_mesh_model(std::string format, const std::filesystem::path& file, ModelMesh mesh);
 
 /// Throws an InputError that does not name the file if `bytes` exceeds options.max_memory.
 void check_memory(std::size_t bytes, const ReadModelOptions& options);
 
-/// Upper bound of the memory per triangle while normals are computed, in bytes.
+/// Upper bound on the memory per triangle while normals are computed, in bytes.
 inline constexpr std::size_t kBytesPerTriangle = 200;
 
 }  // namespace halfspace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Colors of model files that are encoded in sRGB but not as 8-bit codes.
+// Colors of model files that are sRGB-encoded but not stored as 8-bit values.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace halfspace {
 
-/// Returns the linear value of an sRGB-encoded value, which is clamped to [0, 1]. Values between two 8-bit codes are interpolated
+/// Returns the linear value of an sRGB-encoded value, which is clamped to [0, 1]. Values between two 8-bit values are interpolated
 /// linearly; the error is below 7e-6.
 inline float linear_from_srgb(float encoded) {
   const float code = std::clamp(encoded, 0.0f, 1.0f) * 255.0f;

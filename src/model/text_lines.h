@@ -12,7 +12,7 @@
 
 namespace halfspace {
 
-/// Numbers of a model file must not be larger than this, so that squares of floats do not overflow.
+/// Maximum magnitude of the numbers in a model file, chosen so that squares of floats do not overflow.
 inline constexpr double kMaxModelNumber = 1e18;
 
 /// Iterates over the lines of a text, without their ends ("\n", "\r\n", or "\r" if the text has no "\n"). A line that ends in a backslash
@@ -84,7 +84,7 @@ inline std::optional<double> number_in(std::string_view word) {
   return value;
 }
 
-/// Returns a name from a file between quotation marks for use in a message: control characters are replaced, and long names are cut.
+/// Returns a name from a file in quotation marks for use in a message: control characters are replaced, and long names are cut.
 std::string in_quotes(std::string_view name);
 
 }  // namespace halfspace

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Ear clipping. The polygon is projected along the coordinate axis that is nearest to its normal, which keeps the coordinates exact. For a
-// planar polygon, this differs from a projection along the normal only by an affine map that preserves orientations. The orientation of
-// three corners is computed exactly.
+// Ear clipping. The polygon is projected along the coordinate axis closest to its normal, which keeps the coordinates exact. For a planar
+// polygon, this differs from a projection along the normal only by an affine map that preserves orientations. The orientation of three
+// vertices is computed exactly.
 //
-// A corner is an ear if it turns left and no other corner is in its triangle. Only corners that do not turn left can lie inside it, so
-// these are sorted into a grid. The number of steps is limited to a multiple of the number of corners: a polygon that intersects itself
-// could take quadratic time or worse. Beyond the limit, corners are clipped without tests.
+// A vertex is an ear if it is convex and the triangle that it forms with its neighbors contains no other vertex. Only vertices that are not
+// convex can be inside, so these are sorted into a grid. The number of steps is limited to a multiple of the number of vertices, because a
+// polygon that intersects itself could take quadratic time or worse. Beyond the limit, vertices are clipped without tests.
 #include "halfspace/model/triangulate.h"
 
 #include <algorithm>
@@ -35,8 +35,8 @@ Split sum(double a, double b) {
   return {high, (a - (high - b_part)) + (b - b_part)};
 }
 
-// Returns the exact sign of b.x·c.y − b.x·a.y − a.x·c.y − b.y·c.x + b.y·a.x + a.y·c.x, by adding the 12 parts of the products to an
-// expansion whose components do not overlap (Shewchuk, "Adaptive precision floating-point arithmetic and fast robust geometric
+// Returns a number with the exact sign of b.x·c.y − b.x·a.y − a.x·c.y − b.y·c.x + b.y·a.x + a.y·c.x. Adds the 12 parts of the products to a
+// nonoverlapping expansion (Shewchuk, "Adaptive precision floating-point arithmetic and fast robust geometric
 // predicates", 1997, section 2.3).
 double exact_orientation(const dvec2& a, const dvec2& b, const dvec2& c) {
   const Split products[] = {product(b.x, c.y),  product(-b.x, a.y), product(-a.x, c.y),
@@ -68,7 +68,7 @@ double orientation(const dvec2& a, const dvec2& b, const dvec2& c) {
   return exact_orientation(a, b, c);
 }
 
-// Newell's normal, computed relative to the first corner. Its length is twice the area.
+// Newell's normal, computed relative to the first vertex. Its length is twice the area.
 dvec3 normal_of(std::span<const dvec3> corners) {
   dvec3 normal(0.0);
   for (std::size_t i = 1; i + 1 < corners.size(); ++i) normal += glm::cross(corners[i] - corners[0], corners[i + 1] - corners[0]);
@@ -97,7 +97,7 @@ void add_fan(std::size_t apex, std::size_t count, std::vector<uint32_t>& triangl
   }
 }
 
-// A quad with a corner that does not turn left is split at this corner; all other quads are split along the shorter diagonal.
+// A quad with a vertex that is not convex is split at this vertex; all other quads are split along the shorter diagonal.
 void add_quad(const dvec2 (&p)[4], std::span<const dvec3> corners, std::vector<uint32_t>& triangles) {
   for (std::size_t i = 0; i < 4; ++i) {
     if (orientation(p[(i + 3) % 4], p[i], p[(i + 1) % 4]) <= 0.0) return add_fan(i, 4, triangles);
@@ -107,7 +107,7 @@ void add_quad(const dvec2 (&p)[4], std::span<const dvec3> corners, std::vector<u
   add_fan(glm::dot(d13, d13) < kTie * glm::dot(d02, d02) ? 1 : 0, 4, triangles);
 }
 
-// Returns true if the fan from corner 0 is a triangulation: all other corners are in order around corner 0, within half a turn.
+// Returns true if the fan from vertex 0 is a triangulation: all other vertices are in order around vertex 0, within half a turn.
 bool is_fan(std::span<const dvec2> p) {
   for (std::size_t i = 2; i < p.size(); ++i) {
     if (orientation(p[0], p[1], p[i]) <= 0.0 || orientation(p[0], p[i - 1], p[i]) <= 0.0) return false;
@@ -133,7 +133,7 @@ class EarClipper {
   }
 
   void clip(std::vector<uint32_t>& triangles) {
-    uint32_t any = 0;  // clipped if no corner is an ear, i.e. if the polygon intersects itself or is degenerate
+    uint32_t any = 0;  // clipped if no vertex is an ear, i.e. if the polygon intersects itself or is degenerate
     for (std::size_t left = count_; left > 2; --left) {
       const uint32_t ear = take_ear(any), corner = ear == kNone ? any : ear;
       const uint32_t before = previous_[corner], after = next_[corner];
@@ -150,17 +150,17 @@ class EarClipper {
   }
 
  private:
-  // A corner that does not turn left is blocking: it may be in the triangle of another corner.
+  // A vertex that is not convex is blocking: it may be inside the triangle of another vertex.
   enum class State : uint8_t { convex, blocking, removed };
   static constexpr uint32_t kNone = 0xffffffffu;
   static constexpr std::size_t kBudgetPerCorner = 300;
-  static constexpr std::size_t kTestCost = 10;  // cost of testing a corner against a triangle; all other steps cost 1
+  static constexpr std::size_t kTestCost = 10;  // cost of testing a vertex against a triangle; all other steps cost 1
 
   double turn(uint32_t i) const { return orientation(points_[previous_[i]], points_[i], points_[next_[i]]); }
 
   void update(uint32_t i) { states_[i] = turn(i) > 0.0 ? State::convex : State::blocking; }
 
-  // Returns kNone if there is no ear or if the budget is exhausted. `any` is one of the remaining corners.
+  // Returns kNone if there is no ear or if the budget is exhausted. `any` is one of the remaining vertices.
   uint32_t take_ear(uint32_t any) {
     for (const bool all : {false, true}) {
       if (all) queue_all(any);
@@ -173,7 +173,7 @@ class EarClipper {
     return kNone;
   }
 
-  // Corners that were blocked when they were tested may have become ears since.
+  // Vertices that were blocked when they were tested may have become ears since.
   void queue_all(uint32_t any) {
     if (budget_ == 0) return;
     queue_.clear();
@@ -206,7 +206,7 @@ class EarClipper {
     return true;
   }
 
-  // Includes the edges, but not points that coincide with a corner: a hole that is connected by two coincident edges has such corners.
+  // Includes the edges, but not points that coincide with a vertex: a hole connected by two coincident edges has such vertices.
   static bool is_in_triangle(const dvec2& p, const dvec2& a, const dvec2& b, const dvec2& c) {
     if (p == a || p == b || p == c) return false;
     return orientation(a, b, p) >= 0.0 && orientation(b, c, p) >= 0.0 && orientation(c, a, p) >= 0.0;
@@ -221,7 +221,7 @@ class EarClipper {
       high_ = glm::max(high_, p);
     }
     const auto blocking = static_cast<std::size_t>(std::ranges::count(states_, State::blocking));
-    // About square cells, with two blocking corners per cell on average.
+    // Roughly square cells, with two blocking vertices per cell on average.
     const double cells = static_cast<double>(blocking) / 2.0 + 1.0, width = high_.x - low_.x, height = high_.y - low_.y;
     const double columns = height > 0.0 ? std::clamp(std::sqrt(cells * (width / height)), 1.0, cells) : cells;
     cells_ = {static_cast<int>(columns), static_cast<int>(cells / columns)};
@@ -255,13 +255,13 @@ class EarClipper {
   std::vector<dvec2> points_;
   std::size_t count_;
   std::size_t budget_;                     // remaining steps
-  std::vector<uint32_t> previous_, next_;  // linked list of the remaining corners
+  std::vector<uint32_t> previous_, next_;  // linked list of the remaining vertices
   std::vector<State> states_;
-  std::vector<uint32_t> queue_;  // convex corners that may be ears; the first queue_at_ have been taken
+  std::vector<uint32_t> queue_;  // convex vertices that may be ears; the first queue_at_ have been taken
   std::size_t queue_at_ = 0;
   dvec2 low_{0.0}, high_{0.0};
   glm::ivec2 cells_{1};                      // number of grid cells per axis
-  std::vector<uint32_t> cell_begin_, grid_;  // blocking corners by cell, at the start
+  std::vector<uint32_t> cell_begin_, grid_;  // vertices that are blocking at the start, by cell
 };
 
 }  // namespace

@@ -17,7 +17,7 @@ WrittenModel write_obj(const Model& model, const std::string& stem);
 WrittenModel write_ply(const Model& model, const std::string& stem);
 WrittenModel write_stl(const Model& model, const std::string& stem);
 
-/// Appends the object representation of a value, which is little-endian on all supported machines.
+/// Appends the bytes of a value, which are little-endian on all supported machines.
 template <class T>
 void append_value(std::vector<std::byte>& bytes, const T& value) {
   const auto* first = reinterpret_cast<const std::byte*>(&value);

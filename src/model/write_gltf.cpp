@@ -53,7 +53,7 @@ const char* path_of(AnimatedProperty property) {
   return "weights";
 }
 
-// Writes `values` as vectors of the width of the property.
+// Writes the channel's values as vectors with the width of its property.
 int key_accessor(const AnimationChannel& channel, GltfOutput& out) {
   constexpr auto kOther = GltfOutput::Use::other;
   if (channel.property == AnimatedProperty::weights) return out.accessor(channel.values, kOther);
@@ -143,7 +143,7 @@ WrittenModel write_gltf(const Model& model, const std::string& stem, bool binary
   }
   const std::string json = dumped(out.json, binary ? -1 : 1);
   if (binary && json.size() + out.buffer.size() + 32 > kMaxGlb)
-    throw OutputError(fmt::format("{}.glb: has more than 4 GiB; expected a smaller model, or .gltf", stem));
+    throw OutputError(fmt::format("{}.glb: is larger than 4 GiB; expected a smaller model, or .gltf", stem));
   if (binary) {
     written.files.push_back({stem + ".glb", glb_of(json, out.buffer)});
   } else {

@@ -97,7 +97,7 @@ class MaterialWriter {
     return source != nullptr && source->bytes != nullptr && !image_extension(*source->bytes).empty();
   }
 
-  // uv' = T · R · S · uv, with the rotation as the reader has it.
+  // uv' = T · R · S · uv, with the rotation direction that the reader uses (gltf_textures.cpp).
   OutputJson transform_json(const glm::mat3x2& m) const {
     const glm::dvec2 u(m[0]), v(m[1]);
     const double length = std::sqrt(glm::dot(u, u));

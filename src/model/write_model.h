@@ -28,25 +28,25 @@ struct ModelFile {
 /// A model as files, the main file first. Files refer to each other by name and belong in the same folder.
 struct WrittenModel {
   std::vector<ModelFile> files;
-  std::vector<std::string> warnings;  ///< one line each: what the format cannot store
+  std::vector<std::string> warnings;  ///< one line for each kind of data that the format cannot store
 };
 
 /// Converts a model to files of the format. `file` gives their names. Images must be in memory (ModelImage::bytes) as PNG or JPEG; others
 /// are omitted with a warning.
 ///
-/// glb, gltf: everything in Model. Positions are stored relative to ModelMesh::origin, which becomes the translation of a node, and a model
-///   with z up gets a node that turns it. Texture channels that glTF does not permit are omitted with a warning.
-/// obj: all meshes in world space, materials as .mtl with the PBR statements where metals or their maps need them, and textures. Numbers
-///   have the shortest form that reads back as the same value.
-/// ply: all triangles in world space as one mesh, or all points if there are none, binary, with normals, and with colors and texture
-///   coordinates if a mesh has them.
+/// glb, gltf: everything in Model. Positions are stored relative to ModelMesh::origin, which becomes the translation of a node. A model
+///   with z up gets a node that rotates it. Texture channels that glTF does not permit are omitted with a warning.
+/// obj: all meshes in world space, materials as .mtl, with PBR statements where metals or PBR maps need them, and textures. Numbers have
+///   the shortest form that reads back as the same value.
+/// ply: binary; all triangles in world space as one mesh, or all points if there are no triangles. Has normals, and colors and texture
+///   coordinates if any mesh has them.
 /// stl: the triangles in world space, binary, z up.
 ///
-/// obj, ply and stl contain the default scene without animation. Throws OutputError if the model has nothing that the format can store, or
-/// more than it can address.
+/// obj, ply and stl contain the default scene without animation. Throws OutputError if the model contains nothing that the format can
+/// store, or more than it can address.
 WrittenModel written_model(const Model& model, const std::filesystem::path& file, ModelFormat format);
 
-/// Returns ".png" or ".jpg" for an image that all readers of glTF understand, else an empty text.
+/// Returns ".png" or ".jpg" for an image in a format that all glTF readers support, otherwise an empty string.
 std::string image_extension(std::span<const std::byte> image);
 
 }  // namespace halfspace

@@ -17,7 +17,7 @@ std::string numbers_text(const glm::vec3& v) { return fmt::format("{} {} {}", v.
 
 glm::vec3 encoded_color(const glm::vec3& c) { return {srgb_from_linear(c.x), srgb_from_linear(c.y), srgb_from_linear(c.z)}; }
 
-// Returns the Blinn-Phong exponent of a roughness, with the inverse of the formula in mtl_materials.h.
+// Returns the Blinn-Phong exponent for a roughness: the inverse of the formula in mtl_materials.h.
 float exponent_of(float roughness) {
   constexpr float kMaxExponent = 1e6f;
   const float r2 = roughness * roughness;

@@ -14,9 +14,9 @@ namespace halfspace {
 /// Inverse of linear_from_srgb. The argument is clamped to [0, 1].
 float srgb_from_linear(float value);
 
-/// Returns the text of a material library. material_names: one per material, without spaces; one more is the name of ModelMaterial{}, which
-/// is written too. image_names: the file name of each image; empty: the image is omitted. diagonal: of the bounds of the written
-/// positions. Adds a warning for each kind of property that is omitted.
+/// Returns the text of a material library. material_names: one per material, without spaces, and a last one for ModelMaterial{}, which is
+/// also written. image_names: the file name of each image; empty: the image is omitted. diagonal: length of the diagonal of the bounds of
+/// the written positions. Adds a warning for each kind of property that is omitted.
 std::string mtl_text(const Model& model, const std::vector<std::string>& material_names, const std::vector<std::string>& image_names,
                      double diagonal, std::vector<std::string>& warnings);
 

@@ -26,7 +26,7 @@ std::string obj_name(const std::string& name, const char* fallback, std::set<std
 
 class ObjWriter {
  public:
-  /// material_names: the last name is for meshes without a material.
+  /// material_names: the last one is for meshes without a material.
   explicit ObjWriter(const std::vector<std::string>& material_names) : material_names_(material_names) {}
 
   void add(const WorldMesh& mesh) {

@@ -49,7 +49,7 @@ class PlyWriter {
   }
 
  private:
-  // Only the points that indices select are drawn; the others may have no valid position.
+  // Only the points that the indices select are drawn; the others may have invalid positions.
   static bool selects(const ModelMesh& m) { return m.topology == MeshTopology::points && !m.indices.empty(); }
 
   static std::size_t vertex_count(const WorldMesh& mesh) {

@@ -49,7 +49,7 @@ WrittenModel write_stl(const Model& model, const std::string& stem) {
   std::copy_n(reinterpret_cast<const std::byte*>(&count), sizeof count, bytes.begin() + kStlHeader);
   WrittenModel written;
   written.files.push_back({stem + ".stl", std::move(bytes)});
-  if (!model.materials.empty()) written.warnings.emplace_back("STL stores only triangles: no materials, textures, normals or colors");
+  if (!model.materials.empty()) written.warnings.emplace_back("STL stores only triangles, without materials, textures, normals or colors");
   if (has_lines_or_points) written.warnings.emplace_back("lines and points are omitted");
   return written;
 }

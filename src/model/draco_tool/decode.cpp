@@ -32,7 +32,7 @@ std::unique_ptr<draco::Mesh> decode_mesh(std::span<const char> stream) {
   return std::move(result).value();
 }
 
-// Returns the component type of glTF, or 0.
+// Returns the glTF component type, or 0 if there is none.
 uint32_t component_of(draco::DataType type) {
   switch (type) {
     case draco::DT_INT8: return 5120;
@@ -56,7 +56,7 @@ const draco::PointAttribute& attribute_of(const draco::Mesh& mesh, uint32_t id) 
   if (attribute == nullptr) throw DracoFailure{"does not contain " + name + "; expected it to be in the compressed mesh"};
   const int width = attribute->num_components();
   if (component_of(attribute->data_type()) == 0 || width < 1 || width > 4)
-    throw DracoFailure{name + " has an unsupported type; expected up to 4 numbers of a type of glTF"};
+    throw DracoFailure{name + " has an unsupported type; expected up to 4 components of a glTF component type"};
   return *attribute;
 }
 

@@ -20,9 +20,9 @@ namespace halfspace {
 namespace {
 
 constexpr unsigned kSeconds = 60;                      // CPU time limit for all meshes of a file
-constexpr uint64_t kProgramBytes = uint64_t{1} << 28;  // address space without a mesh
+constexpr uint64_t kProgramBytes = uint64_t{1} << 28;  // address space before a mesh is decoded
 constexpr uint64_t kMaxBytes = uint64_t{6} << 30;      // maximum address space
-constexpr uint64_t kBytesPerByte = 8;                  // address space per byte of the result, because of the decoder's own tables
+constexpr uint64_t kBytesPerByte = 8;                  // address space per byte of the result, including the decoder's own tables
 
 // Returns false if the input ends early.
 bool receive(void* memory, std::size_t bytes) {

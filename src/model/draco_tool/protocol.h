@@ -35,7 +35,7 @@ struct DracoHeader {
 };
 
 struct DracoAttributeHeader {
-  uint32_t component = 0;  ///< component type of glTF: 5120 to 5126
+  uint32_t component = 0;  ///< glTF component type: 5120 to 5126
   uint32_t width = 0;      ///< components per point, 1 to 4
 };
 
