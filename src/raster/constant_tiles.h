@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Constant-color tiles: tiles without geometry, or tiles that one or two triangles of a constant shader cover completely. Their color is
+// Constant-color tiles: tiles without geometry, and tiles that one or two triangles of a constant shader cover completely. Their color is
 // written directly to the images, many tiles at a time, without going through tile memory.
 #pragma once
 

@@ -90,7 +90,7 @@ enum class BlendFactor : uint8_t {
   constant_alpha,
   one_minus_constant_alpha,
   src_alpha_saturate,
-  src1_color,  ///< src1 factors refer to the second color of the fragment function (dual source blending)
+  src1_color,  ///< src1 factors refer to the second color of the fragment function (dual-source blending)
   one_minus_src1_color,
   src1_alpha,
   one_minus_src1_alpha

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Inspection of a pass, for programs that visualize the pipeline: traces fragments, measures tiles, and gives access to the results of the
-// stages. Not installed. A shared library exports only functions of the files in src/raster itself, so this header wraps the functions of
+// stages. Not installed. A shared library exports only the functions of files directly in src/raster, so this header wraps the functions of
 // subfolders that such programs need.
 #pragma once
 

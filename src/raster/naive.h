@@ -4,8 +4,8 @@
 // three vertices, clip, divide by w, visit every pixel of the bounding box, interpolate, shade, test depth.
 //
 // With R = float, this is a slow but readable equivalent of the tile-based pipeline: it calls the same formulas for snapping, clipping,
-// depth and interpolation, and draws the same bits. With R = double, it is the accuracy reference: vertex positions, interpolation, texture
-// filtering and shading use double precision. Coverage is computed on the same 1/256 px grid.
+// depth and interpolation, and its output is bit-identical. With R = double, it is the accuracy reference: vertex positions, interpolation,
+// texture filtering and shading use double precision. Coverage is computed on the same 1/256 px grid.
 #pragma once
 
 #include <algorithm>
@@ -58,7 +58,7 @@ Vertex<R, V> shade_vertex(const S& shader, const VertexView& view, std::size_t i
 
 // Steps 2 and 3, clipping and the transform to window coordinates, are in naive_steps.h.
 
-// Step 4: visit every pixel whose center is inside the triangle, or on an edge whose samples belong to it.
+// Step 4: visit every pixel whose center is inside the triangle, or on an edge that owns its samples under the fill rule.
 template <class F>
 void for_each_covered(std::array<std::array<int64_t, 2>, 3> p, const Rect& bounds, F pixel) {
   const auto edge = [&](std::size_t a, std::size_t b, int64_t x, int64_t y) {
@@ -85,7 +85,7 @@ struct Surface {
   TriangleLanes<R> lanes;
   ComponentLanes<R, kComponents<V>> components;
 };
-// Replaces the weights by planes if the triangle has them in a cell (raster/shade/plane_anchor.h).
+// Replaces the barycentric weights with planes if the triangle is given as planes in the cell (raster/shade/plane_anchor.h).
 template <class V>
 void use_planes(const std::array<ScreenPoint<float>, 3>& p, const std::array<std::array<float, kComponents<V>>, 3>& values,
                 const PlaneCell& cell, Surface<float, V>& s) {
@@ -174,7 +174,7 @@ void rasterize(NaiveTarget<R>& target, const S& shader, const std::array<const V
 /// no blending, no stencil test, no polygon offset and no instancing.
 template <class R, Shader S>
 void draw_naive(NaiveTarget<R>& target, const S& shader, const VertexView& vertices, const Indices& indices, const DrawState& state = {}) {
-  static_assert(!kUsesPrimitiveId<S>, "draw_naive() does not know the ids of primitives");
+  static_assert(!kUsesPrimitiveId<S>, "draw_naive() does not support primitive ids");
   using V = typename S::template Varyings<R>;
   const Rect rect = state.viewport.value_or(Rect{0, 0, target.color.width(), target.color.height()});
   const Viewport viewport = make_viewport(rect, state.depth);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Steps of the naive pipeline (naive.h) that have two versions: for float, the formulas of the tile-based pipeline; for double, the same
-// steps as the specification gives them.
+// Steps of the naive pipeline (naive.h) that have two versions: the float version uses the formulas of the tile-based pipeline, and the
+// double version follows the specification.
 #pragma once
 
 #include <algorithm>
@@ -77,7 +77,7 @@ ScreenPoint<R> to_window(const vec4<R>& p, const Viewport& v, const DepthState& 
 template <class R, class V>
 using Piece = std::array<Vertex<R, V>, 3>;
 
-// Returns the polygon that remains of a triangle after clipping, with window coordinates.
+// Clips a triangle and returns the remaining polygon, with window coordinates.
 template <class V>
 std::vector<Vertex<float, V>> clipped_polygon(const Piece<float, V>& t, const Viewport& viewport, const DepthState& depth,
                                               std::size_t provoking) {
@@ -124,7 +124,7 @@ std::vector<Vertex<R, V>> clipped_polygon(const Piece<R, V>& t, const Viewport& 
   return polygon;
 }
 
-// Returns the triangles that remain of a triangle after clipping, as a fan, with window coordinates.
+// Clips a triangle and returns the remaining triangles as a fan, with window coordinates.
 template <class R, class V>
 std::vector<Piece<R, V>> clipped(Piece<R, V> t, const Viewport& viewport, const DepthState& depth, std::size_t provoking) {
   Fan fan;
@@ -161,7 +161,7 @@ std::vector<Piece<R, V>> clipped(Piece<R, V> t, const Viewport& viewport, const 
 
 // ---- step 5: depth -------------------------------------------------------------------------------------------------
 
-// Depth of a triangle at window positions in 1/256 px. The corners are counter-clockwise, the one with the smallest depth first.
+// Depth of a triangle at window positions in 1/256 px. The vertices are counter-clockwise, and the first one has the smallest depth.
 template <class R>
 class DepthPlane {
  public:

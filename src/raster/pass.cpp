@@ -20,7 +20,7 @@ namespace {
 constexpr int kMaxTargetSize = static_cast<int>(kGuardBand);
 constexpr std::size_t kVerticesPerTask = 8 * kVertexBatch;
 // Number of primitives per chunk. The first chunks are small, so that all threads have work in a small pass. Later chunks grow with the
-// number of preceding primitives, so that a large pass has few chunks: each tile has to visit all of them.
+// number of preceding primitives: since each tile has to visit all chunks, a large pass should have few of them.
 constexpr uint64_t kSmallestChunk = 2048;
 constexpr uint64_t kChunkShare = 8;
 // Memory limit of a tile in bytes, chosen so that it stays in the L2 cache.
@@ -98,8 +98,8 @@ class PassState {
   void add_vertex_tasks(std::size_t draw);
   void run_vertex_stage(std::span<VertexTask> tasks, const Workers& workers);
   void add_draw_ranges(uint32_t draw);
-  // Sets up chunks of the plan starting at `next`, until the budget is reached, the chunk ids are used up or no chunks are left. Returns
-  // the next chunk.
+  // Sets up chunks of the plan starting at `next`, until the budget is reached, all chunk ids are in use or no chunks are left. Returns the
+  // next chunk.
   std::size_t set_up_chunks(Plan& plan, std::size_t next, PassMemory& memory, const Workers& workers, PassStatistics& statistics);
   int tile_size() const;
   // Sets the draw's viewport, bounds and depth range.

@@ -25,7 +25,7 @@ struct PassStatistics {
   uint64_t samples_tested = 0;    ///< covered samples that were tested individually, not as part of a rejected 8x8 block
   uint64_t samples_passed = 0;    ///< samples that passed all tests and were not discarded
   uint64_t fragments_shaded = 0;  ///< fragment function invocations, excluding masked lanes
-  uint64_t layers_merged = 0;     ///< fragments of order-independent draws that had to be merged, because their sample had 8 layers already
+  uint64_t layers_merged = 0;     ///< fragments of order-independent draws that were merged, because their sample already had 8 layers
   uint64_t tiles_touched = 0;     ///< tiles with at least one primitive, counted again after each flush
   uint64_t flushes = 0;           ///< number of times the bins exceeded their budget before the end of the pass
 

@@ -68,8 +68,8 @@ enum class LoadOp : uint8_t { clear, load, dont_care };
 /// Whether an attachment is written to its image at the end of a pass.
 enum class StoreOp : uint8_t { store, dont_care };
 
-/// Color attachment. data can be null if the pass does not load the image and StoreOp is dont_care, so that the color is only an
-/// intermediate result.
+/// Color attachment. data can be null if the pass does not load the image and StoreOp is dont_care. The color is then only an intermediate
+/// result.
 struct ColorTarget {
   ColorFormat format = ColorFormat::none;
   std::byte* data = nullptr;  ///< not owned; width × height pixels, tightly packed, top row first

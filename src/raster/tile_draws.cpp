@@ -130,7 +130,7 @@ class TileDraws {
     }
   }
 
-  // Finishes the current draw, if any, before another one or at the end of the tile.
+  // Finishes the current draw, if any, before the next one or at the end of the tile.
   void finish_draw(const std::optional<DrawInTile>& d) {
     if (!d || memory_.queue.count == 0) return;
     const uint64_t passed_before = statistics_.samples_passed;

@@ -17,7 +17,7 @@ namespace halfspace {
 
 namespace {
 
-// Returns where a target is stored between flushes: in its image, or in the spill buffer if it has no image or multiple samples.
+// Returns where a target is stored between flushes: in its image, or in the spill buffer if it has no image or several samples per pixel.
 template <class Target>
 Target between_flushes(Target target, const std::vector<std::byte>& spill) {
   if (!spill.empty()) target.data = const_cast<std::byte*>(spill.data());
@@ -128,9 +128,9 @@ class TileWorker {
   void run_tile(int tile_x, int tile_y, bool drawn, TileMemory& memory, Statistics& statistics) const {
     if (drawn) ++statistics.tiles_touched;
     const std::vector<ColorTarget>& colors = attachments_.colors;
-    // If nothing is drawn in a tile, its attachments are only stored if they are cleared. Otherwise the image already has the correct
-    // contents, which the tile may not even hold (LoadOp::dont_care). With several rounds, multisampled attachments are always stored,
-    // because they are kept in the spill buffer.
+    // If nothing is drawn in a tile, its attachments are stored only if they are cleared. Otherwise the image already has the correct
+    // contents; with LoadOp::dont_care, the tile does not even contain them. With several rounds, multisampled attachments are always
+    // stored, because they are kept in the spill buffer.
     const bool spills = context_.samples > 1 && !(round_.first && round_.last);
     const auto changes = [&](const auto& target) {
       return drawn || spills || (round_.first && target.load == LoadOp::clear && bytes_per_pixel(target.format) != 0);

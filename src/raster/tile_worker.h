@@ -19,12 +19,12 @@ void keep_between_flushes(const PassContext& context, Attachments& attachments);
 /// Runs all tiles of one round.
 void run_tiles(const PassContext& context, const Attachments& attachments, Round round, const Workers& workers, PassStatistics& statistics);
 
-/// The same, and adds the round to the trace. The draw, instance and primitive of the fragments are not set. Tiles with a constant color
-/// are drawn like all others.
+/// The same, but also adds the round to the trace. The draw, instance and primitive of the fragments are not set. Tiles with a constant
+/// color are drawn like all others.
 void run_tiles(const PassContext& context, const Attachments& attachments, Round round, const Workers& workers, PassStatistics& statistics,
                PassTrace& trace);
 
-/// The same as the first one, and adds the time of each tile in milliseconds to ms, row by row from the lower left.
+/// Like the first one, but also adds the time of each tile in milliseconds to ms, row by row from the lower left.
 void run_tiles(const PassContext& context, const Attachments& attachments, Round round, const Workers& workers, PassStatistics& statistics,
                std::span<float> ms);
 

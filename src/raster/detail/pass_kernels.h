@@ -62,9 +62,9 @@ constexpr ShaderKernels kernels_of() {
     k.color_count = static_cast<int>(kColors<S>);
     k.discards = kDiscards<S>;
     k.is_constant = kIsConstant<S>;
-    // Without a visibility function, the fragment function is compiled a second time, for the keep mask and the depth only. This is faster
-    // where depth is replaced: no fragment can be rejected before it is shaded. A shader that only discards usually decides by a texture,
-    // which is most of its work, so it is faster to shade it once.
+    // Without a visibility function, the fragment function is compiled a second time, to compute only the keep mask and the depth. This is
+    // faster if the shader replaces the depth, because no fragment can be rejected before it is shaded. A shader that only discards usually
+    // decides by a texture lookup, which is most of its work, so it is faster to shade it once.
     if constexpr (kWritesDepth<S> && !HasPrimitive<S> && !kUsesPrimitiveId<S>) k.visibility = visibility_kernel<S>;
   }
   if constexpr (HasFragmentFunction<S>) k.writes_depth = kWritesDepth<S>;

@@ -28,8 +28,8 @@ inline Edge edge_of(const Triangle& t, std::size_t i) {
 
 /// Fill rule: returns true if samples exactly on the edge (ex, ey) belong to the triangle. This is the case for left edges, where the
 /// inside is towards +x, and for horizontal edges with the inside above them in window coordinates (y up). Images store the top row first,
-/// so in the displayed image the samples belong to the bottom edge, not to the top edge as in D3D's top-left rule. tests/mesa verifies that
-/// Mesa uses the same rule when it renders to a framebuffer object.
+/// so samples on a horizontal edge belong to the triangle whose bottom edge it is in the displayed image, unlike in D3D's top-left rule.
+/// tests/mesa verifies that Mesa uses the same rule when it renders to a framebuffer object.
 template <class I>
 HS_INLINE auto is_top_left(I ex, I ey) {
   return ey < I(0) || (ey == I(0) && ex > I(0));

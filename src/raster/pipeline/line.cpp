@@ -11,7 +11,7 @@ namespace {
 constexpr int kHalf = kSubPixels / 2;
 constexpr int kLastPixel = 1 << 15;
 
-// Returns the first pixel along an axis whose center is not before x.
+// Returns the first pixel along an axis whose center is at or after x.
 int first_center(int64_t x) { return static_cast<int>((x - kHalf + kSubPixels - 1) >> kSubPixelBits); }
 
 // Returns true if the pixel's diamond, |x − cx| + |y − cy| < 1/2 px, contains the point moved by (−ε, −ε²).
@@ -36,7 +36,7 @@ LineRange line_range(const ScreenVertex& a, const ScreenVertex& b, int pixels) {
     return y_major ? diamond_holds(pixel_before(x), i, x, y) : diamond_holds(i, pixel_before(y), x, y);
   };
   const int from = first_center(major(a)), to = first_center(major(b));
-  // Pixels whose centers are between the end points are covered. The first pixel is also covered if the line starts in the far half of its
+  // Covers the pixels whose centers are between the end points. The first pixel is also covered if the line starts in the far half of its
   // diamond. The last pixel is not covered if the line ends in its diamond.
   int first = 0, end = 0;
   if (major(a) < major(b)) {

@@ -4,8 +4,8 @@
 // covered pixels.
 //
 // A line is x-major if |dx| ≥ |dy|, otherwise y-major. In each column (y-major: row), it covers the `width` pixels whose centers are within
-// width/2 of the line along the minor axis. The diamond-exit rule determines the columns. If a line or an end point is exactly between
-// pixels, both end points are treated as if moved by (−ε, −ε²), as in the specification.
+// width/2 of the line along the minor axis. The diamond-exit rule determines the columns. Both end points are treated as if moved by (−ε,
+// −ε²), as in the specification; this decides the cases in which the line or an end point is exactly between pixels.
 #pragma once
 
 #include <algorithm>

@@ -48,7 +48,7 @@ struct IndexRun {
   uint32_t first_index;      ///< position in the index list
 };
 
-/// Copy of the caller's shader, so that uniforms can be changed after draw(). The pass owns the memory; the deleter only calls the
+/// Copy of the caller's shader, which lets the caller change uniforms after draw(). The pass owns the memory; the deleter only calls the
 /// destructor.
 using KeptShader = std::unique_ptr<const void, void (*)(const void*)>;
 

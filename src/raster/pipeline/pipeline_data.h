@@ -26,9 +26,9 @@ namespace halfspace {
 inline constexpr int kSubPixelBits = 8;
 inline constexpr int kSubPixels = 1 << kSubPixelBits;
 
-/// Positions reach the rasterizer within ±16384 px (2^22 sub-pixels); primitives beyond are clipped. Edge vectors then have 24 bits with
-/// their sign and are exact in float, and edge functions fit in 48 bits. If an edge crosses a tile, its edge function in the tile, shifted
-/// right by kSubPixelBits, is below 64·2·2^23 = 2^30 and fits in int32.
+/// Positions reach the rasterizer within ±16384 px (2^22 sub-pixels); primitives that extend farther are clipped. Edge vectors then have 24
+/// bits including the sign and are exact in float, and edge functions fit in 48 bits. If an edge crosses a tile, its edge function in the
+/// tile, shifted right by kSubPixelBits, is below 64·2·2^23 = 2^30 and fits in int32.
 inline constexpr float kGuardBand = 16384.0f;
 
 /// Maximum tile size in pixels; larger tiles would exceed the bit budget above.
@@ -164,8 +164,8 @@ inline constexpr uint32_t kDrawRangeShift = 19;  ///< thirteen bits: index of th
 /// vertex are the same.
 ///
 /// For a line (kLine, with one sample per pixel), vertices 0 and 1 are the end points, the one with the smaller depth first. The third
-/// corner is perpendicular to the line at vertex 0. E1 is then the dot product with the line vector, and the area is its squared length, as
-/// needed for interpolation along the line. vertex[2] is the LineRange.
+/// vertex is offset from vertex 0 perpendicularly to the line. E1 is then the dot product with the line vector, and the area is its squared
+/// length, as needed for interpolation along the line. vertex[2] is the LineRange.
 struct Triangle {
   std::array<int32_t, 3> x, y;  ///< snapped, 24.8
   float z0;                     ///< depth at vertex 0, including polygon offset
@@ -242,7 +242,7 @@ inline constexpr TriangleId kNoTriangle = 0xffffffffu;
 inline constexpr uint32_t kMaxChunks = 0xffff;
 inline constexpr uint32_t kMaxTrianglesPerChunk = 0xffff;
 /// Maximum number of submitted primitives per chunk; each of them may have its own draw range. A chunk has at most 4369 filled triangles,
-/// because clipping can turn each into 15.
+/// because clipping can turn each of them into 15.
 inline constexpr uint32_t kMaxPrimitivesPerChunk = 1u << (32 - kDrawRangeShift);
 constexpr TriangleId triangle_id(uint32_t chunk, uint32_t triangle) { return chunk << 16 | triangle; }
 /// These return the two parts of an id other than kNoTriangle: the chunk, and the index into its triangles.

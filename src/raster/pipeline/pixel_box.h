@@ -20,12 +20,13 @@ HS_INLINE T max_of(const std::array<T, 3>& v) {
   return max(v[0], max(v[1], v[2]));
 }
 
-/// Returns the pixels that may have a sample in the bounding box of three corners. x and y are in 1/256 px. at_x and at_y are the ranges of
-/// sample positions within a pixel.
+/// Returns the pixels that may have a sample in the bounding box of three vertices. x and y are in 1/256 px. at_x and at_y are the ranges
+/// of sample positions within a pixel.
 template <class I>
 HS_INLINE PixelBox<I> pixel_box(const std::array<I, 3>& x, const std::array<I, 3>& y, const SampleSpan& at_x, const SampleSpan& at_y) {
   constexpr int32_t last = kSubPixels - 1;
-  // The first pixel with a sample at or after the smallest corner, and one past the last pixel with a sample at or before the largest one.
+  // `first` is the first pixel with a sample at or after the smallest vertex. `end` is one past the last pixel with a sample at or before
+  // the largest vertex.
   const auto first = [](const std::array<I, 3>& v, const SampleSpan& at) { return (min_of(v) + (last - at.high)) >> kSubPixelBits; };
   const auto end = [](const std::array<I, 3>& v, const SampleSpan& at) { return ((max_of(v) - at.low) >> kSubPixelBits) + 1; };
   return {first(x, at_x), first(y, at_y), end(x, at_x), end(y, at_y)};

@@ -30,7 +30,7 @@ struct CornerLanes {
   std::array<Int, 3> x, y;
 };
 
-/// Loads the corners of the triangle in each lane. triangle(k) returns a const Triangle* for lane k.
+/// Loads the vertex positions of the triangle in each lane. triangle(k) returns a const Triangle* for lane k.
 template <class F>
 HS_INLINE CornerLanes load_corners(const F& triangle) {
   static_assert(offsetof(Triangle, x) == 0 && offsetof(Triangle, y) == 3 * sizeof(int32_t));

@@ -54,7 +54,7 @@ HS_INLINE IntOf<R> outcode(const Viewport& v, const DepthState& depth, R x, R y,
   const R zero(0.0f);
   const MaskOf<R> finite = (x - x == zero) & (y - y == zero) & (z - z == zero) & (w - w == zero);
   const R z_low = depth.clip == ClipDepth::negative_one_to_one ? -w : zero;
-  // fma gives the exact sign of x − guard·w, which the clip stage also computes. If a vertex were inside here and outside there, one of two
+  // fma gives the exact sign of x − guard·w, which the clip stage also computes. If the two stages disagreed about a vertex, one of two
   // adjacent triangles would be clipped at the vertex and the other one would not.
   const MaskOf<R> inside_guard = (fma(w, R(-v.guard_left), x) >= zero) && (fma(w, R(-v.guard_right), x) <= zero) &&
                                  (fma(w, R(-v.guard_bottom), y) >= zero) && (fma(w, R(-v.guard_top), y) <= zero) && (w >= R(kMinW));

@@ -44,7 +44,7 @@ class TileRuns {
   std::vector<uint16_t> triangles_;
 };
 
-// Returns the half-open range of tiles that contains the pixels. T: PixelBounds, or a PixelBox of lanes.
+// Returns the half-open range of tiles that contains the pixels. T: PixelBounds, or a PixelBox with one box per lane.
 template <class T>
 T tiles_of(const PassContext& context, const T& pixels) {
   const int shift = std::countr_zero(static_cast<unsigned>(context.tile_size));

@@ -10,7 +10,7 @@ namespace halfspace {
 
 namespace {
 
-// Returns a value proportional to the distance of a corner from a plane, ≥ 0 on the inside. Planes are numbered in clipping order.
+// Returns a value proportional to the distance of a polygon vertex from a plane, ≥ 0 on the inside. Planes are numbered in clipping order.
 double plane_distance(int plane, const Viewport& v, const DepthState& depth, const ClipDistances& user, const ClipCorner& corner) {
   const glm::dvec4& p = corner.pos_clip;
   if (plane >= kFixedPlanes) {
@@ -29,9 +29,8 @@ double plane_distance(int plane, const Viewport& v, const DepthState& depth, con
   }
 }
 
-// Returns the intersection of an edge with a plane. If the distances are floats, their products with float coordinates are exact in
-// double. The coordinates of the corner then keep their relative accuracy even if they are much smaller than the coordinates of
-// the end points.
+// Returns the intersection of an edge with a plane. If the distances are floats, their products with float coordinates are exact in double.
+// The coordinates of the intersection then keep their relative accuracy even if they are much smaller than those of the end points.
 ClipCorner cut(const ClipCorner& inside, double d_in, const ClipCorner& outside, double d_out) {
   const double length = d_in - d_out;
   return {(d_in * outside.pos_clip - d_out * inside.pos_clip) / length, (d_in * outside.weights - d_out * inside.weights) / length};
@@ -137,7 +136,7 @@ ScreenVertex project_corner(const Viewport& v, const glm::dvec4& p) {
 void interpolate_corner(const ClipCorner& c, const std::array<double, 3>& w, const std::array<const float*, 3>& rows, int provoking,
                         std::span<const Interpolation> modes, float* out) {
   const glm::dvec3& smooth = c.weights;
-  // Linear in window space. The weight of a vertex is its clip-space weight times its w, divided by the w of the corner.
+  // Linear in window space. The weight of a vertex is its clip-space weight times its w, divided by the w of the polygon vertex.
   const glm::dvec3 linear = glm::dvec3(smooth.x * w[0], smooth.y * w[1], smooth.z * w[2]) / c.pos_clip.w;
   for (std::size_t i = 0; i < modes.size(); ++i) {
     if (modes[i] == Interpolation::flat) {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Clipping. Input: a triangle or line in clip space. Output: the part inside w > 0, the near and far planes, the guard band and the clip
-// distances, as a convex polygon. Each corner is a weighted sum of the three vertices. Most triangles are not clipped, because
-// the rasterizer limits triangles that only cross the sides of the view volume to the pixels of the target.
+// distances, as a convex polygon. Each vertex of the polygon (a "corner") is a weighted sum of the three vertices of the triangle. Most
+// triangles are not clipped, because the rasterizer limits triangles that only cross the sides of the view volume to the pixels of the
+// target.
 //
 // Uses the algorithm of Sutherland and Hodgman, "Reentrant polygon clipping" (CACM 17, 1974), in double precision. A new corner is always
 // computed from the inside end of its edge, and planes are processed in the same order for all triangles. Two triangles that share an edge
@@ -20,7 +21,7 @@ namespace halfspace {
 inline constexpr int kFixedPlanes = 7;
 inline constexpr int kClipPlanes = kFixedPlanes + 8;
 inline constexpr int kMaxCorners = 3 + 2 * kClipPlanes;
-/// Returns the maximum number of corners of a triangle that is clipped by the fixed planes and by `clip_distances` other planes.
+/// Returns the maximum number of corners of a triangle that is clipped by the fixed planes and by `clip_distances` additional planes.
 constexpr int max_corners(int clip_distances) { return 3 + 2 * (kFixedPlanes + clip_distances); }
 
 struct ClipCorner {
@@ -64,9 +65,9 @@ inline int64_t orient2d(const ScreenVertex& a, const ScreenVertex& b, const Scre
 
 /// Triangle fan of a clipped polygon.
 ///
-/// Snapping can bend a nearly straight corner inwards. A fan from the wrong corner would then contain triangles with the opposite winding,
+/// Snapping can make a nearly straight corner concave. A fan from the wrong corner would then contain triangles with the opposite winding,
 /// and some samples would be drawn twice. All triangles of a fan from `apex` have the same winding. If the outline of a sliver intersects
-/// itself, there is no such corner. Triangles with the opposite winding are then skipped; their samples are covered by the others.
+/// itself, no corner has this property. Triangles with the opposite winding are then skipped; their samples are covered by the others.
 struct Fan {
   uint32_t apex = 0;
   bool counter_clockwise = false;

@@ -9,8 +9,8 @@ namespace halfspace {
 
 namespace {
 
-// Returns the vertices of an unclipped triangle in submission order. Setup has reordered them to be counter-clockwise from the smallest
-// depth, and has stored the position of the provoking vertex.
+// Returns the vertices of an unclipped triangle in submission order. Setup has reordered them to be counter-clockwise, with the smallest
+// depth first, and has stored the position of the provoking vertex.
 std::array<uint32_t, 3> submitted_order(const Triangle& t, const DrawState& state) {
   const uint32_t provoking = state.provoking == ProvokingVertex::first ? 0 : 2;
   const bool kept_winding = t.is(kFrontFacing) == (state.front == Winding::counter_clockwise);
@@ -57,8 +57,8 @@ class DrawRangePrimitives {
 };
 
 // Calls f(primitive, slots of its vertices) for the triangles [range.first_triangle, end). Setup keeps the order of the primitives, but
-// drops some and splits others. Whether a primitive is dropped depends only on its vertices and their order. Therefore the next submitted
-// primitive with the vertices of a triangle is the one that it was created from.
+// drops some and splits others. Whether a primitive is dropped depends only on its vertices and their order. The source of a triangle is
+// therefore the next submitted primitive that has the same vertices.
 template <class F>
 void for_each_triangle(const PassContext& context, const Chunk& chunk, const DrawRange& range, uint32_t end, const F& f) {
   const DrawRangePrimitives primitives(context, chunk, range);

@@ -38,7 +38,7 @@ uint32_t add_corners(SetupRange& r, const ClipPolygon& polygon, const PrimitiveS
     float* const out = r.chunk.clip_varyings.data() + first_varying;
     interpolate_corner(c, w, varyings, static_cast<int>(r.provoking()), {r.draw.kernels.interpolations, n}, out);
     for (std::size_t k = 0; k < weights; ++k) out[n + k] = static_cast<float>(c.weights[static_cast<int>(k) + 1]);
-    // Corners that are vertices of the triangle have exactly the result of the vertex stage.
+    // Corners that are vertices of the triangle get exactly the result of the vertex stage.
     const bool is_new = c.vertex < 0;
     const ScreenVertex screen =
         is_new ? project_corner(r.draw.viewport, c.pos_clip) : r.shaded.screen[slots[static_cast<std::size_t>(c.vertex)]];

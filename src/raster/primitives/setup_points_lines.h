@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Setup of points and lines: those of point and line draws, and those of triangles with another polygon mode than fill. Output: elements of
+// Setup of points and lines: those of point and line draws, and those of triangles with a polygon mode other than fill. Output: elements of
 // Chunk::triangles.
 #pragma once
 
@@ -12,10 +12,10 @@ namespace halfspace {
 void set_up_points(SetupRange& range, uint32_t count);
 void set_up_lines(SetupRange& range, uint32_t count);
 
-/// Returns true if append_outline() gives the edges of the draw's unclipped triangles.
+/// Returns true if append_outline() can append the edges of the draw's unclipped triangles.
 bool can_append_outlines(const SetupRange& range);
-/// Sets up the edges of a triangle that need not be clipped. If all varyings are finite, the result is that of set_up_clipped(), which
-/// would copy the vertices.
+/// Sets up the edges of a triangle that needs no clipping. If all varyings are finite, the result is that of set_up_clipped(), which would
+/// copy the vertices.
 void append_outline(SetupRange& range, const PrimitiveSlots& slots);
 
 /// Appends a point. id: its vertex slot, or with kClipped in flags the index of its clip vertex.

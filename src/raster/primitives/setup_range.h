@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the files of setup share for one draw range: its input, and the functions that count culled primitives and note clipped ones.
+// Input of setup for one draw range, and the functions that count culled primitives and record the sources of clipped ones.
 #pragma once
 
 #include "halfspace/raster/pipeline/pass_context.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Coverage of small triangles. Setup uses it to find the pixels of a triangle and to cull triangles that cover no sample, which saves the
-// cost of binning and rasterizing them. Of the triangles with an area of half a pixel, more than half cover no sample.
+// cost of binning and rasterizing them. More than half of all triangles with an area of half a pixel cover no sample.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ namespace halfspace {
 inline constexpr int kCoverSide = 4;
 
 /// Returns the pixels of the box whose centers are covered by the triangle: bit kCoverSide·r + c is pixel c of row r. If the box has more
-/// than kCoverSide rows or columns, only the first kCoverSide are tested. R: float, or Real for one triangle per lane. x, y: corners in
+/// than kCoverSide rows or columns, only the first kCoverSide are tested. R: float, or Real for one triangle per lane. x, y: vertices in
 /// 1/256 px, counter-clockwise, with an extent of at most kSmallExtent.
 template <class R>
 HS_INLINE IntOf<R> covered_centers(const std::array<IntOf<R>, 3>& x, const std::array<IntOf<R>, 3>& y, const PixelBox<IntOf<R>>& box) {

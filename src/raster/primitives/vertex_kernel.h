@@ -39,7 +39,7 @@ template <std::size_t N>
 HS_INLINE void store_varyings(const std::array<Real, N>& components, float* const (&row)[kLanes], int count) {
   if constexpr (N >= 4) {
     alignas(64) std::array<float, 4> spare;
-    // The last group of four may overlap the previous one.
+    // The last group of four components may overlap the previous one.
     for (std::size_t c = 0; c < N; c += 4) {
       const std::size_t first = std::min(c, N - 4);
       store_aos4<Int>(

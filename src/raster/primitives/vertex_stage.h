@@ -11,8 +11,8 @@ namespace halfspace {
 /// Returns the transform from clip space to window coordinates. The viewport is in pixels.
 Viewport make_viewport(const Rect& viewport, const DepthState& depth);
 
-/// Shades vertices [begin, end) in the list of vertices that the draw's indices use, with one instance after the other. Returns the union
-/// of their outcodes.
+/// Shades vertices [begin, end) of the list of vertices that the draw's indices use; the list contains the instances one after the other.
+/// Returns the union of the outcodes.
 Outcode shade_vertices(const Draw& draw, std::size_t begin, std::size_t end, ShadedVertices& out);
 
 /// Allocates memory for all vertices that the draw uses.

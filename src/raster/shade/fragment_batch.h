@@ -14,7 +14,7 @@
 
 namespace halfspace {
 
-/// Colors of a batch, and keep masks and depths if the shader returns them.
+/// Batch colors, plus the keep masks and depths if the shader returns them.
 struct FragmentOutput {
   // Each array has one element more than a batch can fill, because unpack() reads past the last pixel.
   alignas(64) std::array<PacketColor, kPacketBatch * kMaxColorTargets + 1> color;  ///< see packet_color()
@@ -24,7 +24,7 @@ struct FragmentOutput {
   /// Returns color n of packet i.
   PacketColor& packet_color(std::size_t n, std::size_t i) { return color[n * kPacketBatch + i]; }
   const PacketColor& packet_color(std::size_t n, std::size_t i) const { return color[n * kPacketBatch + i]; }
-  /// Returns component c of color n of all packets. Batches with `pixels` use the memory of the colors in this order.
+  /// Returns component c of color n of all packets. Batches with `pixels` store the memory of the colors in this order.
   float* color_plane(std::size_t n, std::size_t c) { return reinterpret_cast<float*>(color.data()) + plane_offset(n, c); }
   const float* color_plane(std::size_t n, std::size_t c) const { return reinterpret_cast<const float*>(color.data()) + plane_offset(n, c); }
 

@@ -223,7 +223,7 @@ HS_INLINE void decide_pair(const S& s, const VisibilityBatch& batch, int a, int 
   batch.keep[b] = static_cast<uint16_t>(bits(v.keep.high));
 }
 
-/// The visibility kernel for packed pixels. The other one is faster if it does not contain this code.
+/// The visibility kernel for packed pixels. It is separate, because the other one is faster without this code.
 template <class S>
 __attribute__((noinline)) HS_FLATTEN void packed_visibility_kernel(const S& s, const VisibilityBatch& batch) {
   PacketTriangles<kComponents<typename S::template Varyings<FragmentReal>>, 0> triangles;

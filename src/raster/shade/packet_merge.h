@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Triangle data for packets. A packet can show one triangle, several, or a different one in each lane. The values of all triangles are
-// merged or gathered into the lanes that show them, so that the shader runs only once.
+// Triangle data for packets. The pixels of a packet can belong to one triangle, to several, or to a different one in each lane. The values
+// of all triangles are merged or gathered into the lanes that show them, so that the shader runs only once.
 #pragma once
 
 #include <algorithm>

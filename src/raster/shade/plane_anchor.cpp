@@ -25,7 +25,7 @@ Span part_in_cell(int64_t low, int64_t high, int cell) {
   return {std::max(low, begin), std::min(high, begin + PlaneCell::kSize * kSubPixels)};
 }
 
-// The bound of the error, divided by u·M, minus 2; see the header.
+// The error bound divided by u·M, minus 2; see the header.
 double corner_error(double b, double b_x, double b_y, const Span& x, const Span& y) {
   return std::fabs(1.0 - 2.0 * b) + 2.0 * std::fabs(b_x) * static_cast<double>(x.reach()) +
          4.0 * std::fabs(b_y) * static_cast<double>(y.reach());

@@ -27,7 +27,7 @@ void trace_visible(TriangleId uniform, std::span<const PacketMask> packets, cons
     trace.set_visible(uniform, tile, packets[i].packet, packets[i].lanes, out.packet_color(0, i));
 }
 
-// Returns the pixels to which the kernel of a draw can write directly, or null. A trace needs the colors that the kernel returns otherwise.
+// Returns the pixels that the kernel of a draw can write directly, or null. A trace needs the colors, so the kernel returns them instead.
 template <class Statistics>
 int32_t* direct_codes(const Draw& draw, Tile& tile) {
   const bool is_single =
@@ -183,7 +183,7 @@ class DrawShading {
 template <class Statistics>
 void run_job(const PassContext& context, Tile& tile, const Job& job, std::span<ShadingWork> work, DeferredShading& memory,
              Statistics& statistics) {
-  constexpr int max_passes = 8;  // over the work of a tile with many draws, before it is sorted
+  constexpr int max_passes = 8;  // over the work list of a tile with many draws, before the list is sorted
   const auto by_draw = [](const ShadingWork& a, const ShadingWork& b) { return a.draw < b.draw; };
   bool is_sorted = std::ranges::is_sorted(work, by_draw);
   for (int pass = 0; !work.empty(); ++pass) {

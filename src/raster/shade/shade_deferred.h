@@ -24,7 +24,7 @@ struct DeferredShading {
 template <class Statistics>
 void shade_deferred(const PassContext& context, Tile& tile, DeferredShading& memory, Statistics& statistics);
 
-/// The same for a full-size tile in which all pixels show one triangle.
+/// The same for a full-size tile in which all pixels show the same triangle.
 template <class Statistics>
 void shade_full_tile(const PassContext& context, TriangleId id, Tile& tile, DeferredShading& memory, Statistics& statistics);
 

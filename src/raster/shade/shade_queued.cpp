@@ -54,8 +54,8 @@ void finish_sample_batch(const Shading& c, PacketQueue& queue, std::size_t begin
   if (!c.draw.state.order_independent) write_queued(c, std::span(packets).first(n), &queue.ids[begin]);
 }
 
-// Runs the late tests of packets that were shaded as packets 0, 1, ... of the output, and writes them. begin: number of the first in the
-// queue.
+// Runs the late tests of packets that were shaded as packets 0, 1, ... of the output, and writes them. begin: position of the first packet
+// in the queue.
 template <class Shading>
 void finish_batch(const Shading& c, PacketQueue& queue, std::size_t begin, std::size_t n) {
   if (c.tile.samples > 1) {
@@ -68,7 +68,7 @@ void finish_batch(const Shading& c, PacketQueue& queue, std::size_t begin, std::
   if (!c.draw.state.order_independent) write_queued(c, {packets, n}, &queue.ids[begin]);
 }
 
-// Records that packet i of the output was shaded, which is packet k of the queue.
+// Records that packet k of the queue was shaded as packet i of the output.
 template <class Shading>
 void trace_queued(const Shading& c, const PacketQueue& queue, std::size_t k, std::size_t i) {
   if (c.tile.samples == 1) return trace_shaded(c, c.output, i, queue.packets[k], queue.ids[k]);
@@ -107,7 +107,7 @@ std::size_t shade_batch(const Shading& c, PacketQueue& queue, std::size_t begin)
   return n;
 }
 
-// The same, but moves the pixels together first.
+// The same, but packs the pixels first.
 template <class Shading>
 std::size_t shade_packed(const Shading& c, PacketQueue& queue, std::size_t begin, PackedFragments& packed) {
   const std::span<const PacketMask> packets(&queue.packets[begin], static_cast<std::size_t>(queue.count) - begin);

@@ -10,8 +10,8 @@ namespace halfspace {
 
 namespace {
 
-// Returns the triangle that is used for interpolation on a point sprite, with the depth and w of the point at all corners. The point
-// coordinate s increases from 0 to 1 between the first and second corner, t between the first and third.
+// Returns the triangle that is used for interpolation on a point sprite, with the depth and w of the point at all vertices. The point
+// coordinate s increases from 0 to 1 between the first and second vertex, t between the first and third.
 std::array<ScreenVertex, 3> point_sprite_corners(const Triangle& t, const ScreenVertex& point, PointOrigin origin) {
   const int32_t x0 = t.x[0], x1 = t.x[1] + 1;
   const bool upper = origin == PointOrigin::upper_left;
@@ -37,7 +37,7 @@ void find_slow_vertices(const PassContext& context, const Chunk& chunk, const Dr
     s.corners = point_sprite_corners(t, *s.vertex[0], draw.state.point_origin);
     for (std::size_t i = 0; i < 3; ++i) s.vertex[i] = &s.corners[i];
   }
-  if (t.is(kLine)) {  // the third corner is next to the first and has the same values
+  if (t.is(kLine)) {  // the third vertex is next to the first and has the same values
     s.corners[2] = {t.x[2], t.y[2], s.vertex[0]->z, s.vertex[0]->inv_w};
     s.vertex[2] = &s.corners[2];
     s.varyings[2] = s.varyings[0];
@@ -139,7 +139,7 @@ void load_vertex(const ShadedVertices& shaded, Int row, std::size_t k, VertexLan
   out.inv_w[k] = as_real(words[3]);
 }
 
-// Replaces the vertices by the corners of points; see point_sprite_corners(). triangle(lane): the point.
+// Replaces the vertices with those of point sprites; see point_sprite_corners(). triangle(lane): the point.
 template <class F>
 void set_point_corners(const F& triangle, PointOrigin origin, VertexLanes& v) {
   const auto [x, y] = load_corners(triangle);
@@ -150,7 +150,7 @@ void set_point_corners(const F& triangle, PointOrigin origin, VertexLanes& v) {
   v.inv_w[1] = v.inv_w[2] = v.inv_w[0];
 }
 
-// Sets the third corner of lines, which is next to the first one. triangle(lane): the line.
+// Sets the third vertex of lines, which is next to the first one. triangle(lane): the line.
 template <class F>
 void set_line_corner(const F& triangle, VertexLanes& v) {
   const auto [x, y] = load_corners(triangle);

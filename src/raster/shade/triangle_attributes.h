@@ -15,7 +15,7 @@ namespace halfspace {
 struct TriangleSource {
   const Triangle* triangle;
   std::array<const ScreenVertex*, 3> vertex;
-  std::array<ScreenVertex, 3> corners;  ///< for points and lines: the elements of vertex point here
+  std::array<ScreenVertex, 3> corners;  ///< for points and lines: `vertex` points to these
   std::array<const float*, 3> varyings;
   const float* flat_varyings;  ///< row of the provoking vertex
   const float* primitive;      ///< row of the primitive stage, or null
@@ -51,7 +51,7 @@ struct PacketTriangleIds {
   uint32_t lanes;
 };
 /// Returns the depth of a packet's pixels. x and y are window coordinates in pixels. The depth differs from the value used in the depth
-/// test by at most one ulp. The attribute lets the compiler drop calls whose result a shader does not use.
+/// test by at most one ulp. The attribute allows the compiler to drop calls whose result a shader does not use.
 __attribute__((pure)) Real packet_depth(Real x, Real y, const PacketTriangleIds& ids) noexcept;
 
 namespace detail {
@@ -84,7 +84,7 @@ struct TriangleScalars {
 /// Returns the weights of the submitted vertices 1 and 2 at vertex i of the triangle. varyings: number of varyings of a vertex.
 HS_INLINE std::array<float, 2> submitted_weights(const TriangleSource& s, std::size_t i, std::size_t varyings) {
   if (s.triangle->is(kClipped)) return {s.varyings[i][varyings], s.varyings[i][varyings + 1]};
-  if (s.triangle->is(kLine) && i == 2) i = 0;  // this corner has the values of the first
+  if (s.triangle->is(kLine) && i == 2) i = 0;  // this vertex has the values of the first
   const auto is_at = [&](IdRow slot) { return std::bit_cast<uint32_t>(s.primitive[slot]) == s.triangle->vertex[i] ? 1.0f : 0.0f; };
   return {is_at(kIdSecond), is_at(kIdThird)};
 }
@@ -131,7 +131,7 @@ HS_INLINE TriangleScalars<N, with_id> triangle_scalars(const TriangleSource& s) 
   return r;
 }
 
-/// Replaces the interpolation data by planes. Triangles with the same 1/w at all corners keep the order of their vertices.
+/// Replaces the interpolation data with planes. Triangles with the same 1/w at all vertices keep the order of their vertices.
 template <class V, bool with_id, std::size_t N>
 void use_planes(const TriangleSource& s, const PlaneAnchor& anchor, TriangleScalars<N, with_id>& r) {
   r.planar = true;

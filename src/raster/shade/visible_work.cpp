@@ -22,7 +22,7 @@ class WorkWriter {
         only_draw_(context.draws.size() == 1 && !context.draws[0].shades_samples && share == Share::per_pixel ? context.draws.data()
                                                                                                               : nullptr) {}
 
-  // Lists the pixels of a packet by draw. ids: their triangles.
+  // Lists the pixels of a packet by draw. ids: the triangle of each pixel.
   HS_INLINE void add(int packet, const TriangleId* ids) {
     const Int packet_ids = load<Int>(ids);
     uint32_t rest = bits(packet_ids != Int(kNoneInLane));
@@ -55,7 +55,7 @@ class WorkWriter {
   std::size_t count_ = 0;
 };
 
-// Returns the lanes whose triangle is shaded per pixel. lanes: those that show a triangle.
+// Returns the lanes whose triangle is shaded per pixel. lanes: the lanes that show a triangle.
 uint32_t shaded_per_pixel(const PassContext& context, const TriangleId* ids, uint32_t lanes) {
   const Int packet_ids = load<Int>(ids);
   uint32_t result = 0;
@@ -89,7 +89,7 @@ class PacketSamples {
     return !may_shade_samples_ || shaded_per_pixel(context_, at_[0], shown) == shown;
   }
 
-  // Selects one triangle of each pixel that was not selected before, in the order of the samples.
+  // Selects, for each pixel, one triangle that was not selected before, in the order of the samples.
   Int next() {
     Int layer(kNoneInLane);
     for (std::size_t s = 0; s < samples_; ++s) {

@@ -17,7 +17,7 @@ struct ShadingWork {
 
 using ShadingWorkList = std::array<ShadingWork, kMaxTilePixels>;
 
-/// Selects the pending pixels to shade, by whether their draw is shaded per pixel or per sample.
+/// Selects which pending pixels to list: those whose draw is shaded per pixel, or those whose draw is shaded per sample.
 enum class Share : uint8_t { per_pixel, per_sample };
 
 /// Lists the visible pixels of one sample plane by packet. A packet that shows several draws has an entry for each. ids: triangle of each
@@ -34,7 +34,7 @@ bool may_shade_samples(const PassContext& context);
 std::span<ShadingWork> list_layers(const PassContext& context, const Tile& tile, std::array<TriangleId, kMaxTilePixels>& layers,
                                    ShadingWorkList& work);
 
-/// Moves the packets of the first draw of `work` to `packets` and returns their number. `work` becomes the other entries, in their order.
+/// Moves the packets of the first draw of `work` to `packets` and returns their number. `work` keeps the other entries, in their order.
 std::size_t take_draw(std::span<ShadingWork>& work, std::span<PacketMask> packets);
 /// The same for work that is sorted by draw.
 std::size_t take_sorted_draw(std::span<ShadingWork>& work, std::span<PacketMask> packets);

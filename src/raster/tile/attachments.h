@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Attachments of a pass, and the buffers that hold their values if the bins are flushed before the end of the pass.
+// Attachments of a pass, and the buffers that hold their contents if the bins are flushed before the end of the pass.
 #pragma once
 
 #include <vector>

@@ -16,8 +16,8 @@ PacketColor read_color(const ColorBuffer& buffer, int packet);
 /// The same for several packets. out has one element for each.
 void read_batch(const ColorBuffer& buffer, std::span<const PacketMask> packets, PacketColor* out);
 
-/// Writes the channels of src that the state enables to the lanes in mask. Colors are blended with the existing ones if the state has a
-/// BlendState; otherwise they replace them. src1 is the second color for dual source blending; it is only read by src1 factors.
+/// Writes the channels of src that the state enables to the lanes in mask. If the state has a BlendState, colors are blended with the
+/// existing ones; otherwise they replace them. src1 is the second color for dual-source blending; only src1 factors read it.
 void write_color(ColorBuffer& buffer, int packet, Mask mask, const PacketColor& src, const PacketColor& src1, const AttachmentState& state);
 
 /// The same for several packets. src and src1 have one element for each.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Blend functions that are specialized for a format and, for common blend states, also for the state. They return the same bits as the
-// general code in blend.cpp.
+// Blend functions that are specialized for a format and, for common blend states, also for the state. Their results are bit-identical to
+// those of the general code in blend.cpp.
 #pragma once
 
 #include <span>

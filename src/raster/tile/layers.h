@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Transparent layers of a tile, for draws with DrawState::order_independent. Fragments are kept, sorted by depth, and blended when all of
+// Transparent layers of a tile, for draws with DrawState::order_independent. Fragments are kept, sorted by depth, and blended once all of
 // them are known. Input: shaded packets and their depth. Output: the tile's color buffers.
 #pragma once
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Resolve. Input: the colors of a multisampled tile. Output: the mean of all samples of a pixel, in linear light, as sample 0.
+// Resolve. Input: the colors of a multisampled tile. Output: the mean of all samples of each pixel, in linear light, stored in sample 0.
 #pragma once
 
 #include "halfspace/raster/tile/blend.h"

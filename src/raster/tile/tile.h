@@ -60,7 +60,7 @@ HS_INLINE I pixel_at(I x, I y) {
   return (((y >> 3 << 3) | (x >> 3)) << 6) | spread(x) | (spread(y) << 1);
 }
 
-/// Returns the distance in packets between sample 0 and the sample stored at a sample plane.
+/// Returns the distance in packets between sample 0 and the sample that is stored in a sample plane.
 constexpr int packet_shift(const SamplePlane& plane) {
   return (plane.y / kBlockSize * kBlocksPerRow + plane.x / kBlockSize) * kPacketsPerBlock;
 }
@@ -103,7 +103,7 @@ struct Tile {
   DepthFormat depth_format = DepthFormat::none;  ///< without stencil
   bool has_stencil = false;
 
-  /// Depth as represented by the format: the depth itself for d32f, the integer code for d16 and d24 (exact in float).
+  /// Depth as represented by the format: the depth itself for d32f, the integer value for d16 and d24 (exact in float).
   alignas(64) std::array<float, kMaxTilePixels> depth;
   /// For pixels that are not shaded yet: the visible triangle. Otherwise kNoTriangle.
   alignas(64) std::array<TriangleId, kMaxTilePixels> visibility;

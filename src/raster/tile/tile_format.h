@@ -15,7 +15,7 @@ namespace halfspace {
 
 constexpr bool is_fixed_point(ColorFormat f) { return f == ColorFormat::rgba8 || f == ColorFormat::srgb8a8; }
 
-/// Returns the number of 32-bit channels of formats that have less than four, otherwise 0.
+/// Returns the number of 32-bit channels for formats with fewer than four, otherwise 0.
 constexpr int narrow_channels(ColorFormat f) {
   if (f == ColorFormat::rgb32f) return 3;
   if (f == ColorFormat::rg32f) return 2;
@@ -67,7 +67,7 @@ HS_INLINE void store_halves(uint16_t* p, I h, M mask) {
   }
 }
 
-/// Returns the 8-bit codes of the four channels in one word, with red in the lowest byte.
+/// Returns the 8-bit values of the four channels in one word, with red in the lowest byte.
 template <ColorFormat format>
 HS_INLINE Int packed_codes(const PacketColor& c) {
   return encode8(format, c[0], false) | encode8(format, c[1], false) << 8 | encode8(format, c[2], false) << 16 |
@@ -97,9 +97,9 @@ void fill_buffer(ColorBuffer& buffer, const PacketColor& color);
 
 // ---- depth -----------------------------------------------------------------------------------------------------
 
-/// Returns a depth in [0, 1] as represented by the format (see Tile::depth). unorm codes are rounded to nearest with a single rounding. The
-/// sum of a code below 2^23 and 2^23 has no fraction bits, so the rounding of the fma produces an integer. For larger codes, the rounding
-/// of the product does the same.
+/// Returns a depth in [0, 1] as represented by the format (see Tile::depth). unorm values are rounded to nearest, once. The sum of 2^23 and
+/// a value below 2^23 has no fraction bits, so the rounding of the fma produces an integer. For larger values, rounding the product has the
+/// same effect.
 template <Number R>
 HS_INLINE R depth_value(DepthFormat format, R z) {
   const R two_to_23(0x1p23f);

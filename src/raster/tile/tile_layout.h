@@ -81,7 +81,7 @@ struct ImageLayout {
   ImageSamples stored;
 };
 
-// Images of at least this size are larger than the L2 cache. They are written with streaming stores, which bypass the cache and do not read
+// Images of at least this size do not fit in the L2 cache. They are written with streaming stores, which bypass the cache and do not read
 // each line first.
 inline constexpr std::size_t kStreamBytes = std::size_t{4} << 20;
 

@@ -22,7 +22,7 @@ void load_planes(const std::byte* data, const ImageLayout& place, const Tile& ti
   });
 }
 
-// Loads a quad of pixels with four 16-bit channels: two pixels of each row, adjacent in the tile.
+// Loads a quad of pixels with four 16-bit channels: two pixels of each row, which are adjacent in the tile.
 HS_INLINE void split_quad(const uint16_t* row0, const uint16_t* row1, uint16_t* to) {
   const __m128i a = load<__m128i>(row0), b = load<__m128i>(row1);
   const __m128i even = _mm_unpacklo_epi16(a, b), odd = _mm_unpackhi_epi16(a, b);  // r0 r2 g0 g2 …, r1 r3 g1 g3 …

@@ -28,7 +28,7 @@ enum class FragmentOutcome : uint8_t {
 };
 inline constexpr std::size_t kFragmentOutcomes = 11;
 
-/// A fragment, with the values that the pipeline computed for it. Depths are window depths, or integer codes for d16 and d24.
+/// A fragment, with the values that the pipeline computed for it. Depths are window depths, or integer values for d16 and d24.
 struct TracedFragment {
   uint32_t id = 0;         ///< TriangleId, valid within its round
   uint32_t draw = 0;       ///< index of the draw, in the order of the Pass::draw() calls

@@ -14,7 +14,7 @@ namespace halfspace {
 /// Returns true if a draw has centroid varyings whose positions must be computed: if its shader runs once for several samples.
 inline bool needs_centroids(const Draw& draw, int samples) { return draw.kernels.uses_centroid && samples > 1 && !draw.shades_samples; }
 
-/// Computes the centroid positions of the packets of a batch, W for each, and returns out.data(). Pixels without a triangle get their
+/// Computes the centroid positions of the packets of a batch, W for each, and returns out.data(). Pixels without a triangle get the pixel
 /// center. The batch must not be packed.
 const SamplePosition* find_centroids(const PacketBatch& batch, std::span<SamplePosition> out);
 

@@ -20,8 +20,8 @@ inline DepthBounds depth_bounds(const Triangle& t, const Draw& draw, DepthFormat
   return {depth_value(format, std::clamp(t.z0, draw.depth_low, high)), depth_value(format, high)};
 }
 
-/// Bounds of a triangle's depth in rectangles of a tile. They are much tighter than those of the whole triangle if the triangle is large
-/// and seen at an angle.
+/// Bounds of a triangle's depth in rectangles of a tile. If the triangle is large and seen at an angle, these bounds are much tighter than
+/// those of the whole triangle.
 class DepthInTile {
  public:
   DepthInTile(const Triangle& t, const Draw& draw, const SampleGrid& grid, DepthFormat format)
@@ -37,8 +37,8 @@ class DepthInTile {
     z_ = z0 + by_x * x + by_y * y;
     step_x_ = by_x * kSubPixels;
     step_y_ = by_y * kSubPixels;
-    // The first term is four times the rounding error of DepthPlane, whose terms are not negative in covered pixels. The second term is
-    // more than the rounding error of this class in any pixel of the tile.
+    // The first term is four times the rounding error of DepthPlane, whose terms are not negative in covered pixels. The second term
+    // exceeds the rounding error of this class in any pixel of the tile.
     const double reach = kMaxTileSize * kSubPixels;
     const double terms = (std::abs(e2y) * z1 + std::abs(e1y) * z2) * (std::abs(x) + reach) +
                          (std::abs(e1x) * z2 + std::abs(e2x) * z1) * (std::abs(y) + reach);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Triangles that cover a complete tile. Such a triangle hides all previous ones, so it is not written until something else is drawn in the
-// tile. Triangles behind it then only cost a depth test, in any drawing order.
+// tile. Triangles behind it then cost only a depth test, in any drawing order.
 #pragma once
 
 #include <algorithm>
@@ -17,9 +17,9 @@ namespace halfspace {
 /// its depth is pending.
 class FullTileOccluder {
  public:
-  /// Processes the next triangle of the tile, which is `index` of chunk `chunk`. Returns true if nothing remains to be done, because the
-  /// triangle passes everywhere and has become the pending occluder, or because it passes nowhere. Otherwise, the triangle must be
-  /// rasterized, and any pending occluder has been written.
+  /// Processes the next triangle of the tile, which is `index` of chunk `chunk`. Returns true if nothing remains to be done: either the
+  /// triangle passes everywhere and has become the pending occluder, or it passes nowhere. Otherwise, the triangle must be rasterized, and
+  /// any pending occluder has been written.
   template <class Statistics>
   bool draw(const DrawInTile& d, uint32_t chunk, uint32_t index, Statistics& statistics) {
     const Triangle& t = d.context.chunks[chunk].triangles[index];

@@ -21,7 +21,7 @@ inline bool lists_undecided(const DrawInTile& d) {
 }
 
 /// Queues the packets of a draw. In VisibilityMode::early, depth is tested and written before a packet is queued. In all other modes, depth
-/// is tested after the shader. Lanes that already fail the test are dropped if they cannot pass it later. In a multisampled tile, begin()
+/// is tested after the shader; lanes that already fail the test are dropped if they cannot pass it later. In a multisampled tile, begin()
 /// and begin_sample() must be called before the packets of each sample of a triangle. undecided: compiled for draws with lists_undecided().
 template <class S, bool multisampled, bool undecided = false>
 class ListWriter {

@@ -10,7 +10,7 @@ namespace halfspace {
 
 namespace {
 
-// Returns the number of packets at the start of the list whose pixels fit. Sets `pixels` to the number of their pixels.
+// Returns how many packets at the start of the list have pixels that fit. Sets `pixels` to the number of these pixels.
 std::size_t packets_that_fit(std::span<const PacketMask> packets, std::size_t& pixels) {
   pixels = 0;
   std::size_t n = 0;

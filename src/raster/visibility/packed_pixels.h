@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Moves the pixels of sparsely covered packets together, so that the shader runs on full packets. A small triangle covers only a part of
-// the pixels of its packets: about half of 8 lanes for triangles of 30 pixels. Values do not depend on the lane in which they are computed,
-// so the image is the same.
+// Moves the pixels of sparsely covered packets together, so that the shader runs on full packets. A small triangle covers only some of the
+// pixels of its packets: with 8 lanes, a triangle of 30 pixels covers about half of them. Results do not depend on the lane in which they
+// are computed, so the image is the same.
 #pragma once
 
 #include <span>
@@ -18,7 +18,7 @@ struct PackedPixels {
   static constexpr std::size_t kCapacity = kPacketBatch * kLanes;
 
   std::size_t count = 0;
-  std::array<PacketMask, kPacketBatch> packets;                ///< full ones, except for the last
+  std::array<PacketMask, kPacketBatch> packets;                ///< all are full, except for the last
   alignas(64) std::array<int32_t, kCapacity + kLanes> pixels;  ///< see PacketBatch::pixels
   alignas(64) std::array<TriangleId, kCapacity + kLanes> ids;  ///< of each pixel
 
@@ -27,15 +27,15 @@ struct PackedPixels {
   PacketBatch batch(const PassContext& context, const Tile& tile) const;
 };
 
-/// Returns true if the pixels of a draw can be packed: false for draws with a constant shader, and if the kernels need the positions of
-/// centroid varyings.
+/// Returns true if the pixels of a draw can be packed. Returns false for draws with a constant shader, and if the kernels need the
+/// positions of centroid varyings.
 bool can_pack(const Draw& draw, const Tile& tile);
 
 /// Returns true if packing saves at least a quarter of the packets.
 bool pays_to_pack(std::span<const PacketMask> packets);
 
-/// Returns true if the packets of a queue should be packed. False for points: a queue lists each of the overlapping points in packets of
-/// its own, so no values are gathered.
+/// Returns true if the packets of a queue should be packed. Returns false for points: a queue lists overlapping points in separate packets,
+/// so no values are gathered.
 bool packs_queue(const Draw& draw, const Tile& tile, std::span<const PacketMask> packets);
 
 /// Packs the pixels of as many packets as fit, from the start of the list. ids: the triangle of each packet. Returns the number of these
@@ -45,8 +45,8 @@ std::size_t pack(std::span<const PacketMask> packets, const TriangleId* ids, Pac
 /// The same for packets of visible pixels. ids: the triangle of each pixel of the tile's storage; tile_size: Tile::size.
 std::size_t pack_visible(std::span<const PacketMask> packets, const TriangleId* ids, int tile_size, PackedPixels& out);
 
-/// Returns the keep mask of a packet with the given lanes, from those of packed ones. first: number of the first pixel of the packet. Reads
-/// one element after the last packed packet.
+/// Returns the keep mask of a packet with the given lanes, from the masks of packed ones. first: number of the first pixel of the packet.
+/// Reads one element after the last packed packet.
 uint16_t unpack_keep(const uint16_t* packed, std::size_t first, uint32_t lanes);
 
 /// The same for floats, such as depths. Reads W of them.

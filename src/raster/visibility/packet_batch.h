@@ -9,7 +9,7 @@ namespace halfspace {
 
 struct PassContext;
 
-/// Maximum number of packets per call of a kernel, unless stated otherwise. Even, because packets are shaded in pairs.
+/// Maximum number of packets per call of a kernel, unless stated otherwise. It is even, because packets are shaded in pairs.
 inline constexpr int kPacketBatch = 16;
 
 /// Packets of one draw.
@@ -30,7 +30,8 @@ struct PacketBatch {
 /// Packets for a shader's visibility function.
 struct VisibilityBatch : PacketBatch {
   uint16_t* keep;  ///< receives the lanes that the shader keeps, one bit per lane, for each packet
-  /// Receives the depth, if the shader writes it. px.z() has the same value as in the fragment function, so both functions return the same.
+  /// Receives the depth, if the shader writes it. px.z() has the same value as in the fragment function, so both functions return the same
+  /// depth.
   Real* depth;
 };
 

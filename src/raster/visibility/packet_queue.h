@@ -12,7 +12,8 @@ namespace halfspace {
 /// as in the sample plane of sample 0, and each has the lanes and depths of all samples.
 struct PacketQueue {
   /// If the queue contains at least this many packets, it must be shaded before a triangle is added. The arrays have room for the packets
-  /// of one more triangle and for one element after the last one. A multisampled triangle has at most kPackets samples of packets.
+  /// of one more triangle and for one element after the last one. Summed over its samples, a multisampled triangle has at most kPackets
+  /// packets.
   static constexpr int kShadeAt = 64;
   static constexpr std::size_t kCapacity = kShadeAt + kPackets + 1;
   static constexpr std::size_t kDepthCapacity = kShadeAt * kMaxSamples + kPackets + 1;

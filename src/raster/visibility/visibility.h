@@ -41,12 +41,12 @@ constexpr bool shades_later(VisibilityMode mode) { return mode == VisibilityMode
 /// Returns the mode for a draw. Depth is tested before shading where this does not change the result (OpenGL 4.6, section 15.2.4).
 VisibilityMode visibility_mode(const Draw& draw);
 
-/// The function that rasterizes the triangles of a draw in a tile.
+/// The functions that rasterize the triangles of a draw in a tile, by what determines visibility.
 enum class Rasterizer : uint8_t {
-  opaque,   ///< only coverage and depth determine visibility: rasterize_opaque()
-  stencil,  ///< coverage, depth and the stencil test do, with one sample per pixel: rasterize_small_with_stencil() or rasterize()
-  queued,   ///< the shader does, which runs per pixel, without a stencil test: rasterize_queued()
-  general   ///< all others: rasterize()
+  opaque,   ///< only coverage and depth: rasterize_opaque()
+  stencil,  ///< coverage, depth and the stencil test, with one sample per pixel: rasterize_small_with_stencil() or rasterize()
+  queued,   ///< the shader, which runs per pixel, without a stencil test: rasterize_queued()
+  general   ///< all other draws: rasterize()
 };
 
 /// Returns the rasterizer for a draw with the given mode.
@@ -68,7 +68,7 @@ struct DrawInTile {
   bool fetches_vertices;          ///< prefetch vertices: they belong to points, or are shared by several triangles
 };
 
-// Statistics is PassStatistics, or TracedStatistics to trace fragments (raster/trace/tile_trace.h).
+// Statistics is PassStatistics, or TracedStatistics, which traces fragments (raster/trace/tile_trace.h).
 
 /// Rasterizes triangle `index` of chunk `chunk` in the tile (visibility_general.cpp). For Rasterizer::stencil and general. list may only be
 /// null if shades_later(d.mode).

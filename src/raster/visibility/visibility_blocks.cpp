@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Visibility of draws where only coverage and depth determine visibility, and of queued draws. The results are the same as with
+// Visibility of draws where only coverage and depth determine visibility, and of queued draws. The results are the same as those of
 // visibility_general.cpp, which supports all draws. Most small triangles are drawn by visibility_small.cpp and visibility_samples.cpp.
 #include <algorithm>
 
@@ -14,7 +14,7 @@ namespace halfspace {
 
 namespace {
 
-// Sets the bounds of a block after all its depth values were replaced by values within them.
+// Sets the bounds of a block after all its depth values were replaced with values within these bounds.
 void set_hiz(Tile& tile, int block, const DepthBounds& depth) {
   const auto b = static_cast<std::size_t>(block);
   tile.hiz_min[b] = depth.low;
@@ -50,7 +50,7 @@ class BlockPackets {
   // Writes the covered packets of any other block. passes: the depth test passes everywhere.
   void write_some(int block, int x, int y, bool is_cut, bool passes) {
     const std::array<Int, 3> corner{edges_.values(0, x, y), edges_.values(1, x, y), edges_.values(2, x, y)};
-    // The result is nearly random and would often be mispredicted, so the code has no branch for it.
+    // The outcome is nearly random and a branch would often be mispredicted, so the code has none.
     std::size_t listed = 0;
     for (int p = 0; p < kPacketsPerBlock; ++p) {
       const std::array<int32_t, 3>& step = step_[static_cast<std::size_t>(p)];

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The general rasterizer, for draws that none of the faster ones serves: visits the packets that a triangle covers, tests each, and writes
-// or lists the samples that pass.
+// The general rasterizer, for draws that none of the faster ones supports: visits the packets that a triangle covers, tests each, and
+// writes or lists the samples that pass.
 #include <algorithm>
 #include <bit>
 

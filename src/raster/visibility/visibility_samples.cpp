@@ -42,7 +42,7 @@ class SampledTriangles {
     store(rect_y0_.data(), box.y0 - d.tile.y0);
     store(rect_x1_.data(), box.x1 - d.tile.x0);
     store(rect_y1_.data(), box.y1 - d.tile.y0);
-    // As in SmallTriangles. Relative to the corner of the tile.
+    // As in SmallTriangles, but relative to the corner of the tile.
     const Int x_first(d.tile.x0 * kSubPixels), y_first(d.tile.y0 * kSubPixels);
     for (std::size_t i = 0; i < 3; ++i) {
       const std::size_t a = (i + 1) % 3, b = (i + 2) % 3;
@@ -59,9 +59,9 @@ class SampledTriangles {
   }
 
   bool is_wide(std::size_t k) const { return (wide_ >> k & 1) != 0; }
-  // Pixels that may have covered samples.
+  // Returns the pixels that may have covered samples.
   TileRect rect(std::size_t k) const { return {rect_x0_[k], rect_y0_[k], rect_x1_[k], rect_y1_[k]}; }
-  // Edge i at sample s of the set, in the first pixel of the tile. With the bias subtracted.
+  // Returns edge i at sample s of the set, in the first pixel of the tile, with the bias subtracted.
   int32_t edge(std::size_t i, std::size_t s, std::size_t k) const { return e_[s][i][k]; }
   int32_t step_x(std::size_t i, std::size_t k) const { return step_x_[i][k]; }
   int32_t step_y(std::size_t i, std::size_t k) const { return step_y_[i][k]; }

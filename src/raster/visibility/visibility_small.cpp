@@ -71,7 +71,7 @@ class SmallTriangles {
     }
   }
 
-  // For all other triangles.
+  // Returns the pixels that may be covered, for all other triangles.
   TileRect rect(std::size_t k) const { return {rect_x0_[k], rect_y0_[k], rect_x1_[k], rect_y1_[k]}; }
   SmallEdge edge(std::size_t i, std::size_t k) const { return {e_[i][k], step_x_[i][k], step_y_[i][k]}; }
   int32_t bias(std::size_t i, std::size_t k) const { return bias_[i - 1][k]; }  // edge 1 or 2
@@ -189,9 +189,8 @@ class TrianglePackets {
     }
   }
 
-  // Lists a packet if it has covered pixels. at: offsets of the edges from their values in the first packet of the tile. The result is
-  // nearly random and would often be mispredicted, so the code has no branch for it. All packets are listed before the first one is
-  // written.
+  // Lists a packet if it has covered pixels. at: offsets of the edges from their values in the first packet of the tile. The outcome is
+  // nearly random and a branch would often be mispredicted, so the code has none. All packets are listed before the first one is written.
   HS_INLINE void list(const std::array<int32_t, 3>& at, int column, int row) {
     uint32_t lanes = kAllBits<Mask> & ~negative_bits((first_[0] + at[0]) | (first_[1] + at[1]) | (first_[2] + at[2]));
     if (d_.needs_bounds_test) lanes &= bits(inside(rect_, column * kPacketWidth, row * kPacketHeight));
