@@ -14,7 +14,7 @@ import generated_sections
 
 HEAD = """# Stability where methods fail
 
-Every row is a known failure of renderers. The test runs the common method under conditions in which it should fail, and checks that it
+Each row is a known failure mode of renderers. The test runs the common method under conditions in which it should fail, and checks that it
 does fail. It then runs our method under the same conditions and compares its error with a bound. The sources in `tests/stability` give the
 reason for each bound. The columns "common" and "ours" contain the measured errors; 0 is correct.
 `scripts/stability_table.py build/release/bin/test-stability` generates the table.
