@@ -74,8 +74,8 @@ struct Descriptor {
   }
 };
 
-// Returns 0, or the errno of the first failed write. Writes in pieces, because a write to a disk cannot be interrupted by a
-// signal until it is complete.
+// Returns 0, or the errno of the first failed write. Writes in pieces, because a signal cannot interrupt a write to a disk until it is
+// complete.
 int write_all(int fd, std::span<const std::byte> bytes) {
   constexpr std::size_t kPiece = std::size_t{1} << 20;
   while (!bytes.empty()) {
@@ -104,7 +104,7 @@ int create_temporary_file(const std::filesystem::path& path) {
   return -1;
 }
 
-// Opens with O_NONBLOCK, because a blocking open of a pipe without a reader would never return. The writes themselves block.
+// Opens with O_NONBLOCK, because a blocking open of a pipe without a reader would wait forever. The writes themselves block.
 void write_in_place(const std::filesystem::path& path, std::span<const std::byte> bytes) {
   const Descriptor file{::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NONBLOCK)};
   if (file.fd < 0 && errno == ENXIO) fail_writing(path, "no process is reading from it; expected a pipe with a reader, or a file name");

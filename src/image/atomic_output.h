@@ -9,14 +9,14 @@
 
 namespace halfspace {
 
-/// Writes the bytes to path, replacing an existing file, and creates missing directories. An existing file keeps its
-/// permissions; if path is a symbolic link, its target is replaced. Standard output (under any name) and other files that are not
-/// regular are written in place; a pipe without a reader is an error. Throws OutputError on failure. A regular file at path is
-/// then unchanged, and nothing is left behind except created directories. Thread-safe.
+/// Writes the bytes to path, replacing an existing file, and creates missing directories. An existing file keeps its permissions; if path
+/// is a symbolic link, its target is replaced. Standard output (under any name) and other files that are not regular files are written in
+/// place; a pipe without a reader is an error. Throws OutputError on failure. A regular file at path is then unchanged, and nothing is left
+/// behind except created directories. Thread-safe.
 void write_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
 
-/// Throws the OutputError that write_file would throw immediately, for example if a parent is a file or permission is missing.
-/// Programs call this before they compute a result that they could not save. Creates nothing.
+/// Throws the OutputError that write_file would throw immediately, for example if a parent is a file or permission is missing. Programs
+/// call this before they compute a result, in case it could not be saved. Creates nothing.
 void check_writable(const std::filesystem::path& path);
 
 /// Returns whether path is the file, pipe or terminal that standard output is connected to, such as /dev/stdout.

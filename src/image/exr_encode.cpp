@@ -72,7 +72,7 @@ class Band {
       channel_.fill_row(y, std::span(samples_).subspan(static_cast<std::size_t>(y - top) * row_bytes_, row_bytes_));
   }
 
-  // Adds the samples to the frame buffer, as rows that begin with row top.
+  // Adds the samples to the frame buffer, as rows that begin with row `top`.
   void insert_into(Imf::FrameBuffer& buffer, int width, int top) {
     char* first = reinterpret_cast<char*>(samples_.data());
     const int rows = static_cast<int>(samples_.size() / row_bytes_);

@@ -14,8 +14,8 @@ namespace halfspace {
 
 inline constexpr std::size_t sample_bytes(ExrSample s) { return s == ExrSample::float16 ? 2 : 4; }
 
-/// Encodes a single-part scanline file with ZIP compression. Equal samples give equal bytes. Throws OutputError, with a message that
-/// begins with path. Nothing is written to path.
+/// Encodes a single-part scanline file with ZIP compression. The output depends only on the arguments, so equal samples give equal bytes.
+/// Throws OutputError, with a message that begins with path. Nothing is written to path.
 std::vector<std::byte> encode_exr(const std::filesystem::path& path, int width, int height, std::span<const ExrChannel> channels,
                                   const ImageText& text);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// OpenEXR encoding in builds without OpenEXR. halfspace-image-tool writes RGB or RGBA as halves, or one channel Z of floats.
+// OpenEXR encoding in builds without OpenEXR. halfspace-image-tool writes half-float RGB or RGBA, or a single float channel Z.
 #include <algorithm>
 #include <cstring>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The header of OpenEXR files, without decoding them.
+// Reads the header of OpenEXR files, without decoding their pixels.
 #pragma once
 
 #include <filesystem>

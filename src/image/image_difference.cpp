@@ -93,7 +93,7 @@ double mean_ssim(const Image<double>& a, const Image<double>& b) {
   return sum / static_cast<double>(a.texels().size());
 }
 
-// ---- all measures -------------------------------------------------------------------------------------------------------
+// ---- all metrics --------------------------------------------------------------------------------------------------------
 
 template <class Texel>
 int compared_channels(const Image<Texel>& a, const Image<Texel>& b) {

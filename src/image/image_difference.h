@@ -10,7 +10,7 @@
 
 namespace halfspace {
 
-/// Differences over red, green and blue, and over alpha unless both images are fully opaque. 8-bit codes count as code/255.
+/// Differences over red, green and blue, and over alpha unless both images are fully opaque. 8-bit values are divided by 255.
 struct ImageDifference {
   int channels = 3;
   int64_t differing = 0;     ///< pixels with a channel that differs at all
@@ -23,10 +23,9 @@ struct ImageDifference {
   double ssim = 1.0;         ///< mean structural similarity; 1 for identical images
 };
 
-/// Compares images of 8-bit codes, which must have the same size and not be empty. SSIM follows Wang, Bovik, Sheikh and
-/// Simoncelli, "Image quality assessment: from error visibility to structural similarity", 2004. It is computed on luma with
-/// K1 = 0.01, K2 = 0.03 and an 11 x 11 px Gaussian window with a standard deviation of 1.5 px. At the image border the window
-/// is cropped and its weights are renormalized.
+/// Compares 8-bit images, which must have the same size and not be empty. SSIM follows Wang, Bovik, Sheikh and Simoncelli, "Image quality
+/// assessment: from error visibility to structural similarity", 2004. It is computed on luma with K1 = 0.01, K2 = 0.03 and an 11 x 11 px
+/// Gaussian window with a standard deviation of 1.5 px. At the image border the window is cropped and its weights are renormalized.
 ImageDifference compare_images(const Image<glm::u8vec4>& a, const Image<glm::u8vec4>& b);
 /// Compares images of linear light. All values must be finite. SSIM is computed after clamping to [0, 1] and sRGB encoding.
 ImageDifference compare_images(const Image<glm::vec4>& a, const Image<glm::vec4>& b);

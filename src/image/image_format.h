@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Detects the formats that the decoder programs read, by the first bytes of a file.
+// Detects the formats that the decoder programs read, from the first bytes of a file.
 #pragma once
 
 #include <cstddef>
@@ -11,14 +11,14 @@
 
 namespace halfspace {
 
-/// Lists for messages: formats that store 8- or 16-bit codes, and all formats.
+/// Lists for messages: formats that store 8- or 16-bit integers, and all formats.
 inline constexpr const char* kCodeFormats = "PNG, JPEG, TIFF, TGA, BMP, GIF, WebP, PNM, PSD or DDS";
 inline constexpr const char* kAllFormats = "PNG, JPEG, TIFF, TGA, BMP, GIF, WebP, PNM, PSD, DDS, OpenEXR, HDR or PFM";
 
 struct ToolFormat {
   /// OpenImageIO's name for the format.
   const char* name = nullptr;
-  /// Display name if the format stores only linear values; nullptr for formats of codes.
+  /// Display name if the format stores only linear values; nullptr for formats that store integers.
   const char* linear_name = nullptr;
 };
 

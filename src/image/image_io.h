@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Reads and writes image files. PNG is decoded in this process. All other formats are decoded in separate processes, so that a malicious
-// file can only crash those: JPEG in halfspace-jpeg-tool, and the rest in halfspace-image-tool, which is the only user of OpenImageIO. They
-// are started when they are first needed and serve all later images of this process. PNG, JPEG and OpenEXR are encoded in this process.
+// file can only crash those: JPEG in halfspace-jpeg-tool, and the rest in halfspace-image-tool, which is the only user of OpenImageIO. The
+// decoder processes are started when they are first needed and serve all later images of this process. PNG, JPEG and OpenEXR are encoded in
+// this process.
 //
 // Images have straight alpha and store the top row first. There are two kinds of files:
-//   codes          PNG, JPEG, TIFF, TGA, BMP, GIF, WebP, PNM, PSD, DDS: 8 or 16 bits per channel, sRGB for colors
+//   integers       PNG, JPEG, TIFF, TGA, BMP, GIF, WebP, PNM, PSD, DDS: 8 or 16 bits per channel, sRGB-encoded if they are colors
 //   linear values  OpenEXR, Radiance HDR, PFM, and floating-point TIFF, PSD or DDS
-// Readers detect the format by the content of a file, writers by its name. A file can also be read from memory, for example if it is part
-// of a model; `name` then takes the place of the path in messages. Readers throw InputError ("PATH: problem; expected
-// ...") for files that are missing, damaged or too large (more than 2^28 pixels or 32768 pixels per side).
-// Writers throw OutputError; an output file is either complete or not created. All functions are thread-safe, and up to 4 images are
-// decoded in parallel. They may be used in a child process after fork().
+// Readers detect the format from the content of a file, writers from its name. A file can also be read from memory, for example if it is
+// part of a model; `name` then takes the place of the path in messages. Readers throw InputError ("PATH: problem; expected ...") for files
+// that are missing, damaged or too large (more than 2^28 pixels or 32768 pixels per side). Writers throw OutputError; an output file is
+// either complete or not created. All functions are thread-safe, and up to 4 images are decoded in parallel. The functions may be called in
+// a child process after fork().
 #pragma once
 
 #include <cstddef>
@@ -28,55 +29,54 @@
 
 namespace halfspace {
 
-/// Formats that images can be written in.
+/// Formats in which images can be written.
 enum class ImageFile { png, jpeg, tiff, exr, hdr };
 
 /// Returns the format for the extension of path (.png, .jpg or .jpeg, .tif or .tiff, .exr, .hdr; case-insensitive), or nothing
 /// for any other name.
 std::optional<ImageFile> image_file_of(const std::filesystem::path& path);
 
-/// Returns whether the format stores linear values (exr, hdr) instead of 8-bit codes.
+/// Returns whether the format stores linear values (exr, hdr) instead of 8-bit values.
 bool is_linear(ImageFile file);
 
 /// Returns whether the format of the file implies linear values (OpenEXR, Radiance HDR, PFM). Throws InputError like the readers.
 bool holds_linear_numbers(const std::filesystem::path& path);
 bool holds_linear_numbers(std::span<const std::byte> file, const std::string& name);
 
-/// Reads an image with 8-bit or 16-bit codes as 8-bit RGBA. Gray is replicated to all color channels, missing alpha becomes 255, and
-/// 16-bit codes are rounded to 8 bits. Color profiles and EXIF orientation are ignored; only the first image of a file is read.
-/// Throws InputError if the format implies linear values.
+/// Reads an image with 8-bit or 16-bit values as 8-bit RGBA. Gray is replicated to all color channels, alpha is 255 if the file has none,
+/// and 16-bit values are rounded to 8 bits. Color profiles and EXIF orientation are ignored; only the first image of a file is read. Throws
+/// InputError if the format implies linear values.
 Image<glm::u8vec4> read_image(const std::filesystem::path& path);
 Image<glm::u8vec4> read_image(std::span<const std::byte> file, const std::string& name);
 
-/// Reads the first channel (gray or red) of any file, such as a height map. 8-bit codes are divided by 255 and 16-bit codes by
-/// 65535, without sRGB decoding; linear values are unchanged. All results are finite: an infinity or NaN in the file throws an
-/// InputError that names the pixel.
+/// Reads the first channel (gray or red) of any file, such as a height map. 8-bit values are divided by 255 and 16-bit values by 65535,
+/// without sRGB decoding; linear values are unchanged. All results are finite: an infinity or NaN in the file throws an InputError that
+/// names the pixel.
 Image<float> read_gray(const std::filesystem::path& path);
 Image<float> read_gray(std::span<const std::byte> file, const std::string& name);
 
-/// Reads any file as linear light with straight alpha. Codes are decoded from sRGB, except that alpha is divided by 255 or 65535.
-/// Linear values are unchanged, except that OpenEXR colors are divided by alpha where it is positive. Infinities are clamped to
-/// ±65504; NaN throws an InputError that names the pixel.
+/// Reads any file as linear light with straight alpha. Integer colors are decoded from sRGB; integer alpha is divided by 255 or 65535.
+/// Linear values are unchanged, except that OpenEXR colors are divided by alpha where it is positive. Infinities are clamped to ±65504; NaN
+/// throws an InputError that names the pixel.
 Image<glm::vec4> read_linear(const std::filesystem::path& path);
 Image<glm::vec4> read_linear(std::span<const std::byte> file, const std::string& name);
 
-/// Text that PNG and OpenEXR files can contain, in UTF-8; nothing is stored for empty text. Other formats, and OpenEXR in builds without
-/// it, ignore the text.
+/// Text that PNG and OpenEXR files can contain, in UTF-8; nothing is stored for empty text. Other formats ignore the text, and so does
+/// OpenEXR output in builds without OpenEXR.
 struct ImageText {
   std::string software;  ///< name and version of the program; "Software" in PNG, "software" in OpenEXR
   std::string comment;   ///< how the image was made; "Comment" in PNG, "comments" in OpenEXR
 };
 
-/// Writes 8-bit or 16-bit sRGB codes with straight alpha as PNG, regardless of the file name. Opaque images are written without alpha.
+/// Writes 8-bit or 16-bit sRGB values with straight alpha as PNG, regardless of the file name. Opaque images are written without alpha.
 void write_png(const std::filesystem::path& path, const Image<glm::u8vec4>& image, const ImageText& text = {});
 void write_png(const std::filesystem::path& path, const Image<glm::u16vec4>& image, const ImageText& text = {});
 
-/// Writes codes that are data rather than colors, such as a normal map, as PNG without the sRGB marker.
+/// Writes 8-bit values that are data rather than colors, such as a normal map, as PNG without the sRGB marker.
 void write_data_png(const std::filesystem::path& path, const Image<glm::u8vec4>& image);
 
-/// Writes 8-bit sRGB codes with straight alpha, in the format given by the extension of path. PNG and TIFF (deflate) are
-/// lossless, and omit alpha if the image is opaque. JPEG uses quality 95 without chroma subsampling, and drops alpha. The image
-/// must not be empty.
+/// Writes 8-bit sRGB values with straight alpha, in the format given by the extension of path. PNG and TIFF (deflate) are lossless, and
+/// omit alpha if the image is opaque. JPEG uses quality 95 without chroma subsampling, and drops alpha. The image must not be empty.
 void write_image(const std::filesystem::path& path, const Image<glm::u8vec4>& image, const ImageText& text = {});
 
 /// Writes linear light with straight alpha, in the format given by the extension of path. NaN is written as 0. The image must
@@ -107,8 +107,8 @@ struct ExrChannel {
 };
 
 /// Writes the channels into one OpenEXR file (ZIP), regardless of the file name. Samples are stored exactly. width, height and the number
-/// of channels must be positive, and names must be distinct and not empty. A build without OpenEXR throws OutputError unless the
-/// channels are R, G, B and possibly A as halves, or Z as floats.
+/// of channels must be positive, and names must be distinct and not empty. A build without OpenEXR throws OutputError unless the channels
+/// are R, G, B and possibly A as half floats, or Z as floats.
 void write_exr(const std::filesystem::path& path, int width, int height, std::span<const ExrChannel> channels, const ImageText& text = {});
 
 }  // namespace halfspace

@@ -17,7 +17,7 @@ namespace halfspace {
 namespace {
 
 [[noreturn]] void fail_linear(const std::string& name, const std::string& what) {
-  fail_reading(name, what + "; expected 8- or 16-bit codes: " + kCodeFormats);
+  fail_reading(name, what + "; expected 8- or 16-bit integer values: " + kCodeFormats);
 }
 
 const char* linear_name(const ImageSource& source) { return source.tool_format() ? source.tool_format()->linear_name : nullptr; }

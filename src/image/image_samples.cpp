@@ -43,7 +43,7 @@ Image<float> numbers(Image<float>&& image, const std::string& name) {
   return std::move(image);
 }
 
-// decode(c/65535) of core/srgb.h to within about one ulp. Multiples of 257 give the same values as the matching 8-bit codes.
+// decode(c/65535) of core/srgb.h to within about one ulp. Multiples of 257 give the same results as the corresponding 8-bit values.
 std::vector<float> make_srgb16_to_linear() {
   std::vector<float> table(65536);
   for (std::size_t c = 0; c < table.size(); ++c) {

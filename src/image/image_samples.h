@@ -12,21 +12,21 @@
 
 namespace halfspace {
 
-/// A decoded file: 8-bit codes, 16-bit codes or floating-point values.
+/// A decoded file: 8-bit, 16-bit or floating-point values.
 using ColorPicture = std::variant<Image<glm::u8vec4>, Image<glm::u16vec4>, Image<glm::vec4>>;
 using GrayPicture = std::variant<Image<uint8_t>, Image<uint16_t>, Image<float>>;
 
-/// Rounds 16-bit codes to the nearest 8-bit codes, 255·code/65535.
+/// Rounds 16-bit values to the nearest 8-bit values: 255·v/65535 for the 16-bit value v.
 Image<glm::u8vec4> round_to_8_bits(const Image<glm::u16vec4>& wide);
 
 /// Returns the first channel (red or gray).
 GrayPicture first_channel(const ColorPicture& picture);
 
-/// Returns codes divided by 255 or 65535, correctly rounded, and floats unchanged. Throws if a float is infinite or NaN.
+/// Returns integers divided by 255 or 65535, correctly rounded, and floats unchanged. Throws if a float is infinite or NaN.
 Image<float> to_numbers(GrayPicture picture, const std::string& name);
 
-/// Converts to linear RGB and alpha. Codes are decoded from sRGB, except that alpha is divided by 255 or 65535. Floats are
-/// unchanged, but infinities become ±65504 and NaN throws. Premultiplied colors are divided by their alpha where it is positive.
+/// Converts to linear RGB and alpha. Integer colors are decoded from sRGB; integer alpha is divided by 255 or 65535. Floats are unchanged,
+/// but infinities become ±65504 and NaN throws. Premultiplied colors are divided by their alpha where it is positive.
 Image<glm::vec4> to_linear(ColorPicture picture, bool premultiplied, const std::string& name);
 
 }  // namespace halfspace

@@ -35,8 +35,8 @@ struct ToolFailure {
 };
 
 // Lends a tool of the pool to exchange(tool), which sends a request and receives the answer. If a tool that has served earlier requests
-// ends, those requests may have damaged it or something else may have killed it, so exchange is called again with a new tool. A request
-// that reaches the time limit is not repeated.
+// ends, one of those requests may have damaged it, or something else may have killed it, so exchange is called again with a new tool. A
+// request that reaches the time limit is not repeated.
 template <class F>
 std::optional<ToolFailure> exchange_with_tool(ToolPool& pool, const std::filesystem::path& program, F&& exchange) {
   for (;;) {
@@ -87,7 +87,7 @@ Exchange receive_samples(ToolProcess& tool, const PictureHeader& h, const std::s
     case Sample::uint8: complete = receive_pixels<Picture, 0>(tool, h, name, picture); break;
     case Sample::uint16: complete = receive_pixels<Picture, 1>(tool, h, name, picture); break;
     case Sample::float32: complete = receive_pixels<Picture, 2>(tool, h, name, picture); break;
-    default: message = "cannot be read: the decoder has a different version than this program"; return Exchange::answered_last;
+    default: message = "cannot be read: the decoder and this program have different versions"; return Exchange::answered_last;
   }
   return complete ? Exchange::answered : Exchange::tool_ended;
 }
@@ -106,7 +106,7 @@ Exchange receive_picture(ToolProcess& tool, uint32_t channels, const std::string
   }
   if (h.magic == kImageToolMagic) check_image_size(static_cast<uint64_t>(h.width), static_cast<uint64_t>(h.height), name);
   if (h.magic != kImageToolMagic || h.channels != channels) {
-    message = "cannot be read: the decoder has a different version than this program";
+    message = "cannot be read: the decoder and this program have different versions";
     return Exchange::answered_last;
   }
   return receive_samples(tool, h, name, picture, message);
@@ -163,7 +163,7 @@ Exchange receive_file(ToolProcess& tool, uint64_t max_bytes, std::vector<std::by
   FileHeader h;
   if (!tool.receive(&h, sizeof h)) return Exchange::tool_ended;
   if (h.magic != kImageToolMagic || h.file_bytes > max_bytes) {
-    message = std::string(kImageToolName) + " has a different version than this program";
+    message = std::string(kImageToolName) + " and this program have different versions";
     return Exchange::answered_last;
   }
   if (h.file_bytes == 0) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Decoding and encoding by separate programs.
+// Decoding and encoding in separate programs.
 #pragma once
 
 #include <cstddef>
@@ -31,7 +31,7 @@ GrayPicture read_gray_by_tool(ImageSource& source);
 std::vector<std::byte> encode_by_tool(const std::filesystem::path& path, const char* format, const PictureHeader& header,
                                       const std::function<void(int y, std::span<std::byte> row)>& fill_row);
 
-/// The same for 8-bit codes. channels is 3 or 4; 3 drops alpha.
+/// The same for 8-bit values. channels is 3 or 4; 3 drops alpha.
 std::vector<std::byte> encode_codes_by_tool(const std::filesystem::path& path, const char* format, const Image<glm::u8vec4>& image,
                                             uint32_t channels);
 

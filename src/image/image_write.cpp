@@ -27,7 +27,7 @@ ImageFile checked_image_file(const std::filesystem::path& path, bool linear) {
   const std::optional<ImageFile> file = image_file_of(path);
   if (!file) fail_writing(path, std::string("unknown image format; expected ") + expected);
   if (is_linear(*file) != linear)
-    fail_writing(path, std::string("this format stores ") + (linear ? "8-bit codes" : "linear values") + "; expected " + expected);
+    fail_writing(path, std::string("this format stores ") + (linear ? "8-bit values" : "linear values") + "; expected " + expected);
   return *file;
 }
 
@@ -51,9 +51,9 @@ ExrChannel exr_channel(const Image<glm::vec4>& image, int channel) {
           }};
 }
 
-// Rounds to the nearest values that RGBE can represent: integer multiples, up to 255, of 2^(e − 8), where
-// 2^(e − 1) <= largest < 2^e. OpenImageIO would truncate, with an error of up to 1/128 of the largest channel; after this
-// rounding it has nothing to truncate. The error of rounding is half a step, 2^(e − 9), at most 1/256 of the largest channel.
+// Rounds to the nearest values that RGBE can represent: integer multiples, up to 255, of 2^(e − 8), where 2^(e − 1) <= largest < 2^e.
+// OpenImageIO would truncate, with an error of up to 1/128 of the largest channel; after this rounding it has nothing to truncate. The
+// rounding error is half a step, 2^(e − 9), which is at most 1/256 of the largest channel.
 glm::vec3 rgbe_texel(const glm::vec4& t) {
   constexpr float kLargest = 0x1p126f;    // limited by the exponent byte
   constexpr float kSmallest = 0x1p-105f;  // OpenImageIO writes 0 for values below 1e-32

@@ -18,7 +18,7 @@ namespace halfspace {
 /// Receives the errors of one jpeg_decompress_struct or jpeg_compress_struct. Must not move.
 class JpegErrors {
  public:
-  /// The premature end of a file, of which libjpeg only warns, counts as an error. Other warnings are ignored.
+  /// The premature end of a file, for which libjpeg only issues a warning, counts as an error. Other warnings are ignored.
   JpegErrors() {
     jpeg_std_error(&manager_);
     manager_.error_exit = [](j_common_ptr codec) { of(codec).fail(codec); };

@@ -36,7 +36,7 @@ void check_decoding(int result, const std::string& name) {
   if (result != SPNG_OK) throw InputError(name + ": damaged PNG (" + spng_strerror(result) + "); expected a complete PNG file");
 }
 
-// Adds a text chunk unless the text is empty: tEXt, or iTXt if there are characters other than those of ASCII.
+// Adds a text chunk unless the text is empty: tEXt, or iTXt if the text contains non-ASCII characters.
 void add_text(std::vector<spng_text>& chunks, const char* keyword, const std::string& text) {
   if (text.empty()) return;
   spng_text chunk = {};
@@ -66,7 +66,7 @@ void encode_rows(spng_ctx* context, const Image<glm::vec<4, Channel>>& image, bo
   }
 }
 
-// Deflate compresses by a factor of at most 1032. A file that claims more is truncated or a decompression bomb.
+// Deflate compresses by a factor of at most 1032. A file whose header claims more is truncated or a decompression bomb.
 void check_claimed_size(const spng_ihdr& header, std::size_t file_bytes, const std::string& name) {
   check_image_size(header.width, header.height, name);
   check_pixel_limit(header.width, header.height, name);

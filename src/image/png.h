@@ -15,10 +15,10 @@
 
 namespace halfspace {
 
-/// The meaning of the codes in a file.
+/// The meaning of the 8-bit values in a file.
 enum class PngCodes { srgb, numbers };
 
-/// Encodes codes with straight alpha. Opaque images are stored without alpha. The file is marked as sRGB unless the codes are
+/// Encodes 8-bit values with straight alpha. Opaque images are stored without alpha. The file is marked as sRGB unless the values are
 /// numbers. The image must not be empty.
 std::vector<std::byte> encode_png(const Image<glm::u8vec4>& image, PngCodes codes = PngCodes::srgb, const ImageText& text = {});
 /// The same with 16 bits per channel. The file is marked as sRGB.
@@ -27,9 +27,9 @@ std::vector<std::byte> encode_png(const Image<glm::u16vec4>& image, const ImageT
 /// Returns whether the bytes begin with the PNG signature.
 bool is_png(std::span<const std::byte> bytes);
 
-/// Decodes any PNG to four channels. Gray is replicated to all color channels, and missing alpha is opaque. Files of up to 8 bits
-/// per channel give 8-bit codes; 16-bit files give 16-bit codes. Throws InputError, with a message that begins with `name`, for
-/// damaged or oversized files.
+/// Decodes any PNG to four channels. Gray is replicated to all color channels; if there is no alpha channel, alpha is opaque. Files with up
+/// to 8 bits per channel produce 8-bit values; files with 16 bits per channel produce 16-bit values. Throws InputError, with a message that
+/// begins with `name`, for damaged or oversized files.
 ColorPicture decode_png(std::span<const std::byte> bytes, const std::string& name);
 
 }  // namespace halfspace

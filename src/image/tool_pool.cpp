@@ -19,7 +19,7 @@ struct Pools {
   ToolPool image, jpeg;
 };
 
-// Never destroyed: threads may still read images while the program exits. Tools that are lent then end when their channels are closed.
+// Never destroyed: threads may still read images while the program exits. Tools that are in use then end when their channels are closed.
 Pools& pools() {
   static Pools* const kPools = [] {
     Pools* made = new Pools;

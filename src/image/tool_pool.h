@@ -12,7 +12,7 @@
 
 namespace halfspace {
 
-/// The tools of one kind: one per image that is being decoded, but at most min(cores, 4). Thread-safe.
+/// The tools of one kind. There is one per image that is being decoded, but at most min(cores, 4). Thread-safe.
 class ToolPool {
  public:
   ToolPool();

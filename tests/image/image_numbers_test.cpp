@@ -115,9 +115,9 @@ TEST_F(ToolNumbers, RejectsNaNAndReportsThePixel) {
 
 TEST_F(ToolNumbers, RejectsFloatFilesAsEightBitImages) {
   const std::filesystem::path tiff = put("a.tif", gray_tiff_row<float>({1.0f, 2.0f}, TiffSampleFormat::floating_point));
-  EXPECT_TRUE(reports(input_error([&] { read_image(tiff); }), tiff.string(), {"linear values", "16-bit codes", "PNG"}));
+  EXPECT_TRUE(reports(input_error([&] { read_image(tiff); }), tiff.string(), {"linear values", "16-bit integer", "PNG"}));
   const std::filesystem::path pfm_file = put("a.pfm", pfm(1, 1, {1.0f, 2.0f, 3.0f}));
-  EXPECT_TRUE(reports(input_error([&] { read_image(pfm_file); }), pfm_file.string(), {"PFM", "linear values", "16-bit codes", "PNG"}));
+  EXPECT_TRUE(reports(input_error([&] { read_image(pfm_file); }), pfm_file.string(), {"PFM", "linear values", "16-bit integer", "PNG"}));
 }
 
 // Checks the complete list of formats, because users choose from it.

@@ -37,8 +37,8 @@ class MappedFile {
   void* start_;
 };
 
-// Adobe stores CMYK inverted, as 255 minus the amount of ink, and so do all programs that write such files. The product of the color and
-// the black channel is then the reflected light.
+// Adobe stores CMYK inverted, as 255 minus the amount of ink, and so do all programs that write such files. The reflected light is then the
+// product of the color and the black channel.
 uint8_t light_of(uint8_t color, uint8_t black) { return static_cast<uint8_t>((color * black + 127) / 255); }
 
 using Pixels = std::vector<uint8_t, CacheLineAllocator<uint8_t>>;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// halfspace-image-tool decodes and encodes the formats that no other part of Halfspace handles with OpenImageIO, on behalf of halfspace
-// (see protocol.h). It is a separate program for two reasons. Input files are untrusted, and decoders for many formats have many
-// bugs: OpenImageIO 2.4 crashes on a public JPEG with a damaged color profile. Such a file only crashes this process. Also,
-// merely linking OpenImageIO adds 0.2 s to the startup of a program, which most runs of halfspace should not pay.
+// halfspace-image-tool uses OpenImageIO to decode and encode the formats that no other part of Halfspace handles, on behalf of halfspace
+// (see protocol.h). It is a separate program for two reasons. Input files are untrusted, and decoders for many formats have many bugs:
+// OpenImageIO 2.4 crashes on a public JPEG with a damaged color profile. Such a file only crashes this process. Also, merely linking
+// OpenImageIO adds 0.2 s to the startup of a program, and most runs of halfspace do not need it.
 #include <OpenImageIO/imageio.h>
 
 #include <cstdio>

@@ -25,8 +25,8 @@ inline constexpr const char* kImageToolName = "halfspace-image-tool";
 inline constexpr const char* kJpegToolName = "halfspace-jpeg-tool";
 inline constexpr uint32_t kImageToolMagic = 0x33544948;  // "HIT3": the digit is the protocol version
 
-/// What a tool is asked to do. read_gray returns only the first channel of a file. read_color returns RGBA: gray is replicated and
-/// missing alpha is opaque.
+/// What a tool is asked to do. read_gray returns only the first channel of a file. read_color returns RGBA: gray is replicated, and alpha
+/// is opaque if the file has none.
 enum class ToolTask : uint32_t { read_gray, read_color, write };
 
 struct ToolRequest {

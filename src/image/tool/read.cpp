@@ -27,7 +27,8 @@ struct Picture {
 // The name under which OpenImageIO opens the file of a request.
 std::string name_of(const ReadRequest& request) { return "/proc/self/fd/" + std::to_string(request.file); }
 
-// OpenImageIO's messages mention the name of the file, in quotes. It means nothing to a user, whose message begins with the real one.
+// OpenImageIO's messages mention the name of the file, in quotes. That name means nothing to users, whose message begins with the actual
+// name.
 std::string without_name(std::string text, const ReadRequest& request) {
   const std::string name = '"' + name_of(request) + '"';
   for (const std::string& mention : {" (" + name + ")", " of " + name, " " + name, name}) {
@@ -40,7 +41,7 @@ Failure damaged(const ReadRequest& request, const std::string& why) {
   return {"cannot be read as " + request.format + " (" + one_line(without_name(why, request)) + "); expected a complete image file"};
 }
 
-// Codes of up to 16 bits stay codes. All other types become floats; signed and 32-bit integers are scaled to a maximum of 1.
+// Integers of up to 16 bits are kept. All other types become floats; signed and 32-bit integers are scaled to a maximum of 1.
 Sample sample_of(const OIIO::TypeDesc& type) {
   if (type.basetype == OIIO::TypeDesc::UINT8) return Sample::uint8;
   return type.basetype == OIIO::TypeDesc::UINT16 ? Sample::uint16 : Sample::float32;

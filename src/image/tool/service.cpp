@@ -21,7 +21,7 @@ namespace {
 constexpr unsigned kReadSeconds = 60;
 constexpr unsigned kWriteSeconds = 1200;               // images to write are our own, and 16384x16384 pixels take minutes
 constexpr uint64_t kAddressSpace = uint64_t{6} << 30;  // 2^28 pixels of 16 bytes, plus the libraries
-// Limit on the pixels per byte of file that a header may claim (a constant JPEG has about 100, a bilevel TIFF 8000).
+// Limit on the number of pixels that a header may claim per byte of the file (a constant JPEG has about 100, a bilevel TIFF 8000).
 constexpr uint64_t kMaxPixelsPerByte = 8192;
 
 // Receives a request and, for reading, the descriptor that comes with it. Returns false at the end of the input.

@@ -36,8 +36,8 @@ int serve_requests(const ToolHandlers& handlers);
 /// Reads from standard input, unbuffered. Throws Failure if it ends early.
 void receive(void* memory, std::size_t bytes);
 
-/// Throws Failure if a header claims more pixels than Halfspace supports or the request permits, or than a file of this size can contain.
-/// bytes_per_pixel: of the decoded pixels, with all channels.
+/// Throws Failure if a header claims more pixels than Halfspace supports, than the request permits, or than a file of this size can
+/// contain. bytes_per_pixel: size of a decoded pixel, with all channels.
 void check_claimed_size(const ReadRequest& request, int64_t width, int64_t height, uint64_t bytes_per_pixel);
 
 }  // namespace halfspace

@@ -56,7 +56,7 @@ class MemoryFile {
 PictureHeader receive_header() {
   PictureHeader h;
   receive(&h, sizeof h);
-  if (h.magic != kImageToolMagic) throw Failure{std::string(kImageToolName) + " has a different version than the program that started it"};
+  if (h.magic != kImageToolMagic) throw Failure{std::string(kImageToolName) + " and the program that started it have different versions"};
   check_image_size(static_cast<uint64_t>(h.width), static_cast<uint64_t>(h.height), "picture");
   if ((h.channels != 1 && h.channels != 3 && h.channels != 4) || h.sample > Sample::float32) throw Failure{"the image header is damaged"};
   return h;
@@ -73,7 +73,7 @@ OIIO::ImageSpec spec_of(const PictureHeader& h, const std::string& format) {
   if (h.channels == 1) spec.channelnames = {"Z"};
   spec.attribute("oiio:ColorSpace", h.sample == Sample::uint8 ? "sRGB" : "Linear");
   spec.attribute("oiio:UnassociatedAlpha", format == "tiff" ? 1 : 0);  // store the pixels unchanged
-  spec.attribute("DateTime", "");  // OpenImageIO would write the current time, and equal images would give different files
+  spec.attribute("DateTime", "");  // by default, OpenImageIO writes the current time, so equal images would give different files
   spec.attribute("compression", format == "jpeg" ? "jpeg:95" : "zip");
   spec.attribute("jpeg:subsampling", "4:4:4");  // keeps edges between colors sharp
   return spec;

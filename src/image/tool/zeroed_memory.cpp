@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Replaces the global operator new by one that returns zeroed memory. Some readers of OpenImageIO return pixels that they have not set if a
-// file is damaged. Without this, such pixels would depend on the images that the process has decoded before, and could show parts of them.
+// Replaces the global operator new with one that returns zeroed memory. If a file is damaged, some readers of OpenImageIO return pixels
+// that they have not set. Without this, such pixels would depend on the images that the process decoded before, and could show parts of
+// them.
 #include <cstdlib>
 #include <new>
 
