@@ -1,8 +1,8 @@
 # Selects the instruction set and SIMD width of the build and the corresponding flags. Included after project(halfspace).
 #
-# Rendered pixels are bit-identical for all of them, except x86-64-v2, which has no fma instruction and does not guarantee this.
+# Rendered pixels are bit-identical for all instruction sets except x86-64-v2, which has no fma instruction and does not guarantee this.
 #
-# halfspace_flags contains the flags that every translation unit including a Halfspace header needs; consumers inherit it from the
+# halfspace_flags contains the flags that every translation unit needs that includes a Halfspace header; consumers inherit it from the
 # libraries. Warnings and the macros that restrict GLM are directory options, so they apply only to our own sources.
 
 set(HALFSPACE_ARCH native CACHE STRING "native, x86-64-v2, x86-64-v3 or x86-64-v4")
@@ -13,7 +13,7 @@ if(NOT HALFSPACE_ARCH MATCHES "^(native|x86-64-v[234])$")
   message(FATAL_ERROR "HALFSPACE_ARCH is '${HALFSPACE_ARCH}'; expected native, x86-64-v2, x86-64-v3 or x86-64-v4")
 endif()
 
-# Sets out to the macros that the compiler defines for an instruction set.
+# Sets the variable named by `out` to the macros that the compiler defines for an instruction set.
 function(halfspace_arch_macros arch out)
   execute_process(COMMAND ${CMAKE_CXX_COMPILER} -march=${arch} -dM -E -x c++ /dev/null
     OUTPUT_VARIABLE macros RESULT_VARIABLE result ERROR_VARIABLE error)
@@ -23,7 +23,8 @@ function(halfspace_arch_macros arch out)
   set(${out} "${macros}" PARENT_SCOPE)
 endfunction()
 
-# Sets out to the features that code for an instruction set needs, as core/cpu.cpp expects them, for example " SSE3 AVX AVX2 FMA ".
+# Sets the variable named by `out` to the features that code for an instruction set needs, as core/cpu.cpp expects them, for example
+# " SSE3 AVX AVX2 FMA ".
 function(halfspace_cpu_needs arch out)
   halfspace_arch_macros(${arch} macros)
   string(REGEX MATCHALL "__(S?SSE|AVX|FMA|BMI|F16C|LZCNT|POPCNT|MOVBE|ADX|GFNI|XOP|TBM)[A-Z0-9_]*__ 1" needs "${macros}")
@@ -51,7 +52,7 @@ endif()
 message(STATUS "halfspace: ${HALFSPACE_ARCH}, ${lanes} lanes")
 
 add_library(halfspace_flags INTERFACE)
-# Headers are included as "halfspace/MODULE/FILE.h". The build tree provides this path with a symbolic link, an installation with a folder.
+# Headers are included as "halfspace/MODULE/FILE.h". This path is a symbolic link in the build tree and a folder in an installation.
 file(MAKE_DIRECTORY ${halfspace_BINARY_DIR}/include)
 file(CREATE_LINK ${halfspace_SOURCE_DIR}/src ${halfspace_BINARY_DIR}/include/halfspace SYMBOLIC)
 include(GNUInstallDirs)
@@ -80,8 +81,8 @@ elseif(arch_macros MATCHES "__AVX__")
 else()
   set(vector_bits 128)
 endif()
-# Copy vectors as a whole. For many processors, and for x86-64-v3, g++ 12 copies them in halves, and a subsequent load of the whole vector
-# stalls until both halves have left the store buffer.
+# Copy vectors as a whole. When tuning for x86-64-v3 and many processors, g++ 12 copies them in halves. A subsequent load of the whole
+# vector then stalls until both halves have left the store buffer.
 include(CheckCXXCompilerFlag)
 check_cxx_compiler_flag("-mmove-max=${vector_bits} -mstore-max=${vector_bits}" HALFSPACE_HAS_MOVE_MAX)
 if(HALFSPACE_HAS_MOVE_MAX)

@@ -1,4 +1,4 @@
-# halfspace_embed_page(OUT): writes a source file that contains the parts of the page of `halfspace explain` and the sources that it quotes.
+# halfspace_embed_page(OUT): writes a source file that contains the parts of the `halfspace explain` page and the sources that it quotes.
 function(halfspace_embed_page out)
   set(folder ${halfspace_SOURCE_DIR}/src)
   file(GLOB parts CONFIGURE_DEPENDS RELATIVE ${folder}/explain/page ${folder}/explain/page/*)

@@ -1,6 +1,7 @@
 # Searches for pybind11 and NumPy, which the Python module needs, and sets HALFSPACE_PYTHON_FOUND. HALFSPACE_PYTHON=AUTO builds the module
-# if they are found, but not in a subproject, and not with sanitizers, whose runtime an ordinary interpreter does not load.
-# Python_EXECUTABLE selects the interpreter; the default is the interpreter of the system, for which packages install their modules.
+# if they are found. It does not build the module in a subproject, or with sanitizers, because an ordinary interpreter does not load their
+# runtime. Python_EXECUTABLE selects the interpreter; the default is the system's interpreter, for which Debian packages install their
+# modules.
 set(HALFSPACE_PYTHON AUTO CACHE STRING "Build the Python module (needs pybind11 and NumPy): AUTO, ON or OFF")
 set_property(CACHE HALFSPACE_PYTHON PROPERTY STRINGS AUTO ON OFF)
 set(HALFSPACE_PYTHON_FOUND OFF)

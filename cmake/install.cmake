@@ -43,7 +43,7 @@ function(halfspace_library_properties name)
   endif()
 endfunction()
 
-# Links a module with a library that has no CMake package. The installed package refers to the library by name.
+# Links a module with a library that has no CMake package. The installed package refers to this library by its name.
 function(halfspace_link_by_name module library)
   get_filename_component(file_name ${library} NAME_WE)
   string(REGEX REPLACE "^lib" "" link_name ${file_name})
@@ -96,8 +96,8 @@ if(BUILD_SHARED_LIBS)
 endif()
 
 # Shared libraries export the functions of headers that are installed or used by another module or a program. They do not export the
-# functions of other headers, of the private folders of raster, and of the model writers, which share a header. Static libraries are not
-# changed, because a unity build does not combine sources that have their own options.
+# functions of other headers, of the private folders of raster, or of the model writers, which share a header. Static libraries are left
+# unchanged, because a unity build does not combine sources that have their own options.
 function(halfspace_hide_private_functions sources)
   if(NOT BUILD_SHARED_LIBS)
     return()
@@ -123,7 +123,7 @@ function(halfspace_install_headers)
   endforeach()
 endfunction()
 
-# Writes and installs halfspace-MODULE.pc. requires: pkg-config packages. libraries: further libraries by name.
+# Writes and installs halfspace-MODULE.pc. requires: pkg-config packages. libraries: additional libraries by name.
 function(halfspace_pkg_config module requires libraries)
   if(NOT TARGET halfspace_${module})
     return()
@@ -218,7 +218,7 @@ function(halfspace_install_package)
   halfspace_install_pkg_config()
 endfunction()
 
-# Generates and installs the manual pages and the shell completions. They are made from the help of the programs.
+# Generates and installs the manual pages and the shell completions from the help texts of the programs.
 function(halfspace_install_documents)
   find_package(Python3 COMPONENTS Interpreter)
   if(NOT Python3_FOUND OR CMAKE_CROSSCOMPILING OR NOT TARGET halfspace)
@@ -252,8 +252,8 @@ function(halfspace_install_documents)
   install(DIRECTORY ${folder}/zsh/site-functions/ DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/${zsh_folder} COMPONENT runtime)
 endfunction()
 
-# Targets that build only what is installed: `installed` for everything, `isa` for the files that a portable build has once per instruction
-# set.
+# Targets that build only what is installed: `installed` builds everything, and `isa` builds the files that a portable build has once per
+# instruction set.
 function(halfspace_add_install_targets)
   add_custom_target(isa)
   add_custom_target(installed)

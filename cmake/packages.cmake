@@ -8,7 +8,8 @@ set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "CPU renderer for models and scenes")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 
-# The component isa contains the libraries that are selected by the instruction set. HALFSPACE_SECOND_BUILD is a build for another one.
+# The component isa contains the libraries that are selected by the instruction set. HALFSPACE_SECOND_BUILD is a build for another
+# instruction set.
 set(HALFSPACE_SECOND_BUILD "" CACHE PATH "Portable build for another instruction set, whose programs are packaged as well")
 set(CPACK_COMPONENTS_ALL runtime isa dev)
 if(TARGET halfspace_python)
@@ -47,7 +48,7 @@ set(CPACK_DEBIAN_DEV_PACKAGE_RECOMMENDS halfspace)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-halfspace)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 if(TARGET halfspace_python)
-  # An extension module works only with the version of Python that it was compiled for. The package halfspace has the decoders.
+  # An extension module works only with the version of Python that it was compiled for. The package halfspace contains the decoders.
   math(EXPR next_python "${Python_VERSION_MINOR} + 1")
   string(CONCAT CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
     "python3 (>= ${Python_VERSION_MAJOR}.${Python_VERSION_MINOR}), python3 (<< ${Python_VERSION_MAJOR}.${next_python}), python3-numpy, "

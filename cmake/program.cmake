@@ -1,5 +1,6 @@
-# Programs. A developer's build has one executable for each. A portable build (HALFSPACE_PORTABLE, for packages) has a launcher for any x86-64
-# and a shared library for the instruction set of the build, in the folder that the loader searches on processors with that instruction set.
+# Programs. An ordinary build has one executable for each program. A portable build (HALFSPACE_PORTABLE, for packages) has a launcher that
+# runs on any x86-64 processor and a shared library for the instruction set of the build. The library is in a folder that the dynamic loader
+# searches only on processors with that instruction set.
 #
 #   halfspace_program(NAME SHORT SOURCES...)    The sources define main() and extern "C" int halfspace_SHORT_main(int argc, char** argv),
 #                                               which do the same. Sets program_target to the target that is made of the sources.
