@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Compile-time reflection for plain structs: field_count<T>() counts the members and tie_fields(t) returns references to
-// them, so that shader attributes and varyings need no registration. T must be an aggregate with at most 12 members, none
-// of which is an array.
+// Compile-time reflection for plain structs: field_count<T>() counts the members and tie_fields(t) returns references to them, so that
+// shader attributes and varyings need no registration. T must be an aggregate with at most 12 members, and no member may be an array.
 #pragma once
 
 #include <cstddef>

@@ -10,7 +10,7 @@
 
 namespace halfspace {
 
-/// A 2D array of texels or pixels, stored row by row without padding. Row 0 is the top row of a picture and corresponds to
+/// A 2D array of texels or pixels, stored row by row without padding. Row 0 is the top row of an image and corresponds to
 /// t = 0 of a texture. The image owns its memory, and copying it copies the texels. Accessors require coordinates inside the
 /// image, which is checked only in builds with asserts.
 template <class T>

@@ -92,7 +92,7 @@ Exchange receive_samples(ToolProcess& tool, const PictureHeader& h, const std::s
   return complete ? Exchange::answered : Exchange::tool_ended;
 }
 
-// Receives the decoder's answer, a picture or a message.
+// Receives the decoder's answer, an image or a message.
 template <class Picture>
 Exchange receive_picture(ToolProcess& tool, uint32_t channels, const std::string& name, Picture& picture, std::string& message) {
   PictureHeader h;

@@ -352,8 +352,8 @@ consteval bool require_shader() {
                   "the shader is missing: template <class R> Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>& px) const;");
   } else {
     static_assert(FragmentResult<FragmentOf<S>>,
-                  "the shader's fragment function must return Fragment<R>, DiscardingFragment<R> or DepthFragment<R>, or the variant of "
-                  "one of them for several colors");
+                  "the shader's fragment function must return Fragment<R>, DiscardingFragment<R> or DepthFragment<R>, or one of "
+                  "their variants for several colors");
     return Shader<S>;
   }
   return false;

@@ -248,7 +248,7 @@ struct MetallicSurface : MetallicMaterial {
     const Layer<R> layer = layer_of(n_ws, v_ws, R(roughness) * texels.number[kRoughnessMap], mix(f0, base, metal), f90);
     const vec3<R> diffuse = base * (R(1) - metal);
 
-    // The coat reflects a part of all light and lets the rest through.
+    // The coat reflects part of all light and transmits the rest.
     const bool has_coat = clearcoat > 0.0f;
     Layer<R> coat = layer;
     R coverage(0), through(1);

@@ -15,7 +15,7 @@ struct Failure {
   bool exceeds_limit = false;
 };
 
-/// Converts a message of a decoder or encoder, which may have several lines, to a part of one line.
+/// Converts a message of a decoder or encoder, which may span several lines, to part of a single line.
 inline std::string one_line(std::string text) {
   for (char& c : text) {
     if (static_cast<unsigned char>(c) < 0x20) c = ' ';

@@ -113,7 +113,8 @@ void set_up_lines(SetupRange& range, uint32_t count) {
 }
 
 bool can_append_outlines(const SetupRange& r) {
-  // Flat varyings are those of the provoking vertex, which may not belong to the edge, and the primitive id refers to clip vertices.
+  // Flat varyings have the values of the provoking vertex, which may not belong to the edge, and the primitive id refers to clip vertices.
+  // Such draws are excluded.
   const ShaderKernels& kernels = r.draw.kernels;
   const std::span modes(kernels.interpolations, static_cast<std::size_t>(kernels.varying_count));
   return r.draw.state.polygon_mode == PolygonMode::line && r.context.samples == 1 && !kernels.uses_id &&

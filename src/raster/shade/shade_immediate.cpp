@@ -91,8 +91,8 @@ class PacketSet {
 template <class Shading>
 void shade_pixels(const Shading& c) {
   PacketSet listed, shaded;
-  std::array<uint16_t, kPackets> covered;     // lanes of the packets in `listed`, which are those of all samples
-  std::array<uint16_t, kPackets> any_sample;  // lanes of the packets in `shaded`, which are those of sample 0
+  std::array<uint16_t, kPackets> covered;     // lanes of the packets in `listed`, for all samples
+  std::array<uint16_t, kPackets> any_sample;  // lanes of the packets in `shaded`, numbered as in sample 0
   int begin = 0;
   for (int s = 0; s < c.tile.samples; ++s) {
     const int shift = packet_shift(sample_plane(c.tile.samples, s, c.tile.size));

@@ -30,7 +30,7 @@ bool may_shade_samples(const PassContext& context);
 
 /// Lists the visible pixels of a multisampled tile that are shaded per pixel. Each triangle that is visible in a pixel is listed once. The
 /// triangles of a pixel are written to the sample planes of `layers`, in the order of the samples in which they are visible: the first to
-/// plane 0, the second to plane 1, and so on. The packets of the entries are those of `layers`. Returns the entries.
+/// plane 0, the second to plane 1, and so on. The entries refer to the packets of `layers`. Returns the entries.
 std::span<ShadingWork> list_layers(const PassContext& context, const Tile& tile, std::array<TriangleId, kMaxTilePixels>& layers,
                                    ShadingWorkList& work);
 
