@@ -10,9 +10,9 @@
 //   used.
 // * Ns is the exponent of a Blinn-Phong highlight: roughness² = sqrt(2/(Ns + 2)) gives the GGX distribution the same width. Without Ns,
 //   roughness is 0.6. map_Ns is a roughness map, as Blender writes it.
-// * Ks scales the reflectance at normal incidence: F0 = 0.08 Ks for Ni = 1.5 or no Ni, so that the usual 0.5 gives common dielectrics' 4%
-//   and 1 does not give a mirror. This is also Blender's rule. Without Ks it is 0.5. Ni outside [1.1, 4] is ignored, because many programs
-//   always write 1. The luminance of map_Ks scales F0.
+// * Ks scales the reflectance at normal incidence: F0 = 0.08 Ks for Ni = 1.5 or no Ni, so that the usual 0.5 gives the 4% of common
+//   dielectrics, and 1 does not give a mirror. This is also Blender's rule. Without Ks it is 0.5. Ni outside [1.1, 4] is ignored, because
+//   many programs always write 1. The luminance of map_Ks scales F0.
 // * illum 0 is unlit and illum 1 has no specular reflection. With illum 3, 5 or 8 (mirrors), a Ks brighter than Kd makes a metal of color
 //   Ks.
 // * Pr, Pm, Pc and Pcr are used directly. Pr overrides Ns. With Pr or Pm, F0 is computed from Ni, and Ks and illum are ignored.

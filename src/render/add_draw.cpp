@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Instantiates all scene shaders. This takes a long time to compile, so it is in a separate file.
+// Instantiates all scene shaders. They are slow to compile, so they have their own translation unit.
 #include "halfspace/render/prepared_scene.h"
 
 namespace halfspace {

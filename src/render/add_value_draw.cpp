@@ -13,7 +13,7 @@ using Wanted = std::array<bool, kFrameValues>;
 
 bool wants(const Wanted& wanted, FrameValue value) { return wanted[static_cast<std::size_t>(value)]; }
 
-// Constant rows that take the place of missing streams of a mesh.
+// Constant rows that replace missing streams of a mesh.
 constexpr std::array<float, 4> kZeros{0, 0, 0, 0}, kOnes{1, 1, 1, 1}, kTangent{1, 0, 0, 1};
 
 template <class T>
@@ -67,7 +67,7 @@ void set_material(SurfaceValueUniforms& u, const S& shader) {
   }
 }
 
-// Adds the value draw of a draw.
+// Adds a draw that computes the values of a scene's draw.
 struct Adder {
   Pass& pass;
   const PreparedDraw& draw;

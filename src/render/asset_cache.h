@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Textures, meshes and maps of scenes, kept from one frame to the next.
+// Keeps textures, meshes and maps of scenes from one frame to the next.
 #pragma once
 
 #include <map>
@@ -12,8 +12,8 @@
 
 namespace halfspace {
 
-/// Assets with a string as the key. The key, called the recipe, lists everything the asset is made from, and a recipe always results in
-/// the same type of asset. Not thread-safe.
+/// Maps strings to assets. The string, called the recipe, lists everything that the asset is made from. A recipe always belongs to the same
+/// type of asset. Not thread-safe.
 class AssetCache {
  public:
   bool contains(const std::string& recipe) const { return entries_.contains(recipe); }

@@ -14,7 +14,8 @@ namespace halfspace {
 
 namespace {
 
-// Size of the squares that are summed separately. It is independent of the tiles of a pass, so that they do not affect the result.
+// Size of the squares that are summed separately. It does not depend on the tile size of a pass, which therefore does not affect the
+// result.
 constexpr int kMeterTile = 64;
 
 glm::vec3 rgb_of(const glm::vec4& c) { return glm::vec3(c); }
@@ -50,7 +51,7 @@ double log_average(const Image<Pixel>& light, const Workers& workers) {
   return static_cast<double>(exp(static_cast<float>(sum / (static_cast<double>(light.width()) * light.height()))));
 }
 
-// Converts to display light, for targets that encode sRGB exactly.
+// Converts to linear display light, for targets that encode sRGB exactly.
 struct ToDisplayLight {
   ToneMapping tone;
 
@@ -83,7 +84,7 @@ vec4<R> straight(const vec4<R>& color) {
   return select(is_seen, vec4<R>(vec3<R>(color) / select(is_seen, color.w, R(1)), color.w), vec4<R>(R(0)));
 }
 
-// Applies `next` to colors with straight alpha.
+// Converts colors to straight alpha and applies `next`.
 template <class F>
 struct Straightened {
   F next;
@@ -93,7 +94,7 @@ struct Straightened {
   operator()(const vec4<R>& color, Position... position) const { return next(straight(color), position...); }
 };
 
-// Returns the light, which need not be displayable.
+// Returns the light unchanged; it may exceed the displayable range.
 struct ToLight {
   template <class R>
   vec4<R> operator()(const vec4<R>& color) const {
@@ -112,7 +113,7 @@ struct ToFineCodes {
   }
 };
 
-// Adds a post step for colors with or without straight alpha.
+// Adds a post step for colors with premultiplied or straight alpha.
 template <class F>
 void add_post(Pass& pass, const F& function, const ColorTarget& target, Premultiplied premultiplied) {
   if (premultiplied == Premultiplied::yes) {

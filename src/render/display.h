@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Final stage of an image: measures its average brightness and converts light to pixel values.
+// The final stage of rendering an image: measures its average brightness and converts linear light to pixel values.
 #pragma once
 
 #include "halfspace/raster/pass.h"
@@ -21,18 +21,18 @@ double log_average_luminance(const Image<glm::vec4>& light, const Workers& worke
 /// Returns the tone mapping of an image that is displayed with the given exposure.
 ToneMapping tone_of(const PostDescription& post, double exposure);
 
-/// Whether the colors of a pass have been multiplied by alpha; if so, they are divided by it before the tone curve.
+/// Whether the colors of a pass are premultiplied by alpha. If so, they are divided by alpha before the tone curve is applied.
 enum class Premultiplied : bool { no, yes };
 
-/// Makes a pass write displayable pixel values to `picture`, as specified by `post` but with the given `exposure`. The color
-/// attachment of the pass must hold light. `picture` must have the size of the pass and outlive it.
+/// Makes a pass write displayable pixel values to `picture`, as specified by `post` but with the given `exposure`. The color attachment of
+/// the pass must hold linear light. `picture` must have the size of the pass and outlive it.
 void show(Pass& pass, const PostDescription& post, double exposure, Image<glm::u8vec4>& picture,
           Premultiplied premultiplied = Premultiplied::no);
 
-/// The same with encoded values in [0, 1], which are neither rounded nor dithered.
+/// Like show(), but writes encoded values in [0, 1] that are neither rounded nor dithered.
 void show_fine(Pass& pass, const PostDescription& post, double exposure, Image<glm::vec4>& encoded, Premultiplied premultiplied);
 
-/// Makes a pass write light with straight alpha to `light`.
+/// Makes a pass write linear color with straight alpha to `light`. The colors of the pass must be premultiplied.
 void show_light(Pass& pass, Image<glm::vec4>& light);
 
 }  // namespace halfspace

@@ -64,7 +64,7 @@ class FrameRenderer {
     return run_(pass);
   }
 
-  // Converts light that has been drawn already, without a crop.
+  // Converts light that has already been rendered. There must be no crop.
   void display(const Image<glm::vec4>& light, Image<glm::u8vec4>& picture) const {
     display_light(light, [&](Pass& pass, double exposure) { show(pass, post_, exposure, picture, premultiplied()); });
   }
@@ -125,7 +125,7 @@ class FrameRenderer {
     return run_(pass);
   }
 
-  // Renders the whole view to an image of linear light, and converts it to pixel values in a second pass.
+  // Renders the whole view to an image of linear light and converts it to pixel values in a second pass.
   template <class Pixel, class F>
   PassStatistics metered(ColorTarget (*target)(Image<Pixel>&), F display) const {
     const MemoryClaim claim(static_cast<uint64_t>(width_) * static_cast<uint64_t>(height_) * sizeof(Pixel), "post.auto_exposure");
@@ -232,7 +232,7 @@ void render_color(const FrameRenderer& renderer, Image<T>* wanted, const FrameIm
   target.finish();
 }
 
-// Renders all values that are wanted with one pass.
+// Renders all requested values in one pass.
 PassStatistics render_values(const FrameRenderer& renderer, const FrameImages& images, const glm::ivec2& size) {
   const auto target_of = [&]<class T>(Image<T>* wanted) { return TargetImage<T>(wanted, images.crop, size.x, size.y); };
   auto all = std::tuple(target_of(images.depth), target_of(images.distance), target_of(images.normal), target_of(images.camera_normal),

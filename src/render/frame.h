@@ -17,18 +17,18 @@ struct ImageRect {
   int x = 0, y = 0, width = 0, height = 0;
 };
 
-/// The images of a frame that render_frame() fills; null: not wanted. They are not owned. All must have the size for which the scene was
-/// prepared, or that of the crop.
+/// The images of a frame that render_frame() fills. Null images are not requested. The images are not owned. All must have the size for
+/// which the scene was prepared, or that of the crop.
 ///
 /// Colors are antialiased as the scene specifies. All other values are those of the surface at the center of a pixel, without filtering.
-/// Only opaque surfaces have them, including the remaining parts of masked ones: blended surfaces and floors that only show shadows are
-/// omitted, as if they were not there. Positions and distances are in scene units.
+/// Only opaque surfaces have them, including the visible parts of masked surfaces. Blended surfaces and floors that only show shadows are
+/// ignored. Positions and distances are in scene units.
 struct FrameImages {
-  Image<glm::u8vec4>* picture = nullptr;        ///< codes for display, as the post section of the scene specifies; straight alpha
+  Image<glm::u8vec4>* picture = nullptr;        ///< 8-bit display values, as the post section of the scene specifies; straight alpha
   Image<glm::u16vec4>* fine_picture = nullptr;  ///< the same with 16 bits per channel, not dithered
   Image<glm::vec4>* light = nullptr;            ///< linear light before exposure and tone curve, straight alpha
 
-  // See FrameValue for their meaning. Where there is no surface, they are 0 unless stated otherwise.
+  // Images of the values of FrameValue. Where there is no surface, they are 0 unless stated otherwise.
   Image<float>* depth = nullptr;              ///< background_depth where there is no surface
   Image<float>* distance = nullptr;           ///< background_depth where there is no surface
   Image<glm::vec3>* normal = nullptr;         ///< world space
@@ -36,36 +36,36 @@ struct FrameImages {
   Image<glm::vec3>* albedo = nullptr;         ///< linear
   Image<glm::vec3>* position = nullptr;       ///< world space
   Image<glm::vec2>* uv = nullptr;             ///< 0 if the mesh has none
-  /// Index in the scene's objects. Particle systems have the indices after those of the objects. kNoId where there is no surface.
+  /// Index into the scene's objects. Particle systems have the indices after those of the objects. kNoId where there is no surface.
   Image<uint32_t>* object = nullptr;
-  /// Index of the copy of an object; for a model with n meshes, copy · n + mesh; for spheres and particles, their own index. kNoId as
-  /// above.
+  /// Index of the copy of an object. For a model with n meshes, copy · n + mesh. For spheres and particles, the index of the sphere. kNoId
+  /// where there is no surface.
   Image<uint32_t>* instance = nullptr;
-  /// Index of the triangle, point or line in its mesh; 0 for spheres. kNoId as above.
+  /// Index of the triangle, point or line in its mesh; 0 for spheres. kNoId where there is no surface.
   Image<uint32_t>* triangle = nullptr;
   Image<glm::vec3>* barycentrics = nullptr;  ///< (1, 0, 0) for points and spheres
 
   float background_depth = std::numeric_limits<float>::infinity();
-  /// Render only this rectangle, which must be inside the frame. The images have its size and equal the rectangle of the whole images.
+  /// Renders only this rectangle, which must be inside the frame. The images have its size and contain the same pixels as the full frame.
   std::optional<ImageRect> crop{};
 };
 
 inline constexpr uint32_t kNoId = 0xffffffffu;
 
-/// Returns true if an image other than the color images is wanted.
+/// Returns true if an image other than the color images is requested.
 bool wants_values(const FrameImages& images);
 
 /// Renders the requested images. Throws LimitError if auto_exposure needs more memory than permitted. The result does not depend on the
-/// number of workers. Light is stored for the whole image only if it is wanted, or if auto_exposure has to measure it first; otherwise it
-/// only exists in tiles. The returned statistics are the sums over all passes that draw the scene.
+/// number of workers. Light is stored for the whole image only if it is requested, or if auto_exposure has to measure it first. Otherwise
+/// it exists only in tiles. The returned statistics are the sums over all passes that draw the scene.
 PassStatistics render_frame(const PreparedScene& scene, const FrameImages& images, const Workers& workers);
 
-/// Converts light that has been drawn already to the color images of a frame. The result has the same bits as that of render_frame(). The
-/// light must be opaque and have the size for which the scene was prepared. There must be no crop, and only color images can be wanted.
+/// Converts light that has already been rendered to the color images of a frame. The result is bit-identical to that of render_frame(). The
+/// light must be opaque and have the size for which the scene was prepared. There must be no crop, and only color images can be requested.
 void display_frame(const PreparedScene& scene, const Image<glm::vec4>& light, const FrameImages& images, const Workers& workers);
 
-/// Adds a draw to a pass whose attachment n stores FrameValue n. Draws without values are omitted: the background and blended surfaces.
-/// wanted: the values that are needed; others may be wrong. Compiled once, in add_value_draw.cpp.
+/// Adds a draw to a pass whose attachment n stores FrameValue n. The background and blended surfaces have no values and are omitted.
+/// wanted: the values that are needed; the others are undefined. Compiled once, in add_value_draw.cpp.
 void add_value_draw(Pass& pass, const PreparedDraw& draw, const FrameCamera& camera, const std::array<bool, kFrameValues>& wanted,
                     const DrawState& state);
 

@@ -19,8 +19,8 @@ struct ModelAsset {
   std::vector<Indices> indices;  ///< one per mesh of the model; refers to the indices of the mesh
 };
 
-/// Returns the pose that an object of shape `file` specifies. Throws InputError, which begins with `path`, if the file has no scene,
-/// animation or variant of that name.
+/// Returns the pose that an object of shape `file` specifies. If the file has no scene, animation or variant of that name, throws an
+/// InputError that begins with `path`.
 PoseOptions pose_options(const Model& model, const ObjectDescription& o, const std::string& path);
 
 }  // namespace halfspace

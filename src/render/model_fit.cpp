@@ -41,8 +41,9 @@ void for_each_vertex(const Model& model, const PosedModel& posed, const F& f) {
   }
 }
 
-// The eye of a view along −back that shows all vertices with a margin. A vertex at (x, y, z) along the axes of the camera is in view if
-// |x − eye.x| ≤ (eye.z − z)·tan, so the planes through the eye touch the model, and the eye is where the farther pair of planes meets.
+// A view along −back that shows all vertices with a margin. A vertex at (x, y, z) along the axes of the camera is in view if
+// |x − eye.x| ≤ (eye.z − z)·tan, so the side planes of the view touch the model. The horizontal and the vertical pair of planes meet at
+// different distances, and the eye is at the farther one.
 FittedView fitted(const Model& model, const PosedModel& posed, const ModelBounds& b, const glm::dvec3& back, const ModelView& view) {
   const glm::dvec3 right = glm::normalize(glm::cross(glm::dvec3(0, 1, 0), back)), up = glm::cross(back, right);
   const double tan_y = tangent(0.5 * view.fov) / kMargin, tan_x = tan_y * view.aspect;
@@ -61,7 +62,7 @@ FittedView fitted(const Model& model, const PosedModel& posed, const ModelBounds
   return {target + back * (distance / view.zoom), target};
 }
 
-// A view of the center from which all vertices stay in view while the camera goes around the model.
+// A view of the center in which all vertices stay visible while the camera goes around the model.
 FittedView fitted_for_turntable(const Model& model, const PosedModel& posed, const ModelBounds& b, const ModelView& view) {
   constexpr int kDirections = 24;
   const double tan_y = tangent(0.5 * view.fov) / kMargin, tan_x = tan_y * view.aspect;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The view that shows a whole model.
+// Finds the view that shows a whole model.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,7 @@
 
 namespace halfspace {
 
-/// Bounds of a posed model in world space. `radius` is that of the ball around the box, or 1 if the model is a single point.
+/// Bounds of a posed model in world space. `radius` is that of the bounding sphere of the box, or 1 if the model is a single point.
 struct ModelBounds {
   glm::dvec3 center, half;
   double radius;

@@ -25,8 +25,8 @@ constexpr double kPi = std::numbers::pi;
 
 OrderedJson json_of(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 
-// How the scene places the model. A model that is far from the origin compared with its size is moved to the origin, and one that is very
-// small or large is scaled by a power of ten, because keys of scene files have limits. Otherwise the scene has the units of the file.
+// How the scene places the model. A model that is far from the origin compared with its size is moved to the origin. A very small or large
+// model is scaled by a power of ten, because the keys of scene files have limits. Otherwise, the scene has the units of the file.
 struct Frame {
   glm::dvec3 origin{0.0};
   double scale = 1.0;

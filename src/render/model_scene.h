@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The scene in which a model file is shown if it is given without a scene file.
+// The scene that shows a model file that was given without a scene file.
 #pragma once
 
 #include <filesystem>
@@ -17,22 +17,22 @@ namespace halfspace {
 /// How a model is shown. The default is a view from the front right and above that shows the whole model.
 struct ModelView {
   double aspect = 16.0 / 9.0;              ///< width / height of the image
-  double yaw = 35.0, pitch = 18.0;         ///< degrees: position of the eye around the model, from the front (+z) to the right, and upwards
+  double yaw = 35.0, pitch = 18.0;         ///< degrees; position of the eye around the model: from the front (+z) to the right, and upwards
   double zoom = 1.0;                       ///< > 0; larger values bring the eye nearer
   double fov = 35.0;                       ///< full vertical angle in degrees
-  std::optional<glm::dvec3> eye, look_at;  ///< world space; replace the fitted ones
+  std::optional<glm::dvec3> eye, look_at;  ///< world space; replace the computed positions
   glm::dvec3 up{0, 1, 0};
-  bool inside = false;                    ///< start at the center of the bounds
+  bool inside = false;                    ///< place the camera at the center of the bounds
   bool floor = true;                      ///< shadows on a floor below the model
   std::string environment;                ///< image file; empty: a photo studio
   std::string background;                 ///< "#rrggbb", "environment", "transparent", or empty: light gray
   std::string scene, animation, variant;  ///< names in the file; empty: its defaults
   std::string up_axis = "auto";           ///< "auto", "y" or "z"
   double turn_seconds = 0.0;              ///< time in which the camera goes around the model; 0: it does not move
-  bool allow_outside = false;             ///< open files outside the folder of the model that it refers to
+  bool allow_outside = false;             ///< open referenced files outside the folder of the model
 };
 
-/// A scene file as text, and the model that it shows.
+/// The text of a scene file, and the model that the scene shows.
 struct GeneratedScene {
   std::string text;
   std::shared_ptr<const ModelAsset> model;
@@ -42,8 +42,8 @@ struct GeneratedScene {
 /// Returns true if the extension of the file is that of a model format.
 bool is_model_file(const std::filesystem::path& file);
 
-/// Reads the model and returns a scene with the object `model`, the camera `view`, the cameras of the file, and lights: those of the file,
-/// or a key light with a soft shadow. Throws InputError.
+/// Reads the model and returns a scene with the object `model`, the camera `view`, the cameras of the file, and the lights of the file or,
+/// if it has none, a key light with a soft shadow. Throws InputError.
 GeneratedScene model_scene(const std::filesystem::path& file, const ModelView& view);
 
 }  // namespace halfspace

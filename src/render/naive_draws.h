@@ -9,11 +9,11 @@
 
 namespace halfspace {
 
-/// Whether the naive pipeline can draw with a shader: it has no points.
+/// Whether the naive pipeline can draw with a shader. It cannot draw points.
 template <class S>
 inline constexpr bool kDrawsTriangles = !kGivesPointSprite<S> && !kGivesPointSize<S>;
 
-/// Calls shader_of(shader) for the shader of each draw and draws with the result. Fails an HS_CHECK for draws of points.
+/// For each draw, calls shader_of(shader) and draws with the shader that it returns. An HS_CHECK fails for draws of points.
 template <class R, class F>
 void draw_all_naive(NaiveTarget<R>& target, const PreparedScene& scene, const F& shader_of) {
   for (const PreparedDraw& draw : scene.draws) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Opens what a user names: a shipped scene, a scene file or a model file.
+// Opens a shipped scene, a scene file or a model file by its name.
 #pragma once
 
 #include <filesystem>
@@ -15,7 +15,7 @@
 
 namespace halfspace {
 
-/// A scene, and the model file that it shows if it was generated for one.
+/// A scene and, if it was generated for a model file, that file.
 struct OpenedScene {
   SceneFile scene;
   std::filesystem::path model_file;  ///< empty if the scene was not generated
@@ -27,8 +27,8 @@ struct OpenedScene {
 OpenedScene open_scene_or_model(const std::string& name_or_file, const ModelView& view);
 
 /// Announces `frames` frames of width x height pixels to the assets (SceneAssets::expect), so that generated maps get the resolution that
-/// the closest view of the animation needs and do not change between frames. time_of(i) is the time of frame i in seconds. At most a
-/// thousand frames are examined, and only one if nothing is animated. frames must be at least 1.
+/// the closest view of the animation needs and do not change between frames. time_of(i) is the time of frame i in seconds. Examines at most
+/// a thousand frames, and only one if nothing is animated. frames must be at least 1.
 void expect_frames(SceneAssets& assets, const SceneFile& scene, int frames, const std::function<double(int)>& time_of, int width,
                    int height);
 

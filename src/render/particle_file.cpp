@@ -49,7 +49,7 @@ class RowReader {
       fail("the radius is " + number_text(row.number[3]), "expected one from 1e-6 to 1e6");
     for (std::size_t k = 4; k < row.count; ++k) {
       if (!(row.number[k] >= 0.0 && row.number[k] <= kMaxCount))
-        fail("a color is " + number_text(row.number[k]), "expected one from 0 to 1e9");
+        fail("a color value is " + number_text(row.number[k]), "expected one from 0 to 1e9");
     }
     return row;
   }

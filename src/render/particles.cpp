@@ -14,7 +14,8 @@ namespace {
 
 constexpr double kTurn = 2.0 * std::numbers::pi;  // radians
 
-// Cube root of x > 0 by Newton's method, without libm. Iterates decrease to the root and the loop ends when they stop decreasing.
+// Computes the cube root of x > 0 by Newton's method, without libm. The iterates decrease towards the root; the loop ends when they stop
+// decreasing.
 double cube_root(double x) {
   double root = std::max(x, 1.0);
   for (double next = root;; root = next) {

@@ -18,11 +18,11 @@ struct Particles {
   std::vector<glm::vec3> colors;  ///< linear
 };
 
-/// Returns the radius of generated spheres: p.radius if it is not 0. Otherwise it is a fifth of p.orbit_radius for 12 spheres, and
-/// chosen to keep the total volume for other counts. In a galaxy, which is flat, it is less than half of that.
+/// Returns the radius of generated spheres: p.radius if it is not 0. Otherwise it is a fifth of p.orbit_radius for 12 spheres; for other
+/// counts, it keeps the total volume the same. In a galaxy, which is flat, it is less than half of that.
 double particle_radius(const ParticlesDescription& p);
 
-/// Generates p.count spheres in the given arrangement, identically on every machine. All are rotated by p.angle from x to z.
+/// Generates p.count spheres in the given arrangement. They are bit-identical on every machine. All are rotated by p.angle from x to z.
 ///   helix   heights y evenly spaced from −height/2 to height/2, at an angle of y radians and a distance of orbit_radius from the y axis
 ///   grid    a cube from −orbit_radius to orbit_radius, filled row by row
 ///   ball    uniformly random in a ball of radius orbit_radius

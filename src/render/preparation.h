@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Implementation of SceneAssets::prepare, one file per topic: prepare_meshes.cpp, prepare_surface.cpp, prepare_objects.cpp,
-// prepare_shadows.cpp, prepare_background.cpp, prepare_spheres.cpp, prepare_particles.cpp, prepare_models.cpp. Private header of these
-// files and prepared_scene.cpp. Maps and environments have classes of their own: scene_maps.h, scene_environments.h.
+// The implementation of SceneAssets::prepare, with one file per topic: prepare_meshes.cpp, prepare_surface.cpp, prepare_objects.cpp,
+// prepare_shadows.cpp, prepare_background.cpp, prepare_spheres.cpp, prepare_particles.cpp, prepare_models.cpp. This header is private to
+// these files and prepared_scene.cpp. Maps and environments have their own classes: scene_maps.h, scene_environments.h.
 #pragma once
 
 #include <memory>
@@ -23,7 +23,7 @@
 
 namespace halfspace {
 
-// A mesh and its indices, which are validated once.
+// A mesh and its validated indices.
 struct MeshAsset {
   explicit MeshAsset(Mesh m) : mesh(std::move(m)), indices(mesh.indices, mesh.positions.size()) {}
   Mesh mesh;
@@ -121,7 +121,7 @@ class ScenePreparation {
   void add_exact_spheres(int object, const std::string& path, const ObjectDescription& o);
 
   // prepare_particles.cpp
-  // object: number of the particles among the objects, for DrawSource.
+  // object: index for DrawSource::object.
   void add_particles(int object, const ParticlesDescription& p, const std::string& path);
   std::shared_ptr<const Particles> particles(const ParticlesDescription& p, const std::string& path);  // null: none
 

@@ -10,7 +10,7 @@ namespace halfspace {
 
 namespace {
 
-// How a shape's mesh is made, and how its maps continue beyond their edges.
+// Creates the mesh of a shape. Also specifies how its maps continue beyond their edges.
 struct MeshMaker {
   MapEdges edges;
   Mesh (*make)(const ObjectDescription& o, const Displacement* displacement);  // null: the shape has no generated mesh

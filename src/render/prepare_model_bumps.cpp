@@ -13,7 +13,7 @@ namespace halfspace {
 
 namespace {
 
-// A normal map whose slopes are those of the heights divided by `steepest`.
+// A normal map whose slopes are those of the heights, divided by `steepest`.
 struct ModelBumps {
   Texture2D map;
   float steepest;
@@ -56,7 +56,7 @@ double uv_size(const ModelMesh& mesh, int set) {
 
 }  // namespace
 
-// A normal map would need the size of the texture at every point; the mean over the mesh is used instead.
+// The slopes depend on the size of the texture on the surface, which can differ at every point. The mean over the mesh is used instead.
 void ScenePreparation::add_bumps(MetallicMaterial& surface, const ObjectDescription& o, const Model& model, int mesh,
                                  const ModelMaterial& material) {
   const TextureUse& use = material.bump_map;

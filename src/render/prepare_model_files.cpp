@@ -25,7 +25,7 @@ const TextureUse* tangent_map(const ModelMaterial& m) {
   return nullptr;
 }
 
-// Streams with neutral values for a mesh that lacks them.
+// Neutral values for the streams that a mesh lacks.
 struct NeutralStreams {
   std::vector<glm::vec4> tangents, colors;
   std::vector<glm::vec2> uvs;
@@ -104,7 +104,7 @@ int index_of(const std::vector<T>& list, const std::string& name, const Name& na
   throw InputError(where + ": the file has no '" + name + "'" + suggestion(name, names));
 }
 
-// Returns the additional rotation to y up for an object whose up_axis differs from that of the model, which pose() uses.
+// Returns the additional rotation for an object whose up_axis differs from the up axis of the model, which pose() already applies.
 glm::dmat4 turn_of(const ObjectDescription& o, const Model& model) {
   glm::dmat4 turn(1.0);
   const bool z_up = o.up_axis == ModelUp::automatic ? model.up == UpAxis::z : o.up_axis == ModelUp::z;
@@ -157,8 +157,8 @@ const ModelMaterial& material_of(const Model& model, const PosedMesh& part) {
   return part.material < 0 ? kDefault : model.materials[static_cast<std::size_t>(part.material)];
 }
 
-// Returns the width of the points of a cloud in pixels: a quarter of the distance between points that cover a square of the picture's
-// height evenly, limited to 2 to 12 px in a picture with 720 rows.
+// Returns the point size of a point cloud in pixels. If the points evenly covered a square as high as the image, it would be a quarter of
+// their distance. In a 720-pixel-high image, it is limited to 2 to 12 px.
 float point_size(std::size_t count, int height_px) {
   const auto height = static_cast<float>(height_px);
   return std::max(1.0f, std::clamp(0.25f * height / std::sqrt(static_cast<float>(count)), height / 360.0f, height / 60.0f));
@@ -255,7 +255,7 @@ void ScenePreparation::add_part(int object, const ObjectDescription& o, const st
   out_.meshes.push_back(placed);
 }
 
-// Draws a part of a model with a material of the scene, which is the object's surface.
+// Draws a part of a model with the surface of a material of the scene.
 void ScenePreparation::add_replaced_part(int object, const ObjectDescription& o, const std::string& path, const SurfaceStreams& streams,
                                          const std::shared_ptr<const Indices>& indices, const glm::dmat4& world) {
   needs_light_ = needs_light_ || (o.surface.shading != ShadingRate::none && o.surface.emissive.linear == glm::dvec3(0.0));

@@ -49,7 +49,7 @@ Texture2D decoded(const std::filesystem::path& file, const ModelImage& source, b
 
 }  // namespace
 
-// Returns the images that the materials of a posed model use and that are not loaded yet, and whether each is a color map.
+// Returns the images that the materials of a posed model use and that are not yet loaded, and for each, whether it is a color map.
 std::vector<std::pair<int, bool>> ScenePreparation::wanted_images(const ObjectDescription& o, const Model& model, const PosedModel& posed) {
   std::set<std::pair<int, bool>> wanted;
   for (const PosedMesh& part : posed.meshes) {
@@ -74,7 +74,7 @@ void ScenePreparation::load_images(const ObjectDescription& o, const Model& mode
   const auto load = [&](std::size_t i) {
     const auto [image, color] = list[i];
     const ModelImage& source = model.images[static_cast<std::size_t>(image)];
-    if (source.file.empty() && source.bytes == nullptr && source.pixels == nullptr) return;  // the reader has warned
+    if (source.file.empty() && source.bytes == nullptr && source.pixels == nullptr) return;  // the reader has already warned
     try {
       textures[i].emplace(decoded(o.file.path, source, color, assets_.workers_));
     } catch (const LimitError&) {

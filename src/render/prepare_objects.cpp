@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Objects of the scene: their surface, their transform, and the shader that draws them.
+// Prepares the objects of a scene: their surfaces, transforms and shaders.
 #include <algorithm>
 
 #include "halfspace/core/check.h"

@@ -23,7 +23,7 @@ namespace halfspace {
 
 namespace {
 
-// The maps of one light, which its Shadow points to.
+// The maps that the Shadow of a light points to.
 struct ShadowMaps {
   std::vector<Image<float>> depths;
   std::vector<Image<glm::vec4>> moments;
@@ -113,7 +113,7 @@ PassStatistics draw_depth(const glm::dmat4& clip_from_world, double near, double
   return pass.run(workers);
 }
 
-// A visible point and the width of a pixel there. The points are taken from a low-resolution depth map of the view.
+// A visible point from a low-resolution depth map of the view, and the width of a pixel at that point.
 struct VisiblePoint {
   glm::dvec3 position_rws;
   double pixel;

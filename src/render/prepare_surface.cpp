@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Surface appearance of an object: its factors, and the maps for per-pixel normals.
+// Prepares the appearance of an object's surface: its factors, and the maps for per-pixel normals.
 #include "halfspace/geometry/height_slopes.h"
 #include "halfspace/render/preparation.h"
 

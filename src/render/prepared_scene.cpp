@@ -13,7 +13,7 @@ namespace halfspace {
 namespace {
 
 Light make_light(const LightDescription& d, const glm::dvec3& eye_ws) {
-  constexpr double kMinCone = 1e-6;  // difference of cosines; gives a hard edge
+  constexpr double kMinCone = 1e-6;  // difference of cosines; small enough for a hard edge
   const glm::dvec3 towards = unit_or_zero(d.direction), color = d.color.linear * d.intensity;
   const double cos_inner = sincos_turns(d.inner / 360.0).cos, cos_outer = sincos_turns(d.outer / 360.0).cos;
   Light light;
@@ -38,7 +38,7 @@ std::vector<PreparedLight> shining_lights(const SceneDescription& scene, const g
   return lights;
 }
 
-// Ambient light reaches every point, no matter which light it belongs to, so it is summed here.
+// Ambient light reaches every point regardless of the light that it belongs to, so it is summed here.
 glm::dvec3 ambient_of(const SceneDescription& scene) {
   glm::dvec3 sum = scene.head.ambient.linear;
   for (const auto& [name, light] : scene.lights) sum += light.color.linear * light.intensity * light.ambient;

@@ -34,8 +34,7 @@
 
 namespace halfspace {
 
-/// All shaders that a scene can use. Every std::visit over this type instantiates all of them; only add_draw.cpp and one test file
-/// do so.
+/// All shaders that a scene can use. Every std::visit over this type instantiates all of them, so only a few translation units may do so.
 using SceneShader = std::variant<SurfaceShader<ShadingRate::none, false>, SurfaceShader<ShadingRate::none, true>,            //
                                  SurfaceShader<ShadingRate::flat, false>, SurfaceShader<ShadingRate::flat, true>,            //
                                  SurfaceShader<ShadingRate::provoking, false>, SurfaceShader<ShadingRate::provoking, true>,  //
@@ -62,8 +61,8 @@ struct MeshStreams {
 /// The origin of a draw, for the values of a frame other than its color (render/frame.h).
 struct DrawSource {
   int object = -1;                    ///< as in FrameImages::object; −1: the background
-  int instance = 0;                   ///< copy of the object · parts of its model + part
-  MeshStreams streams{};              ///< also those that the shader does not read; empty for spheres and the background
+  int instance = 0;                   ///< copy · parts of the model + part
+  MeshStreams streams{};              ///< includes streams that the shader does not read; empty for spheres and the background
   glm::dmat4 world_from_object{1.0};  ///< identity for spheres and the background
 };
 
@@ -93,10 +92,10 @@ struct PlacedMesh {
   glm::dmat4 world_from_object;
   bool two_sided, casts_shadow, receives_shadow;
   int object = 0;  ///< index in the scene's objects
-  /// Set for masked and blended surfaces: the parts that cast shadows. Ray tracing treats them as opaque.
+  /// Set for masked and blended surfaces; selects the parts that cast shadows. Ray tracing treats these surfaces as opaque.
   std::optional<OpacityTest> opacity{};
   std::span<const glm::vec2> uvs{};     ///< for `opacity`; not owned
-  std::span<const glm::vec4> colors{};  ///< for `opacity`, which their alpha multiplies; empty: alpha 1; not owned
+  std::span<const glm::vec4> colors{};  ///< for `opacity`: alpha multiplies it; empty: alpha 1; not owned
 
   bool mirrored() const { return glm::determinant(glm::dmat3(world_from_object)) < 0.0; }
 };
@@ -111,12 +110,12 @@ struct PlacedSpheres {
 /// A light, prepared for one image.
 struct PreparedLight {
   std::string name;
-  Light light;  ///< its shadow is null if it casts none
+  Light light;  ///< Light::shadow is null if it casts no shadow
   LightDescription description;
   double map_ms = 0.0;  ///< time to create its shadow maps
 };
 
-/// Everything needed to render an image. Movable; keeps the assets alive that its draws point to.
+/// Everything needed to render an image. Movable. Keeps the assets alive that its draws point to.
 struct PreparedScene {
   std::vector<PreparedDraw> draws;
   glm::vec4 clear_color{0, 0, 0, 1};  ///< linear
@@ -138,7 +137,7 @@ struct ModelAsset;
 /// use them.
 class SceneAssets {
  public:
-  /// warn: called with one line for each problem that does not prevent a picture, such as a missing texture of a model.
+  /// warn: called with one line for each problem that does not prevent rendering, such as a missing texture of a model.
   explicit SceneAssets(const Workers& workers, std::function<void(const std::string&)> warn = {})
       : workers_(workers), warn_(std::move(warn)) {}
 
@@ -146,16 +145,16 @@ class SceneAssets {
   SceneAssets(const SceneAssets& other, const Workers& workers, std::function<void(const std::string&)> warn)
       : workers_(workers), warn_(std::move(warn)), cache_(other.cache_) {}
 
-  /// Provides the contents of a model file that has been read already, so that `prepare` does not read it again.
+  /// Provides the contents of a model file that has already been read, so that `prepare` does not read it again.
   void add_model(const std::filesystem::path& file, std::shared_ptr<const ModelAsset> model);
 
-  /// Announces a frame that will be rendered. Generated maps without an explicit width are from then on at least as fine as that
-  /// frame needs. If all frames of a range are announced before the first is rendered, maps do not change in between. width and
-  /// height are the image size in pixels.
+  /// Announces a frame that will be rendered. From then on, generated maps without an explicit width are at least as fine as that frame
+  /// needs. If all frames of a range are announced before the first is rendered, maps do not change in between. width and height are the
+  /// image size in pixels.
   void expect(const SceneDescription& scene, int width, int height);
 
-  /// Returns the same scene with the cheapest models that keep the image within the allowed error (docs/results/accuracy.md). The choice is
-  /// made by an error and cost model from the scene alone, so it is the same on every machine. Throws like prepare.
+  /// Returns the same scene with the cheapest models that keep the image within the allowed error (docs/results/accuracy.md). The choice
+  /// depends only on the scene and on models of error and cost, so it is the same on every machine. Throws the same exceptions as prepare.
   FittedScene fit(const SceneDescription& scene, int width, int height, const AllowedError& allowed);
 
   /// Prepares a frame of width x height pixels. Throws InputError with a message that begins with the key if a file cannot be used.
@@ -179,7 +178,7 @@ class SceneAssets {
   int panorama_width_ = 0, face_size_ = 0;  ///< minimum sizes of generated environments
 };
 
-/// Render only the color of a frame; see render_frame() in render/frame.h for the meaning of the images and for other values.
+/// Renders only the color of a frame. See render_frame() in render/frame.h for the meaning of the images and for other values.
 PassStatistics render(const PreparedScene& scene, Image<glm::u8vec4>& picture, const Workers& workers);
 PassStatistics render(const PreparedScene& scene, Image<glm::vec4>& light, const Workers& workers);
 

@@ -32,7 +32,7 @@ Picture read_picture(const fs::path& path) {
 }
 
 TexelFormat format_for(const Image<glm::u8vec4>&) { return TexelFormat::srgb8a8; }
-// Half floats if their range is sufficient.
+// Returns half floats if their range is sufficient, otherwise floats.
 TexelFormat format_for(const Image<glm::vec4>& image) {
   const bool wide = std::ranges::any_of(image.texels(), [](const glm::vec4& t) { return std::max({t.x, t.y, t.z}) > kMaxHalf; });
   return wide ? TexelFormat::rgba32f : TexelFormat::rgba16f;
@@ -76,7 +76,7 @@ EnvironmentMap cube_of(const std::array<fs::path, 6>& files, std::array<Picture,
     const int size = faces[0].width();
     if (faces[f].width() != size || faces[f].height() != size) {
       throw InputError(
-          fmt::format("{}: is {}x{}; expected six square faces of one size", files[f].string(), faces[f].width(), faces[f].height()));
+          fmt::format("{}: is {}x{}; expected six square faces of the same size", files[f].string(), faces[f].width(), faces[f].height()));
     }
     format = std::max(format, format_for(faces[f]));
   }
@@ -111,7 +111,7 @@ int SceneEnvironments::panorama_width() const {
   return width;
 }
 
-// The same for a face of a cube map, whose texels are largest in its center.
+// Like panorama_width, for a face of a cube map, whose texels are largest at its center.
 int SceneEnvironments::face_size() const {
   int size = std::max(64, minimum_.face);
   while (size < 1024 && size < view_.height_px / (2.0 * view_.tan_y)) size *= 2;

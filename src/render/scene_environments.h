@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The environments of a scene: what its background shows, and what its surfaces reflect.
+// The environments of a scene: those shown as the background, and those that light and are reflected by surfaces.
 #pragma once
 
 #include <memory>
@@ -19,7 +19,7 @@ struct EnvironmentSizes {
 
 class SceneEnvironments {
  public:
-  // Keeps references to all arguments but the sizes.
+  // Keeps references to all arguments except the sizes.
   SceneEnvironments(const SceneDescription& scene, const View& view, const EnvironmentSizes& minimum, SceneMaps& maps, UsedAssets& used,
                     const Workers& workers)
       : scene_(scene), view_(view), minimum_(minimum), maps_(maps), used_(used), workers_(workers) {}
@@ -51,8 +51,8 @@ class SceneEnvironments {
   SceneMaps& maps_;
   UsedAssets& used_;
   const Workers& workers_;
-  std::shared_ptr<const EnvironmentBlend> surroundings_;  // null: not needed so far
-  std::shared_ptr<const EnvironmentLightBlend> light_;    // null: not needed so far
+  std::shared_ptr<const EnvironmentBlend> surroundings_;  // null: not needed yet
+  std::shared_ptr<const EnvironmentLightBlend> light_;    // null: not needed yet
 };
 
 }  // namespace halfspace

@@ -62,11 +62,10 @@ double depth_of_plane(const ObjectDescription& o, const glm::dmat4& world_from_o
 
 }  // namespace
 
-// Width of generated maps on models, because the size of a map on their surface is not known.
+// Width of generated maps on models. The size of a map on their surface is unknown.
 constexpr int kModelMapWidth = 1024;
 
-// At the point nearest to the eye, a texel then spans at most two pixels,
-// unless that would require a width above 4096.
+// Chosen so that at the point nearest to the eye, a texel spans at most two pixels, unless that would require a width above 4096.
 int SceneMaps::width_for(const ObjectDescription& o) const {
   if (o.shape == Shape::file) return kModelMapWidth;
   // Displaced parts outside the view can cast shadows into it.

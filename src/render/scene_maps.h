@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The maps of a scene: colors, other data, heights. They are read from files or generated at the resolution that the view needs.
+// The maps of a scene: colors, heights and other data. They are read from files, or generated at the resolution that the view needs.
 #pragma once
 
 #include <map>

@@ -7,7 +7,7 @@ namespace halfspace {
 
 namespace {
 
-// Returns the pattern that the source is a map of.
+// Returns the pattern that the source belongs to.
 Pattern pattern_of(TextureSource source) {
   switch (source) {
     case TextureSource::checkerboard: return Pattern::checkerboard;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Projects spheres as seen from a camera or a light, given the transform to clip space.
+// Projects spheres as seen from a camera or a light with a given transform to clip space.
 #pragma once
 
 #include <vector>
@@ -23,7 +23,7 @@ class SphereCamera {
  private:
   glm::dmat4 clip_from_world_;
   bool perspective_;
-  glm::dvec2 half_;  // tangents (perspective) or units (orthographic)
+  glm::dvec2 half_;  // half the view's size, as tangents (perspective) or in units (orthographic)
   double near_, far_;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// How the parts of a scene's preparation get their assets: from the cache, or newly made.
+// Provides the assets that a prepared scene uses, from the cache or newly created.
 #pragma once
 
 #include <memory>
@@ -13,7 +13,7 @@
 
 namespace halfspace {
 
-// Builds the cache key of an asset from the parameters it is made with.
+// Builds the cache key of an asset from the parameters that determine it.
 template <class... T>
 std::string recipe(const T&... parts) {
   std::string text;
@@ -52,7 +52,7 @@ class UsedAssets {
     if (found != nullptr) used_.push_back(found);
     return found;
   }
-  // The same, but an asset that does not exist yet is made by calling `make`.
+  // Like the above, but creates an asset that does not exist yet by calling `make`.
   template <class T, class F>
   std::shared_ptr<const T> asset(const std::string& recipe, F make) {
     if (!cache_.contains(recipe)) cache_.add(recipe, std::make_shared<const T>(make()));

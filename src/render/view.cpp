@@ -87,7 +87,7 @@ CameraDescription matrix_camera(const CameraMatrices& matrices) {
   if (p[0][2] != 0.0 || p[1][2] != 0.0) reject_projection("a depth that depends only on z");
   if (c.type == Projection::perspective ? p[3][0] != 0.0 || p[3][1] != 0.0 : p[2][0] != 0.0 || p[2][1] != 0.0)
     reject_projection("a perspective or orthographic projection");
-  if (!(p[0][0] * p[1][1] - p[1][0] * p[0][1] > 0.0)) reject_projection("one that does not mirror the image");
+  if (!(p[0][0] * p[1][1] - p[1][0] * p[0][1] > 0.0)) reject_projection("a projection that does not mirror the image");
   set_planes(c, p[2][2], p[3][2]);
   c.position = glm::dvec3(world[3]);
   c.target = c.position - glm::dvec3(world[2]);

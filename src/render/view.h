@@ -19,7 +19,7 @@ struct View {
   /// Perspective: ray_ws + x·ray_x_ws + y·ray_y_ws is the direction of the ray through the NDC (x, y), and has a length of 1 along
   /// forward_ws.
   glm::dvec3 ray_ws{}, ray_x_ws{}, ray_y_ws{};
-  bool symmetric = true;  ///< the view axis is at the center of the image, and the image axes are perpendicular
+  bool symmetric = true;  ///< the view axis passes through the center of the image, and the image axes are perpendicular
 };
 
 /// Returns the camera with these matrices. The projection may have an off-center principal point and skewed image axes, as calibrated
@@ -35,7 +35,7 @@ View make_view(const CameraDescription& camera, int width, int height);
 double pixel_width(const View& view, const glm::dvec3& position_rws);
 
 /// Upper bounds on how far a projected point moves, in pixels, per world unit that the point moves inside a ball. The second
-/// function applies to the silhouette of the ball itself, where only movement towards its center counts.
+/// function applies to the silhouette of the ball itself, where only movement towards the ball's center counts.
 double pixels_per_unit(const View& view, const glm::dvec3& center_ws, double radius);
 double silhouette_pixels_per_unit(const View& view, const glm::dvec3& center_ws, double radius);
 

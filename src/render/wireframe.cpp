@@ -37,7 +37,7 @@ PreparedDraw plain_draw(const PlacedMesh& mesh, const View& view, const Palette&
           {mesh.object, 0, {mesh.positions, mesh.normals, {}, {}, {}, {}}, mesh.world_from_object}};
 }
 
-// Moves surfaces away from the eye, so that they do not hide their own edges. Depth is reversed. The center of a pixel of a line can be
+// Moves surfaces away from the eye, so that they do not hide their own edges. Depth is reversed. The center of a pixel on a line can be
 // half a pixel beyond the edge.
 constexpr DepthOffset kBehindEdges{.slope = -1.5f, .constant = -4.0f};
 

@@ -13,9 +13,9 @@ enum class HiddenLines : uint8_t { shown, removed };
 /// Returns black on a light background and white on a dark one. Colors are linear.
 glm::vec4 line_color(const glm::vec4& background);
 
-/// Replaces the draws of all meshes of a prepared scene by the edges of their triangles. Lines have the color line_color(), without
-/// lighting or shadows. Shadow catchers are omitted. The background, points and lines stay as they are, and so do spheres, which have no
-/// triangles. Returns whether there are such spheres. description: the scene that was prepared.
+/// Replaces the draws of all meshes of a prepared scene with the edges of their triangles. The lines have the color line_color(), without
+/// lighting or shadows. Shadow catchers are omitted. The background, points, lines and exact spheres, which have no triangles, are
+/// unchanged. Returns true if there are such spheres. description: the scene that was prepared.
 bool make_wireframe(PreparedScene& scene, const SceneDescription& description, HiddenLines hidden);
 
 }  // namespace halfspace

@@ -16,7 +16,7 @@ void embed(ModelImage& image) {
     image.bytes = std::make_shared<const std::vector<std::byte>>(encode_png(*image.pixels));
     return;
   }
-  if (image.bytes == nullptr && image.file.empty()) return;  // the reader has warned
+  if (image.bytes == nullptr && image.file.empty()) return;  // the reader has already warned
   const auto own = [](std::vector<std::byte> bytes) { return std::make_shared<const std::vector<std::byte>>(std::move(bytes)); };
   auto bytes = image.bytes != nullptr ? image.bytes : own(file_bytes(image.file, memory_left()));
   if (image_extension(*bytes).empty()) bytes = own(encode_png(read_image(*bytes, image.name)));

@@ -25,18 +25,18 @@ uint8_t channel_value(const glm::u8vec4& texel, Channel channel) {
     case Channel::alpha: return texel.w;
     case Channel::luminance: break;
   }
-  // ITU-R BT.709; the codes of data maps are linear.
+  // ITU-R BT.709. The values of data maps are linear.
   const float y = 0.2126f * static_cast<float>(texel.x) + 0.7152f * static_cast<float>(texel.y) + 0.0722f * static_cast<float>(texel.z);
   return static_cast<uint8_t>(std::min(y + 0.5f, 255.0f));
 }
 
-// A channel of a new image: a channel of a map or a constant.
+// The source of a channel of a new image: a channel of a map, or a constant.
 struct Source {
   const Picture* picture = nullptr;
   Channel channel = Channel::red;
   uint8_t constant = 255;
 
-  // Returns the value at the place of pixel (x, y) of an image of the given size: the nearest texel.
+  // Returns the texel nearest to the position of pixel (x, y) in an image of the given size.
   uint8_t at(int x, int y, int width, int height) const {
     if (picture == nullptr) return constant;
     const auto scaled = [](int i, int size, int own) { return static_cast<int>((2 * int64_t{i} + 1) * own / (2 * int64_t{size})); };
@@ -79,7 +79,7 @@ class MapPacker {
     return a.uv_set == b.uv_set && a.uv_transform == b.uv_transform && s.wrap_s == t.wrap_s && s.wrap_t == t.wrap_t;
   }
 
-  // Returns a use of a new texture with these channels, in the place of `like`.
+  // Returns a use of a new texture with these channels that replaces `like`.
   TextureUse packed(const TextureUse& like, const std::array<Source, 4>& channels, PngCodes codes, const std::string& name) {
     int width = 1, height = 1;
     for (const Source& source : channels) {

@@ -6,8 +6,8 @@
 namespace halfspace {
 
 /// Combines material maps that glTF stores in one image: metalness (blue) with roughness (green), and base color with opacity. Moves the
-/// specular map to the alpha channel. The new images are 8-bit PNG and as large as the larger of the two maps. Maps do not change if they
-/// already fit, if their texture coordinates or samplers differ, or if an image is not in memory.
+/// specular map to the alpha channel. The new images are 8-bit PNGs with the size of the larger map. Maps stay unchanged if they already
+/// have the right channels, if their texture coordinates or samplers differ, or if an image is not in memory.
 void pack_maps(Model& model);
 
 }  // namespace halfspace

@@ -48,7 +48,7 @@ int SceneMaterials::add(const std::string& name, const DrawnMesh& drawn) {
   m.unlit = drawn.unlit;
   const glm::vec3 color = s.factors[kColor].constant * (drawn.unlit ? glm::vec3(1.0f) : s.factors[kDiffuse].constant);
   m.base_color = glm::vec4(glm::min(color, 1.0f), 1.0f);
-  if (color != glm::vec3(m.base_color)) warn_once(model_, "colors above 1 are reduced to 1");
+  if (color != glm::vec3(m.base_color)) warn_once(model_, "colors above 1 are clamped to 1");
   m.base_color_map = texture_use(s.factors[kColor].map, s.factors[kColor].sampler, false);
   m.emissive = s.factors[kEmissive].constant;
   if (m.emissive != glm::vec3(0.0f)) m.emissive_map = texture_use(s.factors[kEmissive].map, s.factors[kEmissive].sampler, false);

@@ -19,7 +19,7 @@ struct DrawnMesh {
   bool flat = false, unlit = false, has_normal_map = false, has_other_detail = false;
 };
 
-/// Adds a warning to the model, unless it has it already.
+/// Adds a warning to the model unless the model already has it.
 void warn_once(Model& model, const std::string& text);
 
 /// Converts materials and adds them to a model, with their textures.
@@ -35,7 +35,7 @@ class SceneMaterials {
   TextureUse texture_use(const Texture2D* texture, const Sampler& sampler, bool flip_green);
 
   Model& model_;
-  std::map<std::pair<const Texture2D*, bool>, int> images_;  // index of the image of a texture, and whether its green is flipped
+  std::map<std::pair<const Texture2D*, bool>, int> images_;  // image index by texture and whether green is flipped
 };
 
 }  // namespace halfspace

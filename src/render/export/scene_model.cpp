@@ -17,7 +17,7 @@ namespace halfspace {
 
 namespace {
 
-// Generated maps get the resolution for this image size.
+// Generated maps get the resolution that an image of this size needs.
 constexpr int kExportWidth = 1920, kExportHeight = 1080;
 constexpr int kSphereLevel = 5;
 
@@ -33,7 +33,7 @@ NodeTransform transform_of(const Placement& p) {
   return {p.position, turn, p.scale};
 }
 
-// Returns a matrix with this −z axis, and y as near to `up` as possible.
+// Returns a matrix whose −z axis points along `ahead` and whose y axis is as close to `up` as possible.
 glm::dmat4 looking_along(const glm::dvec3& position, const glm::dvec3& ahead, const glm::dvec3& up) {
   const glm::dvec3 z = unit_or_zero(-ahead);
   glm::dvec3 x = unit_or_zero(glm::cross(up, z));
@@ -124,13 +124,13 @@ class SceneExporter {
     node.matrix = p.matrix;
   }
 
-  // Returns the node of an object, which has the index of the object.
+  // Returns the node of an object. Nodes have the same indices as objects.
   std::size_t node_of(const std::string& name) const {
     const auto is_this = [&](const auto& object) { return object.first == name; };
     return static_cast<std::size_t>(std::ranges::find_if(scene_.objects, is_this) - scene_.objects.begin());
   }
 
-  // Adds a node for every object, also for hidden ones, which can be parents.
+  // Adds a node for every object, including hidden ones, because they can be parents.
   void add_object_nodes() {
     for (const auto& [name, o] : scene_.objects) {
       ModelNode node;
@@ -146,7 +146,7 @@ class SceneExporter {
 
   void add_root(ModelNode node) { model_.scenes[0].roots.push_back(add_node(std::move(node))); }
 
-  // Draws and placed meshes of objects are in the same order. All copies of an object have the same mesh and material.
+  // The draws and the placed meshes of objects are in the same order. All copies of an object have the same mesh and material.
   void add_meshes() {
     std::size_t next = 0;
     int last_object = -1;
@@ -220,8 +220,8 @@ class SceneExporter {
     constexpr double kMinCone = 1e-4;
     light.outer = std::clamp(d.outer * kRadiansPerDegree, kMinCone, std::numbers::pi / 2.0);
     light.inner = std::clamp(d.inner * kRadiansPerDegree, 0.0, light.outer - 0.5 * kMinCone);
-    if (!kind.is_distant && d.falloff != Falloff::physical) warn("lights get physical falloff");
-    if (d.specular != d.diffuse) warn("lights shine with the same color for diffuse and specular light");
+    if (!kind.is_distant && d.falloff != Falloff::physical) warn("all lights are exported with physical falloff");
+    if (d.specular != d.diffuse) warn("lights have the same intensity for diffuse and specular light");
     ModelNode node;
     node.name = name;
     node.light = static_cast<int>(model_.lights.size());

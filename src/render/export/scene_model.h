@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Scenes as models, for export.
+// Converts scenes to models, for export.
 //
 // * Every object becomes a node; its copies become instances. Exact spheres become icospheres with 20480 triangles. Objects of shape `file`
 //   contribute the nodes of their model. Hidden objects, shadow catchers and particles are omitted.
@@ -17,7 +17,7 @@
 namespace halfspace {
 
 /// Returns the scene as a model with images in memory. Model::warnings has one line for each kind of data that is omitted. Throws
-/// InputError if a file of the scene cannot be used.
+/// InputError if a file that the scene refers to cannot be used.
 Model scene_model(SceneDescription scene, SceneAssets& assets);
 
 }  // namespace halfspace

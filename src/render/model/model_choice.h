@@ -14,7 +14,7 @@ namespace halfspace {
 /// Maximum difference from the image of the same scene with the finest models.
 struct AllowedError {
   std::optional<double> edge_px;  ///< maximum distance of silhouettes and shadow edges, in pixels
-  std::optional<double> color;    ///< 99.9th percentile over pixels of the maximum channel difference, in 8-bit codes
+  std::optional<double> color;    ///< 99.9th percentile, over all pixels, of the largest channel difference, in 8-bit steps
 };
 
 /// One key that was chosen.

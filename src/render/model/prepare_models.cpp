@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Chooses the cheapest models whose image differs from the image of the finest models by at most the allowed error. The result is the
-// scene with other mesh resolutions, maps, filters and sample counts, and the reasons for them. Constants are fitted to the
+// Chooses the cheapest models whose image differs from the image of the finest models by at most the allowed error. The result is the scene
+// with adjusted mesh resolutions, maps, filters and sample counts, and the reasons for the changes. Constants are fitted to the
 // measurements in docs/results/accuracy.md; nothing is timed.
 #include <fmt/format.h>
 
@@ -24,22 +24,21 @@ namespace {
 // With fewer bands, the vertex normals of a sphere are so far apart that interpolated normals are visibly wrong.
 constexpr int kMinParts = 8;
 
-// Measured on a textured, lit globe and compared with 1024 bands: the 99.9th percentile of the difference is 2, 8 and 33 codes at
+// Measured on a textured, lit globe and compared with 1024 bands: the 99.9th percentile of the difference is 2, 8 and 33 8-bit steps at
 // 128, 64 and 32 bands. It grows with the square of the angle between the normals at the ends of a quad's diagonal.
 constexpr double kCodesPerSquaredAngle = 1700.0;
 
-// Number of pixels per thousand that may show a different surface, so that edges do not determine the 99.9th percentile. (Of 208
-// random views with 8 codes allowed, three exceeded the limit with 0.5, and two exceed it with this value. These two show bricks in
-// relief at a grazing angle and have an error of 11 codes.)
+// Number of pixels per thousand that may show a different surface, so that edges do not determine the 99.9th percentile. (Of 208 random
+// views with an allowed error of 8 steps, three exceeded the limit with 0.5, and two exceed it with this value. These two show bricks in
+// relief at a grazing angle and have an error of 11 steps.)
 constexpr double kEdgePixels = 0.35;
 
-// With bilinear comparison, shadow edges are accurate to this many texels, except where light grazes the surface. (With 0.5, 14 of
+// With the bilinear filter, shadow edges are accurate to this many texels, except at grazing angles of the light. (With 0.5, 14 of
 // 208 random views exceeded the allowed error, 2 of them by more than a factor of two. With this value, one did, by an eighth of a
 // pixel.)
 constexpr double kShadowEdgeTexels = 1.25;
 
-// Cost of a vertex, relative to the time that per-vertex lighting saves per pixel: about 10 ns compared with 2.5 ns
-// (docs/results/performance.md).
+// Cost of a vertex relative to the time that per-vertex lighting saves per pixel: about 10 ns versus 2.5 ns (docs/results/performance.md).
 constexpr double kPixelsPerVertex = 4.0;
 
 // From the study texture_filter: 99.9th percentile of the error in linear light at full contrast.
@@ -52,13 +51,13 @@ constexpr int kMaxAnisotropy = 16;
 
 std::string rounded_text(double x) { return number_text(std::round(x * 1000.0) / 1000.0); }
 
-// Returns the maximum difference in 8-bit codes for a difference in linear light. The sRGB curve is steepest at black.
+// Returns the largest difference, in 8-bit steps, that a difference in linear light can cause. The sRGB curve is steepest at black.
 double codes_of(double linear) {
   const glm::vec3 light(static_cast<float>(std::min(1.0, linear)));
   return 255.0 * static_cast<double>(encode_srgb(DisplayLight<float>{light}).rgb.x);
 }
 
-// Returns the allowed edge error if only a color error is given. It assumes that all edges together are twice as long as the image
+// Returns the allowed edge error if only a color error is given. Assumes that the total length of all edges is twice that of the image
 // border.
 double edge_for_color(const View& v) {
   const double pixels = static_cast<double>(v.width_px) * v.height_px;
@@ -70,7 +69,7 @@ bool is_faceted(const ObjectDescription& o) {
 }
 bool is_ball(const ObjectDescription& o) { return kind_of(o).is_sphere_mesh && !is_map(o.height); }
 
-// Returns true if shading uses more than the positions of vertices. The mesh is then part of the object's appearance.
+// Returns true if shading uses more than the positions of the vertices. The mesh then affects the appearance of the object.
 bool shades_by_vertex(const ObjectDescription& o) {
   if (o.surface.shading == ShadingRate::gouraud) return true;
   return is_map(o.height) && !(o.shape == Shape::uv_sphere && o.normals == NormalSource::pixel);
@@ -94,11 +93,11 @@ bool may_shade_by_vertex(const ObjectDescription& o, const SceneDescription& sce
          std::ranges::all_of(scene.lights, [](const auto& light) { return kind_of(light.second.type).is_distant; });
 }
 
-// Size and visibility of an object in the image.
+// The size and visibility of an object in the image.
 struct Presence {
-  double px_per_unit = 0.0;  // maximum, for units of the object
+  double px_per_unit = 0.0;  // maximum; for units of object space
   double pixels = 0.0;       // covered by its bounding spheres, at most all pixels of the image
-  bool is_seen = false;      // or may cast a visible shadow
+  bool is_seen = false;      // it is visible or may cast a visible shadow
 };
 
 Presence presence_of(const SceneDescription& scene, const ObjectDescription& o, const View& view, bool casts) {
@@ -131,7 +130,7 @@ ObjectDescription ScenePreparation::fitted(const ObjectDescription& authored, co
                                            std::optional<double> color, std::vector<ModelChoice>& choices) {
   if (is_faceted(authored) || authored.shape == Shape::sphere || authored.shape == Shape::file) return authored;
   if (is_ball(authored) && mesh_only_key(authored).empty() && has_uniformly_scaled_ancestors(scene_, authored)) {
-    // Study sphere_model: 0.76 ms, compared with 0.54 ms for a mesh of 8 bands and 1.03 ms for 64 bands.
+    // A sprite takes 0.76 ms, a mesh 0.54 ms with 8 bands and 1.03 ms with 64 bands (study sphere_model).
     ObjectDescription sphere = authored;
     sphere.shape = Shape::sphere;
     choices.push_back({path + ".shape", "sphere", "ray traced per pixel: exact, without a mesh"});
@@ -172,7 +171,7 @@ ObjectDescription ScenePreparation::fitted(const ObjectDescription& authored, co
   if (color && may_shade_by_vertex(o, scene_) && light_error <= *color &&
       kPixelsPerVertex * static_cast<double>(kind.vertices(o)) <= presence.pixels) {
     o.surface.shading = ShadingRate::gouraud;
-    choices.push_back({path + ".shading", "gouraud", "up to " + rounded_text(light_error) + " codes off"});
+    choices.push_back({path + ".shading", "gouraud", "up to " + rounded_text(light_error) + " 8-bit steps off"});
   }
   return o;
 }
@@ -196,7 +195,7 @@ void fit_shadow(ShadowDescription& shadow, double edge_px, std::vector<ModelChoi
   if (shadow.method == ShadowMethod::none) return;
   if (compares(shadow.method) && shadow.method != ShadowMethod::bilinear) {
     shadow.method = ShadowMethod::bilinear;
-    choices.push_back({"shadow.method", "bilinear", "the narrowest filter: its edges are closest to the true ones"});
+    choices.push_back({"shadow.method", "bilinear", "the narrowest filter, whose edges are closest to the exact ones"});
   }
   shadow.resolution = 0;
   shadow.footprint = std::clamp(edge_px / kShadowEdgeTexels, 0.1, 100.0);
@@ -206,9 +205,8 @@ void fit_shadow(ShadowDescription& shadow, double edge_px, std::vector<ModelChoi
   choices.push_back({"shadow.footprint", rounded_text(shadow.footprint), why});
 }
 
-// Returns the maximum distance in pixels between the circle of an original sprite and the ellipse of its sphere. On the line
-// through the image center, the ellipse extends from tan(θ − α) to tan(θ + α) with sin α = r/d. The circle extends by r/z on both
-// sides of tan θ.
+// Returns the maximum distance in pixels between the circle of an original sprite and the ellipse of its sphere. Along the line through the
+// image center, the ellipse extends from tan(θ − α) to tan(θ + α) with sin α = r/d. The circle extends by r/z on both sides of tan θ.
 double original_error_px(const View& v, const Particles& particles) {
   if (v.to_eye_ws != glm::dvec3(0.0)) return 0.0;
   const double focal_px = 0.5 * v.height_px / v.tan_y;
@@ -229,7 +227,7 @@ void fit_particles(ParticlesDescription& p, const std::string& path, double erro
   if (p.sprite == ParticleSprite::exact || error_px <= edge_px) return;
   p.sprite = ParticleSprite::exact;
   const std::string how_far = std::isfinite(error_px) ? "up to " + rounded_text(error_px) + " px" : std::string("arbitrarily far");
-  choices.push_back({path + ".sprite", "exact", "circles are " + how_far + " off the ellipses of the spheres"});
+  choices.push_back({path + ".sprite", "exact", "circles are " + how_far + " off the spheres' ellipses"});
 }
 
 void fit_textures(Named<TextureDescription>& textures, double color, std::vector<ModelChoice>& choices) {
@@ -238,17 +236,19 @@ void fit_textures(Named<TextureDescription>& textures, double color, std::vector
   for (auto& [name, t] : textures) {
     if (t.filter != Filter::trilinear || t.anisotropy == anisotropy) continue;
     t.anisotropy = anisotropy;
-    const std::string why = anisotropy == kMaxAnisotropy ? "the maximum" : "up to " + rounded_text(codes_of(enough->linear)) + " codes";
+    const std::string why =
+        anisotropy == kMaxAnisotropy ? "the maximum" : "up to " + rounded_text(codes_of(enough->linear)) + " 8-bit steps";
     choices.push_back({"textures." + name + ".anisotropy", std::to_string(anisotropy), why});
   }
 }
 
-// Half floats have a relative error of at most 2^-11, which is less than 1/16 of an 8-bit code after sRGB encoding.
+// Half floats have a relative error of at most 2^-11, which is less than 1/16 of an 8-bit step after sRGB encoding.
 void fit_post(PostDescription& post, double color, std::vector<ModelChoice>& choices) {
   const LightFormat format = color >= 1.0 / 16.0 ? LightFormat::rgba16f : LightFormat::rgba32f;
   if (!post.hdr || post.format == format) return;
   post.format = format;
-  choices.push_back({"post.format", format == LightFormat::rgba16f ? "rgba16f" : "rgba32f", "half floats are accurate to 1/16 of a code"});
+  choices.push_back(
+      {"post.format", format == LightFormat::rgba16f ? "rgba16f" : "rgba32f", "half floats are accurate to 1/16 of an 8-bit step"});
 }
 
 }  // namespace

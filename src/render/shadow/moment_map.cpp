@@ -55,7 +55,7 @@ class RowFilter {
 }  // namespace
 
 Image<glm::vec4> filtered_moments(const ShadowView& view, const Image<float>& depth, int radius, const Workers& workers) {
-  constexpr int kBand = 128;  // rows per task; the 2·radius rows around each boundary are filtered by both tasks
+  constexpr int kBand = 128;  // rows per task; both neighboring tasks filter the 2·radius rows around their boundary
   const int size = depth.width(), count = 2 * radius + 1;
   Image<glm::vec4> out(size, size);
   workers.for_each((size + kBand - 1) / kBand, [&](int band) {

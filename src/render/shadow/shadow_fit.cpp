@@ -110,7 +110,7 @@ class ViewFinder {
 
   std::vector<LightView> cube(const glm::dvec3& position) const {
     double near = 1e300, far = 0.0;
-    // The distance along the axis of the nearest face is the largest component.
+    // The distance along the axis of the face that contains the point is the largest component.
     for (const Extent& e : casters_) {
       const glm::dvec3 gap = glm::max(glm::max(e.box_ws.low - position, position - e.box_ws.high), glm::dvec3(0.0));
       near = std::min(near, std::max({gap.x, gap.y, gap.z}));

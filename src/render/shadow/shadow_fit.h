@@ -11,7 +11,7 @@
 
 namespace halfspace {
 
-/// Returns the views for a map size of `size` texels with `margin` texels around each view for filtering. A directional light has
+/// Returns the views for maps of size² texels, with `margin` texels around each view for filtering. A directional light has
 /// one view per cascade that shows a receiver. A spot light has one view. A point light, or a spot light with an outer angle above
 /// 60 degrees, has one view per cube face that contains a receiver and a caster.
 std::vector<LightView> fitted_views(const View& view, const std::vector<PlacedMesh>& meshes, const std::vector<PlacedSpheres>& spheres,

@@ -14,8 +14,8 @@ namespace halfspace {
 
 namespace {
 
-// Clips the segment from a to b to the part where all distances, given as pairs at a and b, are ≥ 0. Returns false if nothing is
-// left.
+// Clips the segment from a to b to the part where all distances are ≥ 0. Each distance is given as its values at a and b. Returns false if
+// nothing is left.
 template <class Distances>
 bool clip_segment(glm::dvec3& a, glm::dvec3& b, const Distances& distances) {
   double from = 0.0, to = 1.0;
@@ -47,7 +47,7 @@ struct Plane {
   double distance(const glm::dvec3& p) const { return glm::dot(normal, p) + offset; }
 };
 
-// Returns the six faces of a body with eight corners. Each plane goes through three of them.
+// Returns the six faces of a body with eight corners. Each plane goes through three corners.
 std::array<Plane, 6> faces_of(const std::array<glm::dvec3, 8>& c) {
   glm::dvec3 middle(0.0);
   for (const glm::dvec3& p : c) middle += p / 8.0;

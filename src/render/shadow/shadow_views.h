@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Views from which a light's shadow maps are rendered. Each view is as small as possible, because its number of texels is given.
+// Views from which a light's shadow maps are rendered. Each view is as small as possible, because its number of texels is fixed.
 #pragma once
 
 #include <array>
@@ -43,8 +43,8 @@ std::array<glm::dvec3, 8> frustum_corners(const glm::dmat4& clip_from_world);
 /// Returns the part of a frustum between two fractions of the way from the near plane to the far plane, 0 ≤ from < to ≤ 1.
 std::array<glm::dvec3, 8> frustum_slice(const std::array<glm::dvec3, 8>& frustum, double from, double to);
 
-/// Returns the corners of the intersection of frustum and box, or an empty list if they do not intersect. Each corner of the
-/// intersection is on an edge of one body inside the other.
+/// Returns the vertices of the intersection of frustum and box, or an empty list if they do not intersect. Each vertex lies on an edge of
+/// one body and inside the other body.
 std::vector<glm::dvec3> common_corners(const std::array<glm::dvec3, 8>& frustum, const Box& box_ws);
 
 /// Returns a square view of a directional light that contains `receivers` (in coordinates along the axes) plus `margin` texels on
