@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Measures Halfspace, llvmpipe, SwiftShader, Embree and the limits of the machine in one run. Writes the results as JSON, Markdown tables and
+# Measures Halfspace, llvmpipe, SwiftShader, Embree and the machine's peak rates in one run. Writes the results as JSON, Markdown tables and
 # charts. Programs that are not installed (SwiftShader from Chromium, Embree) are skipped with a message.
 #
 #   scripts/bench.sh [--quick] [--docs] [--out DIR] [ARGUMENT...]

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Selects the data of the charts of bench_measure.py's results, which draw_charts.py draws as PNG and SVG. Needs matplotlib."""
+"""Selects the data for the benchmark charts from the results of bench_measure.py. draw_charts.py draws them as PNG and SVG, which needs
+matplotlib."""
 from bench_tables import COMPARED, intensity, sweep_series
 from draw_charts import COLORS, LIGHT, finish_axes, legend_beside, new_panels, save, use_theme
 
@@ -41,7 +42,7 @@ def bars(results, folder):
 
 
 def by_program(results, folder, sweep, panels, x_label, log_x=True):
-    """Draws one line per program. Each panel is (y label, function of x and ms, whether y is logarithmic)."""
+    """Draws one line per program. Each panel is a tuple: (y label, function of x and ms, whether y is logarithmic)."""
     series = sweep_series(results, sweep)
     if not series:
         return

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Runs the programs of the benchmark and writes their results and a description of the machine to a JSON file.
+"""Runs the benchmark programs and writes their results and a description of the machine to a JSON file.
 
-The programs are interleaved for each size and workload, round after round, so that changes in the speed of the machine affect all of them.
+The programs are interleaved for each size and workload, round by round, so that changes in the speed of the machine affect all of them.
 """
 import argparse
 import datetime
@@ -127,7 +127,7 @@ def contenders(args):
 
 def measure_rounds(runners, names, sizes, rounds, seconds, extra=(), progress=None):
     """Returns a row per contender, workload and size, with the median over all rounds of each round's median. A round measures all
-    combinations, so that a disturbance of a minute affects one round of a row and not all of them."""
+    combinations, so that a one-minute disturbance affects one round of a row, not all of them."""
     lines = {}
     for _ in range(rounds):
         for size, name, r in itertools.product(sizes, names, runners):
@@ -160,7 +160,7 @@ def names_of(command, *arguments):
 
 
 def check_pictures(runners, names, sizes, truths):
-    """Compares the images of every program with double precision. The first run is slow; the references are cached."""
+    """Compares the images of every program with double-precision references. The first run is slow; the references are cached."""
     rows = []
     progress = Progress(len(sizes) * len(runners))
     for size in sizes:
@@ -182,7 +182,7 @@ def measure_limits(program, threads, quick):
 
 
 def measure_sweeps(runners, args, progress_of):
-    """Measures the parameter sweeps; "x" is the parameter of a row. They run on one thread, which shows the cost most directly."""
+    """Measures the parameter sweeps; in each row, "x" is the parameter. They run on one thread, which shows the cost most directly."""
     rows = []
     program = args.native / "halfspace-bench"
     rounds = 1 if args.quick else 3
@@ -190,7 +190,7 @@ def measure_sweeps(runners, args, progress_of):
         chosen = [r for r in runners if r.key in ("halfspace native 1", "llvmpipe 1") or (sweep == "triangle_count" and r.key == "Embree 1")]
         everyone = [Contender(r.key, r.command, r.threads) for r in chosen]
         points = names_of(program, "--sweep", sweep)
-        if args.quick:  # the largest meshes take long to prepare
+        if args.quick:  # the largest meshes take a long time to prepare
             points = [p for p in points if p not in ("triangle_count=3200000", "triangle_count=10000000")]
         progress = progress_of(len(points) * rounds * len(everyone))
         got = measure_rounds(everyone, points, ["1920x1080"], rounds, args.seconds, ("--sweep", sweep), progress)
@@ -199,8 +199,8 @@ def measure_sweeps(runners, args, progress_of):
 
 
 def measure_table(runners, args, progress_of, table):
-    """Measures the "matrix" of states or the composed "scenes" with all threads, at 1920x1080. The pictures of OpenGL are compared with those
-    of Halfspace at 320x180."""
+    """Measures the "matrix" of states or the composed "scenes" with all threads, at 1920x1080. The pictures rendered with OpenGL are
+    compared with those of Halfspace at 320x180."""
     flag = f"--{table}"
     names = names_of(args.native / "halfspace-bench", flag)
     chosen = [r for r in runners if r.key in (f"halfspace v3 {args.threads}", f"halfspace native {args.threads}", f"llvmpipe {args.threads}")]
@@ -245,7 +245,7 @@ def main():
     parser.add_argument("--native", type=Path, required=True, help="folder with the programs of the native build")
     parser.add_argument("--v3", type=Path, required=True, help="folder with the programs of the x86-64-v3 build")
     parser.add_argument("--out", type=Path, required=True, help="JSON file to write")
-    parser.add_argument("--truths", type=Path, required=True, help="folder of reference images in double precision; missing ones are created")
+    parser.add_argument("--truths", type=Path, required=True, help="folder of double-precision reference images; missing ones are created")
     parser.add_argument("--only", default="", help="comma-separated list of workloads to run")
     parser.add_argument("--threads", type=int, default=len(os.sched_getaffinity(0)))
     parser.add_argument("--sizes", default="1920x1080,512x512")

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Writes the tables and charts of a benchmark run (the JSON file of bench_measure.py) to a folder, and with --docs to the documents."""
+"""Writes the tables and charts of a benchmark run (the JSON file of bench_measure.py) to a folder, and with --docs also to the
+documents."""
 import argparse
 import json
 import shutil

@@ -7,9 +7,10 @@ COMPARED = ["clear", "fill", "layers_b2f", "layers_f2b", *(f"sphere_{k}_{n}" for
             "tiny_1m", "shadow_200k", "points_100k", "hdr_200k", "tonemap"]
 TRIANGLES = {"200k": 200_000, "2m": 2_000_000, "1m": 1_000_000}
 
-# Floating-point operations per shaded pixel, counted by hand in the shader source. A fused multiply-add counts as two operations, a division
-# or square root as one. The counts are 50 for the barycentric weights, 4 per varying, 50 for the derivatives of a texture coordinate, 120
-# for a trilinear lookup, 105 for Blinn-Phong lighting, 95 for Phong lighting, 10 per shadow map texel and 160 for the tone curve.
+# Floating-point operations per shaded pixel, counted by hand in the shader source. A fused multiply-add counts as two operations, a
+# division or square root as one. The counts are 50 for the barycentric weights, 4 per varying, 50 for the derivatives of a texture
+# coordinate, 120 for a trilinear lookup, 105 for Blinn-Phong lighting, 95 for Phong lighting, 10 per shadow-map texel and 160 for the tone
+# curve.
 FLOPS = {"layers": 50 + 36 + 95, "sphere_phong": 50 + 32 + 50 + 120 + 105, "sphere_gouraud": 50 + 16 + 50 + 120 + 6,
          "sphere_flat": 50 + 8 + 50 + 120 + 6, "shadow": 50 + 24 + 105 + 28 + 90, "hdr": 357 + 3 + 160, "tonemap": 160, "points": 20 + 95}
 # Bytes per pixel that must be written from the tile to memory.
@@ -39,7 +40,7 @@ class Results:
         theirs = self.pictures.get(("llvmpipe 1", workload, size))
         if not ours or ours["colors_off"] > ours["covered"] / 1000:
             return False
-        # Pictures that differ only in how they round half a code differ by 0.002/255 RMS.
+        # Pictures that differ only in how they round values halfway between two 8-bit values differ by 0.002/255 RMS.
         return not theirs or (ours["colors_off"] <= theirs["colors_off"] + ours["covered"] / 1e5 and ours["rms_color"] <= theirs["rms_color"] + 0.002)
 
     def ratio(self, ours, theirs, workload, size):
@@ -54,7 +55,7 @@ class Results:
 
 
 def mean_of_rows(ratios, cap):
-    """The geometric mean of the rows of a table, each counted as at most cap, so that a few easy rows do not outweigh the others."""
+    """The geometric mean of the rows of a table. Each row is limited to cap, so that a few easy rows do not outweigh the others."""
     return math.exp(sum(math.log(min(r, cap)) for r in ratios) / len(ratios)) if ratios else None
 
 
@@ -105,8 +106,8 @@ def time_table(results, size):
 
 
 def state_table(results, key, first_column, plain=None):
-    """Times of the rows of results.raw[key] and llvmpipe's divided by ours. plain: a row; the table also has the times of all rows
-    relative to it."""
+    """Times of the rows of results.raw[key], and llvmpipe's times divided by ours. plain: the name of a row; if given, the table also lists
+    all times relative to that row."""
     n = results.threads
     rows = {(r["workload"], r["contender"]): r["ms"] for r in results.raw.get(key, [])}
     names = list(dict.fromkeys(workload for workload, _ in rows))
@@ -232,7 +233,8 @@ def sweep_series(results, sweep):
 
 
 def growth_table(results):
-    """The cost per triangle and per pixel as their number grows. The exponent is slope(): 1 if the cost is proportional to the count."""
+    """The cost per triangle and per pixel as their number grows. The exponent is slope(): 1 if the total cost is proportional to the
+    count."""
     rows = []
     for (who, _), points in sweep_series(results, "triangle_count").items():
         decades = [p for p in points if p[0] in (1e4, 1e5, 1e6, 1e7)]

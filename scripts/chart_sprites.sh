@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Measures the error of the original sprite by the angle off the axis. Writes docs/explanation/sprite_error.csv and its chart,
-# docs/explanation/sprite_error.svg.
+# Measures the error of the original sprite as a function of the angle off the view axis. Writes docs/explanation/sprite_error.csv and its
+# chart, docs/explanation/sprite_error.svg.
 # Needs ImageMagick and matplotlib.
 #
 #   scripts/chart_sprites.sh [PROGRAM]     default: build/release/bin/halfspace

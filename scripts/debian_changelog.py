@@ -4,7 +4,7 @@
 
     debian_changelog.py PACKAGE_VERSION MAINTAINER FILE
 
-The date is that of the section, or of the last change of CHANGELOG.md if the section is not released.
+The date is that of the section, or of the last change of CHANGELOG.md if the section has not been released.
 """
 import datetime
 import email.utils
@@ -18,7 +18,7 @@ CHANGELOG = Path(__file__).resolve().parents[1] / "CHANGELOG.md"
 
 
 def newest_section(text):
-    """Returns the release date of the first section, or None, and its items without markup of links and code."""
+    """Returns the release date of the first section (or None) and its items, without the markup of links and code."""
     title, body = re.search(r"^## (.*?)\n(.*?)(?=^## |\Z)", text, re.M | re.S).groups()
     date = re.search(r"\d{4}-\d\d-\d\d", title)
     items = re.findall(r"^- (.*?)(?=^- |^#|^$|\Z)", body, re.M | re.S)

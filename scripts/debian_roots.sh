@@ -1,8 +1,8 @@
-# Functions of the scripts that test Halfspace in new root file systems ("roots") of Debian releases. Source this file; it changes to the
-# root of the tree. Needs root privileges and debootstrap. The roots stay in build/roots for inspection.
+# Functions for scripts that test Halfspace in fresh root file systems ("roots") of Debian releases. Source this file; it changes to the top
+# folder of the tree. Needs root privileges and debootstrap. The roots are kept in build/roots for inspection.
 #
-# HALFSPACE_ROOTS: another folder for the roots. HALFSPACE_MIRROR: mirror of Debian. HALFSPACE_CCACHE: folder of ccache that all builds in
-# roots share.
+# HALFSPACE_ROOTS: a different folder for the roots. HALFSPACE_MIRROR: a Debian mirror. HALFSPACE_CCACHE: the ccache folder that all builds
+# in roots share.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 fail() { echo "$(basename "$0"): $*" >&2; exit 1; }
@@ -12,8 +12,8 @@ mirror=${HALFSPACE_MIRROR:-http://deb.debian.org/debian}
 mkdir -p "$roots" "${HALFSPACE_CCACHE:=$roots/ccache}"
 export HALFSPACE_CCACHE
 
-# in_root ROOT COMMANDS: runs a script in a root. /proc, which $ORIGIN in a RUNPATH needs, and the folder of ccache are mounted only for it.
-# ccache uses precompiled headers only with these settings.
+# in_root ROOT COMMANDS: runs a script in a root. /proc, which $ORIGIN in a RUNPATH needs, and the ccache folder are mounted only while it
+# runs. ccache uses precompiled headers only with these settings.
 in_root() {
   unshare --mount sh -euc 'mount -t proc proc "$1/proc"; mount --bind "$HALFSPACE_CCACHE" "$1/ccache"
     exec chroot "$1" env -i PATH=/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C.UTF-8 DEBIAN_FRONTEND=noninteractive \
@@ -21,7 +21,7 @@ in_root() {
       bash -euc "$2"' in_root "$@"
 }
 
-# quiet_in_root ROOT COMMANDS: does the same with the output in ROOT.log, and prints its end if the script fails.
+# quiet_in_root ROOT COMMANDS: like in_root, but writes the output to ROOT.log, and prints the end of it if the script fails.
 quiet_in_root() {
   in_root "$@" >> "$1.log" 2>&1 || { tail -20 "$1.log"; fail "failed in $1"; }
 }
@@ -40,7 +40,7 @@ new_root() {
   install_in_root "$2" "${@:3}"
 }
 
-# install_in_root ROOT PACKAGES...: installs packages of Debian, or files of the root that are packages.
+# install_in_root ROOT PACKAGES...: installs Debian packages, given by name or as package files in the root.
 install_in_root() {
   [ $# -eq 1 ] || quiet_in_root "$1" "apt-get install -q -y --no-install-recommends ${*:2}"
 }

@@ -9,8 +9,8 @@ log=$build/demo.log
 program=$build/bin/halfspace
 mkdir -p "$build" out
 
-# Appends the output of a build to the log and shows ninja's progress ("[12/150] ..."): on a terminal in a line that is updated in
-# place, otherwise in one line per tenth of the build.
+# Appends the output of a build to the log and shows ninja's progress ("[12/150] ..."): on a terminal, as one line that is updated in place;
+# otherwise, as one line per tenth of the build.
 show_progress() {
   local line count total tenths=0
   while IFS= read -r line; do

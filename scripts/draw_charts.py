@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Draws charts from data files with matplotlib.
 
-    draw_charts.py studies FOLDER [NAME...]    draws NAME.svg and NAME-dark.svg from NAME.json; by default, for every study in the folder
+    draw_charts.py studies FOLDER [NAME...]    draws NAME.svg and NAME-dark.svg from NAME.json; default: every study in the folder
     draw_charts.py curves FILE.csv OPTIONS     draws FILE.svg: columns of the file against its first column
 
-`halfspace chart` runs the first command. bench_charts.py draws the charts of the benchmark with the functions of this file.
+`halfspace chart` runs the first command. bench_charts.py uses the functions of this file to draw the benchmark charts.
 Exit codes: 0 success, 1 invalid data or a file that cannot be written, 2 invalid command line, 69 matplotlib is missing.
 """
 import argparse
@@ -24,7 +24,7 @@ try:
 except ImportError:
     if __name__ != "__main__":
         raise
-    # Packages of the system are visible only to its own interpreter, which may not be the first in PATH.
+    # System packages are visible only to the system's interpreter, which may not be the first in PATH.
     if sys.executable != SYSTEM_PYTHON and os.access(SYSTEM_PYTHON, os.X_OK):
         os.execv(SYSTEM_PYTHON, [SYSTEM_PYTHON, *sys.argv])
     print("draw_charts.py: matplotlib is missing (Debian and Ubuntu: python3-matplotlib)", file=sys.stderr)
@@ -45,21 +45,21 @@ SMALL = 11 * POINT  # Font size of labels.
 
 
 def use_theme(ink, faint, ground):
-    """Sets the style of the figures that are made from now on."""
+    """Sets the style of all figures created after this call."""
     matplotlib.rcParams.update({
         "figure.dpi": DPI, "figure.facecolor": ground, "axes.facecolor": ground, "savefig.facecolor": ground,
         "text.color": ink, "axes.labelcolor": ink, "axes.edgecolor": ink, "xtick.color": ink, "ytick.color": ink, "grid.color": faint,
         "font.family": "sans-serif", "font.sans-serif": ["DejaVu Sans"], "font.size": 12 * POINT, "axes.titlesize": 14 * POINT, "legend.frameon": False,
         "axes.spines.top": False, "axes.spines.right": False, "axes.grid": True, "grid.linewidth": 0.4, "axes.axisbelow": True,
         "axes.prop_cycle": matplotlib.cycler(color=COLORS), "lines.linewidth": 1.2, "lines.markersize": 4,
-        "text.parse_math": False,  # Names are not formulas.
-        "svg.fonttype": "none",  # Text stays text, which keeps files small.
-        "svg.hashsalt": "halfspace",  # The same data give the same file.
+        "text.parse_math": False,  # Do not parse names as formulas.
+        "svg.fonttype": "none",  # Keep text as text, which keeps files small.
+        "svg.hashsalt": "halfspace",  # The same data must produce the same file.
     })
 
 
 def new_figure(width, height):
-    """Makes an empty figure. width and height: size in pixels."""
+    """Creates an empty figure. width and height: size in pixels."""
     figure = Figure(figsize=(width / DPI, height / DPI))
     FigureCanvasAgg(figure)
     return figure
@@ -71,7 +71,7 @@ def save(figure, path, **options):
 
 
 def new_panels(count, width, height, **options):
-    """Makes a figure with plots next to each other, each width x height pixels. Returns the figure and a list of its axes."""
+    """Creates a figure with plots next to each other, each width x height pixels. Returns the figure and a list of its axes."""
     figure = new_figure(count * width, height)
     return figure, list(figure.subplots(1, count, squeeze=False, **options)[0])
 
@@ -159,7 +159,7 @@ def place_labels(points, widths, room, obstacles=()):
 
 
 def boxes_along(line):
-    """Covers a line (points in pixels) with small boxes, so that labels avoid it."""
+    """Covers a polyline (points in pixels) with small boxes, so that labels avoid it."""
     for (x0, y0), (x1, y1) in zip(line, line[1:]):
         steps = math.ceil(math.hypot(x1 - x0, y1 - y0) / 4)
         for x, y in ((x0 + (x1 - x0) * k / steps, y0 + (y1 - y0) * k / steps) for k in range(steps)):
@@ -198,7 +198,7 @@ def log_bounds(values):
 def study_figure(study):
     """Draws error and time of the variants of a study. study: the content of its JSON file, which write_study() writes."""
     variants, truth = study["variants"], study["truth"]
-    errors = [max(v["error"], truth["error"], 1e-30) for v in variants]  # Differences below the error of the reference mean nothing.
+    errors = [max(v["error"], truth["error"], 1e-30) for v in variants]  # Differences below the error of the reference are meaningless.
     median, low, high = ([max(v["ms"][key], 1e-6) for v in variants] for key in ("median", "low", "high"))
     figure = new_figure(WIDTH, HEIGHT)
     left, bottom, right, top = ROOM

@@ -5,8 +5,8 @@
     generate_man.py --program build/release/bin/halfspace [--bench build/release/bin/halfspace-bench]
                     [--view build/release/bin/halfspace-view] [--compress] FOLDER
 
-Writes FOLDER/man/man1/*.1, or *.1.gz with --compress, and the completions for bash, zsh and fish, in the folders where these shells search
-them below /usr/share.
+Writes FOLDER/man/man1/*.1, or *.1.gz with --compress, and the completions for bash, zsh and fish, in the subfolders of /usr/share in which
+these shells look for them.
 """
 import argparse
 import gzip
@@ -20,7 +20,7 @@ def output_of(program, *arguments):
 
 
 def escape(text):
-    """Returns text without characters that roff interprets."""
+    """Returns text with the characters that roff interprets escaped."""
     text = text.replace("\\", "\\e").replace("-", "\\-")
     return "\n".join("\\&" + line if line.startswith((".", "'")) else line for line in text.split("\n"))
 
@@ -50,7 +50,7 @@ def entries(lines):
 
 
 def option_group(title, text):
-    """Returns a section of the output of --help-model or --help-output: sentences, and a list whose lines are indented."""
+    """Returns a section of the output of --help-model or --help-output: sentences, and a list with indented lines."""
     lines = text.rstrip("\n").split("\n")
     return title, [" ".join(line for line in lines if not line.startswith("  "))] + [line for line in lines if line.startswith("  ")]
 
@@ -80,7 +80,7 @@ def write(path, text):
 
 
 def write_page(folder, compress, name, *contents):
-    """Writes the page that page(name, *contents) returns. The time is left out, so that the same page gives the same file."""
+    """Writes the page that page(name, *contents) returns. The time stamp is omitted, so that the same page gives the same file."""
     folder.mkdir(parents=True, exist_ok=True)
     text = page(name, *contents).encode()
     (folder / f"{name}.1{'.gz' if compress else ''}").write_bytes(gzip.compress(text, mtime=0) if compress else text)
@@ -131,7 +131,7 @@ def main():
 
     write(args.folder / "bash-completion" / "completions" / "halfspace", output_of(args.program, "completion", "bash"))
     write(args.folder / "fish" / "vendor_completions.d" / "halfspace.fish", output_of(args.program, "completion", "fish"))
-    # zsh loads the file when it completes the command for the first time. The last line answers that first request.
+    # zsh loads the file when it completes the command for the first time. The last line handles that first request.
     zsh = output_of(args.program, "completion", "zsh")
     write(args.folder / "zsh" / "site-functions" / "_halfspace", f"#compdef halfspace\n{zsh}_bash_complete -F _halfspace\n")
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Generated sections of documents. A section NAME is the text between these two lines:
+"""Updates the generated sections of documents. A section NAME is the text between these two lines:
 
     <!-- generated: NAME -->
     <!-- /generated -->
@@ -17,7 +17,7 @@ SECTION = re.compile(r"(<!-- generated: ([\w-]+) -->\n).*?(<!-- /generated -->)"
 
 
 def origin():
-    """When, where and from which commit something is measured."""
+    """The date, commit and machine of a measurement that runs now, as a sentence without a period."""
     commit = subprocess.run(["git", "describe", "--always", "--dirty"], check=True, capture_output=True, text=True).stdout.strip()
     cpu = cpu_name(Path("/proc/cpuinfo").read_text(encoding="utf-8"))
     return f"Measured on {datetime.date.today()} at commit {commit} on {cpu}, {os.cpu_count()} cores"

@@ -14,7 +14,7 @@ fi
 [[ $# -le 1 && "${1:-}" != -* ]] || usage
 prefix=$(realpath -m "${1:-/usr/local}")
 cd "$(dirname "$0")/.."
-# Lists the installed files, and the folders that did not exist before, which end in "/". Paths are relative to the prefix.
+# Lists the installed files and the folders that did not exist before; folders end in "/". Paths are relative to the prefix.
 manifest=$prefix/share/halfspace/installed_files.txt
 export LC_ALL=C  # sort and comm must agree
 
@@ -48,7 +48,7 @@ fi
 
 existing=$prefix
 while [ ! -e "$existing" ]; do existing=$(dirname "$existing"); done
-[ -d "$existing" ] && [ -w "$existing" ] || { echo "install.sh: cannot write to $existing; expected another prefix, such as ~/.local, or root" >&2; exit 1; }
+[ -d "$existing" ] && [ -w "$existing" ] || { echo "install.sh: cannot write to $existing; expected a different prefix, such as ~/.local, or root" >&2; exit 1; }
 
 scripts/install_deps.sh
 build=build/install
@@ -59,8 +59,8 @@ cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_INSTALL_PREFI
   -DHALFSPACE_BUILD_EXAMPLES=OFF -DHALFSPACE_WERROR=OFF -DHALFSPACE_PYTHON_DIR="$modules" > /dev/null
 cmake --build "$build" --target installed -- -j "$(nproc)"
 
-# The manifest is written before the files, so that an interrupted installation can be removed. An installation into a temporary folder
-# shows which files and folders there will be.
+# The manifest is written before the files, so that an interrupted installation can be removed. The list of files and folders comes from an
+# installation into a temporary folder.
 staging=$(mktemp -d)
 trap 'rm -rf "$staging"' EXIT
 DESTDIR=$staging/root cmake --install "$build" > /dev/null
@@ -72,7 +72,7 @@ done | sort - "$staging/files" > "$staging/new"
 mkdir -p "$(dirname "$manifest")"
 sort -u "$staging/new" "$staging/old" > "$manifest"
 cmake --install "$build" > /dev/null
-comm -13 "$staging/new" "$staging/old" | remove  # what only an earlier installation had
+comm -13 "$staging/new" "$staging/old" | remove  # files that only the previous installation had
 cp "$staging/new" "$manifest"
 
 echo "installed $(wc -l < "$staging/files") files into $prefix"

@@ -2,7 +2,7 @@
 # Installs the packages that halfspace needs to build (Debian 12 and 13, Ubuntu 24.04). Does nothing if all are installed.
 #
 #   scripts/install_deps.sh [--tests | --benchmarks] [--view]
-#     --tests       also installs the packages that the tests need, among them matplotlib, which draws charts
+#     --tests       also installs the packages that the tests need, including matplotlib for charts
 #     --benchmarks  also installs the packages that scripts/bench.sh needs
 #     --view        also installs the packages that halfspace-view and the tests of its window and of web pages need
 set -euo pipefail

@@ -4,7 +4,7 @@
 
   scripts/lesson_pictures.py draw BUILD            builds and runs all programs and variants, and writes docs/tutorial/lessons/images with
                                                    `convert` of ImageMagick
-  scripts/lesson_pictures.py check BUILD           the same, but compares with the pictures that are there, with `halfspace compare`
+  scripts/lesson_pictures.py check BUILD           the same, but compares with the existing pictures, with `halfspace compare`
   scripts/lesson_pictures.py write NAME VARIANT OUT  writes the source of one variant; CMake calls this
 
 A lesson shows changes to its program as diff blocks: "wrong" is the block in the section "Break the program" of the lesson, and

@@ -5,9 +5,9 @@
   scripts/model_peers.py PROGRAM FOLDER|FILE... [--rounds 5] [--size 1280x720]
   for example: xvfb-run scripts/model_peers.py build/release/bin/halfspace ../shared/data/gltf
 
-A time is the wall time from the start of the process to the written PNG file, with the defaults of both programs. The programs take turns,
-the first round only warms the caches, and the median of the others is printed. f3d needs a display (DISPLAY), for example Xvfb, which
-should run before the measurement. The pictures are written to out/peers, and the sheet to out/peers.png (needs ImageMagick's montage).
+A time is the wall time from the start of the process to the finished PNG file, with the defaults of both programs. The programs take turns.
+The first round only warms the caches; the median of the other rounds is printed. f3d needs a display (DISPLAY), for example Xvfb, which
+must be running before the measurement. The pictures are written to out/peers, and the sheet to out/peers.png (needs ImageMagick's montage).
 """
 import argparse
 import os
@@ -35,7 +35,7 @@ def seconds(command):
     process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     limit = threading.Timer(TIME_LIMIT, process.kill)
     limit.start()
-    code = process.wait()  # with a timeout, Python would look for the end only every 50 ms
+    code = process.wait()  # with a timeout, Python would poll only every 50 ms
     took = time.perf_counter() - start
     limit.cancel()
     return took if code == 0 else None
@@ -63,7 +63,7 @@ def main():
     arguments = parser.parse_args()
     for needed in ("f3d", "montage"):
         if shutil.which(needed) is None:
-            sys.exit(f"model_peers.py: {needed} is not installed; expected Debian's packages f3d and imagemagick")
+            sys.exit(f"model_peers.py: {needed} is not installed; expected the Debian packages f3d and imagemagick")
     if "DISPLAY" not in os.environ:
         sys.exit("model_peers.py: DISPLAY is not set; expected a display for f3d, for example with xvfb-run")
     folder = Path("out/peers")

@@ -6,16 +6,16 @@
   scripts/mutate.py [OPTION...] N         fault N of the list
   scripts/mutate.py [OPTION...] N M       faults N to M
   scripts/mutate.py [OPTION...] NAME...   faults by file name, without .fault
-  scripts/mutate.py list                  numbers, file names and what each fault does
+  scripts/mutate.py list                  numbers, file names and descriptions of the faults
     --resume      skips the faults that were caught before with the same sources
-    --record      writes into each fault file which test caught the fault
-    --copies N    number of faults tried at the same time, each in its own copy of the tree; default: half of the cores
+    --record      writes the name of the test that caught the fault into each fault file
+    --copies N    number of faults tried at the same time, each in its own copy of the tree; default: half the number of cores
 
 The last line is "N caught, M missed"; the exit code is 1 if any fault was missed. A fault is caught if a test fails that passes without the
 fault. A fault that does not compile proves nothing and counts as missed (warnings are not errors here).
 
 A fault file has a name, a source file, a test that catches the fault (optional), the old text (lines that begin with "- ") and the new text
-(lines that begin with "+ "; without any, the old text is deleted):
+(lines that begin with "+ "; if there are none, the old text is deleted):
 
   name: Clipping skips the near plane
   file: src/raster/primitives/clip.cpp
@@ -143,7 +143,7 @@ def listed_files():
 
 
 def source_key(names):
-    """Identifies everything that decides whether the tests detect a fault, except the faults themselves."""
+    """Returns a hash of everything that affects whether the tests detect a fault, except the faults themselves."""
     key = hashlib.sha256()
     for name in names:
         if not name.startswith(("docs/", "tests/faults/")):
@@ -165,7 +165,7 @@ class Copy:
         self.update(names)
 
     def update(self, names):
-        """Copies the files that differ and keeps the times of all others, so that little is rebuilt."""
+        """Copies the files that differ and preserves the times of all others, so that little is rebuilt."""
         for old in [path for path in self.root.rglob("*") if path.is_file()] if self.root.exists() else []:
             if str(old.relative_to(self.root)) not in set(names):
                 old.unlink()
@@ -210,7 +210,7 @@ class Copy:
         return int(match.group(1)) if match else 0
 
     def catch(self, fault):
-        """Plants a fault. Returns whether a test catches it, and "PROGRAM TEST" or why not."""
+        """Plants a fault. Returns whether a test catches it, and either "PROGRAM TEST" or the reason why none does."""
         file = self.root / fault.file
         text = file.read_text(encoding="utf-8")
         file.write_text(fault.planted(text), encoding="utf-8")
@@ -219,7 +219,7 @@ class Copy:
                 program, test = fault.test.split()
                 if not self.make(program):
                     return False, "does not build"
-                if not self.passes(program, test):  # it has passed without the fault
+                if not self.passes(program, test):  # the test passes without the fault
                     return True, fault.test
             for program in fault.tests():
                 if not self.make(program):

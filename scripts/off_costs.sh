@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Checks that unused features have no cost. For each feature, callgrind counts the instructions of a scene that does not use the feature.
-# The x86-64-v3 build is compared with a build from which a patch in tests/off has removed the code path of the feature. The difference
-# must be at most 1 %.
+# Checks that unused features have no cost. For each feature, callgrind counts the instructions executed for a scene that does not use the
+# feature. The x86-64-v3 build is compared with a build from which a patch in tests/off has removed the feature's code path. The difference
+# must be at most 1%.
 #
 #   scripts/off_costs.sh [FEATURE...]     default: all patches in tests/off, which takes several minutes
 set -euo pipefail
@@ -27,7 +27,7 @@ mkdir -p "$build"
 cmake -S "$tree" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DHALFSPACE_ARCH=x86-64-v3 -DHALFSPACE_BUILD_BENCHMARKS=OFF > /dev/null
 build_program
 
-# A globe with a color map and a highlight, without shadow, normal map, reflection, HDR, multisampling and blending.
+# A globe with a color map and a highlight, but no shadow, normal map, reflection, HDR, multisampling or blending.
 instructions() {
   valgrind --tool=callgrind --callgrind-out-file=/dev/null --collect-atstart=no --toggle-collect='halfspace::Pass::run(*' \
     "$build/bin/halfspace" render earth --size 640x360 --threads 1 -o "$build/picture.png" \

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Builds the Debian packages for the release of this system into build/packages. The programs run on any processor with x86-64-v3 and use
-# AVX-512 where the processor has x86-64-v4.
+# Builds the Debian packages for the release of this system into build/packages. The programs run on any processor that supports x86-64-v3,
+# and use AVX-512 if it supports x86-64-v4.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Measures the cost per sphere for 100,000 and 1,000,000 particles. The cost is the CPU time of a complete image on one thread minus the
-# time of an image without spheres. Runs are interleaved, and the shortest run of each kind counts. Additional scene keys can be given.
+# time of an image without spheres. Runs are interleaved, and the shortest run of each kind is used. Additional scene keys can be given.
 #
 #   scripts/particle_cost.sh [PROGRAM [--set KEY=VALUE...]]     default: build/release/bin/halfspace
 set -euo pipefail

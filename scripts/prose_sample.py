@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Draws a blind sample of this project's text for a reader, and scores the reader's marks.
+"""Draws a blind sample of this project's text for a reader, and evaluates the reader's marks.
 
     prose_sample.py draw SEED SAMPLE.txt KEY.json   items in random order, and where each comes from
     prose_sample.py score KEY.json MARKED.txt       marked items per kind; MARKED.txt holds the item numbers
 
-The control is the comments of meshoptimizer.h (Debian package libmeshoptimizer-dev).
+The control items are the comments of meshoptimizer.h (Debian package libmeshoptimizer-dev).
 """
 import argparse
 import json

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Measures the compile time that each additional shader adds to a translation unit: the time for 9 copies of Blinn-Phong minus the time for
 # one, divided by 8.
-# shader_compile_time.sh [COMPILER]
+# Usage: shader_compile_time.sh [COMPILER]
 set -euo pipefail
 cd "$(dirname "$0")/.."
 compiler=${1:-g++}

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Renders the pictures of docs/explanation/shadows.md: each artifact of shadow maps, and the same scene without it.
+# Renders the pictures of docs/explanation/shadows.md: each shadow-map artifact, and the same scene without it.
 #
 #   scripts/shadow_pictures.sh [PROGRAM [DIRECTORY]]
 set -euo pipefail
@@ -18,7 +18,7 @@ picture() {
   "$program" render "$scene" --size 400x250 "${@/#/--set=}" -o "$out/$name.png"
 }
 
-# A small plate high above a large one that is close to the ground. At the outline of the small plate, two depths meet in one texel.
+# A small plate high above a large one that is close to the ground. At the outline of the small plate, one texel contains two depths.
 cat > "$scenes/plates.json" <<'END'
 { "version": 1, "ambient": 0.15,
   "cameras": { "main": { "position": [1.2, 0.72, 2.4], "target": [0, 0.02, -0.2], "fov": 45, "near": 0.1, "far": 100 } },

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The shadow tables of docs/results/accuracy.md, from the CSV of `halfspace validate --table`. See accuracy_run.py."""
+"""Creates the shadow tables of docs/results/accuracy.md from the CSV output of `halfspace validate --table`. See accuracy_run.py."""
 
 TITLES = {
     "bias": ("bias (pcf3, 2048)", "bias"),

@@ -1,17 +1,17 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Measures the time of `halfspace render earth --size 512x512` from start to file, compared with the minimum such an image needs.
+"""Measures the time of `halfspace render earth --size 512x512` from process start to finished file, and compares it with a minimum.
 
   scripts/start_to_file.py [--bin DIR] [--rounds N]     default: build/release/bin, 15
   scripts/start_to_file.py --before DIR [--scenes NAME,...] [--bin DIR] [--rounds N]
 
-The minimum is given by halfspace-least-earth (a build target): it links the same libraries, generates the maps of the scene, waits for
-the duration of an additional frame and writes the same pixels. It runs in two variants: with color and height maps, and with normal maps
-derived from them as well. The three programs are interleaved, and the minimum and median of each are printed. The time in which
-halfspace-least-earth reads the pixels is subtracted.
+The minimum is given by halfspace-least-earth (a build target): it links the same libraries, generates the maps of the scene, sleeps for the
+duration of an additional frame and writes the same pixels. It runs in two variants: with color and height maps, and with normal maps
+derived from the heights as well. The three programs are interleaved, and the minimum and median of each are printed. The time that
+halfspace-least-earth spends on reading the pixels is subtracted.
 
-With --before, the same time is measured for other scenes (default: day-night,shapes) at 1920x1080, with the program in --bin and the one in
-another folder, in turn.
+With --before, the same time is measured for other scenes (default: day-night,shapes) at 1920x1080, alternating between the program in --bin
+and the one in the folder DIR.
 """
 import argparse
 import json
@@ -34,7 +34,7 @@ def wall_ms(command):
 
 
 def frame_ms(program, folder):
-    """Returns the time per additional frame without writing it, from the difference between 21 frames and one."""
+    """Returns the time per additional frame, excluding the output, from the difference between 21 frames and one."""
 
     def render_ms(frames):
         pictures = os.path.join(folder, "frame%02d.png")

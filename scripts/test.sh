@@ -5,5 +5,5 @@ cd "$(dirname "$0")/.."
 
 scripts/install_deps.sh --tests
 cmake --preset release
-cmake --build --preset release -j "$(nproc)"  # more jobs than cores would only share the caches
+cmake --build --preset release -j "$(nproc)"  # more jobs than cores would only compete for the caches
 ctest --preset release -j "$(nproc)"

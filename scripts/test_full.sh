@@ -18,9 +18,9 @@ kernels="core shading raster property conformance"          # code that depends 
 pixels="$kernels geometry procedural render"                # all floating-point code that pixels depend on
 threads="core image raster property conformance render reference cli"
 
-# build DIR "TARGET..." CMAKE_ARGUMENTS...    configures and builds; no targets means all. Steps with the same compiler flags share a build
-# folder. --fresh resets the options that another step has set there; objects are kept. The result must be checked: set -e has no effect
-# within steps.
+# build DIR "TARGET..." CMAKE_ARGUMENTS...    configures and builds; an empty target list means all. Steps with the same compiler flags
+# share a build folder. --fresh resets the options that another step has set there; object files are kept. Callers must check the exit
+# status: set -e has no effect within steps.
 build() {
   local dir=$1 targets=$2
   mkdir -p "$dir"
@@ -40,7 +40,7 @@ build_and_test() {
   # shellcheck disable=SC2086
   build "$dir" "$(printf 'test-%s ' $2)" -DHALFSPACE_BUILD_BENCHMARKS=OFF -DHALFSPACE_OPTIMIZE_TESTS=ON "${@:3}" && run_tests "$dir" "$2"
 }
-# Runs one test program of a folder. Its output is shown if it fails.
+# Runs one test program of a folder, and shows its output if it fails.
 run_program() {
   local program=$1/bin/test-$2
   "$program" --gtest_brief=1 > "$program.log" 2>&1 && return
@@ -76,7 +76,7 @@ gcc_native() {
   run_ctest "$gcc" '^(Compile|Docs|Faults|Layout|Page|Python|Study|View)[.]|^bench-tables|^Consumer.install_script' || status=1
   return $status
 }
-# The same with another compiler, whose messages about shaders that must not compile are checked as well.
+# Like build_and_test, but with a different compiler; its messages about shaders that must not compile are checked as well.
 clang_native() {
   build_and_test clang-native "$pixels" -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_BUILD_TYPE=Release || return 1
   run_ctest build/full/clang-native '^Compile[.]'
@@ -123,12 +123,12 @@ fuzz() {
   return $status
 }
 
-# Builds the programs that the default target leaves out, and runs the tests of all benchmarks.
+# Builds the programs that are not part of the default target, and runs the tests of all benchmarks.
 benchmarks() {
   build_gcc "benchmarks test-bench" && run_tests "$gcc" bench
 }
 
-# Builds shared libraries, checks the list of their symbols, and uses them from a project outside of the tree.
+# Builds shared libraries, checks their exported symbols, and uses them from a project outside the tree.
 shared() {
   local dir=build/full/shared
   build "$dir" installed -DCMAKE_BUILD_TYPE=Release -DBUILD_SHARED_LIBS=ON -DHALFSPACE_BUILD_BENCHMARKS=OFF -DHALFSPACE_BUILD_EXAMPLES=OFF \
@@ -136,7 +136,7 @@ shared() {
   python3 tests/consumer/exports_test.py "$dir/bin" && python3 tests/consumer/consumer_test.py "$dir" c++
 }
 
-# Builds the programs of packages for both instruction sets and tests which of them is selected.
+# Builds the packaged programs for both instruction sets and tests which of them is selected.
 portable() {
   local arguments=(-DCMAKE_BUILD_TYPE=Release -DHALFSPACE_PORTABLE=ON -DHALFSPACE_BUILD_TESTS=OFF -DHALFSPACE_BUILD_EXAMPLES=OFF)
   build build/full/portable-v3 installed -DHALFSPACE_ARCH=x86-64-v3 "${arguments[@]}" || return 1
@@ -144,17 +144,17 @@ portable() {
   python3 tests/consumer/portable_test.py build/full/portable-v3 build/full/portable-v4
 }
 
-# Uses the installation of a native build from other projects, with the checks that are too long for every run.
+# Installs a native build and uses it from other projects, including the checks that take too long for every test run.
 consumer() {
   build_gcc installed && python3 tests/consumer/consumer_test.py "$gcc" c++
 }
 
-# Builds the programs of the lessons and their variants, and compares what they draw with the pictures of the lessons.
+# Builds the programs of the lessons and their variants, and compares their output with the pictures of the lessons.
 lessons() {
   build_gcc "lessons lesson-variants halfspace" && scripts/lesson_pictures.py check "$gcc"
 }
 
-# Runs the tests of halfspace-view with AddressSanitizer. They fail if a leak has one of our functions in its stack.
+# Runs the tests of halfspace-view with AddressSanitizer. They fail if the stack trace of a leak contains one of our functions.
 window() {
   address "halfspace halfspace-view" && python3 tests/view/window_test.py build/full/asan-ubsan/bin
 }

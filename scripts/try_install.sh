@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Runs scripts/install.sh in a new root of a Debian release, renders there, builds C++ projects and a Python extension module, and
+# Runs scripts/install.sh in a fresh root of a Debian release, renders there, builds C++ projects and a Python extension module, and
 # uninstalls. Needs root privileges and debootstrap; debian_roots.sh lists the environment variables.
 #
 #   scripts/try_install.sh [bookworm | trixie]...      default: both

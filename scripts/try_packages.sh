@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# Builds the Debian packages in a new root of a Debian release, installs them in a second new root, renders there, and builds C++ projects
-# and a Python extension module with them. Needs root privileges and debootstrap; debian_roots.sh lists the environment variables.
+# Builds the Debian packages in a fresh root of a Debian release, installs them in a second fresh root, renders there, and builds C++
+# projects and a Python extension module with them. Needs root privileges and debootstrap; debian_roots.sh lists the environment variables.
 #
 #   scripts/try_packages.sh [bookworm | trixie]...      default: both
 source "$(dirname "$0")/debian_roots.sh"
 [ $# -gt 0 ] || set -- bookworm trixie
 
-# check_packages ROOT: checks what every installed package must have.
+# check_packages ROOT: checks the properties that every installed package must have.
 check_packages() {
   in_root "$1" 'status=0
     complain() { echo "$1" >&2; status=1; }

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Measures the cost of the window of halfspace-view, for the table in docs/howto/view.md.
+"""Measures the overhead of the window of halfspace-view, for the table in docs/howto/view.md.
 
     view_frame_rates.py [--programs build/release/bin] [--frames 200] [NAME...]
 
@@ -43,7 +43,7 @@ def start_server():
 
 
 def frame_times(program, arguments, options, environment):
-    """Returns the time of a frame, and the part of it that is not spent on rendering the scene."""
+    """Returns the frame time, and the part of it that is not spent on rendering the scene."""
     command = [program, *arguments, "--size", "1280x720", "--threads", "2", *options]
     lines = subprocess.run(command, env=environment, check=True, capture_output=True, text=True).stdout.splitlines()
     values = {name: value for name, value in (line.split() for line in lines)}

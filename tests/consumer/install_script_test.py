@@ -77,7 +77,7 @@ class InstallScript(unittest.TestCase):
     def test_a_prefix_that_cannot_be_written_is_rejected_before_the_build(self):
         self.prefix.write_text("a file")
         out = self.run_script(self.prefix / "below", files="bin/halfspace", code=1)
-        self.assertRegex(out, r"^install\.sh: cannot write to .*; expected another prefix.*\n$")
+        self.assertRegex(out, r"^install\.sh: cannot write to .*; expected a different prefix.*\n$")
         self.assertFalse((self.folder / "tree/built").exists())
 
     def test_a_prefix_without_an_installation_is_reported(self):
