@@ -13,7 +13,7 @@ namespace halfspace {
 /// clipped triangle.
 glm::vec3 submitted_weights(const InspectedTriangle& t, const Weights<float>& weights, const glm::dvec2& position_px);
 
-/// True if the shader computes lighting per vertex or per triangle, so that its varyings depend on its lights.
+/// Whether the shader computes lighting per vertex or per triangle, so that its varyings depend on its lights.
 template <class S>
 inline constexpr bool kLightsVertices = [] {
   if constexpr (requires { S::kByVertex; }) return S::kByVertex || HasPrimitive<S>;
@@ -80,13 +80,13 @@ class FragmentEvaluator {
     px_.front_facing = s.front;
   }
 
-  // Returns the weights of the corners, also if the shader receives planes.
+  // Returns the weights of the triangle's vertices, even if the shader receives planes.
   Weights<float> corner_weights() const {
     const TriangleLanes<float> t = lanes_of(detail::triangle_scalars<V>(place_.triangle.source));
     return weights_at<kUsesNoPerspective<V>>(t, px_.x * kSubPixels - t.x0, px_.y * kSubPixels - t.y0);
   }
 
-  // The same formulas as in raster/shade/fragment_kernel.h.
+  // Uses the formulas of raster/shade/fragment_kernel.h.
   void set_pixel() {
     const float x_sub = static_cast<float>(place_.pixel.x * kSubPixels + place_.at.x);
     const float y_sub = static_cast<float>(place_.pixel.y * kSubPixels + place_.at.y);

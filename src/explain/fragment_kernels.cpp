@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Instantiates all scene shaders in float. This code is in a separate file because it takes a long time to compile.
+// Instantiates all scene shaders in float. They are slow to compile, so they have their own translation unit.
 #include "halfspace/explain/fragment_values.h"
 #include "halfspace/explain/light_terms.h"
 #include "halfspace/explain/varying_names.h"

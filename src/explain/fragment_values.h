@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Runs a shader's own functions for one fragment, in float. This gives the same bits as shading in SIMD lanes.
+// Runs a shader's own functions for one fragment, in float. The results are bit-identical to those of shading in SIMD lanes.
 #pragma once
 
 #include <span>
@@ -20,7 +20,7 @@ struct FragmentPlace {
   float depth;
 };
 
-/// Values of a fragment, see FragmentDetail.
+/// The values of a fragment; see FragmentDetail.
 struct FragmentValues {
   std::string shader;
   glm::vec3 barycentrics{1.0f, 0.0f, 0.0f};

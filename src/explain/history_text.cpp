@@ -16,7 +16,7 @@ const char* primitive_text(Topology topology) {
 
 std::string number_text(float x) { return fmt::format("{:.6g}", x); }
 
-// Returns numbers in columns.
+// Formats numbers as columns.
 std::string columns_text(const float* values, std::size_t count) {
   std::string out;
   for (std::size_t i = 0; i < count; ++i) out += fmt::format("{:>13}", number_text(values[i]));
@@ -84,7 +84,7 @@ std::string shader_text(const FragmentDetail& d) {
   std::string out = fmt::format("   shader: {}{}\n", d.shader, d.fragment.is_shaded ? "" : " (not shaded in this frame)");
   const bool is_outside = d.barycentrics.x < 0.0f || d.barycentrics.y < 0.0f || d.barycentrics.z < 0.0f;
   out += row_text("weights of the vertices", columns_text(&d.barycentrics.x, 3),
-                  is_outside ? "evaluated at the pixel center, which is outside of the triangle" : "");
+                  is_outside ? "evaluated at the pixel center, which is outside the triangle" : "");
   out += row_text("1/w", columns_text(&d.inv_w, 1));
   out += values_text(d.varyings);
   out += values_text(d.factors);
@@ -99,7 +99,7 @@ std::string shader_text(const FragmentDetail& d) {
   return out;
 }
 
-// Returns true if two fragments are samples of the same primitive with the same color; the text shows them together.
+// Returns true if two fragments are samples of the same primitive with the same color. The text shows such fragments together.
 bool shows_same(const FragmentDetail& a, const FragmentDetail& b) {
   return a.fragment.draw == b.fragment.draw && a.fragment.id == b.fragment.id && a.fragment.round == b.fragment.round &&
          a.fragment.is_shaded == b.fragment.is_shaded && a.color == b.color && a.barycentrics == b.barycentrics;
@@ -131,7 +131,7 @@ std::string result_text(const PixelHistory& h) {
   out += row_text(h.samples.size() > 1 ? "mean of the samples" : "linear light", color_text(d.light), alpha_text(d.light));
   out += row_text("exposure", columns_text(&d.exposure, 1));
   out += row_text("after the tone curve", columns_text(&d.tone_mapped.x, 3));
-  out += row_text("code in the picture", fmt::format("{:>13}{:>13}{:>13}", d.code.x, d.code.y, d.code.z),
+  out += row_text("value in the picture", fmt::format("{:>13}{:>13}{:>13}", d.code.x, d.code.y, d.code.z),
                   d.code.w == 255 ? std::string() : fmt::format("alpha {}", d.code.w));
   return out;
 }
@@ -139,7 +139,7 @@ std::string result_text(const PixelHistory& h) {
 }  // namespace
 
 const char* storage_text(ColorFormat format) {
-  if (format == ColorFormat::srgb8a8) return "8-bit sRGB codes";
+  if (format == ColorFormat::srgb8a8) return "8-bit sRGB values";
   return format == ColorFormat::rgba16f ? "half floats" : "floats";
 }
 

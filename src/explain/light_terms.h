@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Splits the color of a fragment into the terms of its shader. Each term is the result of the shader with the uniforms of all other terms
-// set to zero. The terms add up to the color because the shaders are linear in them.
+// Splits the color of a fragment into the terms of its shader. Each term is the shader's result with the uniforms of all other terms set to
+// zero. Shaders are linear in these uniforms, so the terms add up to the color.
 #pragma once
 
 #include <fmt/format.h>

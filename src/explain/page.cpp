@@ -110,13 +110,13 @@ std::string explain_page(const SceneDescription& description, const PreparedScen
                          const Workers& workers) {
   const FrameTrace trace = trace_frame(scene, workers);
   const glm::ivec2 pixel = options.pixel.value_or(trace.busiest_pixel());
-  // The light of the frame as its tiles stored it. Without HDR they store codes, so the light is rendered again.
+  // The linear light of the frame. Without HDR, the tiles store 8-bit values, so the light is rendered again.
   Image<glm::vec4> light = scene.post.hdr ? trace.light : Image<glm::vec4>(trace.width, trace.height);
   if (!scene.post.hdr) render(scene, light, workers);
   const ValuePictures values = value_pictures(scene, workers);
   PageJson json{{"scene", options.scene}, {"command", options.command}, {"title", description.head.title}, {"version", options.version}};
   visit_set_up_scene(scene, workers, [&](const PassContext& context, int round) {
-    if (round > 0) return;  // the page shows the triangles of the first round of a very large scene
+    if (round > 0) return;  // for a very large scene, the page shows only the triangles of the first round
     const StageGeometry geometry = stage_geometry(context);
     const uint32_t example = example_primitive(geometry, visible_fragment(trace, pixel));
     json.update(frame_json({description, scene, context, geometry, light, values, pixel, example, workers}, trace));

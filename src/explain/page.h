@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The page of `halfspace explain`: one HTML file that shows every stage of the pipeline with the numbers of one frame.
+// The page of `halfspace explain`: an HTML file that shows every stage of the pipeline with the numbers of one frame.
 #pragma once
 
 #include <optional>
@@ -18,8 +18,9 @@ struct PageOptions {
   std::optional<glm::ivec2> pixel;  ///< example pixel, counted from the upper left; default: the pixel with the most fragments
 };
 
-/// Returns the page. Its numbers are the same on every machine and for any number of threads, except times, the size of packets (which
-/// depends on the build) and which fragments are rejected with their block. `scene` must have been created from `description`.
+/// Returns the page. Its numbers are the same on every machine and for any number of threads, except for times, the size of packets (which
+/// depends on the build), and the choice of the fragments that are rejected with their block. `scene` must have been created from
+/// `description`.
 std::string explain_page(const SceneDescription& description, const PreparedScene& scene, const PageOptions& options,
                          const Workers& workers);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Functions that return the data of a page as JSON. Private header of the page_*.cpp files.
+// Functions that return the data of a page as JSON. This header is private to the page_*.cpp files.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -21,7 +21,7 @@ std::string picture_uri(const Image<glm::u8vec4>& picture);
 /// PNG files without a library.
 std::string packed_bytes(std::span<const std::byte> bytes);
 
-/// Encodes an array of numbers as byte planes: the first byte of all elements, then the second, and so on. This compresses better.
+/// Encodes an array of numbers as byte planes: the first bytes of all elements, then the second bytes, and so on. Planes compress better.
 template <class T>
 std::string packed_planes(std::span<const T> values) {
   const std::span<const std::byte> bytes = std::as_bytes(values);
@@ -33,7 +33,7 @@ std::string packed_planes(std::span<const T> values) {
 /// Returns the color of a heat map for t in [0, 1], from dark blue to light yellow. Lightness increases with t.
 glm::u8vec4 heat_color(float t);
 
-/// Returns 8-bit sRGB codes of linear light in [0, 1].
+/// Converts linear light in [0, 1] to 8-bit sRGB values.
 glm::u8vec4 srgb_code(const glm::vec3& linear);
 
 /// Escapes JSON for use inside a <script> element, so that it does not contain "</".

@@ -13,12 +13,12 @@ namespace halfspace {
 
 namespace {
 
-// Maximum number of triangles in the wireframe of the example's draw and in that of all other draws, and maximum number of clipped
-// triangles. A larger wireframe is a random sample of runs of kWireRun consecutive triangles, which are usually neighbors. Drawing every
-// n-th run instead would follow the rows of the mesh, and a sphere would look like a spiral.
+// kMaxWireTriangles limits the wireframe of the example's draw and, separately, that of all other draws. A larger wireframe is a random
+// sample of runs of kWireRun consecutive triangles, which are usually neighbors. Every n-th run would follow the rows of the mesh instead,
+// and a sphere would look like a spiral. kMaxClipped limits the clipped triangles.
 constexpr std::size_t kMaxWireTriangles = 12000, kWireRun = 8, kMaxClipped = 24;
 
-// Returns true for one of `every` runs of primitives, on average.
+// Returns true for one in `every` runs of primitives, on average.
 bool is_in_sample(uint32_t primitive, std::size_t every) {
   const auto run = static_cast<int32_t>(primitive / kWireRun);
   return static_cast<uint32_t>(mix_bits(run)) % every == 0;
@@ -65,7 +65,7 @@ PageJson json_of_vertex(const StageVertex& v) {
 
 bool is_triangle(const Draw& draw) { return !draws_points(draw.state) && !is_lines(draw.state.topology); }
 
-// Returns the world-space positions of the corners of a primitive, or nullopt if its draw has no mesh.
+// Returns the world-space positions of the vertices of a primitive, or nullopt if its draw has no mesh.
 std::optional<std::array<glm::vec3, 3>> corners_ws(const PageInput& in, const StagePrimitive& p) {
   const PreparedDraw& draw = in.scene.draws[p.draw];
   const std::span<const glm::vec3> positions = draw.source.streams.positions;

@@ -38,7 +38,7 @@ struct FragmentColumns {
   }
 };
 
-// All values of some pixels. The names of the values are stored once per shader.
+// Stores all values of some pixels. The names of the values are stored once per shader.
 class Details {
  public:
   void add(const PixelHistory& h, uint32_t most) {
@@ -122,7 +122,7 @@ std::size_t numbers_of(const FragmentDetail& f) {
   return n;
 }
 
-// Returns the number of fragments per pixel for which the page can contain all values.
+// Returns the number of fragments per pixel that the page can store with all values.
 uint32_t details_per_pixel(const std::vector<PixelHistory>& histories) {
   for (uint32_t most = FrameTrace::kMaxFragments; most > 1; most /= 2) {
     std::size_t numbers = 0;

@@ -10,18 +10,20 @@
 
 namespace halfspace {
 
-/// Limits that keep a page below 25 MB: the number of fragments, and the number of values of the fragments with all values. If a frame
-/// exceeds a limit, the page contains fewer fragments per pixel and stores the number of omitted ones.
+/// Limits that keep a page below 25 MB: on the number of fragments, and on the total number of values of the fragments that are stored with
+/// all values. If a frame exceeds a limit, the page contains fewer fragments per pixel and stores the number of omitted fragments.
 inline constexpr std::size_t kMaxPageFragments = 1'600'000, kMaxPageValues = 1'500'000;
 
-/// Returns the largest limit of fragments per pixel with which the page has at most `most` fragments. The result is between 1 and
+/// Returns the largest number of fragments per pixel for which the page has at most `most` fragments. The result is between 1 and
 /// FrameTrace::kMaxFragments.
 uint32_t fragments_per_pixel(const FrameTrace& trace, std::size_t most);
 
-/// Returns the indices of at most `most` fragments of a pixel, in order. Shaded fragments take precedence, then earlier ones.
+/// Returns the indices of at most `most` fragments of a pixel, in order. Shaded fragments are preferred over others, and earlier fragments
+/// over later ones.
 std::vector<uint32_t> kept_fragments(std::span<const TracedFragment> fragments, uint32_t most);
 
-/// Returns the pixels with all values: 64x64 pixels around the center, and every eighth pixel in x and y. By row, without duplicates.
+/// Returns the pixels that are stored with all values: 64x64 pixels around the center, and every eighth pixel in x and y. They are sorted
+/// by row, without duplicates.
 std::vector<glm::ivec2> detailed_pixels(int width, int height, glm::ivec2 center);
 
 PageJson histories_json(const PageInput& in, const FrameTrace& trace);

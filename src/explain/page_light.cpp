@@ -28,8 +28,8 @@ glm::dvec3 mean_of(const Image<glm::vec4>& light) {
   return sum / static_cast<double>(light.texels().size());
 }
 
-// Returns the shadow factors of a light as gray codes, from its diffuse light with and without shadows. Pixels that the light does not
-// reach are transparent.
+// Returns a gray picture of the shadow factors of a light, computed from its diffuse light with and without shadows. Pixels that the light
+// does not reach are transparent.
 Image<glm::u8vec4> shadow_factors(const Image<glm::vec4>& with, const Image<glm::vec4>& without) {
   Image<glm::u8vec4> out(with.width(), with.height());
   std::ranges::transform(with.texels(), without.texels(), out.data(), [](const glm::vec4& a, const glm::vec4& b) {
@@ -77,8 +77,8 @@ std::optional<ShadowLookup> lookup_at(const PageInput& in, const Light& light, i
   return shadow_lookup(light, s->position_rws, s->face_ws, s->normal_ws, window);
 }
 
-// Returns the pixel whose shadow lookup the page shows. Of every fourth pixel in x and y, this is the one nearest to the example pixel with
-// a partial shadow; if no shadow is partial, the nearest one in a view of the light.
+// Returns the pixel whose shadow lookup the page shows. Searches every fourth pixel in x and y for the partially shadowed pixel nearest to
+// the example pixel. If there is none, takes the nearest pixel that faces the light and is inside one of its views.
 glm::ivec2 shadow_pixel(const PageInput& in, const Light& light) {
   glm::ivec2 best = in.pixel;
   int64_t nearest = INT64_MAX;

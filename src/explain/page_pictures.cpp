@@ -13,10 +13,10 @@ namespace {
 
 constexpr glm::u8vec4 kNothing(0, 0, 0, 0);
 
-// Number of runs; the shortest time of each tile counts.
+// Number of timed runs. The shortest time of each tile is used.
 constexpr int kTimedRuns = 5;
 
-// Returns a picture, given a function that returns the codes of a pixel.
+// Returns a picture of the colors that a function returns for each pixel.
 template <class F>
 std::string picture_of(const PageInput& in, const F& code_at) {
   Image<glm::u8vec4> out(in.scene.view.width_px, in.scene.view.height_px);
@@ -65,7 +65,7 @@ std::string albedo_picture(const PageInput& in) {
   return picture_of(in, [&](int x, int y) { return is_surface(in, x, y) ? srgb_code(in.values.albedo.at(x, y)) : kNothing; });
 }
 
-// Returns a color for a triangle, the same on every machine.
+// Returns a picture with one color per triangle, the same on every machine.
 std::string triangle_picture(const PageInput& in) {
   return picture_of(in, [&](int x, int y) {
     uint32_t h = (in.values.object.at(x, y) * 31 + in.values.instance.at(x, y)) * 977 + in.values.triangle.at(x, y);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Quotes of source code. The source files are embedded into the library when it is built, so a quote always matches the code that runs.
+// Quotes of source code. The source files are embedded in the library when it is built, so quotes always match the code that runs.
 #pragma once
 
 #include <span>

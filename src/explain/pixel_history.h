@@ -31,7 +31,7 @@ const char* outcome_name(FragmentOutcome outcome);
 /// Returns a description of an outcome, for example "rejected with its block".
 const char* outcome_text(FragmentOutcome outcome);
 
-/// The trace of a frame. Depths are window depths: 1 is near and 0 is far in all scenes. TracedFragment::draw is an index in
+/// The trace of a frame. Depths are window depths; in all scenes, 1 is near and 0 is far. TracedFragment::draw is an index into
 /// PreparedScene::draws.
 struct FrameTrace {
   static constexpr uint32_t kMaxFragments = 64;  ///< per pixel
@@ -79,18 +79,18 @@ struct FragmentDetail {
   std::vector<NamedValue> varyings;
   std::vector<NamedValue> terms;    ///< linear colors whose sum is `color`, such as "ambient" or "diffuse, light sun"
   std::vector<NamedValue> factors;  ///< factors of the terms, such as "shadow, light sun"
-  /// Output of the fragment function, linear with straight alpha. If !fragment.is_shaded, the renderer did not shade the fragment in this
-  /// frame. color, varyings and terms were then computed afterwards by the same shader code.
+  /// Output of the fragment function, linear with straight alpha. If fragment.is_shaded is false, the renderer did not shade the fragment
+  /// in this frame, and color, varyings and terms were computed afterwards by the same shader code.
   glm::vec4 color;
   std::string blend;  ///< blend equation; empty if `color` replaces the color of the sample
 };
 
-/// How the linear light of a pixel was converted to the code in the picture.
+/// How the linear light of a pixel was converted to its value in the picture.
 struct DisplayDetail {
   glm::vec4 light{0.0f};  ///< linear light: the mean of the samples
   float exposure = 1.0f;
   glm::vec3 tone_mapped{0.0f};  ///< linear display light, after the tone curve
-  glm::u8vec4 code{0};          ///< in the picture
+  glm::u8vec4 code{0};          ///< 8-bit value in the picture
 };
 
 /// The history of a pixel.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// One primitive in the stages of the pipeline: its vertices in every space, the clipped polygon, and its setup.
+// One primitive in each stage of the pipeline: its vertices in every space, the clipped polygon, and the triangles after setup.
 #pragma once
 
 #include <optional>
@@ -44,7 +44,7 @@ struct StageClip {
   uint32_t primitive;
   std::array<glm::vec4, 3> clip;  ///< vertices in clip space
   ClipPolygon polygon;
-  std::vector<glm::dvec2> window;  ///< corners of the polygon in window coordinates, in pixels
+  std::vector<glm::dvec2> window;  ///< vertices of the polygon in window coordinates, in pixels
 };
 StageClip stage_clip(const PassContext& context, const StageGeometry& geometry, uint32_t primitive);
 

@@ -26,7 +26,7 @@ StageOutcome outcome_of(const Chunk& chunk) {
   return s.clipped != 0 ? StageOutcome::clipped : StageOutcome::kept;
 }
 
-// Sets up each primitive again, alone in a chunk. The statistics of the chunk show whether the primitive was kept, clipped or culled.
+// Sets up each primitive again, in a chunk of its own. The statistics of the chunk show whether the primitive was kept, clipped or culled.
 void list_primitives(const PassContext& context, const DrawRange& range, Chunk& chunk, StageGeometry& g) {
   for (uint32_t i = range.first; i < range.first + range.count; ++i) {
     chunk.clear();

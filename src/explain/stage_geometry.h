@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The primitives of a frame from the vertex stage to the bins, computed with the pipeline's own functions.
+// The primitives of a frame from the vertex stage to the bins, computed by the pipeline's own functions.
 #pragma once
 
 #include <vector>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The shadow map of a light, and the lookup of one point in it.
+// The shadow map of a light, and the shadow lookup of one point.
 #pragma once
 
 #include <array>
@@ -21,7 +21,7 @@ struct ShadowLookup {
   glm::vec3 position_rws{0.0f}, normal_ws{0.0f}, to_light_ws{0.0f};
   float x = 0, y = 0;                                     ///< position in texels from the lower left corner of the map
   float depth = 0;                                        ///< reversed window depth of the point, without bias
-  float biased = 0;                                       ///< the same with bias
+  float biased = 0;                                       ///< depth with bias
   float depth_dx = 0, depth_dy = 0;                       ///< slope per texel of the plane that texels are compared with
   float factor = 1;                                       ///< fraction of the light that reaches the point
   int i = 0, j = 0;                                       ///< texel that contains the point
@@ -34,7 +34,7 @@ ShadowLookup shadow_lookup(const Light& light, const glm::vec3& position_rws, co
                            const glm::vec2& window);
 
 /// Returns the map of a view as a gray picture, at most `size` texels wide. Empty texels are 0; nearer to the light is brighter. The range
-/// of depths is scaled to the range of codes.
+/// of depths is scaled to the range of gray values.
 Image<glm::u8vec4> shadow_map_picture(const ShadowView& view, int size);
 
 }  // namespace halfspace

@@ -15,7 +15,7 @@ inline constexpr bool kIsUnlitSurface<SurfaceShader<ShadingRate::none, mapped, d
 // Sets the uniforms of all other terms to zero.
 struct TermFilter {
   const LightTerm& term;
-  std::span<const Light> lights;  // none, or the light of the term
+  std::span<const Light> lights;  // the light of the term, or none
 
   bool is(TermKind kind) const { return term.kind == kind; }
 

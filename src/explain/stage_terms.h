@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The terms of the light of a frame. A term is rendered by the same shaders with the uniforms of all other terms set to zero.
+// The terms of the light of a frame. A term is rendered by the same shaders, with the uniforms of all other terms set to zero.
 #pragma once
 
 #include <string>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Conversion of linear light to display codes: exposure, tone curve and encoding. Also a histogram of the light.
+// Conversion of linear light to display values: exposure, tone curve and encoding. Also computes a histogram of the light.
 #pragma once
 
 #include <array>

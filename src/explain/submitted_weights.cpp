@@ -55,7 +55,7 @@ glm::vec3 submitted_weights(const InspectedTriangle& t, const Weights<float>& we
   glm::vec3 out(0.0f);
   for (std::size_t i = 0; i < 3; ++i) {
     std::size_t corner = (first + i) % 3;
-    if (triangle.is(kLine) && corner == 2) corner = 0;  // the third corner of a line has the values of the first
+    if (triangle.is(kLine) && corner == 2) corner = 0;  // the third vertex of a line has the values of the first
     for (int k = 0; k < 3; ++k) {
       if (t.slot[static_cast<std::size_t>(k)] != triangle.vertex[corner]) continue;
       out[k] += p[i];

@@ -23,7 +23,8 @@ void for_each_traced_pixel(const TileFragments& tile, const PassTrace& trace, co
   }
 }
 
-// Limits the number of fragments to the maximum. Removes unshaded ones first, starting at the end. Returns how many were removed.
+// Limits the number of fragments to kMaxFragments. Removes unshaded fragments first, starting at the end. Returns the number of removed
+// fragments.
 uint32_t limit_fragments(std::vector<TracedFragment>& fragments) {
   if (fragments.size() <= FrameTrace::kMaxFragments) return 0;
   const auto excess = static_cast<uint32_t>(fragments.size()) - FrameTrace::kMaxFragments;

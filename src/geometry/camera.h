@@ -2,7 +2,7 @@
 //
 // View and projection matrices. View space is right-handed with y up; the camera looks along −z. clip = P·V·M·p.
 //
-// All matrices are computed in double without libm, so they have the same bits on every machine. Multiply them in double and
+// All matrices are computed in double without libm, so they are bit-identical on every machine. Multiply them in double and
 // convert the product to float once: glm::mat4(projection * view).
 #pragma once
 

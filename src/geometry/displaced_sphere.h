@@ -10,7 +10,7 @@
 //   P'u = (r + g)·2πs·e + gu·n        P'v = −(r + g)·π·m + gv·n
 //   P'v × P'u = 2π²·s·r·(r + g) · [ (1 + g/r)·n − gu/(2πrs)·e + gv/(πr)·m ]       (m × e = −n, m × n = e, n × e = m)
 //
-// The factor before the bracket is positive between the poles, so the vector points outward. With the slopes to the east and north
+// The factor before the bracket is positive between the poles, so the vector points outward. With the slopes towards the east and north,
 // measured on the undisplaced sphere, g_east = gu/(2πrs) and g_north = −gv/(πr),
 //
 //   normal = normalize( (1 + g/r)·n − g_east·e − g_north·m ).

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Double-precision vector functions with the same bits on every machine.
+// Double-precision vector functions whose results are bit-identical on every machine.
 #pragma once
 
 #include <cmath>

@@ -26,8 +26,8 @@ Fade fade_of_face(double u, double v) {
   return {across.value * down.value, across.slope * down.value, across.value * down.slope};
 }
 
-// Adds a face with half edge length h, centered at h·center. Coordinates are computed as a ratio of integers, which is exactly
-// antisymmetric about the middle, so the vertices of adjacent faces match bit for bit.
+// Adds a face with half edge length h, centered at h·center. Coordinates are computed as ratios of integers, which are exactly
+// antisymmetric about the middle. The vertices of adjacent faces therefore match bit for bit.
 void add_face(SurfaceMesh& mesh, double h, const Face& face, int segments, bool fades) {
   int first = -1;
   const auto coordinate = [&](int i) { return static_cast<double>(2 * i - segments) / segments; };

@@ -81,7 +81,7 @@ void smooth_row(std::span<float> row, const Kernel& kernel, MapEdges edges) {
   std::vector<double> ring(static_cast<std::size_t>(width + count));
   for (int x = 0; x < width + count; ++x) {
     const int column = x + k.first;
-    const bool inside = column >= 0 && column < width;  // almost always; a remainder for every column would be slow
+    const bool inside = column >= 0 && column < width;  // almost always true; computing a remainder for every column would be slow
     ring[static_cast<std::size_t>(x)] =
         static_cast<double>(row[static_cast<std::size_t>(inside ? column : column_at(column, width, edges))]);
   }

@@ -28,24 +28,22 @@ struct HeightTaps {
 ///   sheet     the edge texels are repeated
 enum class MapEdges : uint8_t { sphere, torus, cylinder, sheet };
 
-/// A height map as a smooth function of (u, v). Row 0 is at v = 0 (north on a sphere) and column 0 begins at u = 0. The function is
-/// the uniform cubic B-spline with the texels, at their centers, as control points. It is twice continuously differentiable, also
-/// across edges, stays within the range of the texels, and reproduces constants and ramps. Results depend only on the map and the
-/// arguments, bit for bit.
+/// A height map as a smooth function of (u, v). Row 0 is at v = 0 (north on a sphere) and column 0 begins at u = 0. The function is the
+/// uniform cubic B-spline with the texels, at their centers, as control points. It is twice continuously differentiable, even across edges,
+/// stays within the range of the texels, and reproduces constants and ramps. Results depend only on the map and the arguments, bit for bit.
 class HeightField {
  public:
-  /// `map` may be in any unit; width ≥ 2 and height ≥ 1. On a sphere, a map with an odd width is resampled to one column less,
-  /// because half a turn must be an integer number of texels. `smoothing` ≥ 0 is the standard deviation of a Gaussian in texels:
-  /// about 1 for a sharp map, 2 to 3 to remove the terraces of 8-bit maps. On a sphere it is measured in texels at the equator, the
-  /// same length along u and v. A row at v is smoothed along u by smoothing / sin πv texels, so that the crowded texels near the
-  /// poles do not become noise.
+  /// `map` may be in any unit; width ≥ 2 and height ≥ 1. On a sphere, a map with an odd width is resampled to one column less, because half
+  /// a turn must be an integer number of texels. `smoothing` ≥ 0 is the standard deviation of a Gaussian in texels: about 1 for a sharp
+  /// map, 2 to 3 to remove the terraces of 8-bit maps. On a sphere it is measured in texels at the equator and has the same length along u
+  /// and v. A row at v is smoothed along u by smoothing / sin πv texels, so that the crowded texels near the poles do not become noise.
   HeightField(const Image<float>& map, double smoothing, const Workers& workers, MapEdges edges = MapEdges::sphere);
 
   int width() const { return texels_.width(); }
   int height() const { return texels_.height(); }
 
-  /// Returns the height at any u and at v in [−1, 2]. Where u is periodic, u and u + 1 give the same bits whenever both are exact,
-  /// as for 0 and 1. The same holds for v and v + 1 on a torus.
+  /// Returns the height at any u and at v in [−1, 2]. Where u is periodic, the results for u and u + 1 are bit-identical if both numbers
+  /// are exact, such as 0 and 1. The same applies to v and v + 1 on a torus.
   HeightSample at(double u, double v) const;
 
   /// Batched evaluation at a single v, bit-identical to at(u, v). The taps of a column can be reused for all rows of a map.
@@ -57,7 +55,7 @@ class HeightField {
 
   /// Returns the field for a tessellation of `max_width` ≥ 2 sectors, or for a map of that width. A wider field is box filtered to
   /// the largest even width ≤ max_width with the same aspect ratio. On a sphere it is also smoothed along u towards the poles,
-  /// where texels crowd, by half a texel / tan πv.
+  /// where texels crowd, by 0.5 / tan πv texels.
   HeightField filtered(int max_width, const Workers& workers) const;
 
  private:

@@ -17,7 +17,7 @@ namespace {
 
 using Triangle = std::array<int, 3>;
 
-// Directions from the origin, not normalized, and the triangles between them. Corner 0 is the north pole, and corner 1 is the south pole.
+// Directions from the origin, not normalized, and the triangles between them. Corner 0 is the north pole and corner 1 the south pole.
 struct Polyhedron {
   std::vector<glm::dvec3> corners;
   std::vector<Triangle> triangles;
@@ -41,7 +41,7 @@ Polyhedron icosahedron() {
   return p;
 }
 
-// Splits each triangle into four. Both triangles of an edge share its new corner.
+// Splits each triangle into four. The two triangles at an edge share its new corner.
 Polyhedron divided(const Polyhedron& from) {
   Polyhedron p{from.corners, {}};
   std::map<std::pair<int, int>, int> middles;

@@ -59,8 +59,8 @@ ReliefDetail::ReliefDetail(const Image<float>& map, double smoothing, const Work
     kept = std::move(half);
     fine = &kept;
   }
-  // With one vertex per texel nothing is averaged away. What remains is the chord error, which is divided by four when columns
-  // double.
+  // With one vertex per texel, nothing is averaged away. The remaining chord error decreases by a factor of four when the number of columns
+  // doubles.
   if (levels_.size() > 1) levels_.front().error = 0.25 * levels_[1].error;
 }
 

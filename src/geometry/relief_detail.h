@@ -16,7 +16,7 @@ class ReliefDetail {
   ReliefDetail(const Image<float>& map, double smoothing, const Workers& workers);
 
   /// Returns the error in the unit of the map, for `columns` ≥ 1 along u. The error is interpolated linearly between successive
-  /// halvings of the map, which overestimates rather than underestimates it.
+  /// halvings of the map, which tends to overestimate it.
   double error(double columns) const;
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Closed-form shapes, computed in double without libm and rounded to float once, so they have the same bits on every machine. All
+// Closed-form shapes, computed in double without libm and rounded to float once, so they are bit-identical on every machine. All
 // shapes are y up and wound counter-clockwise seen from outside, with outward unit normals, texture coordinates and tangents. On
 // closed shapes, positions are bit-identical where two faces, or opposite edges of the map, meet. `displacement`, if given,
 // displaces the surface (geometry/surface_mesh.h); its field must use the MapEdges value given for each shape. A closed shape stays
@@ -16,7 +16,7 @@ namespace halfspace {
 ///
 ///   P(u, v) = r · (sin πv · cos 2πu, cos πv, −sin πv · sin 2πu)
 ///
-/// v = 0 is the north pole (+y, the top row of a map) and u grows eastwards. A map with its left edge at 180° W is not mirrored
+/// v = 0 is the north pole (+y, the top row of a map) and u grows to the east. A map with its left edge at 180° W is not mirrored
 /// when seen from outside, and that meridian is at +x. The seam is closed by vertices at u = 0 and u = 1 with equal positions. A
 /// pole has one vertex per sector, with u at the middle of the sector, so the map does not swirl there. There are 2 · longitudes ·
 /// (latitudes − 1) triangles, none of them degenerate.
@@ -43,10 +43,10 @@ struct SphereFrame {
 };
 SphereFrame sphere_frame(const SinCosDouble& two_pi_u, const SinCosDouble& pi_v);
 
-/// A sphere around the origin, subdivided from an icosahedron with corners at the poles: 20 · 4^level triangles of nearly equal
-/// size; level ≥ 0. Formula and texture coordinates are the same as for uv_sphere. u exceeds 1 in triangles that cross the seam, so it
-/// never jumps back. Each triangle at a pole has a separate vertex there, with u between the values at its other two vertices. All
-/// vertices at a pole get the same height, the mean of their heights. A displacement field must use MapEdges::sphere.
+/// A sphere around the origin, subdivided from an icosahedron with vertices at the poles: 20 · 4^level triangles of nearly equal size;
+/// level ≥ 0. The formula and the texture coordinates are those of uv_sphere. u exceeds 1 in triangles that cross the seam, so it never
+/// jumps back. Each triangle at a pole has a separate vertex there, with u between the values at its other two vertices. All vertices at a
+/// pole get the same height, the mean of their heights. A displacement field must use MapEdges::sphere.
 Mesh icosphere(int level, float radius, const Displacement* displacement = nullptr);
 
 /// A closed cylinder around the y axis, with y from −length/2 to length/2. The side has `bands` ≥ 1 rows and `sectors` ≥ 3 columns:

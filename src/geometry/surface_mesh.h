@@ -45,7 +45,7 @@ struct MeshPoint {
   glm::dvec3 position, du, dv;              ///< P, ∂P/∂u, ∂P/∂v
   glm::dvec3 normal, normal_du, normal_dv;  ///< n and its derivatives
   glm::dvec3 tangent{1, 0, 0};              ///< unit tangent for points where ∂P/∂u is zero, such as poles
-  Fade fade{};                              ///< factor of g; zero at edges between faces, so that no crack opens there
+  Fade fade{};                              ///< factor of g; zero at edges between faces, so that no cracks open there
 };
 
 /// Collects the vertices and triangles of a surface.

@@ -16,7 +16,7 @@ namespace halfspace::procedural {
 namespace {
 
 constexpr float kMoonRadius = 1737.4f;  // km
-constexpr float kLargest = 0.085f;      // radius of the largest crater that is not a basin: 148 km
+constexpr float kLargest = 0.085f;      // radius of the largest crater that is not a basin; 148 km
 constexpr float kYoung = 0.93f;         // craters of this age or above are younger than the maria
 
 // ---- the population --------------------------------------------------------------------------------------------
@@ -247,8 +247,8 @@ void add_rays(const Crater& c, CraterRow& row) {
     const Bearing b = bearing_of(c, row, i);
     mask &= b.distance < Real(c.rays) && b.distance > Real(c.radius);
     if (none(mask)) return;
-    // Rays are where a noise over the azimuth crosses zero; they narrow in angle with the distance. A second noise over the azimuth
-    // varies their reach, and a third over the position breaks them up.
+    // Rays are the zero crossings of a noise over the azimuth. Their angular width decreases with the distance. A second noise over the
+    // azimuth varies their reach, and a third noise over the position breaks them up.
     const Vec azimuth(b.east, b.north, Real(0.37f));
     const Real crossing = abs(noise(azimuth * Vec(Real(3.3f)), c.seed));
     const Real reach =

@@ -14,7 +14,7 @@ namespace halfspace::procedural {
 /// One impact crater: a bowl or a flat floor with walls, a rim that slopes down into a blanket of ejecta, and a central peak in
 /// large craters.
 struct Crater {
-  glm::vec3 center, east, north;  // unit vectors, as in uv_sphere's frame
+  glm::vec3 center, east, north;  // unit vectors, as in SphereFrame
   float radius;
   float depth;      // depth of the floor below the surroundings
   float rim;        // height of the rim above the surroundings
@@ -22,7 +22,7 @@ struct Crater {
   float peak;       // height of the central peak above the floor
   float erasing;    // fraction of the older relief that is erased inside, 0 to 1
   float freshness;  // brightness of walls and ejecta, 0 to 1
-  float wobble[6];  // amplitudes in the outline of cosine and sine of 2, 3 and 5 times the azimuth
+  float wobble[6];  // amplitudes of the outline's harmonics: cosine and sine of 2, 3 and 5 times the azimuth
   float rays;       // reach of the rays in radians, or 0
   int32_t seed;     // seed of the noise in the rays
 };

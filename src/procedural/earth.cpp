@@ -30,7 +30,7 @@ struct Terrain {
   Real detail;       // fine noise
 };
 
-// Rainfall by latitude: dry belts at about 25° (sine 0.42) on both sides of the rainy equator, and dry interiors of continents.
+// Rainfall by latitude, with dry belts at about 25° (sine 0.42) on both sides of the rainy equator and dry continental interiors.
 Real moisture_at(const Vec& p, Real height) {
   const Real from_belt = (abs(p.y) - Real(0.42f)) * Real(1.0f / 0.26f);
   const Real dry = max(Real(1.0f) - from_belt * from_belt, Real(0.0f));
@@ -38,7 +38,7 @@ Real moisture_at(const Vec& p, Real height) {
          Real(0.35f) * step(0.15f, 0.55f, height);
 }
 
-// If the whole packet is sea, terms that only affect land are skipped: the land color gets a weight of 0 there.
+// If the whole packet is sea, terms that affect only land are skipped, because the weight of the land color is 0 there.
 Terrain terrain_at(const Vec& p, float coast) {
   // A second noise distorts the coastlines; without it, continents look like blots.
   const Vec bend(cloud(scaled(p, 1.9f, 3.1f, 8.2f, 1.7f), 2, 101), cloud(scaled(p, 1.9f, 11.4f, 2.9f, 6.3f), 2, 202),

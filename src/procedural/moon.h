@@ -9,7 +9,7 @@
 
 namespace halfspace {
 
-/// Equirectangular maps in the layout of uv_sphere: row 0 is the north; the center of the map is the center of the near side.
+/// Equirectangular maps in the layout of uv_sphere: row 0 is the north, and the center of the map is the center of the near side.
 struct MoonMaps {
   Image<glm::u8vec4> color;  // 8-bit sRGB, alpha 255, without shading
   Image<uint16_t> height;    // 0 to 65535 map to −10 km to 10 km relative to the mean radius of 1737.4 km

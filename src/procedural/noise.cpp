@@ -32,7 +32,7 @@ HS_INLINE Real gradient(Int hash, Real x, Real y, Real z) {
 
 HS_INLINE Real fade(Real t) { return t * t * t * fma(t, fma(t, Real(6.0f), Real(-15.0f)), Real(10.0f)); }
 
-// Maps a point to the next octave: scaled by nearly two so that lattices do not line up, rotated and translated.
+// Maps a point to the next octave: scaled by nearly two, so that the lattices do not line up, rotated and translated.
 HS_INLINE Vec next_octave(const Vec& p) {
   return Vec(fma(p.x, Real(1.624f), fma(p.y, Real(-0.974f), Real(17.3f))),
              fma(p.x, Real(0.771f), fma(p.y, Real(1.285f), fma(p.z, Real(-1.304f), Real(-9.7f)))),

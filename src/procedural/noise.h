@@ -13,7 +13,7 @@ namespace halfspace::procedural {
 
 using Vec = vec3<Real>;
 
-/// Gradient noise in about [−1, 1], zero at integer coordinates. |p| must stay below 2^20.
+/// Gradient noise, roughly in [−1, 1] and zero at integer coordinates. |p| must stay below 2^20.
 Real noise(const Vec& p, int32_t seed);
 
 /// Sum of octaves of noise, each with twice the frequency and half the amplitude of the previous one.
@@ -22,7 +22,7 @@ Real cloud(Vec p, int octaves, int32_t seed);
 /// Like cloud, with sharp crests where the noise is zero, as in mountain ranges. Values are in [0, 2).
 Real ridges(Vec p, int octaves, int32_t seed);
 
-/// 2D gradient noise with the periods period_x and period_y, in about [−1, 1] and zero at integer coordinates. |x| and |y| must
+/// Tileable 2D gradient noise with the periods period_x and period_y, roughly in [−1, 1] and zero at integer coordinates. |x| and |y| must
 /// stay below 2^20; periods must be ≥ 1.
 Real tiled_noise(Real x, Real y, int period_x, int period_y, int32_t seed);
 
@@ -36,7 +36,7 @@ Real tiled_ridges(Real u, Real v, int period_u, int period_v, int octaves, int t
 
 HS_INLINE Real lerp(Real a, Real b, Real t) { return fma(t, b - a, a); }
 
-/// Smooth step: 0 below lo, 1 above hi. lo > hi gives a falling step.
+/// Smooth step: 0 below lo, 1 above hi. If lo > hi, the step falls from 1 to 0.
 HS_INLINE Real step(float lo, float hi, Real x) {
   const Real t = clamp((x - Real(lo)) * Real(1.0f / (hi - lo)), Real(0.0f), Real(1.0f));
   return t * t * (Real(3.0f) - Real(2.0f) * t);

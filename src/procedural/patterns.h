@@ -32,8 +32,8 @@ struct PatternMaps {
 /// Range of the widths that scenes choose automatically.
 inline constexpr int kMinPattern = 64, kMaxPattern = 2048;
 
-/// Generates the maps of a pattern with `width` x `width` texels, width ≥ 1. Apart from sharp edges, they contain no detail finer
-/// than two texels. The result depends only on pattern and width, bit for bit.
+/// Generates the maps of a pattern with `width` x `width` texels, width ≥ 1. Apart from sharp edges, they contain no detail finer than two
+/// texels. The result depends, bit for bit, only on the pattern and the width.
 PatternMaps procedural_pattern(Pattern pattern, int width, const Workers& workers);
 
 }  // namespace halfspace

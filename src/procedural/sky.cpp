@@ -52,7 +52,7 @@ Vec clear_sky(const Vec& d, Real toward_sun, const Daylight& day) {
   return blend(horizon, tint(kZenith), height_of(d));
 }
 
-// Lobes around the sun: haze, aureole and disk. Half of the disk's light is within one degree of the center.
+// Lobes around the sun: haze, aureole and disk. Half of the disk's light comes from within one degree of the center.
 Vec sun_light(Real toward_sun, const Daylight& day) {
   const Real s = max(toward_sun, Real(0.0f));
   const Vec color = blend(Vec(Real(1.0f), Real(0.96f), Real(0.88f)), Vec(Real(1.0f), Real(0.55f), Real(0.22f)), day.low);

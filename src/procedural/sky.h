@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Procedural skies as the six faces of a cube map, in the face order and orientation of shading/environment.h. Map space has z
-// ahead, which is −z in world space. Values are linear; 1 is the radiance of a white surface in the noon sun.
+// Procedural skies as the six faces of a cube map, in the face order and orientation of shading/environment.h. In map space, z points
+// forward, which is −z in world space. Values are linear; 1 is the radiance of a white surface in the noon sun.
 #pragma once
 
 #include <array>
@@ -26,8 +26,8 @@ struct NightSky {
 /// luminance is 0.2 to 2. The result depends only on the arguments, bit for bit. size ≥ 1 is the width of a face in texels.
 SkyFaces procedural_day_sky(int size, const DaySky& sky, const Workers& workers);
 
-/// Returns a dark blue sky with the Milky Way and ground. It has no stars; StarSky draws them more sharply than a map could. Its luminance
-/// is 1e-3 to 1e-2.
+/// Returns a dark blue sky with the Milky Way and ground. It has no stars, because StarSky draws them more sharply than a map could. Its
+/// luminance is 1e-3 to 1e-2.
 SkyFaces procedural_night_sky(int size, const NightSky& sky, const Workers& workers);
 
 /// Returns a neutral photo studio for product pictures: gray walls, a dark floor, a large soft light above and two at the sides. The

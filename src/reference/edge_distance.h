@@ -20,7 +20,7 @@ EdgeDistance summary_of(std::vector<double> distances);
 std::vector<double> edge_distances(const std::vector<glm::ivec2>& from, const std::vector<glm::ivec2>& to, int width, int height);
 
 /// Estimates how far edges have moved, given an image in which wrong pixels are nonzero. An edge that has moved leaves a band of wrong
-/// pixels as wide as its displacement, and a thin feature that has vanished leaves one as wide as the feature. In the middle of a band of
+/// pixels as wide as its displacement. A thin feature that has vanished leaves a band as wide as the feature. In the middle of a band of
 /// width w, the nearest correct pixel is (w + 1)/2 away, so a distance d counts as a width of 2d - 1. `finer` is the supersampling factor
 /// of `wrong`; the result is in pixels of the original image. Returns 0 if no pixel is wrong.
 EdgeDistance wrong_band_width(const Image<uint8_t>& wrong, int finer);

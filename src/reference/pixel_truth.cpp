@@ -117,7 +117,8 @@ LightTruth light_truth(const RayScene& casters, const RayLight& light, const glm
   const bool distant = kind_of(light.light.type).is_distant;
   const glm::dvec3 place(light.light.place_rws);
   const glm::dvec3 axis = distant ? place : unit_or_zero(place - position_rws);
-  // Offset the origin by more than the errors of Embree's hit and of the float vertices, which are a few 2^-24 of the largest coordinate.
+  // Offset the origin by more than the errors of Embree's hit and of the float vertices, which are a few times 2^-24 of the largest
+  // coordinate.
   const double scale = std::max({std::abs(position_rws.x), std::abs(position_rws.y), std::abs(position_rws.z), 1e-3});
   const glm::dvec3 outwards = glm::dot(face_normal_ws, axis) >= 0.0 ? face_normal_ws : -face_normal_ws;
   const glm::dvec3 origin = position_rws + outwards * (scale * 0x1p-20);
@@ -131,7 +132,7 @@ LightTruth light_truth(const RayScene& casters, const RayLight& light, const glm
     arrived += !casters.occluded(glm::vec3(origin), glm::vec3(direction), 0.0f, distant ? kFar : 1.0f);
   }
   const double n = strata * strata, share = arrived / n;
-  // This is the standard error of independent rays; stratification makes the true one smaller.
+  // This is the standard error of independent rays. Stratification makes the actual error smaller.
   return {static_cast<float>(share), n > 1 ? static_cast<float>(std::sqrt(share * (1.0 - share) / n)) : 0.0f};
 }
 

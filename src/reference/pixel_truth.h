@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Compares the rasterizer with ray casting: which surface each pixel shows, and how much of a light reaches it according to the
+// Compares the rasterizer with ray casting: the surface that each pixel shows, and the fraction of a light that reaches it according to the
 // shadow map and according to rays.
 #pragma once
 
@@ -64,7 +64,8 @@ struct RayLight {
   int rays;     ///< rays per surface point if size is not 0, a square number; otherwise, one ray is cast
 };
 /// Casts shadow rays from a surface point to the light. The rays start on the lit side of the surface, at a distance of 2^-20 times the
-/// largest coordinate: the float origin and Embree's hit are accurate to a few 2^-24 of it. `seed` selects the random sample positions.
+/// largest coordinate: the float origin and Embree's hit are accurate to a few times 2^-24 of it. `seed` selects the random sample
+/// positions.
 LightTruth light_truth(const RayScene& casters, const RayLight& light, const glm::dvec3& position_rws, const glm::dvec3& face_normal_ws,
                        uint32_t seed);
 

@@ -88,7 +88,7 @@ void RayScene::Impl::add_spheres(const Particles& spheres, const glm::dvec3& eye
 
 RayScene::RayScene(std::span<const PlacedMesh> meshes, const glm::dvec3& eye_ws, bool casters_only, std::span<const PlacedSpheres> spheres)
     : impl_(std::make_unique<Impl>()) {
-  impl_->device.reset(rtcNewDevice("threads=1"));  // one thread builds the tree, so that it is the same every time
+  impl_->device.reset(rtcNewDevice("threads=1"));  // a single thread builds the tree, so that it is the same every time
   if (impl_->device == nullptr) throw InputError("Embree cannot start on this machine");
   impl_->scene.reset(rtcNewScene(impl_->device.get()));
   rtcSetSceneFlags(impl_->scene.get(), RTC_SCENE_FLAG_ROBUST);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Casts rays against the triangles of a scene, as the reference that rendered images are compared with. This is a wrapper around Embree
-// (versions 3.13 and 4) in its robust mode, in which rays do not slip between adjacent triangles.
+// Casts rays against the triangles of a scene. The results are the reference for rendered images. This is a wrapper around Embree (versions
+// 3.13 and 4) in its robust mode, in which rays do not slip between adjacent triangles.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ namespace halfspace {
 
 /// The point where a ray hits the scene. Suffix _rws: relative to the eye_ws passed to RayScene, with the axes of world space.
 struct RayHit {
-  int mesh;                       ///< index of the mesh; −1, −2, … stand for the first, second, … set of spheres
+  int mesh;                       ///< index of the mesh; −1, −2, … for the first, second, … set of spheres
   uint32_t triangle;              ///< index of the triangle in the mesh, or of the sphere in its set
   float distance;                 ///< ray parameter t, in multiples of the direction's length
   std::array<double, 3> weights;  ///< barycentric coordinates, which add up to 1; all 0 for a sphere

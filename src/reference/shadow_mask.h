@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The shader of `halfspace validate`. Instead of a color it writes, per pixel, which triangle is visible, its orientation to one light,
-// and the result of that light's shadow map.
+// The shader of `halfspace validate`. Instead of a color, it writes the index of the visible triangle, the orientation of the surface to
+// one light, and the result of that light's shadow map lookup.
 #pragma once
 
 #include "halfspace/shading/contract.h"

@@ -14,7 +14,7 @@ namespace halfspace {
 
 namespace {
 
-// A mesh without shared vertices: each triangle has three vertices, which carry its index.
+// A mesh without shared vertices: each triangle has three vertices of its own, which store its index.
 struct UnsharedMesh {
   std::vector<glm::vec3> positions, normals;
   std::vector<float> triangles;

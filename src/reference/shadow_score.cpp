@@ -32,9 +32,9 @@ double texel_at(const Shadow& shadow, const glm::dvec3& position_rws) {
   return 0.0;
 }
 
-// Finds the distance, in the plane perpendicular to the light, from a point to the nearest change in what the light sees: the end of
-// the surface, or a transition between lit and shadowed. The result is in texels beyond the filter radius, rounded up to the next step,
-// or 1e9 if nothing changes within the last step.
+// Measures the distance, in the plane perpendicular to the light, from a point to the nearest change as seen from the light: the end of the
+// surface, or a transition between lit and shadowed. The result is in texels beyond the filter radius, rounded up to the next step, or 1e9
+// if nothing changes within the last step.
 class EdgeFinder {
  public:
   EdgeFinder(const RayScene& rays, const RayScene& casters, const RayLight& light) : rays_(rays), casters_(casters), light_(light) {}
@@ -91,7 +91,7 @@ std::vector<glm::ivec2> edge_pixels(const Image<float>& light, const Pixels& pix
   return edges;
 }
 
-// Projects a texel along the light onto the surface at a hit. Returns the longer of its sides in the image, in pixels.
+// Projects a texel along the light onto the surface at a hit. Returns the length of its longer side in the image, in pixels.
 double texel_on_surface_px(const RayHit& hit, const Light& light, double texel, const View& view) {
   const glm::dvec3 axis = light_at<double>(light, hit.position_rws).l_ws;
   const glm::dvec3 sight = view.to_eye_ws == glm::dvec3(0.0) ? unit_or_zero(hit.position_rws) : -view.to_eye_ws;
@@ -124,7 +124,7 @@ void score_false_pixels(ShadowComparison& c, const Pixels& pixels, const Shadow&
   }
   const std::size_t stride = wrong.size() / kMaxCount + 1, count = (wrong.size() + stride - 1) / stride;
   std::vector<double> distances(count);
-  // The reference of a PCSS shadow is soft too, so the filter width does not excuse errors above 1/2.
+  // The reference for a PCSS shadow is also soft, so the filter width does not excuse errors above 1/2.
   const double radius = shadow.settings.filter == ShadowFilter::pcss ? 0.0 : static_cast<double>(filter_reach(shadow.settings)) - 0.5;
   workers.for_each(static_cast<int>(count), [&](int i) {
     const glm::ivec2 p = wrong[static_cast<std::size_t>(i) * stride];
@@ -189,7 +189,7 @@ ShadowComparison compare_shadow(const LightChoice& choice, const RayScene& rays,
       out.map.at(x, y) = out.truth.at(x, y) = -1.0f;
       const glm::vec4& mask = picture.mask.at(x, y);
       const std::optional<RayHit>& hit = pixels.hits.at(x, y);
-      // At silhouettes, rasterizer and rays may show different surfaces. compare_visibility counts these pixels.
+      // At silhouettes, the rasterizer and the rays may show different surfaces. compare_visibility counts these pixels.
       if (!hit || static_cast<float>(hit->mesh + 1) != mask.z || !choice.scene->meshes[static_cast<std::size_t>(hit->mesh)].receives_shadow)
         continue;
       const IncidentLight<double> arriving = light_at<double>(light.light, hit->position_rws);

@@ -11,7 +11,7 @@
 
 namespace halfspace {
 
-/// Fractions of pixels, by distance from the true shadow edge. The distance is measured perpendicular to the light, in shadow map
+/// Fractions of pixels by their distance from the exact shadow edge. The distance is measured perpendicular to the light, in shadow map
 /// texels, and the filter radius is subtracted.
 struct DistanceShares {
   double within_1 = 0.0, from_1_to_3 = 0.0, beyond_3 = 0.0;
@@ -22,11 +22,11 @@ struct ShadowScore {
   std::string scene, light, method, bias;
   int resolution = 0;
   int64_t lit = 0, shadowed = 0;  ///< pixel counts according to the rays; a pixel is lit if more than half of the light arrives
-  double sides_differ = 0.0;      ///< fraction of pixels excluded because face normal and shading normal disagree about facing the light
+  double sides_differ = 0.0;      ///< fraction of pixels excluded because only one of face normal and shading normal faces the light
   DistanceShares false_shadow;    ///< pixels with |map − rays| > 0.5, as fractions of the lit pixels
   DistanceShares false_light;     ///< pixels with |map − rays| > 0.5, as fractions of the shadowed pixels
-  EdgeDistance edge_px;           ///< distance from the edges of the map to the true edges
-  double edge_texels = 0.0;       ///< mean edge distance in texels, with each texel projected onto the surface and into the image
+  EdgeDistance edge_px;           ///< distance from the shadow edges of the map to the exact edges
+  double edge_texels = 0.0;       ///< mean edge distance in units of the shadow-map texel size projected onto the surface at that point
   double penumbra_error = 0.0;    ///< mean of |map − rays| where 0 < rays < 1; 0 if there is no penumbra
   double error = 0.0;             ///< mean of |map − rays| over all compared pixels
   double truth_error = 0.0;       ///< largest standard error of the rays

@@ -12,7 +12,7 @@ namespace halfspace {
 
 namespace {
 
-// A scene and one of its cameras.
+// A scene and the camera to render it from.
 struct TableScene {
   const char* name;
   const char* camera;

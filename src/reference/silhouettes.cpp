@@ -13,7 +13,7 @@ namespace halfspace {
 
 namespace {
 
-// Draws impostors at the resolution of `lens`, with the number of each point in the red channel. The pass keeps a pointer to `numbers`.
+// Draws impostors at the resolution of `lens`, with the number of each sphere in the red channel. The pass keeps a pointer to `numbers`.
 void draw_numbers(Pass& pass, const PreparedDraw& draw, SphereImpostor<false> sprite, const SphereIntersection& lens, int finer,
                   const std::vector<glm::vec3>& numbers) {
   sprite.lens = lens;

@@ -17,8 +17,8 @@ inline constexpr int kParticlesSeen = -1;
 /// background. Top row first. `finer` multiplies the resolution of the scene's view.
 Image<int> seen_objects(const PreparedScene& scene, int finer, const Workers& workers);
 
-/// Returns how far the outlines in `picture` are from those in `truth`; see wrong_band_width. Both images come from seen_objects with the
-/// same `finer`; the result is in pixels of the scene's view.
+/// Returns how far the outlines in `picture` are from those in the reference `truth`; see wrong_band_width. Both images come from
+/// seen_objects with the same `finer`; the result is in pixels of the scene's view.
 EdgeDistance silhouette_distance(const Image<int>& picture, const Image<int>& truth, int finer);
 
 }  // namespace halfspace

@@ -93,8 +93,8 @@ std::string text_report(const Validation& validation) {
       text += fmt::format("    soft: mean error {:.4f} in penumbrae, {:.4f} overall; standard error of the rays at most {:.4f}\n",
                           s.penumbra_error, s.error, s.truth_error);
     if (s.sides_differ > 0.0)
-      text +=
-          fmt::format("    {:.3f} % of pixels not counted: face normal and shading normal are on different sides\n", 100 * s.sides_differ);
+      text += fmt::format("    {:.3f} % of pixels not counted: only the face normal or only the shading normal faces the light\n",
+                          100 * s.sides_differ);
   }
   const VisibilityScore& v = validation.visibility;
   return text +

@@ -15,7 +15,7 @@ namespace halfspace {
 
 namespace {
 
-// Makes a fan of wedges around the center of the image, which has edges at many angles. The corners are on the 1/256 px grid, so
+// Creates a fan of wedges around the center of the image, whose edges have many different angles. The vertices are on the 1/256 px grid, so
 // snapping does not move them.
 std::vector<TrianglePx> wedges(int size, int count) {
   std::vector<TrianglePx> out;

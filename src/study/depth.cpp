@@ -40,7 +40,7 @@ struct Flatly {
   }
 };
 
-// splitmix64, which yields the same numbers on every machine.
+// splitmix64, which generates the same numbers on every machine.
 struct Random {
   uint64_t state;
   double next() {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Displacement mapping: the mesh resolution that the relief of the Moon needs, depending on the source of the normals.
+// Displacement mapping: the mesh resolution that the Moon's relief needs, depending on the source of the normals.
 #include <fmt/format.h>
 
 #include "halfspace/scene/scene_file.h"

@@ -26,14 +26,14 @@ struct ScriptResult {
   std::string last_line;  // last line of standard error
 };
 
-// Only standard error of the program is kept: the last line of it explains a failure.
+// Only the standard error of the program is kept. Its last line explains a failure.
 int spawn_quietly(std::vector<std::string> words, int error_output, pid_t& child) {
   std::vector<char*> argv;
   for (std::string& w : words) argv.push_back(w.data());
   argv.push_back(nullptr);
   posix_spawn_file_actions_t actions;
   ::posix_spawn_file_actions_init(&actions);
-  // First, in case error_output is one of the descriptors that are replaced next.
+  // This is first, in case error_output is one of the descriptors that are replaced next.
   ::posix_spawn_file_actions_adddup2(&actions, error_output, STDERR_FILENO);
   ::posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
   ::posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
@@ -91,7 +91,7 @@ std::string draw_charts(const std::vector<std::string>& names, const std::filesy
   if (WIFEXITED(result.status) && WEXITSTATUS(result.status) == kNoMatplotlib)
     return "matplotlib is missing (Debian and Ubuntu: python3-matplotlib)";
   if (WIFSIGNALED(result.status))
-    throw OutputError(std::string("no charts were drawn: python3 was ended by a signal: ") + ::strsignal(WTERMSIG(result.status)));
+    throw OutputError(std::string("no charts were drawn: python3 was terminated by a signal: ") + ::strsignal(WTERMSIG(result.status)));
   if (WEXITSTATUS(result.status) != 0) throw OutputError("no charts were drawn: " + result.last_line);
   return "";
 }

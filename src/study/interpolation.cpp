@@ -14,13 +14,13 @@ namespace halfspace {
 
 namespace {
 
-// A triangle corner: window position in 1/256 px, q = 1/w, and the value to interpolate.
+// A vertex of a triangle: window position in 1/256 px, q = 1/w, and the value to interpolate.
 struct Corner {
   double x, y, q, value;
 };
 using Corners = std::array<Corner, 3>;
 
-// Interpolates in long double from the snapped corners.
+// Interpolates in long double from the snapped vertices.
 long double exact(const Corners& c, double x, double y) {
   const auto cross = [](long double ax, long double ay, long double bx, long double by) { return ax * by - ay * bx; };
   std::array<long double, 3> e{};
@@ -40,8 +40,8 @@ TriangleLanes<R> lanes_of(const Corners& c) {
   return {r(c[0].x), r(c[0].y), r(e1x), r(e1y), r(e2x), r(e2y), r(e1x * e2y - e1y * e2x), r(c[0].q), r(c[1].q), r(c[2].q), r(1.0)};
 }
 
-// One of the two planes of value = (A x + B y + C)/(D x + E y + F), with (x, y) relative to (x0, y0). Rasterizers commonly store these
-// coefficients per triangle, relative to the window origin.
+// The numerator or denominator of value = (A x + B y + C)/(D x + E y + F), with (x, y) relative to (x0, y0). Rasterizers commonly store
+// these coefficients per triangle, relative to the window origin.
 struct Plane {
   float a, b, c;
 };
@@ -53,7 +53,7 @@ Plane plane_of(const Corners& corners, const std::array<float, 3>& v, float x0, 
   return {a, b, v[0] - a * (f(corners[0].x) - x0) - b * (f(corners[0].y) - y0)};
 }
 
-// The methods. The constructor does the triangle setup; value(x, y) interpolates at positions in 1/256 px, for all lanes at once.
+// The methods. The constructor performs the triangle setup. value(x, y) interpolates at positions in 1/256 px, for all lanes at once.
 struct Affine {
   using R = Real;
   TriangleLanes<R> t;

@@ -43,7 +43,7 @@ std::vector<double> outline(const PlacedMesh& placed, const View& view) {
       std::swap(a, b);
       from = std::exchange(to, from + 1.0);
     }
-    if (to - from > 0.25) continue;  // the edge passes near the center, so it is not part of the outline
+    if (to - from > 0.25) continue;  // the edge passes close to the center, so it is not part of the outline
     const glm::dvec2 along = b - a;
     for (int k = static_cast<int>(std::ceil(from * kDirections)); k <= static_cast<int>(to * kDirections); ++k) {
       const double angle = 2.0 * std::numbers::pi * (static_cast<double>(k) / kDirections - 0.5);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Helpers of the studies that render images: timed rendering, and comparison of an image with the truth.
+// Helpers for studies that render images: timed rendering, and comparison with the reference image.
 #pragma once
 
 #include "halfspace/render/prepared_scene.h"
@@ -21,11 +21,12 @@ enum class PictureError : uint8_t {
   mean  ///< mean absolute error; proportional to the area of the wrong pixels along an edge
 };
 
-/// Compares an image with the truth. Sets the error, measures (rms, mean, p999, max, ssim) and pictures of the variant.
+/// Compares an image with the reference image `truth`. Sets the error, the metrics (rms, mean, p999, max, ssim) and the pictures of the
+/// variant.
 void set_picture_error(Variant& variant, const Image<glm::vec4>& light, const Image<glm::vec4>& truth, PictureError kind);
 
-/// Sets the picture of a truth that converges with the number of bands. Its error is estimated as a third of its difference from `half`,
-/// an image with half the number of bands.
+/// Sets the reference image and its estimated error, for a reference that converges as the number of bands increases. The error is a third
+/// of the difference from `half`, an image with half the number of bands.
 void set_truth(Truth& truth, const Image<glm::vec4>& light, const Image<glm::vec4>& half, PictureError kind);
 
 /// Encodes linear light as 8-bit sRGB.

@@ -24,7 +24,7 @@ Polygon<T> clipped(const Polygon<T>& polygon, int axis, T at, T side) {
   return out;
 }
 
-// Coordinates are taken relative to the first corner, which avoids cancellation far from the origin.
+// Coordinates are relative to the first vertex, which avoids cancellation far from the origin.
 template <class T>
 T area(const Polygon<T>& polygon) {
   T twice = 0;

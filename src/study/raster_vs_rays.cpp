@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Compares which triangle the rasterizer and Embree's rays find at each pixel, for meshes with different numbers of triangles.
+// Compares the triangles that the rasterizer and Embree's rays find at each pixel, for meshes with different numbers of triangles.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ constexpr const char* kMeshScene = R"({{
 // inner side of the planes through the eye and each edge.
 struct ExactTriangles {
   Image<int> triangle;
-  double doubtful = 0.0;  // number of edge tests that rounding in double may have decided, divided by the number of pixels
+  double doubtful = 0.0;  // number of edge tests whose result may be due to rounding in double, divided by the number of pixels
 };
 
 ExactTriangles exact_triangles(const PreparedScene& scene, int width, int height) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Compares ways to compute the power function of a specular highlight: pow, exp2 and log2, squaring, a table and two approximations.
+// Compares ways to compute the power function of a specular highlight: pow, exp2 with log2, squaring, a table and two approximations.
 #include <fmt/format.h>
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Compares models of a sphere away from the image center: two kinds of mesh, the classic point sprite and the exact one.
+// Compares models of a sphere away from the image center: two kinds of mesh, the classic point sprite and the exact point sprite.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -23,7 +23,7 @@ constexpr const char* kModelScene = R"({{
   {}
 }})";
 constexpr const char* kMesh = R"("objects": {{ "ball": {{ {}, "model": "phong", "diffuse": 0.7, "specular": 0.5, "shininess": 40 }} }})";
-// A grid with one particle has it at the origin, where the grid's color factor is 0.55: 0.55 · 1.8181818 = 1.
+// The only particle of a one-particle grid is at the origin, where the grid's color factor is 0.55: 0.55 · 1.8181818 = 1.
 constexpr const char* kPointSprite =
     R"("particles": {{ "sprite": "{}", "count": 1, "arrangement": "grid", "radius": 1, "color": 1.8181818,
                     "diffuse": 0.7, "specular": 0.5, "shininess": 40 }})";

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A study measures several variants of the same rendering task: the error of each, compared with a reference (the truth), and its time.
-// Each study has its own file, studies() lists them, and study_files.h writes the results.
+// A study measures several variants of the same rendering task: the error of each variant, compared with a reference (struct Truth), and
+// its time. Each study has its own file. studies() lists them, and study_files.h writes the results.
 //
-// Error and time of a variant come from the same run. All variants of a study have the same parameters (inputs, such as the number of
-// triangles) and the same measures (results other than the error), so that models of cost and error can be fitted to the data.
+// The error and the time of a variant come from the same run. All variants of a study have the same parameters (inputs, such as the number
+// of triangles) and the same measures (metrics other than the error), so that models of cost and error can be fitted to the data.
 #pragma once
 
 #include <functional>
@@ -19,7 +19,7 @@
 namespace halfspace {
 
 struct StudyOptions {
-  bool quick = false;  ///< small images and few variants, as a functional check; the figures are not meaningful
+  bool quick = false;  ///< small images and few variants, as a functional test; the numbers are not meaningful
 };
 
 /// Wall-clock time over several runs.
@@ -42,8 +42,8 @@ struct Variant {
   std::string name;                    ///< label of its point in the chart
   std::string group;                   ///< variants of a group have the same color in the chart
   std::vector<Quantity> parameters{};  ///< inputs, such as triangles or samples
-  double error = 0.0;                  ///< see Study::error_name; a value below the truth's own error is not significant
-  std::vector<Quantity> measures{};    ///< other results
+  double error = 0.0;                  ///< see Study::error_name; a value below the error of the reference is not significant
+  std::vector<Quantity> measures{};    ///< other metrics
   Timing time{};
   Image<glm::u8vec4> picture{}, difference{};  ///< may be empty
 };

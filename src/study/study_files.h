@@ -24,9 +24,9 @@ struct RunFacts {
 /// exist. Throws OutputError.
 void write_study(const Study& study, const RunFacts& facts, const std::filesystem::path& folder);
 
-/// Runs draw_charts.py, which draws NAME.svg and NAME-dark.svg from NAME.json for each name. The script is searched in
-/// ../share/halfspace relative to the folder of the running program. Returns an empty string, or a text that names the component that is
-/// not installed and the package that contains it. Throws OutputError if the script fails.
+/// Runs draw_charts.py, which draws NAME.svg and NAME-dark.svg from NAME.json for each name. The script is expected in
+/// ../share/halfspace relative to the folder of the running program. Returns an empty string, or a message that names the missing component
+/// and the package that contains it. Throws OutputError if the script fails.
 std::string draw_charts(const std::vector<std::string>& names, const std::filesystem::path& folder);
 
 /// Writes index.html, which shows every study that has a NAME.json in the folder, with its chart if NAME.svg exists. Throws InputError if

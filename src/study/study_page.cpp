@@ -80,7 +80,7 @@ std::string section(const OrderedJson& study, bool has_chart) {
           ". Reference: " + text_at(truth, "method") + ". Its error is " + number_of(truth.at("error")) + " (" +
           text_at(truth, "error_method") + "). <code>" + text_at(run, "command") + "</code>, " + text_at(run, "date") + ", " +
           text_at(run, "processor") + ", " + std::to_string(run.at("threads").get<int>()) + " threads, " + text_at(run, "version") +
-          (run.at("quick").get<bool>() ? ", <b>quick run: the figures are not meaningful</b>" : "") + ". Data: <a href=\"" + name +
+          (run.at("quick").get<bool>() ? ", <b>quick run: the numbers are not meaningful</b>" : "") + ". Data: <a href=\"" + name +
           ".csv\">CSV</a>, <a href=\"" + name + ".json\">JSON</a>.</p>\n<details><summary>Table</summary>\n" + table(study) +
           "</details>\n";
   std::string pictures = figure(truth.at("picture"), "truth");

@@ -15,7 +15,7 @@ namespace halfspace {
 
 namespace {
 
-constexpr double kHalf = 40.0;   // a length of 2·kHalf units on the plane is covered by kTiles repeats of the texture
+constexpr double kHalf = 40.0;   // kTiles repeats of the texture cover a length of 2·kHalf units on the plane
 constexpr double kEye = 1.0;     // height of the eye above the plane; it looks along −z
 constexpr double kTan = 0.5;     // tangent of half the vertical field of view
 constexpr double kTiles = 20.0;  // see kHalf
@@ -52,8 +52,8 @@ glm::dvec2 uv_seen(double x, double y, int width, int height) {
   return glm::dvec2(right * z, z) * (kTiles / (2.0 * kHalf));
 }
 
-// The mean of the texture over each pixel, from 32 x 32 samples. The samples are split into two halves like the squares of a chessboard,
-// and the difference between the halves gives an estimate of the error.
+// The mean of the texture over each pixel, from 32 x 32 samples. The samples are split into two halves in a checkerboard pattern. The error
+// is estimated from the difference between the halves.
 struct Integrated {
   Image<glm::vec4> mean;
   double error;  // RMS of half the difference between the two halves

@@ -13,7 +13,7 @@ namespace halfspace {
 
 namespace {
 
-// Narkowicz's ACES curve followed by the sRGB encoding; see shading/tone.h. Returns a code that is not rounded yet.
+// Narkowicz's ACES curve followed by the sRGB encoding; see shading/tone.h. Returns the 8-bit value before rounding.
 template <class T>
 T exact_code(T x) {
   const T y = std::min(x * (T(2.51L) * x + T(0.03L)) / (x * (T(2.43L) * x + T(0.59L)) + T(0.14L)), T(1));
@@ -22,7 +22,7 @@ T exact_code(T x) {
 
 constexpr float kMaxCount = 8.0f;  // largest amount of light in the study
 
-// A table of the whole conversion from light to code, sampled uniformly in light and interpolated linearly.
+// A lookup table for the entire conversion from linear light to encoded values, sampled uniformly in light and interpolated linearly.
 struct CurveTable {
   std::vector<float> codes;
   explicit CurveTable(int size) {
@@ -86,10 +86,10 @@ Study study_tone(const StudyOptions& options, const Workers&) {
   Study study{
       .name = "tone",
       .title = "Tone curve and sRGB encoding",
-      .setting = fmt::format("{} channels of light from 0 to 8, ACES curve, 8-bit sRGB codes, {} lanes", count, kLanes),
-      .error_name = fmt::format("mean error in codes (zero is plotted at {:.0e})", 0.1 / count),
+      .setting = fmt::format("{} channels of light from 0 to 8, ACES curve, 8-bit sRGB values, {} lanes", count, kLanes),
+      .error_name = fmt::format("mean error in 8-bit steps (zero is plotted at {:.0e})", 0.1 / count),
       .time_name = fmt::format("{} channels on one thread", count),
-      .truth = {"curve and power in long double, rounded", 0.1 / count, "one channel wrong by a tenth of a code"},
+      .truth = {"curve and power in long double, rounded", 0.1 / count, "one channel wrong by a tenth of an 8-bit step"},
   };
   study.variants.push_back(evaluated(
       "double pow", "scalar", lights,
