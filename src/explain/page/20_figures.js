@@ -1,4 +1,4 @@
-// Pictures: canvases for pixels, SVG for geometry. Every picture has a label for screen readers.
+// Figures: canvases for pixels, SVG for geometry. Every figure has a label for screen readers.
 
 function canvasFigure(width, height, label, pixelated = false) {
   const canvas = el("canvas", {width, height, role: "img", "aria-label": label, class: pixelated ? "pixels" : null});

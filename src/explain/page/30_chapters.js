@@ -1,7 +1,7 @@
 // Chapters: registration, steps, exercises and navigation.
 //
 // A chapter is {id, title, kicker, lead, input, output, steps, formula, body, exercises, absent}. Texts are HTML. steps: a list of
-// {name, caption, draw}, where draw() returns elements. absent() returns null, or HTML that says why the frame does not have this stage.
+// {name, caption, draw}, where draw() returns elements. absent() returns null, or HTML that explains why this frame has no such stage.
 const CHAPTERS = [];
 const chapter = (c) => CHAPTERS.push(c);
 const state = {chapter: 0, step: 0};
@@ -13,7 +13,7 @@ function quotesOf(id) {
     el("summary", {}, `${q.file}, line ${q.line}`), el("pre", {tabindex: 0, "aria-label": `Source lines of ${q.file}`, html: colored(q.text)})))];
 }
 
-// Marks comments and keywords of C++.
+// Highlights C++ comments and keywords.
 function colored(text) {
   return escapeHtml(text).split("\n").map((line) => {
     const at = line.indexOf("//"), code = at < 0 ? line : line.slice(0, at), comment = at < 0 ? "" : `<span class="c">${line.slice(at)}</span>`;

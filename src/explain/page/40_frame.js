@@ -19,11 +19,11 @@ const WINDOW = [PIXEL[0], H - 1 - PIXEL[1]];
 const exampleName = EX === null ? "nothing" : `${EX.corners === 3 ? "triangle" : EX.corners === 2 ? "line" : "point"} ${fmt(EX.primitive)} of <i>${escapeHtml(EX.object)}</i>`;
 const command = (rest) => `<code>${escapeHtml(rest)}</code>`;
 
-// Edge function in (1/256 px)², exact: all products are below 2^53.
+// Returns the edge function in (1/256 px)². The result is exact, because all products are below 2^53.
 const edgeAt = (e, x, y) => e.ex * (y - e.y0) - e.ey * (x - e.x0);
 const inside = (t, x, y) => t.edges.every((e) => edgeAt(e, x, y) - e.bias >= 0);
 const center = (pixel) => pixel * SUB + SUB / 2;
 const covered = (t, x, y) => x >= t.box[0] && x < t.box[2] && y >= t.box[1] && y < t.box[3] && (t.edges ? inside(t, center(x), center(y)) : true);
 
-// Outcomes of primitives in the order of StageOutcome, to be used after "primitives" or a number.
+// Outcomes of primitives in the order of StageOutcome, for use after "primitives" or a number.
 const OUTCOMES = ["kept unchanged", "clipped", "outside the view", "culled by facing", "without area", "covering no sample", "with infinite or NaN positions"];

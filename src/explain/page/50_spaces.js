@@ -8,11 +8,11 @@ chapter({
       draw: () => picture(DATA.pictures.final, "The rendered picture, with a ring around the example pixel", {overlay: (pen, s) => ring(pen, s, PIXEL)})},
     {name: "The primitives", caption: "The same picture with one color per primitive. Everything in the picture is made of triangles, lines and points.",
       draw: () => picture(DATA.pictures.triangles, "The picture with one color per primitive", {overlay: (pen, s) => ring(pen, s, PIXEL)})},
-    {name: "The pipeline", caption: "The stages in order, with the numbers of this frame. Each tile is drawn by one thread, so pixels need no locks, and the picture does not depend on the number of threads.",
+    {name: "The pipeline", caption: "The stages of the pipeline in order, with the numbers of this frame. Each tile is drawn by one thread, so pixels need no locks, and the picture does not depend on the number of threads.",
       draw: () => el("div", {class: "stage"}, pipelineDiagram())},
   ],
   body: () => [
-    el("p", {class: "keys", html: "<kbd>←</kbd> <kbd>→</kbd> go to the previous or next step, and from the last step of a chapter to the next chapter. The slider selects a step of the chapter."}),
+    el("p", {class: "keys", html: "Press <kbd>←</kbd> or <kbd>→</kbd> for the previous or next step. The last step of a chapter is followed by the first step of the next chapter. The slider selects a step of the chapter."}),
     el("p", {class: "keys", html: `To explain another pixel: ${command(`${DATA.command} --pixel X,Y`)}`}),
     el("h3", {}, "Draw calls"),
     tableOf(["object", "kind", "vertices", "primitives", "culled faces"], DATA.draws.slice(0, 12).map((d) => [escapeHtml(d.object) + (d.copy ? ` (${d.copy})` : ""), `¶${d.kind}${d.layered ? ", transparent" : ""}`, d.vertices, d.primitives, `¶${d.cull}`])),
@@ -22,7 +22,7 @@ chapter({
     return [
       {ask: "How many pixels does this frame have?", answer: W * H, hint: "Multiply the width by the height.", why: `${W} · ${H} pixels.`},
       {ask: "How many fragments does a pixel have on average? (Two decimal places.)", answer: DATA.overdraw.total / (W * H), tolerance: 0.01, hint: `The frame has ${fmt(DATA.overdraw.total)} fragments.`, why: `${fmt(DATA.overdraw.total)} fragments for ${fmt(W * H)} pixels.`},
-      {ask: "How many of the submitted primitives never reached a tile?", answer: s.culled_non_finite + s.culled_outside + s.culled_face + s.culled_degenerate + s.culled_no_sample, hint: "The chapter on culling gives the number for each reason.", why: "They were culled: outside the view, facing away, without area, or covering no sample."},
+      {ask: "How many of the submitted primitives never reached a tile?", answer: s.culled_non_finite + s.culled_outside + s.culled_face + s.culled_degenerate + s.culled_no_sample, hint: "The chapter “Culling” shows the number for each reason.", why: "They were culled: outside the view, facing away, without area, or covering no sample."},
     ];
   },
 });
@@ -197,7 +197,7 @@ function windowWires(pen, s) {
 }
 
 const column = (name, values, digits = 6) => `${name.padEnd(8)}${values.map((v) => fmt(v, digits).padStart(14)).join("")}`;
-// Elements that are only rounding errors are shown as 0.
+// Elements that are merely rounding errors are shown as 0.
 const matrixRows = (m) => {
   const negligible = 1e-14 * Math.max(...m.map(Math.abs));
   return [0, 1, 2, 3].map((r) => [0, 1, 2, 3].map((c) => fmt(Math.abs(m[4 * c + r]) < negligible ? 0 : m[4 * c + r], 5).padStart(11)).join(" "));
@@ -214,7 +214,7 @@ function spaceFormulas() {
 
 chapter({
   id: "spaces", title: "From the mesh to the window", kicker: "Vertex stage",
-  lead: () => "A vertex is given in the coordinates of its mesh. Three matrices and one division transform it to the window. The renderer multiplies the matrices once per object, in double precision, and transforms each vertex with the product.",
+  lead: () => "The position of a vertex is given in the coordinates of its mesh. Three matrices and one division transform it to the window. The renderer multiplies the matrices once per object, in double precision, and transforms each vertex with the product.",
   absent: () => (EX === null ? `Nothing is visible at the example pixel of this frame. Try ${command("halfspace explain earth")}.` : DATA.wire.count === 0 ? `This frame has no mesh: ${EX.corners === 1 ? "it consists of points, and each point is drawn as a sphere inside a rectangle" : "the background is a single triangle that covers the window"}. A scene with meshes: ${command("halfspace explain earth")}.` : null),
   input: () => [plural(DATA.statistics.vertices_in, "index", "indices"), plural(DATA.draws.length, "draw with a matrix", "draws, each with a matrix")],
   output: () => [plural(DATA.statistics.vertices_shaded, "shaded vertex", "shaded vertices"), "for each: x and y in 1/256 pixel, depth, 1/w"],

@@ -28,25 +28,25 @@ function clipFormula(c) {
   const cut = c.after.find((a) => a.vertex < 0);
   if (!cut) return [];
   const used = [0, 1, 2].filter((k) => cut.weights[k] !== 0);
-  return [`A new corner on a clip plane is a weighted sum of the vertices. The first new corner of this triangle:\n\n<em>p</em> = ${used.map((k) => `${fmt(cut.weights[k], 6)} · <em>v</em><sub>${k}</sub>`).join(" + ")}\n  = ${used.map((k) => `${fmt(cut.weights[k], 6)} · ${vec(c.before[k], 5)}`).join("\n  + ")}\n  = <b>${vec(cut.clip, 6)}</b>`];
+  return [`A new vertex on a clip plane is a weighted sum of the original vertices. The first new vertex of this polygon:\n\n<em>p</em> = ${used.map((k) => `${fmt(cut.weights[k], 6)} · <em>v</em><sub>${k}</sub>`).join(" + ")}\n  = ${used.map((k) => `${fmt(cut.weights[k], 6)} · ${vec(c.before[k], 5)}`).join("\n  + ")}\n  = <b>${vec(cut.clip, 6)}</b>`];
 }
 
 chapter({
   id: "clipping", title: "Clipping", kicker: "Primitive setup",
   lead: () => "Dividing by w gives wrong positions for points behind the eye. Triangles that cross the near plane, the far plane or the limits of the integer grid are therefore clipped to polygons first. Triangles that only cross the edges of the window are not clipped: the rasterizer skips the pixels outside.",
   absent: () => (CLIPPED.length === 0 ? `No triangle of this frame crosses the near or far plane: ${fmt(DATA.outcomes[2])} of ${fmt(DATA.statistics.primitives_in)} primitives are entirely outside the view, and the others need no clipping. A frame with clipped triangles: ${command("halfspace explain shadow-plane --camera low")}.` : null),
-  input: () => [plural(DATA.statistics.primitives_in, "primitive"), "outcodes: for each vertex, one bit for each plane that it is outside of"],
+  input: () => [plural(DATA.statistics.primitives_in, "primitive"), "outcodes: for each vertex, one bit per clip plane, which is set if the vertex is outside"],
   output: () => [`${plural(DATA.statistics.clipped, "primitive")} clipped`, `${plural(DATA.statistics.culled_outside, "primitive")} entirely outside the view, and therefore culled`],
   steps: () => CLIPPED.slice(0, 4).flatMap((c, i) => [
-    {name: `Triangle ${fmt(c.primitive)} of ${escapeHtml(c.object)}, before clipping`, caption: `Seen from above: the eye is at the left end, where the dashed sides of the view volume meet. Vertices with w below ${fmt(M.near)} are on the eye's side of the near plane, and vertices with negative w are behind the eye.`, draw: () => clipPicture(c, 0, false)},
-    {name: "After clipping", caption: `The polygon has ${c.after.length} corners, ${c.after.filter((a) => a.vertex < 0).length} of them new. It is drawn as a fan of ${plural(c.after.length - 2, "triangle")}.`, draw: () => clipPicture(c, 0, true)}]),
+    {name: `Triangle ${fmt(c.primitive)} of ${escapeHtml(c.object)}, before clipping`, caption: `Clip space seen from above: the eye is at the left end, where the dashed sides of the view volume meet. Vertices with w below ${fmt(M.near)} are on the eye's side of the near plane, and vertices with negative w are behind the eye.`, draw: () => clipPicture(c, 0, false)},
+    {name: "After clipping", caption: `The polygon has ${c.after.length} vertices, ${c.after.filter((a) => a.vertex < 0).length} of them new. It is drawn as a fan of ${plural(c.after.length - 2, "triangle")}.`, draw: () => clipPicture(c, 0, true)}]),
   formula: () => clipFormula(CLIPPED[0]),
-  body: () => [el("h3", {}, "Corners of the first polygon"), tableOf(["corner", "x", "y", "z", "w", "weights of the vertices"], CLIPPED[0].after.map((a, i) => [String(i), ...a.clip.map((v) => fmt(v, 6)), a.vertex >= 0 ? `¶vertex ${a.vertex}` : `¶${a.weights.map((w) => fmt(w, 4)).join(" · ")}`]))],
+  body: () => [el("h3", {}, "Vertices of the first polygon"), tableOf(["vertex", "x", "y", "z", "w", "weights of the original vertices"], CLIPPED[0].after.map((a, i) => [String(i), ...a.clip.map((v) => fmt(v, 6)), a.vertex >= 0 ? `¶vertex ${a.vertex}` : `¶${a.weights.map((w) => fmt(w, 4)).join(" · ")}`]))],
   exercises: () => {
     const c = CLIPPED[0];
     return [
-      {ask: "How many corners does the polygon of the first clipped triangle have?", answer: c.after.length, hint: "Count them in the table.", why: "Each plane can add at most one corner to a triangle."},
-      {ask: "How many triangles is that polygon split into?", answer: c.after.length - 2, hint: "A fan with n corners has n − 2 triangles.", why: `${c.after.length} − 2.`},
+      {ask: "How many vertices does the first triangle have after clipping?", answer: c.after.length, hint: "Count them in the table.", why: "Each clip plane can add at most one vertex."},
+      {ask: "How many triangles is that polygon split into?", answer: c.after.length - 2, hint: "A fan with n vertices has n − 2 triangles.", why: `${c.after.length} − 2.`},
       {ask: "How many vertices of this triangle are outside the near plane?", answer: c.before.filter((p) => p[2] > p[3]).length, hint: "Depth is reversed: a vertex is outside the near plane if z > w.", why: "z > w for these vertices."},
     ];
   },
@@ -82,7 +82,7 @@ chapter({
   ],
   formula: () => (isTriangle ? [`2 · area = (<em>x</em><sub>1</sub> − <em>x</em><sub>0</sub>)(<em>y</em><sub>2</sub> − <em>y</em><sub>0</sub>) − (<em>y</em><sub>1</sub> − <em>y</em><sub>0</sub>)(<em>x</em><sub>2</sub> − <em>x</em><sub>0</sub>)\n\nfor ${exampleName}, in 1/256 pixel:\n\n= (${fmt(submitted().x[1] - submitted().x[0])}) · (${fmt(submitted().y[2] - submitted().y[0])}) − (${fmt(submitted().y[1] - submitted().y[0])}) · (${fmt(submitted().x[2] - submitted().x[0])}) = <b>${fmt(area2(submitted()))}</b>\n\n${area2(submitted()) > 0 ? "Positive: counter-clockwise." : "Negative: clockwise."} The area is ${fmt(Math.abs(area2(submitted())) / 131072, 6)} pixels.`] : []),
   exercises: () => [
-    {ask: "How many primitives were culled because of their facing?", answer: DATA.statistics.culled_face, hint: "See the bar “facing”.", why: "In the window, they have the winding of culled faces."},
+    {ask: "How many primitives were culled because of their facing?", answer: DATA.statistics.culled_face, hint: "See the bar “facing”.", why: "In the window, their winding is that of culled faces."},
     {ask: "What percentage of the submitted primitives is drawn? (Rounded to an integer.)", answer: Math.round((DATA.outcomes[0] + DATA.outcomes[1]) / Math.max(1, DATA.statistics.primitives_in) * 100), tolerance: 0.5, hint: "Divide the number of kept and clipped primitives by the number of all primitives.", why: `${fmt(DATA.outcomes[0] + DATA.outcomes[1])} of ${fmt(DATA.statistics.primitives_in)}.`},
     isTriangle ? {ask: `Twice the area of the example triangle is ${num(Math.abs(area2(submitted())))}, in units of (1/256 pixel)². What is its area in pixels? (Two decimal places.)`, answer: Math.abs(area2(submitted())) / 131072, tolerance: 0.0051, hint: "Divide by 2 and by 256².", why: "One pixel is 256 · 256 = 65 536 units."} : {ask: "How many primitives have no area?", answer: DATA.statistics.culled_degenerate, hint: "See the bar “no area”.", why: "After rounding to 1/256 pixel, their vertices are on a line."},
   ],
@@ -90,7 +90,7 @@ chapter({
 
 // ---- setup ------------------------------------------------------------------------------------------------------------
 
-// Draws the edges of the example triangle on the pixel grid around it.
+// Draws the example triangle and its edges on the surrounding pixel grid.
 function edgePicture(highlight) {
   const t = TRI, margin = 1.2, box = t.box, x0 = Math.min(...t.x) / SUB - margin, x1 = Math.max(...t.x) / SUB + margin, y0 = Math.min(...t.y) / SUB - margin, y1 = Math.max(...t.y) / SUB + margin;
   const size = Math.max(x1 - x0, (y1 - y0) * 1.6), scale = 720 / size, width = 720, height = Math.max(240, (y1 - y0) * scale), left = (width - (x1 - x0) * scale) / 2, top = (height - (y1 - y0) * scale) / 2;

@@ -148,7 +148,7 @@ function samplePicture() {
   return [el("div", {class: "stage"}, g.root), readout];
 }
 
-// Two triangles that share an edge through sample positions, to demonstrate the fill rule.
+// Two triangles whose common edge passes through sample positions, to demonstrate the fill rule.
 const SHARED = (() => {
   const p = [[128, 128], [1664, 128], [1664, 1664], [128, 1664]], make = (a, b, c) => ({x: [a, b, c].map((i) => p[i][0]), y: [a, b, c].map((i) => p[i][1])});
   return [make(0, 1, 2), make(0, 2, 3)].map((t) => ({...t, box: [0, 0, 7, 7], edges: [0, 1, 2].map((i) => { const a = (i + 1) % 3, b = (i + 2) % 3, ex = t.x[b] - t.x[a], ey = t.y[b] - t.y[a]; return {x0: t.x[a], y0: t.y[a], ex, ey, bias: ey < 0 || (ey === 0 && ex > 0) ? 0 : 1}; })}));
@@ -169,7 +169,7 @@ const inBlock = () => { let n = 0; const [x0, y0] = WINDOW.map(blockOf); for (le
 
 chapter({
   id: "coverage", title: "Coverage", kicker: "Tiles",
-  lead: () => "Which samples are inside the triangle? The rasterizer works from coarse to fine: tile, block of 8 × 8 pixels, packet, sample. Blocks that are entirely inside or outside need no test per sample.",
+  lead: () => "Which samples are inside the triangle? The rasterizer proceeds from coarse to fine: tile, block of 8 × 8 pixels, packet, sample. Blocks that are entirely inside or outside need no test per sample.",
   absent: () => (TRI === null ? `No primitive is visible at the example pixel. A frame with triangles: ${command("halfspace explain earth")}.` : null),
   input: () => ["the bin of the tile", "three edge functions per triangle"],
   output: () => [`packets of ${PACKET[0]} × ${PACKET[1]} pixels with a coverage mask, one bit per lane`, `this build has ${DATA.build.lanes} lanes (${escapeHtml(DATA.build.description)})`],
@@ -177,12 +177,12 @@ chapter({
     ...(TRI.edges ? [{name: "Blocks of the tile", caption: `The tile of the example pixel, divided into blocks of 8 × 8 pixels. Only blocks that an edge crosses are tested further.`, draw: blocksPicture}] : []),
     {name: "Packets", caption: `The block of the example pixel. This build (${escapeHtml(DATA.build.description)}) processes ${DATA.build.lanes} pixels at once, in packets of ${PACKET[0]} × ${PACKET[1]}, because a register holds ${DATA.build.lanes} floats. Filled pixels are covered.`, draw: packetPicture},
     {name: "Samples", caption: "A sample is covered if no edge function is negative after the fill rule has been applied. Point at a sample to see its values.", draw: samplePicture},
-    {name: "A shared edge", caption: "Two triangles that form a square (not part of this frame). Their common edge goes exactly through pixel centers. Each of these centers belongs to exactly one triangle: the one for which the edge is a left edge, or a horizontal edge with the inside above it.", draw: sharedPicture},
+    {name: "A shared edge", caption: "Two triangles that form a square (not part of this frame). Their common edge passes exactly through pixel centers. Each of these centers belongs to exactly one triangle: the one for which the edge is a left edge, or a horizontal edge with the inside above it.", draw: sharedPicture},
   ],
   formula: () => (isTriangle ? [`covered = E<sub>0</sub> ≥ bias<sub>0</sub>  and  E<sub>1</sub> ≥ bias<sub>1</sub>  and  E<sub>2</sub> ≥ bias<sub>2</sub>\n\n${TRI.edges.map((e, i) => `${fmt(edgesAtPixel()[i])} ≥ ${e.bias} → <b>${edgesAtPixel()[i] >= e.bias}</b>`).join("\n")}\n\nbias = 0 if the edge goes down (e<sub>y</sub> &lt; 0), or to the right (e<sub>y</sub> = 0, e<sub>x</sub> &gt; 0); otherwise 1`] : []),
   exercises: () => [
     {ask: `How many pixel centers does ${exampleName} cover?`, answer: countCovered(), hint: `Count the filled pixels. The ${TRI.edges ? "triangle" : "primitive"} may extend beyond the block that is shown.`, why: TRI.edges ? "The page counted them with the exact edge functions." : "They are the pixel centers inside the rectangle of the primitive."},
-    {ask: "How many pixels of the block in the step “Packets” are covered?", answer: inBlock(), hint: "Count the filled pixels in that step.", why: "At most 64 are possible."},
+    {ask: "How many pixels of the block in the “Packets” step are covered?", answer: inBlock(), hint: "Count the filled pixels in that step.", why: "At most 64 are possible."},
     {ask: `How many packets does a block of 8 × 8 pixels have in this build?`, answer: 64 / DATA.build.lanes, hint: `A packet has ${DATA.build.lanes} pixels.`, why: `64 / ${DATA.build.lanes}.`},
   ],
 });
@@ -214,14 +214,14 @@ const exampleBlock = () => { const z = hierarchicalZ(), b = Math.floor(WINDOW[1]
 
 chapter({
   id: "depth", title: "Depth", kicker: "Tiles",
-  lead: () => "Of all surfaces at a sample, the nearest one is visible. The depth buffer stores its depth. Depth is reversed: 1 is at the near plane and 0 is far away, so distant surfaces benefit from the higher precision of floats near 0.",
+  lead: () => "Of all surfaces at a sample, the nearest one is visible. The depth buffer stores its depth. Depth is reversed: 1 is at the near plane and 0 is far away. Distant surfaces therefore benefit from the higher precision of floats near 0.",
   absent: () => (DATA.depth.high <= 0 ? `Nothing in this frame writes depth. A frame that does: ${command("halfspace explain earth")}.` : null),
   input: () => ["covered packets", "a depth plane per triangle"],
   output: () => [`${fmt(DATA.statistics.samples_passed)} of ${fmt(DATA.statistics.samples_tested)} tested samples passed`, "the id of the visible triangle for each sample"],
   steps: () => [
     {name: "The depth buffer", caption: "The depth buffer of the finished frame, on a logarithmic scale. Point at the picture to read the exact values.", draw: () => [picture(DATA.depth.picture, "The depth buffer as a heat map", {read: (x, y) => `pixel (${x}, ${y}): depth ${fmt(depthAt(x, y), 9)}`, overlay: (pen, s) => ring(pen, s, PIXEL)}), legend(`far, ${fmt(DATA.depth.low, 4)}`, `near, ${fmt(DATA.depth.high, 4)}`)].flat()},
     {name: "Farthest depth of each block", caption: "Hierarchical Z: if the nearest point of a triangle is behind the farthest depth of a block, the triangle is hidden in all 64 pixels of the block. One comparison rejects them all.", draw: () => hizPicture("low")},
-    {name: "Nearest depth of each block", caption: "The other bound: a triangle that is entirely in front of the nearest depth of a block passes in the whole block, without a depth test per pixel.", draw: () => hizPicture("high")},
+    {name: "Nearest depth of each block", caption: "The opposite bound: a triangle that is entirely in front of the nearest depth of a block passes the test in the whole block, without a depth test per pixel.", draw: () => hizPicture("high")},
   ],
   formula: () => {
     const b = exampleBlock(), z = depthAt(...PIXEL);

@@ -34,7 +34,7 @@ const middle = () => { const c = [0, 1].map((k) => (P.xy[0][k] + P.xy[1][k] + P.
 
 chapter({
   id: "interpolation", title: "Perspective-correct interpolation", kicker: "Shading",
-  lead: () => "Vertices have values: texture coordinates, normals, positions. Between the vertices, the values are interpolated. The interpolation cannot be linear on the screen: where a surface is farther away, its values change faster from pixel to pixel.",
+  lead: () => "Vertices have values such as texture coordinates, normals and positions. These values are interpolated between the vertices. The interpolation cannot be linear on the screen: where a surface is farther away, its values change faster from pixel to pixel.",
   absent: () => (P === null ? `No triangle of this frame is entirely inside the window. A frame that shows the difference: ${command("halfspace explain shadow-plane")}.` : null),
   input: () => ["edge functions at a sample", "1/w of the three vertices"],
   output: () => ["three weights that add up to 1"],
@@ -50,8 +50,8 @@ chapter({
   exercises: () => {
     const m = middle().perspective;
     return [
-      {ask: "What is p₁ at the centroid of the triangle? (Three decimal places.)", answer: m[1], tolerance: 0.0011, hint: "Divide q₁ by the sum of all three q.", why: "At the centroid, the linear weights are equal and cancel."},
-      {ask: "What do the three weights add up to?", answer: 1, tolerance: 1e-9, hint: "They are divided by their sum.", why: "A value that is equal at all vertices must be constant in the triangle."},
+      {ask: "What is p₁ at the centroid of the triangle? (Three decimal places.)", answer: m[1], tolerance: 0.0011, hint: "Divide q₁ by the sum of all three q.", why: "At the centroid, the linear weights are equal and cancel out."},
+      {ask: "What do the three weights add up to?", answer: 1, tolerance: 1e-9, hint: "They are divided by their sum.", why: "A value that is equal at all vertices must be constant over the triangle."},
       {ask: "Which vertex is nearest to the eye: 0, 1 or 2?", answer: P.inv_w.indexOf(Math.max(...P.inv_w)), hint: "1/w is largest there.", why: "w is the distance along the view axis."},
     ];
   },
@@ -74,8 +74,8 @@ chapter({
   formula: () => ["value = a<sub>0</sub> + p<sub>1</sub> · (a<sub>1</sub> − a<sub>0</sub>) + p<sub>2</sub> · (a<sub>2</sub> − a<sub>0</sub>)"],
   exercises: () => [
     {ask: "A value is 2, 4 and 6 at the vertices, and the weights are 0.5, 0.25 and 0.25. What is it at the pixel?", answer: 3.5, tolerance: 1e-9, hint: "Use the formula: 2 + p₁ · 2 + p₂ · 4.", why: "2 + 0.25 · 2 + 0.25 · 4."},
-    {ask: "In the picture of the normals, which color does a normal have that points along +z? Give red, green and blue from 0 to 255, separated by spaces.", answer: "128 128 255", hint: "(n + 1) / 2, times 255, rounded.", why: "(0.5, 0.5, 1)."},
-    {ask: "How many fragments were shaded in this frame?", answer: DATA.statistics.fragments_shaded, hint: "See the chapter on statistics.", why: "Opaque surfaces are shaded once per visible pixel, after the depth of the whole tile is known."},
+    {ask: "In the picture of the normals, what is the color of a normal that points along +z? Give red, green and blue from 0 to 255, separated by spaces.", answer: "128 128 255", hint: "(n + 1) / 2, times 255, rounded.", why: "(0.5, 0.5, 1)."},
+    {ask: "How many fragments were shaded in this frame?", answer: DATA.statistics.fragments_shaded, hint: "See the chapter “Statistics”.", why: "Opaque surfaces are shaded once per visible pixel, after the depth of the whole tile is known."},
   ],
 });
 
@@ -87,18 +87,18 @@ const MIP = DATA.mips ? DATA.mips.pixel : null;
 
 chapter({
   id: "mips", title: "Mip levels", kicker: "Shading",
-  lead: () => "A pixel that covers many texels should show their average. Therefore, textures are also stored at 1/2, 1/4, 1/8 of their size, and so on. The renderer reads the level whose texels are about as large as the pixel.",
+  lead: () => "A pixel that covers many texels should show their average. Textures are therefore also stored at 1/2, 1/4, 1/8 of their size, and so on. The renderer samples the level whose texels are about as large as the pixel.",
   absent: () => (DATA.mips === null ? `No opaque surface of this frame has a color map. A frame with textures: ${command("halfspace explain earth")}.` : null),
   input: () => ["texture coordinates and their derivatives"],
-  output: () => ["the level of detail and the two mip levels to read"],
+  output: () => ["the level of detail, which selects the two mip levels to sample"],
   steps: () => [
-    {name: "Level of detail", caption: `Level 0 is the full texture, and each level has half the size of the previous one. ${fmt(DATA.mips.pixels)} pixels use a color map. Point at the picture to read the levels.`, draw: () => [picture(DATA.mips.picture, "The mip level of each pixel as a heat map", {read: (x, y) => `pixel (${x}, ${y}): ${lodAt(x, y) < -50 ? "no color map" : "level " + fmt(lodAt(x, y), 4) + (lodAt(x, y) < 0 ? " (magnified)" : "")}`, overlay: (pen, s) => ring(pen, s, PIXEL)}), legend("magnified", `level ${fmt(DATA.mips.high, 3)}`)].flat()},
+    {name: "Level of detail", caption: `Level 0 is the full texture, and each level has half the width and height of the previous one. ${fmt(DATA.mips.pixels)} pixels use a color map. Point at the picture to read the levels.`, draw: () => [picture(DATA.mips.picture, "The mip level of each pixel as a heat map", {read: (x, y) => `pixel (${x}, ${y}): ${lodAt(x, y) < -50 ? "no color map" : "level " + fmt(lodAt(x, y), 4) + (lodAt(x, y) < 0 ? " (magnified)" : "")}`, overlay: (pen, s) => ring(pen, s, PIXEL)}), legend("magnified", `level ${fmt(DATA.mips.high, 3)}`)].flat()},
   ],
   formula: () => (MIP.probes === 0 ? ["λ = log<sub>2</sub> max(|∂(s,t)/∂x|, |∂(s,t)/∂y|)"] : [`λ = log<sub>2</sub> max(|∂(s,t)/∂x|, |∂(s,t)/∂y|), in texels of level 0\n\nat pixel (${PIXEL}):\n\nλ = log<sub>2</sub> max(${fmt(MIP.dx, 6)}, ${fmt(MIP.dy, 6)}) = ${fmt(Math.log2(Math.max(MIP.dx, MIP.dy)), 6)}${MIP.probes > 1 ? `\nwith ${fmt(MIP.probes)} probes along the longer axis: <b>${fmt(MIP.lod, 6)}</b>` : ` → <b>${fmt(MIP.lod, 6)}</b>`}`]),
   exercises: () => [
-    {ask: "From one pixel to the next, the texture coordinates change by 8 texels of level 0. Which level is read?", answer: 3, hint: "Which power of 2 is 8?", why: "2³ = 8."},
-    {ask: "What is the highest level in this frame? (One decimal place.)", answer: DATA.mips.high, tolerance: 0.051, hint: "See the legend.", why: "Levels are high at grazing angles and far away."},
-    {ask: "How many pixels are magnified, that is, have a level below 0?", answer: FRAME.lods.reduce((n, l) => n + (l < 0 && l > -50), 0), tolerance: 0, hint: "Point at the picture to find such pixels. “Show answer” gives their number.", why: "At such pixels, a texel is larger than a pixel."},
+    {ask: "From one pixel to the next, the texture coordinates change by 8 texels of level 0. Which level is read?", answer: 3, hint: "8 is which power of 2?", why: "2³ = 8."},
+    {ask: "What is the highest level of detail in this frame? (One decimal place.)", answer: DATA.mips.high, tolerance: 0.051, hint: "See the legend.", why: "The level of detail is high far away and at grazing angles."},
+    {ask: "For how many pixels is the texture magnified, that is, is the level of detail below 0?", answer: FRAME.lods.reduce((n, l) => n + (l < 0 && l > -50), 0), tolerance: 0, hint: "Point at the picture to find such pixels. “Show answer” gives their number.", why: "There, a texel is larger than a pixel."},
   ],
 });
 
@@ -143,7 +143,7 @@ function mapPicture() {
   return box;
 }
 
-// Says how the pixel of the lookup was chosen if it is not the example pixel.
+// Explains how the pixel of the lookup was chosen if it is not the example pixel.
 function nearestPixel() {
   if (SHADOW.pixel.join() === PIXEL.join()) return "";
   return LOOK.factor > 0 && LOOK.factor < 1 ? ", a pixel near the example pixel that is partially in shadow," : ", a pixel near the example pixel that the map covers,";
@@ -177,7 +177,7 @@ chapter({
   formula: () => (LOOK ? [`texel (${LOOK.i}, ${LOOK.j}), point at (${fmt(LOOK.x, 7)}, ${fmt(LOOK.y, 7)}):\n\n<em>d</em> = depth + bias = ${fmt(LOOK.depth, 8)} + ${fmt(LOOK.biased - LOOK.depth, 4)} = ${fmt(LOOK.biased, 8)}\nplane: ${fmt(LOOK.dx, 4)} per texel to the right, ${fmt(LOOK.dy, 4)} up\n\nlit = <em>d</em> + slope · distance to the center of the texel ≥ depth in the map\n\nmap: ${fmt(LOOK.texels[(LOOK.side * LOOK.side - 1) / 2], 8)} → <b>${LOOK.lit[(LOOK.side * LOOK.side - 1) / 2] ? "lit" : "in shadow"}</b>      after the filter: <b>${fmt(LOOK.factor, 6)}</b>`] : []),
   exercises: () => (LOOK ? [
     {ask: "How many of the texels shown occlude the point?", answer: LOOK.lit.filter((l) => !l).length, hint: `Count the gray ones; ${LOOK.lit.length} texels are shown.`, why: "The depth of each texel is compared separately."},
-    {ask: "What is the shadow factor of the pixel? (Two decimal places.)", answer: LOOK.factor, tolerance: 0.0051, hint: "It is in the caption of the last step.", why: "The light's diffuse and specular terms are multiplied by it."},
+    {ask: "What is the shadow factor of the pixel? (Two decimal places.)", answer: LOOK.factor, tolerance: 0.0051, hint: "See the caption of the last step.", why: "The light's diffuse and specular terms are multiplied by it."},
     {ask: "How many texels does the map have?", answer: SHADOW.size ** 2, hint: "Square its width.", why: `${SHADOW.size} · ${SHADOW.size}.`},
   ] : [{ask: "How many texels does the map have?", answer: SHADOW.size ** 2, hint: "Square its width.", why: `${SHADOW.size} · ${SHADOW.size}.`}]),
 });

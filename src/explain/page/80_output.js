@@ -1,4 +1,4 @@
-// From light to codes: tone curve, sRGB, samples and transparent layers.
+// From linear light to pixel values: tone curve, sRGB, samples and transparent layers.
 
 const TONE = DATA.tone;
 
@@ -45,7 +45,7 @@ chapter({
   },
   exercises: () => [
     {ask: "What is the exposure of this frame? (Three significant digits.)", answer: TONE.exposure, tolerance: TONE.exposure * 0.006, hint: "See the formula.", why: TONE.auto ? "It was computed from the luminance of the frame." : "It is a constant of the scene."},
-    {ask: "If the exposure is increased by one stop, by which factor does the light increase?", answer: 2, hint: "Stops are powers of two.", why: "A stop doubles the light."},
+    {ask: "If the exposure is increased by one stop, by what factor does the light increase?", answer: 2, hint: "Stops are powers of two.", why: "A stop doubles the light."},
     {ask: "How many pixels are too dark for the histogram?", answer: TONE.dark, hint: "See the caption of the histogram.", why: `Their luminance is below 2<sup>${TONE.low}</sup>.`},
   ],
 });
@@ -62,25 +62,25 @@ function srgbPicture() {
   return el("div", {class: "stage"}, root);
 }
 function rampPicture() {
-  const root = svgFigure(720, 200, "Two gray ramps: equal steps of light above, equal steps of code below");
+  const root = svgFigure(720, 200, "Two gray ramps: equal steps of linear light above, equal steps of the encoded value below");
   for (let i = 0; i < 16; ++i) for (const [row, code] of [encodeSrgb(i / 15), i / 15].entries()) root.append(svg("rect", {x: 20 + i * 42.5, y: 20 + row * 85, width: 42, height: 75, fill: `rgb(${[0, 1, 2].map(() => Math.round(code * 255)).join(" ")})`}));
   return el("div", {class: "stage"}, root);
 }
 
 chapter({
   id: "srgb", title: "Encoding as sRGB", kicker: "Output",
-  lead: () => "The eye distinguishes dark shades much better than bright ones. The sRGB curve therefore assigns more of the 256 codes to dark shades.",
+  lead: () => "The eye distinguishes dark shades much better than bright ones. The sRGB curve therefore assigns more of the 256 values to dark shades.",
   input: () => ["display light from 0 to 1"],
-  output: () => ["three codes from 0 to 255"],
+  output: () => ["three 8-bit values from 0 to 255"],
   steps: () => [
     {name: "The curve", caption: "Close to 0, the curve is a straight line; beyond that, it is a power function with the exponent 1/2.4. The dots are red, green and blue of the example pixel.", draw: srgbPicture},
-    {name: "Equal steps", caption: "Above: 16 equal steps of light, most of which look almost white. Below: 16 equal steps of code, which look evenly spaced.", draw: rampPicture},
+    {name: "Equal steps", caption: "Above: 16 equal steps of linear light, most of which look almost white. Below: 16 equal steps of the encoded value, which look evenly spaced.", draw: rampPicture},
   ],
-  formula: () => [`${TONE.gamma ? `encoded = x<sup>1/${fmt(TONE.gamma)}</sup>` : "encoded = 12.92 x                   if x ≤ 0.0031308\n          1.055 x<sup>1/2.4</sup> − 0.055      otherwise"}\ncode    = round(255 · encoded)\n\nat pixel (${PIXEL}):\n\n${["red", "green", "blue"].map((n, k) => `${n.padEnd(6)} ${fmt(TONE.pixel.display[k], 6).padStart(10)} → ${fmt(TONE.pixel.encoded[k], 6).padStart(10)} → <b>${TONE.pixel.code[k]}</b>`).join("\n")}${TONE.dither ? "\n\nThis scene is dithered: a pattern determines whether codes are rounded up or down." : ""}`],
+  formula: () => [`${TONE.gamma ? `encoded = x<sup>1/${fmt(TONE.gamma)}</sup>` : "encoded = 12.92 x                   if x ≤ 0.0031308\n          1.055 x<sup>1/2.4</sup> − 0.055      otherwise"}\nvalue   = round(255 · encoded)\n\nat pixel (${PIXEL}):\n\n${["red", "green", "blue"].map((n, k) => `${n.padEnd(6)} ${fmt(TONE.pixel.display[k], 6).padStart(10)} → ${fmt(TONE.pixel.encoded[k], 6).padStart(10)} → <b>${TONE.pixel.code[k]}</b>`).join("\n")}${TONE.dither ? "\n\nThis scene is dithered: a pattern determines whether values are rounded up or down." : ""}`],
   exercises: () => [
-    {ask: "What is the code of the green channel of the example pixel?", answer: TONE.pixel.code[1], tolerance: TONE.dither ? 1 : 0, hint: "See the last column of the second row.", why: TONE.dither ? "Rounded up or down by the dither pattern." : "Rounded to the nearest code."},
-    {ask: "What is the sRGB code of a light value of 0.5?", answer: Math.round(encodeSrgb(0.5) * 255), hint: "1.055 · 0.5^(1/2.4) − 0.055, times 255.", why: "The darker half of the range uses about three quarters of the codes."},
-    {ask: "What is the light value of sRGB code 128? (Two decimal places.)", answer: ((128 / 255 + 0.055) / 1.055) ** 2.4, tolerance: 0.0051, hint: "Invert the formula.", why: "Code 128 is about a fifth of the light of code 255."},
+    {ask: "What is the 8-bit value of the example pixel's green channel?", answer: TONE.pixel.code[1], tolerance: TONE.dither ? 1 : 0, hint: "See the last column of the second row.", why: TONE.dither ? "Rounded up or down by the dither pattern." : "Rounded to the nearest integer."},
+    {ask: "What 8-bit sRGB value encodes a linear value of 0.5?", answer: Math.round(encodeSrgb(0.5) * 255), hint: "1.055 · 0.5^(1/2.4) − 0.055, times 255.", why: "The darker half of the range uses about three quarters of the values."},
+    {ask: "What linear value does the 8-bit sRGB value 128 encode? (Two decimal places.)", answer: ((128 / 255 + 0.055) / 1.055) ** 2.4, tolerance: 0.0051, hint: "Invert the formula.", why: "The value 128 encodes about a fifth of the light of the value 255."},
   ],
 });
 
@@ -116,7 +116,7 @@ chapter({
   exercises: () => [
     {ask: "A white triangle covers one sample of a black pixel. What is the pixel's light, from 0 to 1?", answer: 1 / DATA.samples, tolerance: 1e-9, hint: "Compute the mean of all samples.", why: `1 / ${DATA.samples}.`},
     {ask: "How many samples does the whole frame have?", answer: W * H * DATA.samples, hint: "Multiply the number of pixels by the number of samples per pixel.", why: `${W} · ${H} · ${DATA.samples}.`},
-    {ask: "How many shades can the pixels at an edge of a white triangle on black have, including black and white?", answer: DATA.samples + 1, hint: "How many samples can be covered?", why: `From 0 to ${DATA.samples} samples can be covered.`},
+    {ask: "How many different shades can the pixels at the edge of a white triangle on a black background have, including black and white?", answer: DATA.samples + 1, hint: "How many samples can be covered?", why: `From 0 to ${DATA.samples} samples can be covered.`},
   ],
 });
 
@@ -126,7 +126,7 @@ chapter({
   lead: () => "Transparent surfaces do not hide what is behind them, so they must be blended in the right order. Each sample keeps the fragments of transparent surfaces as layers, sorted by depth. When all layers are known, they are blended from the farthest to the nearest.",
   absent: () => (LAYERED.length === 0 ? `No surface of this frame is transparent. The floor that receives the shadow of a model file is a transparent layer: ${command("halfspace explain MODEL")} with any .glb, .gltf, .obj, .ply or .stl file.` : null),
   input: () => [plural(LAYERED.length, "transparent draw")],
-  output: () => [`${plural(DATA.statistics.layers_merged, "merge")} of the two farthest layers of a sample, which can store 8 layers`],
+  output: () => [`${plural(DATA.statistics.layers_merged, "merge")} of the two farthest layers of a sample (a sample can store 8 layers)`],
   steps: () => [{name: "Transparent draws", caption: `These objects are blended over the opaque picture: ${LAYERED.map((d) => `<i>${escapeHtml(d.object)}</i>`).join(", ")}.`, draw: () => picture(DATA.pictures.final, "The picture with its transparent surfaces", {overlay: (pen, s) => ring(pen, s, PIXEL)})}],
   formula: () => ["for each layer, from the farthest to the nearest:\n\ncolor = α · layer + (1 − α) · color"],
   exercises: () => [

@@ -107,12 +107,12 @@ function fragmentItem(f, i, open) {
   if (!f.kind) return el("li", {html: head});
   return el("li", {}, el("details", {class: "quote", open}, el("summary", {html: (f.isShaded ? swatch(f.color) : "") + head}),
     el("div", {class: "values"}, el("p", {html: `${f.kind.shader}. Depth test: ${testText(f)}.${f.kind.blend ? ` Blended: ${escapeHtml(f.kind.blend)}.` : ""}`}),
-      f.isShaded ? null : el("p", {class: "keys"}, "Not shaded in this frame. The values below were computed afterwards by the same shader code."), valueTable(f))));
+      f.isShaded ? null : el("p", {class: "keys"}, "This fragment was not shaded in this frame. The values below were computed afterwards by the same shader code."), valueTable(f))));
 }
 
 function displayText(p) {
   const samples = p.samples.length > 1 ? p.samples.map((s, i) => `sample ${i}    ${exact(s)}\n`).join("") : "";
-  return `before      ${exact(p.clear)}\n${samples}light       ${exact(p.light)}\nexposure    ${shortest(p.exposure)}\ndisplayed   ${exact(p.toneMapped)}\n<b>code        ${p.code.slice(0, 3).join(", ")}</b>`;
+  return `before      ${exact(p.clear)}\n${samples}light       ${exact(p.light)}\nexposure    ${shortest(p.exposure)}\ndisplayed   ${exact(p.toneMapped)}\n<b>8-bit value ${p.code.slice(0, 3).join(", ")}</b>`;
 }
 
 function historyPanel(x, y, go) {
@@ -123,7 +123,7 @@ function historyPanel(x, y, go) {
     el("p", {html: `Counted from the upper left. In OpenGL window coordinates, its center is at (${x + 0.5}, ${H - y - 0.5}). ${plural(list.length + others, "fragment")}${list.length + others ? ", in drawing order" : ""}:`}),
     el("ol", {class: "fragments"}, ...list.map((f, i) => fragmentItem(f, i, i === last))),
     others ? el("p", {}, `… and ${plural(others, "more fragment")} that this page does not contain.`) : null,
-    full ? el("div", {class: "formula", tabindex: 0, role: "group", "aria-label": "From the samples of the pixel to its code", html: displayText(full)}) : null,
+    full ? el("div", {class: "formula", tabindex: 0, role: "group", "aria-label": "From the samples of the pixel to its 8-bit value", html: displayText(full)}) : null,
     full ? null : el("p", {html: `To print all values of this pixel: ${command(`${DATA.command} --pixel ${x},${y} --text`)}`}),
     nearest ? el("p", {}, el("button", {type: "button", onclick: () => go(...nearest)}, `Show pixel ${nearest.join(", ")}, the nearest pixel with all values`)) : null,
   ];
@@ -163,6 +163,6 @@ chapter({
   exercises: () => [
     {ask: `How many fragments does the example pixel (${PIXEL}) have?`, answer: fragmentsAt(...PIXEL), hint: "Enter its coordinates below the picture.", why: "Its history lists them."},
     {ask: "How many fragments does the pixel in the upper left corner have?", answer: fragmentsAt(0, 0), hint: "Enter the coordinates 0, 0.", why: "Its history lists them."},
-    {ask: `What is y of the center of the example pixel in OpenGL's window coordinates? (One decimal place.)`, answer: H - PIXEL[1] - 0.5, tolerance: 0.01, hint: "Window coordinates start at the bottom, and pixel centers are at half-integers.", why: `${H} − ${PIXEL[1]} − 0.5.`},
+    {ask: `What is the y coordinate of the example pixel's center in OpenGL window coordinates? (One decimal place.)`, answer: H - PIXEL[1] - 0.5, tolerance: 0.01, hint: "Window coordinates start at the bottom, and pixel centers are at half-integers.", why: `${H} − ${PIXEL[1]} − 0.5.`},
   ],
 });

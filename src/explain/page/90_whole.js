@@ -9,7 +9,7 @@ chapter({
   output: () => [`${W} × ${H} pixels with 8 bits per channel`],
   steps: () => [{name: "The picture", caption: `Rendered with ${command(DATA.command.replace("explain", "render"))}.`, draw: () => picture(DATA.pictures.final, "The final picture", {read: (x, y) => `pixel (${x}, ${y}), in OpenGL's window coordinates (${x}, ${H - 1 - y}): ${plural(fragmentsAt(x, y), "fragment")}`})}],
   exercises: () => [
-    {ask: "How many bytes does the uncompressed picture have, with red, green and blue?", answer: W * H * 3, hint: "A pixel has three bytes.", why: `${W} · ${H} · 3.`},
+    {ask: "How many bytes does the uncompressed picture have, with one byte each for red, green and blue?", answer: W * H * 3, hint: "A pixel has three bytes.", why: `${W} · ${H} · 3.`},
     {ask: `The example pixel is in row ${PIXEL[1]}, counted from the top. Which row is it in OpenGL's window coordinates, which count from the bottom?`, answer: H - 1 - PIXEL[1], hint: `There are ${H} rows, and both counts start at 0.`, why: `${H} − 1 − ${PIXEL[1]}.`},
     {ask: "How many tiles had primitives to draw?", answer: DATA.statistics.tiles_touched, hint: "See “Input”.", why: "The other tiles were filled with the background color."},
   ],
@@ -24,9 +24,9 @@ chapter({
   ],
   formula: () => [`overdraw = fragments / covered pixels = ${fmt(DATA.overdraw.total)} / ${fmt(W * H - DATA.overdraw.histogram[0])} = <b>${fmt(DATA.overdraw.total / Math.max(1, W * H - DATA.overdraw.histogram[0]), 5)}</b>`],
   exercises: () => [
-    {ask: "What is the largest number of fragments of a pixel?", answer: DATA.overdraw.most, hint: "See the legend.", why: "Unless --pixel was given, the example pixel has this number of fragments."},
+    {ask: "What is the largest number of fragments in a pixel?", answer: DATA.overdraw.most, hint: "See the legend.", why: "Unless --pixel was given, the example pixel has this number of fragments."},
     {ask: "How many pixels have no fragments?", answer: DATA.overdraw.histogram[0], hint: "See the first bar of the histogram.", why: "They show the background color."},
-    {ask: "What is the ratio of shaded fragments to all fragments? (Two decimal places.)", answer: DATA.statistics.fragments_shaded / Math.max(1, DATA.overdraw.total), tolerance: 0.0051, hint: `${fmt(DATA.statistics.fragments_shaded)} were shaded, and there are ${fmt(DATA.overdraw.total)} in all.`, why: "Most other fragments were hidden."},
+    {ask: "What is the ratio of shaded fragments to all fragments? (Two decimal places.)", answer: DATA.statistics.fragments_shaded / Math.max(1, DATA.overdraw.total), tolerance: 0.0051, hint: `${fmt(DATA.statistics.fragments_shaded)} were shaded, and there are ${fmt(DATA.overdraw.total)} in all.`, why: "Most of the other fragments were hidden."},
   ],
 });
 
@@ -63,8 +63,8 @@ chapter({
   ],
   exercises: () => [
     {ask: "How many tiles were timed?", answer: TIMES.filter((t) => t > 0).length, hint: `There are ${TIMES.length} tiles. Those filled with one color were not timed.`, why: "The second step shows a dot for each of them."},
-    {ask: "What percentage of the total time did the slowest tile take? (Rounded to an integer.)", answer: Math.round(slowest / Math.max(allTimes, 1e-9) * 100), tolerance: 0.51, hint: "Its time is in the legend, and the total is in the caption.", why: "No number of threads can make the frame faster than its slowest tile."},
-    {ask: "What is the largest number of threads that can draw timed tiles at the same time?", answer: TIMES.filter((t) => t > 0).length, hint: "Each tile is drawn by one thread.", why: "With more threads than tiles, some threads are idle."},
+    {ask: "What percentage of the total time did the slowest tile take? (Rounded to an integer.)", answer: Math.round(slowest / Math.max(allTimes, 1e-9) * 100), tolerance: 0.51, hint: "Its time is in the legend, and the total is in the caption.", why: "However many threads there are, a frame takes at least as long as its slowest tile."},
+    {ask: "How many threads at most can draw timed tiles at the same time?", answer: TIMES.filter((t) => t > 0).length, hint: "Each tile is drawn by one thread.", why: "With more threads than tiles, some threads are idle."},
   ],
 });
 
@@ -72,7 +72,7 @@ const STATISTICS = [
   ["vertices_in", "submitted indices"], ["vertices_shaded", "distinct vertices, each shaded once"], ["primitives_in", "submitted primitives"],
   ["culled_non_finite", "culled: a position is infinite or NaN"], ["culled_outside", "culled: outside the view, or nothing is left after clipping"], ["culled_face", "culled because of their facing"],
   ["culled_degenerate", "culled: no area"], ["culled_no_sample", "culled: no sample is covered"], ["clipped", "clipped primitives"], ["triangles_binned", "primitives to draw, including the pieces of clipped ones"],
-  ["bin_entries", "pairs of a primitive and a tile that it may overlap"], ["samples_tested", "covered samples, without those rejected with their block"], ["samples_passed", "samples that passed all tests"],
+  ["bin_entries", "pairs of a primitive and a tile that the primitive may overlap"], ["samples_tested", "covered samples, except for those rejected with their block"], ["samples_passed", "samples that passed all tests"],
   ["fragments_shaded", "fragments that were shaded"], ["layers_merged", "transparent fragments beyond 8 layers per sample"], ["tiles_touched", "tiles with at least one primitive"], ["flushes", "number of times that the bins were full"]];
 
 chapter({
