@@ -29,15 +29,15 @@ namespace {
 
 struct BenchArguments {
   std::vector<std::string> only;  // empty: all workloads
-  std::string sweep;              // empty: the table of workloads instead of a series
-  bool matrix = false;            // the rows of the matrix instead of the table of workloads
-  bool scenes = false;            // the composed scenes instead of the table of workloads
-  std::string model;              // a model file instead of the table of workloads
+  std::string sweep;              // empty: the table of workloads
+  bool matrix = false;            // draw the rows of the matrix instead of the table of workloads
+  bool scenes = false;            // draw the composed scenes instead of the table of workloads
+  std::string model;              // draw this model file instead of the table of workloads
   std::string size = "1920x1080";
   std::string threads;  // empty: one per core
   std::string seconds = "1";
   std::string out;    // empty: write no images
-  std::string check;  // empty: do not compare images with the truth
+  std::string check;  // empty: do not compare images with the reference
   bool list = false;
   bool json = false;
 };
@@ -113,7 +113,7 @@ std::string text_of(const PictureDifference& d) {
                      100.0 * d.off / std::max(d.compared, 1));
 }
 
-// Compares the picture with the one that Halfspace draws, if the workload has such a twin.
+// Compares the picture with that of Halfspace, if the workload has one to compare with.
 std::optional<PictureDifference> difference_from_twin(const Workload& workload, int threads) {
   const std::unique_ptr<Workload> twin = workload.twin();
   if (twin == nullptr) return std::nullopt;
@@ -121,7 +121,7 @@ std::optional<PictureDifference> difference_from_twin(const Workload& workload, 
   return picture_difference(*workload.picture().color, *twin->picture().color);
 }
 
-// Formats the identity of the renderer for the text output. Each value is preceded by ", ".
+// Formats the fields that identify the renderer for the text output. Each value is preceded by ", ".
 std::string identity_text(const BenchProgram& program) {
   std::string text;
   const nlohmann::ordered_json identity = program.identity();
@@ -138,8 +138,8 @@ double resident_mb() {
   return static_cast<double>(resident) * static_cast<double>(::sysconf(_SC_PAGESIZE)) / (1 << 20);
 }
 
-// Prints the results of one workload, and writes its images if requested. frames_mb: by how much the memory of the process grew while
-// drawing; only known if a single workload was measured.
+// Prints the results of one workload, and writes its images if requested. frames_mb: how much the memory of the process grew while drawing;
+// only known if a single workload was measured.
 void report(const BenchProgram& program, const BenchArguments& args, const WorkloadKind& kind, const Workload& workload, PictureSize size,
             int threads, const FrameTimes& times, std::optional<double> frames_mb) {
   std::optional<PictureErrors> errors;
@@ -222,7 +222,8 @@ void run_bench(const BenchProgram& program, const BenchArguments& args) {
   }
   WorkloadAssets assets;
   if (!args.matrix && !args.scenes) return measure(program, args, kinds, size, workers, seconds, assets);
-  // All rows of the matrix together would take gigabytes. Rows that an OpenGL driver does not support are skipped.
+  // Prepares one row at a time, because all rows of the matrix together would take gigabytes. Rows that an OpenGL driver does not support
+  // are skipped.
   for (const WorkloadKind*& kind : kinds) {
     try {
       measure(program, args, std::span(&kind, 1), size, workers, seconds, assets);
@@ -238,14 +239,14 @@ void parse_and_run(CLI::App& app, const BenchProgram& program, int argc, char** 
   BenchArguments args;
   app.add_option("--only", args.only, "Run only these workloads (see --list)")->type_name("NAME,")->allow_extra_args(false)->delimiter(',');
   app.add_option("--sweep", args.sweep, "Run a series: triangle_size, triangle_count, overdraw, varyings")->type_name("NAME");
-  app.add_flag("--matrix", args.matrix, "Run one scene with many states, one at a time, instead of the workloads");
+  app.add_flag("--matrix", args.matrix, "Run one scene with many draw states, one at a time, instead of the workloads");
   app.add_flag("--scenes", args.scenes, "Run three composed scenes, five cameras each, instead of the workloads");
-  app.add_option("--model", args.model, "Run a model file, with 1 and 4 samples, instead of the workloads")->type_name("FILE");
+  app.add_option("--model", args.model, "Draw a model file, with 1 and 4 samples per pixel, instead of the workloads")->type_name("FILE");
   app.add_option("--size", args.size, "Image size (default: 1920x1080)")->type_name("WxH");
   app.add_option("--threads", args.threads, "Threads, including the main one (default: one per core)")->type_name("N");
   app.add_option("--seconds", args.seconds, "Time per workload; 0: one frame each (default: 1)")->type_name("S");
   app.add_option("--out", args.out, "Write NAME.png and NAME.depth.exr of each workload to DIR")->type_name("DIR");
-  app.add_option("--check", args.check, "Compare with double precision (slow; cached in DIR)")->type_name("DIR");
+  app.add_option("--check", args.check, "Compare with double-precision references (slow; cached in DIR)")->type_name("DIR");
   app.add_flag("--json", args.json, "Print one JSON object per line for each workload");
   app.add_flag("--list", args.list, "Print the workloads and exit");
   for (const BenchOption& option : program.options) app.add_option(option.name, *option.value, option.help)->type_name(option.value_name);

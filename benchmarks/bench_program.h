@@ -23,9 +23,9 @@ struct BenchOption {
 /// The parts that differ between the programs.
 struct BenchProgram {
   std::string name;
-  std::string what;  ///< description, one line
+  std::string what;  ///< one-line description
   std::vector<BenchOption> options;
-  std::function<void(int threads)> start;  ///< called once, before any workload is prepared; can be empty
+  std::function<void(int threads)> start;  ///< called once, before any workload is prepared; may be empty
   /// The workloads and sweeps that the program can draw.
   std::function<std::span<const WorkloadKind>()> kinds;
   std::function<std::span<const Sweep>()> sweeps;

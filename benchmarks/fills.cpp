@@ -23,7 +23,7 @@ class Clear final : public Workload {
   Canvas canvas_;
 };
 
-// One quad over the whole image, which is neither cleared nor loaded before. No depth buffer.
+// One quad over the whole image, without a depth buffer. The image is neither cleared nor loaded.
 class Fill final : public Workload {
  public:
   explicit Fill(WorkloadSize size) : color_(size.width, size.height) {}

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// hdr_200k, tonemap: HDR rendering to half floats, and tone mapping. The tone curve is a post step of the pass, which runs while a tile
-// is in cache. hdr_200k stores the half floats too, because the workload is defined to leave the HDR image in memory.
+// hdr_200k, tonemap: HDR rendering to half floats, and tone mapping. The tone curve is a post step of the pass, which runs while a tile is
+// in cache. hdr_200k also stores the half floats, because the workload is defined to leave the HDR image in memory.
 #include "families.h"
 #include "workload_tone.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The mesh of the layer workloads: by default ten quads behind each other, each of which covers the whole image.
+// The mesh of the layer workloads: by default ten quads, one behind another, each covering the whole image.
 #pragma once
 
 #include <memory>

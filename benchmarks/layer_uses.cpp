@@ -22,7 +22,7 @@ class Blend final : public Workload {
   }
   WorkloadPicture picture() const override { return canvas_.picture(); }
 
-  // The naive pipeline does not blend, so draw one layer at a time. Then blend with c = a·source + (1 − a)·c, where the source is clamped
+  // The naive pipeline does not blend, so draw one layer at a time and blend it with c = a·source + (1 − a)·c, where the source is clamped
   // to [0, 1].
   WorkloadTruth truth() const override {
     WorkloadTruth target = canvas_.truth();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// layers_b2f, layers_f2b, depth_prepass: ten quads behind each other. Measures the cost of overdraw in the worst and the best order, and
+// layers_b2f, layers_f2b, depth_prepass: ten quads, one behind another. Measures the cost of overdraw in the worst and the best order, and
 // how much a depth prepass improves the worst order.
 #include <array>
 

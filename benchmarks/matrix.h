@@ -15,11 +15,11 @@
 namespace halfspace {
 
 enum class MatrixMesh : uint8_t {
-  sheets,     ///< three wavy sheets that cross each other, 200,000 triangles that cover the image three times
-  near,       ///< the sheets from so close that the near plane clips triangles
+  sheets,     ///< three intersecting wavy sheets of 200,000 triangles in total, which cover the image three times
+  near,       ///< the sheets seen from so close that the near plane clips triangles
   tiles,      ///< 98 instances of one sheet of 2048 triangles
   edges,      ///< the grid lines of the sheets in one direction
-  strips,     ///< the sheets as triangle strips with restarts
+  strips,     ///< the sheets as triangle strips with primitive restart
   points,     ///< the vertices of the sheets
   triangles,  ///< `count` random triangles of size `pixels`, without shared vertices
   quad        ///< a full-screen quad without a depth buffer
@@ -35,10 +35,10 @@ enum class MatrixShader : uint8_t {
   lit,    ///< diffuse light times the mean of `textures` lookups
   alpha,  ///< lit, with the alpha of the textures
   tint,   ///< an interpolated color with an alpha of 0.5
-  dual,   ///< alpha, with a second color for dual source blending
+  dual,   ///< alpha, with a second color for dual-source blending
   holes,  ///< lit; discards fragments with an alpha below `threshold`
   holes_visible,
-  depth,  ///< lit; changes the depth
+  depth,  ///< lit; writes a modified depth
   depth_visible,
   varyings,  ///< the mean of `varyings` floats
   constant,  ///< a constant color
@@ -47,7 +47,7 @@ enum class MatrixShader : uint8_t {
   tone       ///< the tone curve of the workload `tonemap`, applied to a half-float texture of the size of the image
 };
 
-/// A row of the matrix. The defaults are the row `plain`, which all other rows are compared with.
+/// A row of the matrix. The defaults describe the row `plain`, with which all other rows are compared.
 struct MatrixRow {
   std::string_view name, what;
   MatrixMesh mesh = MatrixMesh::sheets;
@@ -57,18 +57,18 @@ struct MatrixRow {
   int textures = 1;     ///< 1, 2, 4 or 8
   int varyings = 0;     ///< 0, 4, 8 or 16
   int count = 0;        ///< number of random triangles
-  float pixels = 0;     ///< diameter of the circumscribed circle of random triangles, in pixels of an image 1080 pixels high
-  float threshold = 0;  ///< alpha threshold of holes
-  int draws = 3;        ///< draw calls that the indices are divided into; each uses the next texture
+  float pixels = 0;     ///< diameter of the circumscribed circle of random triangles, in pixels of a 1080-pixel-high image
+  float threshold = 0;  ///< alpha threshold of `holes`
+  int draws = 3;        ///< number of draw calls that share the indices; each uses the next texture
   ColorFormat color = ColorFormat::rgba8;
   DepthFormat depth = DepthFormat::d32f;
   int samples = 1;
-  bool half_scissor = false;  ///< scissor rectangle: the center of the image with half of its width and height
+  bool half_scissor = false;  ///< scissor rectangle in the center of the image, with half its width and height
   DrawState state{};
   Sampler sampler{};
-  /// The row draws opaque triangles with one sample, so its picture can be compared with one in double precision.
+  /// The row draws opaque triangles with one sample, so its picture can be compared with a double-precision reference.
   bool is_exact = false;
-  /// The picture can be compared with OpenGL. False if OpenGL leaves the result to the implementation.
+  /// The picture can be compared with OpenGL. False if the OpenGL specification leaves the result to the implementation.
   bool is_comparable = true;
 };
 

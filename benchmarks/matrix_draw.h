@@ -39,7 +39,7 @@ void draw_part(WorkloadTruth& truth, const S& shader, const V& vertices, const I
   draw_naive(truth, shader, vertices, indices, state);
 }
 
-/// Draws all parts with a shader that derives from MatrixUniforms. Part i uses the textures starting with texture i.
+/// Draws all parts with a shader that derives from MatrixUniforms. The textures of part i start with texture i.
 template <class S, class Target>
 void draw_textured(Target& target, const MatrixJob& job) {
   const std::vector<MatrixVertex>& v = job.scene.vertices;

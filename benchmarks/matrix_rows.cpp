@@ -56,7 +56,7 @@ void add_targets(std::vector<MatrixRow>& rows) {
   row({.name = "plain", .what = "one texture, diffuse light, depth test", .is_exact = true});
   row({.name = "srgb", .what = "an sRGB target", .color = ColorFormat::srgb8a8});
   row({.name = "half_target", .what = "a half-float target", .color = ColorFormat::rgba16f});
-  row({.name = "d24s8", .what = "24 bits of depth and 8 of stencil", .depth = DepthFormat::d24s8});
+  row({.name = "d24s8", .what = "24-bit depth and 8-bit stencil", .depth = DepthFormat::d24s8});
   row({.name = "stencil_test",
        .what = "a stencil test without writes",
        .depth = DepthFormat::d24s8,
@@ -97,11 +97,11 @@ void add_blending(std::vector<MatrixRow>& rows) {
     rows.push_back(
         {.name = name, .what = what, .mesh = triangles, .shader = Shader::alpha, .count = count, .pixels = pixels, .state = over});
   };
-  triangles_row("blend_small", "200,000 blended triangles, 8 pixels in diameter", 200'000, 8);
-  triangles_row("blend_medium", "20,000 blended triangles, 100 pixels in diameter", 20'000, 100);
+  triangles_row("blend_small", "200,000 blended triangles, about 8 pixels across", 200'000, 8);
+  triangles_row("blend_medium", "20,000 blended triangles, about 100 pixels across", 20'000, 100);
   triangles_row("blend_medium_tint", "blend_medium without a texture", 20'000, 100);
   rows.back().shader = Shader::tint;
-  triangles_row("blend_large", "200 blended triangles, 800 pixels in diameter", 200, 800);
+  triangles_row("blend_large", "200 blended triangles, about 800 pixels across", 200, 800);
 }
 
 void add_shaders(std::vector<MatrixRow>& rows) {
@@ -113,9 +113,9 @@ void add_shaders(std::vector<MatrixRow>& rows) {
   row({.name = "depth", .what = "the shader writes depth; no visibility function", .shader = Shader::depth});
   row({.name = "depth_visible", .what = "the shader writes depth", .shader = Shader::depth_visible});
   row({.name = "varyings_0", .what = "no varyings", .shader = Shader::varyings, .varyings = 0, .is_exact = true});
-  row({.name = "varyings_4", .what = "4 floats of varyings", .shader = Shader::varyings, .varyings = 4, .is_exact = true});
-  row({.name = "varyings_8", .what = "8 floats of varyings", .shader = Shader::varyings, .varyings = 8, .is_exact = true});
-  row({.name = "varyings_16", .what = "16 floats of varyings", .shader = Shader::varyings, .varyings = 16, .is_exact = true});
+  row({.name = "varyings_4", .what = "4 floats in varyings", .shader = Shader::varyings, .varyings = 4, .is_exact = true});
+  row({.name = "varyings_8", .what = "8 floats in varyings", .shader = Shader::varyings, .varyings = 8, .is_exact = true});
+  row({.name = "varyings_16", .what = "16 floats in varyings", .shader = Shader::varyings, .varyings = 16, .is_exact = true});
   row({.name = "pass_constant", .what = "a full-screen quad with a constant color", .mesh = quad, .shader = Shader::constant, .draws = 1});
   row({.name = "pass_color", .what = "a full-screen quad with an interpolated color", .mesh = quad, .shader = Shader::color, .draws = 1});
   row({.name = "pass_texture", .what = "a full-screen quad with a texture", .mesh = quad, .shader = Shader::texture, .draws = 1});
@@ -134,11 +134,11 @@ void add_geometry(std::vector<MatrixRow>& rows) {
   row({.name = "wireframe", .what = "wireframe of all triangles", .state = wireframe});
   row({.name = "lines", .what = "100,000 lines", .mesh = edges, .state = topology(Topology::lines)});
   row({.name = "points", .what = "100,000 points of 6 x 6 pixels", .mesh = points, .state = topology(Topology::points)});
-  row({.name = "strips", .what = "triangle strips with restarts", .mesh = strips, .draws = 1, .state = topology(Topology::triangle_strip)});
+  row({.name = "strips", .what = "strips with primitive restart", .mesh = strips, .draws = 1, .state = topology(Topology::triangle_strip)});
   row({.name = "shuffled_triangles", .what = "triangles in random order", .order = MatrixOrder::shuffled_triangles, .is_exact = true});
   row({.name = "shuffled_vertices", .what = "vertices in random order", .order = MatrixOrder::shuffled_vertices, .is_exact = true});
   row({.name = "unshared",
-       .what = "200,000 random triangles, 20 pixels in diameter, without shared vertices",
+       .what = "200,000 random triangles, about 20 pixels across, without shared vertices",
        .mesh = triangles,
        .count = 200'000,
        .pixels = 20,

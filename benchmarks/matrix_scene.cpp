@@ -18,7 +18,7 @@ constexpr int kSheets = 3, kColumns = 258, kRows = 129, kTextures = 8;
 constexpr double kEyeZ = 3.5, kNearEyeZ = 0.75;
 constexpr uint32_t kRestart = 0xffffffffu;
 
-// Adds a wavy sheet of columns x rows quads that is wider than the view at its distance.
+// Adds a wavy sheet of columns x rows quads. At its distance, it is wider than the view.
 void add_sheet(MatrixScene& scene, int sheet, int columns, int rows, double aspect) {
   const double z0 = 0.7 * (1 - sheet), half_height = 1.15 * kTanHalfAngle * (kEyeZ - z0 + 0.4), half_width = half_height * aspect;
   for (int j = 0; j <= rows; ++j) {
@@ -121,7 +121,7 @@ void shuffle_vertices(MatrixScene& scene) {
   for (uint32_t& i : scene.indices) i = place[i];
 }
 
-// Returns the sine and cosine of k periods over `size` texels.
+// Returns k periods of sine and cosine over `size` texels.
 struct Waves {
   Waves(int k, int size) {
     for (int i = 0; i < size; ++i) {

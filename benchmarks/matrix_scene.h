@@ -18,7 +18,7 @@ struct MatrixVertex {
   glm::vec2 uv;
 };
 
-/// Data that all draw calls of a row share. The positions are in world space; for MatrixMesh::triangles and quad, in clip space.
+/// Data that all draw calls of a row share. Positions are in world space, except for MatrixMesh::triangles and quad (clip space).
 struct MatrixScene {
   std::vector<MatrixVertex> vertices;
   std::vector<uint32_t> indices;  ///< 0xffffffff is the restart index

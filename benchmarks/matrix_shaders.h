@@ -41,7 +41,7 @@ struct MatrixUniforms {
   HS_INLINE vec4<R> texel(const Varyings<R>& in, const Pixel<R>& px) const {
     return maps[0]->sample(sampler, in.uv, px.ddx(&Varyings<R>::uv), px.ddy(&Varyings<R>::uv));
   }
-  /// Returns the lit color of the texture, with the alpha of the texture.
+  /// Returns the texture's color after lighting, with the texture's alpha.
   template <class R>
   HS_INLINE vec4<R> lit_texel(const Varyings<R>& in, const Pixel<R>& px) const {
     const vec4<R> color = texel(in, px);

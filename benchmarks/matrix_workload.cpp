@@ -77,7 +77,7 @@ class MatrixWorkload final : public Workload {
     target.clear_value = kBackground;
     return target;
   }
-  // Depth is stored only if it is compared with a reference. Programs do not store it either if they do not use it after drawing.
+  // Depth is stored only if it is compared with a reference. Applications that do not use it after drawing would not store it either.
   DepthTarget depth_target() {
     if (row_.mesh == MatrixMesh::quad) return {};
     if (row_.depth == DepthFormat::d32f && row_.samples == 1) return d32f_target(depth_);

@@ -36,7 +36,7 @@ std::span<const ModelRow> model_rows() {
 }
 
 PreparedScene prepared_model(const std::string& file, WorkloadSize size, int samples) {
-  if (!is_model_file(file)) throw InputError(file + ": is not a model file; expected .glb, .gltf, .obj, .ply or .stl");
+  if (!is_model_file(file)) throw InputError(file + ": not a model file; expected .glb, .gltf, .obj, .ply or .stl");
   ModelView view;
   view.aspect = static_cast<double>(size.width) / size.height;
   view.floor = false;

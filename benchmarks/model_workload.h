@@ -20,8 +20,8 @@ struct ModelRow {
 };
 std::span<const ModelRow> model_rows();
 
-/// Reads a model file and prepares the draws of its default view: the default lights and environment, half-float light, and a tone curve
-/// in the post step of the pass. Throws InputError.
+/// Reads a model file and prepares the draws of its default view: the default lights and environment, a half-float color buffer, and a tone
+/// curve in the post step of the pass. Throws InputError.
 PreparedScene prepared_model(const std::string& file, WorkloadSize size, int samples);
 
 /// The rows of model_rows(), drawn by Halfspace. The file is read when a workload is prepared.

@@ -11,8 +11,8 @@ namespace {
 
 constexpr int kSamples = 4;
 
-// Draws one of the samples with the naive pipeline, whose only sample is at the pixel center. The image is shifted so that the sample is
-// at the pixel center; the fragment function is evaluated at the original pixel center.
+// Draws one of the samples with the naive pipeline, whose only sample is at the pixel center. The image is shifted so that the sample
+// coincides with it; the fragment function is evaluated at the original pixel center.
 struct OneSample : SpherePhong {
   double to_x, to_y;  // from the sample to the pixel center, in 1/256 px
   double width, height;

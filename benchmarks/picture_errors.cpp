@@ -53,7 +53,7 @@ void write_truth(const std::filesystem::path& path, const WorkloadTruth& truth) 
   if (!out.flush()) throw OutputError(path.string() + ": cannot write the file");
 }
 
-// Returns true if a channel varies by more than 16/255 in the 3 x 3 neighborhood of a pixel that is not on the border.
+// Returns true if a channel varies by more than 16/255 in the 3 x 3 neighborhood of a pixel, which must not be on the border.
 bool is_at_edge(const Image<glm::u8vec4>& image, int x, int y) {
   glm::ivec4 low(image.at(x, y)), high = low;
   for (int dy = -1; dy <= 1; ++dy) {

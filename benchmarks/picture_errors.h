@@ -10,13 +10,13 @@
 
 namespace halfspace {
 
-/// Errors over the covered pixels, which are those that either image draws according to its depth. If neither depth image shows any
-/// drawn pixel, all pixels count as covered.
+/// Errors over the covered pixels: those where either depth image shows that something was drawn. If neither image has such a pixel, all
+/// pixels count as covered.
 struct PictureErrors {
   int covered = 0;         ///< number of covered pixels
   int colors_off = 0;      ///< pixels with a channel that is wrong by more than 1/255
   int depths_off = 0;      ///< pixels whose depth error exceeds the tolerance; 0 if the image has no depth
-  int background_off = 0;  ///< pixels that are not covered and do not have the 8-bit code nearest to the clear color
+  int background_off = 0;  ///< uncovered pixels whose value is not the clear color rounded to 8 bits
   double worst_color = 0;  ///< largest error of a channel, in 1/255
   double rms_color = 0;    ///< RMS error over all channels, in 1/255
   double worst_depth = 0;  ///< largest depth error

@@ -15,7 +15,7 @@ struct SphereDetail {
 };
 inline constexpr SphereDetail k20k{51, 200}, k200k{201, 500}, k2m{501, 2000};  // 20,000, 200,000, 2,000,000 triangles
 
-/// Uniforms for a camera at (0, 0.8, 2.7) that looks at the center of the sphere.
+/// Uniforms for a camera at (0, 0.8, 2.7) looking at the center of the sphere.
 inline SphereUniforms sphere_uniforms(WorkloadSize size, const Texture2D& texture) {
   const glm::dmat4 view = look_at({0.0, 0.8, 2.7}, {0, 0, 0}, {0, 1, 0});
   return {.clip_from_world = glm::mat4(workload_projection(size, 0.5, 10.0) * view), .texture = &texture};

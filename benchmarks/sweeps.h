@@ -18,7 +18,7 @@ struct Sweep {
   std::vector<WorkloadKind> kinds;
 };
 
-/// triangle_size   area in px² of adjacent right triangles of one color; about 4 million px² in total, at most a million triangles
+/// triangle_size   area in px² of adjacent single-color right triangles; about 4 million px² in total, at most a million triangles
 /// triangle_count  number of triangles in sphere_phong
 /// overdraw        number of quads that cover the whole image, with Phong shading per pixel, drawn back to front
 /// varyings        number of float varyings, on the sphere with 20,000 triangles

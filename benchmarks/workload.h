@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A workload draws one fixed image repeatedly. All renderers that are compared use the same formulas (docs/results/performance.md).
+// A workload draws the same image repeatedly. All compared renderers use the same formulas (docs/results/performance.md).
 #pragma once
 
 #include <functional>
@@ -27,7 +27,7 @@ struct WorkloadPicture {
 /// The same image in double precision: the color before clamping and quantization, and the window depth, which is 1 for the background.
 using WorkloadTruth = NaiveTarget<double>;
 
-/// A workload that has been prepared for one image size. All inputs exist already; a frame allocates only what its passes need.
+/// A workload that has been prepared for one image size. All inputs already exist; a frame allocates only what its passes need.
 class Workload {
  public:
   virtual ~Workload() = default;
@@ -35,12 +35,11 @@ class Workload {
   virtual void frame(const Workers& workers) = 0;
   /// Returns the image drawn by the last frame.
   virtual WorkloadPicture picture() const = 0;
-  /// False for matrix rows and scenes that have no reference image in double precision; truth() must not be called then.
+  /// False for matrix rows and scenes without a double-precision reference image; truth() must then not be called.
   virtual bool has_truth() const { return true; }
   /// Computes the reference image with the naive pipeline, or analytically where possible. Slow.
   virtual WorkloadTruth truth() const = 0;
-  /// For the matrix and the scenes drawn by another renderer: the picture that Halfspace draws, to compare with. Null for all other
-  /// workloads.
+  /// For the matrix and the scenes drawn by another renderer: Halfspace's picture, for comparison. Null for all other workloads.
   virtual std::unique_ptr<Workload> twin() const { return nullptr; }
 };
 
@@ -49,7 +48,7 @@ class WorkloadAssets;
 /// An entry of the workload table.
 struct WorkloadKind {
   std::string name;
-  std::string what;  ///< description, one line
+  std::string what;  ///< one-line description
   std::function<std::unique_ptr<Workload>(WorkloadSize size, WorkloadAssets& assets)> prepare;
 };
 

@@ -28,8 +28,8 @@ struct SphereMesh {
 /// faces are on the outside. rows and columns must be at least 2.
 SphereMesh sphere_mesh(int rows, int columns);
 
-/// Returns a 2048 x 1024 checkerboard texture with squares of 64 x 64 texels and all mip levels. Each level averages 2 x 2 texels of the
-/// previous one in 8-bit codes and rounds halves up.
+/// Returns a 2048 x 1024 checkerboard texture with squares of 64 x 64 texels and all mip levels. Each level averages the 8-bit values of 2
+/// x 2 texels of the previous one and rounds halves up.
 Texture2D checker_texture();
 
 enum class SceneKind : uint8_t;

@@ -17,8 +17,8 @@ namespace halfspace {
 inline constexpr std::array<glm::vec3, 4> kFullQuad{{{-1, -1, 0}, {1, -1, 0}, {-1, 1, 0}, {1, 1, 0}}};
 inline constexpr glm::vec4 kFillColor{0.25f, 0.50f, 0.75f, 1.0f};
 
-/// Returns `count` right triangles of `area` px² as a triangle list in normalized device coordinates. They fill a grid over the image;
-/// when the grid is full, they start another layer in front of it.
+/// Returns `count` right triangles of `area` px² as a triangle list in normalized device coordinates. They fill a grid over the image; when
+/// the grid is full, another layer starts in front of it.
 std::vector<glm::vec3> tiny_triangles(WorkloadSize size, int count, double area = 1.0);
 inline constexpr glm::vec4 kTinyColor{0.9f, 0.6f, 0.1f, 1.0f};
 
@@ -36,7 +36,7 @@ struct ColoredQuad {
 /// Returns 100 x 100 quads on a grid over the image, each 0.8 cells wide and high.
 std::vector<ColoredQuad> grid_of_quads();
 
-/// Indices that split a quad into two counter-clockwise triangles, for corners in counter-clockwise order and in strip order.
+/// Indices that split a quad into two counter-clockwise triangles, for corners in counter-clockwise order or in strip order.
 inline constexpr std::array<uint32_t, 6> kRoundTriangles{0, 1, 2, 0, 2, 3}, kStripTriangles{0, 1, 2, 2, 1, 3};
 
 /// A plane of 500 x 251 units in world space that reaches almost to the horizon. The corners are in counter-clockwise order.

@@ -7,7 +7,7 @@
 
 namespace halfspace {
 
-/// Phong shading per pixel with a color per vertex. The eye is at the origin.
+/// Per-pixel Phong shading with per-vertex colors. The eye is at the origin.
 struct LayerShader {
   glm::mat4 clip_from_eye;
   glm::vec3 light_es{0.5f, 0.5f, 0.0f};

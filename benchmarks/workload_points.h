@@ -50,7 +50,7 @@ struct PointShader {
   }
 
  private:
-  // The point of the sphere that is visible at a pixel, under the approximation that all view rays are parallel.
+  // The point of the sphere that is visible at a pixel, assuming that all view rays are parallel (an approximation).
   template <class R>
   struct Bump {
     vec3<R> n, position_es;

@@ -14,7 +14,7 @@ HS_INLINE vec3<R> unit(const vec3<R>& v) {
   return v * inverse_sqrt(dot(v, v));
 }
 
-/// The factor by which the surface color is multiplied, and the term added to the product.
+/// The lit color is `diffuse` times the surface color, plus `specular`.
 template <class R>
 struct WorkloadLight {
   R diffuse, specular;

@@ -10,7 +10,8 @@ namespace halfspace {
 /// Width and height of the shadow maps of the workloads.
 inline constexpr int kShadowMapSize = 2048;
 
-/// Returns the fraction of the 3 x 3 texels around a point that do not occlude it. `map` has kShadowMapSize² window depths, top row first.
+/// Returns the fraction of the 3 x 3 shadow-map texels around a point that do not occlude it. `map` has kShadowMapSize² window depths, top
+/// row first.
 template <class R>
 HS_INLINE R unoccluded_fraction(const float* map, const glm::mat4& light_from_world, float bias, const vec3<R>& position_ws) {
   constexpr float kHalf = 0.5f * kShadowMapSize;
@@ -27,8 +28,8 @@ HS_INLINE R unoccluded_fraction(const float* map, const glm::mat4& light_from_wo
   return sum * R(1.0f / 9.0f);
 }
 
-/// Blinn-Phong lighting from one direction, shadowed by the mean of 3 x 3 comparisons with a depth map. The workload prescribes this
-/// filter and bias, so the map is read here and not with shading/shadow.h, whose filters do more.
+/// Blinn-Phong lighting from one direction, shadowed by the mean of 3 x 3 comparisons with a depth map. The workload prescribes this filter
+/// and bias, so this code reads the map itself instead of using shading/shadow.h, whose filters do more.
 struct ShadowedShader {
   glm::mat4 clip_from_world, light_from_world;
   const float* map;  ///< kShadowMapSize² window depths, top row first

@@ -53,7 +53,7 @@ struct SpherePhong : SphereUniforms {
   }
 };
 
-/// SpherePhong, eight times as bright.
+/// SpherePhong, but eight times as bright.
 struct SphereHdr : SpherePhong {
   template <class R>
   Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>& px) const {

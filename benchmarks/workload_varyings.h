@@ -7,8 +7,8 @@
 
 namespace halfspace {
 
-/// Interpolates N float varyings, and draws 1/2 plus their mean in gray. The varyings are N/4 vectors; vector i is the position's
-/// (x, y, z, x) divided by i + 1. N must be a multiple of 4 and at most 32.
+/// Interpolates N float varyings, and draws 1/2 plus their mean as gray. The varyings are N/4 vectors; vector i is (x, y, z, x) of the
+/// position, divided by i + 1. N must be a multiple of 4 and at most 32.
 template <int N>
 struct VaryingsShader {
   glm::mat4 clip_from_world;

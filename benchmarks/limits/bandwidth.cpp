@@ -10,7 +10,7 @@ namespace halfspace {
 
 namespace {
 
-// The width of the build's vectors, but at least 128 bits: scalar builds use 128-bit stores too.
+// The vector width of the build, but at least 128 bits, because scalar builds also use 128-bit stores.
 constexpr int kWidth = kLanes >= 4 ? kLanes : 4;
 using Vector = IntN<kWidth>;
 constexpr std::size_t kStep = 8;  // vectors per loop iteration

@@ -34,8 +34,8 @@ void multiply_add(int repeats) {
   for (const R& c : x) asm volatile("" : : "x"(c.v));
 }
 
-// Gathers from pseudorandom indices. Each lane has its own sequence, of which the low bits are dropped. The indices do not depend on
-// gathered values, so gathers can overlap.
+// Gathers from pseudorandom indices. Each lane has its own sequence; the low bits are dropped. The indices do not depend on gathered
+// values, so gathers can overlap.
 void gather_from(const std::vector<float>& table, int repeats) {
   I place(1);
   for (int i = 0; i < kWidth; ++i) set_lane(place, i, 7919 * i + 1);

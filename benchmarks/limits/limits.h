@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Measures the peak rates of this machine that limit a renderer. Each figure is the best of several trials, because other processes can
-// only make a trial slower.
+// Measures the peak rates of this machine that limit a renderer. Each value is the best of several trials, because other processes can only
+// make a trial slower.
 #pragma once
 
 #include <functional>
@@ -19,7 +19,7 @@ struct Limit {
   double value;
 };
 
-/// Measures work that all threads do in parallel.
+/// Measures work that all threads execute in parallel.
 class LimitTimer {
  public:
   /// Each trial takes about `seconds`.
@@ -43,7 +43,7 @@ std::vector<Limit> bandwidth_limits(const LimitTimer& timer);
 /// Bandwidth of memset on images of 1920x1080 and 512x512 pixels with 4 bytes per pixel. Each thread sets an equal share of the bytes.
 std::vector<Limit> frame_limits(const LimitTimer& timer);
 /// Clock frequency (GHz, per thread), fused multiply-adds (GFLOP/s), and gathered lanes (10^9/s) from tables that fit into the L1 cache,
-/// into the L2 cache, or into neither.
+/// into the L2 cache, or into neither of them.
 std::vector<Limit> compute_limits(const LimitTimer& timer);
 
 }  // namespace halfspace

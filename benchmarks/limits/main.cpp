@@ -36,7 +36,7 @@ void parse_and_run(CLI::App& program, int argc, char** argv) {
   program.add_option("--seconds", seconds_text, "Duration of a trial (default: 0.03)")->type_name("S");
   program.add_flag("--json", json, "Print each limit as a JSON object on its own line");
   program.footer(
-      "Each figure is the best of 15 trials and the total of all threads.\n"
+      "Each value is the best of 15 trials and the total of all threads.\n"
       "Examples:\n"
       "  halfspace-limits --threads 1\n"
       "  halfspace-limits --seconds 1 --json");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Textures with holes. Texels of the holes have the color of what is around them, so that filtering does not darken edges.
+// Textures with holes. Texels in a hole have the color of the surrounding texels, so that filtering does not darken edges.
 #include <vector>
 
 #include "halfspace/core/trig_double.h"
@@ -11,7 +11,7 @@ namespace halfspace {
 
 namespace {
 
-// A picture whose holes have one color.
+// A picture whose holes all have the same color.
 SceneTexels empty_picture(TexelSize size, glm::vec3 color) {
   return paint(size, [&](int, int, float, float) { return glm::vec4(color, 0.0f); });
 }

@@ -23,7 +23,7 @@ double spread(double u) {
   return 110.0 * t * (0.25 + 0.75 * t * t);
 }
 
-// Adds two cards that cross each other and stand on the ground. They are lit like the ground.
+// Adds two crossed cards that stand on the ground. They have the normals of the ground.
 void add_tuft(SceneShape& shape, glm::dvec3 at, double height, WorkloadRandom& random) {
   const double turn = random.unit(), size = height * random.between(0.6, 1.15);
   for (const double quarter : {0.0, 0.25}) {

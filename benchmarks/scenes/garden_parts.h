@@ -10,11 +10,11 @@ namespace halfspace::garden {
 inline constexpr glm::dvec2 kPond{-5.0, 3.0}, kPavilion{-11.0, -9.0}, kGreenhouse{9.5, -5.0};  // (x, z) of the centers
 inline constexpr double kPondRadius = 6.5, kWater = -0.35;
 inline constexpr double kPavilionRadius = 2.6, kPavilionFloor = 0.55;
-inline constexpr glm::dvec3 kHouseSize{5.0, 2.3, 7.0};  // of the greenhouse up to its eaves; its ridge is 1.2 m higher
+inline constexpr glm::dvec3 kHouseSize{5.0, 2.3, 7.0};  // greenhouse up to the eaves; the ridge is 1.2 m higher
 
 double ground_height(double x, double z);
 inline glm::dvec3 on_ground(double x, double z, double above = 0.0) { return {x, ground_height(x, z) + above, z}; }
-/// The middle of the path; v is from 0 to 1.
+/// The center line of the path; v is from 0 to 1.
 glm::dvec2 path_at(double v);
 /// Returns whether plants may grow: not on the path, in the water or in buildings.
 bool is_free(double x, double z, double margin);
@@ -23,7 +23,7 @@ SceneShape terrain();
 SceneShape path();
 SceneShape water();
 SceneShape stone(uint32_t seed);
-/// Cards in pairs that cross each other, scattered in a square of the garden.
+/// Pairs of crossed cards, scattered over a square area of the garden.
 struct PatchOptions {
   glm::dvec2 center;
   double size;

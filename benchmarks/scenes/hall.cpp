@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The hall: a nave with a painted barrel vault and two aisles. The sun falls through the windows of one side. The nave is along z and ends
+// The hall: a nave with a painted barrel vault and two aisles. The sun shines through the windows on one side. The nave is along z and ends
 // at a dais with stairs.
 #include "scenes/hall_parts.h"
 #include "scenes/scene_kinds.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Composed scenes: an architectural interior, a garden and a workshop, each seen by five cameras. They are made by generators and drawn as
-// a program would draw them: a shadow map, then opaque and alpha-tested surfaces, then blended ones from back to front.
+// Composed scenes: an architectural interior, a garden and a workshop, each seen by five cameras. They are procedurally generated, and
+// drawn in the way an application would: a shadow map, then opaque and alpha-tested surfaces, then blended ones from back to front.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@ namespace halfspace {
 
 enum class SceneKind : uint8_t { hall, garden, workshop };
 
-/// In the order of drawing.
+/// Listed in drawing order.
 enum class SceneSurface : uint8_t {
   opaque,
   cutout,  ///< discards fragments whose texture has an alpha below 1/2
@@ -32,7 +32,7 @@ struct SceneMaterial {
   std::size_t texture = 0;
   glm::vec3 tint{1.0f};
   float gloss = 0.0f;  ///< factor of the highlight
-  float alpha = 1.0f;  ///< of a blended surface seen head-on; multiplied by the alpha of the texture
+  float alpha = 1.0f;  ///< alpha of a blended surface seen head-on; multiplied by the texture's alpha
   bool two_sided = false;
 };
 
@@ -41,13 +41,13 @@ using SceneVertex = MatrixVertex;  // positions are in object space
 /// A range of Scene::indices.
 struct SceneMesh {
   uint32_t first, count;
-  glm::dvec3 center;  ///< of the bounding box
+  glm::dvec3 center;  ///< center of the bounding box
 };
 
 /// A draw call.
 struct SceneObject {
   std::size_t mesh, material;
-  glm::dmat4 world_from_object;  ///< also transforms the normals, up to their length
+  glm::dmat4 world_from_object;  ///< also transforms normals, which must then be normalized
 };
 
 struct SceneLight {
@@ -55,7 +55,7 @@ struct SceneLight {
   glm::vec3 sun, sky, ground;  ///< colors; sky and ground light surfaces that face up and down
   glm::vec3 lamp_ws, lamp;     ///< position and color of a lamp that casts no shadow
   glm::vec3 haze;              ///< color of far surfaces
-  float haze_distance;         ///< at which half of the color is haze
+  float haze_distance;         ///< distance at which half of the color is haze
   glm::dvec3 shadow_center;    ///< center and half the side of the cube that the shadow map covers
   double shadow_radius;
 };
@@ -77,7 +77,7 @@ struct Scene {
 
   const SceneMaterial& material(const SceneObject& object) const { return materials[object.material]; }
   const SceneMesh& mesh(const SceneObject& object) const { return meshes[object.mesh]; }
-  std::size_t triangles() const;  ///< of all objects
+  std::size_t triangles() const;  ///< number of triangles of all objects
 };
 
 Scene make_scene(SceneKind kind);
@@ -86,7 +86,7 @@ Scene make_scene(SceneKind kind);
 struct SceneView {
   glm::mat4 clip_from_world, light_from_world;
   glm::vec3 eye_ws;
-  std::vector<std::size_t> order;    ///< of the objects: by surface and material; blended ones from back to front
+  std::vector<std::size_t> order;    ///< drawing order of the objects: by surface and material; blended ones from back to front
   std::vector<std::size_t> casters;  ///< the objects that cast shadows, in the same order
 };
 SceneView scene_view(const Scene& scene, const SceneCamera& camera, WorkloadSize size);
@@ -95,7 +95,7 @@ SceneView scene_view(const Scene& scene, const SceneCamera& camera, WorkloadSize
 DrawState scene_shadow_state();
 DrawState scene_state(const SceneMaterial& material);
 
-/// A surface is compared with the shadow map at a point that is moved along its normal by this distance, in meters.
+/// For the comparison with the shadow map, a point is moved along its normal by this distance, in meters.
 inline constexpr float kSceneNormalOffset = 0.05f;
 /// Bias of the comparison in window depth.
 inline constexpr float kSceneBias = 0.0004f;

@@ -13,7 +13,7 @@ struct SceneJob {
   const Scene& scene;
   const SceneView& view;
   std::vector<Indices> meshes;
-  SceneUniforms uniforms;  ///< of the whole scene; those of the materials are set by each draw call
+  SceneUniforms uniforms;  ///< uniforms of the whole scene; each draw call sets those of its material
 };
 
 void draw_scene_depth(Pass& pass, const SceneJob& job, const SceneObject& object);

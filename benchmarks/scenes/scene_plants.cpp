@@ -17,7 +17,7 @@ glm::dvec3 random_direction(WorkloadRandom& random) {
   return {r * a.cos, y, r * a.sin};
 }
 
-// Adds a card at a point of a crown around `center`. The normals are those of the crown, which lights it like a solid body.
+// Adds a card at a point of a crown around `center`. The card has the normals of the crown, so that the crown is lit like a solid object.
 void add_leaf_card(SceneShape& shape, glm::dvec3 at, glm::dvec3 center, double half, WorkloadRandom& random) {
   const glm::dvec3 outward = glm::normalize(at - center + glm::dvec3(0, 0.2 * half, 0)), any = random_direction(random);
   const glm::dvec3 right = glm::normalize(glm::cross(outward, any)), up = glm::normalize(0.8 * outward + 0.6 * glm::cross(right, outward));

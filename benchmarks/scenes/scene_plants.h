@@ -15,9 +15,9 @@ struct ShrubOptions {
 };
 SceneShape shrub_leaves(const ShrubOptions& options);
 
-/// A tree that stands on the origin.
+/// A tree that stands at the origin.
 struct TreeOptions {
-  double height, crown;  ///< crown: its radius
+  double height, crown;  ///< crown: radius of the crown
   int cards;
   double card;  ///< half the height of a card
   uint32_t seed;
@@ -27,7 +27,7 @@ struct TreeShape {
 };
 TreeShape tree_shape(const TreeOptions& options);
 
-/// A pot with earth that is 0.7 m high.
+/// A pot with soil, 0.7 m high.
 SceneShape pot_shape();
 
 /// A square in the plane y = 0 around the origin. The texture repeats every 4 meters.

@@ -9,7 +9,7 @@
 
 namespace halfspace {
 
-/// Base class of the shaders of the picture.
+/// Base class of the main pass's shaders.
 struct SceneUniforms {
   glm::mat4 world_from_object, clip_from_world, light_from_world;
   glm::vec3 eye_ws;
@@ -47,14 +47,14 @@ struct SceneUniforms {
     return map->sample_rgb(Sampler{}, in.uv, px.ddx(&Varyings<R>::uv), px.ddy(&Varyings<R>::uv));
   }
 
-  /// Mixes a color with the haze between the eye and a surface at the squared distance d2.
+  /// Mixes a color with the haze between the eye and the surface. d2: squared distance of the surface.
   template <class R>
   HS_INLINE vec3<R> through_haze(const vec3<R>& color, R d2) const {
     const R share = d2 / (d2 + R(light->haze_distance * light->haze_distance));
     return color + (vec3<R>(light->haze) - color) * share;
   }
 
-  /// Lights a surface by the sun, the sky, the ground and the lamp.
+  /// Computes the light of the sun, the sky, the ground and the lamp on a surface.
   template <class R>
   HS_INLINE vec3<R> shade(const vec3<R>& base, const Varyings<R>& in) const {
     const vec3<R> n = unit(in.normal_ws), to_eye = eye_ws - in.position_ws, to_lamp = light->lamp_ws - in.position_ws;
@@ -107,7 +107,7 @@ struct SceneUnlit : SceneUniforms {
   }
 };
 
-/// The depth of a surface with holes.
+/// Depth-only shader for surfaces with holes.
 struct SceneCutoutDepth {
   glm::mat4 clip_from_object;
   const Texture2D* map;

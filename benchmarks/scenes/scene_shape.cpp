@@ -16,7 +16,7 @@ void add_vertex(SceneShape& shape, const glm::dvec3& position, const glm::dvec3&
   shape.vertices.push_back({glm::vec3(position), glm::vec3(normal), glm::vec2(uv)});
 }
 
-// Adds the indices of a grid of vertices whose rows have columns + 1 vertices.
+// Adds the indices of a grid of vertices with columns + 1 vertices per row.
 void add_grid(SceneShape& shape, uint32_t first, int columns, int rows) {
   for (int j = 0; j < rows; ++j) {
     for (int i = 0; i < columns; ++i) {
@@ -37,7 +37,7 @@ void add_quad(SceneShape& shape, const std::array<QuadCorner, 4>& corners) {
   shape.indices.insert(shape.indices.end(), {first, first + 1, first + 3, first + 3, first + 1, first + 2});
 }
 
-// Adds the two sides of an upright strip of a wall between x0 and x1, from the lower to the upper edge, which may be slanted.
+// Adds both sides of a vertical strip of a wall between x0 and x1, from the lower to the upper edge. The edges may be slanted.
 struct Strip {
   double x0, low0, high0, x1, low1, high1;
 };
@@ -50,7 +50,7 @@ void add_strip(SceneShape& shape, const Strip& s, double thickness, double scale
   }
 }
 
-// Adds a piece of the inside of an opening, between two of its points; the normals point into the opening.
+// Adds the inner surface of an opening between two points of its outline. The normals point into the opening.
 void add_reveal(SceneShape& shape, const std::array<glm::dvec2, 2>& at, const std::array<glm::dvec2, 2>& normal, double thickness,
                 double scale) {
   const auto corner = [&](std::size_t k, double side) {

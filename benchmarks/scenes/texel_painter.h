@@ -10,7 +10,7 @@
 
 namespace halfspace {
 
-/// Returns tiled noise in about [−1, 1] with the given number of cells across.
+/// Returns tileable noise, roughly in [−1, 1], with the given number of cells along each axis.
 Image<float> noise_map(TexelSize size, glm::ivec2 cells, int octaves, int seed);
 
 inline float smooth_step(float low, float high, float x) {
@@ -24,7 +24,7 @@ float cell_value(int i, int j, int seed);
 
 inline glm::u8vec4 texel_code(glm::vec4 color) { return glm::u8vec4(glm::clamp(color, 0.0f, 1.0f) * 255.0f + 0.5f); }
 
-/// Calls color(x, y, u, v) for every texel; (u, v) is its center. The result is a vec3, or a vec4 with alpha.
+/// Calls color(x, y, u, v) for every texel; (u, v) is its center. color returns a vec3, or a vec4 with alpha.
 template <class F>
 SceneTexels paint(TexelSize size, const F& color) {
   SceneTexels image(size.width, size.height);

@@ -8,7 +8,7 @@ namespace halfspace::workshop {
 
 namespace {
 
-// Adds a cylinder along x with its middle at a point.
+// Adds a cylinder along x, centered at a point.
 void add_roller(SceneShape& shape, glm::dvec3 center, double radius, double length, int sectors) {
   SceneShape part;
   const double half = 0.5 * length;
@@ -73,7 +73,7 @@ SceneShape cart_body() {
   return shape;
 }
 
-// Stands on the floor and turns around z. Its radius is 0.5.
+// Stands on the floor, with its axis along z. Its radius is 0.5.
 SceneShape wheel() {
   SceneShape flat;
   add_lathe(

@@ -56,7 +56,7 @@ SceneShape vise();
 SceneShape anvil();
 SceneShape pane();
 
-/// A tool that hangs on a wall in the plane z = 0, with its middle at the origin. The head is steel, the handle is wood or plastic.
+/// A tool that hangs on a wall in the plane z = 0, centered at the origin. The head is steel, the handle is wood or plastic.
 struct Tool {
   SceneShape head, handle;
 };

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kThick = 0.3, kX = 0.5 * kRoom.x, kZ = 0.5 * kRoom.z;
 
-// An opening in a wall: its middle along the wall, its width, and its lower and upper end.
+// An opening in a wall: the position of its center along the wall, its width, and its lower and upper ends.
 struct Opening {
   double middle, width, low, high;
 };
@@ -18,7 +18,7 @@ constexpr std::array<Opening, 4> kFront{{{-4.6, 2.0, 1.1, 3.2}, {-1.6, 2.0, 1.1,
 constexpr std::array<Opening, 3> kBack{{{-3.6, 1.6, 2.75, 3.6}, {0.0, 1.6, 2.75, 3.6}, {3.6, 1.6, 2.75, 3.6}}};
 constexpr std::array<Opening, 1> kDoor{{{1.2, 2.8, 0.0, 2.9}}};
 
-// Adds a wall of boxes along x, centered at the origin. The openings are ordered.
+// Adds a wall of boxes along x, centered at the origin. The openings must be sorted.
 void add_wall(SceneShape& shape, double length, std::span<const Opening> openings, const glm::dmat4& transform) {
   SceneShape wall;
   const auto piece = [&](double x0, double x1, double y0, double y1) {

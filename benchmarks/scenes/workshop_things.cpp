@@ -8,7 +8,7 @@ namespace halfspace::workshop {
 
 namespace {
 
-// Adds a prism with an outline around the y axis, which must be seen completely from the axis, in counter-clockwise order seen from above.
+// Adds a prism around the y axis. The outline must be star-shaped around the axis, and counter-clockwise seen from above.
 void add_prism(SceneShape& shape, const std::function<double(double turns)>& radius, int corners, double low, double high) {
   const auto at = [&](int i, double y) {
     const double u = static_cast<double>(i) / corners;
@@ -47,7 +47,7 @@ void add_cylinder(SceneShape& shape, glm::dvec3 foot, double radius, double heig
 
 }  // namespace
 
-// A shaft of 7 cm with threads, head down.
+// A threaded shaft, 7 cm long, with the head down.
 SceneShape bolt() {
   SceneShape shape;
   add_hexagon(shape, 0.018, 0, 0.014);

@@ -14,7 +14,7 @@ namespace {
 constexpr DrawState kNothingSurvives{.cull = CullMode::front_and_back};
 const DepthOnly kIdentity{glm::mat4(1.0f)};
 
-// Shades all vertices of a sphere. Its triangles are then all culled.
+// Shades all vertices of a sphere. All its triangles are then culled.
 void vertex_position(benchmark::State& state) {
   WorkloadAssets assets;
   const SphereAssets sphere(k200k, assets);
@@ -48,8 +48,8 @@ void clip(benchmark::State& state) {
 }
 BENCHMARK(clip)->Arg(0)->Arg(1);
 
-// 4,096 right triangles, each drawn 32 times. The corner with the right angle is at an offset of (corner, corner) px from the lower-left
-// corner of a pixel, and the legs are `leg` px long.
+// 4,096 right triangles, each drawn 32 times. The vertex at the right angle is offset by (corner, corner) px from the lower-left corner of
+// a pixel, and the legs are `leg` px long.
 struct RepeatedTriangles {
   std::vector<glm::vec3> corners;
   std::vector<uint32_t> list;
@@ -86,7 +86,7 @@ void set_up_no_sample(benchmark::State& state) {
 }
 BENCHMARK(set_up_no_sample);
 
-// Triangles behind a quad. They are set up and binned into one tile or four, where their minimum depth rejects them.
+// Triangles behind a quad. They are set up and binned into one tile or four, and rejected there by their minimum depth.
 void bin(benchmark::State& state) {
   const bool across = state.range(0) == 4;
   RepeatedTriangles triangles(2.0, 4.0, 0.5);
@@ -109,8 +109,8 @@ void bin(benchmark::State& state) {
 }
 BENCHMARK(bin)->Arg(1)->Arg(4);
 
-// Draws only depth: adjacent triangles of the given area in px² that cover about a million pixels or more. The smaller the triangles, the
-// more of the time is spent in vertex shading and setup.
+// Draws only depth: adjacent triangles of the given area in px² that cover about a million pixels or more. For smaller triangles, a larger
+// part of the time is spent in vertex shading and setup.
 void visibility(benchmark::State& state) {
   const int64_t area = state.range(0);
   const int count = static_cast<int>(std::max<int64_t>(1 << 20, 2 * area) / area);

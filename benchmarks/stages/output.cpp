@@ -12,7 +12,7 @@ namespace {
 
 const ConstantShader kHalfTransparent{{0.25f, 0.5f, 0.75f, 0.5f}};
 
-// Draws a quad of one color over the cleared image.
+// Draws a single-color quad over the cleared image.
 void blend(benchmark::State& state, const std::optional<BlendState>& how) {
   DrawState draw_state;
   draw_state.blend = how;
@@ -31,7 +31,7 @@ void resolve(benchmark::State& state) {
 }
 BENCHMARK(resolve)->Arg(1)->Arg(2)->Arg(4)->Arg(8);
 
-// Applies a post step to a half-float image that is only cleared.
+// Applies a post step to a half-float image that is cleared and not drawn to.
 template <class Step>
 void measure_post(benchmark::State& state, const Step& step, const ColorTarget& to) {
   Image<U16Vec4> light(kStageSize.width, kStageSize.height);
@@ -64,7 +64,7 @@ BENCHMARK_CAPTURE(tone, reinhard_extended, ToneCurve::reinhard_extended);
 BENCHMARK_CAPTURE(tone, exponential, ToneCurve::exponential);
 BENCHMARK_CAPTURE(tone, aces, ToneCurve::aces);
 
-// Applies the tone curve of the workloads, which contains a power.
+// Applies the tone curve of the workloads, which contains a power function.
 void tone_power(benchmark::State& state) {
   Image<glm::u8vec4> shown(kStageSize.width, kStageSize.height);
   measure_post(state, WorkloadTone{}, rgba8_target(shown));

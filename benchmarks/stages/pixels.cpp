@@ -15,7 +15,8 @@ namespace halfspace {
 
 namespace {
 
-// Draws a quad over the whole image that interpolates and adds N floats per pixel. N = 0 measures the rest: visibility, color and store.
+// Draws a quad over the whole image that interpolates and adds N floats per pixel. N = 0 measures everything else: visibility, color and
+// store.
 template <int N>
 void interpolation(benchmark::State& state) {
   measure_draw(state, kStagePixels, VaryingsShader<N>{glm::mat4(1.0f)}, stage_quad_positions(), stage_quad_indices());

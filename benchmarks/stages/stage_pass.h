@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Shared by the benchmarks of single stages. The stages are measured through passes, as users run them: each benchmark draws something for
-// which one stage does nearly all the work. All benchmarks use one thread.
+// Shared by the benchmarks of single stages. The stages are measured through passes, as users run them: each benchmark draws something that
+// spends nearly all of its time in one stage. All benchmarks use one thread.
 #pragma once
 
 #include <benchmark/benchmark.h>

@@ -16,11 +16,11 @@ using I = RayInt;
 
 enum class Light { pixel, vertex, flat };
 
-// A task draws a tile. A ray packet covers a block of pixels in the tile.
+// Each task draws a tile. A ray packet covers a block of pixels in the tile.
 constexpr int kTile = 32, kBlockWidth = kRays == 4 ? 2 : 4, kBlockHeight = kRays / kBlockWidth;
 constexpr int kVerticesPerTask = 4096;
 
-// One triangle per lane: its vertex indices, one corner and two edges.
+// One triangle per lane: its vertex indices, one vertex and two edges.
 struct Triangles {
   I a, b, c;
   vec3<R> corner, edge1, edge2;
@@ -118,8 +118,8 @@ class RaySphere final : public Workload {
     return t;
   }
 
-  // With s = eye − corner, n = e1 × e2 and ray direction d, the barycentric weights of the second and third vertex are d·(s × e2)/d·n and
-  // d·(e1 × s)/d·n (Möller and Trumbore, 1997). If d changes by r, a weight w = d·m/d·n changes by (r·m − w·(r·n))/d·n, to first order.
+  // With s = eye − first vertex, n = e1 × e2 and ray direction d, the barycentric weights of the second and third vertex are d·(s × e2)/d·n
+  // and d·(e1 × s)/d·n (Möller and Trumbore, 1997). If d changes by r, a weight w = d·m/d·n changes by (r·m − w·(r·n))/d·n, to first order.
   void shade(const MaskOf<R>& hit, const Triangles& t, const vec3<R>& direction, vec4<R>& color, R& depth) const {
     const vec3<R> s = vec3<R>(uniforms_.eye_ws) - t.corner, n = cross(t.edge1, t.edge2);
     const vec3<R> m1 = cross(s, t.edge2), m2 = cross(t.edge1, s);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// halfspace-bench-embree: draws the sphere workloads with Embree's rays.
+// halfspace-bench-embree: draws the sphere workloads by ray casting with Embree.
 #include "bench_program.h"
 #include "halfspace/core/cpu.h"
 #include "halfspace/core/lanes.h"
@@ -9,7 +9,7 @@
 int main(int argc, char** argv) {
   using namespace halfspace;
   return run_bench_program({.name = "halfspace-bench-embree",
-                            .what = "Draws the sphere workloads of the benchmark with Embree's rays and measures their frame times",
+                            .what = "Draws the sphere workloads of the benchmark by ray casting with Embree and measures their frame times",
                             .options = {},
                             .start = {},
                             .kinds = [] { return embree_workloads(); },

@@ -17,7 +17,7 @@ namespace halfspace {
 
 namespace {
 
-// The path in Debian's chromium package.
+// The path in the Debian package chromium.
 constexpr std::string_view kSwiftShaderIcd = "/usr/lib/chromium/vk_swiftshader_icd.json";
 
 void set(const char* name, const std::string& value) { setenv(name, value.c_str(), 1); }
@@ -25,13 +25,13 @@ void set(const char* name, const std::string& value) { setenv(name, value.c_str(
 void choose_swiftshader() {
   set("GALLIUM_DRIVER", "zink");
   set("MESA_LOADER_DRIVER_OVERRIDE", "zink");
-  // SwiftShader lacks features that zink requires for OpenGL 3.3. The workloads do not use any of them, so override the version.
+  // SwiftShader lacks features that zink requires for OpenGL 3.3. The workloads use none of them, so override the version.
   set("MESA_GL_VERSION_OVERRIDE", "3.3");
   set("MESA_GLSL_VERSION_OVERRIDE", "330");
   if (std::getenv("VK_ICD_FILENAMES") != nullptr) return;
   if (!std::filesystem::exists(kSwiftShaderIcd))
     throw InputError("SwiftShader not found: no " + std::string(kSwiftShaderIcd) +
-                     "; install Debian's chromium and libvulkan1, or set VK_ICD_FILENAMES to its ICD");
+                     "; install the Debian packages chromium and libvulkan1, or set VK_ICD_FILENAMES to its ICD");
   set("VK_ICD_FILENAMES", std::string(kSwiftShaderIcd));
 }
 

@@ -14,7 +14,7 @@ enum class GlDriver { llvmpipe, swiftshader, softpipe };
 /// A surfaceless EGL context for OpenGL 3.3 core. It is current on the thread that created it until it is destroyed.
 class GlContext {
  public:
-  /// Sets the environment variables that select the driver and its number of threads, for the whole process. threads must be at least 1:
+  /// Sets process-wide environment variables that select the driver and its number of threads. threads must be at least 1:
   ///   llvmpipe     LP_NUM_THREADS is 0 for one thread, so that the main thread does all the work. Otherwise it is `threads`, and the
   ///                driver has that many threads in addition to the main thread.
   ///   SwiftShader  The driver starts a thread for each core that the process can use, so the process is bound to `threads` cores.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The OpenGL constants of the enumerations of a draw state. Also used by tests/mesa.
+// Converts the enumerations of a draw state to OpenGL constants. Also used by tests/mesa.
 #pragma once
 
 #include <epoxy/gl.h>

@@ -95,7 +95,7 @@ class GlMatrix final : public Workload {
     depth_ = target_.read_depth();
     return {&color_, &depth_};
   }
-  bool has_truth() const override { return false; }  // Halfspace's picture is compared with the truth, and this one with Halfspace's
+  bool has_truth() const override { return false; }  // this picture is compared with Halfspace's, and that one with the reference
   WorkloadTruth truth() const override { return make_twin()->truth(); }
   std::unique_ptr<Workload> twin() const override { return row_.is_comparable ? make_twin() : nullptr; }
 
@@ -104,7 +104,7 @@ class GlMatrix final : public Workload {
     WorkloadAssets assets;
     return twin_.prepare(size_, assets);
   }
-  // No lookup depends on these shaders' uniforms.
+  // The texture lookups do not depend on these shaders' uniforms.
   bool is_constant() const {
     return row_.shader == MatrixShader::varyings || row_.shader == MatrixShader::constant || row_.shader == MatrixShader::color ||
            row_.shader == MatrixShader::tint;

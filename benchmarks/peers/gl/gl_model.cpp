@@ -25,14 +25,14 @@ using Surface = MetallicSurface<MetallicStreams::plain>;
 
 [[noreturn]] void refuse(const std::string& file, const std::string& problem) {
   throw InputError(file + ": " + problem +
-                   "; expected opaque materials without textures, vertex colors and clear coat, and directional lights");
+                   "; expected opaque materials without textures, vertex colors or clearcoat, and only directional lights");
 }
 
 const Surface& surface_of(const PreparedDraw& draw, const std::string& file) {
   const auto* surface = std::get_if<Surface>(&draw.shader);
   if (surface == nullptr) refuse(file, "has a material with textures or vertex colors, or is not a triangle mesh");
   if (surface->clearcoat > 0.0f || surface->blends || surface->unlit) refuse(file, "has a material that is blended, unlit or coated");
-  if (surface->environment == nullptr || surface->environment->weight != 0.0f) refuse(file, "has no single environment");
+  if (surface->environment == nullptr || surface->environment->weight != 0.0f) refuse(file, "has no environment, or more than one");
   for (const Light& light : surface->lights) {
     if (light.type != LightType::directional) refuse(file, "has a point or spot light");
   }
@@ -61,7 +61,7 @@ class FloatTexture {
   GLuint id_ = 0;
 };
 
-// Copies the levels of a filtered environment: a lookup at the center of a texel returns the texel.
+// Copies the mip levels of a prefiltered environment. A lookup at the center of a texel returns the texel.
 class RadianceTexture : public FloatTexture {
  public:
   explicit RadianceTexture(const EnvironmentMap& map) : FloatTexture(GL_TEXTURE_CUBE_MAP) {
@@ -90,11 +90,11 @@ class RadianceTexture : public FloatTexture {
   }
 };
 
-// Copies the table of directional_reflectance.
+// Copies the lookup table behind directional_reflectance.
 class ReflectanceTexture : public FloatTexture {
  public:
   ReflectanceTexture() : FloatTexture(GL_TEXTURE_2D) {
-    constexpr int kSize = 32;  // of the table
+    constexpr int kSize = 32;  // width and height of the table
     Image<glm::vec2> texels(kSize, kSize);
     for (int y = 0; y < kSize; ++y) {
       for (int x = 0; x < kSize; ++x) {

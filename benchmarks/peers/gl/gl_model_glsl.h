@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// GLSL versions of MetallicSurface<MetallicStreams::plain> (halfspace/shading/metallic_surface.h), without a clear coat, and of the tone
-// curve that follows it.
+// GLSL versions of MetallicSurface<MetallicStreams::plain> (halfspace/shading/metallic_surface.h), without clearcoat, and of the tone curve
+// that follows it.
 #pragma once
 
 #include <string_view>
 
 namespace halfspace {
 
-/// Needed by both stages.
+/// Used by both stages.
 inline constexpr std::string_view kModelShared = R"(
 vec3 normalize_or_zero(vec3 v) {
   float squared = dot(v, v);

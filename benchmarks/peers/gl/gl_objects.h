@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// RAII wrappers of OpenGL objects: programs, meshes, textures, render targets.
+// RAII wrappers for OpenGL objects: programs, meshes, textures, render targets.
 #pragma once
 
 #include <epoxy/gl.h>
@@ -61,7 +61,7 @@ class GlMesh {
   bool indexed_;
 };
 
-/// Views an array of structs that contain only floats as an array of floats.
+/// Views an array of structs as an array of floats. The structs must contain only floats.
 template <class T>
 std::span<const float> floats_of(std::span<const T> structs) {
   static_assert(sizeof(T) % sizeof(float) == 0 && std::is_trivially_copyable_v<T>);
@@ -72,7 +72,7 @@ std::span<const float> floats_of(std::span<const T> structs) {
 class GlTexture {
  public:
   GlTexture(const Texture2D& texels, const Sampler& sampler);
-  /// The same with trilinear filtering. wrap_t: GL_REPEAT or GL_CLAMP_TO_EDGE.
+  /// Like the first constructor, but with trilinear filtering. wrap_t: GL_REPEAT or GL_CLAMP_TO_EDGE.
   GlTexture(const Texture2D& texels, GLint wrap_t, float anisotropy = 1.0f);
   ~GlTexture() { glDeleteTextures(1, &id_); }
   GlTexture(const GlTexture&) = delete;

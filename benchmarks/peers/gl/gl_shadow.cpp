@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// shadow_200k: renders a depth map from the light, then an image that reads nine texels of it per pixel.
+// shadow_200k: renders a depth map from the light, then an image that reads nine depth-map texels per pixel.
 #include "peers/gl/gl_families.h"
 #include "peers/gl/gl_workload.h"
 #include "peers/gl/glsl_light.h"

@@ -66,7 +66,7 @@ std::vector<WorkloadKind> all_workloads() {
   return kinds;
 }
 
-// Makes a series with one workload for each of the numbers, in the same order.
+// Returns a series with one workload for each number, in the same order.
 template <class Numbers, class PrepareOf>
 Sweep sweep(std::size_t index, const Numbers& numbers, PrepareOf prepare_of) {
   const Sweep& twin = sweeps()[index];

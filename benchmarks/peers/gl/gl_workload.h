@@ -18,7 +18,7 @@ struct GlInput {
   WorkloadAssets& assets;  ///< must outlive the workload
 };
 
-/// A workload drawn by OpenGL. It has the same truth as Halfspace's workload.
+/// A workload drawn by OpenGL. It has the same reference image as Halfspace's workload.
 class GlWorkload : public Workload {
  public:
   explicit GlWorkload(const GlInput& in, bool has_depth = true) : in_(in), target_(in.size, GL_RGBA8, has_depth) {}

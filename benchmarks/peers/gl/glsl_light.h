@@ -8,7 +8,7 @@
 namespace halfspace {
 
 inline constexpr std::string_view kGlslLight = R"(
-// Both return the factor of the surface color and the term that is added.
+// Both return the factor for the surface color and the term that is added to the product.
 vec2 blinn_phong(vec3 normal, vec3 l, vec3 v) {
   vec3 n = normalize(normal), h = normalize(l + v);
   return vec2(0.08 + 0.8 * max(dot(n, l), 0.0), 0.4 * pow(max(dot(n, h), 0.0), 48.0));

@@ -22,7 +22,7 @@ int run(int argc, char** argv) {
   const std::map<std::string, GlDriver> drivers{
       {"llvmpipe", GlDriver::llvmpipe}, {"swiftshader", GlDriver::swiftshader}, {"softpipe", GlDriver::softpipe}};
   return run_bench_program({.name = "halfspace-bench-gl",
-                            .what = "Draws the benchmark workloads with a software OpenGL and measures their frame times",
+                            .what = "Draws the benchmark workloads with a software OpenGL implementation and measures their frame times",
                             .options = {{"--driver", "NAME", "llvmpipe (default), swiftshader or softpipe", &driver}},
                             .start =
                                 [&](int threads) {
