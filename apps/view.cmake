@@ -10,7 +10,7 @@ if(TARGET halfspace_reference)
   target_link_libraries(halfspace_view PRIVATE halfspace_reference)
 endif()
 
-# Searched for manually: Debian's Dear ImGui has no CMake package, and its archive contains the SDL backend but not its renderer.
+# Searched for manually, because Debian's Dear ImGui has no CMake package. Its library contains the SDL backend but not its renderer.
 find_package(SDL2 CONFIG QUIET)
 find_package(X11 QUIET)
 find_path(IMGUI_INCLUDE_DIR imgui.h PATH_SUFFIXES imgui)

@@ -17,7 +17,7 @@ namespace halfspace {
 void write_data(const Study& study, const std::string& command, bool quick, const Workers& workers, const std::filesystem::path& folder);
 
 /// Draws the charts of the named studies from the data in the folder. Returns an empty string on success, or a line to print that names the
-/// component that is not installed. Throws OutputError if drawing fails.
+/// missing component. Throws OutputError if drawing fails.
 std::string draw_or_explain(const std::vector<std::string>& names, const std::filesystem::path& folder);
 
 }  // namespace halfspace

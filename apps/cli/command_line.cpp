@@ -19,8 +19,8 @@ namespace halfspace {
 
 namespace {
 
-// Removes partial output files and then lets the signal end the program, as the parent process expects. The handler is installed with
-// SA_RESETHAND, so raise() sends the signal to the default handler once this one returns.
+// Removes partial output files and then lets the signal terminate the program, as the parent process expects. The handler is installed with
+// SA_RESETHAND, so the default handler receives the raised signal when this one returns.
 extern "C" void on_signal(int signal) {
   remove_unfinished_output();
   clear_progress();
@@ -61,7 +61,7 @@ std::string see_help(const CLI::App& program) {
   return "; see '" + program.get_name() + " " + (chosen.empty() ? "" : chosen.front()->get_name() + " ") + "--help'";
 }
 
-// Makes an error for the first argument that was not parsed, with a suggestion if a valid name is similar.
+// Returns an error about the first argument that was not parsed, with a suggestion if there is a similar valid name.
 UsageError unknown_argument(const CLI::App& program) {
   const std::vector<CLI::App*> chosen = program.get_subcommands();
   const CLI::App& app = chosen.empty() ? program : *chosen.front();
@@ -75,7 +75,7 @@ UsageError unknown_argument(const CLI::App& program) {
   return UsageError((chosen.empty() ? "" : app.get_name() + ": ") + "unexpected argument '" + word + "'" + see_help(program));
 }
 
-// Joins the lines of a message from CLI11, which can have several.
+// Joins the lines of a CLI11 message, which may have several.
 std::string one_line(std::string text) {
   for (char& c : text) {
     if (c == '\n') c = ' ';
@@ -99,11 +99,11 @@ int report(const CLI::App& program, ExitCode code, std::string_view what) {
   return code;
 }
 
-// Omits the default value of a flag, which CLI11 prints in braces: here it is only the value used if none is given.
+// Omits the value that CLI11 prints in braces after a flag: it is not a default, but the value of the flag if it is given without one.
 class HelpFormatter : public CLI::Formatter {
   std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override {
     std::string text = CLI::Formatter::make_help(app, std::move(name), mode);
-    // Groups that are omitted leave a gap.
+    // Omitted groups leave gaps.
     for (std::size_t gap = text.find("\n\n\n"); gap != std::string::npos; gap = text.find("\n\n\n")) text.erase(gap, 1);
     return text;
   }

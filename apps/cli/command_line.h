@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Behavior shared by all programs of the project: help, signal handling, and errors reported as one line on standard error and an exit
-// code.
+// Behavior shared by all programs of the project: help, signal handling, and errors, which are reported by one line on standard error and
+// an exit code.
 #pragma once
 
 #include <functional>
@@ -19,7 +19,7 @@ namespace halfspace {
 inline constexpr const char* kUnlistedGroup = "unlisted";
 inline constexpr const char* kOutputGroup = "unlisted output";
 
-/// Adds --help and --version and sets the layout of the help text. The name of the program must be set before.
+/// Adds --help and --version and sets the layout of the help text. The name of the program must already be set.
 void set_common_options(CLI::App& program);
 
 /// Returns the end of an error message: "; did you mean 'COMMAND'?" if a subcommand is similar, else a list of the subcommands.

@@ -14,7 +14,7 @@
 
 namespace halfspace {
 
-// The structs hold option values as given on the command line. An empty string means that the option was not given.
+// The structs contain option values as given on the command line. An empty string means that the option was not given.
 
 struct RenderArguments {
   std::string scene;
@@ -28,7 +28,7 @@ struct RenderArguments {
   std::string fps;      ///< default: 30
   std::string threads;  ///< default: one per core
   std::string statistics;
-  std::string max_error, max_error_color;  ///< if both are empty, the scene is rendered as it is
+  std::string max_error, max_error_color;  ///< if both are empty, the scene is rendered unchanged
   std::string wireframe;                   ///< "lines", "hidden", or empty: surfaces
   bool naive = false;                      ///< draw with the naive pipeline
   bool resume = false;

@@ -21,7 +21,7 @@ namespace halfspace {
 
 namespace {
 
-// The result of a comparison, in linear light if both files are linear and in 8-bit codes otherwise.
+// The result of a comparison: of linear light if both files are linear, otherwise of 8-bit values.
 struct Comparison {
   ImageDifference difference;
   int width, height;
@@ -41,7 +41,7 @@ std::string text_report(const CompareArguments& args, const Comparison& c) {
       "p99.9        {:.6g}\n"
       "above 1/255  {:.4f} %\n"
       "ssim         {:.6f}\n",
-      args.a, args.b, c.width, c.height, c.linear ? "linear light" : "8-bit codes / 255", d.channels == 4 ? ", with alpha" : "",
+      args.a, args.b, c.width, c.height, c.linear ? "linear light" : "8-bit values / 255", d.channels == 4 ? ", with alpha" : "",
       d.differing, int64_t{c.width} * c.height, d.rmse, d.mean, psnr, d.max, d.p999, 100.0 * d.share_above, d.ssim);
 }
 
@@ -75,7 +75,7 @@ Comparison compare_files(const CompareArguments& args, const Image<Texel>& a, co
   return {compare_images(a, b), a.width(), a.height(), std::is_same_v<Texel, glm::vec4>};
 }
 
-// Reads an image as 8-bit codes. Linear light is encoded as sRGB.
+// Reads an image as 8-bit values. Linear light is encoded as sRGB.
 Image<glm::u8vec4> read_codes(const std::string& path, bool linear) {
   if (!linear) return read_image(path);
   const Image<glm::vec4> light = read_linear(path);

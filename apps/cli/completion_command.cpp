@@ -11,7 +11,7 @@ namespace halfspace {
 
 namespace {
 
-// The scripts get their words from the program itself, so that they never become out of date.
+// The scripts get their words from the program itself, so they never become outdated.
 constexpr const char* kBash = R"script(# halfspace: completion for bash. Use: source <(halfspace completion bash)
 _halfspace() {
   local cur=${COMP_WORDS[COMP_CWORD]} prev=${COMP_WORDS[COMP_CWORD-1]} command=${COMP_WORDS[1]} scene=${COMP_WORDS[2]}

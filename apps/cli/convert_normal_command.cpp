@@ -35,7 +35,7 @@ void convert_normal_command(const ConvertNormalArguments& args) {
   }
   check_writable(args.out);
   const Image<float> heights = read_gray(args.height);
-  if (heights.width() < 2) throw InputError(args.height + ": only one texel wide; expected a height map");
+  if (heights.width() < 2) throw InputError(args.height + ": is only one texel wide; expected a height map");
   write_data_png(args.out, normal_map(heights, strength, edges, Workers(Workers::cores())));
 }
 

@@ -7,7 +7,7 @@
 
 namespace halfspace {
 
-/// Exit code of a program.
+/// The exit codes of the programs.
 enum ExitCode : int {
   kOk = 0,
   kDiffers = 1,     ///< compare: the images differ by more than the tolerance

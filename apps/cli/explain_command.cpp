@@ -77,7 +77,7 @@ void explain_command(const ExplainArguments& args) {
   set_limits(args.limits);
   const PictureSize size = parse_size(args.size);
   const std::optional<glm::ivec2> pixel = parse_pixel(args.pixel, size);
-  if (args.text && args.json) throw UsageError("--text and --json were both given; expected at most one of them");
+  if (args.text && args.json) throw UsageError("--text and --json cannot be combined; expected at most one of them");
   const bool is_page = !args.text && !args.json;
   if (!is_page && !args.out.empty()) throw UsageError("-o applies only to the page; expected it without --text and --json");
   const double time = args.time.empty() ? 0.0 : parse_real("--time", args.time, -1e9, 1e9, "seconds, for example 2.5");

@@ -19,7 +19,7 @@ struct ExplainJob {
   const PreparedScene& prepared;
   std::string title;                ///< the scene as named by the user
   std::optional<glm::ivec2> pixel;  ///< the pixel that the user chose, from the upper left
-  std::string command;              ///< command line that shows the history of a pixel if "--pixel X,Y --text" is appended
+  std::string command;              ///< command line that prints the history of a pixel if "--pixel X,Y --text" is appended
   const Workers& workers;
 };
 

@@ -60,7 +60,7 @@ void clear_progress() noexcept {
 }
 
 void show_progress_line(const std::string& text) {
-  // A wrapped line could not be overwritten.
+  // A line that wraps could not be overwritten.
   std::fputs(("\r\033[K" + text.substr(0, static_cast<std::size_t>(std::max(terminal_columns() - 1, 0)))).c_str(), stderr);
   std::fflush(stderr);
   line_shown = true;
@@ -86,7 +86,7 @@ void Progress::show() const {
     const double spent = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
     text += "  " + time_text(static_cast<int>(std::min(spent / rendered_ * (total_ - done_) + 0.5, 1e9))) + " left";
   }
-  // A wrapped line could not be overwritten, so shorten the bar if necessary.
+  // A line that wraps could not be overwritten, so the bar is shortened if necessary.
   constexpr int kWidest = 30;
   const int width = std::min(kWidest, terminal_columns() - 3 - static_cast<int>(text.size()));
   std::string line = "\r\033[K";

@@ -31,7 +31,7 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// Must be called after each frame. Skipped frames do not count in the estimate of the remaining time.
+  /// Must be called after each frame. Skipped frames do not affect the estimate of the remaining time.
   void advance(bool skipped);
 
  private:

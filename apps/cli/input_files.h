@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The files that a scene reads, which no command overwrites.
+// The files that a scene reads. No command may overwrite them.
 #pragma once
 
 #include <filesystem>
@@ -14,11 +14,11 @@ namespace halfspace {
 
 struct ModelAsset;
 
-/// Returns all files that the keys of a scene name, and the images of its models.
+/// Returns all files that the keys of a scene refer to, and the images of its models.
 std::vector<std::filesystem::path> input_files(SceneDescription scene,
                                                const std::map<std::filesystem::path, std::shared_ptr<const ModelAsset>>& models);
 
-/// Throws OutputError if the output is one of the files, by this or another name.
+/// Throws OutputError if the output is one of the files, even under a different name.
 void reject_overwriting(const std::filesystem::path& out, const std::vector<std::filesystem::path>& inputs);
 
 }  // namespace halfspace

@@ -16,7 +16,7 @@ namespace {
 
 constexpr uint64_t kMinMemory = uint64_t{1} << 20, kMaxMemory = uint64_t{1} << 50;
 
-// Returns the power of two that a suffix stands for.
+// Returns the exponent of the power of two that a suffix denotes.
 std::optional<int> shift_of(std::string_view suffix) {
   if (suffix.empty()) return 0;
   if (suffix.size() != 1) return std::nullopt;

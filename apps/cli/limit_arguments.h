@@ -17,7 +17,7 @@ struct LimitArguments {
 /// Sets the limits of this process. Throws UsageError.
 void set_limits(const LimitArguments& args);
 
-/// Throws LimitError if an image of this size exceeds a limit. bytes_per_pixel: sum over all images of this size that are in memory at the
+/// Throws LimitError if an image of this size exceeds a limit. bytes_per_pixel: total for all images of this size that are in memory at the
 /// same time. The number of samples does not matter, because samples exist only in tiles.
 void check_picture(const PictureSize& size, int bytes_per_pixel);
 

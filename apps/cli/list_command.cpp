@@ -28,7 +28,7 @@ void list_scenes(bool names) {
   }
 }
 
-// Prints the value of a key, its default if that is different, and on a second line its meaning and the values that it accepts.
+// Prints the value of a key and, if it is different, the default. A second line contains the meaning of the key and the accepted values.
 void print_key(const Field& field, const std::string& fallback) {
   const std::string key = field.key->name, value = value_text(field);
   std::string accepts = expectation(*field.key);
@@ -50,7 +50,7 @@ void list_keys(const std::string& name) {
   }
 }
 
-// Prints the paths that --set accepts, without the collection unless the short path is ambiguous.
+// Prints the paths that --set accepts. They omit the collection unless the short path would be ambiguous.
 void list_paths(const std::string& name) {
   SceneDescription scene = SceneFile::open(name).description();
   for (const NamedSection& s : sections_of(scene)) {

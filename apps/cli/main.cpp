@@ -51,13 +51,13 @@ void add_render_command(CLI::App& program) {
   command->add_option("--frames", args->frames, "Render frames A to B as OUT_0000.png, ...")->type_name("A..B");
   command->add_option("--fps", args->fps, "Frames per second (default 30)")->type_name("N");
   command->add_option("--max-error", args->max_error, "Use the cheapest model with edges within PX px")->type_name("PX");
-  command->add_option("--max-error-color", args->max_error_color, "... and with colors within E 8-bit codes")->type_name("E");
+  command->add_option("--max-error-color", args->max_error_color, "... and with colors within E 8-bit steps")->type_name("E");
   command->add_flag("--resume", args->resume, "Skip frames whose file is already complete");
   command->add_option("--threads", args->threads, "Threads (default: one per core)")->type_name("N");
   command->add_flag("--stats{text}", args->statistics, "Print times and counts as text or JSON")->option_text("[=json]");
   command->add_flag("--print", args->print, "Print the scene with all settings and exit");
   command->add_flag("--wireframe{lines}", args->wireframe, "Draw only edges; =hidden omits hidden edges")->group(kUnlistedGroup);
-  command->add_flag("--naive", args->naive, "Draw with simple loops; report the difference")->group(kUnlistedGroup);
+  command->add_flag("--naive", args->naive, "Draw with the naive pipeline; report differences")->group(kUnlistedGroup);
   add_output_options(command, args->output);
   add_model_options(command, args->model);
   add_limit_options(command, args->limits, false);
@@ -95,7 +95,7 @@ void add_export_command(CLI::App& program) {
   command->add_option("SCENE", args->scene, "Scene, scene file or model file")->required()->type_name("");
   command->add_option("-o,--output", args->out, "Output file: .glb, .gltf, .obj, .ply or .stl")->required()->type_name("FILE");
   add_set_option(command, args->set);
-  command->add_flag("--allow-outside", args->allow_outside, "Read files outside of the folder of the model");
+  command->add_flag("--allow-outside", args->allow_outside, "Read files outside the folder of the model");
   command->add_option("--threads", args->threads, "Threads (default: one per core)")->type_name("N");
   add_limit_options(command, args->limits);
   command->footer(
@@ -147,7 +147,7 @@ void add_chart_command(CLI::App& program) {
   const auto args = std::make_shared<ChartArguments>();
   command->add_option("STUDY", args->study, "One of the studies below, or all")->required()->type_name("");
   command->add_option("-o,--output", args->out, "Output folder (default charts)")->type_name("DIR");
-  command->add_flag("--quick", args->quick, "Use small images, to check that it works");
+  command->add_flag("--quick", args->quick, "Use small images, as a functional test");
   command->add_option("--threads", args->threads, "Threads (default: one per core)")->type_name("N");
   command->footer("Studies:" + study_lines() +
                   "\nExamples:\n"

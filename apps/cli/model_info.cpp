@@ -20,7 +20,7 @@ namespace {
 
 using OrderedJson = nlohmann::ordered_json;
 
-// Counts of triangles and edges that programs may handle differently.
+// Counts of triangles and edges that other programs may handle differently.
 struct Problems {
   std::size_t degenerate_triangles = 0;  // without area
   std::size_t open_edges = 0;          // used by one triangle
@@ -126,12 +126,12 @@ OrderedJson describe(const std::filesystem::path& file) {
   return json;
 }
 
-// Returns the text of an item of a list: its name, and its size if it is an image.
+// Returns the text of a list item: its name, and its size if it is an image.
 std::string item_text(const OrderedJson& item) {
   const std::string name = (item.is_object() ? item.at("name") : item).get<std::string>();
   const std::string shown = name.empty() ? "(no name)" : name;
   if (!item.is_object()) return shown;
-  if (item.at("width").is_null()) return shown + " (not readable)";
+  if (item.at("width").is_null()) return shown + " (unreadable)";
   return fmt::format("{} ({}x{})", shown, item.at("width").get<int>(), item.at("height").get<int>());
 }
 

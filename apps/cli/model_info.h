@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// `halfspace info MODEL`: the contents of a model file, and problems found in it.
+// `halfspace info MODEL`: describes the contents of a model file and problems found in it.
 #pragma once
 
 #include <filesystem>

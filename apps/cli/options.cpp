@@ -72,7 +72,7 @@ void add_model_options(CLI::App* command, ModelArguments& args) {
   add("--scene", args.model_scene, "Scene of the file to render", "NAME");
   add("--animation", args.animation, "Animation of the file to play", "NAME");
   add("--variant", args.variant, "Material variant of the file to use", "NAME");
-  add_flag("--allow-outside", args.allow_outside, "Read files outside of the folder of the model");
+  add_flag("--allow-outside", args.allow_outside, "Read files outside the folder of the model");
   command
       ->add_flag_callback(
           "--help-model",

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Declarations of options that several commands and programs share.
+// Declares options that several commands and programs share.
 #pragma once
 
 #include <string>

@@ -18,7 +18,7 @@ namespace {
 // A value of --aov: its name and the channels of its EXR layer.
 struct ValueName {
   std::string_view name;
-  std::string_view channels;  // one letter for each, or empty: one channel "id"
+  std::string_view channels;  // one letter per channel; empty: a single channel "id"
 };
 // In the order of FrameValue.
 constexpr std::array<ValueName, kFrameValues> kNames{{{"depth", "Z"},
@@ -111,7 +111,7 @@ OutputChoice parse_output(const OutputArguments& args, const PictureSize& size, 
   OutputChoice choice;
   choice.values = parse_values(args.aov);
   choice.separate = args.separate;
-  if (args.separate && args.aov.empty()) throw UsageError("--aov-separate applies only to --aov; expected --aov LIST as well");
+  if (args.separate && args.aov.empty()) throw UsageError("--aov-separate requires --aov; expected --aov LIST as well");
   if (!choice.values.empty() && is_stream(out))
     throw UsageError(fmt::format("-o is '{}'; expected the name of a file, because --aov writes files next to it", out.string()));
   if (!args.bits.empty() && args.bits != "8" && args.bits != "16")

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The options --aov, --crop and --bits of `render`, which select additional values, a part of the picture, or the bit depth.
+// The options --aov, --crop and --bits of `render`. They select additional values, a part of the picture, and the bit depth.
 #pragma once
 
 #include <filesystem>
@@ -32,7 +32,7 @@ struct OutputChoice {
 /// Parses the options for pictures of the given size that are written to `out`. Throws UsageError.
 OutputChoice parse_output(const OutputArguments& args, const PictureSize& size, const std::filesystem::path& out, ImageFile format);
 
-/// Returns the memory of all images of a picture, in bytes per pixel of the whole view.
+/// Returns the memory of all images of one picture, in bytes per pixel of the whole view.
 int bytes_per_pixel(const OutputChoice& choice, ImageFile format);
 
 /// Images of the values of --aov.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Renders a prepared scene to the files that `render` writes for one picture.
+// Renders a prepared scene and writes the files of one picture for `render`.
 #pragma once
 
 #include <filesystem>
@@ -18,7 +18,7 @@ struct PictureFiles {
   const OutputChoice& choice;
   PictureSize size;  ///< size of the files, which is the size of the crop if there is one
   ImageText text;
-  NaiveReport* naive = nullptr;  ///< set: draw the picture with the naive pipeline, and add to this report
+  NaiveReport* naive = nullptr;  ///< if set, draw the picture with the naive pipeline and add to this report
 };
 
 /// Renders the picture and its values and writes them, with the picture last. Adds times and counts to the report.

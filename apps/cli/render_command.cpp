@@ -68,7 +68,7 @@ std::optional<AllowedError> allowed_error(const RenderArguments& args) {
   AllowedError allowed;
   if (!args.max_error.empty()) allowed.edge_px = parse_real("--max-error", args.max_error, 0.01, 100.0, "pixels, for example 0.5");
   if (!args.max_error_color.empty())
-    allowed.color = parse_real("--max-error-color", args.max_error_color, 0.1, 255.0, "8-bit codes, for example 4");
+    allowed.color = parse_real("--max-error-color", args.max_error_color, 0.1, 255.0, "8-bit steps (1 of 255), for example 4");
   return allowed;
 }
 
@@ -78,7 +78,7 @@ std::optional<HiddenLines> wireframe_of(const std::string& text) {
   return text == "hidden" ? HiddenLines::removed : HiddenLines::shown;
 }
 
-// Throws UsageError if the background is transparent and the format cannot store that.
+// Throws UsageError if the background is transparent and the format cannot store transparency.
 void check_alpha(const SceneFile& scene, const std::filesystem::path& out, ImageFile format) {
   const bool stores_alpha = format == ImageFile::png || format == ImageFile::tiff || format == ImageFile::exr;
   if (scene.description().background.type == BackgroundType::transparent && !stores_alpha)
@@ -112,7 +112,7 @@ RenderJob parse_job(const RenderArguments& args) {
   if (!output.values.empty() && !args.wireframe.empty())
     throw UsageError("--aov does not apply to --wireframe; expected only one of the two");
   if (args.naive && (!output.values.empty() || output.crop))
-    throw UsageError("--naive draws whole pictures; expected it without --aov and --crop");
+    throw UsageError("--naive draws only whole pictures; expected it without --aov and --crop");
   check_picture(size, bytes_per_pixel(output, format));
   OpenedScene opened = open_scene_or_model(args.scene, args.model, static_cast<double>(size.width) / size.height, fps);
   const auto camera = opened.camera_names.find(args.camera);
@@ -191,7 +191,7 @@ void render_picture(const RenderJob& job, double seconds, const std::filesystem:
   render_files(scene, files_of(job, seconds, path, job.arguments.naive ? &report.naive : nullptr), workers, report);
 }
 
-// Returns the scene, including the settings that --max-error chooses.
+// Returns the scene with the settings that --max-error chooses.
 SceneFile chosen(const RenderJob& job) {
   SceneFile scene = job.scene;
   if (!job.allowed) return scene;

@@ -23,7 +23,7 @@ std::string quoted(const std::string& text) {
   return result + "'";
 }
 
-// The same for a file, without its folders.
+// Like quoted(), for a file name without its folders.
 std::string quoted_file(const std::string& file) { return quoted(file.substr(file.find_last_of("/\\") + 1)); }
 
 }  // namespace

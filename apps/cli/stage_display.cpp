@@ -12,7 +12,7 @@
 namespace halfspace {
 
 StageDisplay::StageDisplay(std::string text) {
-  // Names of files can contain control characters.
+  // File names can contain control characters.
   std::ranges::replace_if(
       text, [](char c) { return static_cast<unsigned char>(c) < 32 || c == 127; }, '?');
   if (::isatty(STDERR_FILENO) == 1) thread_ = std::thread([this, text = std::move(text)] { show_until_ended(text); });

@@ -3,7 +3,7 @@
 // Exits with an error message, instead of crashing with an illegal instruction, on a CPU that lacks features used by this build.
 //
 // A check in main would be too late: static objects of the program, such as CLI11's, are initialized before main, by code compiled for
-// HALFSPACE_ARCH. A constructor function of priority 101, the first that is not reserved, runs before all of them. Only shared libraries
+// HALFSPACE_ARCH. A constructor function with priority 101, the first that is not reserved, runs before all of them. Only shared libraries
 // are initialized earlier. They come from the distribution and are compiled for the baseline.
 //
 // This file and core/cpu.cpp are compiled for the baseline, too. They must not use templates or inline functions: the linker keeps

@@ -6,7 +6,7 @@
 
 namespace my {
 
-using halfspace::abs, halfspace::floor, halfspace::select;  // these work for scalars and for SIMD lanes
+using halfspace::abs, halfspace::floor, halfspace::select;  // work for scalars and for SIMD lanes
 using halfspace::vec2, halfspace::vec3, halfspace::vec4;
 
 struct RingShader {

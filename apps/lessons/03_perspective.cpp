@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Lesson 3: perspective divides by the distance, and interpolation has to take this into account. Uses no library.
+// Lesson 3: perspective divides by the distance, and interpolation must account for this division. Uses no library.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>

@@ -44,7 +44,7 @@ struct SphereShader {
 
 int main(int argc, char** argv) {
   std::vector<glm::vec3> centers, colors;
-  for (int i = 0; i < 24; ++i) {  // two strands of a helix, so close that neighbors intersect
+  for (int i = 0; i < 24; ++i) {  // two strands of a helix; the spheres are so close that neighbors intersect
     const double angle = 0.5 * (i / 2) + (i % 2) * 3.141592653589793;
     centers.emplace_back(std::cos(angle), 0.22 * (i / 2) - 1.2, std::sin(angle));
     colors.push_back(i % 2 == 0 ? glm::vec3(0.9f, 0.4f, 0.2f) : glm::vec3(0.3f, 0.5f, 0.9f));

@@ -18,7 +18,7 @@ R steps(const R& cx, const R& cy) {
   for (int i = 0; i < 64; ++i) {
     const R xx = x * x, yy = y * y;
     const auto inside = xx + yy <= R(4.0f);  // a bool, or one bool per lane
-    if (!any(inside)) break;                 // lanes that are done wait for the others
+    if (!any(inside)) break;                 // finished lanes wait for the others
     count = select(inside, count + R(1.0f), count);
     const R next = xx - yy + cx;
     y = select(inside, x * y * R(2.0f) + cy, y);

@@ -1,4 +1,4 @@
-# Variants of the lessons with the changes that their pages show. Not built by default; scripts/lesson_pictures.py draws them.
+# Variants of the lessons with the changes that their pages show. They are not built by default. scripts/lesson_pictures.py runs them.
 find_package(Python3 COMPONENTS Interpreter)
 add_custom_target(lesson-variants)
 if(NOT Python3_FOUND)

@@ -46,7 +46,7 @@ inline constexpr std::size_t kActions = 28;
 constexpr bool is_movement(Action a) { return a <= Action::pitch_down; }
 
 struct KeyBinding {
-  std::string_view key;  ///< SDL's name of the key, in lower case
+  std::string_view key;  ///< SDL's name for the key, in lower case
   Action action;
   std::string_view help;
 };
@@ -54,7 +54,7 @@ struct KeyBinding {
 /// Returns all keys, in the order of the help text.
 std::span<const KeyBinding> key_bindings();
 
-/// Returns the action of a key, or nullopt if it has none. `key` is SDL's name of the key, in upper or lower case.
+/// Returns the action of a key, or nullopt if it has none. `key` is SDL's name for the key, in upper or lower case.
 std::optional<Action> action_of(std::string_view key);
 
 }  // namespace halfspace

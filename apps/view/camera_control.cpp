@@ -75,7 +75,7 @@ void zoom_camera(CameraDescription& camera, double factor) {
 }
 
 void apply_movement(CameraDescription& camera, Action movement, double seconds) {
-  constexpr double kSpeed = 0.6;   // distances to the target per second
+  constexpr double kSpeed = 0.6;   // per second, in units of the distance to the target
   constexpr double kTurning = 45;  // degrees per second
   const double step = kSpeed * seconds, angle = kTurning * seconds;
   switch (movement) {

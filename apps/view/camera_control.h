@@ -17,7 +17,7 @@ void turn_camera(CameraDescription& camera, double yaw_degrees, double pitch_deg
 /// Moves the camera around its target, to the right and upwards. The movement stops at the direction `up` and its opposite.
 void orbit_camera(CameraDescription& camera, double yaw_degrees, double pitch_degrees);
 
-/// Moves the camera so that points at the depth of the target follow the mouse, which moved to the right and down. 1 is the image height.
+/// Moves the camera so that points at the depth of the target follow a mouse movement to the right and down, in units of the image height.
 void pan_camera(CameraDescription& camera, double right, double down);
 
 /// Divides the distance between the camera and its target by `factor` or, in an orthographic view, the height of the view volume.
@@ -26,7 +26,7 @@ void zoom_camera(CameraDescription& camera, double factor);
 /// Applies a movement for some time in seconds.
 void apply_movement(CameraDescription& camera, Action movement, double seconds);
 
-/// Moves the near and far planes apart, so that objects that were visible before the camera moved are not clipped.
+/// Moves the near and far planes apart, so that objects that were visible before a camera movement are not clipped after it.
 void widen_depth_range(CameraDescription& camera);
 
 }  // namespace halfspace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A script of input events for tests and recordings.
+// Scripts of input events, for tests and recordings.
 #pragma once
 
 #include <filesystem>

@@ -25,7 +25,7 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-// Fills an image with enlarged pixels of another one.
+// Fills an image with the enlarged pixels of a smaller image.
 void enlarge(const Image<glm::u8vec4>& from, int factor, Image<glm::u8vec4>& to) {
   for (int y = 0; y < to.height(); ++y) {
     const std::span<const glm::u8vec4> source = from.row(y / factor);
@@ -56,8 +56,8 @@ void FrameMaker::render(const SceneDescription& scene, int divisor, Overlay over
   if (divisor > 1) {
     description_.head.samples = 1;
     int& texels = description_.shadow.resolution;
-    if (texels != 0) texels = std::max(texels / divisor, kMinShadowTexels);  // 0 follows the size of the picture
-    assets_->expect(scene, frame.width(), frame.height());                   // so that a coarse frame does not choose smaller maps
+    if (texels != 0) texels = std::max(texels / divisor, kMinShadowTexels);  // a value of 0 already depends on the size of the picture
+    assets_->expect(scene, frame.width(), frame.height());                   // a coarse frame must not choose smaller maps
     small_ = Image<glm::u8vec4>((frame.width() + divisor - 1) / divisor, (frame.height() + divisor - 1) / divisor);
   }
   Image<glm::u8vec4>& picture = divisor > 1 ? small_ : frame;

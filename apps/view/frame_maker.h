@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Renders frames in full quality, or with fewer pixels while something moves and frames are slow.
+// Renders frames in full quality, or at a reduced resolution while something moves and frames are slow.
 #pragma once
 
 #include <functional>
@@ -41,14 +41,14 @@ struct FrameTimes {
 
 class FrameMaker {
  public:
-  /// warn: called with one line for each problem that does not prevent a picture.
+  /// warn: called with one line for each problem that does not prevent rendering.
   FrameMaker(const Workers& workers, std::function<void(const std::string&)> warn) : workers_(workers), warn_(std::move(warn)) {}
 
   /// Starts a new scene and releases the maps and meshes of the previous one.
   void open(const OpenedScene& opened);
 
-  /// Renders a picture of the size of `frame`. With a divisor greater than 1, renders fewer pixels with one sample each and enlarges them;
-  /// shadow maps are smaller by the same factor. Throws InputError.
+  /// Renders a picture with the size of `frame`. With a divisor greater than 1, renders fewer pixels with one sample each and enlarges
+  /// them; shadow maps are smaller by the same factor. Throws InputError.
   void render(const SceneDescription& scene, int divisor, Overlay overlay, Image<glm::u8vec4>& frame);
 
   /// Returns the history of a pixel of the last frame, which must exist. Its first line starts with `title`.

@@ -10,7 +10,7 @@ namespace halfspace {
 
 namespace {
 
-// Draws triangles of one color per vertex, which are most of the pixels.
+// Draws triangles with vertex colors, which cover most of the pixels.
 struct SolidShader {
   glm::vec2 scale, offset;  // from pixels to NDC
 
@@ -35,7 +35,7 @@ struct SolidShader {
   }
 };
 
-// Draws text: the color is multiplied by a texel of the font.
+// Draws text: multiplies the color by the font texture.
 struct TextShader {
   glm::vec2 scale, offset;
   const Texture2D* texture;

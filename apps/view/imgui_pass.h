@@ -20,7 +20,7 @@ class ImGuiPass {
   /// Builds the font atlas. All fonts must have been added.
   explicit ImGuiPass(ImFontAtlas& fonts);
 
-  /// Draws over the frame, which must have the display size. Blends sRGB codes, not linear colors, as ImGui expects.
+  /// Draws over the frame, which must have the display size. Blends sRGB values instead of linear colors, as ImGui expects.
   void draw(const ImDrawData& data, Image<glm::u8vec4>& frame, const Workers& workers);
 
  private:

@@ -8,7 +8,7 @@ namespace halfspace {
 
 namespace {
 
-// Handled by the window and not by Viewer::press.
+// Returns true for actions that the window handles instead of Viewer::press.
 bool is_window_action(Action a) { return a >= Action::pick; }
 
 }  // namespace

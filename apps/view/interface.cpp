@@ -72,7 +72,7 @@ Interface::Context::Context(double scale) {
 Interface::Context::~Context() { ImGui::DestroyContext(); }
 
 Interface::Interface(SDL_Window* window, double scale) : context_(scale), scale_(scale), pass_(*ImGui::GetIO().Fonts) {
-  ImGui_ImplSDL2_InitForVulkan(window);  // only input is used, so any backend will do; this one needs no other arguments
+  ImGui_ImplSDL2_InitForVulkan(window);  // only input is used, so any backend works; this one needs no other arguments
 }
 
 Interface::~Interface() { ImGui_ImplSDL2_Shutdown(); }
@@ -131,7 +131,7 @@ bool Interface::draw(Viewer& viewer, const Contents& c, Image<glm::u8vec4>& fram
   if (c.picked) draw_picked(*c.picked, static_cast<float>(scale_));
   std::string text = c.frames.overlay_text();
   if (c.show_message && !viewer.message().empty()) text += (text.empty() ? "" : "\n") + viewer.message();
-  const float free = shows_panels_ ? 1.0f - ScenePanel::width(scale_) / ImGui::GetIO().DisplaySize.x : 1.0f;  // part of the width
+  const float free = shows_panels_ ? 1.0f - ScenePanel::width(scale_) / ImGui::GetIO().DisplaySize.x : 1.0f;  // fraction left of the panel
   if (!text.empty()) draw_label("Message", 0.5f * free, 1.0f, text);
   if (shows_help_) draw_help();
   ImGui::Render();

@@ -41,7 +41,7 @@ class Interface {
   /// Shows or hides help, panels or statistics.
   void toggle(Action action);
 
-  /// Contents of the window in addition to the panels.
+  /// What the window shows in addition to the panels.
   struct Contents {
     const FrameMaker& frames;
     const WindowTimes& times;

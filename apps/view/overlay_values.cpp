@@ -64,7 +64,8 @@ struct SurfaceImages {
   bool same_surface(int x, int y, int x2, int y2) const {
     return object.at(x, y) == object.at(x2, y2) && instance.at(x, y) == instance.at(x2, y2);
   }
-  // The change of uv to a neighbor, if it belongs to the same surface; one that crosses the seam of a texture is omitted.
+  // Returns the change of uv to a neighboring pixel, or nullopt if it belongs to a different surface or the change crosses the seam of a
+  // texture.
   std::optional<glm::vec2> step(int x, int y, int x2, int y2) const {
     if (x2 >= uv.width() || y2 >= uv.height() || !same_surface(x, y, x2, y2)) return std::nullopt;
     const glm::vec2 change = uv.at(x2, y2) - uv.at(x, y);

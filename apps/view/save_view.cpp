@@ -27,7 +27,7 @@ ViewFiles unused_files(const std::string& name, const std::filesystem::path& fol
 std::string scene_text_at(const SceneFile& scene, double seconds) {
   const SceneDescription& d = scene.description();
   const double time = d.time.hours / 24.0 * d.time.day + seconds * d.animation.speed;
-  if (time < 0.0) throw OutputError("the time of the animation is negative, and a scene file cannot start before 0; expected a later time");
+  if (time < 0.0) throw OutputError("the time of the animation is negative, but a scene file cannot start before 0; expected a later time");
   // `hours` cannot exceed a day, so a later time requires a longer day.
   double day = d.time.day;
   while (time > day) day *= 2.0;
@@ -42,7 +42,7 @@ ViewFiles save_view(const SceneFile& scene, double seconds, const std::string& n
   const std::string text = scene_text_at(scene, seconds);
   const SceneFile saved = SceneFile::parse(text, files.scene.string(), folder);
   const Workers workers(threads);
-  SceneAssets assets(workers);  // new assets: maps that are cached between frames can be finer than a single picture needs
+  SceneAssets assets(workers);  // new assets, because maps that are cached between frames can be finer than this picture needs
   Image<glm::u8vec4> picture(width, height);
   render(assets.prepare(saved.at(0.0), width, height), picture, workers);
   write_file(files.scene, std::as_bytes(std::span(text)));

@@ -14,8 +14,7 @@ struct ViewFiles {
   std::filesystem::path picture, scene;
 };
 
-/// Returns a scene file that starts at the given time of `scene`. Throws OutputError if this is not possible because the animation's own
-/// time is negative.
+/// Returns a scene file that starts at the given time of `scene`. Throws OutputError if the animation's own time is negative.
 std::string scene_text_at(const SceneFile& scene, double seconds);
 
 /// Renders the picture and writes both files to the folder, with the first unused number: NAME-view-1.png and NAME-view-1.json. The picture

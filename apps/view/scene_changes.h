@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Changes of a scene by keyboard shortcuts. All of them set keys of the scene file, so a saved scene contains them. Each function returns a
+// Changes to a scene by keyboard shortcuts. All changes set keys of the scene file, so a saved scene contains them. Each function returns a
 // line that says what was changed, or why nothing was changed.
 #pragma once
 
@@ -27,7 +27,7 @@ std::string toggle_color_maps(SceneFile& scene);
 /// Hides and shows objects and particles.
 class VisibilityToggle {
  public:
-  /// Toggles the object with this name, or all objects and particles if it is empty.
+  /// Toggles the object with this name, or all objects and particles if the name is empty.
   std::string toggle(SceneFile& scene, const std::string& object);
 
  private:

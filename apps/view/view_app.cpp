@@ -122,7 +122,7 @@ double ViewApp::advance() {
   return step;
 }
 
-// Traces the picked pixel, but not in every frame while the camera moves or an animation runs.
+// Traces the picked pixel; while the camera moves or an animation runs, not in every frame.
 void ViewApp::update_history(bool moving) {
   if (!picked_) return;
   if (moving && !picked_->history.empty()) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The state of halfspace-view without its window: the scene, the camera, the time and the overlay, and their changes by keys and mouse.
+// The state of halfspace-view without its window: the scene, the camera, the time and the overlay, and how keys and the mouse change them.
 #pragma once
 
 #include <functional>

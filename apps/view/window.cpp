@@ -16,7 +16,7 @@ namespace {
   throw InputError(fmt::format("display: cannot open a window ({}); expected a running X server or Wayland session", reason));
 }
 
-// Selects the video driver. Without a display, SDL would try all drivers, which print messages, and end with one without a visible window.
+// Selects the video driver. Without a display, SDL would try all drivers, which print messages, and finally use one that shows no window.
 void choose_driver() {
   if (SDL_getenv("SDL_VIDEODRIVER") != nullptr) return;
   const bool x11 = SDL_getenv("DISPLAY") != nullptr, wayland = SDL_getenv("WAYLAND_DISPLAY") != nullptr;

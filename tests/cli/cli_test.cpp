@@ -485,7 +485,7 @@ TEST_F(Cli, CompareReportsNumbersAndChecksTheTolerance) {
   EXPECT_EQ(run({"render", "earth", "--size", "64x36", "--shading", "flat", "-o", "flat.png"}).exit_code, 0);
   const Outcome same = run({"compare", "64x36.png", "64x36.png", "--tolerance", "0"});
   EXPECT_EQ(same.exit_code, 0) << same.err;
-  EXPECT_TRUE(same.out.starts_with("64x36.png vs. 64x36.png, 64x36, 8-bit codes / 255\ndiffering    0 of 2304 pixels\nrmse         0\n"))
+  EXPECT_TRUE(same.out.starts_with("64x36.png vs. 64x36.png, 64x36, 8-bit values / 255\ndiffering    0 of 2304 pixels\nrmse         0\n"))
       << same.out;
   EXPECT_NE(same.out.find("\npsnr         infinite\n"), std::string::npos) << same.out;
   const Outcome json = run({"compare", "64x36.png", "flat.png", "--json", "-o", "d.png"});
