@@ -99,7 +99,7 @@ TEST(WorkloadMeshes, SphereFacesOutward) {
   }
 }
 
-TEST(WorkloadTexture, MipLevelsAreAveragesOfCodes) {
+TEST(WorkloadTexture, MipLevelsAreAveragesOf8BitValues) {
   const Texture2D texture = checker_texture();
   EXPECT_EQ(texture.levels(), 12);
   EXPECT_EQ(texture.texel(0, 64, 0), glm::u8vec4(230, 230, 230, 255));

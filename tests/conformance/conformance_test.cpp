@@ -52,7 +52,7 @@ TEST_P(Blend, MatchesTheFormula) { expect_no_error(); }
 INSTANTIATE_TEST_SUITE_P(Conformance, Blend, testing::ValuesIn(blend_cases()), case_name);
 
 // A second source requires a second color, whichever factor uses it.
-TEST(ConformanceBlendDeathTest, ASecondSourceRequiresASecondColor) {
+TEST(ConformanceBlendDeathTest, DualSourceBlendingRequiresASecondColor) {
   Picture p;
   p.draws.resize(1);
   p.draws[0].vertices.resize(3, {glm::vec4(0.0f, 0.0f, 0.0f, 1.0f)});

@@ -34,7 +34,7 @@ int nearest_half(float x) {
   return h | (std::signbit(x) ? 0x8000 : 0);
 }
 
-TEST(Half, EveryCodeDecodesToItsDefinedValue) {
+TEST(Half, EveryBitPatternDecodesToItsDefinedValue) {
   for (int h = 0; h < 65536; ++h) {
     const float x = half_to_float(static_cast<uint16_t>(h));
     if (is_nan(h)) {
@@ -47,7 +47,7 @@ TEST(Half, EveryCodeDecodesToItsDefinedValue) {
   }
 }
 
-TEST(Half, EveryCodeRoundTrips) {
+TEST(Half, EveryBitPatternRoundTrips) {
   for (int h = 0; h < 65536; ++h) {
     const int quiet = is_nan(h) ? 0x200 : 0;
     EXPECT_EQ(float_to_half(half_to_float(static_cast<uint16_t>(h))), h | quiet);

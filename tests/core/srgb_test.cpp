@@ -39,7 +39,7 @@ TEST(Srgb, DecodesToTheNearestFloat) {
   EXPECT_EQ(srgb_to_linear<float>(255), 1.0f);
 }
 
-TEST(Srgb, EveryCodeRoundTrips) {
+TEST(Srgb, EveryValueRoundTrips) {
   for (int c = 0; c < 256; ++c) {
     EXPECT_EQ(linear_to_srgb(srgb_to_linear<float>(c)), c);
     EXPECT_EQ(linear_to_srgb(srgb_to_linear<double>(c)), c);
@@ -56,7 +56,7 @@ TEST(Srgb, NoThresholdIsNearAFloat) {
   }
 }
 
-TEST(Srgb, EveryFloatEncodesToTheNearestCode) {
+TEST(Srgb, EveryFloatEncodesToTheNearestValue) {
   int code = 0;
   float next = static_cast<float>(threshold(1));
   const auto first_at_or_above = [](int c) {

@@ -140,7 +140,7 @@ R mixed_results(const glm::mat3& m3, const glm::mat4& m4, const glm::vec3& unifo
          dot(normalize(four), normalize(vec4<R>(two, two))) + dot(chosen, a) + select(a == b, R(1), R(0));
 }
 
-TYPED_TEST(VecOfLanes, HoldTheBitsOfFloat) {
+TYPED_TEST(VecOfLanes, MatchScalarBits) {
   using R = TypeParam;
   std::mt19937 random(4);
   for (int round = 0; round < 200; ++round) {

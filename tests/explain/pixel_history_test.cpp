@@ -122,7 +122,7 @@ TEST(PixelHistory, EndsWithThePictureAtEachShadingRate) {
 }
 
 // Shading a fragment in float gives the same color as the renderer's SIMD lanes.
-TEST(PixelHistory, TheSameShaderCodeGivesTheSameBits) {
+TEST(PixelHistory, ScalarAndLaneShadingAreBitIdentical) {
   int compared = 0;
   for (const ShippedScene& shipped : shipped_scenes()) {
     const TracedScene t(std::string(shipped.name), {"samples=1"});

@@ -157,7 +157,7 @@ TEST(Stages, TermsAddUpToTheLight) {
   }
 }
 
-TEST(Stages, ToneStepsEndInTheCodesOfThePicture) {
+TEST(Stages, ToneStepsEndInThePixelValues) {
   const PreparedText s(SceneFile::open("day-night").at(0.0), 96, 54);
   Image<glm::vec4> light(96, 54);
   Image<glm::u8vec4> picture(96, 54);

@@ -43,7 +43,7 @@ TEST(HeightSlopes, EdgesFollowTheWrapMode) {
   EXPECT_EQ(height_slopes(ramp, Wrap::clamp, Wrap::repeat).at(1, 0).y, 0.0f) << "a single row has no slope";
 }
 
-TEST(HeightSlopes, CodesAreRoundedAndClamped) {
+TEST(HeightSlopes, EncodedSlopesAreRoundedAndClamped) {
   Image<float> h(4, 1);
   h.at(0, 0) = -1.0f;
   h.at(1, 0) = 0.5f;

@@ -35,7 +35,7 @@ bool contains(const std::vector<std::byte>& bytes, std::string_view word) {
   return text.find(word) != std::string_view::npos;
 }
 
-TEST_F(ImageIo, PngRoundTripKeepsEveryCode) {
+TEST_F(ImageIo, PngRoundTripKeepsEvery8BitValue) {
   for (const bool opaque : {true, false}) {
     const Image<glm::u8vec4> image = test_picture(opaque);
     write_png(directory / "a.png", image);

@@ -31,7 +31,7 @@ TEST_F(ImageNumbers, HeightsOfA16BitPngAreExact) {
       << "the first channel of a color file";
 }
 
-TEST_F(ImageNumbers, HeightsOfAn8BitPngAreCodesOver255) {
+TEST_F(ImageNumbers, HeightsOfAn8BitPngAreValuesOver255) {
   Image<glm::u8vec4> image(256, 1);
   for (int i = 0; i < 256; ++i) image.at(i, 0) = glm::u8vec4(i, 7, 9, 255 - i);
   write_png(directory / "a.png", image);
@@ -49,7 +49,7 @@ TEST_F(ImageNumbers, PngColorsAreDecodedFromSrgbAndAlphaIsLinear) {
   }
 }
 
-TEST_F(ImageNumbers, SixteenBitCodesAreDecodedFromSrgb) {
+TEST_F(ImageNumbers, SixteenBitValuesAreDecodedFromSrgb) {
   std::vector<uint16_t> codes;
   for (int c = 0; c <= 65535; c += 65) codes.insert(codes.end(), {static_cast<uint16_t>(c), static_cast<uint16_t>(c)});
   const int width = static_cast<int>(codes.size() / 2);

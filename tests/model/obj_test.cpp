@@ -139,7 +139,7 @@ TEST(Obj, ReadsLinesAndPoints) {
   EXPECT_EQ(model.meshes[1].indices, (std::vector<uint32_t>{0, 1}));
 }
 
-TEST(Obj, LeavesOutElementsWithTooFewCorners) {
+TEST(Obj, OmitsElementsWithTooFewVertices) {
   const Model model = read_obj_text(with_triangle("f 1 2\nf 1 2 3\nf 3 1\nf 1 2 3\nl 1\np\nf 1\n"));
   ASSERT_EQ(model.meshes.size(), 1u);
   EXPECT_EQ(model.meshes[0].indices, (std::vector<uint32_t>{0, 1, 2, 0, 1, 2}));

@@ -92,7 +92,7 @@ TEST(Ply, ReadsAllTypesAndSkipsUnknownData) {
   }
 }
 
-TEST(Ply, AcceptsAllLineEnds) {
+TEST(Ply, AcceptsAllLineEndings) {
   std::string text = ascii(vertices(3), kTriangleData);
   for (const std::string end : {"\r\n", "\r"}) {
     std::string changed;
@@ -164,7 +164,7 @@ TEST(Ply, WithoutFacesGivesPointsOrLines) {
   EXPECT_EQ(lines.indices, (std::vector<uint32_t>{0, 1, 1, 2}));
 }
 
-TEST(Ply, LeavesOutFacesThatCannotBeDrawn) {
+TEST(Ply, OmitsFacesThatCannotBeDrawn) {
   const std::string header = vertices(4) + "element face 3\nproperty list uchar int vertex_indices\n";
   const Model model = ply_model(ascii(header, kTriangleData + "inf 0 1e999\n3 0 1 2\n3 0 1 3\n2 0 1\n"));
   EXPECT_EQ(model.meshes[0].indices.size(), 3u);

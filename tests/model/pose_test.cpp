@@ -132,7 +132,7 @@ TEST(Pose, KeepsNegativeScale) {
   EXPECT_EQ(pose(model, {}).low, glm::dvec3(-1, 0, 0));
 }
 
-TEST(Pose, ComputesBoundsOnlyIfWanted) {
+TEST(Pose, ComputesBoundsOnlyOnRequest) {
   const PosedModel posed = pose(pose_model(), {.bounds = false});
   EXPECT_GT(posed.low.x, posed.high.x);
   EXPECT_FALSE(posed.meshes.empty());
@@ -252,7 +252,7 @@ TEST(Pose, PlacesCamerasWithoutScaleAndLights) {
   EXPECT_EQ(posed.lights.at(0).world_from_light[3], glm::dvec4(1, 2, 3, 1));
 }
 
-TEST(Pose, LeavesOutNodesWhoseTransformOverflows) {
+TEST(Pose, OmitsNodesWhoseTransformOverflows) {
   Model model = pose_model();
   model.nodes[0].children = {1};
   model.nodes.resize(2);
@@ -262,7 +262,7 @@ TEST(Pose, LeavesOutNodesWhoseTransformOverflows) {
 }
 
 // A hierarchy of 100,000 levels is resolved without recursion.
-TEST(Pose, HasNoLimitOfDepth) {
+TEST(Pose, HasNoDepthLimit) {
   Model model = pose_model();
   constexpr std::size_t kLevels = 100'000;
   model.nodes.resize(kLevels);

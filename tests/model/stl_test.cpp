@@ -93,7 +93,7 @@ TEST(Stl, ReadsColorsOfBinaryFiles) {
   EXPECT_TRUE(stl_model(binary_cube("", 0x7fff)).meshes[0].colors.empty());
 }
 
-TEST(Stl, LeavesOutTrianglesThatAreNotFinite) {
+TEST(Stl, OmitsNonFiniteTriangles) {
   std::string bytes = binary_cube("", 0);
   const float infinity = std::numeric_limits<float>::infinity();
   bytes.replace(84 + 12, 4, reinterpret_cast<const char*>(&infinity), 4);

@@ -86,7 +86,7 @@ TEST(Triangulate, CutsConvexQuadsAlongTheShorterDiagonal) {
 }
 
 // The shorter diagonal of this quad is outside of it.
-TEST(Triangulate, CutsConcaveQuadsAtTheReflexCorner) {
+TEST(Triangulate, CutsConcaveQuadsAtTheReflexVertex) {
   const Corners quad{{0, 0, 0}, {4, 1, 0}, {0, 2, 0}, {1, 1, 0}};
   for (int axis = 0; axis < 3; ++axis) {
     for (uint32_t turn = 0; turn < 4; ++turn) {

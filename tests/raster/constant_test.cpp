@@ -170,7 +170,7 @@ ColorTarget target_of(Image<glm::u8vec4>& image) { return rgba8_target(image); }
 ColorTarget target_of(Image<U16Vec4>& image) { return rgba16f_target(image); }
 ColorTarget target_of(Image<glm::vec4>& image) { return rgba32f_target(image); }
 
-TYPED_TEST(RowsOfOneColor, StayAmongThemselves) {
+TYPED_TEST(RowsOfOneColor, DoNotOverwriteAdjacentRows) {
   constexpr int kTile = 64;
   constexpr std::array<int, 17> kRows{-1, 0, 0, 1, -1, 2, -1, -1, 0,
                                       1,  2, 0, 1, -1, 2, 0,  -1};  // from the bottom: the draw that covers each row of tiles; −1: none

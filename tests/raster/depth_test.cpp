@@ -464,7 +464,7 @@ TEST(DepthOffset, SignFollowsTheDepthConvention) {
 
 // Codes are the integers nearest to z·(2^n − 1), ties to even (OpenGL 4.6, section 2.3.5.2 does not define ties), computed from the float
 // depth. Every value is tested in a pass with a primitive of that depth.
-TEST(DepthFormats, UnormCodesAreCorrectlyRounded) {
+TEST(DepthFormats, UnormValuesAreCorrectlyRounded) {
   Random r(4);
   constexpr int kSide = 64;
   for (int batch = 0; batch < effort(40); ++batch) {

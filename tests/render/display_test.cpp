@@ -144,7 +144,7 @@ TEST(AutoExposure, IsBitIdenticalForAnyThreadCount) {
 // ---- image -------------------------------------------------------------------------------------------------------------
 
 // The encoded image must equal the linear image with tone.h applied to each pixel.
-TEST(Display, CodesMatchTheToneMappedLinearImage) {
+TEST(Display, PixelsMatchTheToneMappedLinearImage) {
   constexpr int kSize = 96;
   const Image<glm::vec4> light = light_of(bright_scene(), kSize, kSize);
   for (const char* tone : {"none", "reinhard", "reinhard_extended", "exponential", "aces"}) {

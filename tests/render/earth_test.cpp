@@ -27,7 +27,7 @@ TEST(Earth, MatchesTheNaivePipelineInFloat) {
   EXPECT_LE(share_beyond_one_code<float>(scene, 320, 200), 1e-3);
 }
 
-TEST(Earth, IsWithinOneCodeOfDoublePrecision) {
+TEST(Earth, IsWithinOneLsbOfDoublePrecision) {
   const double share = share_beyond_one_code<double>(SceneFile::open("earth").description(), 480, 300);
   RecordProperty("share_beyond_one_code", std::to_string(share));
   // The remaining 0.1% of pixels are on silhouettes, where a position is snapped to a different multiple of 1/256 px.

@@ -30,7 +30,7 @@ std::string error_of(const std::vector<std::string>& settings) {
 
 const EnvironmentSky& sky_of(const PreparedScene& scene) { return std::get<EnvironmentSky>(scene.draws.back().shader); }
 
-TEST(EnvironmentScene, IsWithinOneCodeOfDoublePrecision) {
+TEST(EnvironmentScene, IsWithinOneLsbOfDoublePrecision) {
   for (const char* camera : {"camera=front", "camera=up"}) {
     // The image has no silhouettes or triangle edges. Only ties between codes differ, by one code.
     EXPECT_EQ(share_beyond_one_code<double>(environment_with({camera}), 320, 180), 0.0) << camera;
@@ -185,7 +185,7 @@ TEST(Reflections, UseTheSelectedEnvironment) {
   EXPECT_TRUE(reports(input_error([&] { middle({"reflections.environment=c"}); }), "test.json: reflections.environment", {"'c'", "a, b"}));
 }
 
-TEST(Reflections, AreWithinOneCodeOfDoubleForEveryNormalDetail) {
+TEST(Reflections, AreWithinOneLsbOfDoubleForEveryNormalDetail) {
   for (const char* detail : {R"("normals": "pixel", "height": "relief")", R"("bump_map": "relief")", R"("normal": "none")"}) {
     const std::string text = std::string(R"({"version": 1, "textures": {"relief": {"source": "moon_height", "width": 256}},
       "environments": {"sky": {"type": "day_sky", "size": 64}}, "background": {"type": "environment"},

@@ -52,7 +52,7 @@ std::vector<const Texture2D*> normal_maps(const PreparedScene& scene) {
   return maps;
 }
 
-TEST(ModelBumps, OfPixelsDependOnHowTheMapContinues) {
+TEST(ModelBumps, FromPixelsDependOnTheWrapMode) {
   const Workers workers(1);
   const SceneFile file = SceneFile::parse(
       R"({"version": 1, "ambient": 1, "objects": {"a": {"shape": "file", "file": "/made/in/memory.obj"}}})", "test.json", {});

@@ -27,7 +27,7 @@ std::string error_of(const SceneDescription& scene) {
   return input_error([&] { assets.prepare(scene, 64, 64); });
 }
 
-TEST(Moon, IsWithinOneCodeOfDoublePrecision) {
+TEST(Moon, IsWithinOneLsbOfDoublePrecision) {
   // The remaining 0.1% of pixels are on silhouettes, where a position rounds to a different 1/256 px, and on the rims of stars.
   EXPECT_LE(share_beyond_one_code<double>(SceneFile::open("moon").description(), 320, 180), 1e-3);
 }

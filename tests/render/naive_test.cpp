@@ -44,7 +44,7 @@ Comparison compare_pipelines(const SceneDescription& scene, int width, int heigh
   return compare(tiles, naive);
 }
 
-TEST(Naive, ShippedScenesHaveTheSameBits) {
+TEST(Naive, ShippedScenesAreBitIdentical) {
   int drawn = 0;
   for (const ShippedScene& shipped : shipped_scenes()) {
     SceneFile file = SceneFile::open(std::string(shipped.name));

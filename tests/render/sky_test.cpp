@@ -46,7 +46,7 @@ TEST(SkyScene, StarsFadeWithTheNightSky) {
       << "also as the first environment";
 }
 
-TEST(SkyScene, IsWithinOneCodeOfDoublePrecision) {
+TEST(SkyScene, IsWithinOneLsbOfDoublePrecision) {
   for (const char* weight : {"background.weight=0", "background.weight=0.6", "background.weight=1"}) {
     // The exceptions are rims of stars and ties between codes. The limit is the same as for the scene "moon".
     EXPECT_LE(share_beyond_one_code<double>(sky_with({weight}), 160, 90), 1e-3) << weight;

@@ -72,7 +72,7 @@ TEST(Heights, TiltAPlaneByItsSlope) {
   EXPECT_NEAR(length(m - n), 0, 1e-14);
 }
 
-TEST(Heights, AnyStepSizeAndEdgeOnSurfacesAreHandled) {
+TEST(Heights, HandlesAnyStepSizeAndGrazingSurfaces) {
   for (const float size : {1e-12f, 1e-6f, 1.0f, 1e6f}) {
     const glm::vec3 n = normal_from_heights<float>({0, 0, 1}, {0.5f * size, 0}, {size, 0, 0}, {0, size, 0});
     EXPECT_FLOAT_EQ(n.x, -0.5f) << size;

@@ -40,7 +40,7 @@ glm::dvec4 magnitude(const Texture2D& texture, const Sampler& sampler) {
 
 // ---- texels -----------------------------------------------------------------------------------------------------------
 
-TEST(TextureFormats, SingleChannelCodesAreReadExactly) {
+TEST(TextureFormats, SingleChannelValuesAreReadExactly) {
   Image<uint8_t> r8(256, 1);
   Image<uint16_t> r16(256, 256);
   for (int c = 0; c < 256; ++c) r8.at(c, 0) = static_cast<uint8_t>(c);
@@ -50,7 +50,7 @@ TEST(TextureFormats, SingleChannelCodesAreReadExactly) {
   for (int c = 0; c < 65536; ++c) ASSERT_EQ(sixteen.value(0, c % 256, c / 256), glm::vec4(static_cast<float>(c / 65535.0), 0, 0, 1));
 }
 
-TEST(TextureFormats, CodesRoundTrip) {
+TEST(TextureFormats, IntegerValuesRoundTrip) {
   Image<glm::u8vec4> image(256, 1);
   for (int c = 0; c < 256; ++c) image.at(c, 0) = glm::u8vec4(static_cast<uint8_t>(c));
   const Texture2D plain(image, TexelFormat::rgba8), srgb(image, TexelFormat::srgb8a8);

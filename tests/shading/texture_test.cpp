@@ -372,7 +372,7 @@ TEST(Texture, SampleSelectsTheLevelFromTheDerivatives) {
 
 // ---- arbitrary bit patterns -------------------------------------------------------------------------------------------
 
-TEST(Texture, LookupsOfFewerChannelsReturnTheBitsOfSample) {
+TEST(Texture, LookupsOfFewerChannelsMatchSampleBits) {
   Sampler anisotropic, mirrored;
   anisotropic.anisotropy = 4;
   mirrored.wrap_s = Wrap::mirrored;
@@ -395,7 +395,7 @@ TEST(Texture, LookupsOfFewerChannelsReturnTheBitsOfSample) {
 }
 
 // Alpha has a lookup of its own. Textures with the same alpha everywhere do not look it up.
-TEST(Texture, AlphaOfLanesHasTheBitsOfSample) {
+TEST(Texture, AlphaLookupMatchesSampleBits) {
   using R = FragmentReal;
   std::mt19937 random(31);
   std::uniform_real_distribution<float> coordinate(-2, 3), change(-0.1f, 0.1f);

@@ -105,7 +105,7 @@ TEST(ToneCurves, LuminanceModePreservesHueOfDarkColors) {
   }
 }
 
-TEST(DisplayEncoding, SrgbMatchesTheExactCodesExceptForTies) {
+TEST(DisplayEncoding, SrgbMatchesTheExactValuesExceptForTies) {
   int differ = 0;
   for (int i = 0; i <= 1 << 16; ++i) {
     const float x = static_cast<float>(i) * 0x1p-16f;
@@ -138,7 +138,7 @@ TEST(Dithering, EveryThresholdOccursOncePerBlock) {
   }
 }
 
-TEST(Dithering, BlockMeanIsWithin1Over128OfACode) {
+TEST(Dithering, BlockMeanIsWithin1Over128OfAnLsb) {
   double worst = 0;
   for (int i = 0; i <= 4000; ++i) {
     const float e = static_cast<float>(i) / 4000.0f;

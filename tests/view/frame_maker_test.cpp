@@ -53,7 +53,7 @@ TEST(CoarseControl, FramesAreCoarseOnlyWhileSomethingMovesAndFramesAreLong) {
   EXPECT_EQ(control.divisor(true), CoarseControl::kCoarsest);
 }
 
-TEST(FrameMaker, AFullFrameIsThePictureThatRenderMakes) {
+TEST(FrameMaker, AFullFrameEqualsThePictureOfRender) {
   Frame frame;
   frame.render(Overlay::none);
   SceneAssets assets(frame.workers);

@@ -52,7 +52,7 @@ TEST_F(ImGuiPassTest, ARectangleCoversItsPixelsAndNoOthers) {
   EXPECT_EQ(covered, 40 * 20);
 }
 
-TEST_F(ImGuiPassTest, BlendingUsesSrgbCodes) {
+TEST_F(ImGuiPassTest, BlendingUsesSrgbValues) {
   draw([](ImDrawList& list) { list.AddRectFilled({0, 0}, {50, 50}, IM_COL32(200, 0, 255, 128)); });
   // 100 + (200 − 100) · 128/255 = 150.2; linear blending would give 158.
   EXPECT_NEAR(frame_.at(10, 10).x, 150, 1);
