@@ -6,7 +6,7 @@ pixel. Times include returning the picture as an array.
   peers.py [--size 1280x720] [--frames 60] [--rounds 5] [MESH.ply ...]
 
 VTK (Debian: python3-vtk9) needs a display, for example that of a running Xvfb. Without VTK, only Halfspace is measured. The programs take
-turns, and the best round of each counts. Prints a table in Markdown.
+turns, and the best round of each is reported. Prints a Markdown table.
 """
 
 import argparse

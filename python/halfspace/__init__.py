@@ -9,8 +9,8 @@
     scene.add(halfspace.Mesh(vertices, faces))
     picture = scene.render((640, 480))
 
-Invalid values and files raise InputError, a ValueError whose message has one line. Files that cannot be written raise OutputError, an
-OSError. Results have the same bits for any number of threads.
+Invalid values and files raise InputError, a ValueError with a one-line message. Files that cannot be written raise OutputError, an OSError.
+Results are bit-identical for any number of threads.
 """
 
 import os as _os

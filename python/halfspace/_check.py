@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Checks of arguments. Every problem raises an InputError with a message of one line: "NAME: problem; expected what would be right"."""
+"""Checks arguments. Every problem raises an InputError with a one-line message: "NAME: problem; expected what would be valid"."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def _array(name: str, value: Any, shape: Sequence[Optional[int]], what: str) -> 
 
 
 def numbers(name: str, value: Any, shape: Sequence[Optional[int]], dtype: Any = np.float64) -> np.ndarray:
-    """Returns finite numbers as a C-contiguous array of the type, without a copy if the value is one already. None in the shape
+    """Returns finite numbers as a C-contiguous array of the given dtype. Does not copy the value if it already is one. None in the shape
     allows any length."""
     array = _array(name, value, shape, "numbers")
     if array.dtype.kind not in "fiu":
@@ -61,7 +61,7 @@ def indices(name: str, value: Any, width: Optional[int], vertices: int) -> np.nd
 
 
 def texels(name: str, value: Any) -> np.ndarray:
-    """Returns an image as uint8 of shape (H, W, 4). Gray is replicated, and missing alpha is 255."""
+    """Returns an image as uint8 of shape (H, W, 4). Gray is replicated. If there is no alpha channel, alpha is 255."""
     array = np.asarray(value)
     if array.dtype != np.uint8:
         raise fail(name, f"has the dtype {array.dtype}", "uint8")

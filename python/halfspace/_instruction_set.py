@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Chooses the extension for this processor. Packages have one per instruction set, in the folders x86-64-v3 and x86-64-v4; a build for one
-machine has only one, in the folder of the package."""
+"""Chooses the extension for this processor. Packages have one extension per instruction set, in the folders x86-64-v3 and x86-64-v4. A
+build for one machine has only one extension, in the folder of the package."""
 
 import os
 
@@ -10,7 +10,7 @@ _SETS = (("x86-64-v4", _V4), ("x86-64-v3", _V3))
 
 
 def processor_flags(path="/proc/cpuinfo"):
-    """Returns the features of the processor as Linux names them, or None if they are unknown."""
+    """Returns the names that Linux uses for the features of the processor, or None if the features are unknown."""
     try:
         with open(path) as file:
             for line in file:
@@ -22,7 +22,8 @@ def processor_flags(path="/proc/cpuinfo"):
 
 
 def extension_folder(package, flags):
-    """Returns the folder of the extension, or None if the package has only one. Raises ImportError if the processor can run none.
+    """Returns the folder of the extension, or None if the package has only one extension. Raises ImportError if the processor can run none
+    of them.
 
     flags: the result of processor_flags().
     """

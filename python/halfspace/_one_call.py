@@ -15,7 +15,7 @@ from .scene import Scene, Size
 def render(scene: Union[str, "os.PathLike[str]"], *, size: Size = (1920, 1080), set: Optional[Mapping[str, Any]] = None,
            camera: Union[str, Camera, None] = None, time: float = 0.0, linear: bool = False, alpha: bool = False,
            threads: Optional[int] = None, **view: Any) -> Picture:
-    """Renders a scene or a model file to a picture with the pixels that `halfspace render` writes.
+    """Renders a scene or a model file. The pixels are bit-identical to those that `halfspace render` writes.
 
     scene: a shipped scene ("moon"), a scene file, or a model file (.obj, .gltf, .glb, .ply, .stl).
     size: (width, height) in pixels.
@@ -23,12 +23,12 @@ def render(scene: Union[str, "os.PathLike[str]"], *, size: Size = (1920, 1080), 
     camera: the name of a camera of the scene or the model, or a Camera.
     time: time in the scene's animations, in seconds.
     threads: number of threads. The default is one per core.
-    alpha: leave the background out. Alpha is straight, and 0 where nothing is drawn.
+    alpha: omit the background. Alpha is straight, and 0 where nothing is drawn.
     view: arguments of Scene.load, for model files.
-    Returns sRGB codes: uint8 of shape (height, width, 3), or (height, width, 4) with alpha=True. With linear=True, returns light before
-    exposure and tone curve: float32 of shape (height, width, 4).
+    Returns 8-bit sRGB values: uint8 of shape (height, width, 3), or (height, width, 4) with alpha=True. With linear=True, returns linear
+    values before exposure and tone mapping: float32 of shape (height, width, 4).
 
-    Raises InputError with the message that the command line prints. Warnings are of the category RenderWarning.
+    Raises InputError with the message that the command line prints. Warnings have the category RenderWarning.
     """
     width, height = _check.size(size)
     view.setdefault("aspect", width / height)

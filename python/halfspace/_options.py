@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Arguments of scenes: lighting, keys, views of model files, pixels, and warnings."""
+"""Arguments of scenes: lighting, keys, views of model files and pixel formats. Also warnings."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ from ._check import fail
 
 
 class RenderWarning(UserWarning):
-    """A problem that does not prevent a picture, such as a missing texture."""
+    """A problem that does not prevent rendering, such as a missing texture."""
 
 
-# How model files are shown by `halfspace render MODEL`.
+# The scene in which `halfspace render MODEL` shows model files.
 _STUDIO: Dict[str, Any] = {
     "version": 1, "samples": 4,
     "lights": {"key": {"type": "directional", "direction": [-0.16, 0.79, 0.59], "intensity": 1.2}},
@@ -100,7 +100,7 @@ def pixel_kind(linear: bool, alpha: bool) -> Any:
 
 
 def emit(core: Any) -> None:
-    """Passes the warnings of a scene on. They name the line of the caller of this package."""
+    """Issues the warnings of a scene as Python warnings, which refer to the line that called this package."""
     lines = core.take_warnings()
     if not lines:
         return

@@ -26,7 +26,7 @@ class Camera:
 
     def __init__(self, for_size: Callable[[int, int], Any], text: str, made_by: Tuple[str, Dict[str, Any]]) -> None:
         """Internal: `for_size` returns the camera of _core for an image of width x height pixels. made_by: the class method and the
-        arguments that make an equal camera."""
+        arguments that create an equal camera."""
         self._for_size = for_size
         self._text = text
         self._made_by = made_by
@@ -74,10 +74,10 @@ class Camera:
 
     @classmethod
     def from_matrices(cls, projection: Any, *, view: Any = None, pose: Any = None) -> "Camera":
-        """Returns a camera with OpenGL's matrices.
+        """Returns a camera with the given OpenGL matrices.
 
-        projection: camera to clip space, shape (4, 4), float; -w at the near plane and w at the far plane. Perspective projections may be
-            off-center or skewed; orthographic ones, too. The aspect ratio of the picture should match it.
+        projection: camera to clip space, shape (4, 4), float; -w at the near plane and w at the far plane. Perspective and
+            orthographic projections may be off-center or skewed. The aspect ratio of the picture should match the projection.
         view: world to camera, OpenGL axes, shape (4, 4); or
         pose: its inverse, camera to world.
         """
@@ -93,7 +93,7 @@ class Camera:
         """Returns a calibrated camera, as in OpenCV.
 
         K: [[fx, skew, cx], [0, fy, cy], [0, 0, 1]] in pixels of the rendered image. Pixel centers are at integers: (0, 0) is the center of
-            the top left pixel, and cx grows to the right, cy downwards.
+            the top left pixel, and cx increases to the right and cy downwards.
         extrinsics: [R | t], world to camera, with OpenCV's axes (x right, y down, z forward), shape (3, 4) or (4, 4); or
         pose: camera to world, with OpenGL's axes (x right, y up, z backward), shape (4, 4).
         near, far: distances of the clipping planes along the view axis in scene units; 0 < near < far.

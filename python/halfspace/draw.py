@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The low level: passes that draw arrays with the shaders of the library and OpenGL's draw state.
+"""The low-level interface: passes that draw arrays with the library's shaders and OpenGL's draw state.
 
     from halfspace import draw
     image = np.zeros((480, 640, 4), np.uint8)
@@ -35,7 +35,7 @@ class Blend:
     """result = source factor x source + destination factor x destination, for color and alpha. Names follow OpenGL.
 
     Factors: zero, one, src_color, dst_color, src_alpha, dst_alpha, constant_color, constant_alpha, one_minus_... of these, and
-    src_alpha_saturate. Equations: add, subtract, reverse_subtract, min, max. The default is blending by straight alpha.
+    src_alpha_saturate. Equations: add, subtract, reverse_subtract, min, max. The default is straight-alpha blending.
     """
 
     __slots__ = ("_core",)
@@ -134,7 +134,7 @@ def light(type: str = "directional", *, place: Sequence[float] = (0.0, 0.0, 1.0)
           inner: float = 20.0, outer: float = 30.0) -> Any:
     """Returns a light for phong() and metallic().
 
-    type: "directional" (place: direction towards the light), "point" or "spot" (place: its position in world space).
+    type: "directional" (place: direction towards the light), or "point" or "spot" (place: position in world space).
     attenuation: (a, b, c) of 1 / (a + b d + c d^2).   spot: axis, towards the light; inner, outer: degrees from the axis.
     """
     kind = _word("LightType", "type", type)
@@ -148,7 +148,7 @@ def light(type: str = "directional", *, place: Sequence[float] = (0.0, 0.0, 1.0)
 
 
 def colored(clip_from_object: Any, color: Sequence[float] = (1.0, 1.0, 1.0, 1.0)) -> Any:
-    """Returns a shader without lighting: color times the color of the vertex, linear. Arrays: positions (N, 3), colors (N, 4).
+    """Returns a shader without lighting: `color` times the vertex color, both linear. Arrays: positions (N, 3), colors (N, 4).
 
     clip_from_object: (4, 4).
     """
@@ -207,16 +207,16 @@ class Pass:
     """A list of draws into images. run() executes them in order.
 
     color: a C-contiguous array of shape (H, W, 4) that receives the colors: uint8 (format "srgb8a8" or "rgba8"), float16 ("rgba16f") or
-        float32 ("rgba32f").   color_format: chosen by the dtype if None; uint8 means "srgb8a8". Colors are linear in shaders.
+        float32 ("rgba32f").   color_format: chosen by the dtype if None, where uint8 means "srgb8a8". Colors are linear in shaders.
     depth: an array of shape (H, W) that receives the depth, or None for a depth buffer that only the pass uses. Types: uint16 for "d16",
         uint32 for "d24" and "d24s8", float32 for "d32f", and [("depth", float32), ("stencil", uint32)] for "d32fs8".
     depth_format: one of these formats, or "none" for no depth buffer.
     samples: samples per pixel: 1, 2, 4 or 8.
-    load: start with the contents of the arrays. Otherwise, and for depth without an array, the pass starts with clear_color (linear),
-        clear_depth and clear_stencil.
+    load: start with the contents of the arrays. Otherwise, the pass starts with clear_color (linear), clear_depth and clear_stencil. A
+        depth buffer without an array always starts with clear_depth and clear_stencil.
 
-    The arrays of draws, except indices, are not copied if they are C-contiguous and have the types that draw() states. Do not change them
-    before run().
+    The arrays of draws, except for indices, are not copied if they are C-contiguous and have the types that draw() specifies. Do not change
+    them before run().
     """
 
     def __init__(self, color: np.ndarray, depth: Optional[np.ndarray] = None, *, color_format: Optional[str] = None,
@@ -261,13 +261,13 @@ class Pass:
             raise fail("arrays", f"have {', '.join(map(str, counts.values()))} rows", "the same number, at least 1")
         index = None
         if indices is not None:
-            # A copy: an index that is changed after the check would read outside of the arrays.
+            # A copy, because an index that is changed after the check could read outside the arrays.
             index = _check.indices("indices", np.array(indices).reshape(-1), None, len(streams[0]))
         chosen = state._core if state is not None else _core.DrawState()
         self._core.draw(shader, streams, index, chosen)
 
     def run(self, *, threads: Optional[int] = None) -> int:
-        """Executes and removes all draws, and returns their number. The pixels do not depend on the number of threads."""
+        """Executes and removes all draws. Returns the number of draws. The pixels do not depend on the number of threads."""
         return self._core.run(_check.threads(threads, _core.cores()))
 
 

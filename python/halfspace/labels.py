@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The names of labels, and the ids of pixels without a surface."""
+"""The names of labels, and the id of pixels without a surface."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def checked_background(depth: float) -> float:
 
 
 def finished(arrays: Dict[str, np.ndarray], outputs: Tuple[str, ...]) -> Dict[str, np.ndarray]:
-    """Adds the mask, and removes what was only needed for it."""
+    """Adds the mask, and removes arrays that were needed only for the mask."""
     arrays["mask"] = arrays["object"] != NO_ID if "object" in arrays else None
     if "color" in arrays:
         arrays["color"] = arrays["color"][..., :3]

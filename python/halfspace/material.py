@@ -18,8 +18,8 @@ _ALPHA_MODES = ("opaque", "mask", "blend")
 class Texture:
     """An image that covers a surface. The texels are copied.
 
-    texels: uint8 of shape (H, W), (H, W, 3) or (H, W, 4), top row first. Base color and emissive textures hold sRGB codes with straight
-        alpha; all others hold linear values.
+    texels: uint8 of shape (H, W), (H, W, 3) or (H, W, 4), top row first. Base color and emissive textures contain sRGB values with
+        straight alpha; all others contain linear values.
     filter: "nearest", "bilinear" or "trilinear" (with mip levels).
     wrap: "repeat", "mirrored" or "clamp", or a pair of them for u and v.
     anisotropy: maximum number of probes along an elongated footprint, 1 to 16.
@@ -50,7 +50,7 @@ def _texture(name: str, value: Any) -> Optional[Texture]:
 class Material:
     """The appearance of a surface: the metallic-roughness material of glTF 2.0. Each property is a number multiplied by a texture.
 
-    base_color: linear (r, g, b) or (r, g, b, a), in [0, 1]. Convert sRGB codes with srgb().
+    base_color: linear (r, g, b) or (r, g, b, a), in [0, 1]. Convert sRGB values with srgb().
     metallic, roughness: 0 to 1.   specular: scales the reflectance of non-metals.   ior: index of refraction, at least 1.
     emissive: linear (r, g, b); may exceed 1.   clearcoat, clearcoat_roughness: 0 to 1.
     alpha_mode: "opaque", "mask" (the surface exists where alpha >= alpha_cutoff) or "blend". The default is "blend" if the alpha of
@@ -111,7 +111,8 @@ class Material:
 
 
 def srgb(codes: Any) -> np.ndarray:
-    """Converts sRGB codes (uint8 of any shape, whose last axis has 3 or 4 channels) to linear float32 in [0, 1]. Alpha is divided by 255."""
+    """Converts 8-bit sRGB values (uint8 of any shape, with 3 or 4 channels in the last axis) to linear float32 in [0, 1]. Alpha is divided
+    by 255."""
     array = np.asarray(codes)
     if array.dtype != np.uint8 or array.ndim == 0 or array.shape[-1] not in (3, 4):
         raise fail("codes", f"are {array.dtype} of shape {array.shape}", "uint8 with 3 or 4 channels in the last axis")

@@ -26,8 +26,8 @@ class Mesh:
         0, 1, 2, ...
     normals: (N, 3), any length except 0. By default, normals are computed, and vertices are split at edges sharper than `crease`.
     crease: angle in degrees. 0 gives flat shading, 180 smooth shading.
-    uvs: (N, 2).   uv_origin: "lower_left" (v grows upwards, as in OpenGL, OBJ and trimesh) or "upper_left" (as in glTF).
-    colors: (N, 3) or (N, 4); uint8 sRGB codes, or linear floats in [0, 1]. They multiply the base color.
+    uvs: (N, 2).   uv_origin: "lower_left" (v increases upwards, as in OpenGL, OBJ and trimesh) or "upper_left" (as in glTF).
+    colors: (N, 3) or (N, 4); uint8 sRGB values, or linear floats in [0, 1]. They multiply the base color.
     material: the default is gray, or white if there are colors.
     topology: "triangles", "lines" or "points". Lines and points are not lit.
     """
@@ -133,10 +133,10 @@ def _picture_of(image: Any) -> Optional[Texture]:
 
 
 def _base_color_of(m: Any) -> Tuple[Any, Any]:
-    """Returns the texture and the linear factor of a material of trimesh; None for each that the material lacks."""
+    """Returns the texture and the linear factor of a trimesh material. Either is None if the material lacks it."""
     if hasattr(m, "baseColorFactor"):
         factor = None if m.baseColorFactor is None else np.asarray(m.baseColorFactor).ravel()
-        # trimesh stores the factor of glTF, which is linear, as uint8.
+        # trimesh stores glTF's base color factor, which is linear, as uint8.
         return m.baseColorTexture, factor / 255.0 if factor is not None and factor.dtype == np.uint8 else factor
     image, diffuse = getattr(m, "image", None), getattr(m, "diffuse", None)
     if diffuse is None or (image is not None and np.array_equal(diffuse, _UNSET_DIFFUSE)):

@@ -13,11 +13,11 @@ from ._check import fail
 
 
 class Picture(np.ndarray):
-    """A rendered image: an array that shows itself in a notebook and can be saved.
+    """A rendered image: an array that displays itself in a notebook and can be saved.
 
-    8-bit pictures are uint8 of shape (height, width, 3), or (height, width, 4) with straight alpha, and contain sRGB codes. Linear pictures
-    are float32 of shape (height, width, 4) and contain light before exposure and tone curve. Row 0 is the top row. Slices and results of
-    calculations are ordinary arrays of this class; only those that still have the shape of an image can be saved.
+    8-bit pictures are uint8 of shape (height, width, 3), or (height, width, 4) with straight alpha, and contain sRGB-encoded values. Linear
+    pictures are float32 of shape (height, width, 4) and contain linear values before exposure and tone mapping. Row 0 is the top row.
+    Slices and results of calculations are also Pictures, but only those that still have the shape of an image can be saved.
     """
 
     def __array_wrap__(self, array: np.ndarray, context: Any = None, return_scalar: bool = False) -> Any:
@@ -28,7 +28,7 @@ class Picture(np.ndarray):
         return self.dtype == np.uint8 and self.ndim == 3 and self.shape[2] in (3, 4) and self.size > 0
 
     def _repr_png_(self) -> Optional[bytes]:
-        """Returns the picture as a PNG file, or None if it does not have 8-bit codes."""
+        """Returns the picture as a PNG file, or None if it does not have 8-bit values."""
         return _core.png(np.ascontiguousarray(self)) if self._is_codes() else None
 
     def save(self, path: Union[str, "os.PathLike[str]"]) -> None:

@@ -23,14 +23,14 @@ _MAX_COPIES = 65536
 
 
 def _check_name(name: Any) -> None:
-    """Raises InputError if no object of a scene file can have this name."""
+    """Raises InputError if this is not a valid name for an object of a scene file."""
     if not isinstance(name, str):
         raise fail("name", f"is {name!r}", "a string")
     _core.Scene.parse(json.dumps({"version": 1, "objects": {name: {}}}), "scene", 1)
 
 
 class Scene:
-    """A scene that can be changed and rendered. Textures, meshes and maps are kept from one picture to the next.
+    """A scene that can be changed and rendered. Textures, meshes and maps are cached from one picture to the next.
 
     Scene() starts an empty scene, for add() and add_light(). Scene.load() opens a scene or a model file.
 
@@ -59,8 +59,7 @@ class Scene:
     def load(cls, path: Union[str, "os.PathLike[str]"], *, threads: Optional[int] = None, **view: Any) -> "Scene":
         """Opens a shipped scene by name, a scene file, or a model file (.obj, .gltf, .glb, .ply, .stl).
 
-        A model file is shown as by `halfspace render MODEL`. The following arguments change the view;
-        None has no effect:
+        A model file is shown as `halfspace render MODEL` shows it. The following arguments change the view; None means the default:
         aspect (width / height for which the model is fitted into the picture; default 16/9), yaw, pitch (degrees), zoom, fov (vertical,
         degrees), eye, look_at, up (world space), inside, floor (bool), environment (image file), background ("#rrggbb" or "environment"),
         model_scene, model_animation, model_variant (names in the file), up_axis ("y" or "z"), turn_seconds (time in which the camera
@@ -76,7 +75,7 @@ class Scene:
     # ---- keys ----------------------------------------------------------------------------------------------------
 
     def set(self, keys: Mapping[str, Any]) -> None:
-        """Sets keys of the scene, for example {"time.hours": 18, "moon.radius": 2}, as --set of the command line does.
+        """Sets keys of the scene, for example {"time.hours": 18, "moon.radius": 2}, like --set on the command line.
 
         Raises InputError and leaves the scene unchanged if a key or a value is invalid.
         """
@@ -88,7 +87,7 @@ class Scene:
         self.set({key: value})
 
     def __getitem__(self, key: str) -> Any:
-        """Returns the value of a key, as JSON would represent it: a bool, number, string or list."""
+        """Returns the value of a key as it is represented in JSON: a bool, number, string or list."""
         self._flush()
         return json.loads(self._core.value(key))
 
@@ -111,11 +110,11 @@ class Scene:
 
         mesh: a Mesh, or an object like trimesh.Trimesh.
         transform: affine matrix from object to world space, of shape (4, 4), or (N, 4, 4) for N copies. The default is the identity.
-        name: a letter a to z followed by a to z, 0 to 9 and _. It must differ from the names of objects and sections. By default, a name is
-            chosen.
+        name: a letter a to z followed by a to z, 0 to 9 and _. It must differ from the names of other objects and of sections. By
+            default, a name is generated.
 
-        The name is a section of the scene: scene[name + ".visible"] = False hides the object. Object ids in labels count objects in the
-        order in which they were added.
+        The name is a section of the scene: scene[name + ".visible"] = False hides the object. Object ids in labels number the objects in
+        the order in which they were added.
         """
         if not isinstance(mesh, Mesh):
             mesh = Mesh.from_trimesh(mesh)
@@ -191,7 +190,7 @@ class Scene:
 
         yaw, pitch: position of the eye around the objects in degrees, from the front (+z) to the right, and upwards.
         fov: vertical field of view in degrees.
-        aspect: width / height of the picture. Values of 1 and above have no effect.
+        aspect: width / height of the picture. Values above 1 have no further effect.
         """
         box = self.bounds
         if box is None:
@@ -212,12 +211,12 @@ class Scene:
         """Renders a picture.
 
         size: (width, height) in pixels, each 1 to 16384.
-        camera: the default is the member `camera` or, if that is None, the camera of the scene. Without any camera, a scene that started
-            empty is shown as a whole.
+        camera: the default is the member `camera` or, if that is None, the camera of the scene. If there is no camera, a scene
+            created with Scene() is shown as a whole.
         time: time in the scene's animations, in seconds.
-        alpha: leave the background out. Alpha is straight, and 0 where nothing is drawn.
-        Returns sRGB codes: uint8 of shape (height, width, 3), or (height, width, 4) with alpha=True. With linear=True, returns light before
-        exposure and tone curve: float32 of shape (height, width, 4).
+        alpha: omit the background. Alpha is straight, and 0 where nothing is drawn.
+        Returns 8-bit sRGB values: uint8 of shape (height, width, 3), or (height, width, 4) with alpha=True. With linear=True, returns
+        linear values before exposure and tone mapping: float32 of shape (height, width, 4).
         """
         width, height = _check.size(size)
         self._flush()
@@ -225,9 +224,9 @@ class Scene:
 
     def frames(self, frames: Union[int, Iterable[int]], *, size: Size = (640, 480), fps: float = 30.0, time: float = 0.0,
                camera: Optional[Camera] = None, linear: bool = False, alpha: bool = False) -> Iterator[Picture]:
-        """Returns an iterator over frames of an animation, which are rendered one by one, as by `halfspace render --frames`.
+        """Returns an iterator over frames of an animation. Frames are rendered one at a time, as `halfspace render --frames` renders them.
 
-        frames: the number of frames, or their numbers, for example range(24, 48).   fps: frames per second.
+        frames: how many frames, or the frame numbers, for example range(24, 48).   fps: frames per second.
         time: time of frame 0 in seconds. Frame i shows the time `time` + i / fps.
         Later changes of the scene do not affect the frames.
         """
@@ -243,7 +242,7 @@ class Scene:
 
     def render_batch(self, cameras: Sequence[Optional[Camera]], *, size: Size = (640, 480), time: Union[float, Sequence[float]] = 0.0,
                      linear: bool = False, alpha: bool = False, progress: Optional[Callable[[int, int], Any]] = None) -> np.ndarray:
-        """Renders one picture per camera, several at a time, each by one thread.
+        """Renders one picture per camera. Several pictures are rendered at the same time, each by one thread.
 
         time: time in seconds for all pictures, or one time per camera.
         progress: called as progress(done, total) after each picture, from any thread. An exception that it raises ends the batch.
@@ -262,12 +261,12 @@ class Scene:
 
     def labels(self, outputs: Iterable[str] = LABELS, *, size: Size = (640, 480), camera: Optional[Camera] = None, time: float = 0.0,
                background_depth: float = float("inf")) -> Dict[str, np.ndarray]:
-        """Renders a picture and values of each pixel. Returns a dictionary with an array for each name in `outputs`.
+        """Renders a picture and per-pixel values. Returns a dictionary with an array for each name in `outputs`.
 
         "color"          uint8 (H, W, 3), the pixels of render()
         "depth"          float32 (H, W), along the view axis, in scene units; background_depth where there is no surface
         "distance"       float32 (H, W), from the eye along the ray of the pixel; background_depth where there is no surface
-        "normal"         float32 (H, W, 3), unit length, in world space; towards the side of the surface that is seen if it has two
+        "normal"         float32 (H, W, 3), unit length, in world space; for two-sided surfaces, that of the visible side
         "camera_normal"  float32 (H, W, 3), the same in camera space: x right, y up, z towards the eye
         "albedo"         float32 (H, W, 3), linear color before lighting
         "position"       float32 (H, W, 3), in world space
@@ -275,11 +274,11 @@ class Scene:
         "object"         uint32 (H, W), index in `objects`; NO_ID where there is no surface
         "instance"       uint32 (H, W), index of the copy of the object; NO_ID where there is no surface
         "triangle"       uint32 (H, W), index of the face; NO_ID where there is no surface
-        "barycentrics"   float32 (H, W, 3), weights of the corners of the face, in their order
+        "barycentrics"   float32 (H, W, 3), weights of the face's vertices, in order
         "mask"           bool (H, W), whether there is a surface
 
-        Values are those of the surface at the center of the pixel, without antialiasing; other values are 0 where there is no surface.
-        Blended surfaces are omitted. With background_depth=0, "depth" is the same as in pyrender.
+        Values are those of the surface at the center of the pixel, without antialiasing. Where there is no surface, they are 0 unless
+        stated otherwise. Blended surfaces are omitted. With background_depth=0, "depth" is the same as in pyrender.
         """
         width, height = _check.size(size)
         names, depth = checked_outputs(outputs), checked_background(background_depth)
@@ -293,7 +292,7 @@ class Scene:
     def label_batch(self, cameras: Sequence[Optional[Camera]], outputs: Iterable[str] = LABELS, *, size: Size = (640, 480),
                     time: Union[float, Sequence[float]] = 0.0, background_depth: float = float("inf"),
                     progress: Optional[Callable[[int, int], Any]] = None) -> Dict[str, np.ndarray]:
-        """Renders the labels of one frame per camera, several at a time. The arrays have the shapes of labels() with an
+        """Renders the labels of one frame per camera, several at a time. The arrays have the shapes that labels() returns, with an
         additional first axis of length N.
 
         time, progress: as in render_batch().
@@ -341,9 +340,9 @@ class Scene:
         return camera._for_size(width, height)
 
     def _flush(self) -> None:
-        """Adds the pending objects of add() to the scene. Other threads wait until this is done.
+        """Adds the objects pending from add() to the scene. Other threads wait until this is done.
 
-        Raises InputError if the scene rejects an object, which is then dropped. The next call adds the objects after it.
+        Raises InputError if the scene rejects an object, which is then dropped. The next call adds the objects after the rejected one.
         """
         with self._lock:
             if self._pending:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Cameras that are given by matrices.
+// Cameras that are defined by matrices.
 #include <array>
 
 #include "bindings.h"

@@ -22,7 +22,7 @@ using Vector = std::array<float, 3>;
 
 glm::vec3 vec_of(const Vector& v) { return {v[0], v[1], v[2]}; }
 
-/// A shader with its uniforms, and what they point to.
+/// A shader with its uniforms and the data that they point to.
 struct Shader {
   SceneShader shader;
   std::vector<std::string> attributes;  ///< names of the arrays that a draw needs

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Image files of arrays.
+// Encodes arrays as image files.
 #include <cstring>
 
 #include "bindings.h"

@@ -13,7 +13,7 @@ namespace halfspace::python {
 
 namespace {
 
-/// The images of all labels; those that are not wanted are empty.
+/// The images of all labels. Those that are not requested are empty.
 struct LabelImages {
   Image<glm::u8vec4> color;
   Image<float> depth, distance;
@@ -41,7 +41,7 @@ struct LabelImages {
 
 using Names = std::set<std::string>;
 
-/// Allocates the wanted images and renders them.
+/// Allocates the requested images and renders them.
 void render_labels(LabelImages& images, const Names& wanted, float background_depth, PictureSize size, const PreparedScene& scene,
                    const Workers& workers) {
   FrameImages frame;

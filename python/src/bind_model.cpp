@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Meshes from arrays: the contents of a model file, made in memory.
+// Creates meshes from arrays, as model files in memory.
 #include <cstring>
 #include <memory>
 #include <optional>
@@ -29,7 +29,7 @@ std::vector<T> copy_of(const std::optional<Array<float>>& array) {
   return {rows.begin(), rows.end()};
 }
 
-// OpenGL's texture coordinates have v = 0 at the bottom of the image, those of models at the top.
+// In OpenGL, v = 0 is the bottom of the image; in models, it is the top.
 std::vector<glm::vec2> flipped(std::vector<glm::vec2> uvs) {
   for (glm::vec2& uv : uvs) uv.y = 1.0f - uv.y;
   return uvs;
@@ -171,7 +171,7 @@ void bind_model(py::module_& m) {
         const py::gil_scoped_release release;
         return make_model(std::move(mesh), materials, crease_degrees);
       }))
-      // The number of vertices that are drawn. Vertices are split where normals or tangents differ, so there can be more than were given.
+      // The number of vertices after splitting at discontinuities of normals and tangents. It can exceed the number of given vertices.
       .def("vertex_count", [](const ModelAsset& self) { return self.model.meshes[0].positions.size(); });
 }
 

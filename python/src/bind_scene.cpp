@@ -19,7 +19,7 @@ namespace {
 
 using Release = py::call_guard<py::gil_scoped_release>;
 
-/// How pixels are returned: 8-bit sRGB codes with 3 or 4 channels, or linear light.
+/// How pixels are returned: 8-bit sRGB values with 3 or 4 channels, or linear light.
 enum class PixelKind { rgb, rgba, light };
 
 // Copies texels to `out` without alpha.

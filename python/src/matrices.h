@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// 4x4 matrices: rows first in NumPy, columns first in GLM.
+// 4x4 matrices: row-major in NumPy, column-major in GLM.
 #pragma once
 
 #include <vector>

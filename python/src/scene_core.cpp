@@ -155,8 +155,8 @@ void SceneCore::expect(std::span<const double> times, PictureSize size) {
 }
 
 // The first shot is rendered by all threads and loads the assets. Afterwards, each thread renders whole images with its own list of the
-// shared assets. The lock is not held meanwhile, because render() may call Python code that uses the scene. All shots show the state of the
-// scene at the time of the call.
+// shared assets. The lock is not held while rendering, because render() may call Python code that uses the scene. All shots show the state
+// of the scene at the time of the call.
 void SceneCore::for_each_shot(std::span<const Shot> shots, PictureSize size,
                               const std::function<void(std::size_t, const PreparedScene&, const Workers&)>& render) {
   if (shots.empty()) return;
@@ -169,7 +169,8 @@ void SceneCore::for_each_shot(std::span<const Shot> shots, PictureSize size,
   first.reset();
   const int teams = static_cast<int>(std::min<std::size_t>(shots.size() - 1, static_cast<std::size_t>(workers_.threads())));
   std::atomic<std::size_t> next = 1;
-  // A team of its own: threads that wait for the lock in render() must not take the places of the threads that hold it in prepare().
+  // A separate team, because threads that wait for the lock in render() must not occupy the threads that prepare() needs while it holds the
+  // lock.
   const Workers team(workers_.threads());
   team.for_each(teams, [&](int) {
     const Workers own(1);

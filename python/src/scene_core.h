@@ -26,7 +26,7 @@ struct PictureSize {
   int width, height;
 };
 
-/// What an image shows, in addition to the scene.
+/// The time, camera and background of an image.
 struct Shot {
   double time = 0.0;                          ///< seconds
   std::optional<CameraDescription> camera{};  ///< replaces the camera of the scene
@@ -52,7 +52,7 @@ class SceneCore {
   /// Returns the whole scene as the text of a scene file.
   std::string print() const;
 
-  /// Provides the model that objects with this file show.
+  /// Provides the model for objects with this file name.
   void provide(const std::string& file, std::shared_ptr<const ModelAsset> model);
   /// Sets the transforms of the copies of an object, from its space to world space.
   void place(const std::string& object, std::vector<glm::dmat4> transforms);
@@ -60,9 +60,9 @@ class SceneCore {
   void forget_model(const std::string& file);
 
   PreparedScene prepare(const Shot& shot, PictureSize size);
-  /// Returns the image that keep_picture() kept if it has this size, or a new one. Its contents are arbitrary.
+  /// Returns the image that keep_picture() kept if it has this size, otherwise a new one. Its contents are undefined.
   Image<glm::u8vec4> take_picture(PictureSize size);
-  /// Keeps an image for the next frame, because allocating one clears it.
+  /// Keeps an image for the next frame, because allocating a new image also clears it.
   void keep_picture(Image<glm::u8vec4> picture);
   /// Announces frames, so that generated maps do not change between them.
   void expect(std::span<const double> times, PictureSize size);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What pictures and labels show, as Python passes it, and the progress of a batch.
+// Converts the times and cameras that Python passes to shots, and reports the progress of a batch.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Shared by all tests: the command line program, shared data, and small meshes."""
+"""Shared by all tests: the command-line program, shared data, and small meshes."""
 
 import os
 import subprocess
@@ -15,7 +15,7 @@ ROOT = Path(__file__).resolve().parents[2]
 
 @pytest.fixture
 def command_line(tmp_path):
-    """Renders with the command line program and returns the decoded PNG."""
+    """Renders with the command-line program and returns the path of the PNG file."""
     program = os.environ.get("HALFSPACE_PROGRAM", "")
     if not os.path.exists(program):
         pytest.skip("the program was not built (HALFSPACE_PROGRAM)")
@@ -30,7 +30,7 @@ def command_line(tmp_path):
 
 @pytest.fixture
 def program():
-    """The path of the command line program."""
+    """The path of the command-line program."""
     path = os.environ.get("HALFSPACE_PROGRAM", "")
     if not os.path.exists(path):
         pytest.skip("the program was not built (HALFSPACE_PROGRAM)")
@@ -47,7 +47,7 @@ def horse():
 
 
 def without_text(path):
-    """Returns the chunks of a PNG file, except its texts, which hold the command line."""
+    """Returns the chunks of a PNG file, except for text chunks, which contain the command line."""
     data, chunks, at = Path(path).read_bytes(), [], 8
     while at < len(data):
         length = int.from_bytes(data[at : at + 4], "big")
@@ -59,7 +59,7 @@ def without_text(path):
 
 
 def same_bytes(picture, path):
-    """Returns whether the picture would be written as this file, apart from its texts."""
+    """Returns whether the picture would be saved as this file, apart from text chunks."""
     saved = Path(str(path) + ".own.png")
     picture.save(saved)
     return without_text(saved) == without_text(path)

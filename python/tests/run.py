@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Runs the tests of the Python module. Exits with 77 (skipped for ctest) if a package that they need is missing.
+"""Runs the tests of the Python module. Exits with 77, which CTest reports as skipped, if a required package is missing.
 
   PYTHONPATH=BUILD/python HALFSPACE_PROGRAM=BUILD/bin/halfspace run.py [arguments of pytest]
 """
@@ -20,5 +20,5 @@ def main():
     return pytest.main(["-q", "-p", "no:cacheprovider", "-W", "error", str(Path(__file__).parent), *sys.argv[1:]])
 
 
-if __name__ == "__main__":  # processes that tests start import this file
+if __name__ == "__main__":  # processes that the tests start also import this file
     sys.exit(main())

@@ -302,7 +302,7 @@ def test_more_objects_than_one_patch_can_have():
 
 
 def test_only_rejected_objects_are_dropped():
-    """A scene has at most 65,536 objects with their copies. Those that fit are added."""
+    """A scene can have at most 65,536 objects, counting copies. Objects that fit are added."""
     scene = halfspace.Scene(lighting="none")
     copies = [4096] * 15 + [4094]
     scene.merge({"objects": {f"many_{i}": {"shape": "plane", "instances": [{}] * count} for i, count in enumerate(copies)}})

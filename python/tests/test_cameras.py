@@ -27,7 +27,7 @@ def moved(K, x=0.0, y=0.0):
 
 
 def covered(corners_camera, R, t, K, pixel):
-    """Returns whether the pixel (column, row) shows the quad, whose corners are in OpenCV's camera space."""
+    """Returns whether the pixel (column, row) shows the quad. Its corners are given in OpenCV's camera space."""
     scene = halfspace.Scene(lighting="none", threads=1)
     scene["samples"] = 1
     scene.add(halfspace.Mesh((corners_camera - t) @ R, QUAD[1], material=WHITE))
@@ -112,7 +112,7 @@ def test_orthographic_matrices_match_look_at():
 
 
 def test_the_sky_moves_with_the_principal_point():
-    """The part of a picture with an off-center view is the same part of a larger one."""
+    """The picture of an off-center view is identical to the corresponding part of a larger picture."""
     scene = halfspace.Scene.load("environment")
     pose = look_at_pose((0.0, 1.0, 6.0), (0.0, 0.5, 0.0))
     K = np.array([[100.0, 0, 79.5], [0, 100.0, 59.5], [0, 0, 1]])

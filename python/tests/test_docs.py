@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Runs the code of docs/howto/python.md and the examples."""
+"""Runs the code blocks of docs/howto/python.md and the example programs."""
 
 import re
 import subprocess
@@ -12,7 +12,7 @@ from conftest import ROOT
 EXAMPLES = ROOT / "python" / "examples"
 
 
-def test_the_code_of_the_document_runs(tmp_path, monkeypatch):
+def test_the_code_in_the_document_runs(tmp_path, monkeypatch):
     blocks = re.findall(r"^```python\n(.*?)^```", (ROOT / "docs" / "howto" / "python.md").read_text(), flags=re.S | re.M)
     assert len(blocks) >= 8
     monkeypatch.chdir(tmp_path)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Passes that draw arrays: compares pixels with closed-form results for each part of the draw state."""
+"""Passes that draw arrays: compares pixels with exact results for each part of the draw state."""
 
 import numpy as np
 import pytest

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Labels: closed forms for a quad and a sphere, ids, backgrounds, and batches."""
+"""Labels: comparison with exact values for a quad and a sphere, ids, backgrounds, and batches."""
 
 import numpy as np
 import pytest
@@ -25,7 +25,7 @@ def look_down_z(distance=4.0, K=K):
 
 @pytest.fixture
 def quads():
-    """A near quad in the center and two copies of a far one to the left and right."""
+    """A near quad in the center, and two copies of a far quad to its left and right."""
     scene = halfspace.Scene(lighting="none")
     uvs = np.array([[0, 0], [1, 0], [1, 1], [0, 1]], float)
     scene.add(halfspace.Mesh(*QUAD, uvs=uvs, material=WHITE), np.diag([0.5, 0.5, 1, 1.0]) @ moved(0, 0, 1), name="near")
@@ -94,7 +94,7 @@ def test_camera_normals_turn_with_the_camera(quads):
     assert len(normals) > 10 and np.allclose(normals, [-np.sin(yaw), 0, np.cos(yaw)], atol=1e-5)
 
 
-def test_depth_of_a_sphere_and_of_a_plane_of_a_scene_file():
+def test_depth_of_a_sphere_and_a_plane_in_a_scene_file():
     scene = halfspace.Scene(lighting="none")
     scene.merge({"ambient": 1, "objects": {"ball": {"shape": "sphere"}, "floor": {"shape": "plane", "size": 20, "position": [0, -2, 0]}}})
     labels = scene.labels(["distance", "object", "normal"], size=(41, 41), camera=halfspace.Camera.look_at((0, 0, 5)))

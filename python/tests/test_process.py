@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Lifetimes, threads, processes, memory and the time of an import."""
+"""Lifetimes, threads, processes, memory use and import time."""
 
 import gc
 import multiprocessing
@@ -219,7 +219,7 @@ def test_meshes_that_are_removed_leak_nothing():
 
 
 def test_import_is_fast():
-    """The target is 50 ms more than NumPy alone; the test allows more, because other programs may run."""
+    """The goal is 50 ms more than importing NumPy alone. The test allows more, because other programs may be running."""
     code = "import time, numpy; t = time.perf_counter(); import halfspace; print(time.perf_counter() - t)"
     times = [float(subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout) for _ in range(5)]
     assert min(times) < 0.2

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""halfspace.render: the same pixels as the command line, and its errors."""
+"""halfspace.render: its pixels and errors match those of the command line."""
 
 import subprocess
 import warnings
@@ -37,7 +37,7 @@ def test_linear_light_matches_the_command_line(command_line, program):
     assert light.shape == (90, 160, 4) and light.dtype == np.float32
     saved = path.with_name("own.exr")
     light.save(saved)
-    # The header of the other file holds the command line.
+    # The header of the other file contains the command line.
     assert subprocess.run([program, "compare", saved, path, "--tolerance", "0"], check=False, capture_output=True).returncode == 0
 
 
@@ -47,13 +47,13 @@ def test_threads_do_not_change_the_pixels():
 
 
 @pytest.mark.parametrize("size", [(301, 307), (33, 7), (1, 1)])  # pixels are copied in parts of 65536
-def test_pictures_of_several_parts_and_of_one_have_the_pixels_of_the_command_line(command_line, size):
+def test_pictures_copied_in_one_or_several_parts_match_the_command_line(command_line, size):
     path = command_line("three-lights", "--size", f"{size[0]}x{size[1]}")
     assert same_bytes(halfspace.render("three-lights", size=size), path)
 
 
 @pytest.mark.parametrize("name, hide", [("earth", {"earth.visible": False}), ("day-night", {"time.hours": 23}), ("particles", {"particles.count": 0})])
-def test_a_picture_keeps_nothing_of_the_one_before(name, hide):
+def test_a_picture_does_not_depend_on_the_previous_one(name, hide):
     scene, fresh = halfspace.Scene.load(name), halfspace.Scene.load(name)
     before = scene.render(SMALL)
     scene.set(hide)

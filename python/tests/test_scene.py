@@ -42,7 +42,7 @@ def test_frames_match_the_command_line(command_line):
         assert same_bytes(frame, first.with_name(f"picture_{number:04}.png"))
 
 
-def test_frames_are_made_one_by_one_and_do_not_change_with_the_scene():
+def test_frames_are_rendered_on_demand_and_ignore_later_changes():
     scene = halfspace.Scene.load("day-night")
     expected = list(scene.frames(2, size=SMALL))
     frames = scene.frames(2, size=SMALL)

@@ -15,7 +15,7 @@ namespace py = pybind11;
 
 namespace {
 
-using halfspace::floor, halfspace::select;  // for floats and for SIMD lanes
+using halfspace::floor, halfspace::select;  // work for floats and for SIMD lanes
 using halfspace::vec3, halfspace::vec4;
 
 // Members without `R` are the uniforms.
@@ -34,7 +34,7 @@ struct Stripes {
   template <class R>
   vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
     out.x = in.position.x * R(count);
-    return vec4<R>(in.position, R(1));  // the array has clip space coordinates
+    return vec4<R>(in.position, R(1));  // the array contains clip-space positions
   }
   template <class R>
   halfspace::Fragment<R> fragment(const Varyings<R>& in, const halfspace::Pixel<R>&) const {
