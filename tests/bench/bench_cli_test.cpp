@@ -90,7 +90,8 @@ TEST(BenchCli, ReportsTheMemoryOfASingleWorkload) {
     EXPECT_EQ(outcome.exit_code, 0);
     return nlohmann::json::parse(outcome.text).at("frames_mb").get<double>();
   };
-  // Three million vertices of 17 bytes, some of which can reuse memory freed by preparation. A cleared 64x64 image needs almost no memory.
+  // Three million vertices of 17 bytes each; some of them can reuse memory freed by preparation. A cleared 64x64 image needs almost no
+  // memory.
   EXPECT_GE(megabytes("tiny_1m"), megabytes("clear") + 25);
 }
 

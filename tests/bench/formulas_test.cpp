@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Checks the workloads against ray tracing and closed forms in double. The formulas are written independently of the workloads' shaders,
-// which workloads_test.cpp shares through the naive pipeline.
+// Checks the workloads against ray tracing and closed forms in double. The formulas are written independently of the workloads' shaders;
+// workloads_test.cpp, in contrast, runs the same shaders in the naive pipeline.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -72,8 +72,8 @@ TEST(WorkloadFormulas, LayersShowTheNearestOne) {
   }
 }
 
-// Returns the color of the checkerboard at a point of the sphere, or nothing within 16 texels of another square, where the filter mixes
-// them. (A pixel spans up to 7 texels where the sphere faces the camera.)
+// Returns the color of the checkerboard at a point of the sphere, or nothing within 16 texels of an adjacent square, where the filter mixes
+// both colors. (A pixel spans up to 7 texels where the sphere faces the camera.)
 std::optional<dvec3> checker(const dvec3& p) {
   const double turn = std::atan2(p.z, p.x) / (2 * std::numbers::pi);
   const double x = 2048 * (turn - std::floor(turn)), y = 1024 * std::acos(p.y) / std::numbers::pi;
@@ -83,7 +83,7 @@ std::optional<dvec3> checker(const dvec3& p) {
   return light ? dvec3(230.0 / 255) : dvec3(40.0 / 255, 90.0 / 255, 160.0 / 255);
 }
 
-// The mesh of two million triangles is within 5e-6 of the sphere, and the mesh of 200,000 is within 4e-5. Both are far less than a code.
+// The mesh of two million triangles is within 5e-6 of the sphere, and the mesh of 200,000 is within 4e-5. Both are far less than 1/255.
 TEST(WorkloadFormulas, SpherePhongAndHdrMatch) {
   const Image<glm::u8vec4> phong = drawn("sphere_phong_2m", kSize), hdr = drawn("hdr_200k", kSize);
   const auto tone = [](const dvec3& c) { return glm::pow(0.8 * c / (1.0 + 0.8 * c), dvec3(1 / 2.2)); };
@@ -117,7 +117,7 @@ TEST(WorkloadFormulas, ShadowMatches) {
       if (const std::optional<dvec3> p = on_sphere(eye, ray)) {
         const dvec3 v = glm::normalize(eye - *p);
         const double n_l = glm::dot(*p, l);
-        if (glm::dot(*p, v) < 0.1 || std::abs(n_l) < 0.15) continue;  // skips the rim, and angles at which bias and filter decide
+        if (glm::dot(*p, v) < 0.1 || std::abs(n_l) < 0.15) continue;  // skips the rim, and angles where bias and filter matter
         expect_color(image, x, row, blinn({0.8, 0.3, 0.2}, *p, l, v, n_l > 0 ? 1 : 0));
         dark_side += n_l < 0 ? 1 : 0;
         continue;
@@ -139,8 +139,8 @@ TEST(WorkloadFormulas, ShadowMatches) {
   EXPECT_GT(dark_side, 3000);
 }
 
-// A million triangles of 1 px² that do not overlap cover about a million pixels. On the 1/256 px grid, a triangle has legs of n = 362
-// steps and an area of n²/2. The fill rule includes two of its edges and excludes one, so it contains about n(n + 1)/2 grid points,
+// A million non-overlapping triangles of 1 px² cover about a million pixels. On the 1/256 px grid, a triangle has legs of n = 362 steps and
+// an area of n²/2. The fill rule includes two of its edges and excludes one, so a triangle contains about n(n + 1)/2 grid points,
 // 0.3% more than its area. In addition, the positions of the 1357 columns relative to the pixel grid are not perfectly uniform.
 TEST(WorkloadFormulas, TinyCoversTheExpectedArea) {
   const Image<glm::u8vec4> image = drawn("tiny_1m", {1920, 1080});

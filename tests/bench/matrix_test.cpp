@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Draws every row of the matrix once. Rows with opaque triangles and one sample are compared with double precision; peers_test.cpp compares
-// the others with OpenGL.
+// Draws every row of the matrix once. Rows with opaque triangles and one sample are compared with double-precision references;
+// peers_test.cpp compares the others with OpenGL.
 #include "matrix.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Checks that the peer renderers draw the same images as Halfspace, and that the other programs of the benchmark run. CMake defines the
-// paths of the programs that are built; the tests of the others are skipped.
+// Checks that the peer renderers draw the same images as Halfspace, and that the other benchmark programs run. CMake defines the paths of
+// the programs that are built; tests of programs that are not built are skipped.
 #include <gtest/gtest.h>
 
 #include "bench/program.h"
@@ -39,11 +39,11 @@ std::string all_but_2m() {
   return names;
 }
 
-// Returns the allowed RMS error in codes. Rounding to codes alone gives 0.29. llvmpipe computes the level of detail from differences
-// between pixels with an approximate logarithm. At this small size, up to a tenth of the textured pixels are off by more than one code, but
-// no pixel is off by many. llvmpipe also snaps points to a grid that is coarse for disks this small, and uses a different anisotropic
-// footprint. Where alpha testing decides the edge of a hole differently, another layer is visible. A wrong light, matrix, state or mesh
-// gives an error of tens of codes.
+// Returns the allowed RMS error in units of 1/255. Rounding to 8 bits alone gives 0.29. llvmpipe computes the level of detail from
+// differences between pixels with an approximate logarithm. At this small size, up to a tenth of the textured pixels are off by more than
+// 1/255, but none by much more. llvmpipe also snaps points to a grid that is coarse for disks this small, and uses a different anisotropic
+// footprint. At the edges of alpha-tested holes, a different layer may be visible. A wrong light, matrix, state or mesh gives an error of
+// tens of units.
 double allowed_rms(const std::string& workload) {
   if (workload == "aniso_floor") return 10.0;
   if (workload == "points_100k") return 5.0;
@@ -70,7 +70,7 @@ TEST(BenchGl, DrawsTheSameImages) {
   }
 }
 
-// Draws a table of states with OpenGL and returns the JSON lines, or nothing if there is no OpenGL.
+// Draws the rows of a table with OpenGL and returns the JSON lines, or nothing if OpenGL is not available.
 std::vector<nlohmann::json> drawn_by_gl(const std::string& table) {
   const std::string program = HALFSPACE_BENCH_GL_PROGRAM;
   if (program.empty()) return {};
@@ -82,7 +82,7 @@ std::vector<nlohmann::json> drawn_by_gl(const std::string& table) {
   return test::json_lines_of(outcome.text);
 }
 
-// Checks that at most a share of the pixels away from edges differs from Halfspace's by more than 2/255.
+// Checks that at most the given fraction of the pixels away from edges differs from Halfspace's by more than 2/255.
 void expect_same_picture(const nlohmann::json& row, double share) {
   const double compared = row.at("difference").at("compared"), off = row.at("difference").at("off");
   EXPECT_LE(off, compared * share) << row.dump();
@@ -99,7 +99,7 @@ TEST(BenchGl, DrawsTheSameMatrix) {
   }
 }
 
-// llvmpipe chooses levels of detail with less precision.
+// llvmpipe computes the level of detail with less precision.
 TEST(BenchGl, DrawsTheSameScenes) {
   const std::vector<nlohmann::json> rows = drawn_by_gl("--scenes");
   if (rows.empty()) GTEST_SKIP() << "no OpenGL";
@@ -107,7 +107,7 @@ TEST(BenchGl, DrawsTheSameScenes) {
   for (const nlohmann::json& row : rows) expect_same_picture(row, 0.01);
 }
 
-// Writes a model of spheres with different materials. The last one is mirrored and seen from inside.
+// Writes a model of spheres with different materials. The last sphere is mirrored and seen from inside.
 void write_spheres(const std::filesystem::path& file, bool colored) {
   Model model;
   const Mesh sphere = uv_sphere(48, 96, 0.45f);
@@ -162,8 +162,8 @@ TEST(BenchGl, RefusesModelsThatItsShaderCannotDraw) {
   for (const char* words : {"colored.glb", "vertex colors"}) EXPECT_NE(outcome.text.find(words), std::string::npos) << outcome.text;
 }
 
-// Rays hit the triangles, so only the outline and the edges of the checkerboard can differ. At this size the outline is 1.5% of the sphere,
-// and rays and the 1/256 px grid disagree on few of its pixels.
+// Rays hit the same triangles, so only the outline and the edges of the checkerboard can differ. At this size the outline is 1.5% of the
+// sphere, and snapping to 1/256 px changes only a few of its pixels.
 TEST(BenchEmbree, DrawsTheSameImages) {
   const std::string program = HALFSPACE_BENCH_EMBREE_PROGRAM;
   if (program.empty()) GTEST_SKIP() << "halfspace-bench-embree is not built";

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The parameter sweeps, and the comparison of images with double precision.
+// Tests the parameter sweeps, and the comparison of images with double-precision references.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -52,7 +52,7 @@ TEST(Sweeps, AreNamedByParameterAndValue) {
   EXPECT_EQ(sweeps()[3].kinds.size(), kVaryings.size());
 }
 
-// Two covered pixels, one of which has a wrong color and depth, and two background pixels, one of which is wrong.
+// Two covered pixels, one with a wrong color and depth, and two background pixels, one of them wrong.
 TEST(PictureErrors, CountsWrongPixels) {
   WorkloadTruth truth(4, 1, vec4<double>(0.2), 1.0);
   truth.depth.at(0, 0) = truth.depth.at(1, 0) = 0.5;

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Tests the values of the tables of scripts/bench_tables.py, when a ratio is shown, and how scripts/bench_measure.py names a processor."""
+"""Tests the table values that scripts/bench_tables.py produces, the rule for when it shows a ratio, and the processor names from
+scripts/bench_measure.py."""
 import sys
 import unittest
 from pathlib import Path
@@ -16,7 +17,7 @@ SIZE = "512x512"
 
 
 def results(**changes):
-    """Two workloads by three programs; ours takes 2 ms and llvmpipe 8 or 18."""
+    """Two workloads, drawn by three programs; ours takes 2 ms, and llvmpipe 8 or 18 ms."""
 
     def row(contender, workload, ms, threads):
         return {"contender": contender, "workload": workload, "size": SIZE, "threads": threads, "ms": ms, "ms_rounds": [ms, 2 * ms]}
@@ -55,7 +56,7 @@ class Tables(unittest.TestCase):
 
     def test_a_wrong_picture_has_no_ratio(self):
         r = results()
-        r.pictures[("halfspace native 1", "tiny_1m", SIZE)]["colors_off"] = 11  # of 10,000 that are covered 10 may be
+        r.pictures[("halfspace native 1", "tiny_1m", SIZE)]["colors_off"] = 11  # at most 10 of the 10,000 covered pixels may be wrong
         self.assertIsNone(r.ratio("halfspace native 1", "llvmpipe 1", "tiny_1m", SIZE))
 
     def test_a_picture_further_off_than_llvmpipes_has_no_ratio(self):
@@ -64,7 +65,7 @@ class Tables(unittest.TestCase):
         self.assertIsNone(r.ratio("halfspace native 1", "llvmpipe 1", "fill", SIZE))
 
     def test_share_of_the_memset(self):
-        # 4 bytes of 262,144 pixels in 1 ms by two threads: 1.05 GB/s of 4.
+        # 4 bytes for each of 262,144 pixels in 1 ms on two threads: 1.05 of 4 GB/s.
         what, reached, limit, unit = bench_tables.resource(results(), "fill", SIZE, 2)
         self.assertAlmostEqual(reached, 1.048576)
         self.assertEqual((limit, unit), (4.0, "GB/s"))

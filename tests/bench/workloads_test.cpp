@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Compares the image of every workload with double precision: with a closed form for clear, fill and points_100k, and with the naive
+// Compares the image of every workload with a double-precision reference: a closed form for clear, fill and points_100k, and the naive
 // pipeline for all others (followed by the tone curve for hdr_200k and tonemap, layer by layer for blend_10, and sample by sample for
 // msaa4_200k). No test depends on timing.
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ void PrintTo(const WorkloadKind& kind, std::ostream* out) { *out << kind.name; }
 
 namespace {
 
-// The default size is odd and gives partial tiles at both edges. HALFSPACE_BENCH_SIZE=1920x1080 selects another size.
+// The default size is odd and gives partial tiles at both edges. HALFSPACE_BENCH_SIZE=1920x1080 selects a different size.
 WorkloadSize size_of_pictures() {
   WorkloadSize size{223, 149};
   const char* given = std::getenv("HALFSPACE_BENCH_SIZE");
@@ -33,7 +33,7 @@ WorkloadSize size_of_pictures() {
   return size;
 }
 
-// Window depths are close to 1, where the step of a float is 6e-8. A position error of about 1e-7 affects depth through the slope of a
+// Window depths are close to 1, where the spacing of floats is 6e-8. A position error of about 1e-7 affects depth through the slope of a
 // surface seen edge-on. Where the near plane clips, a vertex can be snapped to a different 1/256 px, and depth is steep there.
 double depth_tolerance(std::string_view workload) { return workload == "near_clip" ? 1e-4 : 1e-5; }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light that is encoded twice must not compile, and the message must name: Encoded.
+// Light that is encoded twice must not compile, and the error must contain: Encoded.
 #include "halfspace/shading/tone.h"
 
 using namespace halfspace;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scene light that is encoded without a tone curve must not compile, and the message must name: SceneLight.
+// Scene light that is encoded without a tone curve must not compile, and the error must contain: SceneLight.
 #include "halfspace/shading/tone.h"
 
 using namespace halfspace;

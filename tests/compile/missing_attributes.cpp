@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A shader that lacks its Attributes struct must not compile, and the message must name: struct Attributes.
+// A shader that lacks its Attributes struct must not compile, and the error must contain: struct Attributes.
 #include "halfspace/raster/pass.h"
 
 using namespace halfspace;

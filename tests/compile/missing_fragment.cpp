@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A shader that lacks its fragment function must not compile, and the message must name: fragment(const Varyings.
+// A shader that lacks its fragment function must not compile, and the error must contain: fragment(const Varyings.
 #include "halfspace/raster/pass.h"
 
 using namespace halfspace;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A shader with a Primitive struct but without a primitive function must not compile, and
-// the message must name: primitive(const Varyings.
+// A shader with a Primitive struct but without a primitive function must not compile, and the error must contain: primitive(const Varyings.
 #include "halfspace/raster/pass.h"
 
 using namespace halfspace;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A shader that lacks its vertex function must not compile, and the message must name: vertex(const Attributes.
+// A shader that lacks its vertex function must not compile, and the error must contain: vertex(const Attributes.
 #include "halfspace/raster/pass.h"
 
 using namespace halfspace;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// An index vector that is destroyed before the pass runs must not compile, and
-// the message must name: the index list is a temporary.
+// An index vector that is destroyed before the pass runs must not compile, and the error must contain: the index list is a temporary.
 #include "halfspace/raster/pass.h"
 #include "support/shaders.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A shader whose fragment function returns a vec4 instead of a Fragment must not compile, and
-// the message must name: the shader's fragment function must return.
+// the error must contain: the shader's fragment function must return.
 #include "halfspace/raster/pass.h"
 
 using namespace halfspace;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A shader whose Attributes do not match the streams must not compile, and
-// the message must name: the streams do not match.
+// A shader whose Attributes do not match the streams must not compile, and the error must contain: the streams do not match.
 #include "halfspace/raster/pass.h"
 #include "support/shaders.h"
 

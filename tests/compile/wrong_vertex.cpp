@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A shader whose vertex function does not return a clip-space vec4 must not compile, and
-// the message must name: vertex(const Attributes.
+// A shader whose vertex function does not return a clip-space vec4 must not compile, and the error must contain: vertex(const Attributes.
 #include "halfspace/raster/pass.h"
 
 using namespace halfspace;

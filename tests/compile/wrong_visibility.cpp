@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A shader whose visibility function returns only a mask must not compile, and
-// the message must name: Visibility<R> visibility(const Varyings<R>& in.
+// the error must contain: Visibility<R> visibility(const Varyings<R>& in.
 #include "halfspace/raster/pass.h"
 
 using namespace halfspace;

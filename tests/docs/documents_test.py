@@ -77,13 +77,13 @@ def words_of(command):
 
 
 def program_name(word):
-    """The name if the word starts one of this project's programs, with or without a path."""
+    """Returns the program's name if the word is one of this project's programs, with or without a path."""
     name = word.rsplit("/", 1)[-1]
     return name if name in PROGRAM_NAMES and (word == name or word.startswith("./") or "/bin/" in word) else None
 
 
 def reduced(command):
-    """The same command, small enough to run in about a second."""
+    """Returns the command with options that make it run in about a second."""
     words = words_of(command)
     name, text = program_name(words[0]), command
     text = re.sub(r"^\S+", name, text)
@@ -101,7 +101,7 @@ def reduced(command):
         extra.append("--quick")
     if not extra:
         return text
-    # Before a comment or a redirection.
+    # Insert the options before a comment or a redirection.
     match = re.search(r"\s(#|>|\|)", text)
     end = match.start() if match else len(text)
     return f"{text[:end].rstrip()} {' '.join(extra)} {text[end:].lstrip()}".rstrip()

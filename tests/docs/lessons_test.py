@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Checks that the changes that the lessons show apply to their programs."""
+"""Checks that the changes shown in the lessons apply to the programs."""
 
 import sys
 import unittest

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Runs every program of apps/examples and checks pixels whose values follow from its source.
+// Runs every program in apps/examples and checks pixels whose expected values follow from its source.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -44,7 +44,7 @@ TEST(Examples, TriangleInterpolatesColors) {
   ASSERT_EQ(p.width(), 640);
   EXPECT_EQ(p.at(0, 0), glm::u8vec4(srgb(0.01f), srgb(0.01f), srgb(0.02f), 255));
   // The center of pixel (320, 240) is (1/640, -1/480) in NDC. The weights of red, green and blue there are 1/4, 1/4 and 1/2 to within
-  // 0.003, which is at most two sRGB codes.
+  // 0.003, which is at most 2/255 after sRGB encoding.
   const glm::u8vec4 c = p.at(320, 240);
   EXPECT_NEAR(c.x, srgb(0.25f), 2);
   EXPECT_NEAR(c.y, srgb(0.25f), 2);
@@ -56,7 +56,7 @@ TEST(Examples, TexturedCubeShowsBothColorsEqually) {
   EXPECT_EQ(p.at(0, 0), glm::u8vec4(0));
   const auto is_bright = [](const glm::u8vec4& c) { return c == glm::u8vec4(230, 180, 60, 255); };
   const auto is_dark = [](const glm::u8vec4& c) { return c == glm::u8vec4(40, 60, 120, 255); };
-  // The two colors cover equal parts of each face; the remaining pixels of the cube are filtered between them.
+  // The two colors cover equal parts of each face; the remaining pixels of the cube are blends of both, due to filtering.
   EXPECT_GT(share(p, is_bright), 0.05);
   EXPECT_NEAR(share(p, is_bright), share(p, is_dark), 0.01);
 }
@@ -65,10 +65,10 @@ TEST(Examples, OwnShaderDiscardsAndUsesFlatVaryings) {
   const Picture p = run_example("own_shader");
   EXPECT_EQ(p.at(10, 240).w, 0);  // |x| > 0.9 is discarded
   EXPECT_EQ(p.at(30, 240).w, 255);
-  // The flat varying of the two triangles of the quad differs by a factor of 1/2. Pixels mirrored across the diagonal from the lower left
-  // to the upper right have the same distance from the center.
+  // The quad's two triangles differ in the flat varying by a factor of 1/2. Pixels mirrored across the diagonal from the lower left to the
+  // upper right have the same distance from the center.
   const glm::u8vec4 lower = p.at(300, 400), upper = p.at(479 - 400, 479 - 300);
-  EXPECT_NEAR(srgb_to_linear<float>(int32_t{lower.x}) * 2.0f, srgb_to_linear<float>(int32_t{upper.x}), 0.01f);  // two codes
+  EXPECT_NEAR(srgb_to_linear<float>(int32_t{lower.x}) * 2.0f, srgb_to_linear<float>(int32_t{upper.x}), 0.01f);  // 2/255 in sRGB
 }
 
 TEST(Examples, RenderToTextureReadsAllLevels) {
@@ -84,7 +84,7 @@ TEST(Examples, ShadowMapDarkensTheGround) {
   // The ground's normal is (0, 1, 0), and its cosine with the light direction is 4/sqrt(29). In shadow, 0.2 of the color remains.
   const auto code = [](float color, float light) { return int{srgb(color * light)}; };
   const float lit = 0.8f * 4.0f / std::sqrt(29.0f) + 0.2f;
-  const auto is_near = [&](const glm::u8vec4& c, float light) {  // within one code, because the normal is rounded
+  const auto is_near = [&](const glm::u8vec4& c, float light) {  // within 1/255, because the normal is rounded
     return std::abs(c.x - code(0.7f, light)) <= 1 && std::abs(c.y - code(0.65f, light)) <= 1 && std::abs(c.z - code(0.6f, light)) <= 1;
   };
   EXPECT_GT(share(p, [&](const glm::u8vec4& c) { return is_near(c, lit); }), 0.3);

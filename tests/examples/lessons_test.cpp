@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Runs all programs of apps/lessons and compares their pictures with those in their pages.
+// Runs all programs in apps/lessons and compares their pictures with those in the lessons' pages.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -85,7 +85,7 @@ TEST(Lesson, FourDrawsThePictureOfThree) {
   const Image<glm::u8vec4> own = run_lesson(3).picture, library = run_lesson(4).picture;
   ASSERT_EQ(own.width(), library.width());
   ASSERT_EQ(own.height(), library.height());
-  // The page states the number. Vertices are snapped to 1/256 px, which moves edges by less than a pixel.
+  // The page states this number. Vertices are snapped to 1/256 px, which moves edges by less than a pixel.
   EXPECT_EQ(differing_pixels(own, library), 156);
 }
 

@@ -3,7 +3,7 @@
 #include "halfspace/core/tool_folder.h"
 #include "halfspace/model/read_gltf.h"
 
-// Another program decodes Draco meshes. Starting it would take most of the time, and it is not instrumented.
+// Draco meshes are decoded by a separate program. Starting it would take most of the time, and it is not instrumented.
 extern "C" int LLVMFuzzerInitialize(int*, char***) {
   halfspace::set_tool_folder("/no-such-folder");
   return 0;

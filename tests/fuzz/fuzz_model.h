@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Shared by the fuzz targets of model files (libFuzzer). A target passes its input to one reader, which must return a model or throw an
-// InputError with a message of one line.
+// Shared by the fuzz targets for model files (libFuzzer). A target passes its input to one reader, which must return a model or throw an
+// InputError with a one-line message.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Checks the sources of the library: what a library must not do, the names of macros, and the list of public headers in the documents."""
+"""Checks the sources of the library: no calls that a library must not make, the names of macros, and the list of public headers in the
+documents."""
 
 import re
 import unittest

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Checks that scripts/test_full.sh reports a step whose build fails, even if programs of an earlier build are there."""
+"""Checks that scripts/test_full.sh reports a step whose build fails, even if programs from an earlier build exist."""
 
 import os
 import subprocess
@@ -24,7 +24,7 @@ class FailedBuilds(unittest.TestCase):
             write_program(tree / "programs" / "cmake", 1)
             for name in ("clang++", "ctest", "python3"):
                 write_program(tree / "programs" / name, 0)
-            for name in ("shader_compile_time.sh", "off_costs.sh", "mutate.py", "try_packages.sh", "try_install.sh"):  # they build on their own
+            for name in ("shader_compile_time.sh", "off_costs.sh", "mutate.py", "try_packages.sh", "try_install.sh"):  # they run their own builds
                 write_program(tree / "scripts" / name, 1)
             for name in ("install_deps.sh", "lesson_pictures.py"):
                 write_program(tree / "scripts" / name, 0)
@@ -40,7 +40,7 @@ class FailedBuilds(unittest.TestCase):
 
             names = run("list").stdout.split()
             self.assertIn("lessons", names)
-            names.remove("pip")  # pip_test.py, for which the stand-in runs, builds on its own
+            names.remove("pip")  # runs pip_test.py, which the python3 stand-in replaces
             result = run()
             self.assertEqual(result.returncode, 1, result.stderr)
             self.assertEqual(result.stdout.splitlines()[-1], "failed: " + " ".join(names))
