@@ -183,7 +183,7 @@ def test_indices_are_copied():
     image, indices = np.zeros((1, 1, 4), np.float32), np.arange(6, dtype=np.uint32)
     p = draw.Pass(image)
     p.draw(draw.colored(np.eye(4), RED), positions=plane(), colors=np.ones((6, 4), np.float32), indices=indices)
-    indices[:] = 0  # a triangle without area; larger values would be read outside of the arrays
+    indices[:] = 0  # a triangle without area; larger values would cause reads outside the arrays
     p.run()
     assert image[0, 0].tolist() == [1, 0, 0, 1]
 

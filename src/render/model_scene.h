@@ -39,7 +39,7 @@ struct GeneratedScene {
   std::map<std::string, std::string> camera_names;  ///< names in the file and the corresponding names in the scene
 };
 
-/// Returns true if the extension of the file is that of a model format.
+/// Returns true if the file has the extension of a model format.
 bool is_model_file(const std::filesystem::path& file);
 
 /// Reads the model and returns a scene with the object `model`, the camera `view`, the cameras of the file, and the lights of the file or,

@@ -77,7 +77,7 @@ std::optional<Color> color_from(const Key& key, const Json& json) {
   return std::nullopt;
 }
 
-// Returns true for UTF-8 without control characters, which can be displayed, printed and read back.
+// Returns true for UTF-8 without control characters. Such text can be displayed, printed and read back.
 bool is_plain_text(const std::string& text) {
   if (std::ranges::any_of(text, [](char c) { return static_cast<unsigned char>(c) < 32 || c == 127; })) return false;
   try {
