@@ -23,7 +23,7 @@ namespace halfspace {
 namespace fs = std::filesystem;
 
 struct Outcome {
-  int exit_code = -1;  // −1 if it was killed by a signal
+  int exit_code = -1;  // −1 if the process was killed by a signal
   int signal = 0;
   std::string out, err;
 };
@@ -47,7 +47,7 @@ class Cli : public testing::Test {
     const int o = ::open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
     const int e = ::open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
     if (::chdir(directory.c_str()) != 0 || ::dup2(o, STDOUT_FILENO) < 0 || ::dup2(e, STDERR_FILENO) < 0) ::_exit(99);
-    std::signal(SIGINT, SIG_DFL);  // shells start background jobs with SIGINT ignored, and the program keeps that setting
+    std::signal(SIGINT, SIG_DFL);  // shells start background jobs with SIGINT ignored, and the program inherits that
     ::execv(argv[0], argv.data());
     ::_exit(99);
   }
@@ -62,7 +62,7 @@ class Cli : public testing::Test {
 
   Outcome run(const std::vector<std::string>& arguments) const { return finish(start(arguments)); }
 
-  // environment: assignments as the shell accepts them before a command
+  // environment: variable assignments, as written before a shell command
   Outcome run_in(const std::string& environment, const std::string& arguments) const {
     const std::string command = "cd " + directory.string() + " && " + environment + " " HALFSPACE_PROGRAM " " + arguments + " > " +
                                 (root / "out").string() + " 2> " + (root / "err").string();
@@ -70,7 +70,7 @@ class Cli : public testing::Test {
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, 0, read_bytes(root / "out"), read_bytes(root / "err")};
   }
 
-  // The pixels of an image file. Files of the same pixels differ if they were made with different options.
+  // Returns the pixels of an image file. Files with the same pixels differ if they were rendered with different options.
   Image<glm::u8vec4> picture(const std::string& name) const { return read_image(directory / name); }
 
   std::vector<std::string> files() const {

@@ -40,7 +40,7 @@ struct Mistake {
   const char* name;
   std::vector<std::string> arguments;
   int exit_code;
-  std::string place;  // text after "halfspace: "; {here} is the directory of the test, because paths in --set become absolute
+  std::string place;  // text after "halfspace: "; {here} stands for the directory of the test, because paths in --set become absolute
   std::vector<std::string> keywords;
 };
 
@@ -512,8 +512,8 @@ TEST_F(Cli, CompareReportsNumbersAndChecksTheTolerance) {
 TEST_F(Cli, CompareUsesLinearValuesForLinearFiles) {
   for (const char* name : {"a.exr", "a.png"}) EXPECT_EQ(run({"render", "earth", "--size", "64x36", "-o", name}).exit_code, 0);
   EXPECT_EQ(nlohmann::json::parse(run({"compare", "a.exr", "a.exr", "--json"}).out).at("values"), "linear");
-  // A linear file is encoded to codes for the comparison with an 8-bit file. Both show the same scene, so codes differ only where rounding
-  // to half (2^-11 of the value) moves a value from one code to the next.
+  // A linear file is encoded to 8 bits for the comparison with an 8-bit file. Both show the same scene, so they differ only where rounding
+  // to half (2^-11 of the value) changes the nearest 8-bit value.
   const auto mixed = nlohmann::json::parse(run({"compare", "a.exr", "a.png", "--json"}).out);
   EXPECT_EQ(mixed.at("values"), "codes");
   EXPECT_LE(mixed.at("max").get<double>(), 1.0 / 255.0);
@@ -587,7 +587,7 @@ TEST_F(Cli, ConvertNormalWritesAMap) {
   EXPECT_EQ(run({"convert-normal", "normal.png", "-o", "again.png"}).exit_code, 0) << "the written file can be read";
 }
 
-// On a terminal, the progress bar advances, fits into the line, and is cleared at the end and after an interrupt. (`script` from util-linux
+// On a terminal, the progress bar advances, fits into one line, and is cleared at the end and after an interrupt. (`script` from util-linux
 // provides the terminal.)
 TEST_F(Cli, ProgressIsABarOnATerminal) {
   if (!command_works("script --version")) GTEST_SKIP() << "script (util-linux) is absent";
@@ -648,7 +648,7 @@ class OpenFiles {
   std::set<std::string> open_;
 };
 
-// Stops a program while it is writing a file. If the file is already closed when this test wakes up, the program continues to the next
+// Stops a program while it is writing a file. If the file is already closed when this test wakes up, lets the program continue to the next
 // file. Returns false if this takes more than a minute.
 bool stop_while_writing(pid_t child, OpenFiles& files) {
   using std::chrono::milliseconds;

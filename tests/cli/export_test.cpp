@@ -29,12 +29,11 @@ class Export : public Cli {
   }
 };
 
-// Cameras and lights. The sun is the only light, because ambient light is not exported.
+// A scene with cameras and lights. The sun is the only light, because ambient light is not exported.
 const std::string kHead = R"({"version": 1, "cameras": {"c": {"position": [2, 3, 6], "target": [0, 0.3, 0]}},
   "lights": {"sun": {"direction": [1, 2, 2], "intensity": 1.2}}, "objects": {)";
 
-// Except for the rounding of floats, everything in this scene is exported without loss: diffuse light, textures, instances and all kinds of
-// placement.
+// Except for rounding to float, this scene is exported without loss: diffuse lighting, textures, instances and all kinds of placement.
 const std::string kObjects = R"(
   "floor": {"shape": "plane", "size": 6, "segments": 2, "position": [0, -1, 0], "color": "map.png", "specular": 0},
   "ball": {"shape": "uv_sphere", "radius": 0.7, "color": [0.8, 0.3, 0.2], "position": [-1.5, 0, 0], "rotation": [10, 20, 30]},
@@ -62,7 +61,7 @@ TEST_F(Export, RenderOfTheExportMatches) {
     write("again.json", shown(file));
     const ImageDifference d = compare_images(expected, render("again.json"));
     // Rounding of positions moves silhouettes, which changes a few pixels. Rounding of normals and the converted reflection model change
-    // shading by 1 code.
+    // shading by 1/255.
     EXPECT_LT(d.mean, 2e-3) << file;
     EXPECT_LT(d.share_above, 0.01) << file;
   }

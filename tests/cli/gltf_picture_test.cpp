@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Renders small files for features of glTF and compares them with known pictures. The camera looks along -z at the square [-4, 4]²; a unit
-// is one pixel.
+// Renders a small file for each glTF feature and compares the result with a known picture. The camera looks along -z at the square [-4,
+// 4]²; a unit is one pixel.
 #include <fstream>
 
 #include "cli/cli_run.h"
@@ -76,7 +76,7 @@ class GltfPicture : public Cli {
   static int white_square(GltfBuilder& file) { return file.mesh_node(square(file, unlit(file, GltfJson::object()))); }
 };
 
-// Returns a picture with four equal rows in the middle; the other rows are empty.
+// Returns a picture with four equal rows in the middle; all other rows are empty.
 Art middle(const std::string& row) { return {"........", "........", row, row, row, row, "........", "........"}; }
 
 const Art kColors{"........", "........", "..RRGG..", "..RRGG..", "..BBWW..", "..BBWW..", "........", "........"};
@@ -130,7 +130,7 @@ TEST_F(GltfPicture, MaskAndBlend) {
   EXPECT_EQ(art(blend), middle("..hhhh.."));
 }
 
-// The mesh has only front faces, which must not be culled if the node is mirrored.
+// All faces of the mesh face the camera. They must not be culled if the node is mirrored.
 TEST_F(GltfPicture, NegativeScaleMirrors) {
   GltfBuilder file;
   const int node =
@@ -149,7 +149,7 @@ TEST_F(GltfPicture, Instances) {
   EXPECT_EQ(art(file), middle("WWWW..WW"));
 }
 
-// Quantized positions are integers that the transform of the node scales.
+// Quantized positions are integers; the node's transform scales them.
 TEST_F(GltfPicture, QuantizedPositions) {
   GltfBuilder file;
   file.json["extensionsUsed"] = file.json["extensionsRequired"] = {"KHR_mesh_quantization"};
@@ -172,7 +172,7 @@ TEST_F(GltfPicture, SparseAndInterleavedAccessors) {
       {"count", 1},
       {"indices", {{"bufferView", file.view(std::vector<uint16_t>{0})}, {"componentType", 5123}}},
       {"values", {{"bufferView", file.view(std::vector<float>{-2, -2, 0})}}}};
-  std::vector<float> rows;  // of two attributes
+  std::vector<float> rows;  // two interleaved attributes
   for (std::size_t i = 0; i < 4; ++i) rows.insert(rows.end(), {uvs()[2 * i], uvs()[2 * i + 1], 7.0f});
   const int interleaved =
       file.add("accessors", {{"bufferView", file.view(rows, 12)}, {"componentType", 5126}, {"count", 4}, {"type", "VEC2"}});

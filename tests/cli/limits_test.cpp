@@ -18,7 +18,7 @@ class Limits : public Cli {
     write("a.mtl", "newmtl m\nmap_Kd " + texture + "\n");
     write("a.obj", "mtllib a.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3/1\n");
   }
-  // Checks that the program ends with exit code 3 and one line that contains the words.
+  // Checks that the program exits with code 3 and prints one line that contains the words.
   void expect_rejected(std::vector<std::string> arguments, const std::vector<std::string>& words) const {
     const Outcome o = run(arguments);
     EXPECT_EQ(o.exit_code, 3) << arguments[0] << ": " << o.err;

@@ -14,7 +14,7 @@ namespace {
 class Models : public Cli {
  protected:
   void write(const std::string& name, const std::string& text) const { std::ofstream(directory / name) << text; }
-  // A cube with the given center and edge length as OBJ.
+  // Returns a cube with the given center and edge length as OBJ text.
   static std::string cube(double center, double size) {
     std::ostringstream text;
     text.precision(17);
@@ -65,7 +65,7 @@ TEST_F(Models, PositionAndSizeOfTheModelDoNotMatter) {
   }
 }
 
-// Points and lines without a color of their own contrast with the background, and the points of small clouds are larger.
+// Points and lines without a color of their own contrast with the background, and points are larger in small point clouds.
 TEST_F(Models, PointsAndLinesAreVisible) {
   const auto dark_pixels = [&](const std::string& elements, const std::string& background) {
     std::string text = cube(0.0, 1.0);
@@ -120,7 +120,7 @@ TEST_F(Models, TurntableRendersNumberedFrames) {
   EXPECT_EQ(run({"render", "cube.obj", "--size", "96x54", "--turntable", "4"}).exit_code, 0);
   EXPECT_EQ(files(), (std::vector<std::string>{"cube-render_0000.png", "cube-render_0001.png", "cube-render_0002.png",
                                                "cube-render_0003.png", "cube.obj"}));
-  // The lights stay while the camera goes around, so opposite views differ.
+  // The lights stay in place while the camera moves around the model, so opposite views differ.
   EXPECT_NE(read_bytes(directory / "cube-render_0000.png"), read_bytes(directory / "cube-render_0002.png"));
 }
 
@@ -155,7 +155,7 @@ TEST_F(Models, InputFilesAreNotOverwritten) {
   EXPECT_EQ(read_bytes(directory / "a-render.png"), before);
 }
 
-// Two crossing quads, transparent and with holes, in front of a wall.
+// Two intersecting transparent quads in front of a wall.
 std::string crossing_quads(const std::string& material) {
   return "mtllib m.mtl\nv -1 -1 -2\nv 1 -1 -2\nv 1 1 -2\nv -1 1 -2\nusemtl wall\nf 1 2 3 4\n"
          "v -1 -1 -1\nv 1 -1 1\nv 1 1 1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 1\n"
@@ -216,7 +216,7 @@ TEST_F(Models, InfoDescribesAModel) {
   const auto info = nlohmann::json::parse(o.out);
   EXPECT_EQ(info.at("format"), "OBJ");
   EXPECT_EQ(info.at("triangles"), 13);
-  EXPECT_EQ(info.at("non_manifold_edges"), 2 + 1);  // two sides of the added triangle, and the diagonal of the quad
+  EXPECT_EQ(info.at("non_manifold_edges"), 2 + 1);  // two edges of the added triangle, and the diagonal of the quad
   EXPECT_EQ(info.at("bounds").at("low"), (std::vector<double>{1.5, 1.5, 1.5}));
 }
 
@@ -237,7 +237,7 @@ TEST_F(Models, InfoListsImagesAndProblems) {
   EXPECT_EQ(images.at("b.jpg").at("height"), 4);
   EXPECT_TRUE(images.at("c.png").at("width").is_null());
   EXPECT_EQ(info.at("warnings").size(), 1u);
-  EXPECT_EQ(info.at("degenerate_triangles"), 1);  // its corners are on a line
+  EXPECT_EQ(info.at("degenerate_triangles"), 1);  // its vertices are collinear
   EXPECT_EQ(info.at("meshes_without_normals"), 1);
   const Outcome text = run({"info", "a.obj"});
   EXPECT_NE(text.out.find("a.png (7x5)"), std::string::npos) << text.out;

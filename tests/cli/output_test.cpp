@@ -61,7 +61,7 @@ TEST_F(Outputs, ValuesCanHaveSeparateFiles) {
   expect_success({"--aov", "depth", "--aov-separate", "--frames", "3..4", "-o", "b.png", "--crop", "44,28,8,7"});
   EXPECT_EQ(files(), (std::vector<std::string>{"a-albedo.exr", "a-depth.exr", "a.exr", "b_0003-depth.exr", "b_0003.png", "b_0004-depth.exr",
                                                "b_0004.png", "scene.json", "triangle.obj"}));
-  // A file with one channel is read as that channel.
+  // Reading a file with a single channel returns that channel.
   const Image<float> depth = read_gray(directory / "b_0003-depth.exr");
   EXPECT_EQ(depth.width(), 8);
   EXPECT_EQ(depth.height(), 7);
@@ -168,7 +168,7 @@ TEST_F(Outputs, SixteenBitsAndTransparency) {
   EXPECT_EQ(read_image(directory / "triangle-render.png").at(1, 1).w, 0);
 }
 
-// The text contains only options that change pixels. File names have no folders, and the number of threads is omitted.
+// The stored text contains only options that affect pixels. File names have no folders, and the number of threads is omitted.
 TEST_F(Outputs, FilesRecordHowTheyWereMade) {
   fs::create_directory(directory / "folder");
   fs::copy_file(directory / "scene.json", directory / "folder/scene.json");

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Tests the check at program start on the actual machine. The tested program consists of start_check.cpp and cpu.cpp and is built to
-// require FMA4 and XOP, which no processor since 2017 supports, in addition to SSE3, which every processor supports. A separate test uses
-// an emulator (Cli.ReportsAnUnsupportedProcessorInOneLine).
+// Tests the start-up check on the actual machine. The tested program consists of start_check.cpp and cpu.cpp. It is built to require SSE3,
+// which every processor supports, and FMA4 and XOP, which no processor since 2017 supports. A separate test uses an emulator
+// (Cli.ReportsAnUnsupportedProcessorInOneLine).
 #include <gtest/gtest.h>
 
 #include <string>

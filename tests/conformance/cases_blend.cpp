@@ -10,7 +10,7 @@ namespace halfspace::conformance {
 
 namespace {
 
-constexpr int kStrips = 8;  // vertical strips of the destination and horizontal ones of the source: 64 pairs of colors
+constexpr int kStrips = 8;  // vertical strips in the destination and horizontal ones in the source: 64 pairs of colors
 constexpr const char* kFactorNames[] = {"zero",
                                         "one",
                                         "src_color",
@@ -59,7 +59,7 @@ double factor(BlendFactor f, int channel, const glm::dvec4& s, const glm::dvec4&
   if (f == BlendFactor::zero) return 0.0;
   if (f == BlendFactor::one) return 1.0;
   if (f == BlendFactor::src_alpha_saturate) return channel == 3 ? 1.0 : std::min(s.w, 1.0 - d.w);
-  // The others are in groups of four: color, one minus color, alpha, one minus alpha.
+  // The other factors come in groups of four: color, one minus color, alpha, one minus alpha.
   const bool second = i > static_cast<int>(BlendFactor::src_alpha_saturate);
   glm::dvec4 of = s1;
   bool by_alpha = i >= static_cast<int>(BlendFactor::src1_alpha), minus = (i - static_cast<int>(BlendFactor::src1_color)) % 2 == 1;
@@ -84,7 +84,7 @@ double blended(BlendEquation e, double s, double fs, double d, double fd) {
   return std::max(s, d);
 }
 
-// Returns the value that is read back after a linear value was stored; for sRGB, the code.
+// Returns the value that is read back after a linear value was stored; for sRGB, the encoded value.
 double stored(ColorFormat format, int channel, double v) {
   if (format == ColorFormat::rgba32f || format == ColorFormat::rgba16f) return v;
   v = std::clamp(v, 0.0, 1.0);
@@ -122,7 +122,7 @@ std::string blend_formula(const Picture& p, const Seen& seen) {
         }
         expected[k] = stored(format, k, mask[k] ? v : d[k]);
       }
-      // Half a code for 8-bit formats, half of the last of 11 bits for half floats, and a few roundings for floats.
+      // Half an LSB for 8-bit formats, half an ulp for half floats, and a few roundings for floats.
       const double tolerance = format == ColorFormat::rgba32f ? 1e-6 : format == ColorFormat::rgba16f ? 0x1p-11 : kHalfCode;
       return expect_near(expected, seen.color(x, y, a), tolerance);
     });
@@ -151,10 +151,10 @@ void add(Cases& cases, ColorFormat format, BlendState b, Kind kind = Kind::color
                    blend_formula, true});
 }
 
-constexpr int kOneSource = 15;  // factors that do not need a second source
+constexpr int kOneSource = 15;  // number of factors that do not use the second source
 BlendFactor factor_number(int i) { return static_cast<BlendFactor>(i % kOneSource); }
 
-// Adds every pair of factors. Alpha uses other pairs, so that all pairs also occur for alpha over all cases.
+// Adds every pair of factors. Each case uses a different pair for alpha, so that all pairs occur for alpha, too.
 void add_factors(Cases& cases, ColorFormat format) {
   for (int s = 0; s < kOneSource; ++s) {
     for (int d = 0; d < kOneSource; ++d) {

@@ -9,7 +9,7 @@ namespace halfspace::conformance {
 
 namespace {
 
-// The 26 parts of space around the view volume: −1, 0 or 1 on each axis.
+// The 26 regions of space around the view volume: −1, 0 or 1 on each axis.
 glm::ivec3 part(int number) {
   const int i = number < 13 ? number : number + 1;  // 13 is the view volume
   return {i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1};
@@ -25,7 +25,7 @@ std::string part_name(int number) {
   say(d.z, "near", "far");
   return name;
 }
-// Returns a point in that part, between 1.2 and `reach` times as far from the center as the sides of the view volume.
+// Returns a point in that region, between 1.2 and `reach` times as far from the center as the sides of the view volume.
 glm::vec4 outside(int number, float reach, Random& random) {
   const glm::ivec3 d = part(number);
   const float w = random.pick({0.5f, 1.0f, 3.0f});
@@ -73,7 +73,7 @@ std::string as_if_unclipped(const Picture& p, const Seen& seen) {
       if (w == Where::inside) expected = triangle.color(colors, at);
     }
     // Snapping moves a vertex by up to 1/512 px and changes the colors by their slope times that distance. For triangles that are almost
-    // edge-on, this is up to two codes.
+    // edge-on, this is up to 2/255.
     return expect_near(expected, seen.color(x, y), 2.0 / 255.0);
   });
 }
@@ -95,7 +95,7 @@ void add_triangles(Cases& cases) {
 
 // ---- polygons and their edges --------------------------------------------------------------------------------------
 
-// A fan of n corners at about `radius` from the center of the window, in NDC, with depths from −z to z and different values of w.
+// A fan of n vertices at about `radius` from the center of the window, in NDC, with depths from −z to z and different values of w.
 Picture polygon_picture(int corners, float radius, float z, bool behind) {
   Picture p;
   p.colors = {ColorFormat::rgba32f};
@@ -140,8 +140,8 @@ Picture edge_picture(int i) {
   p.draws.push_back(std::move(d));
   return p;
 }
-// The two triangles must also cover their union exactly once. It is convex enough that a pixel of the window near the edge belongs to only
-// one of them.
+// The two triangles must also cover their union exactly once. The quad is convex enough that a pixel of the window near the edge belongs to
+// only one of them.
 std::string edge_once(const Picture& p, const Seen& seen) {
   std::string wrong = covered(p, seen);
   if (!wrong.empty()) return wrong;
@@ -183,7 +183,7 @@ std::string on_the_line(const Picture& p, const Seen& seen) {
   const glm::dvec4 a(p.draws[0].vertices[0].pos_clip), b(p.draws[0].vertices[1].pos_clip);
   const double width = static_cast<double>(p.draws[0].state.line_width);
   glm::dvec2 ends[2];
-  double low = 0.0, high = 1.0;  // the part of the line between near and far
+  double low = 0.0, high = 1.0;  // parameters of the line between near and far
   const auto keep = [&](double da, double db) {
     if (da < 0.0 && db < 0.0) high = -1.0;
     if (da < 0.0 && db >= 0.0) low = std::max(low, da / (da - db));
@@ -221,7 +221,7 @@ Picture point_picture(const glm::vec4& center, float size) {
   return p;
 }
 
-// A point is clipped by the window and not by its center. Beyond near or far, it is discarded completely.
+// The window clips the square of a point; the position of its center does not matter. A point beyond near or far is discarded completely.
 std::string point_rectangle(const Picture& p, const Seen& seen) {
   const glm::vec4 c = p.draws[0].vertices[0].pos_clip;
   if (c.z < -c.w || c.z > c.w) return expect_red(p, seen, {});

@@ -86,8 +86,8 @@ std::string provoking_colors(const Picture& p, const Seen& seen) {
   });
 }
 
-// Every channel of a line is between the minimum and maximum of its vertices. For a wide line, the color can exceed this range to the
-// extent that its corners are beyond its ends (w/2 px and half a pixel).
+// Every channel of a line is between the minimum and maximum of its vertices. For a wide line, the color can exceed this range, because the
+// corners of the line extend beyond its ends (by w/2 px and half a pixel).
 std::string colors_in_range(const Picture& p, const Seen& seen) {
   const Drawing& d = p.draws[0];
   glm::vec4 low(1.0f), high(0.0f);

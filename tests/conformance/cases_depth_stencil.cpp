@@ -19,8 +19,8 @@ constexpr int kSize = 16;
 
 float ndc(float window_depth) { return 2.0f * window_depth - 1.0f; }
 
-// Draws vertical strips of stencil values and rows of depths, and then rectangles with the tested state, of which every other column is
-// back-facing.
+// Draws vertical strips of stencil values and rows of depths, and then rectangles with the tested state. Every other column of the
+// rectangles is back-facing.
 Picture cells(DepthFormat format, const DrawState& state) {
   Picture p;
   p.width = p.height = kSize;
@@ -102,7 +102,7 @@ Case state_case(std::string name, DepthFormat format, const DrawState& state) {
 StencilOp op_number(int i) { return static_cast<StencilOp>(i % 8); }
 CompareOp compare_number(int i) { return static_cast<CompareOp>(i % 8); }
 
-// Adds every pair of stencil and depth comparisons twice. The operations rotate so that each occurs in every role.
+// Adds every pair of stencil and depth comparisons twice. The operations are rotated so that each occurs in every role.
 void add_both(Cases& cases) {
   for (int i = 0; i < 128; ++i) {
     const int stencil = i % 8, depth = i / 8 % 8;
@@ -139,7 +139,7 @@ void add_operations(Cases& cases) {
   }
 }
 
-// Adds cases for only the depth test: every comparison in every format, with and without depth writes.
+// Adds cases for the depth test alone: every comparison in every format, with and without depth writes.
 void add_depth(Cases& cases) {
   constexpr std::pair<DepthFormat, const char*> kFormats[] = {
       {DepthFormat::d16, "d16"}, {DepthFormat::d24, "d24"}, {DepthFormat::d32f, "d32f"}, {DepthFormat::d24s8, "d24s8"}};

@@ -19,7 +19,7 @@ constexpr std::pair<const char*, DepthFormat> kDepthFormats[] = {{"d16", DepthFo
                                                                  {"d24s8", DepthFormat::d24s8},
                                                                  {"d32fs8", DepthFormat::d32fs8}};
 
-// Every pixel must have the clear value as represented in its format.
+// Every pixel must have the clear value, converted to the format.
 std::string cleared(const Picture& p, const Seen& seen) {
   const ColorFormat format = p.colors[0];
   glm::dvec4 color(p.clear_color);
@@ -79,7 +79,7 @@ void add_clears(Cases& cases) {
 
 // ---- instances -----------------------------------------------------------------------------------------------------
 
-// Draws a column of 2 px for each instance, starting at the left. `rows` contain their green, with one row per `divisor` instances.
+// Draws a 2 px wide column for each instance, starting at the left. `rows` contains their green values, one row per `divisor` instances.
 Picture instanced(uint32_t instances, uint32_t divisor, bool indexed, bool strip) {
   Picture p;
   Drawing d;
@@ -143,7 +143,7 @@ constexpr std::pair<const char*, Topology> kTopologies[] = {{"points", Topology:
 constexpr const char* kPlaces[] = {"begin", "end", "middle", "twice", "every_third", "every_fourth", "incomplete", "often", "only"};
 constexpr int kPlaceCount = 9, kIndices = 13;
 
-// Returns whether a restart precedes index i of 0 to 12.
+// Returns whether a restart precedes index i (0 to 12).
 bool restarts_before(int place, int i) {
   switch (place) {
     case 0: return i == 0;
@@ -182,7 +182,7 @@ Picture restarted(Topology topology, int place, bool narrow, uint32_t instances)
   return p;
 }
 
-// The picture must equal the picture of separate draws, one for each run of indices between restarts and each instance.
+// The picture must equal that of separate draws: one for each instance and each run of indices between restarts.
 std::string as_single_draws(const Picture& p, const Seen& seen) {
   Picture single = p;
   single.draws.clear();

@@ -147,7 +147,7 @@ std::string offset_formula(const Picture& p, const Seen& seen) {
   return for_each_pixel(seen, [&](int x, int y) -> std::string {
     const double z = std::fmin(std::fmax(left + (right - left) * (x + 0.5) / 32.0 + by, 0.0), 1.0);
     const double expected = is_float ? z : z * codes, got = seen.depth(x, y);
-    // Fixed point: rounded to a code (for 24 bits, the float has another error of half a code). Float: two roundings of 2^-24.
+    // Fixed point: rounding by half an LSB (for 24 bits, the float adds another half). Float: two roundings of 2^-24.
     const double tolerance = is_float ? 0x1p-23 : codes > 65535.0 ? 1.5 : 0.51;
     return std::fabs(got - expected) <= tolerance ? "" : "depth " + std::to_string(got) + ", expected " + std::to_string(expected);
   });

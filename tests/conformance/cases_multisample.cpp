@@ -48,7 +48,7 @@ std::vector<Region> regions_of(const Picture& p) {
   return regions;
 }
 
-// Edge pixels must have all possible numbers of covered samples, each within its bounds.
+// All possible numbers of covered samples must occur in edge pixels, and each pixel must be within its bounds.
 std::string all_shares(const Picture& p, const Seen& seen) {
   std::set<float> values;
   for_each_pixel(seen, [&](int x, int y) {
@@ -146,7 +146,7 @@ struct Query {
   const char* name;
   Topology topology;
   void (*hide)(Picture&, DrawState&);  ///< changes the picture before the draw with the query
-  int visible;                         ///< samples of the 20 x 12 px rectangle that pass; −1: the visible pixels
+  int visible;                         ///< samples of the 20 x 12 px rectangle that pass; −1: the number of visible pixels
 };
 
 void nothing(Picture&, DrawState&) {}
@@ -210,8 +210,8 @@ Picture query_picture(const Query& q, bool in_two_draws) {
   return p;
 }
 
-// The query must return the number from the closed form or, if there is none, the number of pixels that have the color of the draw. The
-// number is doubled if nothing rejects the second draw.
+// The query must return the number of samples from the closed form or, if there is none, the number of pixels that have the color of the
+// draw. The expected number is doubled if nothing rejects the second draw.
 std::string counted(const Query& q, const Picture& p, const Seen& seen) {
   uint64_t expected = static_cast<uint64_t>(std::max(q.visible, 0));
   if (q.visible < 0) {

@@ -90,7 +90,7 @@ std::string filled(const Picture& p, const Seen& seen) {
   return expect_red(p, seen, regions);
 }
 
-// A point that outputs its point coordinate, which is the distance of the pixel center from the corner of the square.
+// A point that outputs its point coordinate: the offset of the pixel center from the corner of the square.
 Picture coordinate_picture(PointOrigin origin, int samples) {
   Picture p;
   p.samples = samples;

@@ -87,7 +87,8 @@ Picture textured(std::shared_ptr<const Texture2D> texture, const Sampler& sample
   return p;
 }
 
-// The coordinates and the level of every pixel are known. If rounding could select another texel or level, either result is accepted.
+// The coordinates and the mip level of every pixel are known. If rounding could select a different texel or level, either result is
+// accepted.
 std::string lookup_by_rule(const Picture& p, const Seen& seen) {
   const Drawing& d = p.draws[0];
   const Texture2D& t = *d.texture;
@@ -100,12 +101,12 @@ std::string lookup_by_rule(const Picture& p, const Seen& seen) {
   return for_each_pixel(seen, [&](int x, int y) -> std::string {
     const glm::dvec2 at = corner(0) + (x + 0.5) * along_x + (y + 0.5) * along_y;
     std::string wrong;
-    for (int i = 0; i < 27; ++i) {  // 2^-12 texel (Vulkan's Roadmap requires 2^-8 of hardware) and 2^-10 of a level
+    for (int i = 0; i < 27; ++i) {  // by 2^-12 texel (the Vulkan Roadmap requires 2^-8 from hardware) and 2^-10 of a level
       const glm::dvec3 beside(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
       const glm::dvec2 uv = at + glm::dvec2(beside.x, beside.y) * 0x1p-12 / size;
       const test::Mixed m = test::reference(t, d.sampler, uv.x, uv.y, lod + beside.z * 0x1p-10);
       const glm::dvec4 range = m.high - m.low;
-      // Texel fractions have 15 bits, coordinates are varied by 2^-12 texel and levels by 2^-10, as above. The tolerance is this fraction
+      // Texel fractions have 15 bits; coordinates are varied by 2^-12 texel and levels by 2^-10, as above. The tolerance is this fraction
       // of the range of the texels.
       const double tolerance = 0x1p-9 * std::max({range.x, range.y, range.z, range.w}) + 1e-6 * (1.0 + std::fabs(m.high.x));
       wrong = expect_near(m.value, seen.color(x, y), tolerance);
@@ -212,7 +213,7 @@ void add_levels(Cases& cases) {
 
 Cases derivate_cases() {
   Cases cases;
-  for (int mode = 0; mode < 6; ++mode) {  // even if supersampled, a derivative is per pixel of the picture
+  for (int mode = 0; mode < 6; ++mode) {  // even with supersampling, a derivative is the change per pixel of the picture
     cases.push_back({std::string(kFunctions[mode]) + "_supersampled",
                      [=] {
                        Picture p = derivative_picture(mode, 1.0f, false, 4);

@@ -51,7 +51,7 @@ class Blend : public ConformanceOf {};
 TEST_P(Blend, MatchesTheFormula) { expect_no_error(); }
 INSTANTIATE_TEST_SUITE_P(Conformance, Blend, testing::ValuesIn(blend_cases()), case_name);
 
-// A second source requires a second color, whichever factor uses it.
+// Dual-source blending needs a second color output, regardless of which blend factor uses it.
 TEST(ConformanceBlendDeathTest, DualSourceBlendingRequiresASecondColor) {
   Picture p;
   p.draws.resize(1);

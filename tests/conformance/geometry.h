@@ -21,7 +21,7 @@ glm::vec4 clip_at(const Picture& picture, double x, double y, float z_ndc = 0.0f
 glm::dvec2 window_of(const Picture& picture, const glm::vec4& pos_clip);
 /// Adds two triangles for a quad whose corners are in order around it.
 void add_quad(Drawing& drawing, const std::array<Vertex, 4>& corners);
-/// Adds a rectangle (px) of one color.
+/// Adds a single-color rectangle (px).
 void add_rectangle(Drawing& drawing, const Picture& picture, const glm::dvec4& x0_y0_x1_y1, const glm::vec4& color, float z_ndc = 0.0f);
 /// Returns one of eight colors that differ in every channel.
 glm::vec4 color_number(int i);
@@ -39,7 +39,7 @@ struct Assembled {
 };
 std::vector<Assembled> assembled(const Drawing& drawing);
 
-/// A convex region of the window is an intersection of half planes.
+/// A half plane. A convex region of the window is an intersection of half planes.
 struct HalfPlane {
   double a, b, c;  ///< inside where a·x + b·y + c >= 0, in px
 };
@@ -52,13 +52,13 @@ enum class Where : uint8_t { inside, outside, unsure };
 inline constexpr double kMargin = 2.0 / 256.0;
 Where where(const Region& region, const glm::dvec2& point, double margin = kMargin);
 
-/// Returns a convex polygon of the window, whose corners can have either orientation.
+/// Returns a convex polygon in the window. The vertices can be in either orientation.
 Region polygon(std::span<const glm::dvec2> corners);
 /// Computes the visible part of a clip-space triangle from the planes of its homogeneous weights. w may have any sign. The part is limited
 /// by the near and far planes unless depth is clamped. Returns nothing if the triangle is seen edge-on.
 struct Weighed {
   Region region;
-  std::array<HalfPlane, 3> weight;  ///< of the vertices, for a point scaled to w = 1
+  std::array<HalfPlane, 3> weight;  ///< weights of the vertices, for a point scaled to w = 1
 
   /// Returns the perspective-correct value at a point.
   glm::dvec4 color(const std::array<glm::vec4, 3>& of, const glm::dvec2& point) const;
@@ -74,7 +74,7 @@ Share share_of(const std::vector<Region>& regions, int x, int y, int samples);
 /// Returns a message about the first wrong pixel, or an empty string.
 std::string expect_red(const Picture& picture, const Seen& seen, const std::vector<Region>& regions, double weight = 1.0);
 
-/// The same for the quads of the first drawing, with four vertices each.
+/// Like expect_red, for the quads of the first drawing, with four vertices each.
 std::string quads_once(const Picture& picture, const Seen& seen);
 
 /// Calls f(x, y) for every pixel until it returns a message, and returns that message.
@@ -90,7 +90,7 @@ std::string for_each_pixel(const Seen& seen, const F& f) {
 }
 /// Returns a message such as "1 0.5 0 1 expected, got 1 0.6 0 1", or an empty string if the difference is within the tolerance.
 std::string expect_near(const glm::dvec4& expected, const glm::vec4& got, double tolerance);
-/// Half of an 8-bit code, plus a margin for float arithmetic.
+/// Half an 8-bit LSB, plus a margin for float arithmetic.
 inline constexpr double kHalfCode = 0.502 / 255.0;
 
 }  // namespace halfspace::conformance

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Blending depends on the drawing order: a hundred thousand half-transparent points must always be drawn in submission order.
+// Blending depends on the drawing order: a hundred thousand translucent points must always be drawn in submission order.
 //
 // HALFSPACE_RUNS=n   runs n times with each number of threads instead of 3 (scripts/test_full.sh: 100)
 #include <gtest/gtest.h>

@@ -21,7 +21,7 @@ enum class Kind : uint8_t { color, clip, cutout, depth, point, derivative, textu
 enum ColorMode { kSmooth, kFlat, kLinear, kCentroid };
 /// Output of `derivative`, multiplied by its value: exact derivatives of the coordinates, or differences within the 2x2 quad.
 enum DerivativeMode { kDdx, kDdy, kFwidth, kQuadDdx, kQuadDdy, kQuadFwidth };
-/// How `texture` determines the level: from the derivatives of its coordinates, or from `value`.
+/// How `texture` selects the mip level: from the derivatives of its coordinates, or from `value`.
 enum TextureMode { kByDerivatives, kByLevel };
 
 struct Vertex {
@@ -65,9 +65,9 @@ struct Seen {
   Pictures bytes;
   std::vector<uint64_t> queries;
 
-  /// Returns the stored value: code/255 for 8-bit formats (for sRGB the code, not the linear value), otherwise the floats.
+  /// Returns the stored value: 8-bit values divided by 255 (for sRGB the encoded value, not the linear one), otherwise the floats.
   glm::vec4 color(int x, int y, std::size_t attachment = 0) const;
-  /// Returns the code or, for float formats, the depth.
+  /// Returns the stored integer or, for float formats, the depth.
   double depth(int x, int y) const;
   int stencil(int x, int y) const;
   bool is_constant() const;

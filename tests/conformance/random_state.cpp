@@ -80,7 +80,7 @@ void random_primitives(Random& r, Drawing& d) {
   s.line_width = r.pick({1.0f, 1.0f, 3.0f});
   if (r.once_in(10) && s.topology != Topology::points) s.polygon_mode = r.pick({PolygonMode::line, PolygonMode::point});
   if (d.kind == Kind::instance) s.instances = static_cast<uint32_t>(r.between(1, 4));
-  if (r.once_in(4)) {  // indices, some of them restarts
+  if (r.once_in(4)) {  // indices, possibly with primitive restart
     d.restart = r.once_in(2);
     d.narrow = r.once_in(2);
     const int n = static_cast<int>(d.vertices.size());
@@ -120,7 +120,7 @@ Drawing random_drawing(const Picture& p, Random& r, bool first) {
   }
   random_primitives(r, d);
   random_tests(p, r, d);
-  if (first) {  // makes sure that something is drawn
+  if (first) {  // ensures that something is drawn
     if (!r.once_in(4)) d.state.depth.compare = CompareOp::less;
     if (!r.once_in(4)) d.state.cull = CullMode::none;
     if (!r.once_in(4)) d.state.stencil.reset();
@@ -129,7 +129,7 @@ Drawing random_drawing(const Picture& p, Random& r, bool first) {
   return d;
 }
 
-// Drops every other group of primitives, selected by bit k of the primitive number.
+// Drops the primitives whose number has the value `which` in bit k.
 void drop_primitives(Picture& p, int k, int which) {
   for (Drawing& d : p.draws) {
     const DrawState& s = d.state;

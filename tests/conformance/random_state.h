@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Random states by number: a picture of a few draws with random state. A state that fails is shrunk by applying simplifications, which are
-// numbered by bits, as long as it still fails. A seed and a set of bits therefore identify the result.
+// Random states by number: a picture of a few draws with random state. A failing state is shrunk by applying simplifications as long as it
+// still fails. Each simplification has a bit number, so a seed and a set of bits identify the result.
 #pragma once
 
 #include <cstdint>

@@ -53,8 +53,8 @@ TEST(ConformanceRandomState, ReplaysTheGivenState) {
   EXPECT_EQ(what_is_wrong(picture), "");
 }
 
-// Uses an artificial failure: blending with the equation subtract. The shrunk state must still have it and nothing unnecessary, and its
-// text must reproduce it.
+// Uses an artificial failure: blending with the equation `subtract`. The shrunk state must still contain it and nothing unnecessary, and
+// its text must reproduce it.
 TEST(ConformanceRandomState, ShrinksToAMinimalFailure) {
   const auto subtracts = [](const Picture& p) {
     for (const Drawing& d : p.draws) {

@@ -78,7 +78,7 @@ struct ClipShader {
   }
 };
 
-/// Discards fragments whose red is below `value`.
+/// Discards fragments with a red value below `value`.
 struct CutoutShader : VertexColor {
   float value = 0.5f;
   template <class R>
@@ -91,7 +91,7 @@ struct CutoutShader : VertexColor {
   }
 };
 
-/// Writes green as depth.
+/// Writes the green value as depth.
 struct DepthShader : VertexColor {
   template <class R>
   DepthFragment<R> fragment(const Varyings<R>& in, const Pixel<R>&) const {
@@ -189,7 +189,7 @@ struct InstanceShader {
   }
 };
 
-/// Computes N colors from two, for attachments or for the second source of blending.
+/// Computes N colors from two, for several attachments or for dual-source blending.
 template <std::size_t N>
 struct ColorsShader {
   template <class R>

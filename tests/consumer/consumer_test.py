@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Installs a build into temporary folders and uses it from projects outside of the tree.
+"""Installs a build into temporary folders and uses it from projects outside the tree.
 
     consumer_test.py BUILD_FOLDER COMPILER
 
@@ -84,7 +84,8 @@ class Installation(unittest.TestCase):
                 for folder in (str(BUILD), str(ROOT), str(PREFIX)):
                     self.assertNotIn(folder, text, name)
                 if path.suffix != ".h":
-                    # For a prefix below /usr, CMake writes a comparison with the folder of the file: in a moved prefix it has no effect.
+                    # For a prefix below /usr, CMake writes code that compares the folder of the file with the original prefix. In a moved
+                    # prefix it has no effect.
                     text = re.sub(r"^# Use original install prefix.*?^unset\(_realCurr\)$", "", text, flags=re.M | re.S)
                     self.assertIsNone(re.search(r'["; =](/usr|/opt|/home)/', text), name)
 
@@ -105,7 +106,7 @@ class Installation(unittest.TestCase):
     def test_manual_pages_are_valid(self):
         if not (PREFIX / "bin" / "halfspace").exists():
             self.skipTest("the build has no programs")
-        pages = {path.name.removesuffix(".gz"): path for path in (PREFIX / "share" / "man" / "man1").iterdir()}  # packages have compressed pages
+        pages = {path.name.removesuffix(".gz"): path for path in (PREFIX / "share" / "man" / "man1").iterdir()}  # compressed in packages
         def text(path):
             with gzip.open(path, "rt") if path.suffix == ".gz" else open(path) as page:
                 return page.read()
@@ -190,7 +191,7 @@ class Headers(unittest.TestCase):
 
 
 class Host(unittest.TestCase):
-    """The source tree inside of another project."""
+    """The source tree inside another project."""
 
     def configure(self, name, *arguments):
         folder, result = configure(HERE / "host", name, f"-DHALFSPACE_SOURCE={ROOT}", *arguments)

@@ -4,8 +4,8 @@
 
     exports_test.py FOLDER
 
-FOLDER contains the libraries of a build with BUILD_SHARED_LIBS. With HALFSPACE_RENEW_EXPORTS=1, the file is written instead. Each of its
-lines is the name of a function or variable, without its parameters. Names of private functions must not appear in it.
+FOLDER contains the libraries of a build with BUILD_SHARED_LIBS. With HALFSPACE_RENEW_EXPORTS=1, the file is written instead. Each line is
+the name of a function or variable, without parameters. The names of private functions must not appear in it.
 """
 import os
 import re

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Tests which files and folders scripts/install.sh adds and removes. A stand-in for CMake installs a list of empty files instead of a build."""
+"""Tests which files and folders scripts/install.sh adds and removes. A stand-in for CMake installs a list of empty files instead of a real
+build."""
 import os
 import shutil
 import subprocess

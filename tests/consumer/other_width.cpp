@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Compiled for another SIMD width than the library, this program must not link.
+// This program is compiled for a different SIMD width from the library, so it must not link.
 #include <halfspace/raster/pass.h>
 
 int main() {

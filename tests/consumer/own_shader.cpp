@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Draws with a shader that is defined here, and checks pixels. Prints the number of lanes.
+// Draws with a shader that is defined in this file, and checks pixels. Prints the number of lanes.
 #include <halfspace/raster/pass.h>
 
 #include <cstdio>

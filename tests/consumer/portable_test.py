@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Tests the programs of portable builds (HALFSPACE_PORTABLE), which select a library for the instruction set of the processor.
+"""Tests the programs of portable builds (HALFSPACE_PORTABLE), which select a library that matches the processor's instruction set.
 
     portable_test.py BUILD_V3 BUILD_V4     two portable builds, for x86-64-v3 and x86-64-v4
 
@@ -153,7 +153,7 @@ class Libraries(unittest.TestCase):
                 library = next(PREFIX.glob(f"lib/**/glibc-hwcaps/x86-64-{level}/libhalfspace-{name}.so.*"))
                 symbols = run("nm", "-D", "--defined-only", library).stdout.split("\n")
                 self.assertEqual([line.split()[-1] for line in symbols if line], [f"halfspace_{name}_main"])
-                # An empty entry would be the working directory.
+                # An empty entry would mean the working directory.
                 runpath = re.search(r"R(?:UN)?PATH.*\[(.*)\]", run("readelf", "-d", library).stdout)
                 self.assertEqual(runpath[1], "$ORIGIN/../..")
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Renders a shipped scene, writes it to a file and reads the file: scene TOOL_FOLDER OUTPUT. An empty TOOL_FOLDER leaves it to the library
-// to find the decoders.
+// Renders a shipped scene, writes it to a file and reads the file: scene TOOL_FOLDER OUTPUT. If TOOL_FOLDER is empty, the library finds the
+// decoders itself.
 #include <halfspace/image/image_io.h>
 #include <halfspace/render/prepared_scene.h>
 #include <halfspace/scene/scene_file.h>

@@ -15,7 +15,7 @@
 namespace halfspace {
 namespace {
 
-// Returns whether the mapping that contains address is advised to use huge pages (flag "hg" in /proc/self/smaps).
+// Returns whether huge pages were requested for the mapping that contains address (flag "hg" in /proc/self/smaps).
 bool asked_for_large_pages(const void* address) {
   std::ifstream maps("/proc/self/smaps");
   bool inside = false;

@@ -24,7 +24,7 @@ TEST(FixedPower, IsWithinErrorBound) {
       worst = std::max(worst, std::fabs(static_cast<double>(power(x)) - want) / want);
     }
     // Two products, two table entries and the last step of the polynomial are each rounded to 2^-24. The error is the sum of these
-    // roundings and the remaining error of the polynomial.
+    // roundings and the approximation error of the polynomial.
     EXPECT_LE(worst, 3e-7) << y;
   }
 }
@@ -61,7 +61,7 @@ TEST(FixedPower, LanesMatchScalarBits) {
   expect_bits_of_float<16>(power);
 }
 
-/// A compiler or processor that builds different tables changes this hash.
+/// The hash changes if a compiler or processor computes different tables.
 TEST(FixedPower, MatchesTheCommittedHash) {
   Hash hash;
   for (const float y : kExponents) {

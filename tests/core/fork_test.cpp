@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Teams of threads in a child process. The parent has used its threads before, and the child has none of them.
+// Thread teams in a child process. The parent used its threads before the fork; none of them exist in the child.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>

@@ -21,11 +21,11 @@ double meaning(int h) {
 
 bool is_nan(int h) { return (h & 0x7fff) > 0x7c00; }
 
-/// Returns the nearest half, ties to even. Uses a binary search, since codes of one sign are ordered by value.
+/// Returns the nearest half, ties to even. Uses a binary search, because bit patterns of the same sign are ordered by value.
 int nearest_half(float x) {
   if (std::isnan(x)) return ((as_int(x) >> 16) & 0x8000) | 0x7e00 | ((as_int(x) >> 13) & 0x3ff);
   const double a = std::fabs(static_cast<double>(x));
-  int low = 0, high = 0x7c00;  // meaning(low) <= a; infinity counts as 65536, the next value in sequence
+  int low = 0, high = 0x7c00;  // meaning(low) <= a; infinity counts as 65536, the next value in the sequence
   const auto at = [](int h) { return h == 0x7c00 ? 65536.0 : meaning(h); };
   if (a >= 65536.0) low = high;
   while (high - low > 1) (at((low + high) / 2) <= a ? low : high) = (low + high) / 2;
@@ -58,7 +58,7 @@ TEST(Half, RoundsToNearestEven) {
   // Test every half, every midpoint between two halves, and the floats next to the midpoint.
   for (int h = 0; h < 0x7c00; ++h) {
     const double next = h == 0x7bff ? 65536.0 : meaning(h + 1);
-    const float middle = static_cast<float>((meaning(h) + next) / 2);  // exact: needs one bit more than a half has
+    const float middle = static_cast<float>((meaning(h) + next) / 2);  // exact: needs only one bit more than a half has
     for (const float x : {static_cast<float>(meaning(h)), middle, std::nextafter(middle, 0.0f), std::nextafter(middle, 1e9f)}) {
       ASSERT_EQ(float_to_half(x), nearest_half(x)) << x;
       ASSERT_EQ(float_to_half(-x), nearest_half(-x)) << -x;

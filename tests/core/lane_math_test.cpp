@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Tests the accuracy of the math functions against std's double functions (whose own error of about 1e-16 is negligible here), that all
-// lane widths return the same bits, the exact special values, and monotonicity.
+// Tests the accuracy of the math functions against the double functions of std (their error of about 1e-16 is negligible here), exact
+// special values, monotonicity, and that all lane widths return the same bits.
 //
 // For functions of one argument, each bound is the largest error over every float of the domain (measured once over 3e9 values), rounded
 // up. The sweeps here visit about 2^22 floats each; they cannot exceed the bound because results are bit-identical on every machine. pow
@@ -96,7 +96,7 @@ TEST(LaneMath, UnitPowIsWithinErrorBound) {
   }
   if (std::getenv("HALFSPACE_PRINT_ULPS") != nullptr) std::cout << "unit_pow: " << worst << '\n';
   EXPECT_LE(worst, 6e-7);  // bound documented at unit_pow; the largest error found with random pairs is 5.1e-7
-  EXPECT_GT(worst, 1e-8);  // makes sure that the pairs do not all have trivial results
+  EXPECT_GT(worst, 1e-8);  // ensures that not all pairs have trivial results
   EXPECT_EQ(unit_pow(0.0f, 0.0f), 1.0f);
   EXPECT_EQ(unit_pow(0.5f, 0.0f), 1.0f);
   EXPECT_EQ(unit_pow(0.0f, 3.0f), 0.0f);
@@ -155,7 +155,7 @@ TEST(LaneMath, PowIsWithinErrorBound) {
   expect_at_most(1.2, "pow |y| <= 8", sweep_pow(8.0f, 1 << 21));
   expect_at_most(1.2, "pow |y| <= 1e5", sweep_pow(1e5f, 1 << 21));
   expect_at_most(1.2, "pow any y", sweep_pow(1e9f, 1 << 21));
-  // Exponents that are common in shading: gamma and specular exponents.
+  // Exponents that are common in shading: gamma and specular.
   for (const float y : {2.4f, 1.0f / 2.4f, 2.2f, 5.0f, 32.0f, 1000.0f}) {
     const auto g = [y](double x) { return std::pow(x, static_cast<double>(y)); };
     expect_at_most(1.2, "pow of cosines", sweep([y](float x) { return pow(x, y); }, g, 0x1p-20f, 1.0f));

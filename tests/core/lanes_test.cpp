@@ -220,7 +220,7 @@ TEST(Lanes, GathersLoadsAndStoresAccessTheCorrectElements) {
     for (int trial = 0; trial < 100; ++trial) {
       I index(0);
       for (int k = 0; k < kWidthOf<R>; ++k) set_lane(index, k, static_cast<int32_t>(random() % 500) - 250);
-      const R r = gather(table.data() + 250, index);  // includes negative indices
+      const R r = gather(table.data() + 250, index);  // including negative indices
       const I n = gather(int_table.data() + 250, index);
       for (int k = 0; k < kWidthOf<R>; ++k) {
         EXPECT_EQ(lane(r, k), gather(table.data() + 250, lane(index, k)));
@@ -252,7 +252,7 @@ MaskOf<R> mask_of(uint64_t pattern) {
 template <class I>
 void expect_bytes_are_converted() {
   constexpr int width = sizeof(I) / sizeof(int32_t);
-  std::array<uint8_t, 17> bytes;  // one more than the most lanes, and not aligned
+  std::array<uint8_t, 17> bytes;  // one more than the maximum lane count, so that accesses can be unaligned
   for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<uint8_t>(255 - 13 * i);
   I values = load_u8<I>(&bytes[1]);
   std::array<uint8_t, 18> stored{};
@@ -363,7 +363,7 @@ TEST(Lanes, DifferenceOfProductsIsWithinErrorBound) {
     worst = std::max(worst, std::fabs(static_cast<double>(got) - want) / ulp);
   }
   EXPECT_LE(worst, 1.5);  // proven by Jeannerod, Louvet and Muller
-  EXPECT_GE(worst, 1.0);  // the inputs come close to the bound; a plain a·b − c·d would be off by millions of ulp
+  EXPECT_GE(worst, 1.0);  // the inputs come close to the bound; a plain a·b − c·d would have an error of millions of ulps
 }
 
 TEST(Vec, UniformsMixWithLanesAsWithFloat) {

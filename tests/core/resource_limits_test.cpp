@@ -16,7 +16,7 @@ class ResourceLimitsTest : public testing::Test {
  protected:
   ~ResourceLimitsTest() override { set_resource_limits({}); }
 
-  // Permits `bytes` in addition to the memory in use.
+  // Allows `bytes` in addition to the memory in use.
   static void permit(uint64_t bytes) {
     ResourceLimits limits{.max_memory = uint64_t{1} << 50, .counts_resident = true};
     set_resource_limits(limits);

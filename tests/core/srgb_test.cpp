@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Compares the sRGB tables with the transfer function in long double (64 bits of mantissa; powl errs by less than 2^-62). The tests also
+// Compares the sRGB tables with the transfer function in long double (64-bit mantissa; the error of powl is below 2^-62). The tests also
 // check that every value is much farther than this error from the nearest rounding boundary, which proves that the tables are correctly
-// rounded. Encoding is tested with every float that has a code above 0.
+// rounded. Encoding is tested with every float that encodes to a value above 0.
 #include "halfspace/core/srgb.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ static_assert(std::numeric_limits<long double>::digits >= 64);
 long double decode(long double v) { return v <= 0.04045L ? v / 12.92L : std::pow((v + 0.055L) / 1.055L, 2.4L); }
 long double encode(long double x) { return x <= 0.0031308L ? 12.92L * x : 1.055L * std::pow(x, 1.0L / 2.4L) - 0.055L; }
 
-/// Lower bound of the interval that encodes to code c: the linear value halfway between codes c − 1 and c.
+/// Lower bound of the interval that encodes to c: the linear value at which the encoded value is c − 1/2.
 long double threshold(int c) { return decode((2 * c - 1) / 510.0L); }
 
 constexpr int32_t kOne = 0x3f800000;
@@ -103,7 +103,7 @@ TEST(Srgb, EveryFloatConvertsToTheNearestUnorm8) {
 TEST(Srgb, Unorm16DecodesToTheNearestFloat) {
   for (int c = 0; c < 65536; ++c) ASSERT_EQ(unorm16_to_linear(static_cast<float>(c)), static_cast<float>(c) / 65535.0f);
   float last = 0.0f;
-  for (float x = 0.0f; x <= 65535.0f; x += 0x1p-5f) {  // includes values between codes
+  for (float x = 0.0f; x <= 65535.0f; x += 0x1p-5f) {  // includes values between integers
     ASSERT_GE(unorm16_to_linear(x), last);
     last = unorm16_to_linear(x);
   }

@@ -122,7 +122,7 @@ class VecOfLanes : public testing::Test {};
 using Lanes = testing::Types<RealN<4>, RealN<8>, RealN<16>, RealPair<float>, RealPair<RealN<8>>>;
 TYPED_TEST_SUITE(VecOfLanes, Lanes);
 
-// Combines uniforms and varyings in every mix and adds up the results, so that each one affects the sum.
+// Combines uniform and varying operands in every way and adds up the results, so that each one affects the sum.
 template <class R>
 R mixed_results(const glm::mat3& m3, const glm::mat4& m4, const glm::vec3& uniform, const vec3<R>& a, const vec3<R>& b, R t) {
   const vec3<R> scaled = uniform * t, scaled_too = t * uniform, between = mix(uniform, uniform * 2.0f, t);

@@ -24,7 +24,7 @@ class FailedBuilds(unittest.TestCase):
             write_program(tree / "programs" / "cmake", 1)
             for name in ("clang++", "ctest", "python3"):
                 write_program(tree / "programs" / name, 0)
-            for name in ("shader_compile_time.sh", "off_costs.sh", "mutate.py", "try_packages.sh", "try_install.sh"):  # they run their own builds
+            for name in ("shader_compile_time.sh", "off_costs.sh", "mutate.py", "try_packages.sh", "try_install.sh"):  # they build on their own
                 write_program(tree / "scripts" / name, 1)
             for name in ("install_deps.sh", "lesson_pictures.py"):
                 write_program(tree / "scripts" / name, 0)
