@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Checks the page as text: its chapters, its quotes of source code, and that its numbers do not depend on the number of threads.
+// Checks the text of the page: its chapters, its quotes of source code, and that its numbers do not depend on the number of threads.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -20,7 +20,7 @@ std::string page_of(const std::string& scene, int threads) {
   return explain_page(s.description, s.prepared, {scene, "halfspace explain " + scene, "test", {}}, s.workers);
 }
 
-// The data of a page.
+// Returns the data of a page.
 nlohmann::json data_of(const std::string& page) {
   const std::string open = "<script type=\"application/json\" id=\"data\">";
   const std::size_t begin = page.find(open) + open.size();

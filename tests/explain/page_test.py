@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Opens pages of `halfspace explain` in headless Chromium: no errors, steps, exercises, names of all controls and pictures, narrow windows.
+"""Opens pages of `halfspace explain` in headless Chromium. Tests steps, exercises, the names of all controls and pictures, and narrow
+windows, and that there are no errors.
 
   page_test.py PROGRAM [SCREENSHOTS]
 
-Needs chromium, chromium-driver and python3-selenium of Debian. If a folder is given, it receives a screenshot of every chapter.
+Needs the Debian packages chromium, chromium-driver and python3-selenium. If a folder is given, a screenshot of every chapter is written to
+it.
 """
 import os
 import re
@@ -33,7 +35,7 @@ except ImportError:
 CHROMIUM, DRIVER = shutil.which("chromium"), shutil.which("chromedriver")
 PROGRAM = Path(sys.argv[1]).resolve() if len(sys.argv) > 1 else None
 SCREENSHOTS = Path(sys.argv[2]) if len(sys.argv) > 2 else None
-# Scenes that together have every stage: clipped triangles, shadows, HDR, points, several samples, transparent layers.
+# Scenes that together use every stage: clipped triangles, shadows, HDR, points, several samples, transparent layers.
 SCENES = {"earth": ["earth"], "day-night": ["day-night", "--camera", "street"], "particles": ["particles"],
           "knot": ["shadow-knot", "--set", "samples=4"], "box": ["box.obj"]}
 BOX = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n"
@@ -69,14 +71,14 @@ const pause = () => new Promise((resolve) => setTimeout(() => requestAnimationFr
   done(results);
 })();
 """
-# The controls and pictures without a name that a screen reader could announce.
+# Returns the controls and pictures without a name that a screen reader could announce.
 NAMELESS = """() => [...document.querySelectorAll('button, input, select, a, summary, canvas, img, svg, [tabindex="0"]')].filter((e) => {
   if (e.closest('[aria-hidden=true]')) return false;
   const name = e.getAttribute('aria-label') || e.getAttribute('alt') || e.textContent.trim();
   const isPicture = ['CANVAS', 'svg'].includes(e.tagName);
   return !name || (isPicture && (e.getAttribute('role') !== 'img' || !e.getAttribute('aria-label')));
 }).map((e) => e.outerHTML.slice(0, 120))"""
-# A text that changes if the picture of the step changes; null if the chapter is absent.
+# Returns a text that changes if the picture of the step changes; null if the chapter is absent.
 PICTURE = """() => {
   if (document.querySelector('.absent-note')) return null;
   const text = [...document.querySelectorAll('figure .step canvas')].map((c) => c.toDataURL()).join() + document.querySelector('figure .step').innerHTML;
@@ -84,7 +86,8 @@ PICTURE = """() => {
   for (let i = 0; i < text.length; ++i) hash = (Math.imul(hash, 31) + text.charCodeAt(i)) | 0;
   return `${text.length} ${hash}`;
 }"""
-# The number of exercises, those whose answer is refused or missing, and those that accept a wrong one. Or what an absent chapter says.
+# Returns the number of exercises, and those that reject their own answer, have none, or accept a wrong one. For an absent chapter, returns
+# its note.
 EXERCISES = """() => {
   const c = CHAPTERS[state.chapter], note = document.querySelector('.absent-note');
   if (note) return {note: note.textContent};
@@ -220,7 +223,7 @@ class Page(unittest.TestCase):
             self.assertLess(luminance, edges[bars[0] + 1], name)
 
     def show_pixel(self, x, y):
-        """Types a pixel into the form of the history, and returns the text that is shown, with all details open."""
+        """Types a pixel into the form of the history, and returns the displayed text, with all details open."""
         fields = self.driver.find_elements(By.CSS_SELECTOR, "form.pixel input")
         for field, value in zip(fields, (x, y)):
             field.clear()

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Traces of small passes for which the outcome of every fragment is known.
+// Traces small passes for which the outcome of every fragment is known.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -31,7 +31,7 @@ Corners two_small(float z0, float z1) {
   return corners;
 }
 
-// Discards or keeps all fragments, in the fragment function or in the visibility function.
+// Discards or keeps all fragments, either in the fragment function or in the visibility function.
 template <bool early, bool keeps = false>
 struct DiscardingShader : PositionShader {
   template <class R>
@@ -205,7 +205,7 @@ TEST(PassTrace, StencilFailuresComeBeforeDepthFailures) {
   t.draw(ConstantShader(kRed), part(0.0f), {.stencil = StencilState{always, always}});
   t.draw(ConstantShader(kRed), part(0.5f), {.stencil = StencilState{always, always}});
   t.run();
-  // keeping the stencil allows rejection by blocks, which is not possible at the edge
+  // The stencil is kept, so blocks may be rejected as a whole, but not this block at the edge.
   EXPECT_EQ(t.outcomes(30, 30), (Outcomes{stencil_failed, shaded, depth_failed}));
 }
 

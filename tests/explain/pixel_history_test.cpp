@@ -50,8 +50,9 @@ std::vector<glm::ivec2> some_pixels(const FrameTrace& trace) {
   return pixels;
 }
 
-// The sum of the terms differs from the color by rounding: each of at most 20 terms is evaluated separately, with an error of a few ulp of
-// intermediate results that may be larger than the result. With lighting per vertex, the vertices are computed and interpolated again.
+// The sum of the terms differs from the color by rounding. Each of at most 20 terms is evaluated separately, with an error of a few ulps of
+// intermediate results, which may be larger than the final result. With per-vertex lighting, the vertices are also computed and
+// interpolated again.
 void expect_terms_add_up(const FragmentDetail& d, const std::string& where) {
   if (d.terms.empty()) return;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -127,7 +128,7 @@ TEST(PixelHistory, ScalarAndLaneShadingAreBitIdentical) {
   for (const ShippedScene& shipped : shipped_scenes()) {
     const TracedScene t(std::string(shipped.name), {"samples=1"});
     const std::vector<glm::ivec2> pixels = some_pixels(t.trace);
-    FrameTrace unshaded = t.trace;  // makes pixel_histories() compute all colors
+    FrameTrace unshaded = t.trace;  // if no fragment is shaded, pixel_histories() computes all colors
     for (TracedFragment& f : unshaded.fragments) f.is_shaded = false;
     const auto shaded = pixel_histories(t.description, t.prepared, t.trace, pixels, one_worker());
     const auto computed = pixel_histories(t.description, t.prepared, unshaded, pixels, one_worker());

@@ -13,7 +13,7 @@
 namespace halfspace {
 namespace {
 
-// One triangle in front of an orthographic camera. The view shows 4 x 4 units on 64 x 64 pixels, so a unit is 16 pixels.
+// One triangle in front of an orthographic camera. The view shows 4 x 4 units in 64 x 64 pixels, so a unit is 16 pixels.
 constexpr const char* kPlane = R"({"version": 1, "ambient": 0.25,
   "cameras": {"c": {"type": "orthographic", "position": [0, 0, 10], "target": [0, 0, 0], "height": 4, "near": 1, "far": 21}},
   "lights": {"sun": {"direction": [0, 0, 1], "intensity": 0.5}},
@@ -49,7 +49,7 @@ TEST(Stages, TheTrianglesOfASquareCoverEachPixelOnce) {
 }
 
 TEST(Stages, BinsHoldTheTrianglesOfTheirTiles) {
-  const PreparedText s(kPlane, 128, 64);  // the square is 32 x 32 pixels in the middle: 16 columns in each of the two tiles
+  const PreparedText s(kPlane, 128, 64);  // the square covers 32 x 32 pixels in the middle: 16 columns in each of the two tiles
   s.visit([&](const PassContext& context, const StageGeometry& g) {
     const std::vector<uint32_t> counts = triangles_per_tile(context);
     ASSERT_EQ(counts.size(), 2u);
@@ -69,7 +69,7 @@ TEST(Stages, BinsHoldTheTrianglesOfTheirTiles) {
   });
 }
 
-// Each primitive is set up alone to find its outcome. The sums must equal the counters of the pass.
+// Each primitive is set up separately to find its outcome. The sums must equal the counters of the pass.
 TEST(Stages, OutcomesAddUpToTheStatisticsOfThePass) {
   for (const char* name : {"earth", "day-night", "particles", "shadow-plane"}) {
     const PreparedText s(SceneFile::open(name).at(0.0), 160, 90);
@@ -123,7 +123,7 @@ TEST(Stages, AClippedTriangleEndsAtTheNearPlane) {
 
 // ---- light ------------------------------------------------------------------------------------------------------------
 
-// Ambient light 0.25 and a frontal light of 0.5 on a gray of 0.5.
+// Ambient light of 0.25 and a frontal light of 0.5 on a surface with a gray of 0.5.
 TEST(Stages, TermsMatchTheMaterial) {
   const PreparedText s(kPlane, 64, 64);
   const std::vector<LightTerm> terms = light_terms(s.prepared);
@@ -169,7 +169,7 @@ TEST(Stages, ToneStepsEndInThePixelValues) {
     const ToneSteps steps = tone_steps(s.prepared, tone.tone, glm::vec3(light.texels()[i]));
     for (int k = 0; k < 3; ++k) far_off += std::abs(steps.code[k] - int{picture.texels()[i][k]}) > 1;
   }
-  EXPECT_EQ(far_off, 0) << "the pass rounds light to half precision, which changes a code by at most 1";
+  EXPECT_EQ(far_off, 0) << "the pass rounds light to half precision, which changes an 8-bit value by at most 1";
 }
 
 TEST(Stages, TheHistogramCountsEveryPixel) {

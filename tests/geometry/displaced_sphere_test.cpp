@@ -117,7 +117,7 @@ TEST(DisplacedSphere, TangentsFollowTheTextureCoordinates) {
   }
 }
 
-// Every triangle has the winding of uv_sphere's.
+// Every triangle has the same winding as in uv_sphere.
 TEST(DisplacedSphere, TrianglesFaceOutward) {
   const Mesh m = displaced_uv_sphere(48, 96, kRadius, rough_field(), kScale, kZero, two_workers());
   const Mesh sphere = uv_sphere(48, 96, kRadius);
@@ -221,7 +221,7 @@ TEST(SlopeMap, StoresTheSlopesAtTexelCenters) {
   EXPECT_TRUE(map == slope_map(rough_field(), 64, 32, r, kScale, kZero, Workers(5)));
 }
 
-// Closed form: the map falls by one unit of height over the distance πr from the north pole to the south pole.
+// Closed form: the height falls by one unit over the distance πr from the north pole to the south pole.
 TEST(SlopeMap, SignsAndUnitsAreCorrect) {
   Image<float> map(32, 16);
   for (int y = 0; y < 16; ++y) {

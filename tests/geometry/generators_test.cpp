@@ -121,7 +121,7 @@ std::vector<ShapeCase> shape_cases() {
        2 * kPi * kPi * 1.5 * 0.25,
        {{[](double u, double v) { return 1.5 * out(u) + 0.5 * torus_normal(u, v); }, torus_normal}},
        first_face},
-      {"TorusKnot",  // tube around a closed curve: circumference or cross-section times the length of the curve
+      {"TorusKnot",  // tube around a closed curve: circumference (or cross-section) times the length of the curve
        [](int n, const Displacement* d) { return torus_knot(1.5f, 0.2f, 2 * n, 24 * n, d); },
        MapEdges::torus,
        2 * kPi * 0.2 * knot_length(),
@@ -156,7 +156,8 @@ TEST_P(Generator, IsValidClosedAndFacesOutward) {
   }
 }
 
-// Texture coordinates are rounded to float, which moves the point of the formula by up to 2π·1.5·2^-25, or twice that where u exceeds 1.
+// Texture coordinates are rounded to float, which moves the point given by the formula by up to 2π·1.5·2^-25, or twice that where u exceeds
+// 1.
 TEST_P(Generator, MatchesTheFormula) {
   const ShapeCase& s = GetParam();
   const Mesh m = s.make(8, nullptr);
@@ -196,8 +197,8 @@ std::pair<double, double> area_and_volume(const Mesh& m) {
   return {area, volume};
 }
 
-// Flat faces are exact up to rounding. On curved faces, chords have an error that is quadratic in their angle, so doubling the resolution
-// divides the error by four (a first-order error would be halved, a third-order one divided by eight).
+// Flat faces are exact up to rounding. On curved faces, the error of a chord is quadratic in its angle, so doubling the resolution divides
+// the error by four (a first-order error would be halved, a third-order one divided by eight).
 TEST_P(Generator, AreaAndVolumeConvergeToTheClosedForm) {
   const ShapeCase& s = GetParam();
   const bool is_flat = s.edges == MapEdges::sheet;

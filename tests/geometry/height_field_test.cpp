@@ -94,7 +94,7 @@ TEST(HeightField, TexelSamplesMatchSingleSamples) {
         field.at_texels(row, samples);
         for (int x = 0; x < width; ++x) {
           const HeightSample got = samples[static_cast<std::size_t>(x)], want = field.at((x + 0.5) / width, (row + 0.5) / height);
-          const double tolerance = exact ? 0.0 : 1e-12;  // slopes reach 30 and second derivatives 30² per unit of u or v, times 1e-16
+          const double tolerance = exact ? 0.0 : 1e-12;  // slopes are up to 30 and second derivatives 30² per unit of u or v; times 1e-16
           EXPECT_NEAR(got.value, want.value, tolerance) << width << ' ' << x << ' ' << row;
           EXPECT_NEAR(got.du, want.du, tolerance) << width << ' ' << x << ' ' << row;
           EXPECT_NEAR(got.dv, want.dv, tolerance) << width << ' ' << x << ' ' << row;
@@ -155,7 +155,7 @@ TEST(HeightField, ReproducesRampsAlongV) {
   }
 }
 
-// At half the resolution, stripes one texel wide average out to their mean. At other ratios the side lobes of the averaging filter let a
+// At half the resolution, one-texel-wide stripes average out to their mean. At other ratios, the side lobes of the averaging filter let a
 // ninth of the slope through.
 TEST(HeightField, FilteringRemovesFineDetail) {
   const HeightField stripes(map_of(64, 32, [](double u, double) { return static_cast<int>(u * 64) % 2 == 0 ? 0.0 : 1.0; }), 0.0,
@@ -187,7 +187,7 @@ TEST(HeightField, FilteringKeepsCoarseDetail) {
   }
 }
 
-// Near a pole the texels of a row are close together, and noise in them must not turn into slope. In a smoothed field, the slope to the
+// Near a pole the texels of a row are close together, and noise in them must not turn into slopes. In a smoothed field, the slope to the
 // east (du / sin πv) is similar in the rows next to the pole and at the equator. In an unsmoothed field, it is many times larger near the
 // pole.
 TEST(HeightField, PolesAreNotNoisy) {

@@ -84,7 +84,7 @@ inline void expect_closed(const Mesh& m) {
 
 inline glm::dvec3 tangent_of(const Mesh& m, std::size_t i) { return {m.tangents[i].x, m.tangents[i].y, m.tangents[i].z}; }
 
-// Returns the direction of the green channel of a normal map.
+// Returns the direction in which the green channel of a normal map tilts the normal.
 inline glm::dvec3 bitangent_of(const Mesh& m, std::size_t i) {
   return static_cast<double>(m.tangents[i].w) * glm::cross(glm::dvec3(m.normals[i]), tangent_of(m, i));
 }

@@ -22,7 +22,7 @@ Image<float> heights_of(int width, int height, F value) {
 
 glm::dvec3 decoded(const glm::u8vec4& t) { return glm::dvec3(t.x, t.y, t.z) / 255.0 * 2.0 - 1.0; }
 
-// Half a code step in decoded units, which range from −1 to 1.
+// Half a quantization step (half an LSB) after decoding to [−1, 1].
 constexpr double kHalfCode = 1.0 / 255.0;
 
 // h = 1/2 + A·sin φ with φ = a·x + b·y in texels. The difference over two texels is A·cos φ·sin a, and averaging across the other axis
@@ -58,8 +58,8 @@ TEST(NormalMap, LongWavesMatchTheirSlope) {
   }
 }
 
-// A ramp that rises by one texel per texel, that is, by 45°. A ramp that rises to the right turns the normal to the left; one that rises
-// upwards turns it down.
+// A ramp that rises by one texel per texel, that is, at 45°. A ramp that rises to the right tilts the normal to the left; one that rises
+// upwards tilts it down.
 TEST(NormalMap, SignsAndUnitsAreCorrect) {
   const double side = std::sqrt(0.5);
   const auto center = [](const Image<float>& heights) { return decoded(normal_map(heights, 16, MapEdges::sheet, two_workers()).at(8, 8)); };

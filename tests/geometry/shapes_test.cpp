@@ -33,7 +33,7 @@ TEST_P(UvSphere, MatchesTheFormula) {
     const double u = 2 * std::numbers::pi * static_cast<double>(m.uvs[i].x);
     const double v = std::numbers::pi * static_cast<double>(m.uvs[i].y);
     const glm::dvec3 n(std::sin(v) * std::cos(u), std::cos(v), -std::sin(v) * std::sin(u));
-    // uvs are rounded to float, which moves the point of the formula by up to 2π·2^-25.
+    // uvs are rounded to float, which moves the point given by the formula by up to 2π·2^-25.
     EXPECT_NEAR(glm::length(glm::dvec3(m.positions[i]) - 2.5 * n), 0, 2.5 * 4e-7);
     EXPECT_NEAR(glm::length(glm::dvec3(m.normals[i]) - n), 0, 4e-7);
   }
@@ -80,8 +80,8 @@ TEST(UvSpherePoles, HaveOneVertexPerSectorAtItsCenter) {
   }
 }
 
-// The left edge of a map is 180° W and is placed at +x; a quarter of the map further east is −z. Seen from outside with north up, east is
-// to the right.
+// The left edge of a map (180° W) is at +x; a quarter of the map's width further east is −z. Seen from outside with north up, east is to
+// the right.
 TEST(UvSphereEarth, IsNotMirrored) {
   const Mesh m = uv_sphere(4, 8, 1.0f);
   for (std::size_t i = 0; i < m.positions.size(); ++i) {

@@ -24,7 +24,7 @@ using Plain = SurfaceShader<ShadingRate::phong, true>;
 using Mapped = SurfaceShader<ShadingRate::phong, true, NormalDetail::map>;
 using Bumped = SurfaceShader<ShadingRate::phong, true, NormalDetail::bump>;
 
-// Directions of three lights, one per column. A white Lambert surface that all three reach has the color kSunsᵀ·n, from which the normal
+// Directions of three lights, one per column. A white Lambertian surface that all three reach has the color kSunsᵀ·n, from which the normal
 // can be recovered.
 const glm::dmat3 kSuns(glm::normalize(glm::dvec3(0.4, 0, 1)), glm::normalize(glm::dvec3(-0.2, 0.35, 1)),
                        glm::normalize(glm::dvec3(-0.2, -0.35, 1)));
@@ -151,7 +151,7 @@ double angle_error(const Image<glm::dvec3>& seen, const Bumps& b) {
   return std::sqrt(sum / count);
 }
 
-// Returns the difference between horizontal neighbors inside a 2x2 quad divided by that between neighbors in different quads.
+// Returns the difference between horizontal neighbors in the same 2x2 quad, divided by that between neighbors in different quads.
 double blockiness(const Image<glm::dvec3>& seen) {
   double within = 0, across = 0;
   for (int row = kSize / 4; row < kSize * 3 / 4; ++row) {
@@ -180,8 +180,8 @@ TEST_F(SphereBumps, GradientIsAccurateAndDifferenceIsBlocky) {
   // Slopes reach 0.32. The parabola has a relative error of (2πk/1024)²/6 = 0.16%, linear filtering adds half of that, and half floats add
   // 0.05%. Facets tilt the derivatives of the position by up to π/512 against the normal, a relative error of the same size.
   EXPECT_LT(good, 2e-3);
-  // The finite difference is the slope half a pixel away. Half a pixel is 0.07 to 0.09 rad of phase, so the error is about a tenth of the
-  // mean slope of 0.15.
+  // The finite difference equals the slope half a pixel away. Half a pixel is 0.07 to 0.09 rad of phase, so the error is about a tenth of
+  // the mean slope of 0.15.
   EXPECT_GT(poor, 10 * good);
   EXPECT_NEAR(blockiness(gradient), 1.0, 0.05);
   EXPECT_LT(blockiness(difference), 0.3);
@@ -201,7 +201,7 @@ Image<glm::vec4> coded_normals(const Bumps& b, int width, int height) {
 
 TEST_F(SphereBumps, NormalMapMatchesTheBumps) {
   const Texture2D normals(coded_normals(bumps, 1024, 512), TexelFormat::rgba16f);
-  // The step of a half float near 1/2 is 1/2048, which is 0.05% of a slope of 1; linear filtering adds 0.1% of a slope of 0.3.
+  // The ulp of a half float near 1/2 is 1/2048, which is 0.05% of a slope of 1; linear filtering adds 0.1% of a slope of 0.3.
   EXPECT_LT(angle_error(normals_seen<Mapped>(sphere, detail_of(normals)), bumps), 1e-3);
 }
 
@@ -219,8 +219,8 @@ TEST_F(SphereBumps, MirroringTheObjectMirrorsTheBumps) {
     }
     return sum * 4 / (kSize * kSize);
   };
-  // The mean over pixels, because a pixel on the edge between two facets may fall on the other facet, where the slope of a bump differs by
-  // up to π/256 of its value.
+  // Takes the mean over pixels, because a pixel on the edge between two facets may show the other facet, where the slope of a bump differs
+  // by up to π/256 of its value.
   EXPECT_LT(check(normals_seen<Bumped>(sphere, detail_of(slopes)), normals_seen<Bumped>(sphere, detail_of(slopes), mirror)), 2e-5);
   EXPECT_LT(check(normals_seen<Mapped>(sphere, detail_of(normals)), normals_seen<Mapped>(sphere, detail_of(normals), mirror)), 2e-5);
 }

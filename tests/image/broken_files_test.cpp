@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Reads damaged and hostile image files. Whatever a file contains, each reader must return an image or throw an InputError with a one-line
-// message. Each folder is read in a child process with limited memory and time, so a crash or a hang fails one test and reports the file.
+// message. Each folder is read in a child process with limited memory and time, so that a crash or a hang fails only one test, which
+// reports the file.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/resource.h>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Lifetime of the decoder programs: they serve many images, are replaced when they end, and end with the program that started them.
+// Tests the lifetime of the decoder programs: they serve many images, are replaced if they exit, and exit with the program that started
+// them.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/wait.h>
@@ -63,7 +64,7 @@ std::vector<pid_t> tools(const char* name = kImageToolName) {
   return ids;
 }
 
-// Kills the running tools and waits until they have ended.
+// Kills the running tools and waits until they have exited.
 void kill_tools(const char* name = kImageToolName) {
   for (const pid_t id : tools(name)) ::kill(id, SIGKILL);
   while (!tools(name).empty()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -171,7 +172,7 @@ TEST_F(DecoderProcess, IsReplacedAfterAFailedWrite) {
   EXPECT_EQ(read_image(ppm).at(0, 0), first);
 }
 
-// An earlier image may have damaged a process that then crashes on a good one.
+// An earlier image may have corrupted a process, which then crashes on a valid image.
 TEST_F(DecoderProcess, CrashOfAUsedProcessIsRetried) {
   EXPECT_EQ(error_if_signaled(SIGSEGV), "");
   EXPECT_EQ(zombies(), 0u);

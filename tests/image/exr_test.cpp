@@ -43,7 +43,7 @@ ExrChannel channel(const char* name, ExrSample sample, const std::vector<T>& sam
           }};
 }
 
-// Sample bits of all magnitudes: every finite half, and floats that no half can represent.
+// Returns sample bits of all magnitudes: every finite half, and floats that no half can represent.
 std::vector<uint16_t> finite_halves() {
   std::vector<uint16_t> halves;
   for (uint32_t h = 0; h < 0x10000; ++h) {
@@ -91,7 +91,7 @@ TEST_F(Exr, FloatsAreBitExact) {
 
 // OpenEXR does not compress the block of a single pixel, so the file ends with its samples, in the order of the names.
 TEST_F(Exr, StoresChannelsOfAllTypesInOneFile) {
-  const std::vector<uint32_t> id = {0xfffffffeu}, depth = {0x7f800000u};  // the largest id but one; infinity
+  const std::vector<uint32_t> id = {0xfffffffeu}, depth = {0x7f800000u};  // the second-largest id; infinity
   const std::vector<uint16_t> alpha = {0x3c01};
   const ExrChannel channels[] = {channel("object", ExrSample::uint32, id), channel("Z", ExrSample::float32, depth),
                                  channel("normal.X", ExrSample::float16, alpha)};

@@ -38,18 +38,18 @@ TEST(ImageDifference, MatchesClosedFormForUniformGrays) {
   for (const auto& c : cases) {
     const ImageDifference d = compare_images(gray(16, 12, c.a), gray(16, 12, c.b));
     const double a = c.a / 255.0, b = c.b / 255.0, e = std::abs(a - b), c1 = 1e-4;
-    // A sum of 576 terms, each rounded to within 2^-53: an error of at most 6e-14.
+    // The sum has 576 terms, each rounded to within 2^-53, so the error is at most 6e-14.
     EXPECT_NEAR(d.rmse, e, 1e-13);
     EXPECT_NEAR(d.mean, e, 1e-13);
     EXPECT_NEAR(d.psnr_db, -20.0 * std::log10(e), 2e-12);
     EXPECT_NEAR(d.max, e, 1e-15);
     EXPECT_NEAR(d.p999, e, 1e-15);
-    EXPECT_EQ(d.share_above, std::abs(c.a - c.b) > 1 ? 1.0 : 0.0) << "a difference of exactly one code does not count";
+    EXPECT_EQ(d.share_above, std::abs(c.a - c.b) > 1 ? 1.0 : 0.0) << "a difference of exactly 1/255 does not count";
     EXPECT_NEAR(d.ssim, (2 * a * b + c1) / (a * a + b * b + c1), 1e-9);  // the variances cancel to about 1e-16, divided by C2 = 9e-4
   }
 }
 
-// First, one pixel of 2,000 (0.05 %) differs in one channel, which the 99.9th percentile ignores. With three differing pixels (0.15 %) the
+// First, one pixel of 2,000 (0.05%) differs in one channel, which the 99.9th percentile ignores. With three differing pixels (0.15%), the
 // percentile is nonzero.
 TEST(ImageDifference, ReportsFewDifferingPixels) {
   Image<glm::u8vec4> a = gray(50, 40, 50), b = a;

@@ -56,7 +56,7 @@ inline std::string stored_zlib(const std::string& data) {
   return "\x78\x01\x01" + low_first + inverted + data + big_endian(b << 16 | a, 4);
 }
 
-/// Builds a PNG with one row of 16-bit codes. color_type: 0 is gray, 2 RGB, 4 gray and alpha, 6 RGBA.
+/// Builds a PNG with one row of 16-bit values. color_type: 0 is gray, 2 RGB, 4 gray and alpha, 6 RGBA.
 inline std::string png16_row(const std::vector<uint16_t>& codes, int width, int color_type) {
   std::string row(1, '\0');  // filter: none
   for (const uint16_t c : codes) row += big_endian(c, 2);

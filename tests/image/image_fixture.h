@@ -22,7 +22,7 @@ class ImageToolTest : public FolderTest {
   }
 };
 
-// Returns an image in which every 8-bit code occurs in every channel. Alpha is 255 everywhere if opaque is set.
+// Returns an image in which every 8-bit value occurs in every channel. Alpha is 255 everywhere if opaque is set.
 inline Image<glm::u8vec4> test_picture(bool opaque) {
   Image<glm::u8vec4> image(67, 41);
   for (int y = 0; y < image.height(); ++y) {

@@ -100,7 +100,7 @@ TEST_F(ToolFormats, TiffIsExact) {
 }
 
 TEST_F(ToolFormats, JpegIsCloseAndOpaque) {
-  // A smooth image: at quality 95 the error is at most 4 codes, and 1 on average.
+  // A smooth image: at quality 95, the error is at most 4/255, and 1/255 on average.
   Image<glm::u8vec4> image(64, 48);
   for (int y = 0; y < 48; ++y) {
     for (int x = 0; x < 64; ++x) image.at(x, y) = glm::u8vec4(4 * x, 5 * y, 255 - 2 * (x + y), 128);

@@ -244,7 +244,7 @@ TEST_F(ImageIo, RejectsDamagedFilesOfOtherFormatsWithOneLine) {
   }
 }
 
-// Compares our decoding of PngSuite with the images decoded by stb_image, which are included with the files.
+// Compares our decoding of PngSuite with images decoded by stb_image, which are included with the files.
 TEST_F(ImageIo, PngSuiteMatchesAnotherDecoder) {
   const fs::path primary = shared_data("pngsuite/primary"), expected = shared_data("pngsuite/primary_check");
   if (!fs::exists(primary)) GTEST_SKIP() << absent(primary);

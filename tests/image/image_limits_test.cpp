@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Images whose headers claim more than the limits of the process permit. They are rejected before their pixels are decoded.
+// Images whose headers claim more than the limits of the process allow. They are rejected before their pixels are decoded.
 #include <gtest/gtest.h>
 
 #include "halfspace/image/image_io.h"
@@ -61,7 +61,7 @@ TEST_F(ImageLimits, PngPixelsAreLimited) {
   EXPECT_NO_THROW(read_image(directory / "a.png"));
 }
 
-// All pixels of the PNG are 0, so that the file is small. The limit leaves less than the decoded pixels need.
+// All pixels of the PNG are 0, so that the file is small. The limit is below what the decoded pixels need.
 TEST_F(ImageLimits, MemoryOfPngIsLimited) {
   write_image(directory / "a.png", Image<glm::u8vec4>(8192, 8192));
   limit(resource_limits().max_memory - memory_left() + (uint64_t{200} << 20), kMaxImagePixels);

@@ -62,7 +62,7 @@ TEST_F(ImageNumbers, SixteenBitValuesAreDecodedFromSrgb) {
     EXPECT_EQ(light.at(i, 0).w, static_cast<float>(codes[2 * static_cast<std::size_t>(i) + 1]) / 65535.0f);
   }
   const Image<glm::vec4> widened = read_linear(put("b.png", png16_row({0x8080, 0x0101, 0xffff}, 1, 2)));
-  EXPECT_EQ(widened.at(0, 0), glm::vec4(kSrgbToLinear[0x80], kSrgbToLinear[1], 1.0f, 1.0f)) << "equal to the 8-bit codes 128, 1, 255";
+  EXPECT_EQ(widened.at(0, 0), glm::vec4(kSrgbToLinear[0x80], kSrgbToLinear[1], 1.0f, 1.0f)) << "equal to the 8-bit values 128, 1, 255";
 }
 
 TEST_F(ToolNumbers, ReadsHeightsFromTiff) {

@@ -25,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Run by the copy. Writes the error messages to the file "lines" in the working directory.
+// The copy runs only this test. It writes the error messages to the file "lines" in the working directory.
 TEST(ImageToolCopy, DISABLED_WritesAndReads) {
   const Image<glm::u8vec4> codes(400, 300);
   const Image<glm::vec4> light(400, 300);

@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 constexpr int kEdge = 32;
 
-// A file of one color. Components are in the color space `input`.
+// A single-color file. Components are in the color space `input`.
 struct JpegFile {
   J_COLOR_SPACE input = JCS_RGB, stored = JCS_YCbCr;
   std::vector<uint8_t> color;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Where the library looks for the decoders.
+// Tests where the library looks for the decoders.
 #include <gtest/gtest.h>
 
 #include "halfspace/core/check.h"

@@ -116,7 +116,7 @@ float tolerance(const conformance::Picture& p) {
   if (textured) return 2.0f * kCode;  // llvmpipe's log2 has an error of 0.04, its sRGB conversion one of 0.001
   const bool floats = p.colors[0] == ColorFormat::rgba16f || p.colors[0] == ColorFormat::rgba32f;
   if (floats) return 0x1p-10f;
-  // Mesa blends 8-bit colors in integers and rounds each product; VK-GL-CTS allows three codes.
+  // Mesa blends 8-bit colors in integers and rounds each product; VK-GL-CTS allows a difference of 3/255.
   return blends(p) ? 3.0f * kCode : kCode;
 }
 

@@ -31,8 +31,8 @@ Figures count_fragments(const ColoredMesh& mesh, const TargetSpec& target) {
   return figures;
 }
 
-// Reasons why coverage may differ. They matter where a pixel depends on the last 1/256 px: on thin triangles, and on edges through pixel
-// centers. Halfspace rounds the exact quotient x/w to the grid and does not clip at the edges of the window.
+// Reasons why coverage may differ. They matter where coverage depends on a difference of 1/256 px: on thin triangles, and at edges through
+// pixel centers. Halfspace rounds the exact quotient x/w to the grid and does not clip at the edges of the window.
 constexpr const char* kRounding = "rounds window coordinates to float before snapping them to 1/256 px";
 constexpr const char* kClipping =
     "clips triangles at the edges of the window to new vertices, which are also snapped, and rounds before snapping";

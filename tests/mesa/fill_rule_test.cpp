@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Samples that are exactly on an edge: simple cases, drawn by both renderers.
+// Tests samples exactly on an edge with simple cases, drawn by both renderers.
 #include "mesa/mesa_context.h"
 #include "mesa/scenes.h"
 #include "mesa/twin_pass.h"

@@ -13,8 +13,8 @@ namespace halfspace::test {
 /// A surfaceless EGL context with OpenGL 4.5 core on llvmpipe. It is current on the thread that created it until it is destroyed.
 class MesaContext {
  public:
-  /// Returns null if EGL, Mesa or llvmpipe is missing; missing then names the missing part in one line. Sets environment variables for the
-  /// whole process that select llvmpipe and its exact texture filtering (see the .cpp).
+  /// Returns null if EGL, Mesa or llvmpipe is missing; missing then names the missing part in one line. Sets process-wide environment
+  /// variables that select llvmpipe and its exact texture filtering (see the .cpp).
   static std::unique_ptr<MesaContext> create(std::string& missing);
   ~MesaContext();
   MesaContext(const MesaContext&) = delete;

@@ -14,7 +14,7 @@ namespace halfspace::test {
 
 namespace {
 
-// ---- RAII wrappers of OpenGL objects --------------------------------------------------------------------------------
+// ---- RAII wrappers for OpenGL objects -------------------------------------------------------------------------------
 
 template <void (*const* generate)(GLsizei, GLuint*), void (*const* remove)(GLsizei, const GLuint*)>
 struct Object {

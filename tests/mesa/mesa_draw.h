@@ -16,7 +16,7 @@
 
 namespace halfspace::test {
 
-/// Render target of both renderers: a cleared color image and a cleared depth image.
+/// The render target for both renderers: a cleared color image and a cleared depth image.
 struct TargetSpec {
   int width = 320;  ///< must not be 512: llvmpipe on LLVM 15 crashes at that width
   int height = 240;
@@ -28,7 +28,7 @@ struct TargetSpec {
   int samples = 1;  ///< 1 or 4
 };
 
-/// Color codes and window-space depths, top row first.
+/// 8-bit colors and window-space depths, top row first.
 struct Picture {
   Image<glm::u8vec4> color;
   Image<float> depth;
@@ -78,10 +78,10 @@ class MesaPrograms {
   std::map<std::array<const char*, 3>, unsigned> programs_;
 };
 
-/// Draws with the current context (see MesaContext) and returns the colors as stored (codes/255 for 8-bit formats), bottom row first.
+/// Draws with the current context (see MesaContext) and returns the stored colors (8-bit values are divided by 255), bottom row first.
 /// Multisampled targets are resolved.
 std::vector<glm::vec4> colors_by_mesa(const TargetSpec& target, const std::vector<MesaDraw>& draws, MesaPrograms& programs);
-/// Returns color codes and depth. The target must be rgba8 or srgb8a8 with d32f and a single sample.
+/// Returns 8-bit colors and depth. The target must be rgba8 or srgb8a8 with d32f and a single sample.
 Picture draw_with_mesa(const TargetSpec& target, const std::vector<MesaDraw>& draws);
 
 }  // namespace halfspace::test

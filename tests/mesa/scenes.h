@@ -39,7 +39,7 @@ struct Soup {
 struct SoupCase {
   const char* name;
   Soup soup;
-  const char* what_mesa_does = nullptr;  ///< how Mesa differs; null if it agrees
+  const char* what_mesa_does = nullptr;  ///< how Mesa differs; null if it must agree
   friend void PrintTo(const SoupCase& c, std::ostream* os) { *os << c.name; }
 };
 ColoredMesh make_soup(const Soup& soup, int width, int height);
@@ -70,7 +70,7 @@ Sphere make_sphere(int rows, int columns);
 /// Returns the transform from world space to clip space of the workloads' sphere scenes.
 glm::mat4 sphere_camera(const glm::vec3& eye, int width, int height);
 
-/// Returns the checkerboard of the workloads at any size: 32 × 16 squares.
+/// Returns the checkerboard of the workloads (32 × 16 squares) at any size.
 Image<glm::u8vec4> make_checker(int width, int height);
 
 }  // namespace halfspace::test

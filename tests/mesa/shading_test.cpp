@@ -20,8 +20,8 @@ void finish(TwinPass& pass, const char* what_mesa_does = nullptr) {
   expect_verdict(figures, what_mesa_does);
 }
 
-// Halfspace interpolates between snapped vertices, and Mesa interpolates between unsnapped ones. OpenGL allows both. A color that changes
-// by 1 within a pixel differs by up to 1/256 as a result, and thin triangles have slightly different coverage.
+// Halfspace interpolates between snapped vertices, Mesa between unsnapped ones. OpenGL allows both. As a result, a color that changes by 1
+// within a pixel differs by up to 1/256, and thin triangles have slightly different coverage.
 constexpr const char* kUnsnapped = "interpolates between unsnapped vertices, and clips at the edges of the window to new ones";
 constexpr const char* kClippedLinear =
     "loses noperspective varyings of triangles in perspective that are clipped at the edges of the window (22.3: even a constant becomes "

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Tests the states of a draw call one by one, on random triangles of either winding and various depths. The sizes of window and viewports
-// are powers of two and vertices are on the 1/256 px grid, so snapping moves nothing and depths agree too.
+// Tests the states of a draw call one by one, on random triangles of either winding and various depths. The sizes of the window and
+// viewports are powers of two and vertices are on the 1/256 px grid, so snapping does not move vertices, and depths agree, too.
 #include "mesa/mesa_context.h"
 #include "mesa/scenes.h"
 #include "mesa/twin_pass.h"
@@ -113,7 +113,7 @@ TEST_F(State, NeverAndCullingBothFacesDrawNothing) {
   EXPECT_EQ(pass.figures().covered, 0);
 }
 
-// Draws the same triangles twice, the second time with EQUAL and in other colors, which must replace all pixels of the first draw.
+// Draws the same triangles twice, the second time with EQUAL and in different colors, which must replace all pixels of the first draw.
 TEST_F(State, EqualReplacesPixelsOfTheSameTriangles) {
   const ColoredMesh mesh = make_soup(kHeap, kStateWidth, kStateHeight);
   TwinPass pass(kTarget);
@@ -125,7 +125,7 @@ TEST_F(State, EqualReplacesPixelsOfTheSameTriangles) {
   expect_agreement(figures);
 }
 
-// Values between two codes may be rounded either way; multiples of 1/255 must be exact.
+// Values between two multiples of 1/255 may be rounded either way; multiples of 1/255 must be exact.
 TEST_F(State, ClearValuesAgree) {
   for (const ColorFormat format : {ColorFormat::rgba8, ColorFormat::srgb8a8}) {
     for (int i = 0; i <= 1020; ++i) {
@@ -151,7 +151,8 @@ struct OffsetCase {
 };
 class OffsetOf : public MesaFixture<testing::TestWithParam<OffsetCase>> {};
 
-// Draws the triangles, and again in other colors with the offset. Compares where the second draw is visible and the resulting depth.
+// Draws the triangles, and then again in different colors with the offset. Compares where the second draw is visible, and the resulting
+// depth.
 TEST_P(OffsetOf, DrawsTheSameImageAndDepth) {
   const ColoredMesh mesh = make_soup(kHeap, kStateWidth, kStateHeight);
   TwinPass pass(kTarget);

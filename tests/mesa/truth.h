@@ -2,8 +2,8 @@
 //
 // Computes a pixel in double precision, following the OpenGL specification as directly as possible: all triangles in order, no clipping
 // (coverage follows from the signs of clip-space weights), and the shader evaluated with R = double. This decides which renderer causes a
-// difference. Vertex functions are evaluated in float, as in both renderers. The target stores 8-bit codes: every fragment is rounded to
-// them, and blending starts from them.
+// difference. Vertex functions are evaluated in float, as in both renderers. The target stores 8-bit values: the result of every fragment
+// is rounded to 8 bits, and the next blend reads the rounded value.
 #pragma once
 
 #include <algorithm>
@@ -25,9 +25,9 @@ struct TruthPixel {
 };
 
 bool passes(CompareOp op, double value, double held);
-/// Returns the 8-bit codes of a linear color.
+/// Returns the stored 8-bit values of a linear color.
 glm::u8vec4 truth_codes(const glm::dvec4& color, ColorFormat format);
-/// Blends the color of a fragment with the codes of a pixel.
+/// Blends the color of a fragment with the stored 8-bit values of a pixel.
 glm::u8vec4 truth_blend(const glm::dvec4& source, const glm::u8vec4& held, const BlendState& blend, ColorFormat format);
 
 /// A triangle in window coordinates, in 1/256 px. Weights and w can be negative, because the formulas are projective.

@@ -102,7 +102,7 @@ void TwinPass::judge(int x, int row, int tolerance, Figures& f) const {
   const auto text = [](const glm::u8vec4& c) {
     return std::to_string(c.x) + ',' + std::to_string(c.y) + ',' + std::to_string(c.z) + ',' + std::to_string(c.w);
   };
-  std::printf("    x %d row %d: Halfspace %s  Mesa %s  truth %s  for unsnapped vertices %s\n", x, row, text(a).c_str(), text(b).c_str(),
+  std::printf("    x %d row %d: Halfspace %s  Mesa %s  reference %s  for unsnapped vertices %s\n", x, row, text(a).c_str(), text(b).c_str(),
               text(snapped).c_str(), text(exact).c_str());
 }
 

@@ -18,19 +18,19 @@ inline constexpr float kDepthTolerance = 1e-6f;
 struct Figures {
   int64_t covered = 0;           ///< pixels covered in either image
   int64_t coverage_differs = 0;  ///< pixels covered in only one image
-  int64_t color_differs = 0;     ///< a channel differs by more than one code
-  int worst = 0;                 ///< maximum difference of a channel, in codes
+  int64_t color_differs = 0;     ///< a channel differs by more than 1/255
+  int worst = 0;                 ///< maximum difference of a channel, in 1/255
   int64_t depth_differs = 0;     ///< window depths differ by more than kDepthTolerance
 
   // Differing pixels, or a sample of them if there are many, checked against double precision:
   int64_t judged = 0;
-  int64_t halfspace_right = 0, mesa_right = 0;              ///< within one code of the reference for snapped vertices
-  int64_t halfspace_right_exact = 0, mesa_right_exact = 0;  ///< within one code of the reference for unsnapped vertices
-  int64_t halfspace_right_beside = 0;                       ///< wrong for the pixel center, but correct for a point within 1/256 px of it
+  int64_t halfspace_right = 0, mesa_right = 0;              ///< within 1/255 of the reference for snapped vertices
+  int64_t halfspace_right_exact = 0, mesa_right_exact = 0;  ///< within 1/255 of the reference for unsnapped vertices
+  int64_t halfspace_right_beside = 0;                       ///< wrong at the pixel center, but correct for a point within 1/256 px of it
   // Maximum errors over pixels whose depths differ although their colors agree.
   double halfspace_depth_error = 0.0, mesa_depth_error = 0.0;
 
-  /// Returns the share of the checked pixels for which Halfspace is wrong, or 1 if none was checked.
+  /// Returns the fraction of the checked pixels for which Halfspace is wrong, or 1 if none was checked.
   double halfspace_wrong() const {
     return judged == 0 ? 1.0 : 1.0 - static_cast<double>(halfspace_right + halfspace_right_beside) / static_cast<double>(judged);
   }
@@ -63,7 +63,7 @@ class TwinPass {
   /// Compares the images and checks up to max_checked differing pixels in double precision. If the environment variable
   /// HALFSPACE_MESA_PIXELS is set, these pixels are printed.
   Figures figures(int max_checked = 0) const;
-  /// Compares the number of fragments per pixel, for additive draws of 1/255; `covered` then counts fragments.
+  /// Compares the number of fragments per pixel in additive draws of 1/255; `covered` then counts fragments.
   Figures fragment_figures(int max_checked = 0) const;
   /// Returns the reference value of a pixel, or of a point at `offset` (in pixels) from its center.
   TruthPixel truth(int x, int row, Positions positions, const glm::dvec2& offset = glm::dvec2(0.0)) const;
@@ -88,13 +88,13 @@ DrawState state_with(const Change& change) {
   return state;
 }
 
-/// Returns the name of a parameterized test, which is the name of its parameter.
+/// Returns the name of a parameterized test: the name of its parameter.
 inline const auto case_name = [](const auto& test) { return std::string(test.param.name); };
 
-/// Prints the figures and records them as properties of the running test.
+/// Prints the results and records them as properties of the running test.
 void report(const Figures& figures);
 
-/// Coverage may differ on at most 0.01% of the covered pixels, and color must be within 1/255 on at least 99.9%.
+/// Bounds: coverage may differ on at most 0.01% of the covered pixels, and color must be within 1/255 on at least 99.9%.
 inline constexpr double kCoverageBound = 1e-4, kColorBound = 1e-3;
 /// Expects that the two images agree within the bounds.
 void expect_agreement(const Figures& figures);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Each shader is written for Halfspace and in GLSL, line by line the same. kSharedGlsl is prepended to each kVertexGlsl and kFragmentGlsl;
-// uniforms() sets every member as a GLSL uniform.
+// Each shader is written twice, for Halfspace and in GLSL, with matching lines. kSharedGlsl is prepended to each kVertexGlsl and
+// kFragmentGlsl; uniforms() sets every member as a GLSL uniform.
 #pragma once
 
 #include "halfspace/shading/contract.h"
@@ -81,7 +81,7 @@ struct SmoothColor {
   void uniforms(const Set&) const {}
 };
 
-/// The color of the provoking vertex.
+/// The provoking vertex's color.
 struct FlatColor {
   template <class R>
   struct Attributes {
@@ -159,7 +159,7 @@ struct LinearColor {
   void uniforms(const Set&) const {}
 };
 
-/// One color for all pixels.
+/// A single color for all pixels.
 struct OneColor {
   glm::vec4 color{1.0f};
 

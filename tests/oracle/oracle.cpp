@@ -240,7 +240,7 @@ Transform make_transform(const Rect& r, const DepthState& d) {
 }
 
 // Rounds x/w·half + center to the nearest multiple of 1/256 px. Within 2^-20 of a tie, the pipeline may round either way. In that case,
-// this function follows its arithmetic: quotient and remainder, product and its error, sum and its error.
+// this function follows the pipeline's arithmetic: quotient and remainder, product and its error, sum and its error.
 int64_t snap(float x, float w, float half, float center) {
   const long double exact =
       (static_cast<long double>(x) / static_cast<long double>(w) * static_cast<long double>(half) + static_cast<long double>(center)) *
@@ -295,8 +295,8 @@ bool all_outside(const DepthState& d, const std::array<const ShadedVertex*, 3>& 
 
 // ---- clipping ----------------------------------------------------------------------------------------------------
 
-// A corner of a clipped polygon: its position, its weights with respect to the vertices of the triangle, and the vertex that it equals, if
-// any.
+// A vertex of a clipped polygon: its position, its weights with respect to the vertices of the triangle, and the triangle's vertex that it
+// equals, if any.
 struct ClipPoint {
   std::array<double, 4> p;
   std::array<double, 3> weight;
@@ -307,7 +307,7 @@ using Polygon = std::vector<ClipPoint>;
 // A point is inside if a·x + b·y + c·z + d·w + k ≥ 0.
 struct Plane {
   double a, b, c, d, k;
-  std::optional<std::array<double, 3>> by_vertex{};  // for a clip distance: its values at the vertices of the triangle
+  std::optional<std::array<double, 3>> by_vertex{};  // for a clip distance: the values at the vertices of the triangle
 
   double operator()(const ClipPoint& q) const {
     if (!by_vertex) return a * q.p[0] + b * q.p[1] + c * q.p[2] + d * q.p[3] + k;
@@ -342,7 +342,7 @@ ClipPoint mix(double a, const ClipPoint& p, double b, const ClipPoint& q) {
 // Returns the intersection of the plane with the edge from an inside point to an outside point.
 ClipPoint meet(const Plane& plane, const ClipPoint& in, const ClipPoint& out) { return mix(plane(in), out, plane(out), in); }
 
-// Returns the intersection of the edge with w = kMinW: first intersects it with w = 0, and then moves back along the edge.
+// Returns the intersection of the edge with w = kMinW: first intersects the edge with w = 0, and then moves back along it.
 ClipPoint meet_least_w(const ClipPoint& in, const ClipPoint& out) {
   ClipPoint r = mix(in.p[3], out, out.p[3], in);
   const double back = static_cast<double>(kMinW) / (in.p[3] - out.p[3]);
@@ -381,7 +381,7 @@ int64_t snap_corner(double ndc, float half, float center) {
   return std::llrint((ndc * static_cast<double>(half) + static_cast<double>(center)) * 256.0);
 }
 
-// Returns the corner of a polygon in the window. A corner that is a vertex of the triangle has the same bits as without clipping.
+// Returns a vertex of a polygon in the window. A vertex that is also one of the triangle is bit-identical to the result without clipping.
 Corner clip_corner(const Transform& t, const ClipPoint& c, const std::array<const ShadedVertex*, 3>& v, const ShaderFacts& facts,
                    std::size_t provoking) {
   Corner r;
@@ -450,8 +450,8 @@ int64_t cross(int64_t ax, int64_t ay, int64_t bx, int64_t by) { return ax * by -
 
 int64_t turn(const Corner& a, const Corner& b, const Corner& c) { return cross(b.x - a.x, b.y - a.y, c.x - a.x, c.y - a.y); }
 
-// Splits a clipped polygon into a fan. The apex is the first corner for which all triangles have the same orientation. If there is none,
-// the apex is the last corner, and triangles with the opposite orientation are dropped.
+// Splits a clipped polygon into a fan. The apex is the first vertex for which all triangles have the same orientation. If there is none,
+// the apex is the last vertex, and triangles with the opposite orientation are dropped.
 std::vector<std::array<Corner, 3>> fan(const std::vector<Corner>& polygon) {
   std::vector<std::array<Corner, 3>> pieces;
   for (std::size_t apex = 0; apex < polygon.size(); ++apex) {
@@ -834,12 +834,12 @@ CellPart part_in_cell(int64_t a, int64_t b, int64_t c, int64_t cell) {
   return {std::max(std::min({a, b, c}), low), std::min(std::max({a, b, c}), low + kCellSize * 256)};
 }
 
-// A barycentric weight, as a plane through the center of a cell's part.
+// A barycentric weight as a plane, relative to the center of the part of the cell.
 struct WeightPlane {
   double at_center, along_x, along_y;
 
-  // Whether the rounding errors of a value that is 1 at this corner and −1 at the others stay below 5 · 2^-24. They are those of the value
-  // at the center, the step along x, the step along y, the sum of the first two, and the result:
+  // Whether the rounding errors of a value that is 1 at this corner and −1 at the others stay below 5 · 2^-24. The errors are those of the
+  // value at the center, the step along x, the step along y, the sum of the first two, and the result:
   // |1 − 2 · at_center| + step_x + step_y + (1 + step_y) + 1.
   bool is_accurate(const CellPart& x, const CellPart& y) const {
     const double step_x = 2 * std::abs(along_x) * x.reach(), step_y = 2 * std::abs(along_y) * y.reach();
@@ -849,8 +849,9 @@ struct WeightPlane {
 
 }  // namespace
 
-// If w is constant, the values of a large triangle are planes through the center of the part of the cell that the triangle's box overlaps,
-// unless the rounding errors of some values could exceed 5 · 2^-24 of the largest value.
+// If w is constant, the values of a large triangle are evaluated as planes. They are relative to the center of the part of the cell that
+// the triangle's bounding box overlaps. Planes are not used if the rounding errors of some values could exceed 5 · 2^-24 of the largest
+// value.
 Surface surface_in_cell(const WindowTriangle& t, const Surface& whole, std::span<const Interpolation> interpolations, int64_t cell_x,
                         int64_t cell_y) {
   const auto& [a, b, c] = t.corner;
@@ -1092,7 +1093,7 @@ std::vector<WindowTriangle> Renderer::window_line(const DrawState& state, const 
   return halves;
 }
 
-// Returns the lines or points as which a polygon is drawn.
+// Returns the lines or points that are drawn instead of a polygon.
 std::vector<WindowTriangle> Renderer::window_outline(const DrawState& state, const std::vector<Corner>& corners,
                                                      const std::vector<int>& vertex, const std::array<const ShadedVertex*, 3>& v,
                                                      const std::vector<float>& flat) {

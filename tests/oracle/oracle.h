@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The oracle is an independent implementation of the whole pipeline in the simplest possible loops, which tests compare with the tile path
+// The oracle is an independent implementation of the whole pipeline with the simplest possible loops. Tests compare it with the tile path
 // byte for byte. It supports the full draw state. It shares only type definitions with src/raster (draw_state.h, target.h), and the shader
 // interface with src/shading. It processes one pixel, one triangle and one fragment at a time, in order, without lanes, tiles, bins,
 // incremental evaluation, deferred shading or depth bounds.
@@ -22,7 +22,7 @@
 
 namespace halfspace::oracle {
 
-/// Counts of the work done. Contains the fields of PassStatistics that do not depend on how a pass organizes its work.
+/// Statistics. Contains the fields of PassStatistics that do not depend on how a pass organizes its work.
 struct Counts {
   uint64_t vertices_shaded = 0;
   uint64_t primitives_in = 0;
@@ -62,7 +62,7 @@ class Framebuffer {
   /// Returns the decoded color of a sample.
   glm::vec4 color(std::size_t attachment, const Sample& s) const;
   void set_color(std::size_t attachment, const Sample& s, glm::vec4 value);
-  /// Returns the depth of a sample as stored in the format: a code, or the depth itself for float formats.
+  /// Returns the depth of a sample as stored in the format: an integer (UNORM), or the depth itself for float formats.
   double depth(const Sample& s) const;
   void set_depth(const Sample& s, double value);
   uint8_t stencil(const Sample& s) const;
@@ -96,12 +96,12 @@ struct ShadedVertex {
   glm::vec4 pos_clip{};
   float point_size = 1.0f;
   std::vector<float> clip_distances;
-  bool has_bounds = false;  ///< low and high, in NDC, are used instead of a size
+  bool has_bounds = false;  ///< if set, low and high (NDC) are used instead of the size
   glm::vec2 low{}, high{};
   std::vector<float> varyings;
 };
 
-/// A corner of a triangle in the window.
+/// A vertex of a triangle in the window.
 struct Corner {
   int64_t x = 0, y = 0;  ///< 1/256 px
   float z = 0.0f;        ///< window depth before offset and clamping
@@ -118,7 +118,7 @@ struct WindowTriangle {
   float z0 = 0, z_max = 0;         ///< smallest and largest depth, including the offset
   float z_step1 = 0, z_step2 = 0;  ///< depth per unit of E1 and E2
 
-  bool is_line = false;  ///< a line of `width` pixels from `from` to `to`; corner 2 is to the side of corner 0
+  bool is_line = false;  ///< a line of `width` pixels from `from` to `to`; corner 2 is next to corner 0
   Point from, to;
   int width = 1;
   bool is_point = false;  ///< a point or sprite at corner 0 that covers the rectangle from low to high (exclusive)

@@ -74,7 +74,7 @@ TEST(ProceduralEarth, PolesAreNotPinched) {
   }
 }
 
-// Most of the surface is sea, the caps are bright, and there are green areas and deserts.
+// Most of the surface is sea, the polar caps are bright, and there are green areas and deserts.
 TEST(ProceduralEarth, HasPlausibleColors) {
   const Image<glm::u8vec4> map = procedural_earth(256, 128, Workers(2));
   int sea = 0, green = 0, sand = 0, all = 0;

@@ -93,7 +93,7 @@ TEST_P(Patterns, TileSeamlessly) {
   for (int axis = 0; axis < 2; ++axis) EXPECT_LE(across[axis], elsewhere[axis]);
 }
 
-// The noise is periodic up to the rounding of u + 1 (2^-24, times up to 64 cells).
+// The noise is periodic except for the rounding of u + 1 (2^-24, times up to 64 cells).
 TEST(TiledNoise, IsPeriodic) {
   using namespace procedural;
   for (float u = 0.003f; u < 1.0f; u += 0.0371f) {
@@ -107,7 +107,7 @@ TEST(TiledNoise, IsPeriodic) {
   }
 }
 
-// Octaves that are too fine to be represented by the texels are omitted.
+// Octaves that are too fine for the texels to represent are omitted.
 TEST(TiledNoise, OmitsOctavesFinerThanTheTexels) {
   using namespace procedural;
   const auto at = [](int octaves, int texels) { return lane(tiled_cloud(Real(0.31f), Real(0.77f), 8, 8, octaves, texels, 5), 0); };
