@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Builds glTF files for tests.
+// Builds glTF files for the tests.
 #pragma once
 
 #include <cstring>
@@ -41,7 +41,7 @@ class GltfBuilder {
     return view(std::as_bytes(std::span(values)), stride);
   }
 
-  /// Adds an accessor for tightly packed numbers. width: numbers per element.
+  /// Adds an accessor for tightly packed values. width: number of components per element.
   template <class T>
   int accessor(const std::vector<T>& values, std::size_t width, bool normalized = false) {
     GltfJson item = {
@@ -50,12 +50,12 @@ class GltfBuilder {
     return add("accessors", item);
   }
 
-  /// Adds a mesh of one primitive, and a node that draws it. Returns the index of the node.
+  /// Adds a mesh with one primitive, and a node that draws it. Returns the index of the node.
   int mesh_node(GltfJson primitive) {
     const int mesh = add("meshes", {{"primitives", GltfJson::array({std::move(primitive)})}});
     return add("nodes", {{"mesh", mesh}});
   }
-  /// The accessor of the positions of a triangle: (0, 0, 0), (1, 0, 0), (0, 1, 0).
+  /// Adds the positions of a triangle, (0, 0, 0), (1, 0, 0), (0, 1, 0), and returns the accessor.
   int triangle() { return accessor<float>({0, 0, 0, 1, 0, 0, 0, 1, 0}, 3); }
 
   GltfJson finished() const {

@@ -17,7 +17,8 @@ namespace {
 
 constexpr int kPositionBits = 14, kNormalBits = 10, kUvBits = 12, kWeightBits = 12;
 
-// A square patch of a wave with size x size vertices. The first joint of a vertex is its number, which compression keeps.
+// A square patch of a wave with size x size vertices. The first joint of each vertex is the number of the vertex, which compression
+// preserves.
 struct Patch {
   std::vector<glm::vec3> positions, normals;
   std::vector<glm::vec2> uvs;
@@ -53,7 +54,7 @@ void add_values(draco::Mesh& mesh, draco::GeometryAttribute::Type kind, draco::D
   for (uint32_t i = 0; i < count; ++i) mesh.attribute(id)->SetAttributeValue(draco::AttributeValueIndex(i), &values[i]);
 }
 
-// Returns the stream. The attributes have the ids 0 to 5, in the order of the members of Patch.
+// Returns the compressed stream. The attributes have the ids 0 to 5, in the order of the members of Patch.
 std::vector<std::byte> compressed(const Patch& patch, draco::MeshEncoderMethod method) {
   using Kind = draco::GeometryAttribute;
   draco::Mesh mesh;
@@ -82,7 +83,7 @@ std::vector<std::byte> compressed(const Patch& patch, draco::MeshEncoderMethod m
 
 constexpr const char* kDraco = "KHR_draco_mesh_compression";
 
-// A file whose only primitive is the stream.
+// Returns a file whose only primitive is the stream.
 GltfBuilder draco_file(const Patch& patch, const std::vector<std::byte>& stream, bool required = true) {
   GltfBuilder file;
   const std::size_t n = patch.positions.size();
@@ -117,12 +118,12 @@ class GltfDracoTest : public testing::Test {
 };
 
 // Quantization to n bits divides the largest extent of an attribute into 2^n − 1 steps; values are off by at most half a step. Normals are
-// quantized on an octahedron with 2^n − 1 steps of the length 2/(2^n − 1) or less, which the projection to the sphere stretches less than
-// twice. The rest of each bound is for the rounding of floats.
+// quantized on an octahedron with 2^n − 1 steps of length 2/(2^n − 1) or less; the projection to the sphere stretches them by less than a
+// factor of two. The rest of each bound covers float rounding.
 void expect_like(const Patch& patch, const ModelMesh& mesh) {
   constexpr float kPosition = 2.0f / ((1 << kPositionBits) - 1) / 2.0f + 1e-6f, kNormal = 2.0f * 2.0f / ((1 << kNormalBits) - 1);
   constexpr float kUv = 1.0f / ((1 << kUvBits) - 1) / 2.0f + 1e-6f;
-  constexpr float kWeight = 2.0f / ((1 << kWeightBits) - 1) / 2.0f + 1e-6f;  // the sum of two weights is scaled to 1 afterwards
+  constexpr float kWeight = 2.0f / ((1 << kWeightBits) - 1) / 2.0f + 1e-6f;  // the weights are then scaled so that their sum is 1
   ASSERT_EQ(mesh.positions.size(), patch.positions.size());
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
     const std::size_t source = mesh.joints[i][0];
@@ -135,7 +136,7 @@ void expect_like(const Patch& patch, const ModelMesh& mesh) {
   }
 }
 
-// Returns the triangles by the numbers of the patch, each beginning with its smallest number, in increasing order.
+// Returns the triangles as vertex numbers of the patch. Each triangle begins with its smallest number, and the triangles are sorted.
 std::vector<std::array<uint32_t, 3>> triangles_of(const std::vector<uint32_t>& indices,
                                                   const std::vector<std::array<uint16_t, 4>>& numbers) {
   std::vector<std::array<uint32_t, 3>> list;
@@ -165,7 +166,7 @@ TEST_F(GltfDracoTest, TriangleStripsAreDecodedAsTriangles) {
   const Patch patch(4);
   GltfJson json = draco_file(patch, compressed(patch, draco::MESH_EDGEBREAKER_ENCODING)).finished();
   primitive_of(json)["mode"] = 5;
-  json["accessors"][6]["count"] = 30;  // of the strip
+  json["accessors"][6]["count"] = 30;  // number of indices of the strip
   const Model model = GltfBuilder::read_text(json.dump());
   EXPECT_EQ(triangles_of(model.meshes[0].indices, model.meshes[0].joints), triangles_of(patch.indices, patch.joints));
 }
@@ -218,7 +219,7 @@ TEST_F(GltfDracoTest, DamagedStreamsGiveAMeshOrAOneLineError) {
   EXPECT_EQ(draco_error(draco_file(patch, good).finished()), "(no error)");
 }
 
-// The counts follow the header of 11 bytes as variable-length integers.
+// The counts are variable-length integers after the 11-byte header.
 TEST_F(GltfDracoTest, HugeCountsAreRejected) {
   const Patch patch(3);
   const std::vector<std::byte> good = compressed(patch, draco::MESH_SEQUENTIAL_ENCODING);

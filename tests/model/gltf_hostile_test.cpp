@@ -66,7 +66,7 @@ std::string error_of(std::string_view text, const ReadModelOptions& options = {}
 }
 
 struct HostileCase {
-  const char* place;  // part of the message
+  const char* place;  // expected in the message
   std::function<void(GltfJson&)> damage;
 };
 
@@ -227,13 +227,13 @@ TEST(GltfHostile, RejectsDamagedMeshoptData) {
       file.mesh_node(
           {{"attributes",
             {{"POSITION", file.add("accessors", {{"bufferView", view}, {"componentType", 5126}, {"count", 3}, {"type", "VEC3"}})}}}});
-      // Neither the length of the view nor that of the data agrees with the count.
+      // Neither the length of the view nor that of the data matches the count.
       EXPECT_NE(error_of(file.text()).find("EXT_meshopt_compression"), std::string::npos) << mode << int{header};
     }
   }
 }
 
-// 100 primitives of zeros without data need far more memory than the file has bytes.
+// 100 primitives without data (all zeros) need far more memory than the file has bytes.
 TEST(GltfHostile, LimitsMemory) {
   GltfBuilder file;
   const int p = file.add("accessors", {{"componentType", 5126}, {"count", 1'000'000}, {"type", "VEC3"}});
@@ -271,8 +271,8 @@ std::size_t min_memory(bool with_normals, bool with_joints) {
   return high;
 }
 
-// Flat normals duplicate the vertices. Two sets of joints and weights add 48 bytes to each new vertex, of which the memory bound for meshes
-// without joints already includes 16.
+// Flat normals duplicate the vertices. Two sets of joints and weights add 48 bytes to each new vertex; 16 of them are already included in
+// the memory bound for meshes without joints.
 TEST(GltfHostile, CountsTheJointsOfCopiedVertices) {
   const std::size_t joints = min_memory(true, true) - min_memory(true, false);
   const std::size_t copied_joints = min_memory(false, true) - min_memory(false, false);
@@ -308,7 +308,7 @@ TEST(GltfHostile, SurvivesRandomDamage) {
     std::string text;
     try {
       for (auto& item : damaged) {
-        if (item.is_structured()) item = "structured";  // unflatten accepts only plain values
+        if (item.is_structured()) item = "structured";  // unflatten accepts only primitive values
       }
       text = damaged.unflatten().dump();
     } catch (const GltfJson::exception&) {

@@ -12,7 +12,7 @@
 namespace halfspace {
 namespace {
 
-// Returns a file with one texture, whose image is the text "image" in a buffer view.
+// Returns a file with one texture. Its image is the text "image" in a buffer view.
 GltfBuilder file_with_texture() {
   GltfBuilder file;
   file.add("images", {{"bufferView", file.view(std::vector<char>{'i', 'm', 'a', 'g', 'e'})}, {"mimeType", "image/png"}});
@@ -114,7 +114,7 @@ TEST(GltfMaterial, ConvertsSpecularGlossiness) {
   EXPECT_NEAR(plastic.base_color.x, 0.48f, 1e-6f);
   EXPECT_NEAR(plastic.base_color.y, 0.24f, 1e-6f);
   EXPECT_EQ(plastic.base_color.w, 0.5f);
-  // Without diffuse reflection, the specular color is that of a metal.
+  // Without diffuse reflection, the material is a metal with this specular color.
   const ModelMaterial gold = converted({{"diffuseFactor", {0, 0, 0, 1}}, {"specularFactor", {1.0, 0.7, 0.3}}});
   EXPECT_EQ(gold.metallic, 1.0f);
   EXPECT_NEAR(gold.base_color.y, 0.7f, 1e-6f);
@@ -129,7 +129,7 @@ TEST(GltfMaterial, TransformsTextureCoordinates) {
   const GltfJson transform = {{"offset", {0.5, 0.25}}, {"rotation", std::numbers::pi / 2.0}, {"scale", {2, 3}}, {"texCoord", 1}};
   const ModelMaterial m = material_of({{"emissiveTexture", {{"index", 0}, {"extensions", {{"KHR_texture_transform", transform}}}}}});
   EXPECT_EQ(m.emissive_map.uv_set, 1);
-  // A quarter turn counter-clockwise in an image whose v axis points down: u becomes −v.
+  // A counter-clockwise quarter turn in an image with v pointing down: u becomes −v.
   const glm::vec2 uv = m.emissive_map.uv_transform * glm::vec3(1.0f, 0.0f, 1.0f);
   EXPECT_NEAR(uv.x, 0.5f, 1e-6f);
   EXPECT_NEAR(uv.y, 0.25f - 2.0f, 1e-6f);
@@ -138,7 +138,7 @@ TEST(GltfMaterial, TransformsTextureCoordinates) {
   EXPECT_NEAR(v.y, 0.25f, 1e-6f);
 }
 
-// A mesh has the two sets of texture coordinates that its material uses, regardless of their numbers.
+// A mesh gets the two sets of texture coordinates that its material uses, regardless of their set numbers.
 TEST(GltfMaterial, UsesAnyTwoSetsOfTextureCoordinates) {
   GltfBuilder file = file_with_texture();
   const auto texture = [](int set) { return GltfJson{{"index", 0}, {"texCoord", set}}; };

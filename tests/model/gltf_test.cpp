@@ -16,7 +16,7 @@ namespace {
 
 using Indices = std::vector<uint32_t>;
 
-// Reads a mesh of the points (i, 0, 0) with a mode and indices, which may be empty.
+// Reads a mesh with vertices at (i, 0, 0). mode: the primitive mode; indices: may be empty.
 ModelMesh read_mode(int mode, const std::vector<uint8_t>& indices, int points = 5) {
   GltfBuilder file;
   std::vector<float> positions;
@@ -52,7 +52,7 @@ TEST(Gltf, ConvertsAllModesToLists) {
   EXPECT_EQ(read_mode(0, {1, 3}).positions.size(), 2u);
   EXPECT_EQ(read_mode(0, {}).topology, MeshTopology::points);
   EXPECT_EQ(read_mode(1, {0, 1, 2, 3, 4, 0}).indices, (Indices{0, 1, 2, 3, 4, 0}));
-  EXPECT_EQ(read_mode(1, {}).indices, (Indices{0, 1, 2, 3}));  // the fifth point has no partner
+  EXPECT_EQ(read_mode(1, {}).indices, (Indices{0, 1, 2, 3}));  // the fifth vertex has no partner
   EXPECT_EQ(read_mode(2, {}, 3).indices, (Indices{0, 1, 1, 2, 2, 0}));
   EXPECT_EQ(read_mode(3, {}, 3).indices, (Indices{0, 1, 1, 2}));
   EXPECT_EQ(read_mode(3, {}).topology, MeshTopology::lines);
@@ -146,7 +146,7 @@ TEST(Gltf, ReadsMorphTargetsSkinsAndInstances) {
   const ModelMesh& mesh = model.meshes.at(0);
   ASSERT_EQ(mesh.targets.size(), 2u);
   EXPECT_EQ(mesh.targets[1].positions[2], glm::vec3(0, 0, 3));
-  EXPECT_EQ(mesh.joints[0], (std::array<uint16_t, 4>{1, 0, 0, 0}));  // joints without weight become 0
+  EXPECT_EQ(mesh.joints[0], (std::array<uint16_t, 4>{1, 0, 0, 0}));  // joints with a weight of 0 become 0
   EXPECT_EQ(mesh.weights[0], glm::vec4(0.5f, 0.5f, 0.0f, 0.0f));
   EXPECT_EQ(mesh.weights[2], glm::vec4(1.0f, 0.0f, 0.0f, 0.0f));
   EXPECT_EQ(model.nodes[0].morph_weights, (std::vector<float>{0.25f, 0.5f}));
@@ -241,7 +241,7 @@ TEST(Gltf, ReadsGlbAndExternalBuffers) {
   EXPECT_EQ(model.meshes.at(0).positions[0], glm::vec3(5, 0, 0));
 }
 
-// Adds a buffer view of `count` elements that is compressed with meshoptimizer.
+// Adds a buffer view of `count` elements, compressed with meshoptimizer.
 int compressed_view(GltfBuilder& file, const std::vector<unsigned char>& encoded, std::size_t count, std::size_t stride, const char* mode,
                     const char* filter) {
   GltfJson view = file.json["bufferViews"][static_cast<std::size_t>(file.view(encoded))];
@@ -285,7 +285,7 @@ TEST(Gltf, DecompressesMeshopt) {
     EXPECT_EQ(mesh.positions[3], glm::vec3(1, 1, 0.5f));
     EXPECT_NEAR(mesh.normals[2].x, 0.6f, 0.01f);
     EXPECT_NEAR(mesh.normals[3].x, -1.0f, 0.01f);
-    // The encoder of triangles may rotate their corners.
+    // The encoder may rotate the vertices of a triangle.
     for (std::size_t t = 0; t < 6; t += 3) {
       Indices corners(mesh.indices.begin() + static_cast<std::ptrdiff_t>(t), mesh.indices.begin() + static_cast<std::ptrdiff_t>(t) + 3);
       while (corners[0] != indices[t]) std::rotate(corners.begin(), corners.begin() + 1, corners.end());

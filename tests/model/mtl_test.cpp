@@ -18,7 +18,7 @@ class Mtl : public testing::Test {
     for (const char* name : {"a.png", "b.png", "c c.png", "maps/d.png"}) write_bytes(folder_.path() / name, name);
   }
 
-  // The material of a library with these statements.
+  // Returns the material of a library with these statements.
   ModelMaterial material(const std::string& statements) {
     model_ = read_mtl_text(folder_, "newmtl m\n" + statements);
     EXPECT_EQ(model_.materials.size(), 1u);
@@ -135,7 +135,7 @@ TEST_F(Mtl, ReadsReliefMaps) {
     const ModelMaterial m = material(std::string(key) + " -bm 2 a.png\nnorm b.png\n");
     EXPECT_EQ(file_of(m.bump_map), "a.png") << key;
     EXPECT_EQ(file_of(m.normal_map), "b.png") << key;
-    EXPECT_FLOAT_EQ(m.bump_scale, 0.1f) << "2 times 1 % of the diagonal, which is 5";
+    EXPECT_FLOAT_EQ(m.bump_scale, 0.1f) << "2 times 1% of the diagonal, which is 5";
   }
   EXPECT_EQ(file_of(material("map_Kn a.png\n").normal_map), "a.png");
 }

@@ -17,7 +17,7 @@ namespace {
 
 double length_of(const glm::vec3& v) { return std::sqrt(glm::dot(glm::dvec3(v), glm::dvec3(v))); }
 
-/// Returns the greatest distance between the normal of a vertex and its normalized position.
+/// Returns the largest distance between the normal of a vertex and its normalized position.
 double max_error_on_sphere(const ModelMesh& mesh) {
   double error = 0.0;
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
@@ -44,7 +44,7 @@ TEST(Normals, JoinCubeFacesAtAndAboveTheirAngle) {
     ModelMesh mesh = cube();
     add_smooth_normals(mesh, crease);
     ASSERT_EQ(mesh.positions.size(), 8u);
-    // The weights are the angles, so the diagonals of the faces make no difference.
+    // The normals are weighted by angle, so the diagonals of the faces make no difference.
     for (std::size_t i = 0; i < 8; ++i) EXPECT_LT(length_of(mesh.normals[i] - mesh.positions[i] / std::sqrt(3.0f)), 2e-7);
   }
 }
@@ -92,7 +92,7 @@ TEST(Normals, TreatNegativeZeroAsZero) {
 }
 
 TEST(Normals, FollowSmoothingGroups) {
-  // Faces of the same group are smooth where they meet, even at the right angles of the cube. Triangles of group 0 are flat.
+  // Edges between faces of the same group are smooth, even at the right angles of the cube. Triangles of group 0 are flat.
   std::vector<uint32_t> groups(12, 0);
   groups[0] = groups[1] = groups[2] = groups[3] = 1;  // the first two faces, which are opposite
   groups[4] = groups[5] = 1;                          // a face that touches both

@@ -122,7 +122,7 @@ TEST(ObjHostileDeathTest, ReadsManyMaterialNames) {
   expect_model_or_error(text);
 }
 
-// A polygon whose corners are in random order.
+// A polygon with its vertices in random order.
 TEST(ObjHostileDeathTest, ReadsLargeTangledPolygons) {
   std::mt19937 random(5);
   std::string text;

@@ -104,7 +104,7 @@ TEST(Obj, ReplacesUnusableNormals) {
   }
 }
 
-// Two squares that meet at a right angle, over the edge 2-3.
+// Two squares that meet at a right angle at the edge 2-3.
 constexpr std::string_view kFold = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 1 0 -1\nv 1 1 -1\n";
 
 TEST(Obj, UsesSmoothingGroups) {
@@ -126,7 +126,7 @@ TEST(Obj, TriangulatesPolygons) {
   const Model model = read_obj_text("v 0 0 0\nv 4 1 0\nv 0 2 0\nv 3 1 0\nf 1 2 3 4\n");
   const std::vector<uint32_t>& indices = model.meshes[0].indices;
   ASSERT_EQ(indices.size(), 6u);
-  EXPECT_EQ(std::ranges::count(indices, 3u), 2) << "must be cut at the reflex corner";
+  EXPECT_EQ(std::ranges::count(indices, 3u), 2) << "must be cut at the reflex vertex";
   EXPECT_EQ(std::ranges::count(indices, 1u), 2);
 }
 
@@ -189,7 +189,7 @@ TEST(Obj, MakesOneMeshPerMaterialAndTopology) {
   EXPECT_EQ(model.nodes[0].meshes, (std::vector<int>{0, 1, 2}));
 }
 
-// The positions relative to the origin must not depend on where the cube is, and must be proportional to its size.
+// Positions relative to the mesh's origin must not depend on the location of the cube, and must be proportional to its size.
 TEST(Obj, KeepsPrecisionFarAwayAndAtAllSizes) {
   const ModelMesh near = read_obj_text(obj_cube(0.75, glm::dvec3(0.0))).meshes[0];
   const ModelMesh far = read_obj_text(obj_cube(0.75, glm::dvec3(5e6))).meshes[0];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Reads all PLY and STL files of ../shared/data, among them damaged ones.
+// Reads all PLY and STL files in ../shared/data, including damaged ones.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -58,7 +58,7 @@ TEST(Animation, LinearKeysAreClampedAtTheEnds) {
   EXPECT_EQ(value_at(c, 3.0), (std::vector<double>{5, 6, 7}));
 }
 
-// With the values 0 and 1, the tangents 3 and 6 and two seconds between the keys, the value in the middle is 1/2 + 2·(3 − 6)/8.
+// With the values 0 and 1, the tangents 3 and 6 and two seconds between the keyframes, the value in the middle is 1/2 + 2·(3 − 6)/8.
 TEST(Animation, CubicKeysUseTheirTangents) {
   AnimationChannel c = channel(AnimatedProperty::translation, KeyInterpolation::cubic, {0, 2}, {});
   for (const float x : {9.0f, 0.0f, 3.0f, 6.0f, 1.0f, 9.0f}) c.values.insert(c.values.end(), 3, x);
@@ -181,7 +181,7 @@ TEST(Pose, AppliesMorphTargets) {
   EXPECT_EQ(posed.high.z, 1.5);
 }
 
-// Two joints: one moves, one turns by 90° around z. The transform of the node of the mesh has no effect.
+// Two joints: one moves, the other rotates by 90° around z. The transform of the mesh's node has no effect.
 TEST(Pose, AppliesSkins) {
   Model model = pose_model();
   model.nodes.resize(3);
@@ -209,7 +209,8 @@ TEST(Pose, AppliesSkins) {
   EXPECT_NEAR(posed.high.x, 10.0, 1e-6);
 }
 
-// Scaling x by 2 turns the normal (1, 1, 0) to (1/2, 1, 0). If the transform mirrors, the normal stays on the same side of the surface.
+// Scaling x by 2 changes the direction of the normal (1, 1, 0) to (1/2, 1, 0). If the transform mirrors, the normal stays on the same side
+// of the surface.
 TEST(Pose, TransformsNormalsOfSkinsByTheInverseTranspose) {
   ModelMesh mesh = pose_triangle();
   mesh.normals.assign(3, glm::vec3(glm::dvec3(1, 1, 0) * std::sqrt(0.5)));

@@ -11,7 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A folder `model` with files, and a file outside of it.
+// A folder `model` with files, and a file outside it.
 class ModelReferences : public testing::Test {
  protected:
   void SetUp() override {
@@ -21,7 +21,7 @@ class ModelReferences : public testing::Test {
     write_bytes(folder_.path() / "secret.png", "secret");
   }
 
-  // Returns the path relative to the folder of the model, or "".
+  // Returns the path relative to the model's folder, or "".
   std::string find(std::string_view name, bool allow_outside = false) {
     warnings_.clear();
     References references(model_ / "a.obj", allow_outside, warnings_);
@@ -31,7 +31,7 @@ class ModelReferences : public testing::Test {
     return path->lexically_relative(fs::canonical(model_)).string();
   }
 
-  // The only warning; "" if there is none.
+  // Returns the only warning; "" if there is none.
   std::string warning() const {
     EXPECT_LE(warnings_.size(), 1u);
     return warnings_.empty() ? "" : warnings_[0];

@@ -88,7 +88,7 @@ TEST(Stl, ReadsColorsOfBinaryFiles) {
   const ModelMesh mesh = stl_model(binary_cube("", 0x8000 | 31 << 10 | 16 << 5)).meshes[0];
   ASSERT_EQ(mesh.colors.size(), 36u);
   EXPECT_EQ(mesh.colors[35].x, 1.0f);
-  EXPECT_NEAR(mesh.colors[35].y, kSrgbToLinear[132], 2e-3);  // 16/31 is the code 131.6
+  EXPECT_NEAR(mesh.colors[35].y, kSrgbToLinear[132], 2e-3);  // 16/31 corresponds to the 8-bit value 131.6
   EXPECT_EQ(mesh.colors[35].z, 0.0f);
   EXPECT_TRUE(stl_model(binary_cube("", 0x7fff)).meshes[0].colors.empty());
 }

@@ -10,7 +10,8 @@
 namespace halfspace {
 namespace {
 
-// Two triangles that share the edge from (0, 0, 0) to (0, 1, 0). u runs along x on the right, and on the left in the direction of `sign`.
+// Two triangles that share the edge from (0, 0, 0) to (0, 1, 0). On the right, u increases along x; on the left, in the direction given by
+// `sign`.
 ModelMesh two_triangles(float sign) {
   ModelMesh mesh;
   mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}};
@@ -77,14 +78,14 @@ TEST(Tangents, EqualThoseOfMikkTSpace) {
                                 {0.7419935f, 0.5511642f, -0.3816589f}};
   ASSERT_EQ(mesh.tangents.size(), std::size(expected));
   for (std::size_t i = 0; i < mesh.tangents.size(); ++i) {
-    for (glm::length_t c = 0; c < 3; ++c) EXPECT_NEAR(mesh.tangents[i][c], expected[i][c], 1e-6f) << i;  // rounding of single precision
+    for (glm::length_t c = 0; c < 3; ++c) EXPECT_NEAR(mesh.tangents[i][c], expected[i][c], 1e-6f) << i;  // float rounding
     EXPECT_EQ(mesh.tangents[i].w, -1.0f);
   }
 }
 
 TEST(Tangents, AverageVerticesThatAreEqual) {
   ModelMesh mesh = two_triangles(1.0f);
-  mesh.uvs[0][3] = {-1, 2};  // another direction of u on the left
+  mesh.uvs[0][3] = {-1, 2};  // a different direction of u on the left
   ModelMesh separate = mesh;
   for (auto* list : {&separate.positions, &separate.normals}) list->clear();
   separate.uvs[0].clear();
@@ -116,7 +117,7 @@ TEST(Tangents, ArePerpendicularToTheNormalWhereTextureCoordinatesAreDegenerate) 
 
 TEST(Tangents, UseTheGivenSet) {
   ModelMesh mesh = two_triangles(1.0f);
-  mesh.uvs[1] = {{0, 0}, {0, 1}, {1, 0}, {0, -1}};  // u runs along y
+  mesh.uvs[1] = {{0, 0}, {0, 1}, {1, 0}, {0, -1}};  // u increases along y
   add_tangents(mesh, 1);
   EXPECT_EQ(glm::vec3(mesh.tangents[0]), glm::vec3(0, 1, 0));
 }

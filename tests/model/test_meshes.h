@@ -11,8 +11,8 @@
 
 namespace halfspace {
 
-/// The cube [−1, 1]^3: 8 vertices and 12 triangles, counter-clockwise from outside. Every pair of triangles is a face: x = −1, x = 1,
-/// y = −1, y = 1, z = −1, z = 1.
+/// The cube [−1, 1]^3: 8 vertices and 12 triangles, counter-clockwise from outside. Each consecutive pair of triangles forms a face, in the
+/// order x = −1, x = 1, y = −1, y = 1, z = −1, z = 1.
 inline ModelMesh cube() {
   ModelMesh mesh;
   for (int i = 0; i < 8; ++i) mesh.positions.emplace_back((i & 1) * 2 - 1, (i >> 1 & 1) * 2 - 1, (i >> 2) * 2 - 1);

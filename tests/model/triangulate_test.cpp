@@ -31,7 +31,8 @@ double doubled_area(const Corners& corners) {
   return area;
 }
 
-// Checks that the triangles have the winding of a simple counter-clockwise polygon and its area. Then they cover it exactly once.
+// Checks that all triangles are counter-clockwise and that their total area is that of a simple counter-clockwise polygon. They then cover
+// it exactly once.
 void expect_exact_cover(const Corners& corners) {
   const std::vector<uint32_t> triangles = triangles_of(corners);
   ASSERT_EQ(triangles.size(), 3 * (corners.size() - 2));
@@ -44,7 +45,7 @@ void expect_exact_cover(const Corners& corners) {
   EXPECT_EQ(area, doubled_area(corners));
 }
 
-// Whether two corners of a quad are connected by the diagonal.
+// Whether two vertices of a quad are connected by the diagonal.
 bool is_cut_at(const std::vector<uint32_t>& triangles, uint32_t corner) {
   return std::ranges::count(triangles, corner) == 2 && std::ranges::count(triangles, (corner + 2) % 4) == 2;
 }
@@ -85,7 +86,7 @@ TEST(Triangulate, CutsConvexQuadsAlongTheShorterDiagonal) {
   EXPECT_TRUE(is_cut_at(triangles_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}), 0));
 }
 
-// The shorter diagonal of this quad is outside of it.
+// The shorter diagonal of this quad is outside it.
 TEST(Triangulate, CutsConcaveQuadsAtTheReflexVertex) {
   const Corners quad{{0, 0, 0}, {4, 1, 0}, {0, 2, 0}, {1, 1, 0}};
   for (int axis = 0; axis < 3; ++axis) {
@@ -113,7 +114,7 @@ TEST(Triangulate, CutsConcaveQuadsAtTheReflexVertex) {
   }
 }
 
-// One corner is 2^-53 away from the line through two others. Differences of coordinates, once rounded, would be on the line.
+// One vertex is 2^-53 away from the line through two others. After rounding, the coordinate differences would be on the line.
 TEST(Triangulate, ComputesOrientationsExactly) {
   for (const int side : {-1, 0, 1}) {
     const Corners quad{{0.5 + side * 0x1p-53, 0.5, 0}, {12, 12, 0}, {24, 24, 0}, {-30, 60, 0}};
@@ -123,7 +124,7 @@ TEST(Triangulate, ComputesOrientationsExactly) {
 
 TEST(Triangulate, CoversConcavePolygonsExactly) {
   expect_exact_cover({{0, 0, 0}, {4, 0, 0}, {4, 1, 0}, {1, 1, 0}, {1, 4, 0}, {0, 4, 0}});                            // L
-  expect_exact_cover({{0, 0, 0}, {2, 0, 0}, {4, 0, 0}, {4, 2, 0}, {4, 4, 0}, {2, 4, 0}, {0, 4, 0}, {0, 2, 0}});      // collinear corners
+  expect_exact_cover({{0, 0, 0}, {2, 0, 0}, {4, 0, 0}, {4, 2, 0}, {4, 4, 0}, {2, 4, 0}, {0, 4, 0}, {0, 2, 0}});      // collinear vertices
   expect_exact_cover({{0, 0, 0}, {5, 4, 0}, {10, 0, 0}, {6, 5, 0}, {10, 10, 0}, {5, 6, 0}, {0, 10, 0}, {4, 5, 0}});  // star
   expect_exact_cover(comb(50));
   expect_exact_cover(spiral(6));
@@ -136,7 +137,7 @@ TEST(Triangulate, CoversPolygonsWithBridgedHoles) {
 TEST(Triangulate, CoversRandomPolygonsExactly) {
   std::mt19937 random(7);
   for (int round = 0; round < 300; ++round) {
-    const auto count = 25 + random() % 200;  // enough that the polygon contains the origin
+    const auto count = 25 + random() % 200;  // enough vertices that the polygon contains the origin
     std::set<double> angles;
     while (angles.size() < count) angles.insert(static_cast<double>(random()) * 0x1p-32 * 6.28);
     Corners corners;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Models written in formats that cannot store everything: what is stored reads back, and each kind of loss gives one warning.
+// Writes models in formats that cannot store everything. Stored data reads back unchanged, and each kind of loss gives one warning.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -41,7 +41,7 @@ ModelMesh primitives(MeshTopology topology) {
   return mesh;
 }
 
-// Adds an image that readers recognize by its first bytes, and a texture of it. Returns a use of the texture.
+// Adds an image that readers recognize by its first bytes, and a texture that uses it. Returns a reference to the texture.
 TextureUse add_texture(Model& model) {
   const std::string_view text = "\x89PNG\r\n\x1a\n not decoded";
   const auto bytes = std::as_bytes(std::span(text));
@@ -68,7 +68,7 @@ TEST(WriteLosses, ObjMeshesWithoutMaterialGetTheDefaultOne) {
   const TemporaryFolder folder;
   Model model = model_of({cube_of(0), cube_of(-1)});
   model.materials.resize(1);
-  model.materials[0].name = "default";  // not the name of the other one
+  model.materials[0].name = "default";  // different from the name of the other material
   model.materials[0].base_color = {1.0f, 0.0f, 0.0f, 1.0f};
   const Model read = read_in(folder, written_model(model, "a.obj", ModelFormat::obj));
   ASSERT_EQ(read.meshes.size(), 2u);
@@ -110,7 +110,7 @@ TEST(WriteLosses, ObjWarnsAboutMaterialLosses) {
     EXPECT_EQ(warnings_with(written, words), 1u) << words;
 }
 
-// The reader leaves points that are not finite out of the indices.
+// The reader omits points that are not finite from the indices.
 TEST(WriteLosses, PlyContainsOnlyTheSelectedPoints) {
   const Model model = ply_model(
       "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nend_header\n0 1 2\nnan 4 5\n"

@@ -138,7 +138,7 @@ void expect_same_lists(const std::vector<T>& a, const std::vector<T>& b) {
   }
 }
 
-// Compares everything but the format and the warnings.
+// Compares everything except the format and the warnings.
 void expect_same(const Model& a, const Model& b) {
   expect_same_lists(a.materials, b.materials);
   expect_same_lists(a.meshes, b.meshes);
@@ -361,7 +361,7 @@ Model written_and_read(const Model& model, ModelFormat format) {
   return read_obj("/none/a.x", bytes, {});
 }
 
-// The numbers are chosen so that the center of the bounds, which readers choose as the origin, is exact.
+// The numbers are chosen so that the center of the bounds, which readers use as the origin, is exact.
 TEST(WriteModel, PlyReadsBackBitForBit) {
   std::string text =
       "ply\nformat ascii 1.0\nelement vertex 4\nproperty double x\nproperty double y\nproperty double z\nproperty float nx\n"

@@ -150,7 +150,8 @@ TEST(EdgeCases, ReversedDepthMatchesTheOracle) {
 }
 
 TEST(EdgeCases, ExtremePositionsMatchTheOracle) {
-  // Vertices at and near w = 0, edges through the eye, and magnitudes up to the largest floats must not crash and must give the same bytes.
+  // Vertices at and near w = 0, edges through the eye, and magnitudes up to the largest floats must not crash and must give the same
+  // result.
   const std::array<float, 12> values{0.0f, -0.0f, 1.0f, -1.0f, 1e-30f, -1e-20f, 1e-38f, 3e38f, -3e38f, 1e20f, 0.5f, -2.0f};
   for (const bool clamp : {false, true}) {
     Scene s = scene_of(64, 48, ColorFormat::rgba8);
@@ -214,7 +215,7 @@ TEST(EdgeCases, ZeroBudgetFlushesAndTerminates) {
   EXPECT_GE(flushed.statistics.flushes, 1u);
 }
 
-// Flushes occur between draws of every kind, with attachments that have no image.
+// Flushes between draws of every kind, with attachments that have no image.
 TEST(EdgeCases, FlushesPreserveAttachmentsWithoutImages) {
   for (const ColorFormat format : {ColorFormat::rgba8, ColorFormat::srgb8a8, ColorFormat::rgba16f, ColorFormat::rgba32f}) {
     for (const DepthFormat depth : {DepthFormat::d16, DepthFormat::d24, DepthFormat::d32f}) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Draws random scenes with the tile path and the oracle, and with the tile path at other thread counts, tile sizes, chunk sizes and
-// budgets, deferred and immediate. The results must be identical byte for byte.
+// Draws random scenes with the tile path and the oracle, and again with the tile path at different thread counts, tile sizes, chunk sizes
+// and budgets, deferred and immediate. The results must be identical byte for byte.
 //
 // HALFSPACE_SEED=n   runs only scene n of each theme and prints it (select the theme with --gtest_filter)
 // HALFSPACE_DRAW=k   in addition, runs only draw k of the scene
@@ -34,8 +34,8 @@ PassOptions random_options(Random& random) {
   return o;
 }
 
-// Returns alternative options that must give the same result. Every scene is drawn with immediate shading, a flush during the pass, and
-// more threads than cores. Over all scenes, every combination occurs.
+// Returns alternative options that must give the same result. Every scene is drawn with immediate shading, with a flush during the pass,
+// and with more threads than cores. Every combination occurs in some scene.
 std::vector<Variant> variants(uint64_t seed) {
   Random random(seed ^ 0x5eed);
   std::vector<Variant> v;

@@ -42,7 +42,7 @@ class Placer {
     const float z = std::clamp(p.z + random_.real(-0.2f, 0.2f), 0.0f, 1.0f);
     return {x, y, z, random_.once_in(3) ? p.w : depth_w()};
   }
-  // Half of all triangles are orthographic or almost orthographic, because equal w and equal z are special cases.
+  // Half of all triangles are orthographic or nearly so, because equal w and equal z are special cases.
   float depth_w() { return random_.once_in(2) ? 1.0f : random_.real(0.1f, 10.0f); }
 
   uint32_t add(const WindowPoint& p) { return add(to_clip(v_, clip_, p)); }
@@ -86,7 +86,7 @@ class Placer {
   // Vertices on pixel centers, pixel edges or quarters of a pixel, so that samples are exactly on edges and vertices.
   void on_the_grid() {
     const float step = random_.pick({0.5f, 1.0f, 0.25f, 4.0f});
-    const bool sloped = random_.once_in(2);  // depth must be exact at vertices, also on a slope
+    const bool sloped = random_.once_in(2);  // depth must be exact at vertices, even on a slope
     const float z = random_.pick({0.25f, 0.5f, 0.75f});
     const auto point = [&] {
       const WindowPoint p = anywhere(0.1f);
@@ -274,7 +274,7 @@ void add_operations(const Scene& scene, bool dual_sources, Random& random, DrawS
   if (random.once_in(3)) s.query = static_cast<uint32_t>(random.below(3));
 }
 
-// Returns a random depth state, usually one with which fragments can pass against the cleared depth.
+// Returns a random depth state. With most of them, fragments can pass against the cleared depth.
 DepthState random_depth(float clear_value, Random& random) {
   DepthState d;
   d.test = !random.once_in(8);
@@ -315,7 +315,7 @@ Kind random_kind(Theme theme, Random& random) {
         {Kind::behind_the_eye, Kind::crossing_depth, Kind::beyond_guard, Kind::steep, Kind::tiny_w, Kind::huge, Kind::non_finite});
   }
   if (random.once_in(2))
-    return random.pick({Kind::whole_target, Kind::medium, Kind::medium, Kind::mesh, Kind::fan, Kind::huge});  // they cover many pixels
+    return random.pick({Kind::whole_target, Kind::medium, Kind::medium, Kind::mesh, Kind::fan, Kind::huge});  // these cover many pixels
   return static_cast<Kind>(random.below(kKinds));
 }
 
@@ -394,7 +394,7 @@ SceneDraw shader_draw(const S& shader, const char* name, const Geometry& g, cons
   using A = typename S::template Attributes<float>;
   std::vector<A> rows = random_rows<A>(g.positions, random);
   const auto vertex_layout = random.pick({VertexLayout::tight, VertexLayout::padded, VertexLayout::separate});
-  if (HasFragmentFunction<S> && random.once_in(4)) {  // without an index list, vertices are repeated, and one or two may be left over
+  if (HasFragmentFunction<S> && random.once_in(4)) {  // without an index list, vertices are repeated, and one or two may remain unused
     std::vector<A> repeated;
     std::vector<uint32_t> sequence;
     for (const uint32_t i : g.indices) repeated.push_back(rows[i]);
@@ -440,7 +440,7 @@ SceneDraw random_operations(const Scene& scene, const Geometry& g, const DrawSta
   }
 }
 
-// Returns a draw of points, whose size comes from the state or the shader, or of sprites with explicit bounds.
+// Returns a draw of points with a size from the state or the shader, or of sprites with explicit bounds.
 template <class S>
 SceneDraw points_draw(const S& shader, const char* name, const Scene& scene, const Geometry& g, DrawState state, Random& random) {
   state.topology = Topology::points;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Random scenes with all kinds of difficult triangles and random states.
+// Random scenes with all kinds of difficult triangles, and with random states.
 #pragma once
 
 #include "property/scene.h"

@@ -37,7 +37,7 @@ double value_at(const std::vector<std::byte>& bytes, std::size_t index, std::siz
   return v;
 }
 
-// Compares two pictures with `components` values of `size` bytes per pixel. Returns a description of the difference; empty if they are
+// Compares two pictures with `components` values of `size` bytes each per pixel. Returns a description of the difference; empty if they are
 // equal.
 std::string compare(const char* name, const Scene& scene, const std::vector<std::byte>& expected, const std::vector<std::byte>& actual,
                     std::size_t components, std::size_t size, bool is_float) {
@@ -198,7 +198,7 @@ OracleResult run_oracle(const Scene& scene) {
   std::vector<ColorFormat> formats;
   for (const ColorTarget& c : colors) formats.push_back(c.format);
   oracle::Framebuffer target(scene.width, scene.height, formats, scene.depth.format, scene.samples);
-  const auto fill = [&](std::vector<std::byte>& bytes, const std::vector<std::byte>& before) {  // every sample has the value of its pixel
+  const auto fill = [&](std::vector<std::byte>& bytes, const std::vector<std::byte>& before) {  // every sample gets its pixel's value
     for (std::size_t i = 0; !before.empty() && i < bytes.size(); ++i) bytes[i] = before[i % before.size()];
   };
   fill(target.depth_bytes, scene.depth_before);

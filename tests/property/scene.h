@@ -16,7 +16,7 @@
 
 namespace halfspace {
 
-/// A type-erased draw with some shader.
+/// A type-erased draw with any shader.
 struct SceneDraw {
   std::function<void(Pass&)> submit;
   std::function<void(oracle::Renderer&)> reference;
@@ -35,7 +35,7 @@ struct Scene {
   std::vector<std::byte> color_before, depth_before;  ///< contents of the images before the pass
   std::vector<std::vector<std::byte>> more_before;
   std::vector<SceneDraw> draws;
-  bool has_color_image = true;  ///< otherwise the color is only visible through the post step
+  bool has_color_image = true;  ///< if false, the color is only visible through the post step
   bool has_depth_image = true;
   ColorFormat post_format = ColorFormat::none;  ///< if not none, a post step applies Curve and writes an image of this format
 };
@@ -62,11 +62,11 @@ Rect viewport_of(const Scene& scene, const DrawState& state);
 PassResult run_pass(const Scene& scene, const PassOptions& options, int threads);
 OracleResult run_oracle(const Scene& scene);
 
-/// Returns an empty string if the pictures are equal, and otherwise where they differ most: "color: 12 of 7000 pixels differ; worst, window
-/// (x, y): … expected, got …".
+/// Returns an empty string if the pictures are equal. Otherwise, describes the largest difference: "color: 12 of 7000 pixels differ; worst,
+/// window (x, y): … expected, got …".
 std::string difference(const Scene& scene, const Pictures& expected, const Pictures& actual);
 
-/// Converts the color, the post step's output or the depth (as gray) to 8-bit codes, for visual inspection.
+/// Converts the color, the post step's output or the depth (as gray) to 8 bits, for visual inspection.
 Image<glm::u8vec4> codes_of(const Scene& scene, const Pictures& pictures);
 
 std::string describe(const PassOptions& options, int threads);
@@ -103,7 +103,8 @@ struct DrawMemory {
 /// Stores rows of `components` floats as streams.
 void lay_out_vertices(const float* rows, std::size_t count, int components, VertexLayout layout, DrawMemory& memory);
 void lay_out_indices(const std::vector<uint32_t>& list, std::size_t vertex_count, bool restart, IndexLayout layout, DrawMemory& memory);
-/// Replaces the last `instance_components` of each vertex by values from rows of `components` floats, with one row per `divisor` instances.
+/// Replaces the last `instance_components` components of each vertex with per-instance values. Each row of `components` floats applies to
+/// `divisor` consecutive instances.
 void lay_out_instances(const float* rows, std::size_t count, int components, std::size_t instance_components, uint32_t divisor,
                        DrawMemory& memory);
 

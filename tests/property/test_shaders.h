@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Shaders for the property tests, which together use every part of the shader interface. Each clamps its output, so that no picture
-// contains a NaN (whose bits would depend on the operand order of instructions).
+// Shaders for the property tests. Together they use every part of the shader interface. Each clamps its output so that no picture contains
+// a NaN, because the bits of a NaN depend on the operand order of instructions.
 #pragma once
 
 #include "halfspace/raster/pass.h"
@@ -65,7 +65,7 @@ struct ColorShader {
   }
 };
 
-/// Twelve components with all three kinds of interpolation.
+/// Twelve components with all three interpolation qualifiers.
 struct MixedShader {
   template <class R>
   struct Attributes {
@@ -136,7 +136,7 @@ struct DerivativeShader {
   }
 };
 
-/// Discards fragments for which the product of two varyings is small, with or without a visibility function that predicts it.
+/// Discards fragments for which the product of two varyings is small. Optionally has a visibility function that predicts this.
 template <bool has_visibility>
 struct CutoutShader {
   float threshold = 0.2f;
@@ -300,7 +300,7 @@ struct InstanceShader {
   }
 };
 
-/// N colors, one of which can be the second source of blending; discards in stripes.
+/// N colors, one of which can be the second source for blending; discards in stripes.
 template <std::size_t N>
 struct ManyColorsShader {
   float width = 0.2f;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Values of a frame, compared with rays through the centers of the pixels, whose hits are computed in double precision.
+// Compares the values of a frame with rays through the pixel centers. Hits are computed in double precision.
 #include "halfspace/render/frame.h"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ constexpr const char* kSolids = R"({"version": 1, "samples": 4,
               "knot": {"shape": "torus_knot", "position": [-2, 1.5, -3]},
               "round": {"shape": "sphere", "radius": 0.4, "instances": [{"position": [0.3, -0.5, 1.8]}, {"position": [0.4, 0.5, 1.2]}]}}})";
 
-// The hit of the ray of a pixel.
+// The hit of a pixel's ray.
 struct ValueTruth {
   RayHit hit;
   glm::dvec3 direction;
@@ -66,7 +66,7 @@ class FrameValues : public testing::Test {
 };
 
 // Window positions of vertices are rounded to 1/256 px, so a point of a triangle is at most 1/512 px from the ray of its pixel, in each
-// direction of the image. On a slanted surface this is magnified. The rest is the rounding of floats.
+// direction of the image. On a slanted surface this is magnified. The rest of the tolerance is for float rounding.
 TEST_F(FrameValues, AgreeWithRays) {
   int compared = 0, other = 0, background = 0;
   double worst_px = 0.0, worst_sphere = 0.0, worst_weights = 0.0;
@@ -106,7 +106,7 @@ TEST_F(FrameValues, AgreeWithRays) {
       ++compared;
       const double cosine = std::abs(glm::dot(t->hit.face_normal_ws, glm::normalize(t->direction)));
       worst_px = std::max(worst_px, glm::distance(p, truth) * cosine / pixel_width(scene_.view, truth));
-      // The weights and the index of the triangle give the position again.
+      // The weights and the index of the triangle reproduce the position.
       glm::dvec3 again(0.0);
       for (int k = 0; k < 3; ++k) {
         const uint32_t vertex = (*mesh.indices)[std::size_t{3} * t->hit.triangle + static_cast<std::size_t>(k)];

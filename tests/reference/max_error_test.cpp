@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Checks that the cheapest model for an allowed error is accurate enough: compares the outlines in random views of the shipped scenes with
-// the outlines of the finest meshes. HALFSPACE_VIEWS sets the number of views (9 by default, one per scene); scripts/test_full.sh uses
-// more.
+// Checks that the cheapest model for a given error is accurate enough: compares the outlines in random views of the shipped scenes with
+// those of the finest meshes. HALFSPACE_VIEWS sets the number of views (9 by default, one per scene); scripts/test_full.sh uses more.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -24,7 +23,7 @@ constexpr int kWidth = 160, kHeight = 90;
 
 double uniform(std::mt19937& random, double low, double high) { return low + (high - low) * static_cast<double>(random()) / 4294967296.0; }
 
-// Returns the camera at another position around its target, nearer or farther.
+// Returns the camera at a random position around its target, nearer or farther.
 CameraDescription moved(CameraDescription c, std::mt19937& random) {
   const glm::dvec3 offset = c.position - c.target;
   const SinCosDouble yaw = sincos_turns(uniform(random, 0.0, 1.0));
@@ -36,7 +35,7 @@ CameraDescription moved(CameraDescription c, std::mt19937& random) {
 
 bool is_smooth(const ObjectDescription& o) { return o.surface.shading != ShadingRate::flat && o.surface.shading != ShadingRate::provoking; }
 
-// Replaces every smooth object by the finest possible mesh, and particles by exact spheres. Flat-shaded facets are kept.
+// Replaces every smooth object with the finest possible mesh, and particles with exact spheres. Flat-shaded facets are kept.
 SceneDescription finest(SceneDescription scene) {
   for (auto& [name, o] : scene.objects) {
     if (!is_smooth(o) || ((o.shape == Shape::plane || o.shape == Shape::cube) && !is_map(o.height))) continue;
@@ -92,7 +91,7 @@ class Tally {
   }
 
  private:
-  double asked_, known_;  // known_: resolution of the measurement
+  double asked_, known_;  // asked_: requested error; known_: resolution of the measurement
   std::size_t views_ = 0;
   std::vector<std::string> beyond_;
   double largest_ = 0.0;
@@ -115,8 +114,8 @@ TEST(MaxError, OutlinesOfRandomViewsAreWithinTheLimit) {
   tally.judge();
 }
 
-// Compares shadow edges with rays through the same meshes, except where light only grazes the triangles. With less than a tenth of the
-// light no edge is visible, and the result of rays depends on the triangulation of the surface.
+// Compares shadow edges with rays through the same meshes, except where the light is at a grazing angle. With less than a tenth of the
+// light no edge is visible, and the result of the rays depends on the triangulation of the surface.
 TEST(MaxError, ShadowEdgesOfRandomViewsAreWithinTheLimit) {
   constexpr int kFiner = 4;
   constexpr float kGrazing = 0.1f;
@@ -140,7 +139,7 @@ TEST(MaxError, ShadowEdgesOfRandomViewsAreWithinTheLimit) {
   tally.judge();
 }
 
-// Compares the colors of 99.9 % of the pixels with an image in float that is lit per pixel, with the finest meshes and filters.
+// Compares the colors of 99.9% of the pixels with a float image that is lit per pixel, with the finest meshes and filters.
 TEST(MaxError, ColorsOfRandomViewsAreWithinTheLimit) {
   constexpr int kLarger = 2;  // a larger image has relatively fewer edge pixels
   constexpr double kAskedCodes = 8.0;

@@ -102,7 +102,7 @@ TEST(RandomShadows, AutomaticBiasIsCorrectBeyondATexelFromTheEdge) {
     falsely_lit += bright;
     error += s.error / static_cast<double>(count);
   }
-  // All scenes together must satisfy the guarantee without rounding up.
+  // All scenes together must satisfy the guarantee, without the allowance of one pixel.
   EXPECT_LE(static_cast<double>(falsely_dark), 1e-4 * static_cast<double>(lit));
   EXPECT_LE(static_cast<double>(falsely_lit), 1e-3 * static_cast<double>(shadowed));
   EXPECT_GT(lit, 10000 * static_cast<int64_t>(count));

@@ -54,7 +54,7 @@ TEST(RayScene, HitPositionsMatchTheirWeights) {
     sum += hit->weights[k] * (glm::dvec3(placed.world_from_object * glm::dvec4(glm::dvec3(p), 1.0)) - eye);
   }
   EXPECT_LT(glm::length(sum - hit->position_rws), 1e-14);
-  // Embree's float distance is accurate to a few ulps.
+  // Embree's float distances are accurate to a few ulps.
   EXPECT_LT(glm::length(hit->position_rws - static_cast<double>(hit->distance) * glm::dvec3(-3, -3.5, -5)), 1e-5);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Flicker of shadow edges in motion, over 100 frames. If the light moves, the true edge of a shadow passes over a point once, but with a
-// shadow map it can move back and forth. If only the camera moves, the shadow at every point of the scene must stay the same.
+// Measures the flicker of moving shadow edges over 100 frames. If the light moves, the true edge of a shadow passes over a point once, but
+// the edge of a shadow map can move back and forth. If only the camera moves, the shadow at every point of the scene must stay the same.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -26,7 +26,7 @@ SceneDescription contact_scene(const std::string& method, int resolution) {
 
 bool is_lit(const Image<float>& light, int x, int y) { return light.at(x, y) > 0.5f; }
 
-// Returns whether light crosses 1/2 between a pixel and one of its eight neighbors.
+// Returns whether the light crosses 1/2 between a pixel and one of its eight neighbors.
 bool is_edge(const Image<float>& light, int x, int y) {
   for (int j = std::max(0, y - 1); j <= std::min(kFrameHeight - 1, y + 1); ++j)
     for (int i = std::max(0, x - 1); i <= std::min(kFrameWidth - 1, x + 1); ++i)
@@ -71,7 +71,7 @@ Shimmer of_a_turning_light(const std::string& method, int resolution) {
   return sum;
 }
 
-// Visible points of the scene, away from the border of the image. Counts how often the visibility of the light, as given by the shadow
+// Visible points of the scene, away from the border of the image. Counts how often the visibility of the light, according to the shadow
 // maps, crosses 1/2 at these points.
 class WatchedPoints {
  public:
@@ -111,7 +111,7 @@ class WatchedPoints {
   std::vector<Point> points_;
 };
 
-// The camera moves. With `scene_too` all objects move with it, so that the scene slides over the texel grid as it would without snapping.
+// The camera moves. With `scene_too`, all objects move with it, so that the scene slides over the texel grid as it would without snapping.
 int64_t passes_of_a_moving_camera(const std::string& method, bool scene_too) {
   SceneDescription scene = contact_scene(method, 2048);
   SceneAssets assets(two_workers());
@@ -144,7 +144,7 @@ TEST(Shimmer, MovingCameraDoesNotChangeShadows) {
 }
 
 // A rotating light rotates the texel grid, so edges are rounded to different texels, within half a texel. The number of affected pixels
-// depends on the size of a texel, which is a tenth of a pixel here. Measured per frame: 0.15 % of the pixels at edges, and 0.70 % for an
+// depends on the size of a texel, which is a tenth of a pixel here. Measured per frame: 0.15% of the edge pixels, and 0.70% for an
 // unfiltered map with an eighth of the resolution.
 TEST(Shimmer, TurningLightCausesLittleFlicker) {
   const Shimmer coarse = of_a_turning_light("hard", 256), ours = of_a_turning_light("pcf3", 2048);

@@ -60,8 +60,8 @@ float number_of(const RayScene& rays, const View& v, double x, double row) {
   return !hit ? 0.0f : hit->mesh < 0 ? static_cast<float>(hit->triangle + 1) : -1.0f - static_cast<float>(hit->mesh);
 }
 
-// Balls among a thousand spheres that intersect them, the ground and each other. A pixel may differ only if a ray within 1/256 px of its
-// center sees the object that the image shows. This happens next to silhouettes and where two surfaces intersect.
+// Balls and a thousand spheres that intersect the balls, the ground and each other. A pixel may differ only if a ray within 1/256 px of its
+// center hits the object that the image shows. This happens next to silhouettes and where two surfaces intersect.
 TEST(Spheres, VisibilityMatchesEmbree) {
   const PreparedScene scene = prepared(R"("particles": { "sprite": "exact", "count": 1000, "arrangement": "ball", "radius": 0.15 },
       "objects": { "ball": { "shape": "uv_sphere", "position": [0.4, 0.2, 0.5], "scale": [0.8, 0.8, 0.8] },
@@ -121,7 +121,7 @@ struct ShadowErrors {
 };
 
 // The ray to the light must be occluded exactly where the image with shadows is darker than the image without. Pixels whose neighbors
-// disagree are within a pixel of the edge of a shadow and are skipped, because the texels of the map decide there.
+// disagree are within a pixel of a shadow edge. They are skipped, because the result depends on the texels of the map.
 ShadowErrors shadow_errors(const std::string& light) {
   const PreparedScene with = prepared(kShaded + light), without = prepared(kShaded + light, {"shadow.method=none"});
   const Image<glm::vec4> dark = rendered(with), bright = rendered(without);

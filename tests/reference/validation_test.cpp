@@ -31,7 +31,7 @@ TEST(Validation, VisibleTrianglesMatchRays) {
   EXPECT_GT(v.pixels, 10000);
   EXPECT_EQ(v.unexplained, 0);
   EXPECT_EQ(v.pixels, v.same + v.near_edge + v.depth_tie);
-  // The triangles of the sphere are about 2 px wide, so a point is within 1/256 px of an edge with a probability of about 1 %.
+  // The triangles of the sphere are about 2 px wide, so a point is within 1/256 px of an edge with a probability of about 1%.
   EXPECT_LT(static_cast<double>(v.near_edge + v.depth_tie), 0.01 * static_cast<double>(v.pixels));
 }
 
@@ -44,8 +44,7 @@ TEST(Validation, AutomaticBiasIsCorrectBeyondATexelFromTheEdge) {
   EXPECT_LT(s.edge_px.mean, 0.5);
 }
 
-// Guaranteed limits: 0.01 % of the lit and 0.1 % of the shadowed pixels, for angles from 0 to 85 degrees. One pixel is allowed if that is
-// less.
+// Guaranteed limits: 0.01% of the lit and 0.1% of the shadowed pixels, for angles from 0 to 85 degrees. One wrong pixel is always allowed.
 TEST(Validation, AutomaticBiasIsCorrectInTheScenesOfTheTableAtEveryAngle) {
   SceneAssets assets(two_workers());
   for_each_shadow_case(false, [&](const ShadowCase& c) {
@@ -59,7 +58,7 @@ TEST(Validation, AutomaticBiasIsCorrectInTheScenesOfTheTableAtEveryAngle) {
   });
 }
 
-// The sphere and its shadow for every type of light: pixels more than a texel from the edge must be correct.
+// Tests a sphere and its shadow for every type of light: pixels more than a texel from the edge must be correct.
 TEST(Validation, EveryLightTypeIsCorrectBeyondATexelFromTheEdge) {
   const std::string spot = "lamp.type=spot", towards = "lamp.direction=-3.5,6.4,3.5", inner = "lamp.inner=10";
   const std::vector<std::vector<std::string>> kinds{{"lamp.type=directional", towards},
@@ -103,7 +102,7 @@ TEST(Validation, HardEdgesAreWithinATexel) {
   }
 }
 
-// A light of 3 degrees. With a disk of 128 texels, the visible fraction is accurate to about a hundredth.
+// A light with an angular radius of 3 degrees. With a disk of 128 texels, the visible fraction is accurate to about a hundredth.
 TEST(Validation, SoftShadowsAreCloseToTheReference) {
   const ShadowScore s = validated("shadow-contact", {"shadow.method=pcss"}, 160, 90, 1024).lights.at(0).score;
   EXPECT_GT(s.penumbra_error, 0.0);
@@ -114,7 +113,7 @@ TEST(Validation, SoftShadowsAreCloseToTheReference) {
   EXPECT_GT(hard.penumbra_error, 0.1);
 }
 
-// For 95 % of the visible points, a texel spans at most the requested number of pixels; half the resolution would not be enough.
+// For 95% of the visible points, a texel spans at most the requested number of pixels; half the resolution would not suffice.
 TEST(Validation, ResolutionFollowsTheFootprint) {
   for (const double footprint : {0.5, 1.0, 3.0}) {
     SceneFile file = SceneFile::open("shadow-contact");
@@ -129,7 +128,7 @@ TEST(Validation, ResolutionFollowsTheFootprint) {
       if (hit) texels_px.push_back(static_cast<double>(view.texel_per_w) / pixel_width(scene.view, hit->position_rws));
     std::ranges::sort(texels_px);
     const double most = texels_px[texels_px.size() * 95 / 100];
-    EXPECT_LE(most, 1.02 * footprint);  // the program examines fewer points
+    EXPECT_LE(most, 1.02 * footprint);  // the renderer examines fewer points
     EXPECT_GT(most, 0.4 * footprint);   // doubling the size halves a texel, and sizes have steps of 2^(1/4)
   }
 }
