@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A host program can recover from incorrect use: the check handler throws, and the pass can be destroyed afterwards.
+// A host program can recover from misuse: the check handler throws, and the pass can be destroyed afterwards.
 #include <stdexcept>
 
 #include "halfspace/core/check.h"
@@ -31,7 +31,7 @@ std::string failure_of(const F& function) {
   return "";
 }
 
-/// Fails a check in the task that shades its fragments.
+/// A shader that fails a check when its fragments are shaded.
 struct FailingShader : ConstantShader {
   template <class R>
   Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>& pixel) const {

@@ -42,7 +42,7 @@ TEST(Clip, LeavesInsideTrianglesUnchanged) {
 }
 
 TEST(Clip, NearPlaneCutOfOneVertexGivesAQuad) {
-  // One vertex has z = −1 and the others z = 1, so the near plane (z = 0) cuts both edges in the middle.
+  // One vertex has z = −1 and the others have z = 1, so the near plane (z = 0) cuts both edges in the middle.
   const ClipPolygon p = clip_triangle(viewport_64(), kZeroToOne, {{{0, 0, -1, 2}, {2, 0, 1, 2}, {0, 2, 1, 4}}});
   ASSERT_EQ(p.count, 4);
   EXPECT_EQ(p.corners[0].pos_clip, glm::dvec4(1, 0, 0, 2));
@@ -153,7 +153,7 @@ TEST(Clip, WeightsSumToOneAndReproduceThePosition) {
     for (int k = 0; k < p.count; ++k) {
       ++pieces;
       const ClipCorner& c = p.corners[static_cast<std::size_t>(k)];
-      // Each cut has a rounding error of about 2^-53, and a corner is the result of at most two cuts.
+      // Each cut has a rounding error of about 2^-53, and a vertex is the result of at most two cuts.
       EXPECT_NEAR(c.weights.x + c.weights.y + c.weights.z, 1.0, 1e-14);
       const glm::dvec4 want = c.weights.x * glm::dvec4(t[0]) + c.weights.y * glm::dvec4(t[1]) + c.weights.z * glm::dvec4(t[2]);
       const glm::dvec4 size = glm::abs(glm::dvec4(t[0])) + glm::abs(glm::dvec4(t[1])) + glm::abs(glm::dvec4(t[2]));
@@ -183,7 +183,7 @@ TEST(Clip, PreservesOrientation) {
   EXPECT_GT(polygons, effort(50000) / 8);
 }
 
-// Returns all corners of a polygon on the edge that is opposite to the given vertex of the triangle.
+// Returns all vertices of a polygon that are on the edge opposite to the given vertex of the triangle.
 std::vector<glm::dvec4> corners_on_edge(const ClipPolygon& p, glm::length_t opposite) {
   std::vector<glm::dvec4> found;
   for (int k = 0; k < p.count; ++k) {
@@ -204,7 +204,7 @@ TEST(Clip, AdjacentTrianglesGetIdenticalVertices) {
     const ClipPolygon left = clip_triangle(viewport_64(), depth, {a, b, c});
     const ClipPolygon right = clip_triangle(viewport_64(), depth, {{d, b, a}});
     const std::vector<glm::dvec4> of_left = corners_on_edge(left, 2), of_right = corners_on_edge(right, 0);
-    // With fewer than two corners, the edge has been cut away. One of the triangles may still keep a corner that only touches a plane.
+    // With fewer than two vertices, the edge has been cut away. One of the triangles may still have a vertex that only touches a plane.
     if (of_left.size() < 2 && of_right.size() < 2) continue;
     ++edges;
     ASSERT_EQ(of_left.size(), of_right.size()) << i;
@@ -213,8 +213,8 @@ TEST(Clip, AdjacentTrianglesGetIdenticalVertices) {
   EXPECT_GT(edges, effort(100000) / 8);
 }
 
-// The clipper must not cut a vertex that the vertex stage classifies as drawable: an adjacent triangle may be drawn unclipped, and the two
-// would then disagree about their shared edge.
+// The clipper must not cut off a vertex that the vertex stage classifies as drawable: an adjacent triangle may be drawn unclipped, and the
+// two triangles would then disagree about their shared edge.
 TEST(Clip, AgreesWithTheVertexStageAboutInsideVertices) {
   Random r(4);
   for (const Rect& rect : {Rect{0, 0, 64, 64}, Rect{0, 0, 1920, 1080}, Rect{5, 7, 333, 77}}) {
@@ -254,7 +254,7 @@ struct LineFunction {
 /// The visible part of one triangle as five linear functions of the pixel position: three edges, near and far. Vertex coordinates are
 /// integers up to 2^24 and viewport coordinates up to 2^9, so no product exceeds 2^98.
 ///
-/// Sample s = (nx·H, ny·W, W·H) is (x, y, w) of the point up to a positive factor, with nx = 2(x − vx) + 1 − W and ny likewise. Solving
+/// The sample s = (nx·H, ny·W, W·H) is the point (x, y, w) up to a positive factor, with nx = 2(x − vx) + 1 − W and ny likewise. Solving
 /// λ0·v0 + λ1·v1 + λ2·v2 = s by Cramer's rule gives λi = s·(vj × vk) / D. The point is inside if all λi ≥ 0 (its w is then positive by the
 /// choice of s), and its z is λ0·z0 + λ1·z1 + λ2·z2.
 class ExactTriangle {
@@ -314,7 +314,7 @@ class ExactTriangle {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
   }
 
-  // Corners are relative to the center of pixel (px, py), where f is exact. The rounding error of long double is negligible.
+  // Positions are relative to the center of pixel (px, py), where f is exact. The rounding error of long double is negligible.
   static std::vector<Corner> intersect(const std::vector<Corner>& polygon, const LineFunction& f, int px, int py) {
     const auto a = static_cast<long double>(f.a), b = static_cast<long double>(f.b), c = static_cast<long double>(f.at(px, py));
     std::vector<Corner> kept;
@@ -383,7 +383,7 @@ class ClipComparison {
 
  private:
   // Vertices are snapped to 1/256 px, which moves them by at most 1/512 px in x and in y. The drawn outline is therefore within
-  // √2/512 px = 0.71/256 px of the exact one. 1/256 px also leaves room for the rounding of clipped corners.
+  // √2/512 px = 0.71/256 px of the exact one. A tolerance of 1/256 px also leaves room for the rounding of clipped vertices.
   static constexpr long double kTolerance = 1.0L / 256;
 
   void add(long double d, const ClipTriangle& t, int x, int y) {
@@ -496,7 +496,7 @@ TEST(ClippedCoverage, SpecialVerticesMatchTheExactReference) {
     }
     const ExactTriangle exact(t, {0, 0, 64, 64}, state_of(i).depth);
     if (exact.empty()) {
-      // The triangle has no area. At most a line remains, which can be drawn one sub-pixel wide.
+      // The triangle has no area. At most a line remains, and it can be drawn one sub-pixel wide.
       Image<glm::vec4> image(64, 64);
       count_coverage(image, {t[0], t[1], t[2]}, {0, 1, 2}, state_of(i));
       float drawn = 0;
@@ -509,8 +509,8 @@ TEST(ClippedCoverage, SpecialVerticesMatchTheExactReference) {
   c.report();
 }
 
-// Slivers found by search whose clipped and snapped outlines are concave or self-intersecting, so that a fan from their first corner would
-// draw some samples twice.
+// Slivers, found by search, with clipped and snapped outlines that are concave or self-intersecting, so that a fan from their first vertex
+// would draw some samples twice.
 TEST(ClippedCoverage, ConcaveOutlinesDrawNoSampleTwice) {
   const std::vector<ClipTriangle> slivers{{{{2987, 7032, -3121, 10836}, {-12146, -2062, 7311, 7699}, {-24706, -9610, 15966, 5094}}},
                                           {{{-5948, -3375, -208, 6271}, {232, -2883, 713, 452}, {6371, -2394, 1628, -5329}}},

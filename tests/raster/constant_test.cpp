@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Shaders that are constant by their type can fill tiles without using tile memory. The result must be the same as with an equivalent
-// shader that is not constant by its type.
+// Shaders whose type shows that their color is constant can fill tiles without using tile memory. The result must be the same as with an
+// equivalent shader whose type does not show it.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace halfspace::raster_test {
 namespace {
 
-// ConstantShader's fragment function has a Pixel parameter. This one does not, which makes the shader constant by its type.
+// The fragment function of ConstantShader has a Pixel parameter. This one does not, so its type shows that the color is constant.
 struct PaintShader {
   glm::vec4 color;
   template <class R>
@@ -50,7 +50,7 @@ TEST(ConstantShaders, FillOnlyTilesThatTheyCover) {
   Random random(11);
   const glm::vec4 color(0.2f, 0.6f, 1.0f, 1.0f);
   for (int i = 0; i < effort(400); ++i) {
-    // The triangle is up to twice the size of the picture, so some tiles are inside, some outside, and most neither.
+    // The triangle is up to twice the size of the picture, so some tiles are inside it, some are outside, and most straddle an edge.
     std::vector<glm::vec4> positions;
     for (int k = 0; k < 3; ++k) {
       const Point p{random.integer(-kPictureSize * 256, 2 * kPictureSize * 256),
@@ -93,7 +93,7 @@ TEST(CoveredArea, PairsCoverEveryPixelExactlyOnce) {
     };
     const Triangle t = triangle({at(), at(), at()}, {at(), at(), at()});
     const std::size_t k = static_cast<std::size_t>(random.integer(0, 2)), n = (k + 1) % 3;
-    // A third of the triangles have the edge in common. In another third one end of the edge is moved, and in the last third both ends.
+    // A third of the pairs share an edge. In another third, one end of the edge is moved, and in the last third both ends.
     std::array<int32_t, 3> ux{t.x[n], t.x[k], at()}, uy{t.y[n], t.y[k], at()};
     std::array<int32_t, 3>& moved = i % 6 < 3 ? ux : uy;
     const int by = random.integer(-300, 300);
@@ -118,7 +118,7 @@ TEST(CoveredArea, PairsCoverEveryPixelExactlyOnce) {
       }
     }
     ASSERT_EQ(covers(t, area), first) << i;
-    // A positive answer must be correct. Pairs that cover the area without sharing one edge do not have to be recognized.
+    // A positive answer must be correct. Pairs that cover the area without sharing an edge need not be recognized.
     ASSERT_TRUE(!cover_together(t, u, area) || each_once) << i;
     together += cover_together(t, u, area) ? 1 : 0;
   }
@@ -159,8 +159,8 @@ TEST(ConstantShaders, RunsOfTilesKeepTheirColors) {
 }
 
 // Rows of tiles with the same color are written to the image in one operation, which uses a string instruction if the area is large. The
-// rows above and below must not change. Some widths are multiples of a cache line and some are not, and some heights cut off the last row
-// of tiles.
+// rows above and below must not change. Some widths are multiples of a cache line and some are not; for some heights, the last row of tiles
+// is partial.
 template <class Texel>
 class RowsOfOneColor : public testing::Test {};
 using Texels = testing::Types<glm::u8vec4, U16Vec4, glm::vec4>;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Coverage is exact: a pass must cover the same samples as edge functions that are evaluated in 128-bit integers at every pixel. There is
-// no tolerance, because all positions are multiples of 1/256 px that the vertex stage does not round.
+// Coverage is exact: a pass must cover the same samples as edge functions evaluated in 128-bit integers at every pixel. There is no
+// tolerance, because all positions are multiples of 1/256 px, which the vertex stage does not round.
 //
 // Each triangle has a random weight in each channel. In the blended (immediate) draw, a pixel must contain the sum of the weights of all
 // triangles that cover it, so that errors cannot cancel. In the replacing (deferred) draw, it must contain the weight of the last one. All
@@ -61,8 +61,8 @@ class Comparison {
   int64_t covered() const { return covered_; }
   int64_t differences() const { return differences_; }
 
-  // in_box: examines only the pixels of each triangle's bounding box, which is faster for tiny triangles. No pixel outside of the box can
-  // be covered.
+  // in_box: examines only the pixels in each triangle's bounding box, which is faster for tiny triangles. No pixel outside the box can be
+  // covered.
   void compare(const std::vector<PointTriangle>& triangles, bool in_box = false) {
     ASSERT_LE(triangles.size() * kMaxWeight, std::size_t{1} << 24);
     std::vector<glm::vec4> weights;
@@ -195,7 +195,7 @@ TEST(Coverage, TinyTrianglesAreExact) {
     for (PointTriangle& t : triangles) {
       const int size = 1 << c.random().integer(0, 10);  // from 1/256 px to 4 px
       Point at = random_point(c.random(), 128, 128, 1);
-      if (c.random().coin()) at = on_centers(at);  // lets even the smallest triangles touch a center
+      if (c.random().coin()) at = on_centers(at);  // so that even the smallest triangles touch a center
       t[0] = at;
       for (std::size_t i = 1; i < 3; ++i) t[i] = {at.x + c.random().integer(-size, size), at.y + c.random().integer(-size, size)};
       if (c.random().coin()) {
@@ -209,7 +209,7 @@ TEST(Coverage, TinyTrianglesAreExact) {
   c.report();
 }
 
-// The sizes are near the limit at which setup switches from full 32-bit edge functions to shifted ones (63 px), and near the tile size.
+// The sizes are near the limit (63 px) at which setup switches from full 32-bit edge functions to shifted ones, and near the tile size.
 TEST(Coverage, TileSizedTrianglesAreExact) {
   Comparison c(256, 256, 5);
   for (int batch = 0; batch < effort(40); ++batch) {
@@ -244,7 +244,7 @@ TEST(Coverage, HugeTrianglesAreExact) {
         t[1] = {center.x - step.x * 3000, center.y - step.y * 3000};
       }
     }
-    // The corners of the guard band give the largest possible edge functions.
+    // The corners of the guard band give the largest possible edge function values.
     triangles[0] = {{{-kLimit, -kLimit}, {kLimit, -kLimit}, {kLimit, kLimit}}};
     triangles[1] = {{{-kLimit, kLimit}, {kLimit, -kLimit}, {-kLimit + batch, -kLimit}}};
     c.compare(triangles);
@@ -291,7 +291,8 @@ TEST(Coverage, DegenerateTrianglesDrawNothing) {
   }
 }
 
-// The fill rule in a minimal case: a square from center to center owns the samples on its left and bottom edges (y up) and not the others.
+// The fill rule in a minimal case: a square between pixel centers owns the samples on its left and bottom edges (y up), but not those on
+// the other two.
 TEST(Coverage, SquareOwnsLeftAndBottomEdges) {
   const Point a{128, 128}, b{128 + 2 * 256, 128}, c{128 + 2 * 256, 128 + 2 * 256}, d{128, 128 + 2 * 256};
   const std::vector<PointTriangle> triangles{{a, b, c}, {a, c, d}};

@@ -137,9 +137,9 @@ double wrong_orders(Random& r, bool reversed, double far_over_near, double gap, 
   return static_cast<double>(wrong) / static_cast<double>(all);
 }
 
-// Vertices that the clipper creates are snapped but keep the depth of their exact position, like original vertices. Each is moved by at
-// most half a grid step, 1/512 px, in x and in y. Depth is affine in the window, so the error at an inside sample is at most the
-// error at the vertices, (|dz/dx| + |dz/dy|) / 512, plus float rounding.
+// Vertices created by the clipper are snapped but keep the depth of their exact position, like original vertices. Each is moved by at most
+// half a grid step, 1/512 px, in x and in y. Depth is affine in the window, so the error at an inside sample is at most the error at the
+// vertices, (|dz/dx| + |dz/dy|) / 512, plus float rounding.
 TEST(Depth, ClippedTrianglesStayWithinHalfAGridStepOfTheirPlane) {
   constexpr int kSize = 64;
   Random r(11);
@@ -192,7 +192,7 @@ TEST(Depth, ReversedZResolvesGapsThatStandardZCannot) {
           "far/near %.0e, gap %.0e: wrong orders standard %.2f%%, "
           "reversed %.2f%%\n",
           ratio, gap, 100 * standard, 100 * reversed);
-      // 1e-5 is 84 times the float step of 2^-23. The errors of transform, divide and interpolation are smaller than that in total.
+      // 1e-5 is 84 times the spacing of floats, 2^-23. The errors of transform, divide and interpolation are smaller than that in total.
       EXPECT_EQ(reversed, 0.0) << ratio << ' ' << gap;
       const bool telling = ratio == 1e6 && gap == 1e-4;  // measured: 39% for standard Z, so the test can detect errors
       EXPECT_GT(standard, telling ? 0.2 : -1.0);
@@ -364,7 +364,7 @@ TEST(Depth, ClampLimitsDepthToTheRange) {
       const float stored = std::clamp(z, 0.0f, 1.0f);
       const float want = reversed_range ? 0.75f - 0.5f * stored : 0.25f + 0.5f * stored;
       EXPECT_NEAR(pixel(clamped, x, 13), want, 1e-6f);
-      // The vertices of the clipped triangles are snapped by half a sub-pixel, times a slope of 0.5 · 3/32 per pixel.
+      // Snapping moves the vertices of the clipped triangles by half a sub-pixel, times a slope of 0.5 · 3/32 per pixel.
       EXPECT_NEAR(pixel(cut, x, 13), inside ? want : 0.0f, 0.5f * 3 / 32 / 512 + 1e-6f);
       if (inside) continue;
       EXPECT_EQ(pixel(clamped, x, 13), want);  // exactly the limit of the range
@@ -396,7 +396,7 @@ float offset_depth(DepthFormat format, const std::vector<glm::vec4>& positions, 
 }
 
 TEST(DepthOffset, ConstantIsInUnitsOfTheSmallestStep) {
-  // At z = 0.25 = 2^-2, the smallest step of a float is 2^(−2−23) = 2^-25. A positive offset increases z.
+  // At z = 0.25 = 2^-2, the ulp of a float is 2^(−2−23) = 2^-25. A positive offset increases z.
   const auto p = full_screen(0.25f);
   for (const float n : {1.0f, 4.0f, 100.0f, -3.0f}) {
     EXPECT_EQ(offset_depth(DepthFormat::d32f, p, {.constant = n}, 10, 10), 0.25f + n * 0x1p-25f);
@@ -407,8 +407,8 @@ TEST(DepthOffset, ConstantIsInUnitsOfTheSmallestStep) {
 }
 
 TEST(DepthOffset, FloatStepFollowsTheLargestDepthOfTheTriangle) {
-  // The largest |z| is 0.75, with exponent −1, so the step is 2^-24 for the whole triangle. Floats resolve this step at the vertex with
-  // z = 0.25.
+  // The largest |z| is 0.75, with exponent −1, so the unit is 2^-24 for the whole triangle. Floats resolve this unit at the vertex with z =
+  // 0.25.
   const std::vector<glm::vec4> p{{-1, -1, 0.25f, 1}, {3, -1, 0.75f, 1}, {-1, 3, 0.25f, 1}};
   const float without = offset_depth(DepthFormat::d32f, p, {}, 3, 3);
   EXPECT_EQ(offset_depth(DepthFormat::d32f, p, {.constant = 2.0f}, 3, 3), without + 2 * 0x1p-24f);
@@ -462,8 +462,8 @@ TEST(DepthOffset, SignFollowsTheDepthConvention) {
 
 // ---- formats ---------------------------------------------------------------------------------------------------
 
-// Codes are the integers nearest to z·(2^n − 1), ties to even (OpenGL 4.6, section 2.3.5.2 does not define ties), computed from the float
-// depth. Every value is tested in a pass with a primitive of that depth.
+// UNORM values are the integers nearest to z·(2^n − 1), ties to even (OpenGL 4.6, section 2.3.5.2, does not define ties), computed from the
+// float depth. Every value is tested in a pass with a primitive of that depth.
 TEST(DepthFormats, UnormValuesAreCorrectlyRounded) {
   Random r(4);
   constexpr int kSide = 64;
@@ -535,7 +535,7 @@ TEST(DepthFormats, LoadReturnsStoredDepth) {
 
 // ---- invariance ------------------------------------------------------------------------------------------------
 
-// Uses the same position expression, but different attributes, varyings and fragment outputs.
+// Uses the same expression for the position, but different attributes, varyings and fragment outputs.
 struct Full {
   glm::mat4 clip_from_model{1.0f};
   template <class R>
@@ -658,8 +658,8 @@ TEST(Depth, AllTrianglesWithAVisibilityFunctionWidenTheBoundsOfTheirBlock) {
   }
 }
 
-// Two planes that cross at a grazing angle, so that blocks with a crossing contain depths that differ by a few units in the last place. The
-// result must be that of each triangle drawn alone.
+// Two planes that intersect at a grazing angle, so that blocks on the line of intersection contain depths that differ by a few ulps. The
+// result must equal that of drawing each triangle in a separate pass.
 TEST(Depth, TestsOfBlocksAgreeWithTestsOfPixels) {
   constexpr int kSize = 128;
   Random r(17);

@@ -64,7 +64,7 @@ void expect_same(const DrawsPicture& a, const DrawsPicture& b) {
   EXPECT_EQ(a.statistics, b.statistics);
 }
 
-// Compares a single draw, with the default and the smallest chunk size, with the same primitives split into several draws.
+// Compares a single draw (with the default and the smallest chunk size) with the same primitives split into several draws.
 void expect_any_parts_are_the_same(const Primitives& p, const std::vector<std::vector<std::size_t>>& splits) {
   const DrawsPicture whole = draw_in_parts(p, {p.count()}, 1);
   EXPECT_EQ(whole.statistics.primitives_in, p.count());
@@ -95,7 +95,7 @@ struct alignas(64) Holder : ConstantShader {
 };
 
 TEST(Draws, KeepTheirShadersUntilThePassHasRun) {
-  static_assert(!std::is_move_assignable_v<Pass>);  // draws would outlive the memory of their shaders
+  static_assert(!std::is_move_assignable_v<Pass>);  // otherwise draws could outlive the memory of their shaders
   const auto stored = std::make_shared<const int>(1);
   const std::vector<glm::vec4> positions{{-1, -1, 0, 1}, {1, -1, 0, 1}, {0, 1, 0, 1}};
   Image<glm::vec4> image(8, 8);

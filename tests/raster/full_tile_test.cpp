@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Draws triangles that cover whole tiles in random order with others. Full-tile writes are delayed, which must not be visible. Tiles of 32
+// Draws triangles that cover whole tiles, and others, in random order. Full-tile writes are delayed, which must not be visible. Tiles of 32
 // px never delay writes (raster/visibility/full_tile.h requires 64 px), so both tile sizes must give the same result. Other tests verify
 // the result itself.
 #include "halfspace/raster/visibility/full_tile.h"
@@ -24,8 +24,8 @@ struct Step {
   bool depth_only;
 };
 
-// Returns one of three triangles: one that covers the whole picture, at one depth or with two; a small one at a random position; or one
-// that covers about half of the picture.
+// Returns one of three kinds of triangles: one that covers the whole picture, with one depth or two; a small one at a random position; or
+// one that covers about half of the picture.
 std::vector<glm::vec4> random_positions(Random& r) {
   const auto depth = [&] { return 0.125f * static_cast<float>(r.integer(-7, 7)); };
   const float z = depth(), far_z = r.coin() ? z : depth();

@@ -102,7 +102,7 @@ struct Scene {
   }
 };
 
-// Converts window coordinates in pixels and w to clip space.
+// Converts window coordinates (in pixels) and w to clip space.
 glm::vec4 clip_at(const Scene& s, double x, double y, double w) {
   return {static_cast<float>((2 * x / s.width - 1) * w), static_cast<float>((2 * y / s.height - 1) * w), 0.0f, static_cast<float>(w)};
 }
@@ -160,7 +160,7 @@ const char* name_of(Shape s) {
 }
 const char* name_of(Values v) { return v == Values::unit ? "[0,1]" : v == Values::symmetric ? "[-1,1]" : "offset"; }
 
-// Returns a random triangle of the given shape and a small render target, which can be anywhere on the triangle.
+// Returns a random triangle of the given shape, and a small render target that can be anywhere on the triangle.
 Scene random_scene(Random& r, Shape shape, Values values, double w_ratio) {
   Scene s;
   s.width = shape == Shape::small ? 8 : shape == Shape::sliver ? 1024 : 64;
@@ -256,8 +256,8 @@ TEST(Interpolation, LinearValuesStayWithinTolerance) {
   }
 }
 
-// Large triangles with constant w are given as planes, unless they are so thin that the rounding errors would be too large. The errors are
-// largest if the values are 1 and −1.
+// Large triangles with constant w are evaluated as planes, unless they are so thin that the rounding errors would be too large. The errors
+// are largest if the values are 1 and −1.
 TEST(Interpolation, PlanesStayWithinTolerance) {
   Random r(900);
   Error e;
@@ -296,8 +296,8 @@ TEST(Interpolation, PlanesStayWithinTolerance) {
   EXPECT_GT(planes, cells / 10);
 }
 
-// The accuracy is only specified for ratios up to 1e4. No step suffers from cancellation, however, so the error does not grow beyond that.
-// The printed table is the data of the chart in the documentation.
+// The accuracy is only specified for ratios up to 1e4. No step suffers from cancellation, however, so the error does not grow for larger
+// ratios. The printed table is the data for the chart in the documentation.
 TEST(Interpolation, LargeRatiosOfWStayWithinTolerance) {
   for (const double ratio : {1e4, 1e5, 1e6, 1e7, 1e8, 1e10, 1e12}) {
     Error e;
@@ -388,7 +388,8 @@ TEST(Interpolation, ClippedTrianglesKeepTheirValues) {
         const double error = std::fabs(static_cast<double>(got[k]) - here);
         worst = std::max<Exact>(worst, static_cast<Exact>(error));
         ++compared;
-        // Each corner can be displaced by 1/512 px in both axes, in different directions, which is bounded by twice √2/512 px of the slope.
+        // Each vertex can be displaced by 1/512 px along both axes, in different directions; the effect is at most the slope times twice
+        // √2/512 px.
         ASSERT_LE(error, slope * 2 * 1.4143 / 512 + 1e-6) << i << ": " << x << ", " << y;
       }
     });
@@ -405,7 +406,7 @@ struct DerivativeShader {
   using Attributes = ValueShader::Attributes<R>;
   template <class R>
   struct Varyings {
-    Flat<R> first;  // makes sure that the tested member is not the first one
+    Flat<R> first;  // ensures that the tested member is not the first one
     vec4<R> value;
   };
   template <class R>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Order-independent transparency: the result is compared with fragments sorted and blended in double precision.
+// Tests order-independent transparency: compares the result with fragments sorted and blended in double precision.
 #include <algorithm>
 #include <numeric>
 
@@ -41,7 +41,7 @@ struct Picture {
   PassStatistics statistics;
 };
 
-// Draws a gray background, an opaque triangle at depth 0 that covers a part of it, and the glass in the given order.
+// Draws a gray background, an opaque triangle at depth 0 that covers part of it, and the glass in the given order.
 Picture drawn(const std::vector<Glass>& glass, const std::vector<int>& order, int samples, int threads) {
   static const std::vector<glm::vec4> wall{{-1, -1, 0, 1}, {1, -1, 0, 1}, {-1, 1, 0, 1}};
   Picture out;
@@ -84,7 +84,7 @@ Image<glm::vec4> coverage_of(const Glass& g) {
 struct Reference {
   glm::dvec3 color;
   int layers;
-  double smallest_gap;  // between two depths
+  double smallest_gap;  // smallest difference between two depths
 };
 
 Reference sorted_and_blended(const std::vector<Glass>& glass, const std::vector<Image<glm::vec4>>& coverage, int x, int row) {
@@ -145,7 +145,7 @@ TEST(Layers, OrderThreadsAndDrawsDoNotMatter) {
 }
 
 TEST(Layers, FurtherLayersMergeIntoTheFarthest) {
-  // Twelve layers from the nearest to the farthest: those after the eighth arrive in the correct order and are still exact.
+  // Twelve layers from the nearest to the farthest: the layers after the eighth arrive in the correct order, so the result is still exact.
   std::vector<Glass> glass;
   for (int i = 0; i < 12; ++i) {
     const float z = -0.9f + 0.05f * static_cast<float>(i);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Tests lines, outlines and clip distances with hand-computed cases. (tests/property compares line coverage with the specified rule.)
+// Tests lines, outlines and clip distances with hand-computed cases. (tests/property compares line coverage with the diamond-exit rule.)
 #include "raster/raster_test.h"
 
 namespace halfspace {
@@ -40,7 +40,7 @@ TEST(Lines, SegmentsBetweenCentersOmitTheLastPixel) {
   }
 }
 
-// A line does not cover the diamond in which it ends, so a strip draws no pixel twice at its joints and a loop is closed.
+// A line does not cover the diamond in which it ends, so a strip draws no pixel twice at its joints, and a loop has no gap.
 TEST(Lines, StripsAndLoopsDrawJointsOnce) {
   const std::vector<Point> square{center(2, 2), center(12, 2), center(12, 9), center(2, 9)};
   const Image<glm::vec4> strip = draw_lines(square, {.topology = Topology::line_strip});

@@ -19,7 +19,7 @@ std::vector<glm::vec4> square(const Point& low, const Point& high) {
   return p;
 }
 
-// A tiny square around one sample of a pixel covers 1/n of it, and a square next to it covers nothing.
+// A tiny square around one sample of a pixel covers 1/n of the pixel, and a square next to the sample covers nothing.
 TEST(Multisample, SamplesAreAtTheStandardPositions) {
   for (std::size_t pattern = 0; pattern < kStandard.size(); ++pattern) {
     const auto n = static_cast<int>(kStandard[pattern].size());
@@ -49,7 +49,7 @@ TEST(Multisample, DeferredPixelsAreShadedOncePerPrimitive) {
       pass.draw(ConstantShader{}, make_vertex_view(stream(p)), {.depth = {.compare = CompareOp::always}});
     const PassStatistics s = pass.run(one_worker());
     EXPECT_EQ(s.samples_passed, static_cast<uint64_t>(3 * n * 256));
-    // The 16 pixels on the diagonal show both triangles, except for the 2-sample pattern, whose samples are on the diagonal.
+    // The 16 pixels on the diagonal show both triangles, except with 2 samples, which are on the diagonal.
     EXPECT_EQ(s.fragments_shaded, n == 2 ? 256u : 256u + 16u);
     Pass each(16, 16, rgba32f_target(image), {}, {.samples = n, .supersample = true});
     each.draw(ConstantShader{}, make_vertex_view(stream(p)));
@@ -100,8 +100,8 @@ TEST(Multisample, PerSampleShadingUsesSamplePositions) {
   }
 }
 
-// Draws that blend are shaded in order, from a queue that has the pixels of several triangles. This blending replaces the color, so the
-// result is the same as without it.
+// Draws that blend are shaded in order, from a queue that holds pixels of several triangles. The blend state used here replaces the color,
+// so the result is the same as without blending.
 TEST(Multisample, BlendedTrianglesCoverTheSameSamples) {
   const BlendState replace{.source_color = BlendFactor::one,
                            .destination_color = BlendFactor::zero,
@@ -163,7 +163,7 @@ TEST(Multisample, EdgesShowAllCoverageValuesAndSharedEdgesAreSeamless) {
     std::vector<bool> seen(static_cast<std::size_t>(n) + 1);
     for (int i = 0; i < 64 * 64; ++i) {
       const float samples = image.data()[i].x * static_cast<float>(n);
-      ASSERT_LE(samples, static_cast<float>(n));  // the shared edge draws no sample twice
+      ASSERT_LE(samples, static_cast<float>(n));  // no sample on the shared edge is drawn twice
       seen[static_cast<std::size_t>(samples)] = true;
     }
     EXPECT_EQ(std::count(seen.begin(), seen.end(), true), n + 1);
@@ -177,7 +177,7 @@ TEST(Multisample, ResolveAveragesInLinearLight) {
   Pass pass(16, 16, srgb8a8_target(image), {}, {.samples = 2});
   pass.draw(ConstantShader{}, make_vertex_view(stream(p)), {.sample_mask = 2});
   pass.run(one_worker());
-  EXPECT_EQ(image.at(4, 4), (glm::u8vec4{188, 188, 188, 128}));  // the code of 0.5; and 127.5 rounded up
+  EXPECT_EQ(image.at(4, 4), (glm::u8vec4{188, 188, 188, 128}));  // 0.5 encoded in sRGB; 127.5 rounded up
 }
 
 }  // namespace

@@ -9,7 +9,7 @@
 namespace halfspace::raster_test {
 namespace {
 
-constexpr int kEdge = 70;  // tiles at the right and upper border are incomplete
+constexpr int kEdge = 70;  // tiles at the right and upper border are partial
 
 const std::vector<glm::vec4>& everywhere() {
   static const std::vector<glm::vec4> positions = full_screen();
@@ -29,7 +29,7 @@ struct PlaceShader : PositionShader {
   }
 };
 
-// Writes an integer that is not a number when its bits are read as a float.
+// Writes an integer whose bits, read as a float, are a NaN.
 struct IntegerShader : PositionShader {
   template <class R>
   Fragment<R> fragment(const Varyings<R>&, const Pixel<R>& px) const {

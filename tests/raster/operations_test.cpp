@@ -46,7 +46,7 @@ TEST(Operations, BlendFactorsMatchHandComputedValues) {
   const glm::vec4 src{0.5f, 0.25f, 1.0f, 0.5f}, dst{0.25f, 0.5f, 0.75f, 0.25f}, constant{0.5f, 0.0f, 1.0f, 0.75f};
   struct Case {
     BlendFactor factor;
-    glm::vec4 expected;  // of src · factor
+    glm::vec4 expected;  // source color times factor
   };
   const Case cases[] = {{BlendFactor::constant_color, {0.25f, 0.0f, 1.0f, 0.375f}},
                         {BlendFactor::one_minus_constant_color, {0.25f, 0.25f, 0.0f, 0.125f}},
@@ -69,7 +69,8 @@ TEST(Operations, BlendFactorsMatchHandComputedValues) {
   }
 }
 
-// OpenGL 4.6, section 17.3.9: sRGB attachments are blended in linear space. Half of white over black gives the code of 0.5.
+// OpenGL 4.6, section 17.3.9: sRGB attachments are blended in linear space. White over black with a weight of 1/2 gives the sRGB encoding
+// of 0.5.
 TEST(Operations, SrgbIsBlendedInLinearLight) {
   Image<glm::u8vec4> image(3, 3);
   const std::vector<glm::vec4> p = whole(0.5f);
@@ -85,7 +86,7 @@ TEST(Operations, DualSourceBlendingUsesBothColors) {
   target.clear_value = {0.5f, 0.5f, 0.5f, 0.5f};
   const std::vector<glm::vec4> p = whole(0.5f);
   Pass pass(3, 3, target, {});
-  // A color and a transmittance per channel, as for colored glass.
+  // A color and a per-channel transmittance, as for colored glass.
   pass.draw(NumberedColors<2>{{glm::vec4{0.125f, 0, 0, 1}, glm::vec4{0.5f, 0.25f, 0, 0}}}, make_vertex_view(stream(p)),
             {.blend = BlendState{BlendEquation::add, BlendFactor::one, BlendFactor::src1_color, BlendEquation::add, BlendFactor::one,
                                  BlendFactor::one_minus_src1_alpha}});

@@ -18,7 +18,7 @@ struct Packets {
   std::vector<TriangleId> ids;
 };
 
-// Returns packets that cover about an eighth of their lanes, at least one.
+// Returns packets with about an eighth of their lanes covered, but at least one.
 Packets sparse_packets(std::mt19937& random, std::size_t count) {
   Packets p;
   for (std::size_t i = 0; i < count; ++i) {
@@ -71,7 +71,7 @@ TEST(PackedFragments, ReturnResultsToTheirLanes) {
   const Packets p = sparse_packets(random, 60);
   const std::size_t taken = pack(p.packets, p.ids.data(), packed->pixels);
   ASSERT_NE(taken, 0u);
-  // The result of fragment n: component c of color k is n + 1000 c + 10000 k, the depth is n, and every third is kept.
+  // The result of fragment n: component c of color k is n + 1000 c + 10000 k, the depth is n, and every third fragment is kept.
   packed->output.keep.fill(0);
   for (std::size_t n = 0; n < packed->pixels.count; ++n) {
     for (std::size_t k = 0; k < 2; ++k) {
@@ -102,7 +102,7 @@ TEST(PackedPixels, AreUsedWhereTheySaveAQuarterOfThePackets) {
   if (kLanes == 1) GTEST_SKIP() << "a packet of one lane is always full";
   std::vector<PacketMask> packets(4, PacketMask{0, static_cast<uint16_t>(kAllBits<Mask>)});
   EXPECT_FALSE(pays_to_pack(packets));
-  packets[0].lanes = 1;  // with this one, three full packets and one lane need four again
+  packets[0].lanes = 1;  // with this packet, three full packets plus one lane still need four packets
   EXPECT_FALSE(pays_to_pack(packets));
   packets[1].lanes = 1;
   EXPECT_TRUE(pays_to_pack(packets));

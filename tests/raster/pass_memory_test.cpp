@@ -10,7 +10,7 @@
 namespace halfspace {
 namespace {
 
-// Discards lists that other passes of this process have returned.
+// Discards the lists that earlier passes of this process have returned.
 void forget_draws() {
   while (take_draw_list().capacity() != 0) {
   }

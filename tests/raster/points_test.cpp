@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Tests points and sprites: coverage, point coordinates, clipping by footprint, and shader-written depth.
+// Tests points and sprites: coverage, point coordinates, clipping by their footprint, and shader-written depth.
 #include "raster/raster_test.h"
 
 namespace halfspace {
@@ -88,7 +88,7 @@ TEST(Points, CoordinatesOfOverlappingPointsAreTheirOwn) {
 }
 
 TEST(Points, AreClippedByFootprintAndNotByCenter) {
-  // The centers are outside on several sides; one is far outside the guard band, and its square still reaches into the picture.
+  // The centers are outside on several sides. One is far outside the guard band, but its square reaches into the picture.
   const Image<glm::vec4> left = draw_points({clip_position({-3 * 256, 8 * 256}, 32, 16)}, 10.0f);
   for (int x = 0; x < 32; ++x) EXPECT_EQ(pixel(left, x, 8).w, x < 2 ? 1.0f : 0.0f) << x;
   const Image<glm::vec4> above = draw_points({clip_position({16 * 256, 20 * 256}, 32, 16)}, 12.0f);

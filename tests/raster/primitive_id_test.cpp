@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// PrimitiveId: the indices and barycentric coordinates that a fragment function can receive. Expected values come from grids whose cells
-// are known in closed form, and from solving the projection of a clipped triangle in double precision.
+// Tests PrimitiveId: the indices and barycentric coordinates that a fragment function can receive. Expected values come from grids with
+// cells that are known in closed form, and from solving the projection of a clipped triangle in double precision.
 #include <cmath>
 #include <functional>
 
@@ -10,7 +10,8 @@
 namespace halfspace::raster_test {
 namespace {
 
-// Writes the primitive, the instance, a number of the draw, and the barycentric coordinates. Instances are side by side.
+// Writes the primitive index, the instance index, a number that identifies the draw, and the barycentric coordinates. Instances are side by
+// side.
 template <template <class R, std::size_t N> class Result>
 struct IdShader {
   int32_t draw = 0;
@@ -115,7 +116,7 @@ void expect_grid(const Labels& labels, const Grid& g, int x0, uint32_t draw, uin
   }
 }
 
-// Ways to render the same labels.
+// Several ways to render the same labels.
 std::vector<std::pair<PassOptions, int>> ways() {
   return {{{}, 1},
           {{}, 8},
@@ -212,7 +213,7 @@ glm::dvec3 projected_at(const std::array<glm::vec4, 3>& t, int x, int y) {
 }
 
 TEST(PrimitiveId, ClippedTrianglesKeepTheirBarycentrics) {
-  // They cross the near plane, the plane of the eye and the guard band.
+  // The triangles cross the near plane, the plane w = 0 and the guard band.
   const std::vector<std::array<glm::vec4, 3>> triangles{{{{-3, -1, 0.5f, 1}, {4, -2, -2, 1}, {0.3f, 2.5f, 0.2f, 2}}},
                                                         {{{0.1f, 0.2f, -0.5f, -0.5f}, {-3, -2, 1, 4}, {2, -3, 2, 3}}},
                                                         {{{-400, -1, 0, 1}, {400, -1.5f, 0, 1}, {0, 1.5f, 0, 1}}}};
@@ -231,7 +232,7 @@ TEST(PrimitiveId, ClippedTrianglesKeepTheirBarycentrics) {
         if (pixel(first.primitive, x, y) == kNoSlot) continue;
         ++covered;
         ASSERT_EQ(pixel(first.primitive, x, y), 1u);
-        ASSERT_LE(distance_of(pixel(first.barycentrics, x, y), projected_at(t, x, y)), 1e-3) << x << ", " << y;  // corners are snapped
+        ASSERT_LE(distance_of(pixel(first.barycentrics, x, y), projected_at(t, x, y)), 1e-3) << x << ", " << y;  // vertices are snapped
       }
     }
     EXPECT_GT(covered, 500);

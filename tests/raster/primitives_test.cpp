@@ -104,7 +104,7 @@ TEST(Primitives, BaseVertexIsAddedToEveryIndex) {
   EXPECT_EQ(pixel(d.image, 16, 1).x, 6.0f);  // triangle 4, 5, 6: the last vertex is provoking
 }
 
-// Every instance draws one column, which is moved by its instance number. Every second instance reads a new color.
+// Every instance draws one column, shifted by the instance number. Every second instance reads a new color.
 struct ColumnShader : FlatColorShader {
   template <class R>
   vec4<R> vertex(const Attributes<R>& in, const VertexId<R>& id, Varyings<R>& out) const {

@@ -20,7 +20,7 @@
 
 namespace halfspace::raster_test {
 
-/// Number of repetitions of a random test, reduced for sanitizer builds, which are many times slower.
+/// Returns the number of repetitions of a random test. It is reduced for sanitizer builds, which are many times slower.
 constexpr int effort(int n) { return kSanitized ? (n + 15) / 16 : n; }
 
 /// A window position in units of 1/256 px.
@@ -49,7 +49,7 @@ const T& pixel(const Image<T>& image, int x, int y) {
   return image.at(x, image.height() - 1 - y);
 }
 
-/// Draws triangles with one color each. The colors are either added up (blended) or replaced by the last triangle (deferred).
+/// Draws triangles with one color each. The colors are either added (blended), or the last triangle replaces the color (deferred).
 inline PassStatistics draw_colors(Image<glm::vec4>& image, std::span<const PointTriangle> triangles, std::span<const glm::vec4> colors,
                                   bool add_up, const PassOptions& options = {}) {
   std::vector<glm::vec4> positions, vertex_colors;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Small triangles are rasterized in groups of W. All pixels, depths and the number of passing samples must be the same as if each
-// triangle were drawn in a separate pass. The test mixes draws with and without a stencil test, uses equal depths, and varies the extents
-// from one pixel to beyond the limit for small triangles.
+// Small triangles are rasterized in groups of W. All colors, depths and the number of passing samples must be the same as if each triangle
+// were drawn in a separate pass. The test mixes draws with and without a stencil test, uses equal depths, and varies the extents from one
+// pixel to beyond the limit for small triangles.
 #include <algorithm>
 
 #include "halfspace/raster/tile/tile.h"
@@ -96,7 +96,7 @@ TEST(SmallTriangles, BatchesMatchIndividualTriangles) {
   EXPECT_GT(passed, static_cast<uint64_t>(effort(400)) * 100) << "too few samples passed";
 }
 
-// A small triangle with a stencil test writes a larger depth than its block had. A large triangle in front of it must not be rejected by
+// A small triangle with a stencil test writes a larger depth than any in its block. A large triangle in front of it must not be rejected by
 // the bounds of the block.
 TEST(SmallTriangles, WithStencilUpdateTheDepthBoundsOfTheirBlock) {
   constexpr int kFirst = 8 * kSubPixels;
@@ -112,7 +112,7 @@ TEST(SmallTriangles, WithStencilUpdateTheDepthBoundsOfTheirBlock) {
   draw(std::array{small, large}, out);
   const auto drawn =
       std::count_if(out.depth.data(), out.depth.data() + kSmallSize * kSmallSize, [](const DepthStencil& d) { return d.depth != 0.5f; });
-  EXPECT_EQ(drawn, 3);  // the pixels of the small triangle: only there is the large one (0.7) in front (0.9)
+  EXPECT_EQ(drawn, 3);  // the pixels of the small triangle, at depth 0.9: only there is the large one (0.7) in front
   for (const DepthStencil& d : std::span(out.depth.data(), kSmallSize * kSmallSize)) EXPECT_NE(d.depth, 0.9f);
   EXPECT_EQ(out.statistics.samples_passed, 6u);
 }

@@ -38,7 +38,7 @@ struct Tally {
 };
 
 // The remainder of the quotient has a relative error of 2^-23, or 2^-24 of the quotient, which is about 2^-24 at 2^22 sub-pixels. The last
-// two sums are of numbers below 2 and round by 2^-24 each. 2^-22 is a safe bound.
+// two sums add numbers below 2 and have a rounding error of 2^-24 each. 2^-22 is a safe bound.
 constexpr long double kMaxExcess = 0x1p-22L;
 
 Tally snap_many(const std::vector<glm::vec4>& positions, const Rect& viewport) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Tests draw and pass state with small cases: culling, viewport and scissor, provoking vertex, load and store, post step, statistics,
-// vertex views and indices, and the checks that detect incorrect use.
+// vertex views and indices, and the checks that detect misuse.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -13,7 +13,7 @@ namespace {
 
 // ---- shaders ---------------------------------------------------------------------------------------------------
 
-// Outputs the visible face: (1, 0) for front, (0, 1) for back.
+// Outputs which face is visible: (1, 0) for front, (0, 1) for back.
 struct FacingShader : PositionShader {
   template <class R>
   Fragment<R> fragment(const Varyings<R>&, const Pixel<R>& px) const {
@@ -345,7 +345,7 @@ TEST(LoadStore, LoadDontCareLeavesUntouchedTilesUnchanged) {
   for (int y = 0; y < 64; ++y) {
     for (int x = 0; x < 128; ++x) ASSERT_EQ(pixel(image, x, y), glm::vec4(x < 64 ? 1.0f : 7.0f));
   }
-  // The same with a depth attachment that is cleared everywhere.
+  // The same test with a depth attachment that is cleared everywhere.
   Image<float> depth(128, 64);
   Pass again(128, 64, target, d32f_target(depth));
   again.draw(ConstantShader{glm::vec4(3)}, make_vertex_view(stream(kFullScreen)), state);
@@ -458,7 +458,7 @@ TEST(Statistics, CountEachReasonForCulling) {
 }
 
 TEST(Statistics, DeferredDrawsShadeOnlyVisibleFragments) {
-  // Draws far before near, then near before far, with 64 × 64 samples per layer.
+  // Draws the far layer before the near one, then the near one before the far one, with 64 × 64 samples per layer.
   for (const bool near_first : {false, true}) {
     for (const bool defer : {true, false}) {
       const auto first = full_screen(near_first ? -0.5f : 0.5f), second = full_screen(near_first ? 0.5f : -0.5f);
@@ -521,7 +521,7 @@ TEST(Statistics, FlushesAreCountedAndDoNotChangeTheResult) {
   EXPECT_EQ(statistics[0].bin_entries, statistics[1].bin_entries);
   EXPECT_EQ(statistics[0].vertices_shaded, 600u);
 
-  // Between flushes, attachments without images are kept in memory of the pass.
+  // Between flushes, the pass keeps attachments without images in its own memory.
   Image<glm::vec4> posted(100, 80);
   Pass pass(100, 80, {.format = ColorFormat::rgba32f, .store = StoreOp::dont_care}, {.format = DepthFormat::d32f},
             {.chunk_triangles = 2, .bin_budget = 1});
@@ -699,7 +699,7 @@ TEST(DepthOnlyDraw, RunsTheVisibilityFunctionInAnyPass) {
   }
 }
 
-// ---- incorrect use ---------------------------------------------------------------------------------------------
+// ---- misuse ----------------------------------------------------------------------------------------------------
 
 TEST(StateDeathTest, ChecksVerticesAndIndices) {
   const std::vector<glm::vec4> four(4), five(5);
@@ -709,7 +709,7 @@ TEST(StateDeathTest, ChecksVerticesAndIndices) {
   const std::vector<uint16_t> narrow{0, 1, 9};
   EXPECT_DEATH(Indices(narrow, 9), "check failed");
   EXPECT_DEATH(Indices::sequential(std::size_t{1} << 32), "check failed");
-  // This stream is longer than 32-bit gather indices can address. Only a view is created; nothing is read.
+  // The stream is longer than 32-bit gather indices can address. Only a view is created; nothing is read.
   const VertexStream huge{four[0].x == 0 ? &four[0].x : nullptr, 4, 4, std::size_t{1} << 29};
   EXPECT_DEATH(make_vertex_view(huge), "check failed");
 }

@@ -21,10 +21,10 @@ int64_t cross(const Point& a, const Point& b, const Point& c) {
   return (int64_t{b.x} - a.x) * (int64_t{c.y} - a.y) - (int64_t{b.y} - a.y) * (int64_t{c.x} - a.x);
 }
 
-/// Returns which pixel centers of a row are inside, after moving them by an infinitesimal step to the right and a far smaller one up.
-/// Counts how often the outline crosses the ray from each center to the right. An edge spans the height of the ray if exactly one end is
-/// above the center (the step up decides for ends at that height). It is crossed if it passes strictly to the right of the center (the step
-/// to the right decides for edges through the center).
+/// Returns which pixel centers of a row are inside, after nudging them by an infinitesimal step to the right and a far smaller one up. For
+/// each center, counts how often the outline crosses the ray to the right. An edge straddles the ray if exactly one endpoint is above it
+/// (the upward nudge breaks ties for endpoints on the ray). The ray crosses such an edge if the edge passes strictly to the right of the
+/// center (the nudge to the right breaks ties for edges through the center).
 std::vector<bool> inside_outline(const std::vector<Point>& outline, int y, int width) {
   std::vector<bool> toggles(static_cast<std::size_t>(width) + 1);
   const int64_t sy = int64_t{y} * 256 + 128;
@@ -82,8 +82,8 @@ class WatertightCheck {
   int64_t samples_ = 0, inside_ = 0, holes_ = 0, doubles_ = 0;
 };
 
-/// Returns a fan around the center. The ring is in counter-clockwise order with gaps below 180°. Triangles have random winding, because
-/// neither the fill rule nor anything else may depend on it.
+/// Returns a fan around the center. The ring is in counter-clockwise order, with angles below 180° between neighbors. Triangles have random
+/// winding, because nothing may depend on it.
 FixedMesh make_fan(Random& r, const Point& center, const std::vector<Point>& ring) {
   FixedMesh m{{center}, {}, ring};
   m.points.insert(m.points.end(), ring.begin(), ring.end());
@@ -229,7 +229,7 @@ TEST(Watertight, QuadOfDrtkIssue9IsWatertight) {
 }
 
 // All spokes of the fan pass through pixel centers, because they start at a center and extend along multiples of small integer steps. With
-// distant ends, the barycentric coordinates of samples on a spoke are quotients of large products, which float arithmetic may round to
+// distant endpoints, the barycentric coordinates of samples on a spoke are quotients of large products, which float arithmetic may round to
 // either side.
 TEST(Watertight, SpokesThroughPixelCentersAreWatertight) {
   Random r(4);
@@ -248,8 +248,8 @@ TEST(Watertight, SpokesThroughPixelCentersAreWatertight) {
   EXPECT_GT(check.inside(), effort(1500) * 1000);
 }
 
-// These edges also pass through pixel centers, but do not end at them. The ends are far outside the target, at different distances from the
-// samples on the edge.
+// These edges also pass through pixel centers, but do not end at them. The endpoints are far outside the target, at different distances
+// from the samples on the edge.
 TEST(Watertight, DistantEdgesThroughPixelCentersAreWatertight) {
   Random r(5);
   WatertightCheck check;
@@ -412,9 +412,9 @@ TEST(WatertightClipped, ClosedSurfacesAroundTheEyeCoverEverything) {
   EXPECT_GT(counts.clipped, static_cast<uint64_t>(effort(3000)));
 }
 
-// A plane that passes near the eye, drawn as a fan whose rim is far behind and to the side. It is cut by the near plane, by w = 0 and by
-// the guard planes. The fan must cover every sample whose ray meets the plane between near and far. This is evaluated at 4 points 1/256 px
-// from the sample; if they disagree, either result is accepted.
+// A plane that passes near the eye, drawn as a fan with its rim far behind and to the side. The near plane, w = 0 and the guard planes cut
+// it. The fan must cover every sample whose ray intersects the plane between near and far. This is evaluated at 4 points 1/256 px from the
+// sample; if they disagree, either result is accepted.
 class PlaneFan {
  public:
   PlaneFan(Random& r, const Projection& projection, int spokes) : project_(projection) {
@@ -472,7 +472,7 @@ FanResult draw_fans(uint64_t seed, int fans, double most_spokes, bool complain) 
     Projection projection = random_projection(r, 0.1);
     projection.depth = ClipDepth::negative_one_to_one;  // the far plane hides the rim
     projection.far = 1e4;
-    const PlaneFan fan(r, projection, static_cast<int>(r.magnitude(4.0, most_spokes)));  // with at least 4 spokes, no gap reaches 180°
+    const PlaneFan fan(r, projection, static_cast<int>(r.magnitude(4.0, most_spokes)));  // with at least 4 spokes, no angle reaches 180°
     Image<glm::vec4> image(kSize, kSize);
     result.counts.clipped += count_coverage(image, fan.positions(), fan.indices(), state_of(projection)).clipped;
     bool any_inside = false, any_outside = false;
@@ -511,8 +511,8 @@ TEST(WatertightClipped, FansAcrossNearAndGuardPlanesAreWatertight) {
   EXPECT_LT(f.undecided, f.inside / 100);
 }
 
-// With thousands of spokes, wedges become narrower than 1/256 px, and snapping can invert them like any sliver. Adjacent triangles then
-// overlap by less than a sub-pixel, and a sample in the overlap is drawn more than once. This is inherent to snapped positions, as in
+// With thousands of spokes, wedges become narrower than 1/256 px, and snapping can invert them, as it can any sliver. Adjacent triangles
+// then overlap by less than a sub-pixel, and a sample in the overlap is drawn more than once. This is inherent to snapped positions, as in
 // Direct3D. It is rare, and holes never occur.
 TEST(WatertightClipped, SliverFansHaveNoHolesAndFewDoubleHits) {
   const FanResult f = draw_fans(9, effort(1200), 3000, false);
