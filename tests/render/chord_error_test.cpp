@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kRadius = 2.0, kTube = 0.375;  // exactly representable as floats
 
-// Returns the maximum depth of the triangles' planes below the sphere: its radius minus the distance of a plane from the center.
+// Returns how far the planes of the triangles are below the sphere at most: the radius minus the distance of a plane from the center.
 double deepest_plane(const Mesh& mesh, double radius) {
   double deepest = 0.0;
   for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
@@ -87,7 +87,7 @@ void expect_ring(Shape shape, Mesh (*make)(float, float, int, int, const Displac
 
 TEST(ChordError, SumsBothDirectionsForATorus) { expect_ring(Shape::torus, torus, 0.9, 1.001); }
 
-// The second derivative is evaluated at the outermost point, which is not quite the worst one.
+// The second derivative is evaluated at the outermost point, which is not quite where the error is largest.
 TEST(ChordError, IsApproximateForTorusKnots) { expect_ring(Shape::torus_knot, torus_knot, 0.6, 1.05); }
 
 TEST(ChordError, MatchesACircleForCylinders) {
@@ -134,7 +134,7 @@ TEST(ChordError, BoundsTheTextureDisplacementOnCones) {
   for (const int parts : {12, 48, 96}) {
     const ObjectDescription placed = with_parts(o, parts, true), coarse = with_parts(o, parts, false);
     EXPECT_EQ(coarse.latitudes, 2);
-    EXPECT_LE(map_error_of_cone(placed), chord_error(placed) * 1.01) << parts;  // uv are rounded to float
+    EXPECT_LE(map_error_of_cone(placed), chord_error(placed) * 1.01) << parts;  // uv is rounded to float
     EXPECT_GT(map_error_of_cone(coarse), chord_error(coarse) * (parts / 12.0))
         << parts << ": with two bands the displacement is about 0.16 parts times the chord error";
   }
@@ -150,7 +150,7 @@ TEST(ChordError, PartCountsAreRoundedUpToFewSteps) {
   EXPECT_EQ(part_step(96), 96);
 }
 
-// The expected value is how far the silhouette of a sphere moves in the image when its radius changes, computed in double.
+// The expected value, computed in double, is how far the silhouette of a sphere moves in the image when its radius changes.
 TEST(PixelsPerUnit, MatchTheMotionOfAnOutline) {
   CameraDescription camera;
   camera.position = {0, 0, 5};

@@ -69,7 +69,7 @@ namespace halfspace {
 
 namespace {
 
-// Number of runs of a stage, and the work done by all of them.
+// The number of invocations of a stage, and the total work done by them.
 struct Stage {
   int runs = 0, fetches = 0, lights = 0, shadows = 0;
   double lights_each() const { return static_cast<double>(lights) / runs; }
@@ -187,7 +187,7 @@ void shade_points(const S& shader, const PreparedDraw& draw, const glm::dvec2& s
   }
 }
 
-// Shaders whose work is counted: those of the shapes of scene files. Shaders of model files are not.
+// Work is counted for the shaders of shapes in scene files, but not for those of model files.
 template <class S>
 constexpr bool kIsCounted = !std::is_same_v<S, StarSky> && !std::is_base_of_v<MetallicMaterial, S> &&
                             !std::is_same_v<S, ColoredPrimitives> && !std::is_same_v<S, ShadowCatcher>;

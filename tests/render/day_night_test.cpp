@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Tests the shipped scene "day-night", and that the thread count does not change the image of any shipped scene.
+// Tests the shipped scene "day-night", and checks that the thread count does not change the image of any shipped scene.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -62,7 +62,7 @@ void operator delete[](void* p, std::size_t) noexcept { std::free(p); }
 namespace halfspace {
 namespace {
 
-// Returns a scene with values above 1: a ball under a bright sun, in front of a uniform sky.
+// Returns a scene with values above 1: a ball under a bright sun in front of a uniform sky.
 SceneDescription bright_scene(const std::vector<std::string>& settings = {}) {
   SceneFile scene = SceneFile::parse(R"({"version": 1, "ambient": 0.3,
     "lights": {"sun": {"direction": [1, 1, 1], "intensity": 20}},
@@ -127,8 +127,8 @@ TEST(AutoExposure, MapsTheAverageToTheKeyValue) {
       const SceneDescription scene = bright_scene(
           {"ball.visible=false", map, format, "post.hdr=true", "post.tone=none", "post.auto_exposure=true", "post.key_value=0.3"});
       const Image<glm::u8vec4> picture = picture_of(scene, 16, 16);
-      // The offset of 1e-6 is a relative change of 2.5e-4 at 0.004, and a half float has a relative precision of 5e-4. Together that is a
-      // tenth of a code at 0.3.
+      // The offset of 1e-6 is a relative change of 2.5e-4 at 0.004, and a half float has a relative precision of 5e-4. Together they change
+      // a value of 0.3 by a tenth of 1/255.
       EXPECT_NEAR(picture.at(8, 8).x, linear_to_srgb(0.3f), 1) << map;
     }
   }
@@ -200,7 +200,7 @@ std::size_t large_blocks(const std::vector<std::string>& settings, std::size_t b
   SceneAssets assets(workers);
   const PreparedScene scene = assets.prepare(bright_scene(settings), kWidth, kHeight);
   Image<glm::u8vec4> picture(kWidth, kHeight);
-  { const TileMemoryLease first, second, third; }  // threads then take the memory for tiles, which is large as well, from the pool
+  { const TileMemoryLease first, second, third; }  // threads then take their tile memory, which is also large, from the pool
   least = std::size_t{kWidth} * kHeight * bytes;
   large = 0;
   counting = true;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The shipped scene "earth", compared with one ray per pixel and with double precision.
+// Compares the shipped scene "earth" with one ray per pixel and with double-precision rendering.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -23,7 +23,7 @@ SceneDescription earth_from(const glm::dvec3& eye, double meridian) {
 
 TEST(Earth, MatchesTheNaivePipelineInFloat) {
   const SceneDescription scene = SceneFile::open("earth").description();
-  // The naive pipeline computes 1/w and snaps vertices with simpler formulas, so a vertex can snap to a neighboring 1/256 px.
+  // The naive pipeline computes 1/w and snaps vertices with simpler formulas, so a vertex can snap to an adjacent multiple of 1/256 px.
   EXPECT_LE(share_beyond_one_code<float>(scene, 320, 200), 1e-3);
 }
 
@@ -45,7 +45,7 @@ TEST_P(EarthAgainstRays, MapIsPlacedCorrectly) {
   SceneDescription scene = earth_from(eye_ws, meridian);
   scene.head.ambient.linear = glm::dvec3(1.0);
   scene.lights.clear();
-  // Without mips, so that the value depends only on the coordinates.
+  // Without mip levels, so that the value depends only on the coordinates.
   scene.textures.front().second.filter = Filter::bilinear;
   SceneAssets assets(workers);
   const PreparedScene prepared = assets.prepare(scene, kSize, kSize);
@@ -93,8 +93,8 @@ INSTANTIATE_TEST_SUITE_P(Views, EarthAgainstRays,
                                          std::pair{glm::dvec3(0, 2.8, 0), 0.0}, std::pair{glm::dvec3(0.3, -2.7, 0.2), 77.0}));
 
 TEST(Earth, SeamIsNotVisible) {
-  // The camera is above 180° of longitude, so the seam runs down the middle of the image. If the level of detail were computed from u
-  // jumping between 0 and 1, the seam would show as a line of the smallest mip level, the mean color of the map.
+  // The camera is above 180° of longitude, so the seam runs down the middle of the image. If the level of detail were computed from a u
+  // that jumps between 0 and 1, the seam would show as a line of the coarsest mip level, the mean color of the map.
   const SceneDescription scene = earth_from({0, 0, 2.8}, 180.0);
   const Image<vec4<double>> truth = naive_picture<double>(scene, 301, 301);
   const Image<glm::u8vec4> image = picture_of(scene, 301, 301);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Environments in scenes: the shipped scene "environment", image files, backgrounds by direction, blending.
+// Tests environments in scenes: the shipped scene "environment", image files, backgrounds by direction, and blending.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -32,7 +32,7 @@ const EnvironmentSky& sky_of(const PreparedScene& scene) { return std::get<Envir
 
 TEST(EnvironmentScene, IsWithinOneLsbOfDoublePrecision) {
   for (const char* camera : {"camera=front", "camera=up"}) {
-    // The image has no silhouettes or triangle edges. Only ties between codes differ, by one code.
+    // The image has no silhouettes or triangle edges. Pixels differ only at rounding ties, by 1/255.
     EXPECT_EQ(share_beyond_one_code<double>(environment_with({camera}), 320, 180), 0.0) << camera;
   }
 }
@@ -44,7 +44,7 @@ TEST(EnvironmentScene, IsBitIdenticalForAnyThreadCount) {
   EXPECT_EQ(picture_of(scene, 160, 90, 7), one);
 }
 
-// Computes the ray of every pixel independently, converts it to the (u, v) of the globe and compares the pixel with the map.
+// Computes the ray of every pixel independently, converts it to (u, v) on the globe, and compares the pixel with the map.
 TEST(EnvironmentScene, MapIsPlacedCorrectly) {
   constexpr int kWidth = 160, kHeight = 90;
   const SceneDescription scene = environment_with({"surface.width=256"});
@@ -270,7 +270,7 @@ TEST_F(EnvironmentFiles, PreservesValuesAboveOne) {
   EXPECT_NEAR(blue, 1e6f, 1e6f / 256) << "values beyond the range of half are stored as floats";
 }
 
-// The faces of a sky box join without visible edges: next to an edge, adjacent pixels differ at most twice as much as elsewhere.
+// The faces of a skybox join without visible edges: across an edge, adjacent pixels differ at most twice as much as elsewhere.
 TEST(EnvironmentScene, SkyBoxesHaveNoVisibleEdges) {
   for (const char* name : {"skybox_day", "skybox_night"}) {
     const std::filesystem::path folder = shared_data("sky") / name;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Objects of shape "sphere": they are placed, lit and shadowed like meshes, and reject the keys that need a mesh.
+// Tests objects of shape "sphere": they are placed, lit and shadowed like meshes, and reject keys that need a mesh.
 #include <gtest/gtest.h>
 
 #include "halfspace/core/check.h"
@@ -32,8 +32,8 @@ Image<glm::u8vec4> ball_picture(const std::string& sections) {
 
 // Tests every factor, light model and kind of placement, on a floor that receives shadows. A band of the finest mesh is 0.3 px high, so its
 // outline is accurate to 1e-3 px and its normals to 2e-5. Only pixels on the outlines of the sphere and its shadow can differ. These are
-// about 1,000 px long, so one pixel is expected to differ, which agrees with the measurement. Some codes differ by one where a value is
-// between two codes.
+// about 1,000 px long, so one pixel is expected to differ, which agrees with the measurement. Some values differ by 1/255 because of
+// rounding ties.
 TEST(ExactSphere, MatchesTheFinestMesh) {
   const std::string floor = R"("floor": {"shape": "plane", "size": 12, "position": [0, -1, 0]})";
   for (const std::string look : {R"("specular": 0.6, "shininess": 12, "model": "phong")", R"("specular": [0.6, 0.2, 0], "shininess": 60)",
@@ -52,7 +52,7 @@ TEST(ExactSphere, MatchesTheFinestMesh) {
   }
 }
 
-// A factor that is ignored would go unnoticed at its default value. A highlight covers about a hundred pixels.
+// An ignored factor would go unnoticed at its default value. A highlight covers about a hundred pixels.
 TEST(ExactSphere, UsesEveryFactorOfItsMaterial) {
   const auto with = [](const std::string& look) { return ball_picture(R"("objects": {"ball": {"shape": "sphere")" + look + "}}"); };
   const auto is_other = [&](const std::string& a, const std::string& b) { return compare_images(with(a), with(b)).share_above > 0.001; };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// render_frame(): values of surfaces in closed form, transparent backgrounds, crops and 16-bit pictures.
+// Tests render_frame(): AOVs with closed forms, transparent backgrounds, crops and 16-bit pictures.
 #include "halfspace/render/frame.h"
 
 #include <gtest/gtest.h>
@@ -110,7 +110,7 @@ TEST(Frame, OrthographicDistancesAreAlongTheAxis) {
   EXPECT_LE(glm::distance(v.position.at(70, 40), glm::vec3((70.5f - 60) / 80 * 6, (40 - 40.5f) / 80 * 6, 0)), 2e-4f);
 }
 
-// Every kind of shader of generated surfaces, exact spheres, particles and classic sprites.
+// Uses every kind of shader for generated surfaces, exact spheres, particles and classic sprites.
 constexpr const char* kMixed = R"("lights": {"l": {"direction": [1, 2, 3]}},
   "objects": {"a": {"shape": "uv_sphere", "position": [-2.2, 1, 0], "shading": "flat"},
               "b": {"shape": "sphere", "radius": 0.8, "instances": [{"position": [0, 1, 0]}, {"position": [2, 1, 0]}]},
@@ -143,7 +143,7 @@ TEST(Frame, NamesObjectsAndInstances) {
   EXPECT_TRUE(std::ranges::any_of(seen, [](const auto& id) { return id.first == 3 && id.second > 0 && id.second < 5; }));  // particles
 }
 
-// The faces of a flat sphere are planes, so that their normals are constant, unlike those of the same sphere with smooth shading.
+// With flat shading, each face of a sphere has a constant normal, unlike the same sphere with smooth shading.
 TEST(Frame, FlatSurfacesHaveTheNormalsOfTheirTriangles) {
   const auto normals_of_one_triangle = [](const char* shading) {
     const std::string ball = R"("shape": "uv_sphere", "latitudes": 8, "longitudes": 12, "scale": [2, 2, 2], "shading": )";
@@ -181,13 +181,13 @@ TEST(Frame, CropsEqualTheWhole) {
         ASSERT_EQ(part_normal.at(x, y), normal.at(crop.x + x, crop.y + y));
       }
     }
-    // auto_exposure measures the whole view, so cropping does not reduce the number of fragments shaded for the picture.
+    // auto_exposure meters the whole view, so cropping does not reduce the number of fragments shaded for the picture.
     const uint64_t picture = scene.post.auto_exposure ? whole_statistics.fragments_shaded : 4u * 37u * 21u;
     EXPECT_LE(statistics.fragments_shaded, picture + 2u * 4u * 37u * 21u);
   }
 }
 
-// An opaque square, and nothing else: alpha is the coverage of a pixel, and the color is that of the square wherever it is seen.
+// An opaque square and nothing else: alpha is the coverage of a pixel, and the color is that of the square wherever it is visible.
 TEST(Frame, TransparentBackgroundsHaveStraightAlpha) {
   const std::string square =
       R"("objects": {"wall": {"shape": "plane", "size": 4, "rotation": [70, 0, 20], "shading": "none", "color": [0.5, 0.25, 1]}})";
@@ -209,7 +209,7 @@ TEST(Frame, TransparentBackgroundsHaveStraightAlpha) {
         ASSERT_EQ(glm::vec3(c), c.w == 0 ? glm::vec3(0) : glm::vec3(0.5f, 0.25f, 1));
         if (c.w == 0) continue;
         ASSERT_EQ(picture.at(x, y).z, 255);
-        ASSERT_EQ(picture.at(x, y).x, 188);  // sRGB code of 0.5
+        ASSERT_EQ(picture.at(x, y).x, 188);  // 0.5 encoded in sRGB
         ASSERT_NEAR(fine.at(x, y).x, srgb_curve(0.5f) * 65535, 1.0);
         ASSERT_NEAR(fine.at(x, y).y, srgb_curve(0.25f) * 65535, 1.0);
       }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Bump maps of models that are built in memory instead of read from a file.
+// Tests bump maps of models that are built in memory instead of being read from a file.
 #include <gtest/gtest.h>
 
 #include <vector>
@@ -13,7 +13,8 @@
 namespace halfspace {
 namespace {
 
-// Two triangles whose materials have the same bump map, given as pixels: a ramp that repeats at the first and ends at the second.
+// Two triangles whose materials have the same bump map, given as pixels: a ramp, with repeat wrapping for the first and clamping for the
+// second.
 Model bumpy_triangles() {
   Model model;
   auto ramp = std::make_shared<Image<glm::u8vec4>>(8, 8);

@@ -52,7 +52,7 @@ TEST(ModelChoice, UsesTheFewestSufficientBands) {
   EXPECT_EQ(f.choices.size(), 2u) << "only latitudes and longitudes change";
 }
 
-// A parent can turn a sphere into an ellipsoid, which is not ray traced.
+// The scale of a parent can turn a sphere into an ellipsoid, which is not ray-traced.
 TEST(ModelChoice, KeepsTheMeshOfSpheresWithUnevenlyScaledParents) {
   const auto shape_with = [](const std::string& scale) {
     const std::string objects = R"("objects": {"b": {"shape": "cube", "scale": )" + scale + R"(}, "m": {"parent": "b", "shape": "cube"},

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The shipped scene "moon", and how PreparedScene handles displacement, placement and assets.
+// Tests the shipped scene "moon", and how PreparedScene handles displacement, placement and assets.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -28,7 +28,7 @@ std::string error_of(const SceneDescription& scene) {
 }
 
 TEST(Moon, IsWithinOneLsbOfDoublePrecision) {
-  // The remaining 0.1% of pixels are on silhouettes, where a position rounds to a different 1/256 px, and on the rims of stars.
+  // The remaining 0.1% of pixels are on silhouettes, where a position rounds to a different multiple of 1/256 px, and on the rims of stars.
   EXPECT_LE(share_beyond_one_code<double>(SceneFile::open("moon").description(), 320, 180), 1e-3);
 }
 
@@ -188,8 +188,8 @@ TEST(PreparedScene, InstancesShareMeshAndTexture) {
   }
 }
 
-// The camera approaches the object. If later frames are not announced, the map grows on the way; with expect() it has its final width in
-// the first frame.
+// The camera approaches the object. Unless later frames are announced, the map grows along the way; with expect(), it has its final width
+// in the first frame.
 TEST(PreparedScene, ExpectedFramesShareTheWidthOfTheirMaps) {
   const Workers workers(1);
   const SceneFile scene = SceneFile::parse(R"({"version": 1, "cameras": {"c": {"position": [0, 0, 9]}},
@@ -208,8 +208,8 @@ TEST(PreparedScene, ExpectedFramesShareTheWidthOfTheirMaps) {
   EXPECT_EQ(width_at(together, 1), width_at(alone, 1));
 }
 
-// From 1 unit above a plane with a field of view of 90°, the nearest visible point of the plane is 1 unit away along the view axis. There,
-// 8 units are 8/2 image widths, and a texel may span at most two pixels. Points behind the eye are nearer, but do not count.
+// From 1 unit above a plane with a field of view of 90°, the nearest visible point of the plane is 1 unit away along the view axis. At that
+// distance, 8 units are 8/2 image widths, and a texel may span at most two pixels. Points behind the eye are nearer, but do not count.
 TEST(PreparedScene, MapWidthOfAPlaneFollowsItsVisiblePart) {
   const Workers workers(1);
   const auto width_from = [&](const char* eye, const char* target, const std::string& plane, const std::string& more = "") {
@@ -316,7 +316,7 @@ TEST(PreparedScene, ImageIsUnchangedFarFromTheOrigin) {
     scene.objects.front().second.placement.position += glm::dvec3(d, -2 * d, d);
     return picture_of(scene, 160, 100);
   };
-  const Image<glm::u8vec4> here = picture(0), there = picture(1048576);  // 2^20: doubles keep 32 fractional bits
+  const Image<glm::u8vec4> here = picture(0), there = picture(1048576);  // 2^20: doubles retain 32 fractional bits
   int differing = 0;
   for (int y = 0; y < 100; ++y) {
     for (int x = 0; x < 160; ++x) differing += largest_difference(here.at(x, y), there.at(x, y)) > 1;
@@ -325,7 +325,7 @@ TEST(PreparedScene, ImageIsUnchangedFarFromTheOrigin) {
 }
 
 TEST(PreparedScene, RotationsAreDegreesAboutTheAxes) {
-  // A bar along x. A rotation by 90° about z makes it upright; a subsequent rotation by 90° about x tips it towards the eye.
+  // A bar along x. A rotation by 90° about z makes it upright; a subsequent rotation by 90° about x tilts it towards the eye.
   const auto covers = [](const char* rotation, int x, int y) {
     const SceneDescription scene = parsed(std::string(R"({"version": 1, "ambient": 1,
       "cameras": {"c": {"type": "orthographic", "position": [0, 0, 10], "height": 4}},
@@ -340,7 +340,7 @@ TEST(PreparedScene, RotationsAreDegreesAboutTheAxes) {
   EXPECT_FALSE(covers("[0, 90, 0]", 12, 0)) << "along z, seen from the end";
   EXPECT_TRUE(covers("[0, 0, 45]", 8, 8)) << "counter-clockwise, as seen from +z";
   EXPECT_FALSE(covers("[0, 0, 45]", 8, -8));
-  EXPECT_FALSE(covers("[90, 0, 90]", 0, 12)) << "z is applied first, then x tips the bar towards the eye";
+  EXPECT_FALSE(covers("[90, 0, 90]", 0, 12)) << "z is applied first, then x tilts the bar towards the eye";
 }
 
 TEST(PreparedScene, ReportsUnusableSettingsInOneLine) {

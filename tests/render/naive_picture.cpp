@@ -10,7 +10,7 @@ namespace halfspace {
 
 namespace {
 
-// S, optionally with the vertex positions that float arithmetic gives.
+// The shader S, optionally with vertex positions computed in float arithmetic.
 template <class S>
 struct Placed : S {
   Positions positions;

@@ -32,8 +32,8 @@ inline Image<glm::vec4> light_of(const SceneDescription& scene, int width, int h
   return light_of(scene, width, height, assets, workers);
 }
 
-/// Vertex positions of the double twin: computed in double, or as float arithmetic gives them. With the latter, all vertices snap to the
-/// same 1/256 px as in the renderer, and only shading is compared.
+/// Vertex positions of the double twin: computed in double, or in float arithmetic. With the latter, all vertices snap to the same
+/// positions as in the renderer, so only shading is compared.
 enum class Positions { in_r, as_rendered };
 
 /// Renders the scene with the naive pipeline in R, float or double. The result is linear color, top row first. Defined in
@@ -78,7 +78,7 @@ glm::u8vec4 encode(const vec4<R>& c) {
   return out;
 }
 
-/// Returns the fraction of pixels that differ by more than one code from the naive pipeline in R.
+/// Returns the fraction of pixels that differ by more than 1/255 from the naive pipeline in R.
 template <class R>
 double share_beyond_one_code(const SceneDescription& scene, int width, int height) {
   const Image<glm::u8vec4> image = picture_of(scene, width, height);

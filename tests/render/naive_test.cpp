@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The naive pipeline in float draws the same bits as the tile-based pipeline.
+// Checks that the naive float pipeline is bit-identical to the tile-based pipeline.
 #include <gtest/gtest.h>
 
 #include <cstring>

@@ -48,7 +48,7 @@ class ParticlePictures : public FolderTest {};
 // The original sprite is a circle whose size is computed at the center of the sphere. A distant sphere at the off-axis angle a projects to
 // an ellipse whose major axis is 1/cos(a) times the diameter of that circle. The circle therefore misses a fraction 1 − cos(a) of the
 // ellipse. For a near sphere, the center of the ellipse is also farther from the optical axis than the center of the circle, so the circle
-// covers pixels outside the ellipse.
+// also covers pixels outside the ellipse.
 TEST_F(ParticlePictures, SilhouetteErrorGrowsWithTheOffAxisAngle) {
   const struct {
     double degrees, least, most;  // wrong pixels of the original sprite, as a fraction of the sphere's pixels
@@ -173,8 +173,8 @@ TEST_F(ParticlePictures, OriginalSpritesHaveTheDepthOfACone) {
   EXPECT_GT(red, 1000);
 }
 
-// Compares with Phong's formula in double, for a light to the right of and above the eye, at the center of a sphere and at two other
-// points.
+// Compares with Phong's formula in double, at the center of a sphere and at two other points. The light is to the right of and above the
+// eye.
 TEST_F(ParticlePictures, MatchPhongsFormula) {
   const std::filesystem::path csv = put("one.csv", "0,0,-3,1,0.5,0.25,1\n");
   const std::string light = R"(, "lights": { "lamp": { "type": "point", "position": [2, 1, 0], "color": [0.9, 0.8, 0.7] } })";

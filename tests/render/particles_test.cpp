@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Positions of a scene's particles, and particle files.
+// Tests the positions of a scene's particles, and particle files.
 #include "halfspace/render/particles.h"
 
 #include <cmath>

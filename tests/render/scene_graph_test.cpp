@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Parents of objects, several particle systems, and materials of the scene on model files.
+// Tests parents of objects, several particle systems, and scene materials on model files.
 #include <gtest/gtest.h>
 
 #include "halfspace/model/model.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Contents of a scene's shadow maps, and the cost of rendering them.
+// Tests the contents of a scene's shadow maps, and the cost of rendering them.
 #include <gtest/gtest.h>
 
 #include "halfspace/render/prepared_scene.h"

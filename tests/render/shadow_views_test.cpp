@@ -63,8 +63,8 @@ TEST(ShadowViews, DirectionalViewContainsReceiversAndCasterDepths) {
   }
 }
 
-// The view is square and therefore wider than a long strip of receivers. It also contains points next to the strip, on which casters
-// above them can cast shadows.
+// The view is square and therefore wider than a long strip of receivers. It also contains points next to the strip, which can receive
+// shadows from casters above them.
 TEST(ShadowViews, DirectionalViewContainsCastersOverItsWholeSquare) {
   const glm::dmat3 axes = light_axes({0, 0, 1});
   const Box strip = box_of({{-5, -0.1, -1}, {5, 0.1, 0}}), beside = box_of({{-1, 3, 6}, {1, 4, 7}}),
@@ -106,7 +106,7 @@ TEST(ShadowViews, CameraMotionKeepsTheTexelGrid) {
     const LightView view = at(shift);
     EXPECT_EQ(view.texel_per_w, first.texel_per_w);
     const glm::dvec3 moved = to_texels(view, 1024, {0, 0, 0}) - to_texels(first, 1024, {0, 0, 0});
-    // A texel is 6e-3 units wide and coordinates are below 10, so products are rounded in the 13th digit.
+    // A texel is 6e-3 units wide and coordinates are below 10, so products are rounded at the 13th digit.
     EXPECT_NEAR(moved.x, std::round(moved.x), 1e-8);
     EXPECT_NEAR(moved.y, std::round(moved.y), 1e-8);
   }
@@ -137,8 +137,8 @@ TEST(ShadowViews, CommonCornersAreThoseOfTheIntersection) {
   const auto frustum = frustum_corners(clip);
   EXPECT_NEAR(frustum[0].z, 9.0, 1e-9);
   EXPECT_NEAR(frustum[4].z, -40.0, 1e-9);
-  // A small box inside the frustum gives its own corners, a box around the frustum gives the corners of the frustum, and a box behind the
-  // eye gives none.
+  // A box inside the frustum gives its own corners, a box around the frustum gives the corners of the frustum, and a box behind the eye
+  // gives none.
   const auto span_of = [](const std::vector<glm::dvec3>& corners) {
     Box b;
     for (const glm::dvec3& p : corners) b.add(p);

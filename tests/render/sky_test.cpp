@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The procedural skies, used as environments of scenes.
+// Tests the procedural skies as environments of scenes.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -48,7 +48,7 @@ TEST(SkyScene, StarsFadeWithTheNightSky) {
 
 TEST(SkyScene, IsWithinOneLsbOfDoublePrecision) {
   for (const char* weight : {"background.weight=0", "background.weight=0.6", "background.weight=1"}) {
-    // The exceptions are rims of stars and ties between codes. The limit is the same as for the scene "moon".
+    // The exceptions are rims of stars and rounding ties. The limit is the same as for the scene "moon".
     EXPECT_LE(share_beyond_one_code<double>(sky_with({weight}), 160, 90), 1e-3) << weight;
   }
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Compares rendered surfaces with closed forms: lighting at every shading rate, transforms, sides, factors and their maps.
+// Compares rendered surfaces with closed forms: lighting at every shading rate, transforms, two-sided surfaces, factors and their maps.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -58,8 +58,8 @@ TEST(Surface, LambertSphereMatchesAtEveryPixel) {
     const double r2 = s.x * s.x + s.y * s.y;
     if (r2 > 0.995) return;
     const glm::dvec3 n(s.x, s.y, std::sqrt(1 - r2));
-    // A facet is up to (π/256)²/8 below the sphere in both directions of the grid, and its corners are snapped to 1/512 px of 2.2/160
-    // units. The surface point at a pixel is off by the sum of these divided by n.z, and so is the interpolated normal.
+    // A facet is up to (π/256)²/8 below the sphere in both directions of the grid, and snapping moves its vertices by up to 1/512 px, where
+    // a pixel is 2.2/160 units. The surface point at a pixel is off by the sum of these divided by n.z, and so is the interpolated normal.
     const double slack = (3.8e-5 + 2.7e-5) / n.z + 1e-6;
     EXPECT_NEAR(p.at(x, row).x, std::max(glm::dot(n, kSun), 0.0), slack) << x << " " << row;
     ++checked;
@@ -136,8 +136,8 @@ double distance_from_phong(const char* rate, int latitudes) {
 
 TEST(Rates, GouraudAndFlatConvergeToPhong) {
   // Linear interpolation of a smooth function has an error quadratic in the facet size. At the terminator, where the function has a kink,
-  // the error is linear but confined to a strip of that width, so the mean is of order 2 everywhere. A constant per facet has an error of
-  // order 1. The tolerance of 10% of an order, over two doublings, allows for the alignment of facets and pixels.
+  // the error is linear but confined to a strip with the width of a facet, so the mean is of order 2 overall. A constant per facet has an
+  // error of order 1. The tolerance of 10% of an order, over two doublings, allows for the alignment of facets and pixels.
   const auto order = [](const char* rate) {
     const double coarse = distance_from_phong(rate, 16), fine = distance_from_phong(rate, 64);
     EXPECT_GT(coarse, fine);
@@ -234,7 +234,7 @@ TEST(Rates, TwoSidedSurfacesAreLitOnTheVisibleSide) {
     EXPECT_EQ(middle("-90", "[0, 0, 1]"), 1.0f) << rate << " from behind";
     EXPECT_EQ(middle("-90", "[0, 0, -1]"), 0.0f) << rate << " from behind";
   }
-  // A closed mesh whose front is cut off by the near plane. Its inside is invisible if the mesh is one-sided, and lit if it is two-sided.
+  // The near plane cuts off the front of a closed mesh. The inside is invisible if the mesh is one-sided, and lit if it is two-sided.
   const auto inside = [](const char* sides) {
     return linear_picture(
                parsed_at_root(std::string(R"({"version": 1, "cameras": {"c": {"type": "orthographic", "position": [0, 0, 1], "near": 0.9,
@@ -270,7 +270,7 @@ TEST(Factors, CombineToTheColor) {
       << "0.5 · 0.5 · (0.5 + 2 · 0.25)";
   EXPECT_EQ(shade_of(R"(, "specular": 1)", R"("diffuse": 0.25, "specular": 0.5)"), 0.75f);
   EXPECT_EQ(shade_of(R"(, "color": 0.5, "emissive": 0.25, "specular": 1, "shading": "none")"), 0.75f) << "color plus emission";
-  EXPECT_EQ(shade_of(R"(, "specular": 0.5, "specular_map": 0.5)"), 1.25f) << "a map of one colour is a constant";
+  EXPECT_EQ(shade_of(R"(, "specular": 0.5, "specular_map": 0.5)"), 1.25f) << "a map of a single color is a constant";
 }
 
 class FactorMaps : public FolderTest {
@@ -302,7 +302,7 @@ TEST_F(FactorMaps, MultiplyTheirConstants) {
 }
 
 TEST_F(FactorMaps, ShininessIsNotDecodedFromSrgb) {
-  // The light is 60° off the normal, so the half vector is 30° off. The code 128 scales the exponent by 128/255 at every rate.
+  // The light is 60° off the normal, so the half vector is 30° off. The 8-bit value 128 scales the exponent by 128/255 at every rate.
   for (const char* rate : {"flat", "gouraud", "phong"}) {
     const float c = shade_of(std::string(R"(, "diffuse": 0, "specular": 1, "shininess": 20, "shininess_map": )") + texel(128) +
                                  R"(, "shading": ")" + rate + "\"",

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Compares the renderer's floats with the same shaders in double precision, and checks that images do not depend on the thread count.
+// Compares the renderer, which uses float, with the same shaders in double precision, and checks that images do not depend on the thread
+// count.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,7 +18,7 @@ namespace {
 struct Difference {
   double most = 0, rmse = 0;
   double beyond = 0;       ///< fraction of pixels that differ by more than 1/255
-  double rmse_within = 0;  ///< RMS over the other pixels
+  double rmse_within = 0;  ///< RMS over the remaining pixels
 };
 
 Difference difference_from_double(const SceneDescription& description, int width, int height) {

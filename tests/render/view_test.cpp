@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Cameras that are given by matrices.
+// Tests cameras that are given by matrices.
 #include "halfspace/render/view.h"
 
 #include <gtest/gtest.h>

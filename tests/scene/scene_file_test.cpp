@@ -81,7 +81,7 @@ TEST_P(EveryScene, EveryKeyCanBeSetPrintedAndReadBack) {
     for (const Field& field : fields_of(s.section)) {
       const std::string name = field.key->name;
       const std::string path = s.path.empty() ? name : s.path + "." + name;
-      // Other tests cover targets of animations (suite Animation) and keys that select a kind (KindsHaveTheirOwnKeys).
+      // Other tests cover animation targets (suite Animation) and keys that select a kind (KindsHaveTheirOwnKeys).
       if (name == "target" && s.path.starts_with("animations.")) continue;
       if (field.key == &s.section.front().keys.front() && field.key->type == KeyType::choice) continue;
       SceneFile scene = SceneFile::open(GetParam());

@@ -29,7 +29,7 @@ class SmallStack : public testing::TestWithParam<int> {
   }
 };
 
-// With 1, the calling thread does all the work. A pool that is larger than the machine uses std::threads.
+// With 1, the calling thread does all the work. A pool with more threads than the machine has cores uses std::threads.
 INSTANTIATE_TEST_SUITE_P(Threads, SmallStack, testing::Values(1, Workers::cores() + 2));
 
 // ---- verification of the stack size ----------------------------------------------------------------------------
@@ -51,7 +51,7 @@ TEST(SmallStackDeathTest, OverflowsTerminateTheProgram) {
 
 // ---- a pass ----------------------------------------------------------------------------------------------------
 
-/// Outputs an interpolated color; the shader also determines depth and coverage.
+/// Outputs an interpolated color; also writes depth and discards fragments.
 template <bool has_visibility>
 struct WaveShader {
   template <class R>

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Tests scripts/draw_charts.py: what a chart shows, that its texts are readable, and its exit codes. Needs matplotlib."""
+"""Tests scripts/draw_charts.py: what a chart shows, whether its labels are readable, and its exit codes. Needs matplotlib."""
 import copy
 import json
 import math
@@ -31,7 +31,7 @@ def variant(name, group, error, ms, pareto=False):
 
 
 def wave_study():
-    """Points on a wave, some of them close together. The texts are as long as the studies may have them (see study_test.cpp)."""
+    """Points on a wave, some of them close together. Texts have the maximum length allowed for studies (see study_test.cpp)."""
     variants = [variant(f"variant {i}, 16x14", f"group {i % 3}", 10 ** (-6 + 0.4 * i), 3 + 2 * math.sin(0.9 * i)) for i in range(12)]
     variants += [variant("above $x^2$", "group 1", 1.05e-6, 5.2, True), variant("low & fast", "group 2", 2e-4, 0.6, True),
                  variant("no error", "group 0", 0.0, 60, True), variant("twin", "group 0", 1e-2, 3), variant("other twin", "group 1", 1e-2, 3)]

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Compares the components shared by the studies with values known in closed form.
+// Compares the components that the studies share with values known in closed form.
 #include "halfspace/study/study.h"
 
 #include <gtest/gtest.h>
@@ -61,13 +61,13 @@ TEST(AreaCoverage, MatchesClosedFormForTriangles) {
   };
   const glm::dvec2 a = thin[0][1] - thin[0][0], b = thin[0][2] - thin[0][0];
   EXPECT_NEAR(total(area_coverage<double>(thin, 64, 64)), 0.5 * std::abs(a.x * b.y - a.y * b.x), 1e-12);
-  // A disk of 4,096 wedges, half of which is outside the image.
+  // A disk of 4,096 wedges; half of the disk is outside the image.
   std::vector<TrianglePx> disk;
   const auto at = [](int i) {
     return 8.0 * glm::dvec2(std::cos(i * std::numbers::pi / 2048), std::sin(i * std::numbers::pi / 2048)) + glm::dvec2(0, 10);
   };
   for (int i = 0; i < 4096; ++i) disk.push_back({glm::dvec2(0, 10), at(i), at(i + 1)});
-  // The relative difference between the areas of the polygon and the disk is 4e-7.
+  // The areas of the polygon and the disk differ by a relative 4e-7.
   EXPECT_NEAR(total(area_coverage<double>(disk, 20, 20)), 0.5 * std::numbers::pi * 64.0, 1e-3);
 }
 
