@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Tests anisotropic lookups: the footprint is compared with its ellipse axes in double, the mip level with the expected one, and the result
-// with the average of the texture over the parallelogram of the pixel.
+// Tests anisotropic lookups. Compares the footprint with its ellipse axes in double, the mip level with the expected one, and the result
+// with the average of the texture over the pixel's footprint, a parallelogram.
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -50,8 +50,8 @@ TEST(Footprint, MatchesTheAxes) {
     ASSERT_NEAR(static_cast<double>(got.lod), std::log2(std::max(probe, 1.0)), 1.0 / 256) << e.longer << ' ' << e.shorter;
     const double exact = std::max(shorter, e.longer / got.probes);
     ASSERT_NEAR(static_cast<double>(got.lod), std::log2(std::max(exact, 1.0)), 2e-5) << e.longer << ' ' << e.shorter;
-    // The span is parallel to the longer axis and has the length that one probe does not cover. For a near-circle, the direction is
-    // arbitrary and the span is short.
+    // The span is parallel to the longer axis; its length is the part of the axis that one probe does not cover. For a near-circle, the
+    // direction is arbitrary and the span is short.
     const glm::dvec2 span = glm::dvec2(got.span) * size, want = e.direction() * (got.probes > 1 ? e.longer - exact : 0.0);
     ASSERT_LE(std::min(glm::length(span - want), glm::length(span + want)), 1e-4 * e.longer) << e.longer << ' ' << e.shorter;
   }
@@ -107,7 +107,7 @@ TEST(Anisotropy, ReadsTheLevelThatMatchesTheProbeSize) {
 
 // ---- the average over the pixel -------------------------------------------------------------------------------------------
 
-/// Returns the average of the texture over the parallelogram of the pixel, from 64 x 64 bilinear samples of level 0 in double.
+/// Returns the average of the texture over the pixel's footprint, a parallelogram, from 64 x 64 bilinear samples of level 0 in double.
 glm::dvec4 average(const Texture2D& texture, const Sampler& sampler, const glm::dvec2& uv, const glm::dvec2& dx, const glm::dvec2& dy) {
   constexpr int kSide = 64;
   glm::dvec4 sum(0.0);
@@ -131,7 +131,7 @@ TEST(Anisotropy, FilteredWaveMatchesItsAverage) {
   constexpr int kSide = 512;
   double worst = 0.0, worst_isotropic = 0.0;
   for (int trial = 0; trial < 12; ++trial) {
-    const glm::dvec2 cycles{static_cast<int>(random() % 7) - 3, static_cast<int>(random() % 7) - 3};  // braces: in order
+    const glm::dvec2 cycles{static_cast<int>(random() % 7) - 3, static_cast<int>(random() % 7) - 3};  // braces fix the order
     const glm::dvec2 k = cycles * (2 * std::numbers::pi / kSide);
     Image<glm::vec4> image(kSide, kSide);
     for (int y = 0; y < kSide; ++y) {
@@ -175,8 +175,8 @@ TEST(Anisotropy, MoreProbesApproachTheAverageOfNoise) {
     }
   }
   // The measured RMS errors are 0.049 for isotropic filtering, 0.043 for 2 probes, then 0.032, 0.021 and, for 16 probes, 0.017. The
-  // remaining error comes from the trilinear probe, which is wider than its box. For a single footprint of noise, the contrast is the only
-  // bound.
+  // remaining error comes from the trilinear probe, which is wider than its box. For a single footprint in noise, only the contrast bounds
+  // the error.
   for (int anisotropy = 2; anisotropy <= 16; anisotropy *= 2) EXPECT_LT(squares[anisotropy], squares[anisotropy / 2]);
   EXPECT_LT(std::sqrt(squares[16] / kCount), 0.018);
   EXPECT_GT(std::sqrt(squares[1] / kCount), 0.045);
@@ -197,8 +197,9 @@ TEST(Anisotropy, IsContinuousNearACircularFootprint) {
   const vec4<float> circle = texture.sample(sampler, uv, vec2<float>(4.0f / 64.0f, 0.0f), across);
   for (float ratio = 1.0f; ratio < 1.01f; ratio += 1e-4f) {
     const vec4<float> c = texture.sample(sampler, uv, vec2<float>(ratio * 4.0f / 64.0f, 0.0f), across);
-    // Up to a ratio of 1 + 1/1024, the level of the single probe rises by 0.0014. Beyond that, two probes separate by (ratio − 1) of their
-    // size. The result can change by at most this fraction of the contrast between level 2 and the adjacent level, which is below 1/2 here.
+    // Up to a ratio of 1 + 1/1024, the mip level of the single probe rises by 0.0014. Beyond that, two probes separate by (ratio − 1) times
+    // their size. The result can change by at most this fraction of the contrast between level 2 and the adjacent level, which is below 1/2
+    // here.
     for (int k = 0; k < 4; ++k) ASSERT_NEAR(c[k], circle[k], 0.0015f * 0.5f + (ratio - 1.0f) * 0.5f);
   }
 }

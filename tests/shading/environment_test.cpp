@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Tests the mapping from directions to texels, continuity, and the choice of the mip level.
+// Tests the mapping from directions to texels, continuity, and mip level selection.
 #include "halfspace/shading/environment.h"
 
 #include <gtest/gtest.h>
@@ -58,7 +58,7 @@ TEST(EnvironmentMap, PanoramaAxesPointAtTheDocumentedTexels) {
     for (int x = 0; x < 8; ++x) image.at(x, y) = glm::vec4(static_cast<float>(x), static_cast<float>(y), 0, 1);
   }
   const EnvironmentMap map(image, TexelFormat::rgba32f);
-  // The directions fall halfway between texels: u = 1/2 is between columns 3 and 4, v = 1/2 between rows 1 and 2.
+  // The directions are halfway between texels: u = 1/2 is between columns 3 and 4, v = 1/2 between rows 1 and 2.
   EXPECT_LT(distance(at(map, {0, 0, 1}), {3.5, 1.5, 0}), 1e-9) << "forward is the center";
   EXPECT_LT(distance(at(map, {1, 0, 0}), {5.5, 1.5, 0}), 1e-9) << "right";
   EXPECT_LT(distance(at(map, {-1, 0, 0}), {1.5, 1.5, 0}), 1e-9) << "left";
@@ -240,7 +240,7 @@ TEST(EnvironmentMap, PanoramaLevelFollowsTheAngle) {
   const EnvironmentMap map = random_panorama(256, 128);
   std::mt19937 random(11);
   for (int i = 0; i < 4000; ++i) {
-    // Pixels of a camera with a random orientation. Every third one is at the seam, every third one at a pole.
+    // Pixels of a randomly oriented camera. A third of them are at the seam, and a third at a pole.
     glm::dvec3 d = random_vector(random);
     if (i % 3 == 1) d.x = 1e-7 * d.x;
     if (i % 3 == 2) d.x *= 1e-4, d.z *= 1e-4;
@@ -275,8 +275,8 @@ TEST(EnvironmentMap, CubeLevelFollowsTheFaceDensity) {
   }
 }
 
-// Uses stripes along the meridians that are 4 texels wide at the equator. Near the poles they are narrower than a texel at the equator, so
-// the levels must average them. At the equator, level 1 still shows stripes of 2 texels.
+// Uses stripes along the meridians, 4 texels wide at the equator. Near the poles they are narrower than a texel at the equator, so the mip
+// levels must average them. At the equator, level 1 still shows stripes 2 texels wide.
 TEST(EnvironmentMap, LevelsAreLowPassFilteredTowardThePoles) {
   const int width = 512, height = 256;
   Image<glm::vec4> image(width, height);
@@ -367,7 +367,7 @@ TEST(EnvironmentMap, FloatMatchesDouble) {
   }
   RecordProperty("worst", std::to_string(worst));
   // u is accurate to 2 ulp near 1 (2^-23), times 256 texels, and the fraction of the coordinate is rounded to 2^-16. With a contrast of 1
-  // per texel, the error is about 5e-5 per axis and occurs on two axes. u is not less accurate near a pole, because the error of atan2 is
+  // per texel, the error is about 5e-5 per axis and occurs on two axes. u is just as accurate near a pole, because the error of atan2 is
   // relative.
   EXPECT_LT(worst, 2e-4);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The reflection model of metallic-roughness surfaces and its light from environments, compared with integrals in double precision.
+// Compares the reflection model of metallic-roughness surfaces and its image-based lighting with integrals in double precision.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -30,7 +30,7 @@ void over_sphere(int rows, const F& f) {
   }
 }
 
-// Integrates the reflection over all directions of light, in double. x is the part that F0 multiplies, y that of F90.
+// Integrates the reflection over all light directions, in double. x is the factor of F0, y the factor of F90.
 glm::dvec2 integrated(double roughness, double n_v) {
   const vec3<double> n(0, 1, 0), v(std::sqrt(1 - n_v * n_v), n_v, 0);
   glm::dvec2 sum(0.0);
@@ -43,7 +43,8 @@ glm::dvec2 integrated(double roughness, double n_v) {
   return sum;
 }
 
-// The table has 32 entries per axis, each the mean of 1024 samples. The grid of the reference resolves lobes of roughness 0.15 and above.
+// The table has 32 entries per axis, each the mean of 1024 samples. The grid of the reference resolves lobes with a roughness of 0.15 or
+// more.
 TEST(Ggx, DirectionalReflectanceMatchesTheIntegral) {
   double largest = 0.0;
   for (const double roughness : {0.15, 0.3, 0.5, 0.7, 1.0}) {
@@ -78,7 +79,7 @@ double lamp(const glm::dvec3& d) {
   return 0.3 + 0.4 * d.y + 6.0 * t * t * (3.0 - 2.0 * t);
 }
 
-// A surface that absorbs nothing reflects a uniform environment unchanged.
+// A surface without absorption reflects a uniform environment unchanged.
 TEST(Ggx, WhiteFurnace) {
   const EnvironmentMap map(faces_of(64, uniform), TexelFormat::rgba32f);
   const Workers workers(2);
@@ -101,8 +102,8 @@ TEST(Ggx, WhiteFurnace) {
   }
 }
 
-// Spheres seen from +z under the lamp. The reference is the integral of the environment times the reflection; the split sum assumes a view
-// along the normal when it filters, which is its largest error, at grazing views of rough surfaces.
+// Spheres seen from +z under the lamp. The reference is the integral of the environment times the reflection. The split-sum approximation
+// prefilters for a view along the normal, so its error is largest at grazing views of rough surfaces.
 TEST(Ggx, EnvironmentLightIsCloseToTheIntegralOnSpheres) {
   const EnvironmentMap map(faces_of(128, lamp), TexelFormat::rgba32f);
   const Workers workers(2);
@@ -137,7 +138,7 @@ TEST(Ggx, EnvironmentLightIsCloseToTheIntegralOnSpheres) {
   }
 }
 
-// Nine harmonics represent the irradiance of any environment within 9 % of its maximum (Ramamoorthi and Hanrahan 2001, section 2).
+// Nine spherical harmonics represent the irradiance of any environment within 9% of its maximum (Ramamoorthi and Hanrahan 2001, section 2).
 TEST(Ggx, DiffuseEnvironmentLightMatchesTheIntegral) {
   const EnvironmentMap map(faces_of(64, lamp), TexelFormat::rgba32f);
   const FilteredEnvironment filtered(map, 64, Workers(1));
@@ -151,7 +152,7 @@ TEST(Ggx, DiffuseEnvironmentLightMatchesTheIntegral) {
   EXPECT_LT(error, 0.09 * largest);
 }
 
-// The half vector is zero where the light is exactly behind the surface as seen from the eye.
+// The half vector is zero if the light direction is exactly opposite to the view direction.
 TEST(Ggx, ReflectionIsFiniteForAZeroHalfVector) {
   for (const float roughness : {kMinRoughness, 0.5f, 1.0f}) {
     const float x = ggx_reflection(roughness * roughness, vec3<float>(0, 0, 1), vec3<float>(0, 0, 0), 1e-6f, 1.0f);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Compares lighting at a point with closed-form results. Formulas are tested in double, robustness also in float.
+// Compares lighting at a point with closed-form results. Formulas are tested in double; robustness is also tested in float.
 #include "halfspace/shading/lighting.h"
 
 #include <gtest/gtest.h>
@@ -81,8 +81,8 @@ TEST(Lighting, HighlightsPeakInTheMirrorDirection) {
     const double off = std::abs(degrees + 40) * kPi / 180;
     const double phong = at<double>(light, LightModel::phong, s, kUp, v).specular.x;
     const double blinn = at<double>(light, LightModel::blinn_phong, s, kUp, v).specular.x;
-    // l is rounded to float. The error of its length, 6e-8, grows by a factor of 50 in the power. The error of its angle is also 6e-8
-    // and is multiplied by the slope of cos^50, which is at most 4.3.
+    // l is rounded to float. The power multiplies the error of its length, 6e-8, by 50. The error of its angle is also 6e-8 and is
+    // multiplied by the slope of cos^50, which is at most 4.3.
     EXPECT_NEAR(phong, std::pow(std::max(std::cos(off), 0.0), s), 3.3e-6) << degrees;
     EXPECT_NEAR(blinn, std::pow(std::cos(off / 2), s), 3.3e-6) << degrees;
   }

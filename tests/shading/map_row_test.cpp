@@ -9,7 +9,7 @@
 namespace halfspace {
 namespace {
 
-// Compares every start position from far left to far right of a row with columns that are clamped one by one. Lanes are all inside, all
+// Compares reads at every start position, from far left to far right of a row, with individually clamped columns. Lanes are all inside, all
 // outside or mixed, and some maps are narrower than four columns. The buffer ends with the last texel of the row, so a sanitizer detects
 // reads past it.
 template <int N, class R>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Tests a shader outside of namespace halfspace without a using-directive: argument-dependent lookup finds the vector functions, and float
-// and lanes return the same bits.
+// Tests a shader outside namespace halfspace without a using-directive: argument-dependent lookup finds the vector functions, and float and
+// lanes return the same bits.
 #include <gtest/gtest.h>
 
 #include <array>

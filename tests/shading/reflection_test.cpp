@@ -32,7 +32,7 @@ TEST(Reflection, DerivativesMatchFiniteDifferences) {
     };
     const Differential<double> got = reflected(eye, normalized(normal));
     const double scale = (1 + length(normal.dx) + length(normal.dy)) / length(normal.at);
-    // The error of a central difference is h²·f''', and f''' grows with the cube of the rotation rate of the normal.
+    // The error of a central difference is proportional to h²·f''', and f''' grows with the cube of the normal's rotation rate.
     const double tolerance = 1e-7 + 1e-9 * scale * scale * scale;
     EXPECT_LT(length(got.at - ray(0, 0)), 1e-12);
     EXPECT_LT(length(got.dx - (ray(h, 0) - ray(-h, 0)) / (2 * h)), tolerance * length(eye.at) + tolerance * length(eye.dx));
@@ -40,8 +40,8 @@ TEST(Reflection, DerivativesMatchFiniteDifferences) {
   }
 }
 
-// A flat mirror shows the sky at the same level as a camera behind it would. A ball of radius r at distance a minifies it by 1 + 2a/r at
-// its center.
+// A flat mirror shows the sky at the same mip level as a camera behind the mirror would. A ball of radius r at distance a minifies the sky
+// by 1 + 2a/r at its center.
 TEST(Reflection, LevelMatchesTheReflectedImage) {
   Image<glm::vec4> image(256, 128);
   const EnvironmentMap map(image, TexelFormat::rgba16f);

@@ -15,7 +15,7 @@
 namespace halfspace {
 namespace {
 
-// A map over [-1, 1]² that looks down −z from z = 1 to z = −1, so window depth is (z + 1)/2.
+// A map over [-1, 1]², looking along −z from z = 1 to z = −1, so window depth is (z + 1)/2.
 struct Map {
   explicit Map(int size) : depth(static_cast<std::size_t>(size) * static_cast<std::size_t>(size)) {
     view.size = size;
@@ -36,7 +36,7 @@ struct Map {
     for (int j = 0; j < view.size; ++j)
       for (int i = 0; i < view.size; ++i) at(i, j) = static_cast<float>((z(center(i), center(j)) + 1.0) / 2.0);
   }
-  // Stores unfiltered powers of the linear depth.
+  // Stores the powers of the linear depth, unfiltered.
   void make_moments() {
     moments.clear();
     for (const float z : depth) {
@@ -88,7 +88,7 @@ TEST(ShadowFilter, PcfIsTheLitAreaOfTheBoxFilter) {
         for (int i = 0; i < 32; ++i)
           if ((p.z + 1.0f) / 2.0f >= map.at(i, j)) expected += overlap(i, x - r, x + r) * overlap(j, y - r, y + r);
       expected /= width * width;
-      // The fractions of float texel coordinates up to 32 have an error of 2e-6, and each of the up to 64 terms has the same error.
+      // The fractional parts of float texel coordinates up to 32 have an error of 2e-6, and so does each of the up to 64 terms.
       EXPECT_NEAR(shadow_factor(shadow_of(map.view, filter, ShadowBias::none), receiver(p)), expected, 2e-5);
     }
   }
@@ -134,7 +134,7 @@ TEST(ShadowFilter, DiskIsUnbiasedForAnyRotation) {
 }
 
 TEST(ShadowFilter, PenumbraWidthMatchesTheLightSize) {
-  // An occluder edge is h above the floor, and t is the tangent of the angular radius of the light. Light rises from 0 to 1 over a width of
+  // An occluder edge is h above the floor, and t is the tangent of the light's angular radius. Light rises from 0 to 1 over a width of
   // 2·h·t, like the area of a disk cut by a line.
   Map map(512);
   constexpr double kFloor = -0.8, kEdge = 0.2, kTangent = 0.1;
@@ -156,7 +156,7 @@ TEST(ShadowFilter, PenumbraWidthMatchesTheLightSize) {
 }
 
 TEST(ShadowFilter, FourMomentsSeparateTwoDepthsAndTwoMomentsLeak) {
-  // Half of the texels have depth 0.2, and the other half have 0.6. A receiver at 0.9 is behind both. A receiver at 0.4 is only behind the
+  // Half of the texels have depth 0.2, and the other half 0.6. A receiver at 0.9 is behind both. A receiver at 0.4 is only behind the
   // nearer half.
   Map map(8);
   map.make_moments();
@@ -192,7 +192,7 @@ TEST(Shadow, PointsOutsideOfTheMapAreLit) {
   EXPECT_EQ(shadow_factor(s, receiver({0, 0, 0})), 0.0f);
   EXPECT_EQ(shadow_factor(s, receiver({1.01f, 0, 0})), 1.0f);
   EXPECT_EQ(shadow_factor(s, receiver({0, -1.01f, 0})), 1.0f);
-  EXPECT_EQ(shadow_factor(s, receiver({0, 0, 1.01f})), 1.0f);     // closer than the near plane of the view
+  EXPECT_EQ(shadow_factor(s, receiver({0, 0, 1.01f})), 1.0f);     // in front of the near plane of the view
   EXPECT_EQ(shadow_factor(s, receiver({0, 0, -1.01f})), 1.0f);    // beyond the far plane, where another cascade takes over
   EXPECT_EQ(shadow_factor(Shadow{}, receiver({0, 0, 0})), 1.0f);  // light without a shadow map
 }
@@ -237,7 +237,7 @@ TEST(ShadowBias, EachTypeOffsetsTheDepthByItsFormula) {
   constexpr double kRounding = 2e-7;  // rounding of a depth near 0.35 and of the product in the bias
   EXPECT_NEAR(lift(ShadowBias::none), 0.0, kRounding);
   EXPECT_NEAR(lift(ShadowBias::constant), 1.5 * texel, kRounding);
-  EXPECT_NEAR(lift(ShadowBias::slope), texel * (1.5 + 2.0 * 0.5 * tangent), kRounding);  // the hard filter reaches half a texel
+  EXPECT_NEAR(lift(ShadowBias::slope), texel * (1.5 + 2.0 * 0.5 * tangent), kRounding);  // the hard filter extends by half a texel
   EXPECT_NEAR(lift(ShadowBias::angle), texel * std::max(2.0 * (1.0 - cosine), 1.5), kRounding);
   EXPECT_NEAR(lift(ShadowBias::original), 0.0005, kRounding);
   EXPECT_NEAR(lift(ShadowBias::receiver_plane), 1.5 * texel, kRounding);
@@ -277,7 +277,7 @@ TEST(ShadowBias, AcneOccursWithoutABiasButNotWithPlaneBiases) {
     }
     EXPECT_EQ(false_shadow(ShadowFilter::hard, ShadowBias::adaptive, degrees), 0.0) << degrees;
   }
-  EXPECT_GT(false_shadow(ShadowFilter::hard, ShadowBias::constant, 80.0), 0.3);  // too small for a slope of 5.7 per texel
+  EXPECT_GT(false_shadow(ShadowFilter::hard, ShadowBias::constant, 80.0), 0.3);  // too small for a slope of 5.7 texel widths per texel
 }
 
 TEST(ShadowBias, SteepPlanesAreLitWhereTheMapIsEmpty) {

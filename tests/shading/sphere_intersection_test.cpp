@@ -20,7 +20,7 @@ const glm::dvec2 kHalf(1.1, 1.1 * kHeight / kWidth);
 
 SphereIntersection lens_for(bool perspective) { return {perspective, perspective ? kHalf : kHalf * 10.0, kNear, kFar, {kWidth, kHeight}}; }
 
-// A random number sequence that is identical on every machine.
+// Random numbers that are identical on every machine.
 class Numbers {
  public:
   explicit Numbers(uint64_t seed) : state_(seed) {}
@@ -64,8 +64,8 @@ Truth truth_of(const glm::vec3& c, float r, double x, double y, bool perspective
 }
 
 struct Worst {
-  double depth = 0.0, normal = 0.0;          ///< for n·v ≥ 0.1: float ulps, and absolute error
-  double rim_depth = 0.0, rim_normal = 0.0;  ///< elsewhere: multiples of the depth change over 2^-12 px, and error times n·v
+  double depth = 0.0, normal = 0.0;          ///< for n·v ≥ 0.1: error in float ulps, and absolute error
+  double rim_depth = 0.0, rim_normal = 0.0;  ///< elsewhere: error in units of the depth change over 2^-12 px, and error times n·v
   int wrong_inside = 0, seen = 0, missed = 0, rim = 0;
 };
 
@@ -84,7 +84,7 @@ double change_of_depth(const glm::vec3& c, float r, double x, double y, bool per
 void compare_rim(const SphereIntersection& lens, const SphereHit<float>& h, const Truth& t, double change, Worst& worst) {
   ++worst.rim;
   const double depth = static_cast<double>(std::fabs(Wide(lens.window_depth(h.t, h.t_low)) - t.depth));
-  // The depth itself is a float, so the tolerance of other pixels is added.
+  // The depth itself is a float, so the tolerance of the other pixels is added.
   worst.rim_depth = std::max(worst.rim_depth, std::max(depth - 4 * 0x1p-24 * static_cast<double>(t.depth), 0.0) / change);
   for (int k = 0; k < 3; ++k)
     worst.rim_normal = std::max(worst.rim_normal, static_cast<double>(std::fabs(Wide(h.n_cs[k]) - t.n[k]) * t.n_v));
@@ -155,7 +155,7 @@ TEST(SphereIntersection, DistantSpheresMatchLongDouble) {
   }
 }
 
-// Tests spheres that are cut by the near plane, some with their center behind the eye, and spheres that contain the eye.
+// Tests spheres that the near plane cuts, some with their center behind the eye, and spheres that contain the eye.
 TEST(SphereIntersection, SpheresCutByTheNearPlaneMatchLongDouble) {
   const SphereIntersection lens = lens_for(true);
   Numbers random(2);
@@ -173,7 +173,8 @@ TEST(SphereIntersection, SpheresCutByTheNearPlaneMatchLongDouble) {
   RecordProperty("worst_normal_1e-6", std::to_string(worst.normal * 1e6));
 }
 
-// Constructs spheres that almost touch the ray. Ten million rays hit or miss by 2^-8 of the radius down to less than its last bit.
+// Constructs spheres that the ray almost touches. Ten million rays pass just inside or just outside the rim, by 2^-8 of the radius down to
+// less than one ulp of it.
 TEST(SphereIntersection, VisibilityAtTheRimMatchesLongDouble) {
   const SphereIntersection lens = lens_for(true);
   Numbers random(5);
@@ -247,7 +248,7 @@ TEST(SphereIntersection, BoundsAreConservativeAndTight) {
   EXPECT_GT(whole, 30);
 }
 
-// For spheres that are cut by the near plane, computes the range of x/z of the part beyond the plane by sampling the circle.
+// For spheres that the near plane cuts, computes the range of x/z of the part beyond the plane by sampling the circle.
 TEST(SphereIntersection, BoundsOfCutSpheresExcludeThePartBeforeTheNearPlane) {
   const SphereIntersection lens = lens_for(true);
   Numbers random(4);

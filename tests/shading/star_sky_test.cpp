@@ -49,8 +49,8 @@ TEST(StarSky, DensityIsTheFractionOfCellsWithAStar) {
     int lit = 0;
     for (int i = 0; i < kCount; ++i) lit += sky.star_light<float>(direction(i, kCount)).x > 0 ? 1 : 0;
     const double want = mean * static_cast<double>(density) * 24576.0 * std::pow(1.3 * static_cast<double>(pixel), 2) / 4.0 * kCount;
-    // If a quarter of the 24576 cells has a star, the standard deviation of their number is √(24576·3/16) = 68, or 1.1%. The random number
-    // of about 9000 hits adds another 1.1%. The tolerance is four standard deviations of both.
+    // If a quarter of the 24576 cells have a star, the standard deviation of the number of stars is √(24576·3/16) = 68, or 1.1%. The
+    // randomness of about 9000 hits adds another 1.1%. The tolerance is four standard deviations of both.
     EXPECT_NEAR(lit, want, 0.06 * want);
   }
 }

@@ -12,7 +12,7 @@
 namespace halfspace {
 namespace {
 
-// A float map with a single texel, which is represented exactly.
+// A float map with a single texel, which stores the value exactly.
 Texture2D texel(const glm::vec3& c) {
   Image<glm::vec4> image(1, 1);
   image.at(0, 0) = glm::vec4(c, 1);
@@ -55,7 +55,7 @@ TEST(NormalMap, DegenerateInputKeepsTheNormal) {
     EXPECT_EQ(glm::normalize(n), kNormal) << "zero tangent";
     EXPECT_TRUE(std::isfinite(mapped(code, {}, glm::vec3(0.0f), glm::vec3(0.0f)).x)) << "zero frame";
   }
-  EXPECT_EQ(mapped({0.5f, 0.5f, 0}), kNormal) << "code that points inward";
+  EXPECT_EQ(mapped({0.5f, 0.5f, 0}), kNormal) << "a texel that points inward";
 }
 
 TEST(Heights, TiltAPlaneByItsSlope) {
@@ -67,7 +67,7 @@ TEST(Heights, TiltAPlaneByItsSlope) {
   EXPECT_NEAR(n.x, -0.3, 1e-14);
   EXPECT_NEAR(n.y, 0.2, 1e-14);
   EXPECT_EQ(n.z, 1.0);
-  // Seen from below, as in a mirror, the steps have the opposite orientation, but the surface is the same.
+  // Seen from below, the steps have the opposite orientation, as in a mirror, but the surface is the same.
   const vec3<double> m = normal_from_heights<double>({0, 0, 1}, {rise(dp_dy), rise(dp_dx)}, dp_dy, dp_dx);
   EXPECT_NEAR(length(m - n), 0, 1e-14);
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Tests every texel format, wrap mode and filter: exact results where the header promises them, comparison with an independent reference
-// elsewhere, and the same bits at every width. texture_test.cpp tests 8-bit RGBA in more detail, anisotropy_test.cpp tests anisotropic
-// filtering.
+// Tests every texel format, wrap mode and filter: exact results where the header guarantees them, comparison with an independent reference
+// elsewhere, and bit-identical results at every width. texture_test.cpp tests 8-bit RGBA in more detail, anisotropy_test.cpp tests
+// anisotropic filtering.
 #include <gtest/gtest.h>
 
 #include "halfspace/core/half.h"
@@ -199,7 +199,7 @@ TEST(TextureFormats, EveryWrapModeMatchesOpenGl) {
               ASSERT_EQ(got[c], static_cast<float>(want.value[c])) << uv.x << ' ' << uv.y;
             } else {
               // The tolerance is derived as in texture_test.cpp: the rounding of the fraction on two axes and two levels, and the snapping
-              // of the level. Rounding codes to the nearest integer does not matter, because the reference reads the same levels.
+              // of the level. The rounding of stored values to integers does not matter, because the reference reads the same levels.
               ASSERT_NEAR(static_cast<double>(got[c]), want.value[c], 2 * scale[c] * (2 * 0x1p-16 + 0x1p-14)) << uv.x << ' ' << uv.y;
               ASSERT_NEAR(in_double[c], want.value[c], scale[c] * 1e-7) << uv.x << ' ' << uv.y;
             }
@@ -221,7 +221,7 @@ TEST(TextureFormats, ResultsStayWithinTheRangeOfTheirTexels) {
       for (int i = 0; i < 500; ++i) {
         const vec2<float> uv(any(random), any(random));
         const float lod = lods(random);
-        // Near a line through texel centers, the reference may choose the adjacent cell, so such points are skipped.
+        // Near a line through texel centers, the reference may select the adjacent cell, so such points are skipped.
         bool unsure = false;
         for (int l = 0; l < texture.levels(); ++l) {
           const auto near = [](float x) { return std::fabs(x - std::round(x)) < 1e-4f; };

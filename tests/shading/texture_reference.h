@@ -16,8 +16,8 @@ inline constexpr TexelFormat kFormats[] = {TexelFormat::rgba8, TexelFormat::srgb
                                            TexelFormat::r16,   TexelFormat::rgba16f, TexelFormat::rgba32f};
 inline constexpr Wrap kWraps[] = {Wrap::repeat, Wrap::mirrored, Wrap::clamp, Wrap::border};
 
-/// Returns a texture whose texels are derived from the 32-bit value bits(x, row): codes are its low bits, floats are computed from its
-/// bytes.
+/// Returns a texture whose texels are derived from the 32-bit value bits(x, row): integer channels are its low bits, floats are computed
+/// from its bytes.
 template <class Bits>
 Texture2D make_texture(int width, int height, TexelFormat format, const Bits& bits) {
   Image<glm::u8vec4> codes(width, height);
@@ -72,7 +72,7 @@ struct Mixed {
   }
 };
 
-/// Returns the border color of the sampler as the format of the texture represents it.
+/// Returns the sampler's border color as represented in the texture's format.
 inline glm::dvec4 border_of(const Texture2D& texture, const Sampler& sampler) {
   const TexelFormat f = texture.format();
   glm::dvec4 b(sampler.border_color);
@@ -92,7 +92,7 @@ inline void mix_level(const Texture2D& texture, const Sampler& sampler, double s
   for (int k = 0; k < 4; ++k) to.add(weight * (k % 2 ? a : 1 - a) * (k / 2 ? b : 1 - b), texel(x + k % 2, y + k / 2));
 }
 
-/// Isotropic lookup at a given level of detail.
+/// Performs an isotropic lookup at a given level of detail.
 inline Mixed reference(const Texture2D& texture, const Sampler& sampler, double s, double t, double lod) {
   Mixed mixed;
   const bool magnified = !(lod > 0), nearest = (magnified ? sampler.mag : sampler.min) == Filter::nearest;

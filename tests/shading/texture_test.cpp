@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Tests Texture2D against hand-computed values, the invariants that its header documents, and an independent reference in double. Results
-// must have the same bits at every width.
+// must be bit-identical at every width.
 #include "halfspace/shading/texture.h"
 
 #include <gtest/gtest.h>
@@ -126,7 +126,7 @@ TEST(Texture, MipOfEvenSizeIsTheMeanOfFourTexels) {
   image.at(0, 1) = {0, 2, 30, 1};
   image.at(1, 1) = {255, 4, 41, 0};
   EXPECT_EQ(mip_chain(image, TexelFormat::rgba8)[0].at(0, 0), glm::u8vec4(128, 2, 25, 0));  // 127.5 rounds to even; then 1.75, 25.25, 0.25
-  // In sRGB, half of the light of white is code 188. Alpha is always linear.
+  // In sRGB, half the light of white encodes to 188. Alpha is always linear.
   EXPECT_EQ(mip_chain(image, TexelFormat::srgb8a8)[0].at(0, 0).x, 188);
   EXPECT_EQ(mip_chain(image, TexelFormat::srgb8a8)[0].at(0, 0).w, 0);
 }
@@ -169,8 +169,8 @@ TEST(Texture, MipsPreserveTheMean) {
     };
     for (const Image<glm::u8vec4>& level : mip_chain(image, TexelFormat::rgba8)) {
       const glm::dvec4 difference = glm::abs(mean(level) - mean(image));
-      // The filter preserves the mean, but every code is rounded by up to 1/2. For n independent texels, the mean of these errors has a
-      // standard deviation of 0.29/sqrt(n). The bound is 5 standard deviations, or 0.5 for few texels.
+      // The filter preserves the mean, but every 8-bit value is rounded by up to 1/2. For n independent texels, the mean of these errors
+      // has a standard deviation of 0.29/sqrt(n). The bound is 5 standard deviations, or 0.5 for few texels.
       const double bound = std::min(0.5, 5 * 0.29 / std::sqrt(static_cast<double>(level.texels().size()))) + 1e-4;
       for (int c = 0; c < 4; ++c) EXPECT_LE(difference[c], bound) << level.width() << " x " << level.height();
     }
@@ -343,8 +343,8 @@ TEST(Texture, LevelOfDetailMatchesOpenGl) {
     const vec2<float> dx(derivative()), dy(derivative());
     const glm::dvec2 size(640, 480);
     const double rho = std::max(glm::length(glm::dvec2(dx) * size), glm::length(glm::dvec2(dy) * size));
-    // log2 has an error of 1.04 ulp (at most 2^-20 here) and its argument has 4 roundings (4·2^-24/ln 2). Both are far below the 1/256 of a
-    // level that hardware resolves.
+    // log2 has an error of 1.04 ulp (at most 2^-20 here) and its argument has 4 roundings (4·2^-24/ln 2). Both are far below 1/256 of a
+    // level, the precision of hardware.
     EXPECT_NEAR(static_cast<double>(level_of_detail(640, 480, dx, dy)), std::log2(rho), 0x1p-19);
   }
   EXPECT_EQ(level_of_detail(256, 256, vec2<float>(1.0f / 256.0f, 0.0f), vec2<float>(0.0f, 1.0f / 256.0f)), 0.0f);
@@ -366,7 +366,7 @@ TEST(Texture, SampleSelectsTheLevelFromTheDerivatives) {
     const vec4<float> c = ruler.sample(Sampler(), vec2<float>(0.3f, 0.7f), vec2<float>(step, 0.0f), vec2<float>(0.0f, step * 0.5f));
     const double got = static_cast<double>(c.x) * 255.0 / 16.0;
     EXPECT_NEAR(got, std::clamp(lod, 0.0, 8.0), 1.0 / 256.0);
-    EXPECT_NEAR(got, std::clamp(lod, 0.0, 8.0), 0x1p-14 + 1e-6);  // in fact much closer: only snapping to integer levels adds an error
+    EXPECT_NEAR(got, std::clamp(lod, 0.0, 8.0), 0x1p-14 + 1e-6);  // actually much closer: only snapping to integer levels adds an error
   }
 }
 
@@ -394,7 +394,7 @@ TEST(Texture, LookupsOfFewerChannelsMatchSampleBits) {
   }
 }
 
-// Alpha has a lookup of its own. Textures with the same alpha everywhere do not look it up.
+// Alpha has its own lookup. Textures with constant alpha skip it.
 TEST(Texture, AlphaLookupMatchesSampleBits) {
   using R = FragmentReal;
   std::mt19937 random(31);

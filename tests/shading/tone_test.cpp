@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Tests the tone curves for every half, the display encodings, and dithering.
+// Tests the tone curves for every half-float value, the display encodings, and dithering.
 #include "halfspace/shading/tone.h"
 
 #include <gtest/gtest.h>
@@ -90,7 +90,7 @@ TEST(ToneCurves, LuminanceModePreservesHue) {
   const float y = luminance(vec3<float>(light));
   for (int k = 0; k < 3; ++k) EXPECT_FLOAT_EQ(c[k], light[k] / (1 + y));
   EXPECT_FLOAT_EQ(luminance(vec3<float>(c)), y / (1 + y));
-  // Channel mode maps each channel as if it were gray, which changes the hue.
+  // Channel mode maps each channel separately, which changes the hue.
   const glm::vec3 each = tone_map(SceneLight<float>{light}, {.curve = ToneCurve::reinhard}).rgb;
   for (int k = 0; k < 3; ++k) EXPECT_FLOAT_EQ(each[k], light[k] / (1 + light[k]));
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Hash of results computed at any SIMD width: elementary functions, interpolation, encoding. Header-only, so that a single-file program can
-// be compiled for a different instruction set (isa_hash.cpp).
+// Hash of results computed at a given SIMD width: elementary functions, interpolation, encoding. Header-only, so that a single-file program
+// can be compiled for a different instruction set (isa_hash.cpp).
 #pragma once
 
 #include <cstring>

@@ -91,9 +91,9 @@ TEST(Stability, SrgbIsEncodedOnlyOnce) {
     ours = std::max(ours, std::abs(static_cast<double>(linear_to_srgb(static_cast<float>(x))) - exact));
   }
   EXPECT_GE(power, 8.0) << "pow(1/2.2) is not the sRGB curve";
-  // Rounding costs half a code; 1e-4 allows for x being a float.
+  // Rounding costs half an LSB; 1e-4 allows for x being a float.
   record_and_check({21, "double gamma", "light from 0 to 1; encoded twice vs. once, using types that prevent a second encoding",
-                    "largest error in 8-bit codes"},
+                    "largest error, in units of 1/255"},
                    twice, 70.0, ours, 0.5001);
 }
 
@@ -112,7 +112,7 @@ TEST(Stability, HighlightsAreBoundedForDegenerateInputs) {
           ours += !(lit.specular.x >= 0.0f && lit.specular.x <= 1.0f && lit.diffuse.x >= 0.0f);
           if (!(n.z > 0.0f)) ours += lit.specular.x != 0.0f;  // the light is behind the surface, or the normal is invalid
         }
-        // The usual shader: normalized half vector and normal, and the power computed with exp2 and log2.
+        // The common shader: normalized half vector and normal, and the power computed with exp2 and log2.
         const glm::vec3 h = glm::normalize(glm::vec3(0, 0, 1) + v);
         const float c = std::max(glm::dot(glm::normalize(n), h), 0.0f), s = std::exp2(shininess * std::log2(c));
         common += !(s >= 0.0f && s <= 1.0f);

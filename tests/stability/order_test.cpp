@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Values stored in render targets and their order: light beyond the range of half, and blending on several threads.
+// Tests values stored in render targets, and their order: light beyond the range of half, and blending on several threads.
 #include <limits>
 
 #include "halfspace/core/half.h"
@@ -55,7 +55,7 @@ TEST(Stability, BlendingFollowsSubmissionOrder) {
     colors.emplace_back(r.real(0.0f, 1.0f), r.real(0.0f, 1.0f), r.real(0.0f, 1.0f), r.real(0.2f, 0.9f));
   }
   const Image<glm::vec4> one = blended(triangles, colors, 1);
-  // The common method distributes triangles to n threads that draw concurrently; here the threads run one after the other.
+  // The common method distributes triangles to n threads that draw concurrently; here the threads run one after another.
   int common = 0;
   for (std::size_t n = 2; n <= 8; ++n) {
     std::vector<PointTriangle> dealt;

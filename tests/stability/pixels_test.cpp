@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Pixel values where common shaders fail: faces, bumps, seams, derivatives at edges.
+// Tests pixel values where common shaders fail: faces, bumps, seams, derivatives at edges.
 #include <cmath>
 
 #include "halfspace/geometry/camera.h"
@@ -31,7 +31,7 @@ Image<glm::vec4> drawn(const S& shader, const VertexView& view, const std::vecto
 
 // ---- flat shading -------------------------------------------------------------------------------------------------------
 
-// Lit with the face normal or with the normal of the provoking vertex.
+// A shader that uses the face normal or the normal of the provoking vertex.
 struct FlatLight {
   bool by_face = true;
   template <class R>
@@ -65,7 +65,7 @@ struct FlatLight {
 };
 
 TEST(Stability, FlatShadingDoesNotDependOnVertexOrder) {
-  // A saddle of 8 x 8 quads, each split along the same diagonal; then the same triangles, each starting at another vertex.
+  // A saddle of 8 x 8 quads, each split along the same diagonal; then the same triangles, each starting at a different vertex.
   constexpr int kQuads = 8;
   std::vector<glm::vec3> positions, normals;
   std::vector<uint32_t> list, turned;
@@ -159,8 +159,8 @@ TEST(Stability, BumpMapsMatchTheAnalyticSlope) {
     }
     return std::sqrt(squares / truth_squares);
   };
-  // A wave of 21 texels. The slope of the parabola is scaled by sin(x)/x with x = 2 pi/21, and linear filtering scales it by the same
-  // factor, a loss of 3%.
+  // A wave of 21 texels. The slope of the parabola is scaled by sin(x)/x with x = 2 pi/21, and linear filtering scales it again by the same
+  // factor: a loss of 3%.
   record_and_check(
       {14, "bump mapping from differences of heights",
        "waves of 21 texels and 9 px; differences in the 2x2 quad vs. slopes of filtered heights", "relative RMS error of the slope"},
@@ -169,8 +169,8 @@ TEST(Stability, BumpMapsMatchTheAnalyticSlope) {
 
 // ---- seams --------------------------------------------------------------------------------------------------------------
 
-// Outputs the level of detail of a texture lookup. u comes from the mesh, or is computed per pixel from the direction and differentiated in
-// the quad.
+// Outputs the level of detail of a texture lookup. u either comes from the mesh, or is computed per pixel from the direction and
+// differentiated in the quad.
 struct LevelSeen {
   glm::mat4 clip_from_world;
   bool by_direction = false;

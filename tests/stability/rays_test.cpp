@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Robustness of the reference: rays that slip between triangles, and points that shadow themselves.
+// Tests the robustness of the reference: rays that slip between triangles, and points that shadow themselves.
 #include <algorithm>
 #include <array>
 
@@ -25,7 +25,7 @@ struct World {
 // excludes hits on the back.
 constexpr float kBack = 1.00003f;
 
-// The usual method in floats: intersects the ray with the plane and tests the side of each edge.
+// The common method in floats: intersects the ray with the plane and tests the side of each edge.
 bool meets(const glm::vec3& d, const std::array<glm::vec3, 3>& t) {
   const glm::vec3 n = glm::cross(t[1] - t[0], t[2] - t[0]);
   const float along = glm::dot(n, t[0]) / glm::dot(n, d);
@@ -63,7 +63,7 @@ TEST(Stability, RaysDoNotSlipThroughSharedEdges) {
     (at_vertex ? at_vertices : at_edges) += slipped;
   }
   ASSERT_GT(aimed, raster_test::effort(4000) / 10);
-  // Embree's robust mode is watertight along edges. Rays that pass exactly through a vertex may slip through, but rarely occur in images.
+  // Embree's robust mode is watertight along edges. Rays exactly through a vertex may slip through, but rarely occur in images.
   EXPECT_LE(at_vertices, aimed / 20);
   record_and_check(
       {28, "robustness of the reference",

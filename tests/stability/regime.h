@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Known failures of renderers. Each test runs the common method under conditions in which it is known to fail, and then our method for
+// Known failure modes of renderers. Each test runs the common method under conditions in which it is known to fail, and then our method for
 // comparison. The results are recorded in the test report, from which scripts/stability_table.py generates docs/explanation/stability.md.
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace halfspace::stability {
 
-/// Subject of a test. Rows are numbered as in the table, 1 to 28; a row can have several tests.
+/// The subject of a test. Rows are numbered as in the table, 1 to 28; a row can have several tests.
 struct Regime {
   int row;
   const char* failure;  ///< what goes wrong

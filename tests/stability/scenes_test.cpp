@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Complete scenes and studies where common methods fail.
+// Tests complete scenes and studies where common methods fail.
 #include <cmath>
 #include <numbers>
 #include <set>
@@ -131,8 +131,8 @@ TEST(Stability, PhongShadingKeepsHighlightsInsideFacets) {
 
 TEST(Stability, AnisotropicFilteringReducesAliasing) {
   const Study study = study_texture_filter({.quick = true}, Workers(2));
-  // A probe is a trilinear lookup, which is wider than the box it represents. At each edge of a square its error is about a tenth of the
-  // contrast over one pixel. (docs/results/accuracy.md lists every filter, at 960x540.)
+  // A probe is a trilinear lookup, which is wider than the box that it represents. At each edge of a square, its error is about a tenth of
+  // the contrast, over a width of one pixel. (docs/results/accuracy.md lists every filter, at 960x540.)
   record_and_check(
       {16, "minification aliasing",
        "a checkered plane that reaches the horizon; nearest texel vs. 16x anisotropic filtering; reference: 1,024 lookups per pixel",
@@ -201,11 +201,12 @@ TEST(Stability, SpritesOffTheAxisAreAccurate) {
 }
 
 TEST(Stability, SpritesHaveNoSizeLimit) {
-  // From 1.02 radii the sphere spans 157 degrees, and its sprite is 1,553 px high in an image of 180 px; from 1.0005 radii it is 10,000 px
-  // high.
+  // Seen from 1.02 radii, the sphere spans 157 degrees, and its sprite is 1,553 px high in a 180-pixel-high image; from 1.0005 radii, it is
+  // 10,000 px high.
   double ours = 0.0;
   for (const double distance : {1.02, 1.005, 1.0005}) ours = std::max(ours, coverage_error(one_sphere("exact", distance, 75.0)));
-  // A limit of 255 px, as in hardware: a square around the position of the center, which is far to the left of the image.
+  // A point size limited to 255 px, as on hardware: the sprite is a square around the projected center, which is far off the left edge of
+  // the image.
   const SceneDescription near = one_sphere("exact", 1.0005, 75.0);
   const double px_per_tan = kHeight / (2.0 * make_view(near.cameras.front().second, kWidth, kHeight).tan_y);
   const double centre = 0.5 * kWidth - px_per_tan * std::tan(75.0 * std::numbers::pi / 180.0);
@@ -243,7 +244,7 @@ TEST(Stability, NormalsAreCorrectUnderNonUniformScale) {
     common = std::max(common, angle(m * glm::dvec3(placed.normals[i])));
     ours = std::max(ours, angle(glm::dvec3(by_shader * placed.normals[i])));
   }
-  // The matrix is in float and has a scale ratio of 16 : 1; normals have an error of 2^-24.
+  // The matrix is in float and has a scale ratio of 16:1; normals have an error of 2^-24.
   record_and_check({24, "normals under non-uniform scale",
                     "a rotated sphere scaled by 1, 4 and −1/4; normals transformed by the matrix vs. by its inverse transpose",
                     "largest angle to the ellipsoid's normal, in radians"},

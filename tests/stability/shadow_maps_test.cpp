@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Known failures of shadow maps, compared with rays.
+// Known failure modes of shadow maps, compared with rays.
 #include <cmath>
 #include <numbers>
 
@@ -58,7 +58,7 @@ TEST(Stability, ContactShadowsAreNotDetached) {
                    leak({"shadow.bias=constant", "shadow.constant=100", "shadow.method=hard"}), 0.01, leak({}), 1e-3);
 }
 
-// A small plate high above a large one that is close to the ground. At the outline of the small plate two depths meet in one texel,
+// A small plate high above a large one that is close to the ground. At the outline of the small plate, one texel contains two depths,
 // although all of the ground below the large plate is dark. The camera looks from the side, below the plates.
 SceneFile two_plates(const char* method) {
   SceneFile scene = SceneFile::parse(R"({ "version": 1,
@@ -73,8 +73,8 @@ SceneFile two_plates(const char* method) {
   return scene;
 }
 
-// Returns the maximum light of the shadow map at pixels in full shadow. According to the rays, these pixels and all pixels within 6 px,
-// which is more than the filter radius, are dark.
+// Returns the maximum light, according to the shadow map, at pixels in full shadow. According to the rays, these pixels and all pixels
+// within 6 px (more than the filter radius) are dark.
 double most_light_in_shadow(const ShadowComparison& c) {
   constexpr int kRadius = 6;
   double most = 0.0;
@@ -99,8 +99,8 @@ TEST(Stability, PcfHasNoLightLeaks) {
 
 TEST(Stability, FourMomentsHaveNoLightLeaks) {
   const double vsm = most_light_in_shadow(compared(two_plates("vsm"))), moments = most_light_in_shadow(compared(two_plates("moments")));
-  // Four moments represent two depths exactly (Peters and Klein 2015). The remaining light, about 1e-5, comes from the bias that keeps
-  // their equations solvable.
+  // Four moments represent two depths exactly (Peters and Klein 2015). The remaining light, about 1e-5, comes from the bias that keeps the
+  // equations solvable.
   record_and_check(
       {3, "light leaks", "the same plates; variance shadow maps (two moments) vs. four moments", "maximum light in full shadow"}, vsm, 0.02,
       moments, 1e-4);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Coverage where common rasterizers fail. Positions are given in 1/256 px (tests/raster/raster_test.h), so the reference can be computed in
-// integer arithmetic.
+// Tests coverage where common rasterizers fail. Positions are given in 1/256 px (tests/raster/raster_test.h), so the reference can be
+// computed in integer arithmetic.
 #include <cmath>
 #include <limits>
 
@@ -37,8 +37,8 @@ bool covers(const PointTriangle& triangle, int px, int py, bool inclusive = fals
   return true;
 }
 
-// The method of a small rasterizer, in floats: the area is in px², triangles below an area of 1 are dropped, and weights above −1e-4 count
-// as inside.
+// The method of a simple rasterizer, in floats: the area is in px², triangles with an area below 1 are dropped, and weights above −1e-4
+// count as inside.
 bool covers_in_floats(const PointTriangle& t, int px, int py) {
   const auto f = [](int32_t v) { return static_cast<float>(v) / 256.0f; };
   const float ax = f(t[0].x), ay = f(t[0].y), bx = f(t[1].x), by = f(t[1].y), cx = f(t[2].x), cy = f(t[2].y);
@@ -104,8 +104,8 @@ TEST(Stability, CoverageIsExactForSlivers) {
       static_cast<double>(w.common), effort(100), static_cast<double>(w.ours), 0);
 }
 
-// Draws a square of 64 px as triangles to the left and right of a line. The triangles on the right share a vertex that is on the line, as
-// close as 1/256 px allows. The mesh on the left also uses that vertex if it is conforming, and skips it if t_junction is set. Returns the
+// Draws a 64 px square as triangles to the left and right of a line. The triangles on the right share a vertex that is on the line, as
+// closely as the 1/256 px grid allows. On the left, a conforming mesh also uses that vertex; with t_junction, it does not. Returns the
 // number of pixels not drawn exactly once.
 int64_t holes(Random& random, bool t_junction) {
   constexpr int kEdge = kSize * 256;
@@ -113,7 +113,7 @@ int64_t holes(Random& random, bool t_junction) {
   const int y = random.integer(2000, 14000);
   const auto x = static_cast<int32_t>(std::lround(bottom.x + (top.x - bottom.x) * (static_cast<double>(y) / kEdge)));
   const Point m{x, y}, l0{0, 0}, l1{0, kEdge}, r0{kEdge, 0}, r1{kEdge, kEdge};
-  // Left of the line: a fan at the lower left corner, which contains m as a vertex only in the conforming mesh.
+  // Left of the line: a fan around the lower left corner. It contains m as a vertex only in the conforming mesh.
   std::vector<PointTriangle> mesh{{l0, top, l1}};
   if (t_junction) {
     mesh.push_back({l0, bottom, top});
@@ -135,7 +135,7 @@ TEST(Stability, ConformingMeshesHaveNoHoles) {
     common += holes(a, true);
     ours += holes(b, false);
   }
-  // No fill rule can close a mesh whose edges do not match. A mesh whose edges match is closed by the fill rule alone.
+  // No fill rule can close a mesh with edges that do not match. If the edges match, the fill rule alone closes the mesh.
   record_and_check({8, "T-junctions", "1,500 squares with a vertex on an inner edge; used by the triangles on one side vs. on both sides",
                     "pixels not drawn exactly once"},
                    static_cast<double>(common), effort(20), static_cast<double>(ours), 0);
@@ -179,8 +179,9 @@ TEST(Stability, SharedEdgesAreDrawnOnce) {
 
 using ClipTriangle = std::array<glm::vec4, 3>;
 
-// Homogeneous edge functions (Olano and Greer 1997) at a window position, in long double. The result is positive inside and negative
-// outside, and its magnitude is at least the distance to every edge in px. There is no division by w and no clipping.
+// Evaluates homogeneous edge functions (Olano and Greer 1997) at a window position, in long double. Inside, the result is the distance to
+// the nearest edge in px. Outside, it is negative: minus the largest distance to an edge that excludes the point. There is no division by w
+// and no clipping.
 long double inside_by(const ClipTriangle& t, double x_px, double y_px) {
   using V = glm::vec<3, long double>;
   const V p(2.0L * x_px / kSize - 1, 2.0L * y_px / kSize - 1, 1);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Checks of error messages. Most tests check only the place and keywords of a message, so that its wording can be improved.
+// Checks error messages. Most tests check only the place and keywords of a message, so that its wording can be improved.
 #pragma once
 
 #include <gtest/gtest.h>

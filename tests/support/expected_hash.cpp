@@ -64,7 +64,7 @@ HashFile& program_hashes() {
   return file;
 }
 
-// If all tests of the program have run, checks that they have used every name in the file.
+// If all tests of the program have run, checks that they used every name in the file.
 class UnusedNames : public testing::Environment {
  public:
   void TearDown() override {

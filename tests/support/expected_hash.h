@@ -41,15 +41,15 @@ class HashFile {
   std::set<std::string> used_;
 };
 
-/// Fails the test if the hash differs from the one in this program's file. Returns whether they were equal or the file was updated. The
-/// name must not contain spaces.
+/// Fails the test if the hash differs from the one in this program's file. Returns true if they are equal or the file was updated. The name
+/// must not contain spaces.
 bool expect_hash(const std::string& name, uint64_t hash);
 
 /// Fails the test if the program's file contains names that no test has used. Call it only from a test that uses all of them.
 void expect_no_other_hashes();
 
-/// Compares the hash of the pixel values of a picture with the stored one. If it differs, writes the picture to the folder test-output of
-/// the build. If `expected` is given, it must return a reference picture; the difference from that picture is then also written.
+/// Compares the hash of a picture's pixel values with the stored one. If it differs, writes the picture to the folder test-output of the
+/// build. If `expected` is given, it must return a reference picture; the difference from that picture is then also written.
 bool expect_picture(const std::string& name, const Image<glm::u8vec4>& picture, const std::function<Image<glm::u8vec4>()>& expected = {});
 
 }  // namespace halfspace

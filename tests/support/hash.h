@@ -5,7 +5,7 @@
 
 namespace halfspace {
 
-/// 64-bit FNV-1a over numbers. Each number is one step, regardless of whether it is a byte or a word.
+/// 64-bit FNV-1a over numbers. Each number is hashed in one step, whether it is a byte or a word.
 class Hash {
  public:
   void add(uint64_t number) { value_ = (value_ ^ number) * 0x100000001b3u; }

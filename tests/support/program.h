@@ -12,7 +12,7 @@ namespace halfspace {
 /// Output and exit code of a program.
 struct ProgramOutput {
   int exit_code = -1;  ///< -1 if the program did not start or was terminated by a signal
-  std::string text;    ///< standard output, including what the command redirects to it
+  std::string text;    ///< standard output, including streams that the command redirects to it
 };
 
 /// Runs a shell command.

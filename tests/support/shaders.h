@@ -19,7 +19,7 @@ struct ColoredAttributes {
 template <class R>
 struct NoVaryings {};
 
-/// Only a position, for depth-only draws.
+/// Only a position; for depth-only draws.
 struct PositionShader {
   template <class R>
   using Attributes = PositionAttributes<R>;
@@ -31,7 +31,7 @@ struct PositionShader {
   }
 };
 
-/// Only a position, transformed by a matrix.
+/// Only a position, transformed with a matrix.
 struct MatrixShader {
   glm::mat4 clip_from_model{1.0f};
   template <class R>
@@ -44,7 +44,7 @@ struct MatrixShader {
   }
 };
 
-/// One color for all pixels.
+/// A single color for all pixels.
 struct ConstantShader : PositionShader {
   glm::vec4 color{1.0f};
   ConstantShader() = default;

@@ -14,8 +14,8 @@ namespace halfspace {
 
 inline constexpr std::size_t kSmallStack = std::size_t{128} << 10;
 
-/// Calls function on a thread with a stack of kSmallStack bytes. While it runs, this is also the stack size of new std::threads. A stack
-/// overflow terminates the program, because 16 MiB below each stack are inaccessible. Exceptions are rethrown.
+/// Calls function on a thread with a stack of kSmallStack bytes. While it runs, new std::threads have the same stack size. A stack overflow
+/// terminates the program, because the 16 MiB below each stack are inaccessible. Exceptions are rethrown.
 template <class F>
 void on_small_stack(F&& function) {
   constexpr std::size_t kGuard = std::size_t{16} << 20;

@@ -16,8 +16,8 @@ std::string test_program();
 /// digits, dots and dashes are replaced by underscores.
 std::filesystem::path write_test_picture(const std::string& name, const Image<glm::u8vec4>& picture);
 
-/// Writes the picture. If `expected` is not empty, also writes the difference colors (image_difference.h), with "-difference" appended to
-/// the name. Returns a text with the paths, for the message of the failed test.
+/// Writes the picture. If `expected` is not empty, also writes a picture of the difference (image_difference.h), with "-difference"
+/// appended to the name. Returns a text with the paths, for the message of the failed test.
 std::string write_failed_picture(const std::string& name, const Image<glm::u8vec4>& picture, const Image<glm::u8vec4>& expected);
 
 }  // namespace halfspace

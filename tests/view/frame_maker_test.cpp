@@ -81,7 +81,7 @@ TEST(FrameMaker, ACoarseFrameHasSmallerShadowMaps) {
   const uint64_t full = samples(1), coarse = samples(4);
   EXPECT_LT(coarse, full / 8) << "a quarter of the width and height, and some samples of primitives at edges";
   frame.scene.set(std::vector<std::string>{"shadow.resolution=256"});
-  const uint64_t small = samples(1) - kSize * kSize;  // without those of the picture
+  const uint64_t small = samples(1) - kSize * kSize;  // without the samples of the picture
   EXPECT_GT(samples(4), small / 2) << "256 texels is the minimum";
 }
 
@@ -175,7 +175,7 @@ TEST(SaveView, TheSavedSceneStartsAtTheTimeThatWasShown) {
   const SceneFile scene = SceneFile::open("day-night");
   for (const double seconds : {0.0, 3.25, 100.0}) {
     const SceneDescription saved = SceneFile::parse(scene_text_at(scene, seconds), "test", {}).at(0.0), shown = scene.at(seconds);
-    // The time is divided by the length of a day and multiplied by it again.
+    // The time is divided by the length of a day, and later multiplied by it again.
     EXPECT_NEAR(saved.lights[0].second.direction.x, shown.lights[0].second.direction.x, 1e-12) << seconds;
     EXPECT_NEAR(saved.post.exposure, shown.post.exposure, 1e-12) << seconds;
   }

@@ -43,7 +43,7 @@ TEST_F(ImGuiPassTest, ARectangleCoversItsPixelsAndNoOthers) {
     for (int x = 0; x < kWidth; ++x) {
       const bool inside = x >= 20 && x < 60 && y >= 30 && y < 50;
       const glm::u8vec4 expected = inside ? glm::u8vec4(255, 0, 0, 255) : kGray;
-      // A solid rectangle has antialiased edges of one pixel, which ImGui adds outside of it.
+      // ImGui adds one-pixel antialiased edges outside a solid rectangle.
       const bool edge = !inside && x >= 19 && x <= 60 && y >= 29 && y <= 50;
       ASSERT_TRUE(edge || frame_.at(x, y) == expected) << x << " " << y;
       covered += inside;
@@ -74,7 +74,7 @@ TEST_F(ImGuiPassTest, TheScissorLimitsWhatIsDrawn) {
 
 TEST_F(ImGuiPassTest, TextHasTheTexelsOfTheFont) {
   draw([](ImDrawList& list) { list.AddText({5, 5}, IM_COL32_WHITE, "H"); });
-  // The default font is a bitmap font of 13 pixels, so each pixel of the letter is white or unchanged.
+  // The default font is a 13-pixel bitmap font, so each pixel of the letter is white or unchanged.
   int white = 0, other = 0;
   for (const glm::u8vec4& c : frame_.texels()) {
     white += c == glm::u8vec4(255);

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads the 8-bit PNG files of halfspace and of ImageMagick as rows of (r, g, b) bytes."""
+"""Reads 8-bit PNG files written by halfspace or ImageMagick as rows of (r, g, b) bytes."""
 import struct
 import zlib
 

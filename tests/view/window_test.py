@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Tests halfspace-view from outside: what each key and the mouse change in the picture, saving, dropping files, and its window.
+"""Tests halfspace-view from outside: the effect of each key and the mouse on the picture, saving, dropping files, and its window.
 
   window_test.py PROGRAM_FOLDER [TEST...]
 
 Events are pushed by --events, and the frames are written by --record. The class Desktop uses real key presses under Xvfb with openbox,
-wmctrl and xdotool. A test that needs a program that is not installed is skipped with the name of its package.
+wmctrl and xdotool. A test is skipped if a program that it needs is not installed; the message names the package.
 """
 import os
 import shutil
@@ -27,7 +27,7 @@ WIDTH, HEIGHT = 320, 180
 MESSAGE_ROWS = 40  # at the bottom, where messages are shown
 BOX = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"  # a corner of a box, as an OBJ file
 STILL = ["--set", "animation.speed=0"]
-# With LeakSanitizer: libraries of the system leak, so the exit code does not count. A leak of ours has one of our functions in its stack.
+# With LeakSanitizer: system libraries leak, so the exit code is ignored. A leak is ours if its stack trace contains one of our functions.
 LEAKS_ARE_READ = {"LSAN_OPTIONS": "exitcode=0"}
 
 
@@ -41,7 +41,7 @@ def picture_of(path):
 
 
 def changed_columns(before, after):
-    """Returns the columns in which two pictures differ in some of the rows above the messages."""
+    """Returns the columns in which two pictures differ, in any of the rows above the messages."""
     pairs = list(zip(before[:-2 * MESSAGE_ROWS:20], after[::20]))
     return [x for x in range(len(before[0]) // 3) if any(a[3 * x:3 * x + 3] != b[3 * x:3 * x + 3] for a, b in pairs)]
 
@@ -56,22 +56,22 @@ class Folder(unittest.TestCase):
         self.addTypeEqualityFunc(list, self.compare_lists)
 
     def compare_lists(self, first, second, msg=None):
-        """Compares pictures and other lists. The default takes minutes to describe how two pictures differ."""
+        """Compares pictures and other lists. The default implementation takes minutes to describe how two pictures differ."""
         if first != second:
             self.fail(f"{msg or 'lists differ'}: {str(first)[:100]} … {str(second)[:100]}")
 
     def rendered(self, scene, *options):
-        """Returns the picture that `halfspace render` makes."""
+        """Returns the picture that `halfspace render` writes."""
         out = self.folder / "rendered.png"
         subprocess.run([program("halfspace"), "render", scene, "-o", out, "--size", f"{WIDTH}x{HEIGHT}", *options], check=True)
         return picture_of(out)
 
 
 class Events(Folder):
-    """Events that are pushed before a frame, with SDL's driver that needs no display."""
+    """Tests with events that are pushed before a frame, using SDL's driver without a display."""
 
     def run_events(self, scene, events, frames, *options, size=f"{WIDTH}x{HEIGHT}", scale="1"):
-        """Runs the program and returns the recorded frames' files. events: lines of an event file."""
+        """Runs the program and returns the files of the recorded frames. events: lines of an event file."""
         (self.folder / "events").write_text("".join(line + "\n" for line in events))
         record = self.folder / "record"
         shutil.rmtree(record, ignore_errors=True)
@@ -112,7 +112,7 @@ class Events(Folder):
                 before, after = self.pictures(scene, [f"1 key {key}"], 2, *STILL)
                 self.assertEqual(before, self.rendered(scene, *STILL), "the first frame is the picture of the scene")
                 self.assertEqual(after, self.rendered(scene, *STILL, *settings))
-                if key != "3":  # the rate that the scene has already
+                if key != "3":  # the rate that the scene already has
                     self.assertNotEqual(before, after)
 
     def test_a_key_is_visible_in_the_frame_before_which_it_is_pushed(self):
@@ -148,7 +148,7 @@ class Events(Folder):
     def test_overlays_and_panels_are_drawn_over_the_picture(self):
         for key, shown in [("o", 6), ("h", 1), ("tab", 1), ("i", 1), ("p", 1)]:
             with self.subTest(key=key):
-                # ImGui shows a new window in the second frame, when it knows its size.
+                # ImGui shows a new window in its second frame, when its size is known.
                 files = self.run_events("three-lights", [f"{2 * i + 1} key {key}" for i in range(shown + 1)], 2 * shown + 3)
                 frames = [read_rows(f)[2][:HEIGHT - MESSAGE_ROWS * (key != "p")] for f in files[::2]]
                 self.assertEqual(len({tuple(frame) for frame in frames[:-1]}), shown + 1, "each step has a picture of its own")
@@ -171,7 +171,7 @@ class Events(Folder):
                 subprocess.run([program("halfspace"), "render", text, "-o", again, "--size", f"{WIDTH}x{HEIGHT}"], check=True)
                 self.assertEqual(read_rows(saved), read_rows(again))
                 self.assertNotEqual(picture_of(saved), self.rendered(scene))
-                if scene != "day-night":  # whose time is divided by the length of a day, which can change the last bit
+                if scene != "day-night":  # its time is divided by the length of a day, which can change the last bit
                     rows = HEIGHT - 2 * MESSAGE_ROWS  # the message can have two lines
                     self.assertEqual(picture_of(saved)[:rows], frames[5][:rows], "what was shown when the key was pressed")
 
@@ -217,7 +217,7 @@ class Events(Folder):
 
     def test_the_interface_has_the_requested_scale(self):
         def box(scale):
-            """The width and height of the list of keys: the pixels that h changes."""
+            """Returns the width and height of the shortcut overlay: the area of the pixels that change when h is pressed."""
             first, second = [read_rows(f)[2] for f in self.run_events("earth", ["1 key h"], 3, *STILL, size="1000x900", scale=scale)[::2]]
             rows = [y for y in range(800) if first[y] != second[y]]
             row = rows[len(rows) // 2]
@@ -278,8 +278,8 @@ class Desktop(Folder):
         return subprocess.run([str(word) for word in command], env=self.environment, check=check, capture_output=True, text=True, timeout=30).stdout
 
     def wait_for(self, condition, what):
-        """Waits until the condition holds. The limit is for machines that do other work at the same time, and for the first start of a
-        program that was just built: a window once needed more than 20 s to open while other tests ran."""
+        """Waits until the condition holds. The limit is long because of busy machines, and because of the first start of a newly built
+        program: a window once took more than 20 s to open while other tests ran."""
         limit = 60
         end = time.monotonic() + limit
         while time.monotonic() < end:
