@@ -477,7 +477,7 @@ bool culls_face(CullMode mode, bool front) {
   return mode == CullMode::front_and_back || (mode == CullMode::front && front) || (mode == CullMode::back && !front);
 }
 
-// Polygon offset, OpenGL 4.6, section 14.6.5. dz1 and dz2 are the depths of corners 1 and 2 relative to corner 0.
+// Polygon offset, OpenGL 4.6, section 14.6.5. dz1 and dz2 are the depths of vertices 1 and 2 relative to vertex 0.
 float polygon_offset(const DepthOffset& o, DepthFormat format, const WindowTriangle& t, double dz1, double dz2) {
   double offset = 0.0;
   const auto dx = [&](std::size_t i) { return static_cast<double>(t.corner[i].x - t.corner[0].x); };
@@ -505,7 +505,7 @@ enum class Fate { drawn, degenerate, wrong_face, no_sample };
 
 bool covers_none_of_few(const WindowTriangle& t, const Box& box);
 
-// Determines the facing, corner order and depth of a triangle whose corners are in submission order.
+// Determines the facing, vertex order and depth of a triangle. Its vertices are given in submission order.
 std::pair<Fate, WindowTriangle> make_window_triangle(const DrawState& state, const Box& allowed, DepthFormat format, int samples,
                                                      const std::array<Corner, 3>& submitted, std::size_t provoking,
                                                      std::optional<bool> faces_front = {}) {
@@ -524,8 +524,8 @@ std::pair<Fate, WindowTriangle> make_window_triangle(const DrawState& state, con
     std::swap(c[1], c[2]);
     t.area = -t.area;
   }
-  // The corner with the smallest depth comes first. If several are equal, the first one in counter-clockwise order, starting from the first
-  // submitted corner, is chosen.
+  // The vertex with the smallest depth comes first. Among equal ones, it is the first in counter-clockwise order, starting from the first
+  // submitted vertex.
   const auto nearest = std::min_element(c.begin(), c.end(), [](const Corner& a, const Corner& b) { return a.z < b.z; });
   std::rotate(c.begin(), nearest, c.end());
   if (samples == 1 && covers_none_of_few(t, intersect(covered_box(t, samples), allowed))) return {Fate::no_sample, t};
@@ -649,7 +649,7 @@ float depth_sum(const WindowTriangle& t, const DepthState& state, float e1, floa
   return hold(std::fma(e1, t.z_step1, std::fma(e2, t.z_step2, t.z0)), low, hold(t.z_max, low, high));
 }
 
-// Returns the determinants E1 = d × e2 and E2 = e1 × d in float, where d is the vector from corner 0 to the point.
+// Returns the determinants E1 = d × e2 and E2 = e1 × d in float, where d is the vector from vertex 0 to the point.
 std::pair<float, float> float_determinants(const WindowTriangle& t, const Point& at) {
   const auto& c = t.corner;
   const auto f = [](int64_t v) { return static_cast<float>(v); };
@@ -838,7 +838,7 @@ CellPart part_in_cell(int64_t a, int64_t b, int64_t c, int64_t cell) {
 struct WeightPlane {
   double at_center, along_x, along_y;
 
-  // Whether the rounding errors of a value that is 1 at this corner and −1 at the others stay below 5 · 2^-24. The errors are those of the
+  // Whether the rounding errors of a value that is 1 at this vertex and −1 at the others stay below 5 · 2^-24. The errors are those of the
   // value at the center, the step along x, the step along y, the sum of the first two, and the result:
   // |1 − 2 · at_center| + step_x + step_y + (1 + step_y) + 1.
   bool is_accurate(const CellPart& x, const CellPart& y) const {
@@ -861,7 +861,7 @@ Surface surface_in_cell(const WindowTriangle& t, const Surface& whole, std::span
   if (extent(a.x, b.x, c.x) <= large && extent(a.y, b.y, c.y) <= large) return whole;
   const CellPart x = part_in_cell(a.x, b.x, c.x, cell_x), y = part_in_cell(a.y, b.y, c.y, cell_y);
   const double scale = 1.0 / static_cast<double>((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x));
-  // The weight of the corner opposite to the edge from `from` to `to`.
+  // Returns the weight of the vertex opposite to the edge from `from` to `to`.
   const auto weight = [&](const Corner& from, const Corner& to) {
     const int64_t ex = to.x - from.x, ey = to.y - from.y;
     return WeightPlane{static_cast<double>(ex * (y.center() - from.y) - ey * (x.center() - from.x)) * scale,
@@ -1179,7 +1179,7 @@ std::vector<WindowTriangle> Renderer::window_triangles(const DrawState& state, c
     for (std::size_t i = 0; i < (line ? 2 : 3); ++i) corners.push_back(project(transform, *v[i]));
   }
   const std::vector<float>& flat = v[provoking]->varyings;
-  if (line || state.polygon_mode != PolygonMode::fill || corners_are_cut) {  // all corners have the flat values of the provoking vertex
+  if (line || state.polygon_mode != PolygonMode::fill || corners_are_cut) {  // all vertices get the flat values of the provoking vertex
     for (Corner& c : corners) {
       for (std::size_t i = 0; i < c.varyings.size(); ++i) {
         if (facts.interpolations[i] == Interpolation::flat) c.varyings[i] = flat[i];

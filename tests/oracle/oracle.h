@@ -118,10 +118,10 @@ struct WindowTriangle {
   float z0 = 0, z_max = 0;         ///< smallest and largest depth, including the offset
   float z_step1 = 0, z_step2 = 0;  ///< depth per unit of E1 and E2
 
-  bool is_line = false;  ///< a line of `width` pixels from `from` to `to`; corner 2 is next to corner 0
+  bool is_line = false;  ///< a line of `width` pixels from `from` to `to`; vertex 2 is next to vertex 0
   Point from, to;
   int width = 1;
-  bool is_point = false;  ///< a point or sprite at corner 0 that covers the rectangle from low to high (exclusive)
+  bool is_point = false;  ///< a point or sprite at vertex 0 that covers the rectangle from low to high (exclusive)
   Point low, high;
   PointOrigin origin = PointOrigin::upper_left;
 };

@@ -136,7 +136,7 @@ TEST(Moon, PixelNormalsOnACoarseMeshResembleAFineMesh) {
   const double by_pixel = difference(picture(64, "pixel")), by_vertex = difference(picture(64, "vertex"));
   RecordProperty("by_pixel", std::to_string(by_pixel));
   RecordProperty("by_vertex", std::to_string(by_vertex));
-  EXPECT_GT(by_vertex, 2 * by_pixel) << by_vertex << " and " << by_pixel << " codes";
+  EXPECT_GT(by_vertex, 2 * by_pixel) << by_vertex << " and " << by_pixel << ", in 1/255";
 }
 
 // ---- prepared scenes -------------------------------------------------------------------------------------------

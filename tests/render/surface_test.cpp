@@ -77,7 +77,7 @@ TEST(Surface, FalloffMatchesOnAPlane) {
       const Spot s = spot_of(x, row);
       const double d = std::sqrt((s.x - 0.3) * (s.x - 0.3) + (s.y + 0.2) * (s.y + 0.2) + 0.49);
       const double want = 0.7 / d / (physical ? d * d : 0.2 + 0.1 * d + 0.1 * d * d);
-      // The corners are at integer pixel positions. Positions are floats about 10 units from the eye, with an error of 1e-6 relative to
+      // The vertices are at integer pixel positions. Positions are floats about 10 units from the eye, with an error of 1e-6 relative to
       // distances of at least 0.7, in three powers of d.
       EXPECT_NEAR(p.at(x, row).x, want, 6e-6 * want) << x << " " << row;
     });
