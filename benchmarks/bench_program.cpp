@@ -239,9 +239,9 @@ void parse_and_run(CLI::App& app, const BenchProgram& program, int argc, char** 
   BenchArguments args;
   app.add_option("--only", args.only, "Run only these workloads (see --list)")->type_name("NAME,")->allow_extra_args(false)->delimiter(',');
   app.add_option("--sweep", args.sweep, "Run a series: triangle_size, triangle_count, overdraw, varyings")->type_name("NAME");
-  app.add_flag("--matrix", args.matrix, "Run one scene with many draw states, one at a time, instead of the workloads");
+  app.add_flag("--matrix", args.matrix, "Run one scene with many draw states instead of the workloads");
   app.add_flag("--scenes", args.scenes, "Run three composed scenes, five cameras each, instead of the workloads");
-  app.add_option("--model", args.model, "Draw a model file, with 1 and 4 samples per pixel, instead of the workloads")->type_name("FILE");
+  app.add_option("--model", args.model, "Run a model file with 1 and 4 samples per pixel, not the workloads")->type_name("FILE");
   app.add_option("--size", args.size, "Image size (default: 1920x1080)")->type_name("WxH");
   app.add_option("--threads", args.threads, "Threads, including the main one (default: one per core)")->type_name("N");
   app.add_option("--seconds", args.seconds, "Time per workload; 0: one frame each (default: 1)")->type_name("S");

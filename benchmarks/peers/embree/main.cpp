@@ -9,7 +9,7 @@
 int main(int argc, char** argv) {
   using namespace halfspace;
   return run_bench_program({.name = "halfspace-bench-embree",
-                            .what = "Draws the sphere workloads of the benchmark by ray casting with Embree and measures their frame times",
+                            .what = "Draws the sphere workloads by ray casting with Embree and measures their frame times",
                             .options = {},
                             .start = {},
                             .kinds = [] { return embree_workloads(); },
