@@ -127,20 +127,22 @@ template vec3<float> EnvironmentMap::sample(const vec3<float>&, const vec3<float
 template vec3<double> EnvironmentMap::sample(const vec3<double>&, const vec3<double>&, const vec3<double>&) const;
 template vec3<RealN<4>> EnvironmentMap::sample(const vec3<RealN<4>>&, const vec3<RealN<4>>&, const vec3<RealN<4>>&) const;
 template vec3<RealN<8>> EnvironmentMap::sample(const vec3<RealN<8>>&, const vec3<RealN<8>>&, const vec3<RealN<8>>&) const;
-template vec3<RealN<16>> EnvironmentMap::sample(const vec3<RealN<16>>&, const vec3<RealN<16>>&, const vec3<RealN<16>>&) const;
 template vec3<FragmentReal> EnvironmentMap::sample(const vec3<FragmentReal>&, const vec3<FragmentReal>&, const vec3<FragmentReal>&) const;
 template vec3<float> EnvironmentMap::sample_level(const vec3<float>&, float) const;
 template vec3<double> EnvironmentMap::sample_level(const vec3<double>&, double) const;
 template vec3<RealN<4>> EnvironmentMap::sample_level(const vec3<RealN<4>>&, RealN<4>) const;
 template vec3<RealN<8>> EnvironmentMap::sample_level(const vec3<RealN<8>>&, RealN<8>) const;
-template vec3<RealN<16>> EnvironmentMap::sample_level(const vec3<RealN<16>>&, RealN<16>) const;
 template vec3<FragmentReal> EnvironmentMap::sample_level(const vec3<FragmentReal>&, FragmentReal) const;
 template float EnvironmentMap::level_of_detail(const vec3<float>&, const vec3<float>&, const vec3<float>&) const;
 template double EnvironmentMap::level_of_detail(const vec3<double>&, const vec3<double>&, const vec3<double>&) const;
 template RealN<4> EnvironmentMap::level_of_detail(const vec3<RealN<4>>&, const vec3<RealN<4>>&, const vec3<RealN<4>>&) const;
 template RealN<8> EnvironmentMap::level_of_detail(const vec3<RealN<8>>&, const vec3<RealN<8>>&, const vec3<RealN<8>>&) const;
-template RealN<16> EnvironmentMap::level_of_detail(const vec3<RealN<16>>&, const vec3<RealN<16>>&, const vec3<RealN<16>>&) const;
 template FragmentReal EnvironmentMap::level_of_detail(const vec3<FragmentReal>&, const vec3<FragmentReal>&,
                                                       const vec3<FragmentReal>&) const;
+#if HALFSPACE_LANES == 16  // as in texture_lookup.cpp
+template vec3<RealN<16>> EnvironmentMap::sample(const vec3<RealN<16>>&, const vec3<RealN<16>>&, const vec3<RealN<16>>&) const;
+template vec3<RealN<16>> EnvironmentMap::sample_level(const vec3<RealN<16>>&, RealN<16>) const;
+template RealN<16> EnvironmentMap::level_of_detail(const vec3<RealN<16>>&, const vec3<RealN<16>>&, const vec3<RealN<16>>&) const;
+#endif
 
 }  // namespace halfspace

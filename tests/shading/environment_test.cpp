@@ -350,7 +350,7 @@ TEST(EnvironmentMap, LanesMatchScalarBits) {
   for (const EnvironmentMap& map : {random_panorama(64, 32), random_cube(32)}) {
     expect_lanes_are_float<4>(map);
     expect_lanes_are_float<8>(map);
-    expect_lanes_are_float<16>(map);
+    if constexpr (kLanes == 16) expect_lanes_are_float<16>(map);
   }
 }
 

@@ -383,7 +383,7 @@ TEST(TextureFormats, LanesMatchScalarBits) {
         sampler.anisotropy = anisotropy;
         expect_lanes_agree<4>(texture, sampler, all);
         expect_lanes_agree<8>(texture, sampler, all);
-        expect_lanes_agree<16>(texture, sampler, all);
+        if constexpr (kLanes == 16) expect_lanes_agree<16>(texture, sampler, all);
       }
     });
   }

@@ -500,7 +500,7 @@ TEST(Texture, LanesMatchScalarBits) {
       for (const bool same_level : {true, false}) {
         expect_lanes_agree<4>(texture, sampler, same_level);
         expect_lanes_agree<8>(texture, sampler, same_level);
-        expect_lanes_agree<16>(texture, sampler, same_level);
+        if constexpr (kLanes == 16) expect_lanes_agree<16>(texture, sampler, same_level);
       }
     }
   }
