@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Steps of the naive pipeline (naive.h) that have two versions: the float version uses the formulas of the tile-based pipeline, and the
-// double version follows the specification.
+// double version follows the specification, and also clips to 2^19 px around the viewport.
 #pragma once
 
 #include <algorithm>
@@ -69,8 +69,8 @@ ScreenPoint<R> to_window(const vec4<R>& p, const Viewport& v, const DepthState& 
     return {w.x, w.y, w.z, w.inv_w};
   } else {
     const R inv_w = R(1) / p.w;
-    return {snap(static_cast<double>(p.x * inv_w), v.half_width, v.center_x), snap(static_cast<double>(p.y * inv_w), v.half_height, v.center_y),
-            p.z * inv_w * R(v.depth_scale) + R(v.depth_bias), inv_w};
+    return {snap(static_cast<double>(p.x * inv_w), v.half_width, v.center_x),
+            snap(static_cast<double>(p.y * inv_w), v.half_height, v.center_y), p.z * inv_w * R(v.depth_scale) + R(v.depth_bias), inv_w};
   }
 }
 

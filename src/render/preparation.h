@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The implementation of SceneAssets::prepare, with one file per topic: prepare_meshes.cpp, prepare_surface.cpp, prepare_objects.cpp,
-// prepare_shadows.cpp, prepare_background.cpp, prepare_spheres.cpp, prepare_particles.cpp, prepare_models.cpp. This header is private to
-// these files and prepared_scene.cpp. Maps and environments have their own classes: scene_maps.h, scene_environments.h.
+// The implementation of SceneAssets::prepare, with one file per topic: prepare_*.cpp. This header is private to these files and
+// prepared_scene.cpp. Maps and environments have their own classes: scene_maps.h, scene_environments.h.
 #pragma once
 
 #include <memory>

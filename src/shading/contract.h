@@ -10,7 +10,8 @@
 // The following are optional:
 //
 //   template <class R> Fragment<R> fragment(const Varyings<R>& in) const;
-//     For colors that depend only on the varyings. Without varyings there is one color per draw call, which is computed once.
+//     For colors that depend only on the varyings. Without varyings there is one color per draw call, which is not
+//     computed per pixel.
 //   template <class R> vec4<R> vertex(const Attributes<R>& in, const VertexId<R>& id, Varyings<R>& out) const;
 //     A vertex function that also receives the indices of the vertex and the instance.
 //   template <class R> struct Primitive { … };       per-triangle values, and the function that computes them
@@ -98,7 +99,7 @@ HS_INLINE vec4<R> integer_color(IntOf<R> i) {
   return {as_real(i), R(0), R(0), R(0)};
 }
 
-/// The same with N colors: one per attachment, or the two sources of dual-source blending.
+/// A fragment with N colors: one per attachment, or the two sources of dual-source blending.
 template <class R, std::size_t N>
 struct FragmentMRT {
   std::array<vec4<R>, N> color;

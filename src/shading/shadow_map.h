@@ -47,7 +47,7 @@ struct Shadow {
 template <class R>
 struct ShadowReceiver {
   vec3<R> position_rws;
-  vec3<R> face_normal_ws;     ///< normal of the triangle, on the side of the light
+  vec3<R> face_normal_ws;     ///< normal of the triangle, on the side of the eye
   vec3<R> shading_normal_ws;  ///< the normal that is used for lighting
   vec3<R> to_light_ws;
   R x_px, y_px;  ///< window coordinates; they determine the rotation of the disks of vogel and pcss

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The lookup of Texture2D for every format, wrap mode and anisotropy. Common lookups of rgba8 are inlined from texture.h, and
-// reach this file only with anisotropy. Lanes are independent: each has its own probes, levels and texels, and lanes that have finished
+// The lookup of Texture2D for every format, wrap mode and anisotropy. Common lookups of rgba8 without anisotropy are inlined from
+// texture.h. Lanes are independent: each has its own probes, levels and texels, and lanes that have finished
 // keep their results while others continue.
 #include "halfspace/shading/texels.h"
 #include "halfspace/shading/texture.h"

@@ -190,7 +190,7 @@ struct ClipVertex {
 };
 inline constexpr std::size_t kClipWeights = 2;
 
-/// Vertices of the primitive that a clipped triangle was created from, for the primitive stage.
+/// Vertices of the primitive that setup split or clipped, or drew as a line or outline, for the primitive stage.
 struct ClipSource {
   uint32_t triangle;  ///< index of the first piece in Chunk::triangles
   std::array<uint32_t, 3> vertex;

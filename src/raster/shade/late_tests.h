@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What happens to fragments after an immediate draw has shaded them: discarding, late depth and stencil tests, layers.
+// The steps after an immediate draw has shaded its fragments: discarding, late depth and stencil tests, layers.
 #pragma once
 
 #include <bit>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Adds packets whose visibility or color depends on the shader to a PacketQueue. Has the same interface as OpaqueWriter.
+// Adds packets whose visibility or color depends on the shader to a PacketQueue. Replaces OpaqueWriter
+// in the loops over packets; write_decided() is missing, because the shader has not decided yet.
 #pragma once
 
 #include <bit>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Depth test and writes for opaque draws (the common case): only coverage and depth determine visibility. Samples are written one by one.
+// Depth test and writes for opaque draws (the common case): only coverage and depth determine visibility.
+// The samples of a multisampled pixel are in different packets.
 #pragma once
 
 #include <bit>

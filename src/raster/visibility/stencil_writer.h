@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Tests and writes the pixels of small triangles with a stencil test. Has the same interface as OpaqueWriter.
+// Tests and writes the pixels of small triangles with a stencil test. Replaces OpaqueWriter in the loop
+// over small triangles.
 #pragma once
 
 #include <bit>

@@ -32,7 +32,7 @@ struct TriangleVisit {
   CoverageList* list;
   Statistics& statistics;
   const StencilFace* stencil;     ///< null: no stencil test before shading
-  bool tests;                     ///< there is a depth test before shading
+  bool tests;                     ///< depth is tested, before or after shading
   bool writes;                    ///< the depth test writes depth
   bool runs_visibility_function;  ///< the shader's visibility function must be called
   bool rejects_blocks;            ///< skip blocks in which no depth can pass

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Visibility. Input: one triangle and one tile. Output for deferred draws: the depth and visible triangle of each pixel in the tile. Output
-// for immediate draws: the packets to shade now, ordered by sample.
+// for queued draws: the packets of all triangles, in submission order. Output for other immediate draws: the packets of the triangle to
+// shade now, ordered by sample.
 //
 // Coverage is exact, because edge functions are computed in integer arithmetic (raster/pipeline/edge.h). Depth is z0 + E1·z_edge1 +
 // E2·z_edge2. Both products are non-negative, so it keeps its relative accuracy. E is exact for small triangles; otherwise it is computed
@@ -63,7 +64,7 @@ struct DrawInTile {
   Tile& tile;
   PixelBounds bounds;             ///< bounds of the draw in the tile
   bool needs_bounds_test;         ///< covered pixels of the tile can be outside bounds
-  bool tests;                     ///< depth is tested in this stage, unless the stencil test requires that it is tested later
+  bool tests;                     ///< depth is tested, before or after shading
   bool runs_visibility_function;  ///< the shader's visibility function must be called
   bool fetches_vertices;          ///< prefetch vertices: they belong to points, or are shared by several triangles
 };
