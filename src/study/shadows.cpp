@@ -105,7 +105,7 @@ Study study_on(const std::string& name, int width, int height) {
       .setting = fmt::format("Averages over shadow-plane, moon (terminator), shadow-contact and shadow-knot, {}x{}", width, height),
       .error_name = "mean error of the fraction of light that reaches the surface",
       .time_name = "shadow maps and lookups of a frame, averaged over the scenes",
-      .truth = {"one ray per pixel to the light", 0.0, "fraction of results that change if points move by 2^-22 of the distance"},
+      .truth = {"one ray per pixel to the light", 0.0, "results that change if points move by 2^-22 of the distance"},
   };
 }
 

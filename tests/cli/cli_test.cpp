@@ -94,7 +94,7 @@ const Mistake kMistakes[] = {
      "scene earth: objects.earth.normal",
      {"normal_map", "image file"}},
     {"MaxErrorZero", {"render", "earth", "--max-error", "0"}, 2, "--max-error", {"'0'", "pixels"}},
-    {"MaxErrorColorWord", {"render", "earth", "--max-error-color", "low"}, 2, "--max-error-color", {"'low'", "codes"}},
+    {"MaxErrorColorWord", {"render", "earth", "--max-error-color", "low"}, 2, "--max-error-color", {"'low'", "8-bit"}},
     {"ThreeSamples", {"render", "earth", "--set", "samples=3"}, 3, "scene earth: samples", {"1, 2, 4 or 8", "got 3"}},
     {"NoCamera", {"render", "earth", "--camera", "nroth"}, 3, "--camera", {"'nroth'", "'north'"}},
     {"TimeWord", {"render", "earth", "--time", "noon"}, 2, "--time", {"'noon'", "seconds"}},

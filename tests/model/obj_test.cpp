@@ -227,7 +227,7 @@ TEST(Obj, NamesTheLineOfErrors) {
         << corner;
   }
   for (const char* corner : {"a", "/1", "1/x", "1/1/1/1", "1.5", "//", "3\"", "\"quoted"}) {
-    EXPECT_TRUE(reports(error(with_triangle(std::string("f 1 2 ") + corner)), "/none/a.obj:4: ", {"corner", "expected"})) << corner;
+    EXPECT_TRUE(reports(error(with_triangle(std::string("f 1 2 ") + corner)), "/none/a.obj:4: ", {"indices", "expected"})) << corner;
   }
   EXPECT_TRUE(reports(error(""), "/none/a.obj: ", {"no vertices", "expected"}));
   EXPECT_TRUE(reports(error("f 1 2 3\n"), "/none/a.obj:1: ", {"index 3", "expected"}));

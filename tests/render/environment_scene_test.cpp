@@ -248,7 +248,7 @@ TEST_F(EnvironmentFiles, ReportsErrorsInOneLine) {
   put_face(3, 4, 5);
   EXPECT_TRUE(reports(error_of(cube()), bottom, {"4x5", "square"}));
   put_face(3, 8, 8);
-  EXPECT_TRUE(reports(error_of(cube()), bottom, {"8x8", "one size"}));
+  EXPECT_TRUE(reports(error_of(cube()), bottom, {"8x8", "same size"}));
   put_face(3, 4, 4);
   put("left.jpg", "x");
   EXPECT_TRUE(reports(error_of(cube()), "environments.globe: " + directory.string(), {"two files", "face left"}));
