@@ -56,6 +56,8 @@ template <class V, class F>
 StreamOf<F> stream(const std::vector<V>& vertices, F V::*member) {
   return stream(std::span<const V>(vertices), member);
 }
+template <class T, class... Member>
+void stream(const std::vector<T>&& values, Member...) = delete;  // the vector must outlive the stream
 
 /// Returns the stream with one row per `divisor` instances instead of one row per vertex. divisor must be at least 1.
 template <std::derived_from<VertexStream> S>
@@ -136,8 +138,12 @@ class Indices {
   /// Every index except for restarts must be less than vertex_count; otherwise an HS_CHECK fails.
   Indices(std::span<const uint32_t> list, std::size_t vertex_count, PrimitiveRestart restart = PrimitiveRestart::off);
   Indices(std::span<const uint16_t> list, std::size_t vertex_count, PrimitiveRestart restart = PrimitiveRestart::off);
-  Indices(const std::vector<uint32_t>& list, std::size_t vertex_count) : Indices(std::span<const uint32_t>(list), vertex_count) {}
-  Indices(std::vector<uint32_t>&& list, std::size_t vertex_count) = delete;  // the list must outlive the Indices
+  Indices(const std::vector<uint32_t>& list, std::size_t vertex_count, PrimitiveRestart restart = PrimitiveRestart::off)
+      : Indices(std::span<const uint32_t>(list), vertex_count, restart) {}
+  Indices(const std::vector<uint16_t>& list, std::size_t vertex_count, PrimitiveRestart restart = PrimitiveRestart::off)
+      : Indices(std::span<const uint16_t>(list), vertex_count, restart) {}
+  template <std::integral T>
+  Indices(const std::vector<T>&&, std::size_t, PrimitiveRestart = PrimitiveRestart::off) = delete;  // the list must outlive the Indices
 
   std::size_t size() const { return size_; }
   uint32_t operator[](std::size_t i) const { return wide_ ? wide_[i] : narrow_ ? narrow_[i] : static_cast<uint32_t>(i); }
