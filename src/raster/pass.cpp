@@ -336,6 +336,10 @@ void add_draw(PassState& state, const ShaderKernels& kernels, KeptShader shader,
 
 void set_post_step(PassState& state, PostStep post) { state.set_post_step(std::move(post)); }
 
+struct PassAccess {
+  static PassState& state_of(Pass& pass) { return *pass.state_; }
+};
+
 }  // namespace HS_LANES_NAMESPACE
 
 }  // namespace detail
@@ -364,7 +368,9 @@ PassStatistics Pass::run(const Workers& workers) {
 
 inline namespace HS_LANES_NAMESPACE {
 
-PassStatistics run_with(Pass& pass, TileRunner& tiles, const Workers& workers) { return pass.state_->run(tiles, workers); }
+PassStatistics run_with(Pass& pass, TileRunner& tiles, const Workers& workers) {
+  return detail::PassAccess::state_of(pass).run(tiles, workers);
+}
 
 }  // namespace HS_LANES_NAMESPACE
 

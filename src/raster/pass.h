@@ -43,8 +43,6 @@ struct PassOptions {
   bool defer = true;
 };
 
-class TileRunner;
-
 inline namespace HS_LANES_NAMESPACE {
 
 /// A list of draws that render to the same attachments. draw() and draw_depth() record draws, and run() executes them. A Pass must only be
@@ -116,7 +114,7 @@ class Pass {
   PassStatistics run(const Workers& workers);
 
  private:
-  friend PassStatistics run_with(Pass& pass, TileRunner& tiles, const Workers& workers);  // raster/inspection.h
+  friend detail::PassAccess;
 
   Pass(std::span<const ColorTarget> colors, int width, int height, const DepthTarget& depth, const PassOptions& options);
 
