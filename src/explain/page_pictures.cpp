@@ -4,7 +4,7 @@
 
 #include "halfspace/explain/page_data.h"
 #include "halfspace/explain/page_encode.h"
-#include "halfspace/raster/inspection.h"
+#include "halfspace/raster/inspect/inspection.h"
 #include "halfspace/render/scene_pass.h"
 
 namespace halfspace {

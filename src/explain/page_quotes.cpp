@@ -38,7 +38,7 @@ constexpr std::array kRanges{
     QuoteRange{"srgb", "core/srgb_curve.h", "static constexpr FixedPower power_of", "return min(select("},
     QuoteRange{"samples", "raster/tile/resolve.cpp", "// Returns the mean of `samples` colors.", "for (Real& x : mean)"},
     QuoteRange{"layers", "raster/tile/layers.cpp", "Mask TransparentLayers::add(", "return "},
-    QuoteRange{"final", "raster/tile_worker.cpp", "load(tile);", "if (has_post_step) run_post_step("},
+    QuoteRange{"final", "raster/loop/tile_worker.cpp", "load(tile);", "if (has_post_step) run_post_step("},
 };
 
 std::vector<std::string_view> lines_of(std::string_view text) {

@@ -15,7 +15,7 @@
 
 #include "halfspace/core/image.h"
 #include "halfspace/raster/draw_state.h"
-#include "halfspace/raster/naive_steps.h"
+#include "halfspace/raster/detail/naive_steps.h"
 #include "halfspace/raster/shade/plane_anchor.h"
 #include "halfspace/raster/vertex_input.h"
 #include "halfspace/raster/visibility/depth_stencil_test.h"
@@ -56,7 +56,7 @@ Vertex<R, V> shade_vertex(const S& shader, const VertexView& view, std::size_t i
   return v;
 }
 
-// Steps 2 and 3, clipping and the transform to window coordinates, are in naive_steps.h.
+// Steps 2 and 3, clipping and the transform to window coordinates, are in detail/naive_steps.h.
 
 // Step 4: visit every pixel whose center is inside the triangle, or on an edge whose samples belong to it.
 template <class F>

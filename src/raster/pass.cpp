@@ -11,7 +11,7 @@
 #include "halfspace/raster/primitives/setup.h"
 #include "halfspace/raster/primitives/vertex_stage.h"
 #include "halfspace/raster/tile/blend.h"
-#include "halfspace/raster/tile_worker.h"
+#include "halfspace/raster/loop/tile_worker.h"
 
 namespace halfspace {
 

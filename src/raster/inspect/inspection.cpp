@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "halfspace/raster/inspection.h"
+#include "halfspace/raster/inspect/inspection.h"
 
 namespace halfspace {
 
