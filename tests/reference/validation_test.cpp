@@ -146,11 +146,11 @@ TEST(LightTruth, PenumbraOfAnEdgeMatchesTheAreaOfACutDisk) {
   Mesh edge;
   edge.positions = {{-50, 2, -50}, {0, 2, -50}, {0, 2, 50}, {-50, 2, 50}};
   edge.indices = {0, 2, 1, 0, 3, 2};
-  const std::vector<PlacedMesh> meshes{
-      {edge.positions, edge.normals, std::make_shared<const Indices>(edge.indices, edge.positions.size()), glm::dmat4(1.0), true, true, true}};
+  const std::vector<PlacedMesh> meshes{{edge.positions, edge.normals, std::make_shared<const Indices>(edge.indices, edge.positions.size()),
+                                        glm::dmat4(1.0), true, true, true}};
   const RayScene casters(meshes, glm::dvec3(0.0), true);
   RayLight light{{}, 0.05, 4096};
-  light.light.place_rws = {0, 1, 0};
+  light.light.position_rws = {0, 1, 0};
   for (double x = -0.12; x <= 0.12; x += 0.02) {
     const LightTruth t = light_truth(casters, light, {x, 0, 0}, {0, 1, 0}, 1);
     const double c = std::clamp(x / 0.1, -1.0, 1.0);
