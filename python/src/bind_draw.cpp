@@ -113,7 +113,7 @@ Shader metallic(const Placing& placing, const std::array<float, 4>& base_color, 
     return {MetallicSurface<MetallicStreams::mapped>{m}, {"positions", "normals", "uvs"}, rest.lights, rest.texture};
   }
   if (colored) return {MetallicSurface<MetallicStreams::colored>{m}, {"positions", "normals", "colors"}, rest.lights, {}};
-  return {MetallicSurface<MetallicStreams::plain>{m}, {"positions", "normals"}, rest.lights, {}};
+  return {MetallicSurface<MetallicStreams::basic>{m}, {"positions", "normals"}, rest.lights, {}};
 }
 
 /// A draw, and the objects that keep its arrays alive.

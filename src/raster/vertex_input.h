@@ -90,10 +90,10 @@ struct VertexStreams {
 };
 
 /// Storage for the result of at_instance().
-using StreamRoom = std::array<VertexStream, kMaxStreams>;
+using StreamStorage = std::array<VertexStream, kMaxStreams>;
 /// Returns the streams for the vertices of one instance. Per-instance streams point to the row of the instance and have a stride of 0; if
-/// there are any, the result is stored in `room`.
-std::span<const VertexStream> at_instance(const VertexStreams& vertices, uint32_t instance, StreamRoom& room);
+/// there are any, the result is stored in `storage`.
+std::span<const VertexStream> at_instance(const VertexStreams& vertices, uint32_t instance, StreamStorage& storage);
 
 namespace detail {
 /// Implementation of make_vertex_view(). There must be at most kMaxStreams streams.

@@ -74,7 +74,7 @@ struct MetallicMaterial : PlacedSurface {
 
 /// The streams that a mesh has. They select a variant of the shader.
 enum class MetallicStreams : uint8_t {
-  plain,     ///< no maps
+  basic,     ///< no maps
   colored,   ///< no maps, but vertex colors
   mapped,    ///< maps with one set of texture coordinates; no normal maps
   detailed,  ///< the same, with tangents for normal maps

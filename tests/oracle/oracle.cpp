@@ -448,7 +448,7 @@ Box covered_box(const WindowTriangle& t, int samples) {
 
 int64_t cross(int64_t ax, int64_t ay, int64_t bx, int64_t by) { return ax * by - ay * bx; }
 
-int64_t turn(const Corner& a, const Corner& b, const Corner& c) { return cross(b.x - a.x, b.y - a.y, c.x - a.x, c.y - a.y); }
+int64_t orient2d(const Corner& a, const Corner& b, const Corner& c) { return cross(b.x - a.x, b.y - a.y, c.x - a.x, c.y - a.y); }
 
 // Splits a clipped polygon into a fan. The apex is the first corner for which all triangles have the same orientation. If there is none,
 // the apex is the last corner, and triangles with the opposite orientation are dropped.
@@ -461,10 +461,10 @@ std::vector<std::array<Corner, 3>> fan(const std::vector<Corner>& polygon) {
     int64_t area = 0;
     for (std::size_t i = 2; i < from.size(); ++i) {
       pieces.push_back({from[0], from[i - 1], from[i]});
-      area += turn(from[0], from[i - 1], from[i]);
+      area += orient2d(from[0], from[i - 1], from[i]);
     }
     const auto against = [area](const std::array<Corner, 3>& p) {
-      const int64_t own = turn(p[0], p[1], p[2]);
+      const int64_t own = orient2d(p[0], p[1], p[2]);
       return own != 0 && (own > 0) != (area > 0);
     };
     if (std::none_of(pieces.begin(), pieces.end(), against)) break;
@@ -1097,7 +1097,7 @@ std::vector<WindowTriangle> Renderer::window_outline(const DrawState& state, con
                                                      const std::vector<int>& vertex, const std::array<const ShadedVertex*, 3>& v,
                                                      const std::vector<float>& flat) {
   int64_t area = 0;
-  for (std::size_t i = 2; i < corners.size(); ++i) area += turn(corners[0], corners[i - 1], corners[i]);
+  for (std::size_t i = 2; i < corners.size(); ++i) area += orient2d(corners[0], corners[i - 1], corners[i]);
   const bool front = (area > 0) == (state.front == Winding::counter_clockwise);
   if (area == 0) ++counts_.culled_degenerate;
   if (area != 0 && culls_face(state.cull, front)) ++counts_.culled_face;

@@ -21,7 +21,7 @@ namespace halfspace {
 
 namespace {
 
-using Surface = MetallicSurface<MetallicStreams::plain>;
+using Surface = MetallicSurface<MetallicStreams::basic>;
 
 [[noreturn]] void refuse(const std::string& file, const std::string& problem) {
   throw InputError(file + ": " + problem +

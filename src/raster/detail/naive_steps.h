@@ -69,8 +69,8 @@ ScreenPoint<R> to_window(const vec4<R>& p, const Viewport& v, const DepthState& 
     return {w.x, w.y, w.z, w.inv_w};
   } else {
     const R inv_w = R(1) / p.w;
-    return {snap(static_cast<double>(p.x * inv_w), v.half_width, v.center_x), snap(static_cast<double>(p.y * inv_w), v.half_height, v.center_y),
-            p.z * inv_w * R(v.depth_scale) + R(v.depth_bias), inv_w};
+    return {snap(static_cast<double>(p.x * inv_w), v.half_width, v.center_x),
+            snap(static_cast<double>(p.y * inv_w), v.half_height, v.center_y), p.z * inv_w * R(v.depth_scale) + R(v.depth_bias), inv_w};
   }
 }
 
@@ -163,9 +163,9 @@ std::vector<Piece<R, V>> clipped(Piece<R, V> t, const Viewport& viewport, const 
 
 // Depth of a triangle at window positions in 1/256 px. The corners are counter-clockwise, the one with the smallest depth first.
 template <class R>
-class DepthPlane {
+class NaiveDepthPlane {
  public:
-  explicit DepthPlane(const std::array<ScreenPoint<R>, 3>& p) : p_(p) {
+  explicit NaiveDepthPlane(const std::array<ScreenPoint<R>, 3>& p) : p_(p) {
     const double area = static_cast<double>((p[1].x - p[0].x) * (p[2].y - p[0].y) - (p[1].y - p[0].y) * (p[2].x - p[0].x));
     z_edge1_ = static_cast<R>((static_cast<double>(p[1].z) - static_cast<double>(p[0].z)) / area);
     z_edge2_ = static_cast<R>((static_cast<double>(p[2].z) - static_cast<double>(p[0].z)) / area);
