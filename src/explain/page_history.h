@@ -14,12 +14,12 @@ namespace halfspace {
 /// exceeds a limit, the page contains fewer fragments per pixel and stores the number of omitted ones.
 inline constexpr std::size_t kMaxPageFragments = 1'600'000, kMaxPageValues = 1'500'000;
 
-/// Returns the largest limit of fragments per pixel with which the page has at most `most` fragments. The result is between 1 and
-/// FrameTrace::kMaxFragments.
-uint32_t fragments_per_pixel(const FrameTrace& trace, std::size_t most);
+/// Returns the largest limit of fragments per pixel with which the page has at most `max_fragments` fragments. The result is between
+/// 1 and FrameTrace::kMaxFragments.
+uint32_t fragments_per_pixel(const FrameTrace& trace, std::size_t max_fragments);
 
-/// Returns the indices of at most `most` fragments of a pixel, in order. Shaded fragments take precedence, then earlier ones.
-std::vector<uint32_t> kept_fragments(std::span<const TracedFragment> fragments, uint32_t most);
+/// Returns the indices of at most `max_fragments` fragments of a pixel, in order. Shaded fragments take precedence, then earlier ones.
+std::vector<uint32_t> kept_fragments(std::span<const TracedFragment> fragments, uint32_t max_fragments);
 
 /// Returns the pixels with all values: 64x64 pixels around the center, and every eighth pixel in x and y. By row, without duplicates.
 std::vector<glm::ivec2> detailed_pixels(int width, int height, glm::ivec2 center);

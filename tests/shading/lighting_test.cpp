@@ -130,9 +130,9 @@ void check_guards() {
         for (const vec3<R>& n : vectors) {
           for (const vec3<R>& v : vectors) {
             const Illumination<R> i = at<R>(light, model, exponent, n, v);
-            const R most = R(1) / R(kMinAttenuation) * R(1.0001);
-            ASSERT_TRUE(i.diffuse.x >= R(0) && i.diffuse.x <= most) << exponent;
-            ASSERT_TRUE(i.specular.x >= R(0) && i.specular.x <= most) << exponent;
+            const R max_light = R(1) / R(kMinAttenuation) * R(1.0001);
+            ASSERT_TRUE(i.diffuse.x >= R(0) && i.diffuse.x <= max_light) << exponent;
+            ASSERT_TRUE(i.specular.x >= R(0) && i.specular.x <= max_light) << exponent;
             ++checked;
           }
         }
