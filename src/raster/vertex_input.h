@@ -47,7 +47,9 @@ StreamOf<T> stream(const std::vector<T>& values) {
 template <class V, class F>
 StreamOf<F> stream(std::span<const V> vertices, F V::*member) {
   static_assert(std::is_trivially_copyable_v<V> && sizeof(V) % sizeof(float) == 0 && sizeof(F) % sizeof(float) == 0);
-  static_assert(std::is_same_v<F, float> || std::is_same_v<typename F::value_type, float>, "vertex attributes must consist of floats");
+  static_assert(
+      std::is_same_v<F, float> || requires { requires std::is_same_v<typename F::value_type, float>; },
+      "vertex attributes must consist of floats");
   StreamOf<F> s{{nullptr, sizeof(V) / sizeof(float), sizeof(F) / sizeof(float), vertices.size()}};
   if (!vertices.empty()) s.data = reinterpret_cast<const float*>(&(vertices.front().*member));
   return s;
