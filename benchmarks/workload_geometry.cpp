@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "workload_random.h"
+
 namespace halfspace {
 
 std::vector<glm::vec3> tiny_triangles(WorkloadSize size, int count, double area) {
@@ -24,11 +26,8 @@ std::vector<glm::vec3> tiny_triangles(WorkloadSize size, int count, double area)
 }
 
 std::vector<glm::vec3> point_cloud() {
-  uint32_t state = 12345;
-  const auto coordinate = [&] {
-    state = state * 1664525u + 1013904223u;
-    return static_cast<float>(2.0 * (static_cast<double>(state >> 8) * 0x1p-24) - 1.0);
-  };
+  WorkloadRandom random;
+  const auto coordinate = [&] { return static_cast<float>(random.between(-1.0, 1.0)); };
   std::vector<glm::vec3> cloud(100'000);
   for (glm::vec3& p : cloud) {
     p.x = coordinate();

@@ -105,8 +105,7 @@ function(halfspace_hide_private_functions sources)
   foreach(source IN LISTS sources)
     file(RELATIVE_PATH header ${halfspace_SOURCE_DIR}/src ${source})
     string(REGEX REPLACE "[.]cpp$" ".h" header ${header})
-    # `halfspace explain` uses raster/inspection.h, which is not installed.
-    if(source MATCHES "[.]cpp$" AND NOT header IN_LIST halfspace_exported_headers AND NOT header STREQUAL "raster/inspection.h"
+    if(source MATCHES "[.]cpp$" AND NOT header IN_LIST halfspace_exported_headers
         AND (EXISTS ${halfspace_SOURCE_DIR}/src/${header} OR header MATCHES "^(raster/.*/|model/write_)"))
       set_property(SOURCE ${source} APPEND PROPERTY COMPILE_OPTIONS -fvisibility=hidden)
     endif()

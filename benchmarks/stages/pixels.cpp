@@ -75,7 +75,7 @@ BENCHMARK(shader_star_sky);
 void shader_surface(benchmark::State& state) {
   WorkloadAssets assets;
   const std::shared_ptr<const Texture2D> map = assets.checker();
-  const std::vector<Light> lights(static_cast<std::size_t>(state.range(0)), Light{.type = LightType::point, .place_rws = {1, 1, 1}});
+  const std::vector<Light> lights(static_cast<std::size_t>(state.range(0)), Light{.type = LightType::point, .position_rws = {1, 1, 1}});
   SurfaceShader<ShadingRate::phong, true> shader{};
   shader.clip_from_object = glm::mat4(1.0f);
   shader.world_from_object = glm::mat4(1.0f);

@@ -57,7 +57,7 @@ void place(PlacedSurface& s, const Placing& p, Shader& out) {
   place(s, matrix_of(p.clip_from_world), matrix_of(p.world_from_object), eye);
   auto lights = std::make_shared<std::vector<Light>>(p.lights);
   for (Light& light : *lights) {
-    if (light.type != LightType::directional) light.place_rws = glm::vec3(glm::dvec3(light.place_rws) - eye);
+    if (light.type != LightType::directional) light.position_rws = glm::vec3(glm::dvec3(light.position_rws) - eye);
   }
   s.lights = *lights;
   s.two_sided = p.two_sided;
@@ -113,7 +113,7 @@ Shader metallic(const Placing& placing, const std::array<float, 4>& base_color, 
     return {MetallicSurface<MetallicStreams::mapped>{m}, {"positions", "normals", "uvs"}, rest.lights, rest.texture};
   }
   if (colored) return {MetallicSurface<MetallicStreams::colored>{m}, {"positions", "normals", "colors"}, rest.lights, {}};
-  return {MetallicSurface<MetallicStreams::plain>{m}, {"positions", "normals"}, rest.lights, {}};
+  return {MetallicSurface<MetallicStreams::basic>{m}, {"positions", "normals"}, rest.lights, {}};
 }
 
 /// A draw, and the objects that keep its arrays alive.
@@ -200,7 +200,7 @@ Light light_of(LightType type, const Vector& place, const Vector& diffuse, const
                const Vector& axis, float cos_inner, float cos_outer) {
   Light light;
   light.type = type;
-  light.place_rws = vec_of(place);
+  light.position_rws = vec_of(place);
   light.diffuse = vec_of(diffuse);
   light.specular = vec_of(specular);
   light.attenuation = vec_of(attenuation);

@@ -342,8 +342,8 @@ HS_INLINE IntN<W> look_up(const std::array<int32_t, 16>& table, IntN<W> i) {
 #endif
 #ifdef __AVX2__
   if constexpr (W == 8) {
-    const auto half = [&](int first) { return (V)_mm256_permutevar8x32_epi32(load<__m256i>(table.data() + first), (__m256i)i.v); };
-    return select(i < 8, IntN<W>(half(0)), IntN<W>(half(8)));
+    const auto permuted = [&](int first) { return (V)_mm256_permutevar8x32_epi32(load<__m256i>(table.data() + first), (__m256i)i.v); };
+    return select(i < 8, IntN<W>(permuted(0)), IntN<W>(permuted(8)));
   }
 #endif
   return gather(table.data(), i);

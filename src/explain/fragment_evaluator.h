@@ -107,8 +107,8 @@ class FragmentEvaluator {
   std::array<V, 3> vertices_of(const S& shader) const {
     using A = typename S::template Attributes<float>;
     const InspectedTriangle& t = place_.triangle;
-    StreamRoom room;
-    const std::span<const VertexStream> streams = at_instance(t.draw->vertices, t.instance, room);
+    StreamStorage storage;
+    const std::span<const VertexStream> streams = at_instance(t.draw->vertices, t.instance, storage);
     std::array<V, 3> out;
     for (std::size_t i = 0; i < out.size(); ++i) {
       const auto row = static_cast<int64_t>(t.index[i]) + t.draw->state.base_vertex;

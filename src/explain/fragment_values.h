@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "halfspace/explain/pixel_history.h"
-#include "halfspace/raster/inspection.h"
+#include "halfspace/raster/inspect/inspection.h"
 
 namespace halfspace {
 

@@ -90,11 +90,11 @@ class LightTerms {
     } else {
       dark.lights = {};
       dark.factors[kAmbient].constant = dark.factors[kEmissive].constant = glm::vec3(0.0f);
-      dark.surroundings = nullptr;
+      dark.reflected_environment = nullptr;
       add_seen("ambient", dark, [&](S& s) { s.factors[kAmbient] = shader_.factors[kAmbient]; });
       add_lights(dark);
       add_seen("emission", dark, [&](S& s) { s.factors[kEmissive] = shader_.factors[kEmissive]; });
-      add_seen("reflection", dark, [&](S& s) { s.surroundings = shader_.surroundings; });
+      add_seen("reflection", dark, [&](S& s) { s.reflected_environment = shader_.reflected_environment; });
     }
   }
 

@@ -41,10 +41,10 @@ struct FragmentColumns {
 // Stores all values of some pixels. The names of the values are stored once per shader.
 class Details {
  public:
-  void add(const PixelHistory& h, uint32_t most) {
+  void add(const PixelHistory& h, uint32_t max_fragments) {
     std::vector<TracedFragment> traced;
     for (const FragmentDetail& f : h.fragments) traced.push_back(f.fragment);
-    const std::vector<uint32_t> kept = kept_fragments(traced, most);
+    const std::vector<uint32_t> kept = kept_fragments(traced, max_fragments);
     pixels_.push_back(static_cast<uint32_t>(h.pixel.x) | static_cast<uint32_t>(h.pixel.y) << 16);
     counts_.push_back(static_cast<uint8_t>(kept.size()));
     others_.push_back(h.others + static_cast<uint32_t>(h.fragments.size() - kept.size()));
@@ -124,13 +124,13 @@ std::size_t numbers_of(const FragmentDetail& f) {
 
 // Returns the number of fragments per pixel that the page can store with all values.
 uint32_t details_per_pixel(const std::vector<PixelHistory>& histories) {
-  for (uint32_t most = FrameTrace::kMaxFragments; most > 1; most /= 2) {
+  for (uint32_t max_fragments = FrameTrace::kMaxFragments; max_fragments > 1; max_fragments /= 2) {
     std::size_t numbers = 0;
     for (const PixelHistory& h : histories) {
-      const std::size_t n = std::min<std::size_t>(h.fragments.size(), most);
+      const std::size_t n = std::min<std::size_t>(h.fragments.size(), max_fragments);
       for (std::size_t i = 0; i < n; ++i) numbers += numbers_of(h.fragments[i]);
     }
-    if (numbers <= kMaxPageValues) return most;
+    if (numbers <= kMaxPageValues) return max_fragments;
   }
   return 1;
 }
@@ -138,27 +138,27 @@ uint32_t details_per_pixel(const std::vector<PixelHistory>& histories) {
 PageJson details_json(const PageInput& in, const FrameTrace& trace) {
   const std::vector<glm::ivec2> pixels = detailed_pixels(trace.width, trace.height, in.pixel);
   const std::vector<PixelHistory> histories = pixel_histories(in.description, in.scene, trace, pixels, in.workers);
-  const uint32_t most = details_per_pixel(histories);
+  const uint32_t max_fragments = details_per_pixel(histories);
   Details details;
-  for (const PixelHistory& h : histories) details.add(h, most);
+  for (const PixelHistory& h : histories) details.add(h, max_fragments);
   return details.json();
 }
 
 }  // namespace
 
-uint32_t fragments_per_pixel(const FrameTrace& trace, std::size_t most) {
+uint32_t fragments_per_pixel(const FrameTrace& trace, std::size_t max_fragments) {
   for (uint32_t limit = FrameTrace::kMaxFragments; limit > 1; --limit) {
     std::size_t sum = 0;
     for (std::size_t i = 0; i + 1 < trace.first.size(); ++i) sum += std::min(trace.first[i + 1] - trace.first[i], limit);
-    if (sum <= most) return limit;
+    if (sum <= max_fragments) return limit;
   }
   return 1;
 }
 
-std::vector<uint32_t> kept_fragments(std::span<const TracedFragment> fragments, uint32_t most) {
+std::vector<uint32_t> kept_fragments(std::span<const TracedFragment> fragments, uint32_t max_fragments) {
   std::vector<uint32_t> kept;
   for (const bool shaded : {true, false}) {
-    for (uint32_t i = 0; i < fragments.size() && kept.size() < most; ++i) {
+    for (uint32_t i = 0; i < fragments.size() && kept.size() < max_fragments; ++i) {
       if (fragments[i].is_shaded == shaded) kept.push_back(i);
     }
   }
@@ -180,14 +180,14 @@ std::vector<glm::ivec2> detailed_pixels(int width, int height, glm::ivec2 center
 }
 
 PageJson histories_json(const PageInput& in, const FrameTrace& trace) {
-  const uint32_t most = fragments_per_pixel(trace, kMaxPageFragments);
+  const uint32_t max_fragments = fragments_per_pixel(trace, kMaxPageFragments);
   FragmentColumns columns;
   std::vector<uint8_t> counts;
   std::vector<uint32_t> others;
   for (int y = 0; y < trace.height; ++y) {
     for (int x = 0; x < trace.width; ++x) {
       const std::span<const TracedFragment> fragments = trace.at({x, y});
-      const std::vector<uint32_t> kept = kept_fragments(fragments, most);
+      const std::vector<uint32_t> kept = kept_fragments(fragments, max_fragments);
       for (const uint32_t i : kept) columns.add(fragments[i]);
       counts.push_back(static_cast<uint8_t>(kept.size()));
       others.push_back(trace.count({x, y}) - static_cast<uint32_t>(kept.size()));
@@ -195,7 +195,7 @@ PageJson histories_json(const PageInput& in, const FrameTrace& trace) {
   }
   PageJson outcomes = PageJson::array();
   for (std::size_t i = 0; i < kFragmentOutcomes; ++i) outcomes.push_back(outcome_text(static_cast<FragmentOutcome>(i)));
-  return {{"most", most},
+  return {{"most", max_fragments},
           {"outcomes", outcomes},
           {"counts", packed_planes(std::span<const uint8_t>(counts))},
           {"others", packed_planes(std::span<const uint32_t>(others))},

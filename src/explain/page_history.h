@@ -14,13 +14,13 @@ namespace halfspace {
 /// all values. If a frame exceeds a limit, the page contains fewer fragments per pixel and stores the number of omitted fragments.
 inline constexpr std::size_t kMaxPageFragments = 1'600'000, kMaxPageValues = 1'500'000;
 
-/// Returns the largest number of fragments per pixel for which the page has at most `most` fragments. The result is between 1 and
+/// Returns the largest number of fragments per pixel for which the page has at most `max_fragments` fragments. The result is between 1 and
 /// FrameTrace::kMaxFragments.
-uint32_t fragments_per_pixel(const FrameTrace& trace, std::size_t most);
+uint32_t fragments_per_pixel(const FrameTrace& trace, std::size_t max_fragments);
 
-/// Returns the indices of at most `most` fragments of a pixel, in order. Shaded fragments are preferred over others, and earlier fragments
+/// Returns the indices of at most `max_fragments` fragments of a pixel, in order. Shaded fragments are preferred over others, and earlier fragments
 /// over later ones.
-std::vector<uint32_t> kept_fragments(std::span<const TracedFragment> fragments, uint32_t most);
+std::vector<uint32_t> kept_fragments(std::span<const TracedFragment> fragments, uint32_t max_fragments);
 
 /// Returns the pixels that are stored with all values: 64x64 pixels around the center, and every eighth pixel in x and y. They are sorted
 /// by row, without duplicates.

@@ -4,7 +4,7 @@
 
 #include "halfspace/explain/page_data.h"
 #include "halfspace/explain/page_encode.h"
-#include "halfspace/raster/inspection.h"
+#include "halfspace/raster/inspect/inspection.h"
 #include "halfspace/render/scene_pass.h"
 
 namespace halfspace {
@@ -139,8 +139,8 @@ PageJson overdraw_json(const PageInput& in, const FrameTrace& trace) {
   for (int y = 0; y < trace.height; ++y) {
     for (int x = 0; x < trace.width; ++x) counts.push_back(trace.count({x, y}));
   }
-  const uint32_t most = *std::ranges::max_element(counts);
-  std::vector<uint64_t> histogram(std::min<uint32_t>(most, 64) + 1);
+  const uint32_t max_count = *std::ranges::max_element(counts);
+  std::vector<uint64_t> histogram(std::min<uint32_t>(max_count, 64) + 1);
   uint64_t total = 0;
   for (const uint32_t n : counts) {
     ++histogram[std::min<std::size_t>(n, histogram.size() - 1)];
@@ -148,10 +148,10 @@ PageJson overdraw_json(const PageInput& in, const FrameTrace& trace) {
   }
   const std::string picture = picture_of(in, [&](int x, int y) {
     const auto n = static_cast<float>(trace.count({x, y}));
-    return n == 0.0f ? kNothing : heat_color(n / static_cast<float>(most));
+    return n == 0.0f ? kNothing : heat_color(n / static_cast<float>(max_count));
   });
   return {{"picture", picture},
-          {"most", most},
+          {"most", max_count},
           {"total", total},
           {"histogram", histogram},
           {"counts", packed_planes(std::span<const uint32_t>(counts))}};

@@ -36,13 +36,13 @@ ShadowLookup shadow_lookup(const Light& light, const glm::vec3& position_rws, co
   out.factor = shadow_factor(shadow, at);
   for (std::size_t v = 0; v < shadow.views.size(); ++v) {
     const ShadowView& view = shadow.views[v];
-    const ShadowCoordinates<float> p = biased_place(view, shadow.settings, at);
+    const ShadowCoordinates<float> p = biased_coordinates(view, shadow.settings, at);
     if (!holds(view, p, filter_reach(shadow.settings))) continue;
     out.view = static_cast<int>(v);
     out.x = p.x;
     out.y = p.y;
     out.biased = p.depth;
-    out.depth = place_on(view, at.position_rws).depth;
+    out.depth = shadow_coordinates(view, at.position_rws).depth;
     out.depth_dx = p.depth_dx;
     out.depth_dy = p.depth_dy;
     out.i = static_cast<int>(std::floor(p.x));

@@ -26,7 +26,7 @@ struct TermFilter {
     s.lights = lights;
     if (!is(TermKind::ambient)) s.factors[kAmbient] = none;
     if (!is(TermKind::emitted)) s.factors[kEmissive] = none;
-    if (!is(TermKind::reflected)) s.surroundings = nullptr;
+    if (!is(TermKind::reflected)) s.reflected_environment = nullptr;
     if (kIsUnlitSurface<S> && !is(TermKind::emitted)) s.factors[kColor] = none;
   }
   template <class S>
@@ -64,7 +64,7 @@ struct TermsOfShader {
   void operator()(const S& s) {
     ambient |= s.factors[kAmbient].constant != glm::vec3(0.0f) && !kIsUnlitSurface<S>;
     emitted |= s.factors[kEmissive].constant != glm::vec3(0.0f) || kIsUnlitSurface<S>;
-    reflected |= s.surroundings != nullptr;
+    reflected |= s.reflected_environment != nullptr;
     specular |= s.factors[kSpecular].constant != glm::vec3(0.0f) && s.model != LightModel::lambert && !kIsUnlitSurface<S>;
   }
   template <class S>

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "halfspace/explain/pixel_history.h"
-#include "halfspace/raster/inspection.h"
+#include "halfspace/raster/inspect/inspection.h"
 #include "halfspace/render/scene_pass.h"
 
 namespace halfspace {

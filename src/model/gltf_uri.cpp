@@ -25,16 +25,16 @@ std::optional<std::vector<std::byte>> base64_decoded(std::string_view text) {
   if (text.size() % 4 == 1) return std::nullopt;
   std::vector<std::byte> bytes(text.size() / 4 * 3 + (text.size() % 4 == 0 ? 0 : text.size() % 4 - 1));
   uint32_t bits = 0;
-  int held = 0;
+  int bit_count = 0;
   std::size_t n = 0;
   for (const char c : text) {
     const uint8_t code = kCodes[static_cast<uint8_t>(c)];
     if (code == kInvalid) return std::nullopt;
     bits = bits << 6 | code;
-    held += 6;
-    if (held < 8) continue;
-    held -= 8;
-    bytes[n++] = static_cast<std::byte>(bits >> held & 0xff);
+    bit_count += 6;
+    if (bit_count < 8) continue;
+    bit_count -= 8;
+    bytes[n++] = static_cast<std::byte>(bits >> bit_count & 0xff);
   }
   return bytes;
 }

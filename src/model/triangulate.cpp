@@ -38,7 +38,7 @@ Split sum(double a, double b) {
 // Returns a number with the exact sign of b.x·c.y − b.x·a.y − a.x·c.y − b.y·c.x + b.y·a.x + a.y·c.x. Adds the 12 parts of the products to a
 // nonoverlapping expansion (Shewchuk, "Adaptive precision floating-point arithmetic and fast robust geometric
 // predicates", 1997, section 2.3).
-double exact_orientation(const dvec2& a, const dvec2& b, const dvec2& c) {
+double exact_orient2d(const dvec2& a, const dvec2& b, const dvec2& c) {
   const Split products[] = {product(b.x, c.y),  product(-b.x, a.y), product(-a.x, c.y),
                             product(-b.y, c.x), product(b.y, a.x),  product(a.y, c.x)};
   double parts[12];
@@ -61,11 +61,11 @@ double exact_orientation(const dvec2& a, const dvec2& b, const dvec2& c) {
 
 // Returns a number with the exact sign of the area of the triangle: positive if it is counter-clockwise. Overflow and underflow of products
 // are not handled.
-double orientation(const dvec2& a, const dvec2& b, const dvec2& c) {
+double orient2d(const dvec2& a, const dvec2& b, const dvec2& c) {
   const double left = (b.x - a.x) * (c.y - a.y), right = (b.y - a.y) * (c.x - a.x), area = left - right;
   constexpr double kErrorBound = 4.0 * std::numeric_limits<double>::epsilon();  // Shewchuk's 3.33e-16, rounded up
   if (std::abs(area) > kErrorBound * (std::abs(left) + std::abs(right))) return area;
-  return exact_orientation(a, b, c);
+  return exact_orient2d(a, b, c);
 }
 
 // Newell's normal, computed relative to the first vertex. Its length is twice the area.
@@ -100,7 +100,7 @@ void add_fan(std::size_t apex, std::size_t count, std::vector<uint32_t>& triangl
 // A quad with a vertex that is not convex is split at this vertex; all other quads are split along the shorter diagonal.
 void add_quad(const dvec2 (&p)[4], std::span<const dvec3> corners, std::vector<uint32_t>& triangles) {
   for (std::size_t i = 0; i < 4; ++i) {
-    if (orientation(p[(i + 3) % 4], p[i], p[(i + 1) % 4]) <= 0.0) return add_fan(i, 4, triangles);
+    if (orient2d(p[(i + 3) % 4], p[i], p[(i + 1) % 4]) <= 0.0) return add_fan(i, 4, triangles);
   }
   constexpr double kTie = 1.0 - 1e-6;  // equal diagonals of a regular grid are cut in the same direction
   const dvec3 d02 = corners[2] - corners[0], d13 = corners[3] - corners[1];
@@ -110,7 +110,7 @@ void add_quad(const dvec2 (&p)[4], std::span<const dvec3> corners, std::vector<u
 // Returns true if the fan from vertex 0 is a triangulation: all other vertices are in order around vertex 0, within half a turn.
 bool is_fan(std::span<const dvec2> p) {
   for (std::size_t i = 2; i < p.size(); ++i) {
-    if (orientation(p[0], p[1], p[i]) <= 0.0 || orientation(p[0], p[i - 1], p[i]) <= 0.0) return false;
+    if (orient2d(p[0], p[1], p[i]) <= 0.0 || orient2d(p[0], p[i - 1], p[i]) <= 0.0) return false;
   }
   return true;
 }
@@ -156,9 +156,9 @@ class EarClipper {
   static constexpr std::size_t kBudgetPerCorner = 300;
   static constexpr std::size_t kTestCost = 10;  // cost of testing a vertex against a triangle; all other steps cost 1
 
-  double turn(uint32_t i) const { return orientation(points_[previous_[i]], points_[i], points_[next_[i]]); }
+  double orientation(uint32_t i) const { return orient2d(points_[previous_[i]], points_[i], points_[next_[i]]); }
 
-  void update(uint32_t i) { states_[i] = turn(i) > 0.0 ? State::convex : State::blocking; }
+  void update(uint32_t i) { states_[i] = orientation(i) > 0.0 ? State::convex : State::blocking; }
 
   // Returns kNone if there is no ear or if the budget is exhausted. `any` is one of the remaining vertices.
   uint32_t take_ear(uint32_t any) {
@@ -209,7 +209,7 @@ class EarClipper {
   // Includes the edges, but not points that coincide with a vertex: a hole connected by two coincident edges has such vertices.
   static bool is_in_triangle(const dvec2& p, const dvec2& a, const dvec2& b, const dvec2& c) {
     if (p == a || p == b || p == c) return false;
-    return orientation(a, b, p) >= 0.0 && orientation(b, c, p) >= 0.0 && orientation(c, a, p) >= 0.0;
+    return orient2d(a, b, p) >= 0.0 && orient2d(b, c, p) >= 0.0 && orient2d(c, a, p) >= 0.0;
   }
 
   void spend(std::size_t tests) { budget_ -= std::min(budget_, tests); }

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "halfspace/core/lane_math.h"
+#include "halfspace/core/random.h"
 #include "halfspace/core/trig_double.h"
 #include "halfspace/core/units.h"
 #include "halfspace/geometry/shapes.h"
@@ -20,24 +21,6 @@ constexpr float kLargest = 0.085f;      // radius of the largest crater that is 
 constexpr float kYoung = 0.93f;         // craters of this age or above are younger than the maria
 
 // ---- the population --------------------------------------------------------------------------------------------
-
-// SplitMix64 (Steele, Lea and Flood, "Fast splittable pseudorandom number generators", 2014).
-class Random {
- public:
-  explicit Random(uint64_t seed) : state_(seed) {}
-  /// Returns a multiple of 2^-24 in [0, 1).
-  float next() {
-    state_ += 0x9e3779b97f4a7c15u;
-    uint64_t z = state_;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return static_cast<float>((z ^ (z >> 31)) >> 40) * 0x1p-24f;
-  }
-  float between(float lo, float hi) { return lo + (hi - lo) * next(); }
-
- private:
-  uint64_t state_;
-};
 
 // Sets depth and rim from the diameter in km, after Pike, "Size-dependence in the shape of fresh impact craters on the Moon"
 // (1977). Craters below about 15 km are simple bowls; larger ones have wide floors and slumped walls. `age` goes from 0 (old) to 1
@@ -66,10 +49,10 @@ void set_place(Crater& c, double turns_east, double y) {
   c.north = glm::vec3(frame.north);
 }
 
-void set_outline(Crater& c, Random& random) {
+void set_outline(Crater& c, SplitMix64& random) {
   const float strength[] = {0.045f, 0.045f, 0.035f, 0.035f, 0.018f, 0.018f};
-  for (int i = 0; i < 6; ++i) c.wobble[i] = strength[i] * random.between(-1.0f, 1.0f);
-  c.seed = static_cast<int32_t>(random.next() * 1e6f);
+  for (int i = 0; i < 6; ++i) c.wobble[i] = strength[i] * random.real(-1.0f, 1.0f);
+  c.seed = static_cast<int32_t>(random.real(0.0f, 1.0f) * 1e6f);
 }
 
 struct Aged {
@@ -79,18 +62,19 @@ struct Aged {
 
 // Adds craters with radii from lo to hi = 2·lo. The number of craters larger than r is proportional to r^-2, so every size class
 // covers the same area.
-void add_class(std::vector<Aged>& out, float lo, float hi, Random random) {
+void add_class(std::vector<Aged>& out, float lo, float hi, SplitMix64 random) {
   const float covered = 0.24f;  // fraction of the sphere covered by this class, counting overlaps twice
   // A crater covers r²/4 of the sphere. The mean of r² over the class is lo² · 2 ln(hi/lo) / (1 − (lo/hi)²).
   const int count = static_cast<int>(covered * 4.0f / (lo * lo * 1.848f));
   const float cut = 1.0f - (lo / hi) * (lo / hi);
   for (int i = 0; i < count; ++i) {
     Aged a{};
-    a.crater.radius = lo / sqrt(1.0f - cut * random.next());
-    const double turns_east = static_cast<double>(random.next());  // not in the argument list, where the evaluation order is unspecified
-    const double y = static_cast<double>(random.between(-1.0f, 1.0f));
+    a.crater.radius = lo / sqrt(1.0f - cut * random.real(0.0f, 1.0f));
+    // Not in the argument list, where the evaluation order is unspecified.
+    const double turns_east = static_cast<double>(random.real(0.0f, 1.0f));
+    const double y = static_cast<double>(random.real(-1.0f, 1.0f));
     set_place(a.crater, turns_east, y);
-    a.age = random.next();
+    a.age = random.real(0.0f, 1.0f);
     if (a.crater.radius > 0.02f) a.age *= 0.95f;  // most large craters are older than the maria; those with rays are added below
     set_shape(a.crater, a.age);
     set_outline(a.crater, random);
@@ -108,7 +92,7 @@ constexpr RayCrater kRayCraters[] = {{-11.4, -43.3, 43, 62}, {-20.1, 9.6, 46, 22
                                      {46.8, 16.1, 14, 13},   {54.0, -32.5, 38, 16},  {-10.1, 73.5, 26, 24},  {102.9, 35.9, 11, 30},
                                      {-163.3, 22.0, 36, 24}, {-63.9, -24.6, 10, 16}, {129.0, -61.0, 30, 20}, {-152.0, -36.0, 22, 18}};
 
-void add_ray_craters(std::vector<Aged>& out, Random random) {
+void add_ray_craters(std::vector<Aged>& out, SplitMix64 random) {
   for (const RayCrater& r : kRayCraters) {
     Aged a{};
     a.crater.radius = r.radius / kMoonRadius;
@@ -206,8 +190,8 @@ Craters moon_craters(int width) {
   const float smallest = 1.2f * 2.0f * static_cast<float>(std::numbers::pi) / static_cast<float>(width);
   std::vector<Aged> all;
   uint64_t seed = 1;
-  for (float hi = kLargest; hi > smallest; hi *= 0.5f) add_class(all, 0.5f * hi, hi, Random(1000 * seed++));
-  add_ray_craters(all, Random(77));
+  for (float hi = kLargest; hi > smallest; hi *= 0.5f) add_class(all, 0.5f * hi, hi, SplitMix64(1000 * seed++));
+  add_ray_craters(all, SplitMix64(77));
   std::stable_sort(all.begin(), all.end(), [](const Aged& a, const Aged& b) { return a.age < b.age; });
   Craters craters{{}, 0};
   for (const Aged& a : all) {

@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "halfspace/core/image.h"
+#include "halfspace/raster/detail/naive_steps.h"
 #include "halfspace/raster/draw_state.h"
-#include "halfspace/raster/naive_steps.h"
 #include "halfspace/raster/shade/plane_anchor.h"
 #include "halfspace/raster/vertex_input.h"
 #include "halfspace/raster/visibility/depth_stencil_test.h"
@@ -56,7 +56,7 @@ Vertex<R, V> shade_vertex(const S& shader, const VertexView& view, std::size_t i
   return v;
 }
 
-// Steps 2 and 3, clipping and the transform to window coordinates, are in naive_steps.h.
+// Steps 2 and 3, clipping and the transform to window coordinates, are in detail/naive_steps.h.
 
 // Step 4: visit every pixel whose center is inside the triangle, or on an edge that owns its samples under the fill rule.
 template <class F>
@@ -113,7 +113,7 @@ void rasterize(NaiveTarget<R>& target, const S& shader, const std::array<const V
   std::array<std::size_t, 3> o{0, 1, 2};  // counter-clockwise, smallest depth first
   if (area < 0) std::swap(o[1], o[2]);
   while (p[o[0]].z > std::min(p[o[1]].z, p[o[2]].z)) std::rotate(o.begin(), o.begin() + 1, o.end());
-  const DepthPlane<R> depth_plane({p[o[0]], p[o[1]], p[o[2]]});
+  const NaiveDepthPlane<R> depth_plane({p[o[0]], p[o[1]], p[o[2]]});
   while (p[o[0]].inv_w > std::min(p[o[1]].inv_w, p[o[2]].inv_w)) std::rotate(o.begin(), o.begin() + 1, o.end());  // smallest 1/w first
   const ScreenPoint<R>&a = p[o[0]], &b = p[o[1]], &c = p[o[2]];
   const auto real = [](int64_t i) { return static_cast<R>(i); };

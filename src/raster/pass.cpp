@@ -5,13 +5,13 @@
 #include <utility>
 
 #include "halfspace/core/float_mode.h"
+#include "halfspace/raster/loop/tile_worker.h"
 #include "halfspace/raster/pipeline/pass_memory.h"
 #include "halfspace/raster/primitives/bin.h"
 #include "halfspace/raster/primitives/primitive_assembly.h"
 #include "halfspace/raster/primitives/setup.h"
 #include "halfspace/raster/primitives/vertex_stage.h"
 #include "halfspace/raster/tile/blend.h"
-#include "halfspace/raster/tile_worker.h"
 
 namespace halfspace {
 
@@ -90,7 +90,7 @@ class PassState {
     std::vector<VertexTask> vertex_tasks;
     std::vector<std::vector<DrawRange>> chunks;
     uint64_t primitives = 0;  // in all chunks
-    uint32_t room = 0;        // primitives that still fit in the last chunk
+    uint32_t capacity = 0;    // primitives that still fit in the last chunk
     uint32_t records = 0;     // triangles that still fit in the last chunk
     PassStatistics submitted;
   };
@@ -256,17 +256,17 @@ void PassState::add_draw_ranges(uint32_t draw) {
   const uint32_t each = max_triangles_per_primitive(d, context_.samples);
   for (uint32_t instance = 0; instance < d.state.instances; ++instance) {
     for (uint32_t first = 0; first < d.primitive_count;) {
-      if (plan_.room == 0 || plan_.records < each) {
+      if (plan_.capacity == 0 || plan_.records < each) {
         plan_.chunks.emplace_back();
-        plan_.room =
+        plan_.capacity =
             static_cast<uint32_t>(std::min<uint64_t>(options_.chunk_triangles, std::max(kSmallestChunk, plan_.primitives / kChunkShare)));
         plan_.records = kMaxTrianglesPerChunk;
       }
-      const uint32_t n = std::min({plan_.room, plan_.records / each, d.primitive_count - first});
+      const uint32_t n = std::min({plan_.capacity, plan_.records / each, d.primitive_count - first});
       plan_.chunks.back().push_back({draw, instance, first, n});
       first += n;
       plan_.primitives += n;
-      plan_.room -= n;
+      plan_.capacity -= n;
       plan_.records -= n * each;
     }
   }
@@ -336,6 +336,10 @@ void add_draw(PassState& state, const ShaderKernels& kernels, KeptShader shader,
 
 void set_post_step(PassState& state, PostStep post) { state.set_post_step(std::move(post)); }
 
+struct PassAccess {
+  static PassState& state_of(Pass& pass) { return *pass.state_; }
+};
+
 }  // namespace HS_LANES_NAMESPACE
 
 }  // namespace detail
@@ -364,7 +368,9 @@ PassStatistics Pass::run(const Workers& workers) {
 
 inline namespace HS_LANES_NAMESPACE {
 
-PassStatistics run_with(Pass& pass, TileRunner& tiles, const Workers& workers) { return pass.state_->run(tiles, workers); }
+PassStatistics run_with(Pass& pass, TileRunner& tiles, const Workers& workers) {
+  return detail::PassAccess::state_of(pass).run(tiles, workers);
+}
 
 }  // namespace HS_LANES_NAMESPACE
 

@@ -25,7 +25,8 @@
 
 namespace halfspace {
 
-/// Options of a pass. Only `samples` and `supersample` affect the rendered image; the others affect speed and memory use.
+/// Options of a pass. `samples` and `supersample` affect the rendered image. The others affect speed and memory use, except that bin_budget
+/// can change the result of order-independent blending (DrawState::order_independent).
 struct PassOptions {
   /// Samples per pixel: 1, 2, 4 or 8, at the standard positions. Colors are resolved to the mean of the samples; depth and stencil are
   /// taken from sample 0.
@@ -41,8 +42,6 @@ struct PassOptions {
   /// If false, all fragments are shaded immediately, in submission order.
   bool defer = true;
 };
-
-class TileRunner;
 
 inline namespace HS_LANES_NAMESPACE {
 
@@ -115,7 +114,7 @@ class Pass {
   PassStatistics run(const Workers& workers);
 
  private:
-  friend PassStatistics run_with(Pass& pass, TileRunner& tiles, const Workers& workers);  // raster/inspection.h
+  friend detail::PassAccess;
 
   Pass(std::span<const ColorTarget> colors, int width, int height, const DepthTarget& depth, const PassOptions& options);
 

@@ -80,10 +80,10 @@ void Indices::scan(std::span<const T> list, std::size_t vertex_count, PrimitiveR
   }
 }
 
-std::span<const VertexStream> at_instance(const VertexStreams& vertices, uint32_t instance, StreamRoom& room) {
+std::span<const VertexStream> at_instance(const VertexStreams& vertices, uint32_t instance, StreamStorage& storage) {
   if (!vertices.has_instance_streams) return vertices.streams;
-  std::copy(vertices.streams.begin(), vertices.streams.end(), room.begin());
-  const std::span<VertexStream> moved(room.data(), vertices.streams.size());
+  std::copy(vertices.streams.begin(), vertices.streams.end(), storage.begin());
+  const std::span<VertexStream> moved(storage.data(), vertices.streams.size());
   for (VertexStream& s : moved) {
     if (s.divisor == 0) continue;
     s.data += static_cast<std::size_t>(instance / s.divisor) * static_cast<std::size_t>(s.stride);

@@ -47,7 +47,9 @@ StreamOf<T> stream(const std::vector<T>& values) {
 template <class V, class F>
 StreamOf<F> stream(std::span<const V> vertices, F V::*member) {
   static_assert(std::is_trivially_copyable_v<V> && sizeof(V) % sizeof(float) == 0 && sizeof(F) % sizeof(float) == 0);
-  static_assert(std::is_same_v<F, float> || std::is_same_v<typename F::value_type, float>, "vertex attributes must consist of floats");
+  static_assert(
+      std::is_same_v<F, float> || requires { requires std::is_same_v<typename F::value_type, float>; },
+      "vertex attributes must consist of floats");
   StreamOf<F> s{{nullptr, sizeof(V) / sizeof(float), sizeof(F) / sizeof(float), vertices.size()}};
   if (!vertices.empty()) s.data = reinterpret_cast<const float*>(&(vertices.front().*member));
   return s;
@@ -56,6 +58,8 @@ template <class V, class F>
 StreamOf<F> stream(const std::vector<V>& vertices, F V::*member) {
   return stream(std::span<const V>(vertices), member);
 }
+template <class T, class... Member>
+void stream(const std::vector<T>&& values, Member...) = delete;  // the vector must outlive the stream
 
 /// Returns the stream with one row per `divisor` instances instead of one row per vertex. divisor must be at least 1.
 template <std::derived_from<VertexStream> S>
@@ -88,10 +92,10 @@ struct VertexStreams {
 };
 
 /// Storage for the result of at_instance().
-using StreamRoom = std::array<VertexStream, kMaxStreams>;
+using StreamStorage = std::array<VertexStream, kMaxStreams>;
 /// Returns the streams for the vertices of one instance. Per-instance streams point to the row of the instance and have a stride of 0; if
-/// there are any, the result is stored in `room`.
-std::span<const VertexStream> at_instance(const VertexStreams& vertices, uint32_t instance, StreamRoom& room);
+/// there are any, the result is stored in `storage`.
+std::span<const VertexStream> at_instance(const VertexStreams& vertices, uint32_t instance, StreamStorage& storage);
 
 namespace detail {
 /// Implementation of make_vertex_view(). There must be at most kMaxStreams streams.
@@ -136,8 +140,12 @@ class Indices {
   /// Every index except for restarts must be less than vertex_count; otherwise an HS_CHECK fails.
   Indices(std::span<const uint32_t> list, std::size_t vertex_count, PrimitiveRestart restart = PrimitiveRestart::off);
   Indices(std::span<const uint16_t> list, std::size_t vertex_count, PrimitiveRestart restart = PrimitiveRestart::off);
-  Indices(const std::vector<uint32_t>& list, std::size_t vertex_count) : Indices(std::span<const uint32_t>(list), vertex_count) {}
-  Indices(std::vector<uint32_t>&& list, std::size_t vertex_count) = delete;  // the list must outlive the Indices
+  Indices(const std::vector<uint32_t>& list, std::size_t vertex_count, PrimitiveRestart restart = PrimitiveRestart::off)
+      : Indices(std::span<const uint32_t>(list), vertex_count, restart) {}
+  Indices(const std::vector<uint16_t>& list, std::size_t vertex_count, PrimitiveRestart restart = PrimitiveRestart::off)
+      : Indices(std::span<const uint16_t>(list), vertex_count, restart) {}
+  template <std::integral T>
+  Indices(const std::vector<T>&&, std::size_t, PrimitiveRestart = PrimitiveRestart::off) = delete;  // the list must outlive the Indices
 
   std::size_t size() const { return size_; }
   uint32_t operator[](std::size_t i) const { return wide_ ? wide_[i] : narrow_ ? narrow_[i] : static_cast<uint32_t>(i); }

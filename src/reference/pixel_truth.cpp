@@ -115,7 +115,7 @@ VisibilityScore compare_visibility(const ShadowPicture& picture, const Image<std
 LightTruth light_truth(const RayScene& casters, const RayLight& light, const glm::dvec3& position_rws, const glm::dvec3& face_normal_ws,
                        uint32_t seed) {
   const bool distant = kind_of(light.light.type).is_distant;
-  const glm::dvec3 place(light.light.place_rws);
+  const glm::dvec3 place(light.light.position_rws);
   const glm::dvec3 axis = distant ? place : unit_or_zero(place - position_rws);
   // Offset the origin by more than the errors of Embree's hit and of the float vertices, which are a few times 2^-24 of the largest
   // coordinate.

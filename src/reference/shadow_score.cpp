@@ -26,7 +26,7 @@ struct Pixels {
 // Returns the world-space width of a shadow map texel at a position, in the view that a lookup at that position would use.
 double texel_at(const Shadow& shadow, const glm::dvec3& position_rws) {
   for (const ShadowView& view : shadow.views) {
-    const ShadowCoordinates<float> p = place_on(view, vec3<float>(glm::vec3(position_rws)));
+    const ShadowCoordinates<float> p = shadow_coordinates(view, vec3<float>(glm::vec3(position_rws)));
     if (holds(view, p, filter_reach(shadow.settings))) return static_cast<double>(view.texel_per_w * p.w);
   }
   return 0.0;
@@ -42,7 +42,7 @@ class EdgeFinder {
   double distance(const RayHit& hit, const glm::dvec3& face_normal_ws, bool lit, double texel, double radius) const {
     const bool distant = kind_of(light_.light.type).is_distant;
     const glm::dvec3 axis =
-        distant ? glm::dvec3(light_.light.place_rws) : unit_or_zero(glm::dvec3(light_.light.place_rws) - hit.position_rws);
+        distant ? glm::dvec3(light_.light.position_rws) : unit_or_zero(glm::dvec3(light_.light.position_rws) - hit.position_rws);
     const glm::dvec3 right = unit_or_zero(glm::cross(std::abs(axis.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0), axis));
     const glm::dvec3 up = glm::cross(axis, right);
     const double lean = glm::dot(face_normal_ws, axis);

@@ -62,7 +62,7 @@ void set_material(SurfaceValueUniforms& u, const S& shader) {
     if (S::kTangents && normal.map != nullptr) {
       u.normal_detail = NormalDetail::map;
       u.detail = {.map = normal.map, .sampler = normal.sampler, .strength = shader.normal_scale};
-      u.detail_place = normal;
+      u.detail_coordinates = normal;
     }
   }
 }

@@ -54,7 +54,7 @@ MetallicStreams variant_of(const MetallicMaterial& m, const MeshStreams& s) {
     tangents |= i == kNormalMap || i == kClearcoatNormalMap;
   }
   const bool colors = !s.colors.empty();
-  if (!mapped) return colors ? MetallicStreams::colored : MetallicStreams::plain;
+  if (!mapped) return colors ? MetallicStreams::colored : MetallicStreams::basic;
   if (colors || second) return MetallicStreams::full;
   return tangents ? MetallicStreams::detailed : MetallicStreams::mapped;
 }
@@ -63,7 +63,7 @@ template <MetallicStreams variant, bool masked>
 PreparedDraw draw_of(const MetallicMaterial& m, const MeshStreams& s, const std::shared_ptr<const Indices>& indices,
                      const DrawState& state) {
   const MetallicSurface<variant, masked> shader{m};
-  if constexpr (variant == MetallicStreams::plain)
+  if constexpr (variant == MetallicStreams::basic)
     return {shader, make_vertex_view(stream(s.positions), stream(s.normals)), indices, state};
   else if constexpr (variant == MetallicStreams::colored)
     return {shader, make_vertex_view(stream(s.positions), stream(s.normals), stream(s.colors)), indices, state};
@@ -81,7 +81,7 @@ PreparedDraw draw_of(const MetallicMaterial& m, const MeshStreams& s, const std:
 PreparedDraw draw_of(const MetallicMaterial& m, MetallicStreams variant, bool masked, const MeshStreams& s,
                      const std::shared_ptr<const Indices>& indices, const DrawState& state) {
   switch (variant) {
-    case MetallicStreams::plain: return draw_of<MetallicStreams::plain, false>(m, s, indices, state);
+    case MetallicStreams::basic: return draw_of<MetallicStreams::basic, false>(m, s, indices, state);
     case MetallicStreams::colored: return draw_of<MetallicStreams::colored, false>(m, s, indices, state);
     case MetallicStreams::mapped:
       return (masked ? draw_of<MetallicStreams::mapped, true> : draw_of<MetallicStreams::mapped, false>)(m, s, indices, state);

@@ -142,7 +142,7 @@ double footprint_of(const std::vector<ShadowView>& views, const std::vector<Visi
   std::vector<double> footprints;
   for (const VisiblePoint& place : places) {
     for (const ShadowView& view : views) {
-      const ShadowCoordinates<float> p = place_on(view, vec3<float>(place.position_rws));
+      const ShadowCoordinates<float> p = shadow_coordinates(view, vec3<float>(place.position_rws));
       if (!holds(view, p, margin)) continue;
       footprints.push_back(static_cast<double>(view.texel_per_w * p.w) / place.pixel);
       break;

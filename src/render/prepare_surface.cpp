@@ -32,7 +32,7 @@ LitSurface ScenePreparation::surface_of(const ObjectDescription& o, const std::s
   add_factor(s, kSpecular, d.specular.linear, d.specular_map, o, path + ".specular_map");
   add_factor(s, kEmissive, d.emissive.linear, d.emissive_map, o, path + ".emissive_map");
   if (d.reflection.linear != glm::dvec3(0.0) && d.shading == ShadingRate::phong) {
-    s.surroundings = environments_.surroundings();
+    s.reflected_environment = environments_.reflected_environment();
     s.reflection = glm::vec3(d.reflection.linear);
   }
   s.model = s.factors[kSpecular].constant == glm::vec3(0.0f) ? LightModel::lambert : d.model;

@@ -18,7 +18,7 @@ Light make_light(const LightDescription& d, const glm::dvec3& eye_ws) {
   const double cos_inner = sincos_turns(d.inner / 360.0).cos, cos_outer = sincos_turns(d.outer / 360.0).cos;
   Light light;
   light.type = d.type;
-  light.place_rws = glm::vec3(kind_of(d.type).is_distant ? towards : d.position - eye_ws);
+  light.position_rws = glm::vec3(kind_of(d.type).is_distant ? towards : d.position - eye_ws);
   light.diffuse = glm::vec3(color * d.diffuse);
   light.specular = glm::vec3(color * d.specular);
   light.attenuation = d.falloff == Falloff::physical ? glm::vec3(0, 0, 1) : glm::vec3(d.attenuation);

@@ -45,7 +45,7 @@ using SceneShader = std::variant<SurfaceShader<ShadingRate::none, false>, Surfac
                                  SurfaceShader<ShadingRate::phong, true, NormalDetail::bump>,                                //
                                  SurfaceShader<ShadingRate::phong, true, NormalDetail::slopes>,                              //
                                  SphereImpostor<false>, SphereImpostor<true>, StarSky, EnvironmentSky,                       //
-                                 MetallicSurface<MetallicStreams::plain>, MetallicSurface<MetallicStreams::colored>,         //
+                                 MetallicSurface<MetallicStreams::basic>, MetallicSurface<MetallicStreams::colored>,         //
                                  MetallicSurface<MetallicStreams::mapped>, MetallicSurface<MetallicStreams::mapped, true>,   //
                                  MetallicSurface<MetallicStreams::detailed>, MetallicSurface<MetallicStreams::detailed, true>,
                                  MetallicSurface<MetallicStreams::full>, MetallicSurface<MetallicStreams::full, true>,  //

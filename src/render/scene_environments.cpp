@@ -221,13 +221,13 @@ EnvironmentBlend SceneEnvironments::reflected() {
   return blend;
 }
 
-const EnvironmentBlend* SceneEnvironments::surroundings() {
+const EnvironmentBlend* SceneEnvironments::reflected_environment() {
   if (!scene_.reflections.on) return nullptr;
-  if (surroundings_ == nullptr) {
-    surroundings_ = std::make_shared<const EnvironmentBlend>(reflected());
-    used_.keep(surroundings_);
+  if (reflected_environment_ == nullptr) {
+    reflected_environment_ = std::make_shared<const EnvironmentBlend>(reflected());
+    used_.keep(reflected_environment_);
   }
-  return surroundings_.get();
+  return reflected_environment_.get();
 }
 
 const EnvironmentLightBlend* SceneEnvironments::light() {

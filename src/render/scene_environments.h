@@ -32,7 +32,7 @@ class SceneEnvironments {
   // Prepares the two environments of the background, or only one if the other is not visible.
   EnvironmentBlend background();
   // Returns the environment that surfaces reflect, or null if reflections are off.
-  const EnvironmentBlend* surroundings();
+  const EnvironmentBlend* reflected_environment();
   // Returns the filtered environment that lights metallic-roughness surfaces, or null if reflections are off.
   const EnvironmentLightBlend* light();
 
@@ -51,8 +51,8 @@ class SceneEnvironments {
   SceneMaps& maps_;
   UsedAssets& used_;
   const Workers& workers_;
-  std::shared_ptr<const EnvironmentBlend> surroundings_;  // null: not needed yet
-  std::shared_ptr<const EnvironmentLightBlend> light_;    // null: not needed yet
+  std::shared_ptr<const EnvironmentBlend> reflected_environment_;  // null: not needed yet
+  std::shared_ptr<const EnvironmentLightBlend> light_;             // null: not needed yet
 };
 
 }  // namespace halfspace

@@ -352,7 +352,7 @@ consteval bool require_shader() {
     static_assert(detail::kComplete<S>,
                   "the shader is missing: template <class R> Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>& px) const;");
   } else {
-    static_assert(FragmentResult<FragmentOf<S>>,
+    static_assert(detail::kIsFragment<FragmentOf<S>>,
                   "the shader's fragment function must return Fragment<R>, DiscardingFragment<R> or DepthFragment<R>, or one of "
                   "their variants for several colors");
     return Shader<S>;

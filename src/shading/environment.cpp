@@ -62,7 +62,7 @@ EnvironmentMap::Coordinates<R> EnvironmentMap::cube_coordinates(const vec3<R>& d
 
 // A step of the direction rotates it by the angle |d × step| / |d|².
 template <class R>
-EnvironmentMap::Coordinates<R> EnvironmentMap::place_on_panorama(const vec3<R>& d, const vec3<R>& dx, const vec3<R>& dy) const {
+EnvironmentMap::Coordinates<R> EnvironmentMap::panorama_coordinates(const vec3<R>& d, const vec3<R>& dx, const vec3<R>& dy) const {
   const auto squared = [](const vec3<R>& v) { return dot(v, v); };
   const R turn2 = max(squared(cross(d, dx)), squared(cross(d, dy))) / (squared(d) * squared(d));
   const R texels = R(std::max(0.5f * static_cast<float>(width()), static_cast<float>(height()))) * inverse_pi<R>();  // texels per radian
@@ -72,8 +72,8 @@ EnvironmentMap::Coordinates<R> EnvironmentMap::place_on_panorama(const vec3<R>& 
 }
 
 template <class R>
-EnvironmentMap::Coordinates<R> EnvironmentMap::place(const vec3<R>& d, const vec3<R>& dx, const vec3<R>& dy) const {
-  return layout_ == EnvironmentLayout::cube ? cube_coordinates(d, dx, dy) : place_on_panorama(d, dx, dy);
+EnvironmentMap::Coordinates<R> EnvironmentMap::coordinates(const vec3<R>& d, const vec3<R>& dx, const vec3<R>& dy) const {
+  return layout_ == EnvironmentLayout::cube ? cube_coordinates(d, dx, dy) : panorama_coordinates(d, dx, dy);
 }
 
 template <class R>
@@ -107,20 +107,20 @@ vec3<R> EnvironmentMap::fetch_between_levels(const Coordinates<R>& at) const {
 
 template <Number R>
 vec3<R> EnvironmentMap::sample(const vec3<R>& d_ms, const vec3<R>& dx_ms, const vec3<R>& dy_ms) const {
-  return fetch_between_levels(place(d_ms, dx_ms, dy_ms));
+  return fetch_between_levels(coordinates(d_ms, dx_ms, dy_ms));
 }
 
 template <Number R>
 vec3<R> EnvironmentMap::sample_level(const vec3<R>& d_ms, std::type_identity_t<R> lod) const {
   const vec3<R> still(R(0.0f));
-  Coordinates<R> at = place(d_ms, still, still);
+  Coordinates<R> at = coordinates(d_ms, still, still);
   at.lod = lod;
   return fetch_between_levels(at);
 }
 
 template <Number R>
 R EnvironmentMap::level_of_detail(const vec3<R>& d_ms, const vec3<R>& dx_ms, const vec3<R>& dy_ms) const {
-  return place(d_ms, dx_ms, dy_ms).lod;
+  return coordinates(d_ms, dx_ms, dy_ms).lod;
 }
 
 template vec3<float> EnvironmentMap::sample(const vec3<float>&, const vec3<float>&, const vec3<float>&) const;

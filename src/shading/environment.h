@@ -79,9 +79,9 @@ class EnvironmentMap {
   };
 
   template <class R>
-  Coordinates<R> place(const vec3<R>& d, const vec3<R>& dx, const vec3<R>& dy) const;
+  Coordinates<R> coordinates(const vec3<R>& d, const vec3<R>& dx, const vec3<R>& dy) const;
   template <class R>
-  Coordinates<R> place_on_panorama(const vec3<R>& d, const vec3<R>& dx, const vec3<R>& dy) const;
+  Coordinates<R> panorama_coordinates(const vec3<R>& d, const vec3<R>& dx, const vec3<R>& dy) const;
   template <class R>
   Coordinates<R> cube_coordinates(const vec3<R>& d, const vec3<R>& dx, const vec3<R>& dy) const;
   template <class R>

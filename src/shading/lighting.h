@@ -28,7 +28,7 @@ namespace halfspace {
 /// the world with the eye as the origin, so that floats are most precise near the eye.
 struct Light {
   LightType type = LightType::directional;
-  glm::vec3 place_rws{0, 0, 1};  ///< directional: unit vector towards the light; otherwise its position
+  glm::vec3 position_rws{0, 0, 1};  ///< directional: unit vector towards the light; otherwise its position
   glm::vec3 diffuse{1.0f};
   glm::vec3 specular{1.0f};
   glm::vec3 attenuation{1, 0, 0};  ///< coefficients a of 1 / (a0 + a1·d + a2·d²); (0, 0, 1) is the physical falloff
@@ -75,8 +75,8 @@ struct IncidentLight {
 
 template <class R>
 HS_INLINE IncidentLight<R> light_at(const Light& light, const vec3<R>& position_rws) {
-  if (light.type == LightType::directional) return {vec3<R>(light.place_rws), R(1)};
-  const vec3<R> to_light = light.place_rws - position_rws;
+  if (light.type == LightType::directional) return {vec3<R>(light.position_rws), R(1)};
+  const vec3<R> to_light = light.position_rws - position_rws;
   const R d = sqrt(dot(to_light, to_light));
   const vec3<R> l_ws = normalize_or_zero(to_light);
   const R attenuation = fma(R(light.attenuation.z) * d + R(light.attenuation.y), d, R(light.attenuation.x));

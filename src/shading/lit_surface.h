@@ -44,7 +44,7 @@ struct LitSurface : PlacedSurface {
   LightModel model = LightModel::blinn_phong;
   std::array<Factor, kMaterialFactors> factors;
   DetailMap detail;
-  const EnvironmentBlend* surroundings = nullptr;  ///< reflected environment; null: none; not owned
+  const EnvironmentBlend* reflected_environment = nullptr;  ///< null: none; not owned
   glm::vec3 reflection{0.0f};
 
   /// Returns the factors without their maps.
@@ -57,7 +57,7 @@ struct LitSurface : PlacedSurface {
 
   /// Returns the material factors, multiplied by their maps. A map that is shared with the color is sampled only once.
   template <class R>
-  HS_INLINE Material<R> material_at(const MapCoordinates<R>& place) const {
+  HS_INLINE Material<R> material_at(const MapCoordinates<R>& at) const {
     Material<R> m;
     vec3<R> color_texel(R(1));
     for (std::size_t i = 0; i < kMaterialFactors; ++i) {  // a loop, so that the lookup is inlined only once
@@ -65,7 +65,7 @@ struct LitSurface : PlacedSurface {
       m[i] = vec3<R>(f.constant);
       if (f.map == nullptr) continue;
       vec3<R> texel = color_texel;
-      if (i == kColor || f.map != factors[kColor].map) texel = f.map->sample_rgb(f.sampler, place.uv, place.duv_dx, place.duv_dy);
+      if (i == kColor || f.map != factors[kColor].map) texel = f.map->sample_rgb(f.sampler, at.uv, at.duv_dx, at.duv_dy);
       if (i == kColor) color_texel = texel;
       m[i] = f.constant * texel;
     }

@@ -74,7 +74,7 @@ struct MetallicMaterial : PlacedSurface {
 
 /// The streams that a mesh has. They select a variant of the shader.
 enum class MetallicStreams : uint8_t {
-  plain,     ///< no maps
+  basic,     ///< no maps
   colored,   ///< no maps, but vertex colors
   mapped,    ///< maps with one set of texture coordinates; no normal maps
   detailed,  ///< the same, with tangents for normal maps
@@ -154,7 +154,7 @@ struct MetallicSurface : MetallicMaterial {
   };
 
   template <class R>
-  HS_INLINE MapCoordinates<R> place(const PlacedMap& m, const Varyings<R>& in, const Pixel<R>& px) const {
+  HS_INLINE MapCoordinates<R> map_coordinates(const PlacedMap& m, const Varyings<R>& in, const Pixel<R>& px) const {
     using V = Varyings<R>;
     MapCoordinates<R> at;
     if constexpr (kFull) {
@@ -179,7 +179,7 @@ struct MetallicSurface : MetallicMaterial {
         const PlacedMap& m = maps[i];
         if (m.map == nullptr) continue;
         if (!m.repeats) {
-          const MapCoordinates<R> at = place(m, in, px);
+          const MapCoordinates<R> at = map_coordinates(m, in, px);
           texel = m.map->sample(m.sampler, at.uv, at.duv_dx, at.duv_dy);
         }
         switch (i) {

@@ -25,9 +25,9 @@ inline float filter_reach(const ShadowSettings& s) {
 /// Moves the receiver along the face normal by `texels` times the sine of the angle of incidence, and projects it to the view.
 template <class R>
 HS_INLINE ShadowCoordinates<R> normal_offset_coordinates(const ShadowView& view, const ShadowReceiver<R>& at, R cosine, float texels) {
-  const R w = place_on(view, at.position_rws).w;
+  const R w = shadow_coordinates(view, at.position_rws).w;
   const R step = R(texels * view.texel_per_w) * w * sqrt(R(1) - cosine * cosine);
-  return place_on(view, at.position_rws + at.face_normal_ws * step);
+  return shadow_coordinates(view, at.position_rws + at.face_normal_ws * step);
 }
 
 /// Returns the tangent of the angle with the given cosine, clamped to limit.
@@ -41,17 +41,17 @@ HS_INLINE R tangent_of(R cosine, float limit) {
 /// the rounding of depths within a texel. The radius is capped at the radius of pcf7: pcss reaches farther, but only for occluders that are
 /// far away.
 template <class R>
-HS_INLINE R automatic_lift(const ShadowSettings& s, R tangent) {
-  return R(kAutomaticLift) * fma(R(1.0f + min(filter_reach(s), 4.0f)), tangent, R(1));
+HS_INLINE R automatic_depth_offset(const ShadowSettings& s, R tangent) {
+  return R(kAutomaticDepthOffset) * fma(R(1.0f + min(filter_reach(s), 4.0f)), tangent, R(1));
 }
 
 /// Projects the receiver to the view and applies the bias of the settings.
 template <class R>
-HS_INLINE ShadowCoordinates<R> biased_place(const ShadowView& view, const ShadowSettings& s, const ShadowReceiver<R>& at) {
+HS_INLINE ShadowCoordinates<R> biased_coordinates(const ShadowView& view, const ShadowSettings& s, const ShadowReceiver<R>& at) {
   const R cosine = clamp(dot(at.face_normal_ws, at.to_light_ws), R(0), R(1));
   if (s.bias == ShadowBias::normal_offset) return normal_offset_coordinates(view, at, cosine, s.constant * filter_reach(s));
 
-  ShadowCoordinates<R> p = place_on(view, at.position_rws);
+  ShadowCoordinates<R> p = shadow_coordinates(view, at.position_rws);
   const R texel = depth_of_texel(view, p.w);
   switch (s.bias) {
     case ShadowBias::constant: p.depth += texel * R(s.constant); break;
@@ -68,7 +68,7 @@ HS_INLINE ShadowCoordinates<R> biased_place(const ShadowView& view, const Shadow
       break;
     case ShadowBias::automatic:
       set_plane(view, at.position_rws, at.face_normal_ws, kSteepestSlope, p);
-      p.depth += texel * automatic_lift(s, tangent_of(cosine, kSteepestSlope));
+      p.depth += texel * automatic_depth_offset(s, tangent_of(cosine, kSteepestSlope));
       break;
     default: break;
   }

@@ -15,7 +15,7 @@ R shadow_factor(const Shadow& shadow, const ShadowReceiver<R>& at) {
   MaskOf<R> open = light == R(1);
   const float margin = filter_reach(shadow.settings);
   for (const ShadowView& view : shadow.views) {
-    const ShadowCoordinates<R> p = biased_place(view, shadow.settings, at);
+    const ShadowCoordinates<R> p = biased_coordinates(view, shadow.settings, at);
     const MaskOf<R> here = open && holds(view, p, margin);
     if (none(here)) continue;
     light = select(here, filtered_shadow(view, shadow.settings, p, at), light);

@@ -26,7 +26,7 @@ HS_INLINE R depth_of_texel(const ShadowView& view, R w) {
 }
 
 template <class R>
-HS_INLINE ShadowCoordinates<R> place_on(const ShadowView& view, const vec3<R>& position_rws) {
+HS_INLINE ShadowCoordinates<R> shadow_coordinates(const ShadowView& view, const vec3<R>& position_rws) {
   const vec4<R> p = view.clip_from_rws * vec4<R>(position_rws, R(1));
   const R inverse = R(1) / p.w;
   const R half(0.5f * static_cast<float>(view.size));

@@ -111,8 +111,8 @@ struct SurfaceShader : LitSurface {
       const Material<R> m = material(in, px);
       const SurfacePoint<R> p = point_at(in, px);
       vec3<R> light = reflected(m, illuminate(lights, model, m[kShininess].x, p));
-      if (surroundings != nullptr)
-        light += reflection * environment_reflection(*surroundings, from_eye(in, px), normal_with_steps(in, px, p.n_ws));
+      if (reflected_environment != nullptr)
+        light += reflection * environment_reflection(*reflected_environment, from_eye(in, px), normal_with_steps(in, px, p.n_ws));
       return {vec4<R>(light, R(1))};
     }
   }
@@ -158,14 +158,14 @@ struct SurfaceShader : LitSurface {
   }
 
   template <class R>
-  static HS_INLINE MapCoordinates<R> place(const Varyings<R>& in, const Pixel<R>& px) {
+  static HS_INLINE MapCoordinates<R> map_coordinates(const Varyings<R>& in, const Pixel<R>& px) {
     return {in.uv, px.ddx(&Varyings<R>::uv), px.ddy(&Varyings<R>::uv)};
   }
 
   template <class R>
   HS_INLINE Material<R> material(const Varyings<R>& in, const Pixel<R>& px) const {
     if constexpr (mapped) {
-      return material_at(place(in, px));
+      return material_at(map_coordinates(in, px));
     } else {
       return constants<R>();
     }
@@ -203,14 +203,14 @@ struct SurfaceShader : LitSurface {
     if constexpr (normal_detail == NormalDetail::none) {
       return in.normal_ws;
     } else if constexpr (normal_detail == NormalDetail::map) {
-      return normal_from_map(detail, place(in, px), in.normal_ws, in.tangent_ws, in.side.value);
+      return normal_from_map(detail, map_coordinates(in, px), in.normal_ws, in.tangent_ws, in.side.value);
     } else if constexpr (normal_detail == NormalDetail::bump) {
-      const MapCoordinates<R> at = place(in, px);
+      const MapCoordinates<R> at = map_coordinates(in, px);
       const HeightSteps<R> steps =
           detail.difference ? height_differences<V>(detail, px, at, [](const V& v) { return v.uv; }) : height_steps(detail, at);
       return normal_from_heights(normalize_or_zero(in.normal_ws), steps, px.ddx(&V::position_rws), px.ddy(&V::position_rws));
     } else {
-      const MapCoordinates<R> at = place(in, px);
+      const MapCoordinates<R> at = map_coordinates(in, px);
       const vec3<R> slope = detail.map->sample_rgb(detail.sampler, at.uv, at.duv_dx, at.duv_dy);
       return normal_from_object * normal_from_slopes(normalize_or_zero(in.position_os), slope);
     }

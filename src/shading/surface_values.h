@@ -19,11 +19,11 @@ struct SurfaceValueUniforms : PlacedSurface {
   bool face_normal = false;                       ///< use the normal of the triangle instead of those of its vertices
   NormalDetail normal_detail = NormalDetail::none;
   DetailMap detail{};
-  PlacedMap detail_place{};     ///< texture coordinates of the detail; only uv_set and uv_transform are used
-  glm::vec4 color{1.0f};        ///< linear; multiplied by the vertex colors and color_map; w is the opacity
-  PlacedMap color_map{};        ///< its alpha multiplies the opacity
-  PlacedMap opacity_map{};      ///< its channel multiplies the opacity
-  float opacity_cutoff = 0.5f;  ///< masked surfaces are discarded below it
+  PlacedMap detail_coordinates{};  ///< texture coordinates of the detail; only uv_set and uv_transform are used
+  glm::vec4 color{1.0f};           ///< linear; multiplied by the vertex colors and color_map; w is the opacity
+  PlacedMap color_map{};           ///< its alpha multiplies the opacity
+  PlacedMap opacity_map{};         ///< its channel multiplies the opacity
+  float opacity_cutoff = 0.5f;     ///< masked surfaces are discarded below it
 };
 
 /// masked: pixels whose opacity is below opacity_cutoff are discarded, as in MetallicSurface.
@@ -73,7 +73,7 @@ struct SurfaceValueShader : SurfaceValueUniforms {
 
  private:
   template <class R>
-  static HS_INLINE MapCoordinates<R> place(const PlacedMap& m, const Varyings<R>& in, const Pixel<R>& px) {
+  static HS_INLINE MapCoordinates<R> map_coordinates(const PlacedMap& m, const Varyings<R>& in, const Pixel<R>& px) {
     using V = Varyings<R>;
     if (m.uv_set == 1) return transformed(m.uv_transform, MapCoordinates<R>{in.second_uv, px.ddx(&V::second_uv), px.ddy(&V::second_uv)});
     return transformed(m.uv_transform, MapCoordinates<R>{in.uv, px.ddx(&V::uv), px.ddy(&V::uv)});
@@ -86,7 +86,7 @@ struct SurfaceValueShader : SurfaceValueUniforms {
     for (const PlacedMap* m : {&color_map, &opacity_map}) {  // a loop, so that the lookup is inlined only once
       if (m->map == nullptr) continue;
       if (!m->repeats) {
-        const MapCoordinates<R> at = place(*m, in, px);
+        const MapCoordinates<R> at = map_coordinates(*m, in, px);
         texel = m->map->sample(m->sampler, at.uv, at.duv_dx, at.duv_dy);
       }
       if (m == &color_map) {
@@ -110,7 +110,7 @@ struct SurfaceValueShader : SurfaceValueUniforms {
   HS_INLINE vec3<R> detailed_normal(const Varyings<R>& in, const Pixel<R>& px) const {
     using V = Varyings<R>;
     if (normal_detail == NormalDetail::none) return in.normal_ws;
-    const MapCoordinates<R> at = place(detail_place, in, px);
+    const MapCoordinates<R> at = map_coordinates(detail_coordinates, in, px);
     if (normal_detail == NormalDetail::map) return normal_from_map(detail, at, in.normal_ws, in.tangent_ws, in.side.value);
     if (normal_detail == NormalDetail::slopes) {
       const vec3<R> slope = detail.map->sample_rgb(detail.sampler, at.uv, at.duv_dx, at.duv_dy);

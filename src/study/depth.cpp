@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "halfspace/core/random.h"
 #include "halfspace/geometry/camera.h"
 #include "halfspace/raster/pass.h"
 #include "halfspace/study/pictures.h"
@@ -40,17 +41,6 @@ struct Flatly {
   }
 };
 
-// splitmix64, which generates the same numbers on every machine.
-struct Random {
-  uint64_t state;
-  double next() {
-    uint64_t z = (state += 0x9e3779b97f4a7c15u);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-53;
-  }
-};
-
 struct Pairs {
   std::vector<glm::vec3> positions, colors;
 };
@@ -59,10 +49,10 @@ struct Pairs {
 Pairs make_pairs(int size, double ratio) {
   constexpr double kNear = 0.1;
   Pairs out;
-  Random random{1};
+  SplitMix64 random(1);
   for (int cell = 0; cell < (size / kCell) * (size / kCell); ++cell) {
-    const double z = kNear * 1.01 * std::pow(ratio / 1.03, random.next());
-    const bool far_first = random.next() < 0.5;
+    const double z = kNear * 1.01 * std::pow(ratio / 1.03, random.real(0.0, 1.0));
+    const bool far_first = random.real(0.0, 1.0) < 0.5;
     for (int k = 0; k < 2; ++k) {
       const bool is_far = (k == 0) == far_first;
       const double distance = is_far ? z * (1.0 + kGap) : z;

@@ -494,8 +494,8 @@ TEST_F(Cli, CompareReportsNumbersAndChecksTheTolerance) {
   for (const char* key : {"differing_pixels", "rmse", "psnr_db", "max", "p999", "share_above_1_255", "ssim"})
     EXPECT_TRUE(parsed.at(key).is_number()) << key;
   EXPECT_TRUE(fs::exists(directory / "d.png"));
-  const double most = parsed.at("max");
-  EXPECT_GT(most, 0.01);
+  const double max_value = parsed.at("max");
+  EXPECT_GT(max_value, 0.01);
   const Outcome above = run({"compare", "64x36.png", "flat.png", "--tolerance", "0.01"});
   EXPECT_EQ(above.exit_code, 1);
   EXPECT_TRUE(is_line_with(above.err, "halfspace: flat.png", {"64x36.png", " 0.", "0.01"}));

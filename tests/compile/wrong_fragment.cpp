@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A shader whose fragment function returns a vec4 instead of a Fragment must not compile, and
 // the error must contain: the shader's fragment function must return.
+// For the type that it returns instead, the error must contain: VecN<4, float>.
 #include "halfspace/raster/pass.h"
 
 using namespace halfspace;

@@ -64,16 +64,16 @@ int after(StencilOp op, int value, int reference) {
 }
 double as_stored(DepthFormat format, float z) {
   const bool code = depth_part(format) == DepthFormat::d24 || format == DepthFormat::d16;
-  const double most = format == DepthFormat::d16 ? 65535.0 : 16777215.0;
-  return code ? std::floor(static_cast<double>(z) * most + 0.5) : static_cast<double>(z);
+  const double max_code = format == DepthFormat::d16 ? 65535.0 : 16777215.0;
+  return code ? std::floor(static_cast<double>(z) * max_code + 0.5) : static_cast<double>(z);
 }
 
 // Evaluates OpenGL 4.6, sections 17.3.3 and 17.3.4, for each cell.
 std::string tests_by_hand(const Picture& p, const Seen& seen) {
   const DrawState& state = p.draws.back().state;
   return for_each_pixel(seen, [&](int x, int y) -> std::string {
-    const float held = kDepths[static_cast<std::size_t>(y / 4)];
-    double depth = as_stored(p.depth, held);
+    const float stored = kDepths[static_cast<std::size_t>(y / 4)];
+    double depth = as_stored(p.depth, stored);
     glm::vec4 color = color_number(y / 4);
     bool passes = !state.depth.test || compares(state.depth.compare, as_stored(p.depth, kDrawn), depth);
     if (state.stencil) {

@@ -66,9 +66,9 @@ TEST(ConformanceRandomState, ShrinksToAMinimalFailure) {
   for (uint64_t seed = 0; seed < 100; ++seed) {
     if (!subtracts(random_picture({seed, 0}))) continue;
     ++shrunk;
-    const RandomState least = shrink({seed, 0}, subtracts);
+    const RandomState shrunk = shrink({seed, 0}, subtracts);
     RandomState again;
-    ASSERT_TRUE(RandomState::parse(least.text(), again));
+    ASSERT_TRUE(RandomState::parse(shrunk.text(), again));
     const Picture p = random_picture(again);
     EXPECT_TRUE(subtracts(p));
     EXPECT_EQ(p.draws.size(), 1u);

@@ -57,15 +57,15 @@ TEST(Workers, CanHaveMoreThreadsThanCores) {
 TEST(Workers, NeverRunMoreTasksAtOnceThanThreads) {
   for (const int threads : {1, 2, Workers::cores() + 1}) {
     const Workers workers(threads);
-    std::atomic<int> running = 0, most = 0;
+    std::atomic<int> running = 0, max_running = 0;
     workers.for_each(200, [&](int) {
       const int now = ++running;
-      for (int seen = most; seen < now && !most.compare_exchange_weak(seen, now);) {
+      for (int seen = max_running; seen < now && !max_running.compare_exchange_weak(seen, now);) {
       }
       std::this_thread::sleep_for(std::chrono::microseconds(50));
       --running;
     });
-    EXPECT_LE(most, threads);
+    EXPECT_LE(max_running, threads);
   }
 }
 

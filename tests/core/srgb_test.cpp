@@ -81,8 +81,8 @@ TEST(Srgb, EveryFloatEncodesToTheNearestValue) {
 TEST(Srgb, EveryHalfEncodesToTheRoundedCurve) {
   for (int h = 0; h < 65536; ++h) {
     const float x = half_to_float(static_cast<uint16_t>(h));
-    const long double held = x > 0 ? std::min(static_cast<long double>(x), 1.0L) : 0.0L;  // NaN encodes to 0
-    EXPECT_EQ(linear_to_srgb(x), static_cast<int>(std::floor(encode(held) * 255 + 0.5L))) << x;
+    const long double clamped = x > 0 ? std::min(static_cast<long double>(x), 1.0L) : 0.0L;  // NaN encodes to 0
+    EXPECT_EQ(linear_to_srgb(x), static_cast<int>(std::floor(encode(clamped) * 255 + 0.5L))) << x;
   }
 }
 

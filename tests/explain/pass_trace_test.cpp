@@ -7,7 +7,7 @@
 #include <array>
 #include <map>
 
-#include "halfspace/raster/inspection.h"
+#include "halfspace/raster/inspect/inspection.h"
 #include "support/random.h"
 #include "support/shaders.h"
 #include "support/workers.h"

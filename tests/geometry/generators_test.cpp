@@ -284,16 +284,16 @@ TEST(Generators, BrokenPreconditionsAbort) {
 TEST(Icosphere, TrianglesHaveSimilarAreasAndDoNotSpanTheMap) {
   const Mesh m = icosphere(4, 1.0f);
   EXPECT_EQ(m.indices.size(), 3u * 20u * 256u);
-  double least = 1e9, most = 0;
+  double min_area = 1e9, max_area = 0;
   for (std::size_t i = 0; i < m.indices.size(); i += 3) {
     const Corner a = corner(m, i), b = corner(m, i + 1), c = corner(m, i + 2);
     const double area = 0.5 * static_cast<double>(glm::length(glm::cross(b.position - a.position, c.position - a.position)));
-    least = std::min(least, area);
-    most = std::max(most, area);
+    min_area = std::min(min_area, area);
+    max_area = std::max(max_area, area);
     const float low = std::min({a.uv.x, b.uv.x, c.uv.x}), high = std::max({a.uv.x, b.uv.x, c.uv.x});
     EXPECT_LT(high - low, 0.21f) << "a face of the icosahedron spans a fifth of a turn";
   }
-  EXPECT_LT(most / least, 2.0) << "in a comparable uv_sphere the ratio is 20";
+  EXPECT_LT(max_area / min_area, 2.0) << "in a comparable uv_sphere the ratio is 20";
 }
 
 }  // namespace

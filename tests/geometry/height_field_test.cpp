@@ -166,16 +166,16 @@ TEST(HeightField, FilteringRemovesFineDetail) {
   const HeightField uneven = stripes.filtered(23, two_workers());
   EXPECT_EQ(uneven.width(), 22);
   EXPECT_EQ(uneven.height(), 11);
-  double most = 0, most_uneven = 0, before = 0;
+  double max_slope = 0, max_uneven_slope = 0, before = 0;
   for (double u = 0; u < 1; u += 0.003) {
     EXPECT_NEAR(half.at(u, 0.4).value, 0.5, 1e-7);
-    most = std::max(most, std::fabs(half.at(u, 0.4).du));
-    most_uneven = std::max(most_uneven, std::fabs(uneven.at(u, 0.4).du));
+    max_slope = std::max(max_slope, std::fabs(half.at(u, 0.4).du));
+    max_uneven_slope = std::max(max_uneven_slope, std::fabs(uneven.at(u, 0.4).du));
     before = std::max(before, std::fabs(stripes.at(u, 0.4).du));
   }
   EXPECT_GT(before, 20.0);
-  EXPECT_LT(most, 1e-5);
-  EXPECT_LT(most_uneven, 0.125 * before);
+  EXPECT_LT(max_slope, 1e-5);
+  EXPECT_LT(max_uneven_slope, 0.125 * before);
 }
 
 TEST(HeightField, FilteringKeepsCoarseDetail) {
@@ -206,16 +206,16 @@ TEST(HeightField, PolesAreNotNoisy) {
 
 // Returns the largest error of the gradient, in value per unit of u or v, relative to the smooth function.
 double gradient_error(const HeightField& f) {
-  double most = 0;
+  double max_error = 0;
   for (double u = 0.001; u < 1; u += 0.0031) {
     for (double v = 0.15; v < 0.85; v += 0.0137) {
       const double h = 1e-5;
       const HeightSample s = f.at(u, v);
-      most = std::max(most, std::fabs(s.du - (smooth_height(u + h, v) - smooth_height(u - h, v)) / (2 * h)));
-      most = std::max(most, std::fabs(s.dv - (smooth_height(u, v + h) - smooth_height(u, v - h)) / (2 * h)));
+      max_error = std::max(max_error, std::fabs(s.du - (smooth_height(u + h, v) - smooth_height(u - h, v)) / (2 * h)));
+      max_error = std::max(max_error, std::fabs(s.dv - (smooth_height(u, v + h) - smooth_height(u, v - h)) / (2 * h)));
     }
   }
-  return most;
+  return max_error;
 }
 
 // Quantization to 8 bits creates terraces with slopes of up to 1/255 per texel, far more than the slopes of the map.

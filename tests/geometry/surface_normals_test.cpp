@@ -33,7 +33,7 @@ std::vector<Light> suns() {
   std::vector<Light> lights;
   for (int k = 0; k < 3; ++k) {
     Light light;
-    light.place_rws = glm::vec3(kSuns[k]);
+    light.position_rws = glm::vec3(kSuns[k]);
     light.diffuse = glm::vec3(0.0f);
     light.diffuse[k] = 1.0f;
     lights.push_back(light);

@@ -40,9 +40,18 @@ RASTER_PHASES = [
     ["trace/"],
     ["visibility/"],
     ["shade/"],
-    ["constant_tiles", "tile_draws", "tile_worker", "detail/"],
-    ["pass", "naive", "naive_steps"],
-    ["inspection"],
+    ["loop/", "detail/"],
+    ["pass", "naive"],
+    ["inspect/"],
+]
+# The only files and folders outside of src/raster that may include files of its folders, which are private.
+RASTER_PRIVATE_USERS = [
+    "src/explain/",  # shows the results of every stage
+    "benchmarks/stages/",  # measures the stages one by one
+    "benchmarks/multisample.cpp",  # gives the peers the same sample positions
+    "tests/raster/",
+    "tests/explain/",
+    "tests/render/display_test.cpp",  # counts allocations that are as large as tile memory
 ]
 
 # Third-party headers and the only files or folders of src/ that may include them.
@@ -79,6 +88,14 @@ def raster_phase(path):
     return None
 
 
+def check_raster_include(file, included):
+    """Returns the problem with an include of a file of raster (path relative to src/) from outside of raster, or None."""
+    is_private = included.count("/") > 1
+    if is_private and not file.startswith(tuple(RASTER_PRIVATE_USERS)):
+        return f"includes {included}: the folders of raster are private; expected a header of src/raster itself"
+    return None
+
+
 def check_library_include(includer, included):
     """Returns the problem with an include between files of src/, or None. Both paths are relative to src/."""
     module, target = includer.split("/")[0], included.split("/")[0]
@@ -105,6 +122,10 @@ def check_include(file, spelled, exists):
         included = spelled.removeprefix("halfspace/")
         if not exists("src/" + included):
             return f"includes {spelled}: src/{included} does not exist"
+        if included.startswith("raster/") and not file.startswith("src/raster/"):
+            problem = check_raster_include(file, included)
+            if problem:
+                return problem
         return check_library_include(file.removeprefix("src/"), included) if file.startswith("src/") else None
     if file.startswith("src/"):
         return f'includes "{spelled}": expected "halfspace/MODULE/FILE.h"'
@@ -172,8 +193,23 @@ class Checks(unittest.TestCase):
     def test_include_against_the_order_of_phases(self):
         files = {"src/raster/shade/fragment_batch.h", "src/raster/tile/tile.h", "src/raster/pass.h"}
         self.assertIn("is below", self.check("src/raster/tile/tile.h", "halfspace/raster/shade/fragment_batch.h", files))
-        self.assertIn("is below", self.check("src/raster/tile_worker.cpp", "halfspace/raster/pass.h", files))
+        self.assertIn("is below", self.check("src/raster/loop/tile_worker.cpp", "halfspace/raster/pass.h", files))
         self.assertIsNone(self.check("src/raster/shade/fragment_batch.h", "halfspace/raster/tile/tile.h", files))
+
+    def test_only_listed_files_include_private_folders_of_raster(self):
+        files = {"src/raster/tile/tile.h", "src/raster/pass.h"}
+        for file in "src/render/view.cpp", "apps/cli/main.cpp", "benchmarks/stages.cpp", "tests/bench/rows_test.cpp":
+            self.assertIn("private", self.check(file, "halfspace/raster/tile/tile.h", files))
+            self.assertIsNone(self.check(file, "halfspace/raster/pass.h", files))
+        for file in "src/explain/page.cpp", "src/raster/shade/fragment_kernel.h", "benchmarks/stages/geometry.cpp":
+            self.assertIsNone(self.check(file, "halfspace/raster/tile/tile.h", files))
+
+    def test_every_user_of_private_folders_of_raster_exists(self):
+        self.assertEqual([p for p in RASTER_PRIVATE_USERS if not (ROOT / p).exists()], [])
+
+    def test_public_files_are_at_the_top_of_raster(self):
+        public = {name for row in RASTER_PHASES for name in row if not name.endswith("/")}
+        self.assertEqual({p.stem for p in (ROOT / "src" / "raster").iterdir() if p.is_file()}, public)
 
     def test_plain_headers_stay_plain(self):
         files = {"src/core/lanes.h"}

@@ -139,10 +139,10 @@ int64_t compare_with_mesa(const conformance::Picture& p, const std::string& name
   nothing.draws.clear();
   const glm::vec4 clear = conformance::draw(nothing).color(0, 0);
   const bool in_light = p.colors[0] == ColorFormat::srgb8a8 && blends(p);  // llvmpipe decodes the destination less accurately
-  const auto near = [in_light, most = tolerance(p)](const glm::vec4& a, const glm::vec4& b) {
+  const auto near = [in_light, max_error = tolerance(p)](const glm::vec4& a, const glm::vec4& b) {
     for (int k = 0; k < 4; ++k) {
-      const bool near_by_code = std::fabs(a[k] - b[k]) <= most * std::max(1.0f, std::fabs(a[k]));
-      const bool near_in_light = in_light && k < 3 && std::fabs(srgb_to_linear(a[k]) - srgb_to_linear(b[k])) <= most;
+      const bool near_by_code = std::fabs(a[k] - b[k]) <= max_error * std::max(1.0f, std::fabs(a[k]));
+      const bool near_in_light = in_light && k < 3 && std::fabs(srgb_to_linear(a[k]) - srgb_to_linear(b[k])) <= max_error;
       if (!near_by_code && !near_in_light) return false;
     }
     return true;

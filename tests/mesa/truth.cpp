@@ -3,15 +3,15 @@
 
 namespace halfspace::test {
 
-bool passes(CompareOp op, double value, double held) {
+bool passes(CompareOp op, double value, double stored) {
   switch (op) {
     case CompareOp::never: return false;
-    case CompareOp::less: return value < held;
-    case CompareOp::equal: return value == held;
-    case CompareOp::less_equal: return value <= held;
-    case CompareOp::greater: return value > held;
-    case CompareOp::not_equal: return value != held;
-    case CompareOp::greater_equal: return value >= held;
+    case CompareOp::less: return value < stored;
+    case CompareOp::equal: return value == stored;
+    case CompareOp::less_equal: return value <= stored;
+    case CompareOp::greater: return value > stored;
+    case CompareOp::not_equal: return value != stored;
+    case CompareOp::greater_equal: return value >= stored;
     default: return true;
   }
 }
@@ -60,11 +60,11 @@ double equation(BlendEquation e, double s, double s_factor, double d, double d_f
 
 }  // namespace
 
-glm::u8vec4 truth_blend(const glm::dvec4& source, const glm::u8vec4& held, const BlendState& b, ColorFormat format) {
+glm::u8vec4 truth_blend(const glm::dvec4& source, const glm::u8vec4& stored, const BlendState& b, ColorFormat format) {
   const glm::dvec4 src = glm::clamp(source, 0.0, 1.0), constant = glm::clamp(glm::dvec4(b.constant), 0.0, 1.0);
   glm::dvec4 dst, out;
   for (int k = 0; k < 4; ++k) {
-    const double code = held[k] / 255.0;
+    const double code = stored[k] / 255.0;
     const bool srgb = format == ColorFormat::srgb8a8 && k < 3;
     dst[k] = !srgb ? code : code <= 0.04045 ? code / 12.92 : std::pow((code + 0.055) / 1.055, 2.4);
   }

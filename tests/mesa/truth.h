@@ -24,11 +24,11 @@ struct TruthPixel {
   double depth = 1.0;
 };
 
-bool passes(CompareOp op, double value, double held);
+bool passes(CompareOp op, double value, double stored);
 /// Returns the stored 8-bit values of a linear color.
 glm::u8vec4 truth_codes(const glm::dvec4& color, ColorFormat format);
 /// Blends the color of a fragment with the stored 8-bit values of a pixel.
-glm::u8vec4 truth_blend(const glm::dvec4& source, const glm::u8vec4& held, const BlendState& blend, ColorFormat format);
+glm::u8vec4 truth_blend(const glm::dvec4& source, const glm::u8vec4& stored, const BlendState& blend, ColorFormat format);
 
 /// A triangle in window coordinates, in 1/256 px. Weights and w can be negative, because the formulas are projective.
 struct TruthTriangle {

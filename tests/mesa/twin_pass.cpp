@@ -17,10 +17,10 @@ int distance(const glm::u8vec4& a, const glm::u8vec4& b) {
 }
 
 // Returns at most `most` of the pixels, evenly distributed.
-std::vector<std::pair<int, int>> some_of(const std::vector<std::pair<int, int>>& pixels, int most) {
+std::vector<std::pair<int, int>> some_of(const std::vector<std::pair<int, int>>& pixels, int max_count) {
   std::vector<std::pair<int, int>> some;
-  if (most == 0 || pixels.empty()) return some;
-  const std::size_t step = (pixels.size() - 1) / static_cast<std::size_t>(most) + 1;
+  if (max_count == 0 || pixels.empty()) return some;
+  const std::size_t step = (pixels.size() - 1) / static_cast<std::size_t>(max_count) + 1;
   for (std::size_t i = 0; i < pixels.size(); i += step) some.push_back(pixels[i]);
   return some;
 }
@@ -117,8 +117,8 @@ bool TwinPass::is_right_beside(int x, int row, int tolerance) const {
   return false;
 }
 
-void TwinPass::compare_depths_with_double(const std::vector<std::pair<int, int>>& pixels, int most, Figures& f) const {
-  for (const auto& [x, row] : some_of(pixels, most)) {
+void TwinPass::compare_depths_with_double(const std::vector<std::pair<int, int>>& pixels, int max_count, Figures& f) const {
+  for (const auto& [x, row] : some_of(pixels, max_count)) {
     const double snapped = truth(x, row, Positions::snapped).depth;
     f.halfspace_depth_error = std::max(f.halfspace_depth_error, std::fabs(static_cast<double>(ours_.depth.at(x, row)) - snapped));
     f.mesa_depth_error = std::max(f.mesa_depth_error, std::fabs(static_cast<double>(mesa_.depth.at(x, row)) - snapped));

@@ -71,7 +71,7 @@ class TwinPass {
  private:
   void judge(int x, int row, int tolerance, Figures& f) const;
   bool is_right_beside(int x, int row, int tolerance) const;
-  void compare_depths_with_double(const std::vector<std::pair<int, int>>& pixels, int most, Figures& f) const;
+  void compare_depths_with_double(const std::vector<std::pair<int, int>>& pixels, int max_count, Figures& f) const;
 
   TargetSpec target_;
   std::vector<std::function<void(Pass&)>> our_draws_;

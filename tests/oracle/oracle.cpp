@@ -16,13 +16,13 @@ namespace halfspace::oracle {
 
 namespace {
 
-float hold(float x, float low, float high) {  // NaN becomes low
+float clamped(float x, float low, float high) {  // NaN becomes low
   const float raised = x > low ? x : low;
   return raised < high ? raised : high;
 }
 
 uint8_t encode_unorm8(float x) {
-  return static_cast<uint8_t>(std::lround(static_cast<double>(hold(x, 0.0f, 1.0f)) * 255.0));  // the product is exact and never a tie
+  return static_cast<uint8_t>(std::lround(static_cast<double>(clamped(x, 0.0f, 1.0f)) * 255.0));  // the product is exact and never a tie
 }
 
 float decode_half(uint16_t h) {
@@ -91,7 +91,7 @@ void Framebuffer::clear_color(std::size_t attachment, glm::vec4 value) {
 
 void Framebuffer::clear_depth(float value, uint8_t stencil_value) {
   for_each_sample(*this, [&](const Sample& s) {
-    set_depth(s, depth_value(hold(value, 0.0f, 1.0f)));
+    set_depth(s, depth_value(clamped(value, 0.0f, 1.0f)));
     set_stencil(s, stencil_value);
   });
 }
@@ -266,7 +266,7 @@ Corner project(const Transform& t, const ShadedVertex& v) {
   c.x = snap(p.x, p.w, t.half_width, t.center_x);
   c.y = snap(p.y, p.w, t.half_height, t.center_y);
   c.inv_w = 1.0f / p.w;
-  c.z = hold(std::fma(p.z * c.inv_w, t.z_scale, t.z_bias), -1e30f, 1e30f);
+  c.z = clamped(std::fma(p.z * c.inv_w, t.z_scale, t.z_bias), -1e30f, 1e30f);
   c.varyings = v.varyings;
   return c;
 }
@@ -448,7 +448,7 @@ Box covered_box(const WindowTriangle& t, int samples) {
 
 int64_t cross(int64_t ax, int64_t ay, int64_t bx, int64_t by) { return ax * by - ay * bx; }
 
-int64_t turn(const Corner& a, const Corner& b, const Corner& c) { return cross(b.x - a.x, b.y - a.y, c.x - a.x, c.y - a.y); }
+int64_t orient2d(const Corner& a, const Corner& b, const Corner& c) { return cross(b.x - a.x, b.y - a.y, c.x - a.x, c.y - a.y); }
 
 // Splits a clipped polygon into a fan. The apex is the first vertex for which all triangles have the same orientation. If there is none,
 // the apex is the last vertex, and triangles with the opposite orientation are dropped.
@@ -461,10 +461,10 @@ std::vector<std::array<Corner, 3>> fan(const std::vector<Corner>& polygon) {
     int64_t area = 0;
     for (std::size_t i = 2; i < from.size(); ++i) {
       pieces.push_back({from[0], from[i - 1], from[i]});
-      area += turn(from[0], from[i - 1], from[i]);
+      area += orient2d(from[0], from[i - 1], from[i]);
     }
     const auto against = [area](const std::array<Corner, 3>& p) {
-      const int64_t own = turn(p[0], p[1], p[2]);
+      const int64_t own = orient2d(p[0], p[1], p[2]);
       return own != 0 && (own > 0) != (area > 0);
     };
     if (std::none_of(pieces.begin(), pieces.end(), against)) break;
@@ -645,8 +645,8 @@ bool covers_none_of_few(const WindowTriangle& t, const Box& box) {
 float depth_sum(const WindowTriangle& t, const DepthState& state, float e1, float e2) {
   const float high = std::max(state.range_near, state.range_far);
   float low = std::min(state.range_near, state.range_far);
-  if (t.is_line) low = hold(t.z0, low, high);
-  return hold(std::fma(e1, t.z_step1, std::fma(e2, t.z_step2, t.z0)), low, hold(t.z_max, low, high));
+  if (t.is_line) low = clamped(t.z0, low, high);
+  return clamped(std::fma(e1, t.z_step1, std::fma(e2, t.z_step2, t.z0)), low, clamped(t.z_max, low, high));
 }
 
 // Returns the determinants E1 = d × e2 and E2 = e1 × d in float, where d is the vector from vertex 0 to the point.
@@ -1017,7 +1017,7 @@ std::vector<WindowTriangle> Renderer::window_points(const DrawState& state, cons
   Corner& c = t.corner[0];
   c.varyings = v.varyings;
   c.inv_w = inv_w;
-  c.z = hold(std::fma(p.z * c.inv_w, f.z_scale, f.z_bias), -1e30f, 1e30f);
+  c.z = clamped(std::fma(p.z * c.inv_w, f.z_scale, f.z_bias), -1e30f, 1e30f);
   t.z0 = t.z_max = c.z;
   if (v.has_bounds) {
     const auto number = [](float x) { return static_cast<double>(x); };
@@ -1060,7 +1060,7 @@ std::vector<WindowTriangle> Renderer::window_line(const DrawState& state, const 
     t.is_line = true;
     t.from = {a.x, a.y};
     t.to = {b.x, b.y};
-    t.width = static_cast<int>(std::nearbyint(hold(state.line_width, 1.0f, 4096.0f)));
+    t.width = static_cast<int>(std::nearbyint(clamped(state.line_width, 1.0f, 4096.0f)));
     t.front = front;
     t.flat = flat;
     const bool swap = b.z < a.z;
@@ -1075,7 +1075,7 @@ std::vector<WindowTriangle> Renderer::window_line(const DrawState& state, const 
     return {t};
   }
   const auto length = std::sqrt(static_cast<double>(dx) * static_cast<double>(dx) + static_cast<double>(dy) * static_cast<double>(dy));
-  const double scale = static_cast<double>(hold(state.line_width, 0.0f, 4096.0f)) * 128.0 / length;
+  const double scale = static_cast<double>(clamped(state.line_width, 0.0f, 4096.0f)) * 128.0 / length;
   const int64_t nx = std::llrint(static_cast<double>(-dy) * scale), ny = std::llrint(static_cast<double>(dx) * scale);
   const auto moved = [&](Corner c, int64_t by) {
     c.x += by * nx;
@@ -1098,7 +1098,7 @@ std::vector<WindowTriangle> Renderer::window_outline(const DrawState& state, con
                                                      const std::vector<int>& vertex, const std::array<const ShadedVertex*, 3>& v,
                                                      const std::vector<float>& flat) {
   int64_t area = 0;
-  for (std::size_t i = 2; i < corners.size(); ++i) area += turn(corners[0], corners[i - 1], corners[i]);
+  for (std::size_t i = 2; i < corners.size(); ++i) area += orient2d(corners[0], corners[i - 1], corners[i]);
   const bool front = (area > 0) == (state.front == Winding::counter_clockwise);
   if (area == 0) ++counts_.culled_degenerate;
   if (area != 0 && culls_face(state.cull, front)) ++counts_.culled_face;
@@ -1254,7 +1254,7 @@ void Renderer::draw_sample(const DrawState& state, const ShaderFacts& facts, con
   if (facts.writes_depth) {
     const float low = std::min(state.depth.range_near, state.depth.range_far),
                 high = std::max(state.depth.range_near, state.depth.range_far);
-    z = target_.depth_value(hold(result.depth, low, high));
+    z = target_.depth_value(clamped(result.depth, low, high));
   }
   if (!tests_pass(state, t.front, s, z)) return;
   ++counts_.samples_passed;
@@ -1291,7 +1291,7 @@ void Renderer::write_colors(const DrawState& state, const Sample& s, const std::
     if (blending) {
       const auto in_range = [&](glm::vec4 c) {
         const bool fixed_point = format == ColorFormat::rgba8 || format == ColorFormat::srgb8a8;
-        for (int k = 0; fixed_point && k < 4; ++k) c[k] = hold(c[k], 0.0f, 1.0f);
+        for (int k = 0; fixed_point && k < 4; ++k) c[k] = clamped(c[k], 0.0f, 1.0f);
         return c;
       };
       color = blend(*blending, in_range(color), in_range(colors.size() > 1 ? colors[1] : none), before, in_range(blending->constant));

@@ -20,14 +20,14 @@ int difference(const glm::u8vec4& a, const glm::u8vec4& b) {
 
 // Returns the maximum and the mean difference between two columns.
 std::pair<int, double> column_difference(const Image<glm::u8vec4>& map, int a, int b) {
-  int most = 0;
+  int max_difference = 0;
   double sum = 0;
   for (int y = 0; y < map.height(); ++y) {
     const int d = difference(map.at(a, y), map.at(b, y));
-    most = std::max(most, d);
+    max_difference = std::max(max_difference, d);
     sum += d;
   }
-  return {most, sum / map.height()};
+  return {max_difference, sum / map.height()};
 }
 
 TEST(ProceduralEarth, CombinedMapsMatchSeparateMaps) {

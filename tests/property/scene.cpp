@@ -245,8 +245,8 @@ Image<glm::u8vec4> codes_of(const Scene& scene, const Pictures& pictures) {
     if (size == 1) return static_cast<int>(value);
     if (color == ColorFormat::rgba16f) return linear_to_srgb(half_to_float(static_cast<uint16_t>(value)));
     if (color == ColorFormat::rgba32f) return linear_to_srgb(static_cast<float>(value));
-    const double most = scene.depth.format == DepthFormat::d16 ? 0xffff : scene.depth.format == DepthFormat::d24 ? 0xffffff : 1;
-    return static_cast<int>(std::lround(255.0 * value / most));
+    const double max_code = scene.depth.format == DepthFormat::d16 ? 0xffff : scene.depth.format == DepthFormat::d24 ? 0xffffff : 1;
+    return static_cast<int>(std::lround(255.0 * value / max_code));
   };
   Image<glm::u8vec4> codes(scene.width, scene.height);
   for (std::size_t i = 0; i < pixels_of(scene); ++i) {

@@ -10,7 +10,7 @@
 namespace halfspace {
 
 template <class R>
-vec4<R> held(const vec4<R>& c, float limit) {
+vec4<R> clamped(const vec4<R>& c, float limit) {
   return {clamp(c.x, R(-limit), R(limit)), clamp(c.y, R(-limit), R(limit)), clamp(c.z, R(-limit), R(limit)),
           clamp(c.w, R(-limit), R(limit))};
 }
@@ -37,7 +37,7 @@ struct PixelShader {
   Fragment<R> fragment(const Varyings<R>&, const Pixel<R>& px) const {
     const R x = px.x * R(1.0f / 256.0f) + R(color.x);
     const R y = px.y * R(1.0f / 256.0f) * px.z();
-    return {held(vec4<R>(x, y, px.inv_w() * R(0.125f), select(px.front_facing, R(color.w), R(0.25f))), 4.0f)};
+    return {clamped(vec4<R>(x, y, px.inv_w() * R(0.125f), select(px.front_facing, R(color.w), R(0.25f))), 4.0f)};
   }
 };
 
@@ -61,7 +61,7 @@ struct ColorShader {
   }
   template <class R>
   Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>&) const {
-    return {held(vec4<R>(in.color, in.color.x * R(0.5f) + R(0.25f)), 1e6f)};
+    return {clamped(vec4<R>(in.color, in.color.x * R(0.5f) + R(0.25f)), 1e6f)};
   }
 };
 
@@ -95,7 +95,7 @@ struct MixedShader {
   Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>& px) const {
     const vec3<R> rgb(in.smooth.x + in.flat.value.x * in.linear.value.x, in.smooth.y * in.flat.value.y + in.product,
                       in.linear.value.y - in.uv.x * in.flat.value.z);
-    return {held(vec4<R>(rgb, select(px.front_facing, in.smooth.w, in.uv.y)), 8.0f)};
+    return {clamped(vec4<R>(rgb, select(px.front_facing, in.smooth.w, in.uv.y)), 8.0f)};
   }
 };
 
@@ -131,8 +131,8 @@ struct DerivativeShader {
     const R here = height(px.template at_quad<Varyings<R>>(0, 0));
     const R right = height(px.template at_quad<Varyings<R>>(1, 0));
     const R up = height(px.template at_quad<Varyings<R>>(0, 1));
-    return {held(vec4<R>(dx.x * R(16.0f) + in.uv.x, dy.y * R(16.0f) + dx.y, (right - here) * R(8.0f), (up - here) * R(8.0f) + in.normal.z),
-                 8.0f)};
+    return {clamped(
+        vec4<R>(dx.x * R(16.0f) + in.uv.x, dy.y * R(16.0f) + dx.y, (right - here) * R(8.0f), (up - here) * R(8.0f) + in.normal.z), 8.0f)};
   }
 };
 
@@ -163,7 +163,7 @@ struct CutoutShader {
   }
   template <class R>
   DiscardingFragment<R> fragment(const Varyings<R>& in, const Pixel<R>& px) const {
-    return {held(vec4<R>(in.uv.x, in.inside.value.y, in.id.value, in.fade.value), 8.0f), keeps(in, px)};
+    return {clamped(vec4<R>(in.uv.x, in.inside.value.y, in.id.value, in.fade.value), 8.0f), keeps(in, px)};
   }
   template <class R>
   Visibility<R> visibility(const Varyings<R>& in, const Pixel<R>& px) const requires has_visibility {
@@ -192,7 +192,7 @@ struct BumpShader {
   template <class R>
   DepthFragment<R> fragment(const Varyings<R>& in, const Pixel<R>& px) const {
     const Visibility<R> v = decide(in, px);
-    return {held(vec4<R>(in.a, v.depth), 8.0f), v.keep, v.depth};
+    return {clamped(vec4<R>(in.a, v.depth), 8.0f), v.keep, v.depth};
   }
   template <class R>
   Visibility<R> decide(const Varyings<R>& in, const Pixel<R>& px) const {
@@ -233,7 +233,7 @@ struct FaceShader {
   }
   template <class R>
   Fragment<R> fragment(const Varyings<R>& in, const Primitive<R>& face, const Pixel<R>&) const {
-    return {held(vec4<R>(face.normal.x + in.point.x, face.normal.y, face.normal.z * in.provoking.value, face.order * R(0.125f)), 8.0f)};
+    return {clamped(vec4<R>(face.normal.x + in.point.x, face.normal.y, face.normal.z * in.provoking.value, face.order * R(0.125f)), 8.0f)};
   }
 };
 
@@ -263,7 +263,7 @@ struct FaceCutoutShader {
   }
   template <class R>
   DiscardingFragment<R> fragment(const Varyings<R>& in, const Primitive<R>& face, const Pixel<R>& px) const {
-    return {held(vec4<R>(in.uv, face.mean, px.z()), 8.0f), in.uv.x > in.uv.y};
+    return {clamped(vec4<R>(in.uv, face.mean, px.z()), 8.0f), in.uv.x > in.uv.y};
   }
   template <class R>
   Visibility<R> visibility(const Varyings<R>& in, const Pixel<R>& px) const {
@@ -296,7 +296,7 @@ struct InstanceShader {
   }
   template <class R>
   Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>&) const {
-    return {held(vec4<R>(in.color, in.number.value), 8.0f)};
+    return {clamped(vec4<R>(in.color, in.number.value), 8.0f)};
   }
 };
 
@@ -320,7 +320,7 @@ struct ManyColorsShader {
     DiscardingFragmentMRT<R, N> out;
     for (std::size_t i = 0; i < N; ++i) {
       const R n(static_cast<float>(i) * 0.25f);
-      out.color[i] = held(vec4<R>(in.a.x + n, in.a.y * n, in.a.z, in.a.w - n), 8.0f);
+      out.color[i] = clamped(vec4<R>(in.a.x + n, in.a.y * n, in.a.z, in.a.w - n), 8.0f);
     }
     out.keep = keeps(in, px);
     return out;
@@ -361,7 +361,7 @@ struct PointShader {
   template <class R>
   DiscardingFragment<R> fragment(const Varyings<R>& in, const Pixel<R>& px) const {
     const vec2<R> c = px.point_coord();
-    return {held(vec4<R>(c.x, c.y, in.color.z * px.inv_w(), in.fade.value + in.color.x), 8.0f), keeps(px)};
+    return {clamped(vec4<R>(c.x, c.y, in.color.z * px.inv_w(), in.fade.value + in.color.x), 8.0f), keeps(px)};
   }
   template <class R>
   Visibility<R> visibility(const Varyings<R>&, const Pixel<R>& px) const requires has_visibility {
@@ -394,7 +394,7 @@ struct BoundsShader {
   template <class R>
   DepthFragment<R> fragment(const Varyings<R>& in, const Pixel<R>& px) const {
     const Visibility<R> v = decide(in, px);
-    return {held(vec4<R>(in.a.x, in.a.y, px.point_coord().x, v.depth), 8.0f), v.keep, v.depth};
+    return {clamped(vec4<R>(in.a.x, in.a.y, px.point_coord().x, v.depth), 8.0f), v.keep, v.depth};
   }
   template <class R>
   Visibility<R> visibility(const Varyings<R>& in, const Pixel<R>& px) const requires has_visibility {
@@ -427,7 +427,7 @@ struct ClipShader {
   }
   template <class R>
   Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>&) const {
-    return {held(vec4<R>(in.a.x, in.a.y + in.id.value, in.ramp.value, in.a.w), 8.0f)};
+    return {clamped(vec4<R>(in.a.x, in.a.y + in.id.value, in.ramp.value, in.a.w), 8.0f)};
   }
 };
 

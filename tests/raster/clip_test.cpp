@@ -529,9 +529,9 @@ TEST(ClippedCoverage, ConcaveOutlinesDrawNoSampleTwice) {
       const PassStatistics s = count_coverage(image, {t[0], t[1], t[2]},
                                               reversed ? std::vector<uint32_t>{0, 2, 1} : std::vector<uint32_t>{0, 1, 2}, with(kZeroToOne));
       EXPECT_EQ(s.clipped, 1u);
-      float most = 0;
-      for (const glm::vec4& p : image.texels()) most = std::max(most, p.x);
-      EXPECT_LE(most, 1.0f) << t[0].x;
+      float max_red = 0;
+      for (const glm::vec4& p : image.texels()) max_red = std::max(max_red, p.x);
+      EXPECT_LE(max_red, 1.0f) << t[0].x;
     }
   }
 }

@@ -132,17 +132,17 @@ void for_each_covered(const Image<glm::vec4>& image, F f) {
 constexpr Exact center_of(int x) { return static_cast<Exact>(x * 256 + 128); }
 
 struct Error {
-  Exact most = 0, sum = 0;
+  Exact max = 0, sum = 0;
   int64_t count = 0;
   void add(Exact e) {
-    most = std::max(most, e);
+    max = std::max(max, e);
     sum += e;
     ++count;
   }
   double mean() const { return static_cast<double>(sum / static_cast<Exact>(std::max<int64_t>(count, 1))); }
   void report(const char* name) const {
-    std::printf("%-34s max %.3g mean %.3g over %lld values\n", name, static_cast<double>(most), mean(), static_cast<long long>(count));
-    ::testing::Test::RecordProperty(std::string(name) + "_max", std::to_string(static_cast<double>(most) * 1e9) + "e-9");
+    std::printf("%-34s max %.3g mean %.3g over %lld values\n", name, static_cast<double>(max), mean(), static_cast<long long>(count));
+    ::testing::Test::RecordProperty(std::string(name) + "_max", std::to_string(static_cast<double>(max) * 1e9) + "e-9");
   }
 };
 
@@ -234,8 +234,8 @@ TEST(Interpolation, SmoothValuesStayWithinTolerance) {
       for (const double ratio : {1.0, 2.0, 100.0, 1e4}) {
         const Error e = measure(static_cast<uint64_t>(100 + row++), triangles, shape, values, ratio, false, ValueShader{});
         EXPECT_GT(e.count, triangles * 8);
-        EXPECT_LE(e.most, kTolerance) << name_of(shape) << ' ' << name_of(values) << " w ratio " << ratio;
-        all.most = std::max(all.most, e.most);
+        EXPECT_LE(e.max, kTolerance) << name_of(shape) << ' ' << name_of(values) << " w ratio " << ratio;
+        all.max = std::max(all.max, e.max);
         all.sum += e.sum;
         all.count += e.count;
       }
@@ -250,7 +250,7 @@ TEST(Interpolation, LinearValuesStayWithinTolerance) {
     const int triangles = effort(shape == Shape::small ? 4000 : shape == Shape::sliver ? 400 : 150);
     for (const Values values : {Values::unit, Values::symmetric, Values::offset}) {
       const Error e = measure(static_cast<uint64_t>(300 + row++), triangles, shape, values, 100.0, true, LinearShader{});
-      EXPECT_LE(e.most, kTolerance) << name_of(shape) << ' ' << name_of(values);
+      EXPECT_LE(e.max, kTolerance) << name_of(shape) << ' ' << name_of(values);
       e.report((std::string("linear ") + name_of(shape) + ' ' + name_of(values)).c_str());
     }
   }
@@ -292,7 +292,7 @@ TEST(Interpolation, PlanesStayWithinTolerance) {
     });
   }
   e.report("planes");
-  EXPECT_LE(e.most, kTolerance);
+  EXPECT_LE(e.max, kTolerance);
   EXPECT_GT(planes, cells / 10);
 }
 
@@ -303,12 +303,12 @@ TEST(Interpolation, LargeRatiosOfWStayWithinTolerance) {
     Error e;
     for (const Shape shape : {Shape::medium, Shape::huge, Shape::sliver}) {
       const Error part = measure(500, effort(150), shape, Values::symmetric, ratio, false, ValueShader{});
-      e.most = std::max(e.most, part.most);
+      e.max = std::max(e.max, part.max);
       e.sum += part.sum;
       e.count += part.count;
     }
     e.report(("w ratio " + std::to_string(static_cast<int64_t>(ratio))).c_str());
-    EXPECT_LE(e.most, kTolerance);
+    EXPECT_LE(e.max, kTolerance);
   }
 }
 
@@ -451,7 +451,7 @@ TEST(Derivatives, MatchTheExactDerivatives) {
   // The derivative of each weight is a product of seven rounded factors without cancellation (5e-7). The two terms of a component may
   // cancel, which the scale of the four components does not fully account for.
   EXPECT_LE(static_cast<double>(e.mean()), 2e-7);
-  EXPECT_LE(static_cast<double>(e.most), 3e-6);
+  EXPECT_LE(static_cast<double>(e.max), 3e-6);
 }
 
 TEST(Derivatives, MatchFiniteDifferences) {
@@ -509,7 +509,7 @@ TEST(Pixels, ProvidePositionDepthAndW) {
     });
   }
   inv_w.report("1/w, relative error");
-  EXPECT_LE(inv_w.most, 6e-7L);  // a sum of non-negative terms with at most ten roundings, for any ratio
+  EXPECT_LE(inv_w.max, 6e-7L);  // a sum of non-negative terms with at most ten roundings, for any ratio
 }
 
 }  // namespace

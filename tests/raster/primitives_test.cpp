@@ -72,9 +72,10 @@ TEST(Primitives, ProvokingVerticesFollowOpenGl) {
     square.push_back(clip_position(corner, 32, 16));
   }
   const Indices four = Indices::sequential(4);
+  const std::vector<glm::vec4> colors = numbered(4);
   const Drawing fan_first =
-      draw_strip(four, {.topology = Topology::triangle_fan, .provoking = ProvokingVertex::first}, stream(square), stream(numbered(4)));
-  const Drawing fan_last = draw_strip(four, {.topology = Topology::triangle_fan}, stream(square), stream(numbered(4)));
+      draw_strip(four, {.topology = Topology::triangle_fan, .provoking = ProvokingVertex::first}, stream(square), stream(colors));
+  const Drawing fan_last = draw_strip(four, {.topology = Topology::triangle_fan}, stream(square), stream(colors));
   EXPECT_EQ(pixel(fan_first.image, 30, 1).x, 1.0f);
   EXPECT_EQ(pixel(fan_first.image, 1, 14).x, 2.0f);
   EXPECT_EQ(pixel(fan_last.image, 30, 1).x, 2.0f);

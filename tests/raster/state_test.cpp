@@ -615,6 +615,18 @@ TEST(VertexView, InterleavedMatchesSeparateStreams) {
   EXPECT_GT(drawn_pixels(a), 1000);
 }
 
+TEST(VertexView, MemberThatIsOneFloat) {
+  struct Weighted {
+    glm::vec2 position;
+    float weight;
+  };
+  const std::vector<Weighted> list{{{1, 2}, 3}, {{4, 5}, 6}};
+  const StreamOf<float> weights = stream(list, &Weighted::weight);
+  EXPECT_EQ(weights.components, 1);
+  EXPECT_EQ(weights.stride, 3);
+  EXPECT_EQ(weights.data[weights.stride], 6.0f);
+}
+
 TEST(Indices, AllIndexTypesDrawTheSame) {
   Random r(3);
   std::vector<glm::vec4> positions, unrolled;

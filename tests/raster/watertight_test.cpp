@@ -464,7 +464,7 @@ struct FanResult {
   int64_t inside = 0, undecided = 0, cut_in_view = 0;
 };
 
-FanResult draw_fans(uint64_t seed, int fans, double most_spokes, bool complain) {
+FanResult draw_fans(uint64_t seed, int fans, double max_spokes, bool complain) {
   Random r(seed);
   FanResult result;
   constexpr int kSize = 128;
@@ -472,7 +472,7 @@ FanResult draw_fans(uint64_t seed, int fans, double most_spokes, bool complain) 
     Projection projection = random_projection(r, 0.1);
     projection.depth = ClipDepth::negative_one_to_one;  // the far plane hides the rim
     projection.far = 1e4;
-    const PlaneFan fan(r, projection, static_cast<int>(r.magnitude(4.0, most_spokes)));  // with at least 4 spokes, no angle reaches 180°
+    const PlaneFan fan(r, projection, static_cast<int>(r.magnitude(4.0, max_spokes)));  // with at least 4 spokes, no angle reaches 180°
     Image<glm::vec4> image(kSize, kSize);
     result.counts.clipped += count_coverage(image, fan.positions(), fan.indices(), state_of(projection)).clipped;
     bool any_inside = false, any_outside = false;

@@ -90,15 +90,15 @@ TEST(Validation, DetectsAcneWithoutBiasAndLeaksWithTooMuch) {
 // On average, the edges of the fitted map are within a texel of the true ones. Where no shadow is smaller than a texel, they are within
 // half a texel, the rounding of the map. (On the Moon some shadows are smaller, because the Sun is low.)
 TEST(Validation, HardEdgesAreWithinATexel) {
-  for (const auto& [scene, camera, most] : {std::tuple{"shadow-plane", "main", 0.5},
-                                            {"shadow-plane", "low", 0.5},
-                                            {"shadow-contact", "main", 0.5},
-                                            {"shadow-contact", "close", 0.5},
-                                            {"shadow-knot", "main", 0.5},
-                                            {"moon", "terminator", 1.0}}) {
+  for (const auto& [scene, camera, max_edge_texels] : {std::tuple{"shadow-plane", "main", 0.5},
+                                                       {"shadow-plane", "low", 0.5},
+                                                       {"shadow-contact", "main", 0.5},
+                                                       {"shadow-contact", "close", 0.5},
+                                                       {"shadow-knot", "main", 0.5},
+                                                       {"moon", "terminator", 1.0}}) {
     const ShadowScore s = validated(scene, {"shadow.method=hard", std::string("camera=") + camera}, 320, 180).lights.at(0).score;
     EXPECT_GT(s.edge_texels, 0.0);
-    EXPECT_LE(s.edge_texels, most) << scene << ' ' << camera;
+    EXPECT_LE(s.edge_texels, max_edge_texels) << scene << ' ' << camera;
   }
 }
 
@@ -127,9 +127,9 @@ TEST(Validation, ResolutionFollowsTheFootprint) {
     for (const std::optional<RayHit>& hit : hits.texels())
       if (hit) texels_px.push_back(static_cast<double>(view.texel_per_w) / pixel_width(scene.view, hit->position_rws));
     std::ranges::sort(texels_px);
-    const double most = texels_px[texels_px.size() * 95 / 100];
-    EXPECT_LE(most, 1.02 * footprint);  // the renderer examines fewer points
-    EXPECT_GT(most, 0.4 * footprint);   // doubling the size halves a texel, and sizes have steps of 2^(1/4)
+    const double percentile_95 = texels_px[texels_px.size() * 95 / 100];
+    EXPECT_LE(percentile_95, 1.02 * footprint);  // the renderer examines fewer points
+    EXPECT_GT(percentile_95, 0.4 * footprint);   // doubling the size halves a texel, and sizes have steps of 2^(1/4)
   }
 }
 
@@ -145,11 +145,11 @@ TEST(LightTruth, PenumbraOfAnEdgeMatchesTheAreaOfACutDisk) {
   Mesh edge;
   edge.positions = {{-50, 2, -50}, {0, 2, -50}, {0, 2, 50}, {-50, 2, 50}};
   edge.indices = {0, 2, 1, 0, 3, 2};
-  const std::vector<PlacedMesh> meshes{
-      {edge.positions, edge.normals, std::make_shared<const Indices>(edge.indices, edge.positions.size()), glm::dmat4(1.0), true, true, true}};
+  const std::vector<PlacedMesh> meshes{{edge.positions, edge.normals, std::make_shared<const Indices>(edge.indices, edge.positions.size()),
+                                        glm::dmat4(1.0), true, true, true}};
   const RayScene casters(meshes, glm::dvec3(0.0), true);
   RayLight light{{}, 0.05, 4096};
-  light.light.place_rws = {0, 1, 0};
+  light.light.position_rws = {0, 1, 0};
   for (double x = -0.12; x <= 0.12; x += 0.02) {
     const LightTruth t = light_truth(casters, light, {x, 0, 0}, {0, 1, 0}, 1);
     const double c = std::clamp(x / 0.1, -1.0, 1.0);

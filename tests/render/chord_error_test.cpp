@@ -69,8 +69,8 @@ double deepest_diagonal(const Mesh& mesh, const Mesh& fine, int rows, int column
   return deepest;
 }
 
-// Expects that the measured error is between `least` and `most` times chord_error at several resolutions.
-void expect_ring(Shape shape, Mesh (*make)(float, float, int, int, const Displacement*), double least, double most) {
+// Expects that the measured error is between `min_ratio` and `max_ratio` times chord_error at several resolutions.
+void expect_ring(Shape shape, Mesh (*make)(float, float, int, int, const Displacement*), double min_ratio, double max_ratio) {
   for (const int parts : {8, 16, 48}) {
     ObjectDescription o;
     o.shape = shape;
@@ -80,8 +80,8 @@ void expect_ring(Shape shape, Mesh (*make)(float, float, int, int, const Displac
     const Mesh mesh = make(kRadius, kTube, o.latitudes, o.longitudes, nullptr);
     const Mesh fine = make(kRadius, kTube, 4 * o.latitudes, 4 * o.longitudes, nullptr);
     const double measured = deepest_diagonal(mesh, fine, o.latitudes, o.longitudes);
-    EXPECT_LE(measured, most * chord_error(o)) << parts;
-    EXPECT_GE(measured, least * chord_error(o)) << parts;
+    EXPECT_LE(measured, max_ratio * chord_error(o)) << parts;
+    EXPECT_GE(measured, min_ratio * chord_error(o)) << parts;
   }
 }
 

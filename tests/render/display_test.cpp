@@ -22,10 +22,10 @@ namespace {
 
 // Counts the allocations of at least `least` bytes while `counting` is set.
 std::atomic<bool> counting{false};
-std::atomic<std::size_t> least{0}, large{0};
+std::atomic<std::size_t> min_size{0}, large{0};
 
 void count(std::size_t size) {
-  if (counting && size >= least) ++large;
+  if (counting && size >= min_size) ++large;
 }
 void* counted_or_null(std::size_t size) {
   count(size);
@@ -201,7 +201,7 @@ std::size_t large_blocks(const std::vector<std::string>& settings, std::size_t b
   const PreparedScene scene = assets.prepare(bright_scene(settings), kWidth, kHeight);
   Image<glm::u8vec4> picture(kWidth, kHeight);
   { const TileMemoryLease first, second, third; }  // threads then take their tile memory, which is also large, from the pool
-  least = std::size_t{kWidth} * kHeight * bytes;
+  min_size = std::size_t{kWidth} * kHeight * bytes;
   large = 0;
   counting = true;
   render(scene, picture, workers);

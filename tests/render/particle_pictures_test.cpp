@@ -51,7 +51,7 @@ class ParticlePictures : public FolderTest {};
 // also covers pixels outside the ellipse.
 TEST_F(ParticlePictures, SilhouetteErrorGrowsWithTheOffAxisAngle) {
   const struct {
-    double degrees, least, most;  // wrong pixels of the original sprite, as a fraction of the sphere's pixels
+    double degrees, min_wrong, max_wrong;  // wrong pixels of the original sprite, as a fraction of the sphere's pixels
   } cases[] = {{0, 0.0, 0.03}, {15, 0.034, 0.08}, {30, 0.134, 0.19}, {45, 0.293, 0.37}};
   for (const auto& c : cases) {
     const double angle = c.degrees * std::acos(-1.0) / 180.0, r = 0.5;
@@ -74,8 +74,8 @@ TEST_F(ParticlePictures, SilhouetteErrorGrowsWithTheOffAxisAngle) {
     ASSERT_GT(inside, 1500);
     const double wrong = static_cast<double>(original_wrong) / inside;
     RecordProperty("original_wrong_at_" + std::to_string(static_cast<int>(c.degrees)), std::to_string(wrong));
-    EXPECT_GE(wrong, c.least) << c.degrees;
-    EXPECT_LE(wrong, c.most) << c.degrees;
+    EXPECT_GE(wrong, c.min_wrong) << c.degrees;
+    EXPECT_LE(wrong, c.max_wrong) << c.degrees;
     EXPECT_EQ(exact_wrong, 0) << c.degrees;
   }
 }
@@ -205,8 +205,8 @@ TEST_F(ParticlePictures, MatchPhongsFormula) {
       const glm::vec4 seen = image.at(320 + px.x, 180 + px.y);
       // Float rounding. The square of the original sprite is snapped to 1/512 px, so its normals are off by twice that divided by its
       // radius, and its highlight by five times as much.
-      const double most = exact ? 5e-6 : 2.0 / 512 / radius_px * 7;
-      for (int k = 0; k < 3; ++k) EXPECT_NEAR(static_cast<double>(seen[k]), expected[k], most) << sprite << ' ' << px.x;
+      const double tolerance = exact ? 5e-6 : 2.0 / 512 / radius_px * 7;
+      for (int k = 0; k < 3; ++k) EXPECT_NEAR(static_cast<double>(seen[k]), expected[k], tolerance) << sprite << ' ' << px.x;
     }
   }
 }

@@ -27,7 +27,9 @@ PreparedScene prepared(const std::vector<std::string>& settings) {
 // Returns the height of the surface that the light sees near the middle of the ground.
 double height_seen(const PreparedScene& scene) {
   const ShadowView& view = scene.lights.front().light.shadow->views.front();
-  const auto depth_at = [&](double y) { return place_on(view, vec3<float>(glm::vec3(glm::dvec3(0.1, y, 0.1) - scene.view.eye_ws))); };
+  const auto depth_at = [&](double y) {
+    return shadow_coordinates(view, vec3<float>(glm::vec3(glm::dvec3(0.1, y, 0.1) - scene.view.eye_ws)));
+  };
   const ShadowCoordinates<float> low = depth_at(0.0), high = depth_at(2.0);
   const float seen = map_depth<float>(view, static_cast<int32_t>(low.x), static_cast<int32_t>(low.y));
   return 2.0 * static_cast<double>((seen - low.depth) / (high.depth - low.depth));

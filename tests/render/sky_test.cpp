@@ -34,9 +34,9 @@ TEST(SkyScene, SunIsInTheGivenDirection) {
 TEST(SkyScene, StarsFadeWithTheNightSky) {
   const auto brightest = [](const std::vector<std::string>& settings) {
     const Image<glm::vec4> image = light_of(sky_with(settings), 320, 200);
-    float most = 0;
-    for (const glm::vec4& c : image.texels()) most = std::max(most, luminance(vec3<float>(glm::vec3(c))));
-    return most;
+    float max_luminance = 0;
+    for (const glm::vec4& c : image.texels()) max_luminance = std::max(max_luminance, luminance(vec3<float>(glm::vec3(c))));
+    return max_luminance;
   };
   EXPECT_GT(brightest({"background.weight=1", "night.star_brightness=50"}), 5.0f);
   EXPECT_LT(brightest({"background.weight=1", "night.stars=0"}), 0.02f);

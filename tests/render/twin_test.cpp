@@ -16,7 +16,7 @@ namespace {
 
 // Difference of two images in linear light: the maximum over all pixels and channels, and the RMS.
 struct Difference {
-  double most = 0, rmse = 0;
+  double max = 0, rmse = 0;
   double beyond = 0;       ///< fraction of pixels that differ by more than 1/255
   double rmse_within = 0;  ///< RMS over the remaining pixels
 };
@@ -33,15 +33,15 @@ Difference difference_from_double(const SceneDescription& description, int width
   int pixels_beyond = 0;
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
-      double most = 0, squares = 0;
+      double max = 0, squares = 0;
       for (int k = 0; k < 3; ++k) {
         const double one = std::abs(static_cast<double>(picture.at(x, y)[k]) - truth.at(x, y)[k]);
-        most = std::max(most, one);
+        max = std::max(max, one);
         squares += one * one;
       }
-      d.most = std::max(d.most, most);
+      d.max = std::max(d.max, max);
       d.rmse += squares;
-      if (most > 1.0 / 255) {
+      if (max > 1.0 / 255) {
         ++pixels_beyond;
       } else {
         squares_within += squares;
@@ -82,9 +82,9 @@ class Twin : public testing::TestWithParam<Case> {
 
 TEST_P(Twin, MatchesDoublePrecision) {
   const Difference d = difference_from_double(scene(), 480, 270);
-  RecordProperty("most", std::to_string(d.most));
+  RecordProperty("max", std::to_string(d.max));
   RecordProperty("rmse", std::to_string(d.rmse * 1e6) + "e-6");
-  EXPECT_LE(d.most, 1.0 / 255) << "positions are equal, so every pixel must match";
+  EXPECT_LE(d.max, 1.0 / 255) << "positions are equal, so every pixel must match";
   EXPECT_LE(d.rmse, 1e-5);
 }
 
@@ -149,7 +149,7 @@ TEST_P(ShadowedTwin, DiffersOnlyAtDepthComparisons) {
   SceneDescription without = scene();
   without.shadow.method = ShadowMethod::none;
   const Difference unshaded = difference_from_double(without, 480, 270);
-  EXPECT_LE(unshaded.most, 1.0 / 255) << "without shadows, every pixel must match";
+  EXPECT_LE(unshaded.max, 1.0 / 255) << "without shadows, every pixel must match";
   EXPECT_LE(unshaded.rmse, 1e-5);
 }
 

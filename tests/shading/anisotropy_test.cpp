@@ -25,10 +25,10 @@ struct Ellipse {
   glm::dvec2 dy() const { return column(-std::sin(inner), std::cos(inner)); }
 };
 
-Ellipse random_ellipse(std::mt19937& random, double most_ratio, double least_short, double most_short) {
+Ellipse random_ellipse(std::mt19937& random, double max_ratio, double min_short, double max_short) {
   std::uniform_real_distribution<double> unit(0.0, 1.0);
-  const double shorter = least_short * std::pow(most_short / least_short, unit(random));
-  return {shorter * std::pow(most_ratio, unit(random)), shorter, 2 * std::numbers::pi * unit(random), 2 * std::numbers::pi * unit(random)};
+  const double shorter = min_short * std::pow(max_short / min_short, unit(random));
+  return {shorter * std::pow(max_ratio, unit(random)), shorter, 2 * std::numbers::pi * unit(random), 2 * std::numbers::pi * unit(random)};
 }
 
 // ---- the footprint ------------------------------------------------------------------------------------------------------
@@ -38,15 +38,15 @@ TEST(Footprint, MatchesTheAxes) {
   const glm::dvec2 size(640, 480);
   for (int i = 0; i < 200000; ++i) {
     const Ellipse e = random_ellipse(random, 40.0, 0.1, 100.0);
-    const int most = 1 + static_cast<int>(random() % 16);
-    const Footprint<float> got = footprint(640, 480, vec2<float>(e.dx() / size), vec2<float>(e.dy() / size), most);
+    const int max_probes = 1 + static_cast<int>(random() % 16);
+    const Footprint<float> got = footprint(640, 480, vec2<float>(e.dx() / size), vec2<float>(e.dy() / size), max_probes);
     const double shorter = std::max(e.shorter, 1.0), ratio = e.longer / shorter;
     // The implementation rounds the ratio up once it exceeds an integer by 1/1024; the ratio itself has a rounding error of about 1e-6.
-    const double low = std::clamp(std::ceil(ratio * (1 - 0x1p-9)), 1.0, static_cast<double>(most));
-    const double high = std::clamp(std::ceil(ratio), 1.0, static_cast<double>(most));
+    const double low = std::clamp(std::ceil(ratio * (1 - 0x1p-9)), 1.0, static_cast<double>(max_probes));
+    const double high = std::clamp(std::ceil(ratio), 1.0, static_cast<double>(max_probes));
     ASSERT_GE(got.probes, low) << ratio;
     ASSERT_LE(got.probes, high) << ratio;
-    const double probe = std::max(shorter, e.longer / std::min(std::ceil(ratio), static_cast<double>(most)));
+    const double probe = std::max(shorter, e.longer / std::min(std::ceil(ratio), static_cast<double>(max_probes)));
     ASSERT_NEAR(static_cast<double>(got.lod), std::log2(std::max(probe, 1.0)), 1.0 / 256) << e.longer << ' ' << e.shorter;
     const double exact = std::max(shorter, e.longer / got.probes);
     ASSERT_NEAR(static_cast<double>(got.lod), std::log2(std::max(exact, 1.0)), 2e-5) << e.longer << ' ' << e.shorter;

@@ -87,14 +87,14 @@ TEST(Ggx, WhiteFurnace) {
   const EnvironmentLightBlend environment{{&filtered, glm::mat3(1.0f), 1.0f}, {}, 0.0f};
   for (const float roughness : {0.05f, 0.2f, 0.4f, 0.6f, 0.8f, 1.0f}) {
     for (const float metallic : {0.0f, 1.0f}) {
-      MetallicSurface<MetallicStreams::plain> surface{};
+      MetallicSurface<MetallicStreams::basic> surface{};
       surface.base_color = glm::vec4(1.0f);
       surface.metallic = metallic;
       surface.roughness = roughness;
       surface.environment = &environment;
       surface.to_eye_ws = glm::normalize(glm::vec3(0.6f, 0.8f, 0.0f));
       const Pixel<float> px{};
-      MetallicSurface<MetallicStreams::plain>::Varyings<float> in{};
+      MetallicSurface<MetallicStreams::basic>::Varyings<float> in{};
       in.normal_ws = vec3<float>(0, 1, 0);
       const Fragment<float> out = surface.fragment(in, px);
       EXPECT_NEAR(out.color.x, 1.0f, 0.01f) << "roughness " << roughness << ", metallic " << metallic;

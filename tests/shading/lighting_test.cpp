@@ -37,7 +37,7 @@ TEST(Lighting, DiffuseFollowsLambertsCosine) {
 }
 
 TEST(Lighting, PointLightsAttenuateWithDistance) {
-  Light light{.type = LightType::point, .place_rws = {0, 0, 4}};
+  Light light{.type = LightType::point, .position_rws = {0, 0, 4}};
   light.attenuation = {0.2f, 0.1f, 0.1f};
   // The light is 4 units above the point, so the expected value is 1 / (0.2 + 0.4 + 1.6). The coefficients are floats, with an error of
   // 1e-7 each.
@@ -49,7 +49,7 @@ TEST(Lighting, PointLightsAttenuateWithDistance) {
 }
 
 TEST(Lighting, SpotIsFullInsideDarkOutsideAndSmoothInBetween) {
-  Light spot{.type = LightType::spot, .place_rws = {0, 0, 2}};
+  Light spot{.type = LightType::spot, .position_rws = {0, 0, 2}};
   const double inner = std::cos(20 * kPi / 180), outer = std::cos(30 * kPi / 180);
   spot.cos_outer = static_cast<float>(outer);
   spot.cone_scale = static_cast<float>(1 / (inner - outer));
@@ -74,7 +74,7 @@ TEST(Lighting, HighlightsPeakInTheMirrorDirection) {
   // because h = n there. At an angle t from the peak, the values are cos^s(t) and cos^s(t/2).
   const glm::dvec3 l = direction(40);
   Light light;
-  light.place_rws = glm::vec3(l);
+  light.position_rws = glm::vec3(l);
   const double s = 50;
   for (double degrees = -80; degrees <= 80; degrees += 5) {
     const glm::dvec3 v = direction(degrees);
@@ -93,7 +93,7 @@ TEST(Lighting, NoHighlightFromBehindOrWithoutASpecularModel) {
     for (const double shininess : {0.0, 1.0, 50.0}) {
       for (double degrees = 91; degrees < 270; degrees += 7) {
         Light light;
-        light.place_rws = glm::vec3(direction(degrees));
+        light.position_rws = glm::vec3(direction(degrees));
         for (double eye = -80; eye <= 80; eye += 10) {
           EXPECT_EQ(at<double>(light, model, shininess, kUp, direction(eye)).specular.x, 0.0);
         }
@@ -113,11 +113,11 @@ void check_guards() {
                                      {nan, zero, one},  {R(0.6), zero, R(0.8)}, {one, zero, zero},  {tiny, tiny, tiny}};
   std::vector<double> exponents{0, 1e-38, 1e-6, 0.5, 1, 2, 1e5};
   for (double e = 1e-3; e < 1e5; e *= 3.3) exponents.push_back(e);
-  std::vector<Light> lights{Light{}, {.place_rws = {0, 0, -1}}, {.place_rws = {0, 0, 0}}};
+  std::vector<Light> lights{Light{}, {.position_rws = {0, 0, -1}}, {.position_rws = {0, 0, 0}}};
   for (const LightType type : {LightType::point, LightType::spot}) {
     for (const glm::vec3& place : {glm::vec3(0.0f), glm::vec3(0, 0, 1e-20f), glm::vec3(0, 1, 2), glm::vec3(1e9f, 0, 0)}) {
       for (const glm::vec3& attenuation : {glm::vec3(1, 0, 0), glm::vec3(0, 0, 1), glm::vec3(0.2f, 0.1f, 0.1f)}) {
-        Light light{.type = type, .place_rws = place};
+        Light light{.type = type, .position_rws = place};
         light.attenuation = attenuation;
         lights.push_back(light);
       }
@@ -130,9 +130,9 @@ void check_guards() {
         for (const vec3<R>& n : vectors) {
           for (const vec3<R>& v : vectors) {
             const Illumination<R> i = at<R>(light, model, exponent, n, v);
-            const R most = R(1) / R(kMinAttenuation) * R(1.0001);
-            ASSERT_TRUE(i.diffuse.x >= R(0) && i.diffuse.x <= most) << exponent;
-            ASSERT_TRUE(i.specular.x >= R(0) && i.specular.x <= most) << exponent;
+            const R max_light = R(1) / R(kMinAttenuation) * R(1.0001);
+            ASSERT_TRUE(i.diffuse.x >= R(0) && i.diffuse.x <= max_light) << exponent;
+            ASSERT_TRUE(i.specular.x >= R(0) && i.specular.x <= max_light) << exponent;
             ++checked;
           }
         }

@@ -232,7 +232,7 @@ TEST(ShadowBias, EachTypeOffsetsTheDepthByItsFormula) {
   const double cosine = 0.6, tangent = 0.8 / 0.6;
   const auto lift = [&](ShadowBias bias) {
     s.bias = bias;
-    return static_cast<double>(biased_place(map.view, s, receiver(p, n, l)).depth) - 0.35;
+    return static_cast<double>(biased_coordinates(map.view, s, receiver(p, n, l)).depth) - 0.35;
   };
   constexpr double kRounding = 2e-7;  // rounding of a depth near 0.35 and of the product in the bias
   EXPECT_NEAR(lift(ShadowBias::none), 0.0, kRounding);
@@ -303,7 +303,7 @@ TEST(ShadowBias, ReceiverPlanesAreLinearInSpotLightWindows) {
   const auto on_wall = [&](double x, double y) { return glm::dvec3(x, y, -1) * (glm::dot(n, q) / glm::dot(n, glm::dvec3(x, y, -1))); };
   const auto depth_of = [&](const glm::dvec3& p) { return static_cast<double>(a) / -p.z + static_cast<double>(b); };
   const glm::vec3 p(on_wall(0.1, -0.2));
-  ShadowCoordinates<float> place = place_on(view, vec3<float>(p));
+  ShadowCoordinates<float> place = shadow_coordinates(view, vec3<float>(p));
   set_plane(view, vec3<float>(p), vec3<float>(glm::vec3(n)), 1e3f, place);
   for (int step = -8; step <= 8; step += 2) {
     const double x = 0.1 + step / 64.0, y = -0.2 - step / 128.0;

@@ -72,13 +72,13 @@ struct Worst {
 // Returns the largest depth change over 2^-12 px in any direction; infinite if the shifted ray misses.
 double change_of_depth(const glm::vec3& c, float r, double x, double y, bool perspective) {
   const Truth here = truth_of(c, r, x, y, perspective);
-  Wide most = 0;
+  Wide max_error = 0;
   for (const glm::dvec2& step : {glm::dvec2(1, 0), glm::dvec2(-1, 0), glm::dvec2(0, 1), glm::dvec2(0, -1)}) {
     const Truth there = truth_of(c, r, x + step.x * 0x1p-12, y + step.y * 0x1p-12, perspective);
     if (there.root < 0) return HUGE_VAL;
-    most = std::max(most, std::fabs(there.depth - here.depth));
+    max_error = std::max(max_error, std::fabs(there.depth - here.depth));
   }
-  return static_cast<double>(most);
+  return static_cast<double>(max_error);
 }
 
 void compare_rim(const SphereIntersection& lens, const SphereHit<float>& h, const Truth& t, double change, Worst& worst) {
@@ -271,11 +271,11 @@ TEST(SphereIntersection, BoundsOfCutSpheresExcludeThePartBeforeTheNearPlane) {
     // The bounds must be conservative and tight to an eighth of a pixel. If the eye is almost on the surface, the uncertainty of the
     // tangent length is added.
     const double eye = std::fabs(static_cast<double>(glm::dot(c, c)) / (rd * rd) - 1.0);
-    const auto most = [&](double end) { return 0.26 / kWidth + std::fabs(end) * (1e-4 + 1e-6 / eye); };
+    const auto tolerance = [&](double end) { return 0.26 / kWidth + std::fabs(end) * (1e-4 + 1e-6 / eye); };
     EXPECT_LE(static_cast<double>(s.low), low / kHalf.x) << i;
     EXPECT_GE(static_cast<double>(s.high), high / kHalf.x) << i;
-    EXPECT_LE(low / kHalf.x - static_cast<double>(s.low), most(low / kHalf.x)) << i << ": " << eye;
-    EXPECT_LE(static_cast<double>(s.high) - high / kHalf.x, most(high / kHalf.x)) << i << ": " << eye;
+    EXPECT_LE(low / kHalf.x - static_cast<double>(s.low), tolerance(low / kHalf.x)) << i << ": " << eye;
+    EXPECT_LE(static_cast<double>(s.high) - high / kHalf.x, tolerance(high / kHalf.x)) << i << ": " << eye;
   }
   EXPECT_GT(at_the_plane, 100);
   EXPECT_LT(at_the_plane, 900);

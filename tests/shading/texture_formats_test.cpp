@@ -291,7 +291,7 @@ TEST(TextureFormats, ExtremeCoordinatesAndDerivativesReturnValuesInRange) {
   for (const TexelFormat format : kFormats) {
     const Texture2D texture = test::make_noise(7, 9, format, 12);
     for_each_sampler([&](Sampler sampler) {
-      const glm::dvec4 most = magnitude(texture, sampler);
+      const glm::dvec4 max_magnitude = magnitude(texture, sampler);
       for (const int anisotropy : {1, 16}) {
         sampler.anisotropy = anisotropy;
         for (const float s : wild) {
@@ -301,8 +301,8 @@ TEST(TextureFormats, ExtremeCoordinatesAndDerivativesReturnValuesInRange) {
               const vec4<float> c = texture.sample(sampler, uv, dx, dy);
               const vec4<double> cd = texture.sample(sampler, vec2<double>(uv), vec2<double>(dx), vec2<double>(dy));
               for (int k = 0; k < 4; ++k) {
-                ASSERT_TRUE(std::fabs(static_cast<double>(c[k])) <= most[k]) << s << ' ' << t << ' ' << d;
-                ASSERT_TRUE(std::fabs(cd[k]) <= most[k] * (1 + 1e-6)) << s << ' ' << t << ' ' << d;
+                ASSERT_TRUE(std::fabs(static_cast<double>(c[k])) <= max_magnitude[k]) << s << ' ' << t << ' ' << d;
+                ASSERT_TRUE(std::fabs(cd[k]) <= max_magnitude[k] * (1 + 1e-6)) << s << ' ' << t << ' ' << d;
               }
             }
           }

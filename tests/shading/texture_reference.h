@@ -96,9 +96,10 @@ inline void mix_level(const Texture2D& texture, const Sampler& sampler, double s
 inline Mixed reference(const Texture2D& texture, const Sampler& sampler, double s, double t, double lod) {
   Mixed mixed;
   const bool magnified = !(lod > 0), nearest = (magnified ? sampler.mag : sampler.min) == Filter::nearest;
-  const double held = magnified || sampler.min != Filter::trilinear ? 0 : std::min(lod, texture.levels() - 1.0), level = std::floor(held);
-  mix_level(texture, sampler, s, t, static_cast<int>(level), nearest, 1 - (held - level), mixed);
-  if (held > level) mix_level(texture, sampler, s, t, static_cast<int>(level) + 1, nearest, held - level, mixed);
+  const double clamped = magnified || sampler.min != Filter::trilinear ? 0 : std::min(lod, texture.levels() - 1.0),
+               level = std::floor(clamped);
+  mix_level(texture, sampler, s, t, static_cast<int>(level), nearest, 1 - (clamped - level), mixed);
+  if (clamped > level) mix_level(texture, sampler, s, t, static_cast<int>(level) + 1, nearest, clamped - level, mixed);
   return mixed;
 }
 

@@ -70,9 +70,9 @@ glm::dvec4 reference_level(const Texture2D& texture, const Sampler& sampler, dou
 glm::dvec4 reference(const Texture2D& texture, const Sampler& sampler, double s, double t, double lod) {
   if (!(lod > 0)) return reference_level(texture, sampler, s, t, 0, sampler.mag);
   if (sampler.min != Filter::trilinear) return reference_level(texture, sampler, s, t, 0, sampler.min);
-  const double held = std::min(lod, texture.levels() - 1.0), level = std::floor(held);
+  const double clamped = std::min(lod, texture.levels() - 1.0), level = std::floor(clamped);
   const int below = static_cast<int>(level), above = std::min(below + 1, texture.levels() - 1);
-  const double f = held - level;
+  const double f = clamped - level;
   return (1 - f) * reference_level(texture, sampler, s, t, below, Filter::bilinear) +
          f * reference_level(texture, sampler, s, t, above, Filter::bilinear);
 }

@@ -87,10 +87,10 @@ TEST(Stability, FlatShadingDoesNotDependOnVertexOrder) {
     const VertexView view = make_vertex_view(stream(positions), stream(normals));
     const Image<glm::vec4> one = drawn(FlatLight{by_face}, view, list, 64, positions.size()),
                            other = drawn(FlatLight{by_face}, view, turned, 64, positions.size());
-    double most = 0.0;
+    double max_difference = 0.0;
     for (std::size_t i = 0; i < one.texels().size(); ++i)
-      most = std::max(most, std::abs(static_cast<double>(one.data()[i].x) - static_cast<double>(other.data()[i].x)));
-    return most;
+      max_difference = std::max(max_difference, std::abs(static_cast<double>(one.data()[i].x) - static_cast<double>(other.data()[i].x)));
+    return max_difference;
   };
   // The face normal is a cross product of differences of the same vertices, whose rounding depends on their order.
   record_and_check(
@@ -210,7 +210,7 @@ TEST(Stability, LevelOfDetailIsUnaffectedByTheSeam) {
   // atan2 jumps from half a turn to minus half a turn at −x, in the middle of the image. The seam of the mesh is at +x. The globe is viewed
   // from both sides. (At 202 px, the middle of the image is inside a quad.)
   const Mesh ball = uv_sphere(64, 128, 1.0f);
-  const auto most = [&](bool by_direction, double side) {
+  const auto max_error = [&](bool by_direction, double side) {
     const glm::dmat4 clip = perspective_gl(40.0 * kPi / 180.0, 1.0, 0.1, 10.0) * look_at({side * 3.0, 0, 0}, {0, 0, 0}, {0, 1, 0});
     const Image<glm::vec4> picture =
         drawn(LevelSeen{glm::mat4(clip), by_direction}, make_vertex_view(stream(ball.positions), stream(ball.uvs)), ball.indices, 202,
@@ -220,20 +220,20 @@ TEST(Stability, LevelOfDetailIsUnaffectedByTheSeam) {
       if (std::abs(p.y) > 0.8f) level = std::max(level, static_cast<double>(p.x));  // faces the eye, so a texel is about a pixel
     return level;
   };
-  const double ours = std::max(most(false, 1.0), most(false, -1.0));
+  const double ours = std::max(max_error(false, 1.0), max_error(false, -1.0));
   // At the center a pixel is about 1.1 texels. At 0.8 the surface is inclined by 37 degrees, and the level is log2(1.1 / 0.8) = 0.5.
   record_and_check(
       {15, "seam where u wraps around",
        "the seam of a globe in the middle of the image; atan2, differentiated in the quad, vs. derivatives of the mesh's coordinates",
        "largest level of detail where a pixel covers one texel"},
-      most(true, -1.0), 6.0, ours, 0.7);
+      max_error(true, -1.0), 6.0, ours, 0.7);
 }
 
 // ---- derivatives at edges -----------------------------------------------------------------------------------------------
 
 // Outputs du/dx: analytically, or from differences in the quad with values clamped to the range of the triangle.
 struct StepSeen {
-  bool held = false;
+  bool clamped = false;
   template <class R>
   struct Attributes {
     vec4<R> position;
@@ -251,7 +251,7 @@ struct StepSeen {
   template <class R>
   Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>& px) const {
     R step = px.ddx(&Varyings<R>::u);
-    if (held) {
+    if (clamped) {
       const auto u_at = [&](int i) { return clamp(px.template at_quad<Varyings<R>>(i, 0).u, R(0), R(1)); };
       step = u_at(1) - u_at(0);
     }
@@ -271,16 +271,16 @@ TEST(Stability, DerivativesAreExactAtSilhouettes) {
                  e2 = glm::dot(glm::cross(row(0), row(1)), p);
     return e1 / (e0 + e1 + e2);
   };
-  const auto error = [&](bool held) {
-    double most = 0.0;
-    const Image<glm::vec4> picture = drawn(StepSeen{held}, make_vertex_view(stream(positions), stream(us)), {0, 1, 2}, 128, 3);
+  const auto error = [&](bool clamped) {
+    double max_error = 0.0;
+    const Image<glm::vec4> picture = drawn(StepSeen{clamped}, make_vertex_view(stream(positions), stream(us)), {0, 1, 2}, 128, 3);
     for (const glm::vec4& p : picture.texels()) {
       if (p.z < 0.0f) continue;
       const double x = static_cast<double>(p.z), y = static_cast<double>(p.w);
       const double truth = (u_at(x + 1e-3, y) - u_at(x - 1e-3, y)) / 2e-3;
-      most = std::max(most, std::abs(std::log2(std::max(std::abs(static_cast<double>(p.x)), 1e-30) / std::abs(truth))));
+      max_error = std::max(max_error, std::abs(std::log2(std::max(std::abs(static_cast<double>(p.x)), 1e-30) / std::abs(truth))));
     }
-    return most;
+    return max_error;
   };
   // Vertices are snapped to 1/256 px and edges are about 100 px long, so the slope changes by a factor of 1e-4 and the level by 2e-4, or
   // more near the far vertex.

@@ -78,7 +78,7 @@ TEST(Stability, ReferencePointsDoNotShadowThemselves) {
   const glm::dvec3 eye(300.0, 200.0, -100.0);
   const RayScene casters(world.meshes, eye, true);
   RayLight light{{}, 0.0, 1};
-  light.light.place_rws = glm::normalize(glm::vec3(0.3f, 1.0f, 0.2f));
+  light.light.position_rws = glm::normalize(glm::vec3(0.3f, 1.0f, 0.2f));
   Random random(6);
   int common = 0, ours = 0, points = 0;
   const auto& list = world.ball.indices;
@@ -88,10 +88,10 @@ TEST(Stability, ReferencePointsDoNotShadowThemselves) {
     const double u = random.real(0.0, 0.5), v = random.real(0.0, 0.5);
     const glm::dvec3 face = glm::normalize(glm::cross(at(1) - at(0), at(2) - at(0)));
     // Adjacent faces differ by up to 5 degrees, so above a cosine of 0.2 none of them shadows another.
-    if (glm::dot(face, glm::dvec3(light.light.place_rws)) < 0.2) continue;
+    if (glm::dot(face, glm::dvec3(light.light.position_rws)) < 0.2) continue;
     ++points;
     const glm::dvec3 p = at(0) + (at(1) - at(0)) * u + (at(2) - at(0)) * v - eye;
-    common += casters.occluded(glm::vec3(p), light.light.place_rws, 0.0f, 1e9f);
+    common += casters.occluded(glm::vec3(p), light.light.position_rws, 0.0f, 1e9f);
     ours += light_truth(casters, light, p, face, 0).share < 0.5f;
   }
   ASSERT_GT(points, raster_test::effort(20000) / 10);

@@ -75,22 +75,22 @@ SceneFile two_plates(const char* method) {
 
 // Returns the maximum light, according to the shadow map, at pixels in full shadow. According to the rays, these pixels and all pixels
 // within 6 px (more than the filter radius) are dark.
-double most_light_in_shadow(const ShadowComparison& c) {
+double max_light_in_shadow(const ShadowComparison& c) {
   constexpr int kRadius = 6;
-  double most = 0.0;
+  double max_light = 0.0;
   for (int y = kRadius; y < c.truth.height() - kRadius; ++y) {
     for (int x = kRadius; x < c.truth.width() - kRadius; ++x) {
       bool dark = true;
       for (int j = -kRadius; j <= kRadius; ++j)
         for (int i = -kRadius; i <= kRadius; ++i) dark = dark && c.truth.at(x + i, y + j) == 0.0f;
-      if (dark) most = std::max(most, static_cast<double>(c.map.at(x, y)));
+      if (dark) max_light = std::max(max_light, static_cast<double>(c.map.at(x, y)));
     }
   }
-  return most;
+  return max_light;
 }
 
 TEST(Stability, PcfHasNoLightLeaks) {
-  const double vsm = most_light_in_shadow(compared(two_plates("vsm"))), pcf = most_light_in_shadow(compared(two_plates("pcf3")));
+  const double vsm = max_light_in_shadow(compared(two_plates("vsm"))), pcf = max_light_in_shadow(compared(two_plates("pcf3")));
   // Depth comparisons cannot leak: every texel over the large plate is dark.
   record_and_check({3, "light leaks", "below two plates, one above the other; variance shadow maps vs. pcf3 (the default of the scenes)",
                     "maximum light in full shadow"},
@@ -98,7 +98,7 @@ TEST(Stability, PcfHasNoLightLeaks) {
 }
 
 TEST(Stability, FourMomentsHaveNoLightLeaks) {
-  const double vsm = most_light_in_shadow(compared(two_plates("vsm"))), moments = most_light_in_shadow(compared(two_plates("moments")));
+  const double vsm = max_light_in_shadow(compared(two_plates("vsm"))), moments = max_light_in_shadow(compared(two_plates("moments")));
   // Four moments represent two depths exactly (Peters and Klein 2015). The remaining light, about 1e-5, comes from the bias that keeps the
   // equations solvable.
   record_and_check(

@@ -188,14 +188,14 @@ long double inside_by(const ClipTriangle& t, double x_px, double y_px) {
   const auto row = [&](std::size_t i) { return V(t[i].x, t[i].y, t[i].w); };
   const long double volume = glm::dot(row(0), glm::cross(row(1), row(2)));
   if (volume == 0) return -1e30L;
-  long double least = 1e30L, sum = 0;
+  long double min_distance = 1e30L, sum = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     const V edge = glm::cross(row((i + 1) % 3), row((i + 2) % 3)) / volume;
     const long double e = glm::dot(edge, p);
     sum += e;
-    least = std::min(least, e / (std::hypot(edge.x, edge.y) * 2 / kSize));
+    min_distance = std::min(min_distance, e / (std::hypot(edge.x, edge.y) * 2 / kSize));
   }
-  return sum > 0 ? least : -1e30L;  // 1/w, positive in front of the eye
+  return sum > 0 ? min_distance : -1e30L;  // 1/w, positive in front of the eye
 }
 
 ClipTriangle random_across_the_eye(Random& r) {

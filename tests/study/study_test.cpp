@@ -120,20 +120,20 @@ TEST_P(Studies, ProduceCompleteData) {
   EXPECT_LE(study.setting.size(), kCharacters);
   EXPECT_LE(study.truth.method.size() + study.truth.error_method.size() + kErrorCharacters, kCharacters);
   std::set<std::string> names;
-  double least = 1e300, most = 0.0;
+  double min_error = 1e300, max_error = 0.0;
   for (const Variant& v : study.variants) {
     EXPECT_TRUE(names.insert(v.name).second) << v.name << " occurs twice";
     EXPECT_EQ(v.parameters.size(), study.variants[0].parameters.size()) << v.name;
     EXPECT_EQ(v.measures.size(), study.variants[0].measures.size()) << v.name;
     EXPECT_GT(v.time.median_ms, 0.0) << v.name;
     EXPECT_TRUE(std::isfinite(v.error)) << v.name;
-    most = std::max(most, v.error);
-    if (v.error > study.truth.error) least = std::min(least, v.error);
+    max_error = std::max(max_error, v.error);
+    if (v.error > study.truth.error) min_error = std::min(min_error, v.error);
   }
   // In quick mode the references of the displaced surfaces are only half as fine.
   const double times = study.name == "displacement" || study.name == "normals" ? 3.0 : 9.99;
-  EXPECT_GE(least, times * study.truth.error);
-  EXPECT_GE(most, 2.0 * least) << "the variants must differ noticeably";
+  EXPECT_GE(min_error, times * study.truth.error);
+  EXPECT_GE(max_error, 2.0 * min_error) << "the variants must differ noticeably";
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Studies, testing::ValuesIn(studies()), [](const auto& s) { return std::string(s.param.name); });

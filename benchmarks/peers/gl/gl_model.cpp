@@ -21,7 +21,7 @@ namespace halfspace {
 
 namespace {
 
-using Surface = MetallicSurface<MetallicStreams::plain>;
+using Surface = MetallicSurface<MetallicStreams::basic>;
 
 [[noreturn]] void refuse(const std::string& file, const std::string& problem) {
   throw InputError(file + ": " + problem +
@@ -197,7 +197,7 @@ class GlModel final : public GlWorkload {
   void set_lights(const Surface& s) {
     for (std::size_t i = 0; i < s.lights.size(); ++i) {
       const Light& light = s.lights[i];
-      program_.set(fmt::format("light_towards[{}]", i).c_str(), light.place_rws);
+      program_.set(fmt::format("light_towards[{}]", i).c_str(), light.position_rws);
       program_.set(fmt::format("light_diffuse[{}]", i).c_str(), light.diffuse);
       program_.set(fmt::format("light_specular[{}]", i).c_str(), light.specular);
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// GLSL versions of MetallicSurface<MetallicStreams::plain> (halfspace/shading/metallic_surface.h), without clearcoat, and of the tone curve
+// GLSL versions of MetallicSurface<MetallicStreams::basic> (halfspace/shading/metallic_surface.h), without clearcoat, and of the tone curve
 // that follows it.
 #pragma once
 

@@ -141,6 +141,8 @@ inline namespace HS_LANES_NAMESPACE {
 
 /// State of a Pass: its attachments, draws and work. Pass only stores a pointer to it.
 class PassState;
+/// Gives the private code of this module access to the state of a Pass.
+struct PassAccess;
 std::pmr::memory_resource& memory_of(PassState& state);
 void add_draw(PassState& state, const ShaderKernels& kernels, KeptShader shader, const VertexView& vertices,
               std::shared_ptr<const Indices> indices, const DrawState& draw_state);

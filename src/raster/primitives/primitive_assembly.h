@@ -21,14 +21,14 @@ class Assembly {
  public:
   /// Starts at the given primitive, which must be less than d.primitive_count.
   Assembly(const Draw& d, uint32_t primitive)
-      : draw_(d), topology_(d.state.topology), plain_list_(topology_ == Topology::triangles && d.runs.empty()) {
+      : draw_(d), topology_(d.state.topology), fast_path_(topology_ == Topology::triangles && d.runs.empty()) {
     begin_run(primitive);
   }
 
   /// Returns the indices of the next primitive.
   HS_INLINE std::array<uint32_t, 3> next() {
     const Indices& list = *draw_.indices;
-    if (plain_list_) {
+    if (fast_path_) {
       const std::size_t at = std::size_t{primitive_++} * 3;
       return {list[at], list[at + 1], list[at + 2]};
     }
@@ -38,7 +38,7 @@ class Assembly {
   /// Returns the 3·count indices of the next `count` triangles if they are contiguous in a list of 32-bit indices, and skips the triangles.
   /// Otherwise returns null and skips nothing.
   const uint32_t* next_list(uint32_t count) {
-    const uint32_t* indices = plain_list_ ? draw_.indices->words(std::size_t{primitive_} * 3) : nullptr;
+    const uint32_t* indices = fast_path_ ? draw_.indices->words(std::size_t{primitive_} * 3) : nullptr;
     if (indices != nullptr) primitive_ += count;
     return indices;
   }
@@ -46,7 +46,7 @@ class Assembly {
   /// Returns the first index of the next `count` triangles if the draw has no index list, and skips the triangles. Otherwise returns
   /// nullopt and skips nothing.
   std::optional<uint32_t> next_sequence(uint32_t count) {
-    if (!plain_list_ || !draw_.indices->is_sequential()) return std::nullopt;
+    if (!fast_path_ || !draw_.indices->is_sequential()) return std::nullopt;
     return 3 * std::exchange(primitive_, primitive_ + count);
   }
 
@@ -56,7 +56,7 @@ class Assembly {
 
   const Draw& draw_;
   Topology topology_;
-  bool plain_list_;           ///< a triangle list without restarts
+  bool fast_path_;            ///< a triangle list without restarts
   uint32_t primitive_ = 0;    ///< next primitive, relative to the start of the run
   uint32_t first_index_ = 0;  ///< start of the run in the index list
   uint32_t run_ = 0;

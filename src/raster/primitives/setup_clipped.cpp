@@ -12,9 +12,9 @@ namespace {
 std::array<glm::vec4, 3> clip_space_positions(const SetupRange& r, const PrimitiveSlots& slots) {
   alignas(64) std::array<float, 4 * kVertexBatch> rows;
   const std::array<uint32_t, 3> index{slots[0] + r.slot_base, slots[1] + r.slot_base, slots[2] + r.slot_base};
-  StreamRoom room;
+  StreamStorage storage;
   const Draw& draw = r.draw;
-  draw.kernels.position(draw.shader.get(), {at_instance(draw.vertices, r.instance, room), index.data(), 0, 3, 0, draw.state.base_vertex,
+  draw.kernels.position(draw.shader.get(), {at_instance(draw.vertices, r.instance, storage), index.data(), 0, 3, 0, draw.state.base_vertex,
                                             static_cast<int32_t>(r.instance), nullptr, rows.data(), nullptr});
   std::array<glm::vec4, 3> pos_clip;
   for (std::size_t i = 0; i < 3; ++i) {

@@ -20,12 +20,12 @@ double smallest_depth_step(DepthFormat format, float largest_z) {
   }
 }
 
-struct DepthPlane {
+struct DepthDifferences {
   double dz1, dz2;  // depth of vertices 1 and 2 relative to vertex 0
   double area;      // in (1/256 px)²
 };
 
-float depth_offset(const DepthOffset& o, DepthFormat format, const Triangle& t, const DepthPlane& p, float largest_z) {
+float depth_offset(const DepthOffset& o, DepthFormat format, const Triangle& t, const DepthDifferences& p, float largest_z) {
   if (o.slope == 0.0f && o.constant == 0.0f) return 0.0f;
   double offset = 0.0;
   if (o.slope != 0.0f) {  // skipped for a slope factor of 0, because 0·Inf would be NaN
@@ -74,8 +74,8 @@ Cull set_up_triangle(const Draw& draw, const PassContext& context, const std::ar
   const int32_t covered = few ? covered_centers<float>(out.x, out.y, box) : 0;
   if (few && covered == 0) return Cull::no_sample;
 
-  const DepthPlane plane{static_cast<double>(v[order[1]]->z) - static_cast<double>(z_min),
-                         static_cast<double>(v[order[2]]->z) - static_cast<double>(z_min), std::fabs(static_cast<double>(area))};
+  const DepthDifferences plane{static_cast<double>(v[order[1]]->z) - static_cast<double>(z_min),
+                               static_cast<double>(v[order[2]]->z) - static_cast<double>(z_min), std::fabs(static_cast<double>(area))};
   const float z_max = std::max({v[0]->z, v[1]->z, v[2]->z});
   const float offset = facing != Facing::by_winding ? 0.0f
                                                     : depth_offset(draw.state.offset, context.depth_format, out, plane,

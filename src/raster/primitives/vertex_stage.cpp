@@ -82,7 +82,7 @@ Outcode shade_vertices(const Draw& draw, std::size_t begin, std::size_t end, Sha
   std::array<PointSpriteRect, kVertexBatch> sprites;
   const std::span<const uint32_t> used = draw.indices->used();
   const std::size_t per_instance = draw.indices->used_count();
-  StreamRoom room;
+  StreamStorage storage;
   Outcode any = 0;
   for (std::size_t b = begin; b < end;) {
     const auto instance = static_cast<uint32_t>(b / per_instance);
@@ -92,7 +92,7 @@ Outcode shade_vertices(const Draw& draw, std::size_t begin, std::size_t end, Sha
     const uint32_t slot_base = out.first - instance * out.count;
     const uint32_t* ids = used.empty() ? nullptr : used.data() + local;
     draw.kernels.vertex(draw.shader.get(),
-                        {at_instance(draw.vertices, instance, room), ids, out.first + static_cast<uint32_t>(local), count, slot_base,
+                        {at_instance(draw.vertices, instance, storage), ids, out.first + static_cast<uint32_t>(local), count, slot_base,
                          draw.state.base_vertex, static_cast<int32_t>(instance), out.varyings.get(), clip.data(), extra.data()});
     if (out.clip_distances) {
       for (int i = 0; i < count; ++i) {

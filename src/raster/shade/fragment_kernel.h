@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "halfspace/core/srgb.h"
 #include "halfspace/raster/shade/packet_merge.h"
+#include "halfspace/raster/tile/tile_format.h"
 
 namespace halfspace::detail {
 
@@ -92,8 +92,8 @@ HS_INLINE PrimitiveId<FragmentReal> primitive_id(const PacketTriangles<N, kIdRow
 }
 
 /// Writes the colors of a packet as rgba8; see FragmentBatch::codes.
-HS_INLINE void write_codes(int32_t* codes, PacketMask packet, Real r, Real g, Real b, Real a) {
-  const Int packed = linear_to_unorm8(r) | linear_to_unorm8(g) << 8 | linear_to_unorm8(b) << 16 | linear_to_unorm8(a) << 24;
+HS_INLINE void write_codes(int32_t* codes, PacketMask packet, const PacketColor& color) {
+  const Int packed = packed_codes<ColorFormat::rgba8>(color);
   int32_t* to = codes + static_cast<std::size_t>(packet.packet) * kLanes;
   if (packet.lanes == kAllBits<Mask>) return store(to, packed);
   store(to, select(mask_from_bits<Mask>(packet.lanes), packed, load<Int>(to)));
@@ -160,8 +160,8 @@ HS_FLATTEN void fragment_kernel(const void* shader, const FragmentBatch& batch) 
     if constexpr (!decides || !(kDiscards<S> || kWritesDepth<S>)) {
       if (batch.codes != nullptr) {
         const vec4<R>& color = nth_color(fragment.color, 0);
-        write_codes(batch.codes, a, color.x.low, color.y.low, color.z.low, color.w.low);
-        write_codes(batch.codes, b, color.x.high, color.y.high, color.z.high, color.w.high);
+        write_codes(batch.codes, a, {color.x.low, color.y.low, color.z.low, color.w.low});
+        write_codes(batch.codes, b, {color.x.high, color.y.high, color.z.high, color.w.high});
         continue;
       }
       if (const BlendTarget& to = batch.blend; to.program != nullptr) {

@@ -85,10 +85,10 @@ class DrawShading {
         {.context = &context_, .tile_x0 = tile_.x0 - plane.x, .tile_y0 = tile_.y0 - plane.y, .position = job_.position, .ids = job_.ids},
         &memory_.output};
     batch.codes = codes_ != nullptr && job_.spreads ? memory_.codes.data() : codes_;
-    const std::size_t most = batch.codes != nullptr && !needs_centroid ? packets.size() : static_cast<std::size_t>(kPacketBatch);
+    const std::size_t max_count = batch.codes != nullptr && !needs_centroid ? packets.size() : static_cast<std::size_t>(kPacketBatch);
     for (; !packets.empty(); packets = packets.subspan(static_cast<std::size_t>(batch.count))) {
       batch.packets = packets.data();
-      batch.count = static_cast<int>(std::min(packets.size(), most));
+      batch.count = static_cast<int>(std::min(packets.size(), max_count));
       if (needs_centroid) batch.centroids = find_centroids(batch, centroids);
       draw_.kernels.color(draw_.shader.get(), batch);
       const std::span<const PacketMask> shaded = packets.first(static_cast<std::size_t>(batch.count));

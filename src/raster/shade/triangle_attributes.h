@@ -92,6 +92,8 @@ HS_INLINE std::array<float, 2> submitted_weights(const TriangleSource& s, std::s
 /// Computes the interpolation data of a triangle. V is the Varyings struct with R = float; it determines how components are interpolated.
 template <class V, bool with_id = false, std::size_t N = kComponents<V>>
 HS_INLINE TriangleScalars<N, with_id> triangle_scalars(const TriangleSource& s) {
+  // Setup starts triangles with the smallest depth, so that all terms of the depth plane are nonnegative and depth is bounded by it.
+  // Interpolation starts with the smallest 1/w, for accuracy. The two vertices can differ; one start for both would change bits.
   std::size_t a = 0;
   if (s.vertex[1]->inv_w < s.vertex[a]->inv_w) a = 1;
   if (s.vertex[2]->inv_w < s.vertex[a]->inv_w) a = 2;

@@ -20,9 +20,9 @@ template <class Statistics>
 bool FullTileOccluder::test_or_write(const DrawInTile& d, const Triangle& t, TriangleId id, Statistics& statistics) {
   const bool is_opaque = d.rasterizer == Rasterizer::opaque;
   const bool replaces_depth = d.tile.depth_format == DepthFormat::none || (d.tests && d.draw.state.depth.write);
-  const bool covers =
+  const bool is_occluder =
       may_cover(t) && is_opaque && d.tile.size == kMaxTileSize && replaces_depth && !d.needs_bounds_test && covers_tile(d, t);
-  if (covers || (pending_ && is_opaque)) {
+  if (is_occluder || (pending_ && is_opaque)) {
     const DepthBounds depth = depth_of(d, t);
     const CompareOp op = d.draw.state.depth.compare;
     const BlockTest test = !d.tests   ? BlockTest::all_pass
@@ -32,7 +32,7 @@ bool FullTileOccluder::test_or_write(const DrawInTile& d, const Triangle& t, Tri
       if constexpr (kTraces<Statistics>) trace_rejected(d, t, id, *statistics.trace);
       return true;
     }
-    if (covers && test == BlockTest::all_pass) {
+    if (is_occluder && test == BlockTest::all_pass) {
       statistics.samples_tested += kMaxTilePixels;
       statistics.samples_passed += kMaxTilePixels;
       if constexpr (kTraces<Statistics>) trace_passed(d, t, id, *statistics.trace);

@@ -62,7 +62,7 @@ int SceneMaterials::add(const std::string& name, const DrawnMesh& drawn) {
     if (s.factors[factor].map != nullptr && s.factors[factor].map != s.factors[kColor].map)
       warn_once(model_, "ambient, diffuse, specular and shininess maps are omitted");
   }
-  if (s.surroundings != nullptr) warn_once(model_, "environment reflections are omitted");
+  if (s.reflected_environment != nullptr) warn_once(model_, "environment reflections are omitted");
   model_.materials.push_back(std::move(m));
   return static_cast<int>(model_.materials.size()) - 1;
 }

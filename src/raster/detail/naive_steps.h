@@ -163,9 +163,9 @@ std::vector<Piece<R, V>> clipped(Piece<R, V> t, const Viewport& viewport, const 
 
 // Depth of a triangle at window positions in 1/256 px. The vertices are counter-clockwise, and the first one has the smallest depth.
 template <class R>
-class DepthPlane {
+class NaiveDepthPlane {
  public:
-  explicit DepthPlane(const std::array<ScreenPoint<R>, 3>& p) : p_(p) {
+  explicit NaiveDepthPlane(const std::array<ScreenPoint<R>, 3>& p) : p_(p) {
     const double area = static_cast<double>((p[1].x - p[0].x) * (p[2].y - p[0].y) - (p[1].y - p[0].y) * (p[2].x - p[0].x));
     z_edge1_ = static_cast<R>((static_cast<double>(p[1].z) - static_cast<double>(p[0].z)) / area);
     z_edge2_ = static_cast<R>((static_cast<double>(p[2].z) - static_cast<double>(p[0].z)) / area);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "halfspace/raster/constant_tiles.h"
+#include "halfspace/raster/loop/constant_tiles.h"
 
 #include <algorithm>
 #include <array>

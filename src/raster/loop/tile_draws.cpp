@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "halfspace/raster/tile_draws.h"
+#include "halfspace/raster/loop/tile_draws.h"
 
 #include <algorithm>
 #include <optional>

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Inspection of a pass, for programs that visualize the pipeline: traces fragments, measures tiles, and gives access to the results of the
-// stages. Not installed. A shared library exports only the functions of files directly in src/raster, so this header wraps the functions of
-// subfolders that such programs need.
+// stages. Not installed.
 #pragma once
 
 #include <functional>
@@ -12,7 +11,7 @@
 #include "halfspace/raster/pipeline/sample_pattern.h"
 #include "halfspace/raster/primitives/primitive_stage.h"
 #include "halfspace/raster/shade/triangle_attributes.h"
-#include "halfspace/raster/tile_worker.h"
+#include "halfspace/raster/loop/tile_worker.h"
 #include "halfspace/raster/trace/fragment_trace.h"
 
 namespace halfspace {

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "halfspace/raster/tile_worker.h"
+#include "halfspace/raster/loop/tile_worker.h"
 
 #include <algorithm>
 #include <chrono>
 #include <numeric>
 #include <optional>
 
-#include "halfspace/raster/constant_tiles.h"
+#include "halfspace/raster/loop/constant_tiles.h"
 #include "halfspace/raster/primitives/bin.h"
 #include "halfspace/raster/shade/tile_memory.h"
 #include "halfspace/raster/tile/resolve.h"
-#include "halfspace/raster/tile_draws.h"
+#include "halfspace/raster/loop/tile_draws.h"
 #include "halfspace/raster/trace/tile_trace.h"
 
 namespace halfspace {
