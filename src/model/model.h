@@ -67,6 +67,9 @@ struct ModelMaterial {
   TextureUse base_color_map;         ///< its alpha channel multiplies the opacity
   TextureUse opacity_map;            ///< a separate opacity map; multiplies the opacity
   AlphaMode alpha_mode = AlphaMode::opaque;
+  /// Whether `mask` is only a guess, because the format does not say how opacity is used: if the opacity map has many values between 0 and
+  /// 1, the surface is blended.
+  bool mask_unless_soft = false;
   float alpha_cutoff = 0.5f;
   float metallic = 0.0f, roughness = 1.0f;
   TextureUse metallic_map, roughness_map;

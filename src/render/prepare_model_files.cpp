@@ -227,7 +227,7 @@ void ScenePreparation::add_part(int object, const ObjectDescription& o, const st
   if (material.bump_map.texture >= 0 && material.normal_map.texture < 0) add_bumps(surface, o, model->model, part.mesh, material);
   place(surface, world);
   needs_light_ = needs_light_ || (!surface.unlit && surface.emissive == glm::vec3(0.0f));
-  const bool masked = material.alpha_mode == AlphaMode::mask;
+  const bool masked = material.alpha_mode == AlphaMode::mask && !surface.blends;
   MetallicStreams variant = variant_of(surface, streams);
   if (masked && !(variant >= MetallicStreams::mapped)) variant = MetallicStreams::full;
   if (variant == MetallicStreams::detailed && streams.tangents.empty()) variant = MetallicStreams::full;
