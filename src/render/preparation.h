@@ -38,7 +38,9 @@ struct SurfaceStreams {
 };
 
 // Returns the cache key of a model file.
-inline std::string model_recipe(const std::filesystem::path& file) { return recipe("model", file.string()); }
+inline std::string model_recipe(const std::filesystem::path& file, bool allow_outside) {
+  return recipe("model", file.string(), allow_outside ? "with outside files" : "");
+}
 
 /// Returns how a map continues beyond its edges on a shape.
 MapEdges edges_of(Shape shape);

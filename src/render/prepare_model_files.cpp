@@ -128,7 +128,7 @@ PoseOptions pose_options(const Model& model, const ObjectDescription& o, const s
   return options;
 }
 
-ModelAsset::ModelAsset(Model m) : model(std::move(m)) {
+ModelAsset::ModelAsset(Model m, bool outside_allowed) : model(std::move(m)), allow_outside(outside_allowed) {
   for (ModelMesh& mesh : model.meshes) {
     if (mesh.material >= 0 && mesh.tangents.empty() && mesh.topology == MeshTopology::triangles) {
       const TextureUse* use = tangent_map(model.materials[static_cast<std::size_t>(mesh.material)]);
@@ -143,8 +143,9 @@ ModelAsset::ModelAsset(Model m) : model(std::move(m)) {
 }
 
 std::shared_ptr<const ModelAsset> ScenePreparation::model_asset(const ObjectDescription& o, const std::string& where) {
-  return used_.asset<ModelAsset>(model_recipe(o.file.path), [&] {
-    ModelAsset model = read_for(where + ".file", [&] { return ModelAsset(read_model(o.file.path)); });
+  return used_.asset<ModelAsset>(model_recipe(o.file.path, o.allow_outside), [&] {
+    ModelAsset model =
+        read_for(where + ".file", [&] { return ModelAsset(read_model(o.file.path, {.allow_outside = o.allow_outside}), o.allow_outside); });
     assets_.warn_of(o.file.path, model);
     return model;
   });
