@@ -198,8 +198,9 @@ SceneFile chosen(const RenderJob& job) {
   const Workers workers(job.threads);
   SceneAssets assets(workers);
   std::vector<std::string> settings;
-  for (const ModelChoice& c : assets.fit(scene.at(job.time), job.size.width, job.size.height, *job.allowed).choices)
-    settings.push_back(c.key + "=" + c.value);
+  for (const ModelChoice& c : assets.fit(scene.at(job.time), job.size.width, job.size.height, *job.allowed).choices) {
+    if (c.is_setting) settings.push_back(c.key + "=" + c.value);
+  }
   scene.set(settings);
   return scene;
 }
