@@ -31,6 +31,7 @@ struct ModelImage {
   std::filesystem::path file;                           ///< absolute; empty if `bytes` or `pixels` has the image or there is none
   std::shared_ptr<const std::vector<std::byte>> bytes;  ///< null if the image is a file
   std::shared_ptr<const Image<glm::u8vec4>> pixels{};   ///< replaces the other two; never set by readers. Straight alpha
+  bool missing = false;                                 ///< a material uses the image, but the reader did not find it
 };
 
 /// An image and how it is sampled.
