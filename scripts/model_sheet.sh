@@ -20,7 +20,9 @@ failed=0
 while IFS= read -r -d '' file; do
   # The name of the folder distinguishes variants of a model whose files have the same name.
   name=$(basename "$(dirname "$file")")-$(basename "$file")
-  "$program" render "$file" --size 480x270 -o "$pictures/$name.png" || failed=$((failed + 1))
+  axis=()
+  case "$(basename "$file")" in horse.ply | teapot_mitsuba.ply) axis=(--up-axis z) ;; esac  # their format does not say which axis is up
+  "$program" render "$file" "${axis[@]}" --size 480x270 -o "$pictures/$name.png" || failed=$((failed + 1))
 done < <(find "$@" -type f \( -iname '*.obj' -o -iname '*.gltf' -o -iname '*.glb' -o -iname '*.ply' -o -iname '*.stl' \) -print0 | sort -z)
 montage -label '%t' "$pictures"/*.png -tile 4x -geometry +4+4 out/models.png
 echo "out/models.png: $(find "$pictures" -name '*.png' | wc -l) models, $failed failed"

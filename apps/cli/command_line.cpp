@@ -67,8 +67,9 @@ UsageError unknown_argument(const CLI::App& program) {
   const CLI::App& app = chosen.empty() ? program : *chosen.front();
   std::vector<std::string> rest = app.remaining();
   if (rest.empty()) rest = program.remaining();
+  const bool only_positional = std::erase(rest, "--") > 0;  // arguments after "--" are not options
   const std::string word = rest.empty() ? "" : rest.front();
-  if (word.starts_with("-"))
+  if (word.starts_with("-") && !only_positional)
     return UsageError("unknown option '" + word + "'" + suggested_word(word.substr(0, word.find('=')), names_of(app, true)));
   if (chosen.empty() && !names_of(program, false).empty())
     return UsageError("unknown command '" + word + "'" + suggested_command(word, program));

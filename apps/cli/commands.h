@@ -74,6 +74,7 @@ struct ValidateArguments {
   std::vector<std::string> set;
   std::string camera, time, threads, rays;
   bool json = false, table = false, full = false;
+  ModelArguments model;  ///< only allow_outside
   LimitArguments limits;
 };
 /// Only defined in builds with ray casting (HALFSPACE_HAS_RAYS).
@@ -103,8 +104,9 @@ struct ListArguments {
 void list_command(const ListArguments& args);
 
 struct InfoArguments {
-  std::string model;  ///< default: describe the program
-  bool json = false;
+  std::string model;    ///< default: describe the program
+  std::string up_axis;  ///< default: that of the format
+  bool json = false, allow_outside = false;
   LimitArguments limits;
 };
 void info_command(const InfoArguments& args);

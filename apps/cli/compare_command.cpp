@@ -11,6 +11,7 @@
 #include "cli/arguments.h"
 #include "cli/commands.h"
 #include "cli/errors.h"
+#include "cli/input_files.h"
 #include "halfspace/core/check.h"
 #include "halfspace/core/srgb.h"
 #include "halfspace/image/atomic_output.h"
@@ -91,7 +92,10 @@ Image<glm::u8vec4> read_codes(const std::string& path, bool linear) {
 void compare_command(const CompareArguments& args) {
   const double tolerance =
       args.tolerance.empty() ? -1.0 : parse_real("--tolerance", args.tolerance, 0, 1e9, "a difference of 0 or more, for example 0.004");
-  if (!args.out.empty()) check_writable(args.out);
+  if (!args.out.empty()) {
+    reject_overwriting(args.out, {args.a, args.b});
+    check_writable(args.out);
+  }
   const bool a_linear = holds_linear_numbers(args.a), b_linear = holds_linear_numbers(args.b);
   const Comparison c = a_linear && b_linear ? compare_files(args, read_linear(args.a), read_linear(args.b))
                                             : compare_files(args, read_codes(args.a, a_linear), read_codes(args.b, b_linear));

@@ -6,6 +6,7 @@
 #include "cli/arguments.h"
 #include "cli/commands.h"
 #include "cli/errors.h"
+#include "cli/input_files.h"
 #include "halfspace/core/check.h"
 #include "halfspace/core/parallel.h"
 #include "halfspace/geometry/normal_map.h"
@@ -33,6 +34,7 @@ void convert_normal_command(const ConvertNormalArguments& args) {
   if (image_file_of(args.out) != ImageFile::png && !(is_stream(args.out) && !std::filesystem::path(args.out).has_extension())) {
     throw UsageError("-o is '" + args.out + "'; expected a file name ending in .png");
   }
+  reject_overwriting(args.out, {args.height});
   check_writable(args.out);
   const Image<float> heights = read_gray(args.height);
   if (heights.width() < 2) throw InputError(args.height + ": is only one texel wide; expected a height map");

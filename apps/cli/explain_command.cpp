@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <iostream>
-#include <map>
 
 #include "cli/arguments.h"
 #include "cli/commands.h"
@@ -36,19 +35,13 @@ std::optional<glm::ivec2> parse_pixel(const std::string& text, const PictureSize
   return glm::ivec2(x, y);
 }
 
-using Models = std::map<std::filesystem::path, std::shared_ptr<const ModelAsset>>;
-
-SceneFile open_explained_scene(const ExplainArguments& args, const PictureSize& size, SceneAssets& assets, Models& models) {
+OpenedScene open_explained_scene(const ExplainArguments& args, const PictureSize& size, double time) {
   if (!args.model.turntable.empty()) throw UsageError("--turntable does not apply to explain; expected --yaw or --time");
-  OpenedScene opened = open_scene_or_model(args.scene, args.model, static_cast<double>(size.width) / size.height, 30.0);
-  if (opened.model != nullptr) {
-    assets.add_model(opened.model_file, opened.model);
-    models.emplace(opened.model_file, opened.model);
-  }
-  const auto camera = opened.camera_names.find(args.camera);
-  set_scene(opened.scene, args.set, camera == opened.camera_names.end() ? args.camera : camera->second);
+  const std::vector<double> times = args.time.empty() ? std::vector<double>{} : std::vector{time};
+  OpenedScene opened = open_scene_or_model(args.scene, args.model, static_cast<double>(size.width) / size.height, 30.0, times);
+  set_scene(opened, args.set, args.camera);
   set_shading(opened.scene, args.shading);
-  return std::move(opened.scene);
+  return opened;
 }
 
 PreparedScene prepare_explained(const SceneDescription& scene, const std::string& source, const PictureSize& size, SceneAssets& assets) {
@@ -57,13 +50,6 @@ PreparedScene prepare_explained(const SceneDescription& scene, const std::string
   } catch (const InputError& e) {
     throw InputError(source + ": " + e.what());
   }
-}
-
-// Throws OutputError if the page would overwrite a file that the scene reads.
-void protect_page_inputs(const SceneDescription& scene, const std::string& name, const Models& models, const std::filesystem::path& out) {
-  std::vector<std::filesystem::path> inputs = input_files(scene, models);
-  inputs.emplace_back(name);
-  reject_overwriting(out, inputs);
 }
 
 void print_warning(const std::string& problem) {
@@ -89,11 +75,12 @@ void explain_command(const ExplainArguments& args) {
   {
     const StageDisplay explaining("explaining " + args.scene);
     SceneAssets assets(workers, print_warning);
-    Models models;
-    const SceneFile file = open_explained_scene(args, size, assets, models);
-    const SceneDescription scene = file.at(time);
-    if (is_page) protect_page_inputs(scene, args.scene, models, out);
-    const PreparedScene prepared = prepare_explained(scene, file.source(), size, assets);
+    const OpenedScene opened = open_explained_scene(args, size, time);
+    const ReadModels models = read_models(opened);
+    add_models(assets, models);
+    const SceneDescription scene = opened.scene.at(time);
+    if (is_page) reject_overwriting(out, input_files(scene, args.scene, models));
+    const PreparedScene prepared = prepare_explained(scene, opened.scene.source(), size, assets);
     const ExplainJob job{scene, prepared, args.scene, pixel, explain_command_line(args, time), workers};
     output = is_page ? page_of(job) : explained_history(job, args.json);
   }

@@ -40,14 +40,13 @@ ExportSource model_source(const ExportArguments& args) {
 }
 
 ExportSource scene_source(const ExportArguments& args, const Workers& workers) {
-  if (args.allow_outside) throw UsageError("--allow-outside applies only to models; expected a scene without it");
   SceneFile file = SceneFile::open(args.scene);
+  if (args.allow_outside) allow_outside(file);
   set_scene(file, args.set, "");
   SceneAssets assets(workers);
   Model model = scene_model(file.at(0.0), assets);
-  std::vector<std::filesystem::path> inputs = input_files(file.description(), {});
+  std::vector<std::filesystem::path> inputs = input_files(file.description(), args.scene, {});
   for (const std::filesystem::path& input : files_of(model)) inputs.push_back(input);
-  inputs.emplace_back(args.scene);
   return {std::move(model), std::move(inputs)};
 }
 

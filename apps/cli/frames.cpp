@@ -34,6 +34,17 @@ std::filesystem::path frame_path(const std::filesystem::path& out, int frame, co
   return out.parent_path() / fmt::format("{}_{:0{}}{}", out.stem().string(), frame, digits, out.extension().string());
 }
 
+std::vector<double> frame_times(const FrameRange& range, double start, double fps) {
+  constexpr int kMaxTimes = 1000;
+  const int count = std::min(range.count(), kMaxTimes);
+  std::vector<double> times;
+  for (int i = 0; i < count; ++i) {
+    const int64_t frame = range.first + int64_t{range.count() - 1} * i / std::max(count - 1, 1);
+    times.push_back(start + static_cast<double>(frame) / fps);
+  }
+  return times;
+}
+
 namespace {
 
 // True while a progress line is shown. Read by the signal handler, so it must be lock-free.

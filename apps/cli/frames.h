@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace halfspace {
 
@@ -21,6 +22,10 @@ FrameRange parse_frames(std::string_view text);
 
 /// Returns the file name of a frame: "moon_0007.png" for "moon.png" and frame 7. Uses more than four digits if the range needs them.
 std::filesystem::path frame_path(const std::filesystem::path& out, int frame, const FrameRange& range);
+
+/// Returns the time of each frame in seconds, where frame 0 is at `start`. If there are more than 1000 frames, returns 1000 evenly spaced
+/// ones, including the first and the last.
+std::vector<double> frame_times(const FrameRange& range, double start, double fps);
 
 /// Shows the number of finished frames and the estimated remaining time on standard error. Prints nothing if standard error is not a
 /// terminal, or if there is only one frame.

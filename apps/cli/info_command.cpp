@@ -51,7 +51,7 @@ void info_command(const InfoArguments& args) {
   if (!args.model.empty()) {
     const std::string text = [&] {
       const StageDisplay reading("reading " + args.model);
-      return model_info(args.model, args.json);
+      return model_info(args);
     }();
     std::cout << text;
   } else {

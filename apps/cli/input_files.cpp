@@ -1,15 +1,36 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/input_files.h"
 
+#include <fmt/format.h>
+
 #include "halfspace/core/check.h"
 #include "halfspace/render/model_asset.h"
 #include "halfspace/scene/scene_paths.h"
 
 namespace halfspace {
 
-std::vector<std::filesystem::path> input_files(SceneDescription scene,
-                                               const std::map<std::filesystem::path, std::shared_ptr<const ModelAsset>>& models) {
-  std::vector<std::filesystem::path> files;
+ReadModels read_models(const OpenedScene& opened) {
+  ReadModels models;
+  if (opened.model != nullptr) models.try_emplace({opened.model_file, opened.model->allow_outside}, opened.model);
+  for (const auto& [name, object] : opened.scene.description().objects) {
+    const std::pair key(object.file.path, object.allow_outside);
+    if (object.shape != Shape::file || !object.visible || models.contains(key)) continue;
+    try {
+      models.emplace(key, std::make_shared<const ModelAsset>(read_model(object.file.path, {.allow_outside = object.allow_outside}),
+                                                             object.allow_outside));
+    } catch (const InputError& e) {
+      throw InputError(fmt::format("{}: objects.{}.file: {}", opened.scene.source(), name, e.what()));
+    }
+  }
+  return models;
+}
+
+void add_models(SceneAssets& assets, const ReadModels& models) {
+  for (const auto& [key, model] : models) assets.add_model(key.first, model);
+}
+
+std::vector<std::filesystem::path> input_files(SceneDescription scene, const std::string& name, const ReadModels& models) {
+  std::vector<std::filesystem::path> files{name};
   const auto add = [&](const std::filesystem::path& file) {
     if (!file.empty()) files.push_back(file);
   };
@@ -20,7 +41,7 @@ std::vector<std::filesystem::path> input_files(SceneDescription scene,
       if (const auto* file = std::get_if<FilePath>(static_cast<const MapValue*>(field.value))) add(file->path);
     }
   }
-  for (const auto& [file, model] : models) {
+  for (const auto& [key, model] : models) {
     for (const std::filesystem::path& read : files_of(model->model)) add(read);
   }
   return files;
@@ -30,7 +51,7 @@ void reject_overwriting(const std::filesystem::path& out, const std::vector<std:
   for (const std::filesystem::path& input : inputs) {
     std::error_code error;
     if (std::filesystem::equivalent(out, input, error))
-      throw OutputError(out.string() + ": is read by this scene; expected another output file");
+      throw OutputError(out.string() + ": is read by this command; expected another output file");
   }
 }
 

@@ -18,6 +18,11 @@ namespace halfspace {
 
 namespace {
 
+// Rejects an empty name of a scene, for example from an unset variable of a shell script.
+CLI::Validator not_empty() {
+  return {[](const std::string& name) { return std::string(name.empty() ? "the name is empty; expected a scene or a file" : ""); }, ""};
+}
+
 // Adds the options for the output. They are listed by --help-output, so that the help of the command fits on a screen.
 void add_output_options(CLI::App* command, OutputArguments& args) {
   const auto add = [&](const char* name, std::string& value, const char* help, const char* type) {
@@ -43,7 +48,10 @@ void add_output_options(CLI::App* command, OutputArguments& args) {
 void add_render_command(CLI::App& program) {
   CLI::App* command = program.add_subcommand("render", "Render a scene to an image or to numbered frames");
   const auto args = std::make_shared<RenderArguments>();
-  command->add_option("SCENE", args->scene, "Scene, scene file or model file (see --help-model)")->required()->type_name("");
+  command->add_option("SCENE", args->scene, "Scene, scene file or model file (see --help-model)")
+      ->required()
+      ->type_name("")
+      ->check(not_empty());
   command->add_option("-o,--output", args->out, ".png .jpg .tif .exr .hdr (see --help-output)")->type_name("OUT");
   command->add_option("--size", args->size, "Size in pixels (default 1920x1080)")->type_name("WxH");
   add_set_option(command, args->set);
@@ -71,7 +79,10 @@ void add_render_command(CLI::App& program) {
 void add_explain_command(CLI::App& program) {
   CLI::App* command = program.add_subcommand("explain", "Write a web page that explains a frame");
   const auto args = std::make_shared<ExplainArguments>();
-  command->add_option("SCENE", args->scene, "Scene, scene file or model file (see --help-model)")->required()->type_name("");
+  command->add_option("SCENE", args->scene, "Scene, scene file or model file (see --help-model)")
+      ->required()
+      ->type_name("")
+      ->check(not_empty());
   command->add_option("-o,--output", args->out, "Output file (default SCENE.html)")->type_name("PAGE");
   command->add_option("--pixel", args->pixel, "Pixel, from the upper left (default: most fragments)")->type_name("X,Y");
   command->add_flag("--text", args->text, "Print the history of the pixel as text instead");
@@ -92,7 +103,7 @@ void add_explain_command(CLI::App& program) {
 void add_export_command(CLI::App& program) {
   CLI::App* command = program.add_subcommand("export", "Write a scene or a model as glTF, OBJ, PLY or STL");
   const auto args = std::make_shared<ExportArguments>();
-  command->add_option("SCENE", args->scene, "Scene, scene file or model file")->required()->type_name("");
+  command->add_option("SCENE", args->scene, "Scene, scene file or model file")->required()->type_name("")->check(not_empty());
   command->add_option("-o,--output", args->out, "Output file: .glb, .gltf, .obj, .ply or .stl")->required()->type_name("FILE");
   add_set_option(command, args->set);
   command->add_flag("--allow-outside", args->allow_outside, "Read files outside the folder of the model");
@@ -123,7 +134,7 @@ void add_convert_normal_command(CLI::App& program) {
 void add_validate_command(CLI::App& program) {
   CLI::App* command = program.add_subcommand("validate", "Compare the shadows of a scene with ray tracing");
   const auto args = std::make_shared<ValidateArguments>();
-  command->add_option("SCENE", args->scene, "Scene or scene file")->type_name("");
+  command->add_option("SCENE", args->scene, "Scene or scene file")->type_name("")->check(not_empty());
   command->add_flag("--json", args->json, "Report as JSON, one object per light");
   command->add_option("-o,--output", args->out, "Folder for images, or for the chart of --table")->type_name("DIR");
   command->add_flag("--table", args->table, "Score all biases and filters on four scenes (CSV)");
@@ -132,6 +143,7 @@ void add_validate_command(CLI::App& program) {
   command->add_option("--size", args->size, "Size in pixels (default 960x540)")->type_name("WxH");
   command->add_option("--camera", args->camera, "Name of one of the scene's cameras")->type_name("NAME");
   command->add_option("--time", args->time, "Seconds into the animation (default 0)")->type_name("S");
+  command->add_flag("--allow-outside", args->model.allow_outside, "Read files outside the folder of the model");
   command->add_option("--rays", args->rays, "Rays per pixel for area lights (default 1024)")->type_name("N");
   command->add_option("--threads", args->threads, "Threads (default: one per core)")->type_name("N");
   add_limit_options(command, args->limits);
@@ -190,6 +202,8 @@ void add_info_command(CLI::App& program) {
   const auto args = std::make_shared<InfoArguments>();
   command->add_option("MODEL", args->model, "Model file (default: the program itself)")->type_name("");
   command->add_flag("--json", args->json, "Print as JSON");
+  command->add_option("--up-axis", args->up_axis, "Axis that points up: y or z (default: z for STL)")->type_name("AXIS");
+  command->add_flag("--allow-outside", args->allow_outside, "Read files outside the folder of the model");
   add_limit_options(command, args->limits);
   command->footer("Examples:\n  halfspace info\n  halfspace info chair.glb --json");
   command->callback([args] { info_command(*args); });

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kFar = 1e9;
 
-// Returns the first option that applies only to model files, or an empty string.
+// Returns the first option that applies only to model files, or an empty string. (--allow-outside also applies to scenes with models.)
 std::string first_given(const ModelArguments& a) {
   const std::pair<const char*, bool> options[] = {
       {"--eye", !a.eye.empty()},
@@ -30,8 +30,8 @@ std::string first_given(const ModelArguments& a) {
       {"--variant", !a.variant.empty()},
       {"--turntable", !a.turntable.empty()},
       {"--inside", a.inside},
+      {"--floor", a.floor},
       {"--no-floor", a.no_floor},
-      {"--allow-outside", a.allow_outside},
   };
   for (const auto& [name, given] : options) {
     if (given) return name;
@@ -68,6 +68,7 @@ ModelView view_of(const ModelArguments& a, double aspect) {
   set_real(v.pitch, "--pitch", a.pitch, -89.0, 89.0, "degrees, for example 18");
   set_real(v.zoom, "--zoom", a.zoom, 1e-3, 1e3, "a factor, for example 1.5");
   v.inside = a.inside;
+  if (a.floor && a.no_floor) throw UsageError("--floor and --no-floor cannot be combined; expected at most one of them");
   v.floor = !a.no_floor;
   v.allow_outside = a.allow_outside;
   v.environment = a.environment;
@@ -90,15 +91,27 @@ std::optional<int> turntable_frames(const ModelArguments& args) {
   return frames;
 }
 
-OpenedScene open_scene_or_model(const std::string& scene, const ModelArguments& args, double aspect, double fps) {
+OpenedScene open_scene_or_model(const std::string& scene, const ModelArguments& args, double aspect, double fps,
+                                const std::vector<double>& times) {
   if (!is_model_file(scene)) {
     if (const std::string option = first_given(args); !option.empty())
       throw UsageError(option + " applies only to model files; expected a file ending in .obj, .gltf, .glb, .ply or .stl");
-    return open_scene_or_model(scene, ModelView{});
+    OpenedScene opened = open_scene_or_model(scene, ModelView{});
+    if (args.allow_outside) allow_outside(opened.scene);
+    return opened;
   }
   ModelView view = view_of(args, aspect);
+  view.times = times;
   if (const std::optional<int> frames = turntable_frames(args)) view.turn_seconds = *frames / fps;
   return open_scene_or_model(scene, view);
+}
+
+void allow_outside(SceneFile& scene) {
+  std::vector<std::string> settings;
+  for (const auto& [name, object] : scene.description().objects) {
+    if (object.shape == Shape::file) settings.push_back("objects." + name + ".allow_outside=true");
+  }
+  scene.set(settings);
 }
 
 }  // namespace halfspace

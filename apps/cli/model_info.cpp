@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <unordered_map>
 
+#include "cli/errors.h"
 #include "halfspace/core/resource_limits.h"
 #include "halfspace/image/image_size.h"
 #include "halfspace/model/model.h"
@@ -23,8 +24,8 @@ using OrderedJson = nlohmann::ordered_json;
 // Counts of triangles and edges that other programs may handle differently.
 struct Problems {
   std::size_t degenerate_triangles = 0;  // without area
-  std::size_t open_edges = 0;          // used by one triangle
-  std::size_t non_manifold_edges = 0;  // used by more than two triangles
+  std::size_t open_edges = 0;            // used by one triangle
+  std::size_t non_manifold_edges = 0;    // used by more than two triangles
 };
 
 void count_problems(const ModelMesh& mesh, Problems& problems) {
@@ -65,11 +66,32 @@ std::vector<std::string> names_of(const std::vector<T>& list) {
   return names;
 }
 
-// Describes the images. The size is null if an image cannot be read.
+// Returns, for each image, whether a material uses it.
+std::vector<bool> used_images(const Model& model) {
+  std::vector<bool> used(model.images.size());
+  for (const ModelMaterial& m : model.materials) {
+    for (const TextureUse* use :
+         {&m.base_color_map, &m.opacity_map, &m.metallic_map, &m.roughness_map, &m.specular_map, &m.specular_color_map, &m.clearcoat_map,
+          &m.clearcoat_roughness_map, &m.clearcoat_normal_map, &m.normal_map, &m.bump_map, &m.occlusion_map, &m.emissive_map}) {
+      if (use->texture < 0) continue;
+      const int image = model.textures[static_cast<std::size_t>(use->texture)].image;
+      if (image >= 0) used[static_cast<std::size_t>(image)] = true;
+    }
+  }
+  return used;
+}
+
+// Describes the images. The size is null if an image cannot be read, or if its reader did not read it because no material uses it.
 OrderedJson images_of(Model& model) {
   OrderedJson list = OrderedJson::array();
-  for (const ModelImage& image : model.images) {
-    OrderedJson json = {{"name", image.name}, {"width", nullptr}, {"height", nullptr}, {"embedded", image.bytes != nullptr}};
+  const std::vector<bool> used = used_images(model);
+  for (std::size_t i = 0; i < model.images.size(); ++i) {
+    const ModelImage& image = model.images[i];
+    OrderedJson json = {{"name", image.name},
+                        {"width", nullptr},
+                        {"height", nullptr},
+                        {"embedded", image.bytes != nullptr},
+                        {"used", used[i] || image.missing}};
     try {
       if (image.bytes != nullptr || !image.file.empty()) {
         const ImageSize size = image.bytes ? image_size(*image.bytes, image.name) : image_size(image.file);
@@ -86,8 +108,12 @@ OrderedJson images_of(Model& model) {
   return list;
 }
 
-OrderedJson describe(const std::filesystem::path& file) {
-  Model model = read_model(file);
+OrderedJson describe(const InfoArguments& args) {
+  const std::filesystem::path file = args.model;
+  if (!args.up_axis.empty() && args.up_axis != "y" && args.up_axis != "z")
+    throw UsageError("--up-axis is '" + args.up_axis + "'; expected y or z");
+  Model model = read_model(file, {.allow_outside = args.allow_outside});
+  if (!args.up_axis.empty()) model.up = args.up_axis == "z" ? UpAxis::z : UpAxis::y;
   const PosedModel posed = pose(model, {});
   std::size_t vertices = 0;
   Problems problems;
@@ -131,8 +157,9 @@ std::string item_text(const OrderedJson& item) {
   const std::string name = (item.is_object() ? item.at("name") : item).get<std::string>();
   const std::string shown = name.empty() ? "(no name)" : name;
   if (!item.is_object()) return shown;
-  if (item.at("width").is_null()) return shown + " (unreadable)";
-  return fmt::format("{} ({}x{})", shown, item.at("width").get<int>(), item.at("height").get<int>());
+  const bool used = item.at("used").get<bool>();
+  if (item.at("width").is_null()) return shown + (used ? " (unreadable)" : " (unused)");
+  return fmt::format("{} ({}x{}{})", shown, item.at("width").get<int>(), item.at("height").get<int>(), used ? "" : ", unused");
 }
 
 std::string value_text(const std::string& key, const OrderedJson& value) {
@@ -153,9 +180,9 @@ std::string value_text(const std::string& key, const OrderedJson& value) {
 
 }  // namespace
 
-std::string model_info(const std::filesystem::path& file, bool json) {
-  const OrderedJson facts = describe(file);
-  if (json) return facts.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+std::string model_info(const InfoArguments& args) {
+  const OrderedJson facts = describe(args);
+  if (args.json) return facts.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
   std::string text;
   for (const auto& [key, value] : facts.items()) {
     if (key == "warnings") {

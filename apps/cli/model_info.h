@@ -3,12 +3,13 @@
 // `halfspace info MODEL`: describes the contents of a model file and problems found in it.
 #pragma once
 
-#include <filesystem>
 #include <string>
+
+#include "cli/commands.h"
 
 namespace halfspace {
 
-/// Reads the model and describes it, as text or as JSON. Throws InputError.
-std::string model_info(const std::filesystem::path& file, bool json);
+/// Reads the model and describes it, as text or as JSON. Throws UsageError and InputError.
+std::string model_info(const InfoArguments& args);
 
 }  // namespace halfspace

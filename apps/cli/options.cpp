@@ -67,11 +67,12 @@ void add_model_options(CLI::App* command, ModelArguments& args) {
   add("--turntable", args.turntable, "Render N frames around the model", "N");
   add("--environment", args.environment, "Panorama that lights the model", "FILE");
   add("--background", args.background, "Background: #rrggbb, environment or transparent", "COLOR");
+  add_flag("--floor", args.floor, "Draw the shadow below the model (default)");
   add_flag("--no-floor", args.no_floor, "Draw no shadow below the model");
   add("--up-axis", args.up_axis, "Axis that points up: y or z (default: z for STL)", "AXIS");
-  add("--scene", args.model_scene, "Scene of the file to render", "NAME");
-  add("--animation", args.animation, "Animation of the file to play", "NAME");
-  add("--variant", args.variant, "Material variant of the file to use", "NAME");
+  add("--scene", args.model_scene, "Scene of the file to render, or its index", "NAME");
+  add("--animation", args.animation, "Animation of the file to play, or its index", "NAME");
+  add("--variant", args.variant, "Material variant of the file, or its index", "NAME");
   add_flag("--allow-outside", args.allow_outside, "Read files outside the folder of the model");
   command
       ->add_flag_callback(

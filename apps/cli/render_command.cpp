@@ -38,7 +38,8 @@ namespace {
 // The parsed and validated arguments.
 struct RenderJob {
   SceneFile scene;
-  std::map<std::filesystem::path, std::shared_ptr<const ModelAsset>> models;  // models of all objects with the shape `file`
+  ReadModels models;
+  std::vector<std::filesystem::path> inputs;  // files that must not be overwritten
   std::filesystem::path out;
   ImageFile format;
   PictureSize size;
@@ -85,6 +86,13 @@ void check_alpha(const SceneFile& scene, const std::filesystem::path& out, Image
     throw UsageError("-o is '" + out.string() + "', but the background is transparent; expected a file name ending in .png, .tif or .exr");
 }
 
+// Returns the times at which a model is shown. Returns an empty list if the options do not ask for motion.
+std::vector<double> animated_times(const RenderArguments& args, double time, double fps, const std::optional<FrameRange>& frames) {
+  const bool moves = !args.time.empty() || !args.frames.empty() || (frames && !args.model.animation.empty());
+  if (!moves) return {};
+  return frames ? frame_times(*frames, time, fps) : std::vector{time};
+}
+
 RenderJob parse_job(const RenderArguments& args) {
   set_limits(args.limits);
   const PictureSize size = parse_size(args.size);
@@ -114,15 +122,20 @@ RenderJob parse_job(const RenderArguments& args) {
   if (args.naive && (!output.values.empty() || output.crop))
     throw UsageError("--naive draws only whole pictures; expected it without --aov and --crop");
   check_picture(size, bytes_per_pixel(output, format));
-  OpenedScene opened = open_scene_or_model(args.scene, args.model, static_cast<double>(size.width) / size.height, fps);
-  const auto camera = opened.camera_names.find(args.camera);
-  set_scene(opened.scene, args.set, camera == opened.camera_names.end() ? args.camera : camera->second);
+  OpenedScene opened = open_scene_or_model(args.scene, args.model, static_cast<double>(size.width) / size.height, fps,
+                                           animated_times(args, time, fps, frames));
+  set_scene(opened, args.set, args.camera);
   set_shading(opened.scene, args.shading);
   check_alpha(opened.scene, out, format);
-  std::map<std::filesystem::path, std::shared_ptr<const ModelAsset>> models;
-  if (opened.model != nullptr) models.emplace(opened.model_file, opened.model);
+  ReadModels models;
+  std::vector<std::filesystem::path> inputs;
+  if (!args.print) {
+    models = read_models(opened);
+    inputs = input_files(opened.scene.description(), args.scene, models);
+  }
   return {std::move(opened.scene),
           std::move(models),
+          std::move(inputs),
           out,
           format,
           size,
@@ -175,9 +188,16 @@ double milliseconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
+// Throws OutputError if one of the files of a picture is a file that the scene reads.
+void protect_inputs(const RenderJob& job, const std::filesystem::path& picture) {
+  reject_overwriting(picture, job.inputs);
+  for (const std::filesystem::path& file : value_files(job.output, picture)) reject_overwriting(file, job.inputs);
+}
+
 // Renders one image to its files and adds its times and counts to the report.
 void render_picture(const RenderJob& job, double seconds, const std::filesystem::path& path, SceneAssets& assets, const Workers& workers,
                     RenderReport& report) {
+  protect_inputs(job, path);
   const auto start = std::chrono::steady_clock::now();
   const PreparedScene scene = prepare(job, seconds, assets, report);
   const double prepared_ms = milliseconds_since(start);
@@ -198,8 +218,9 @@ SceneFile chosen(const RenderJob& job) {
   const Workers workers(job.threads);
   SceneAssets assets(workers);
   std::vector<std::string> settings;
-  for (const ModelChoice& c : assets.fit(scene.at(job.time), job.size.width, job.size.height, *job.allowed).choices)
-    settings.push_back(c.key + "=" + c.value);
+  for (const ModelChoice& c : assets.fit(scene.at(job.time), job.size.width, job.size.height, *job.allowed).choices) {
+    if (c.is_setting) settings.push_back(c.key + "=" + c.value);
+  }
   scene.set(settings);
   return scene;
 }
@@ -214,7 +235,7 @@ void warn(const std::string& problem) {
 RenderReport run(const RenderJob& job) {
   const Workers workers(job.threads);
   SceneAssets assets(workers, warn);
-  for (const auto& [file, model] : job.models) assets.add_model(file, model);
+  add_models(assets, job.models);
   RenderReport report;
   if (!job.frames) {
     check_writable(job.out);
@@ -243,30 +264,14 @@ std::optional<int> frame_in(const std::string& name, const std::string& output) 
   return number < 0 ? std::nullopt : std::optional(number);
 }
 
-// Reads the models of all objects that have not been read yet.
-void read_models(RenderJob& job) {
-  for (const auto& [name, object] : job.scene.description().objects) {
-    if (object.shape != Shape::file || !object.visible || job.models.contains(object.file.path)) continue;
-    try {
-      job.models.emplace(object.file.path, std::make_shared<const ModelAsset>(read_model(object.file.path)));
-    } catch (const InputError& e) {
-      throw InputError(fmt::format("{}: objects.{}.file: {}", job.scene.source(), name, e.what()));
-    }
-  }
-}
-
-// Throws OutputError if an output file would overwrite a file that the scene reads.
-void protect_inputs(const RenderJob& job, const std::string& scene) {
-  std::vector<std::filesystem::path> inputs = input_files(job.scene.description(), job.models);
-  inputs.emplace_back(scene);
-  const auto check = [&](const std::filesystem::path& picture) {
-    reject_overwriting(picture, inputs);
-    for (const std::filesystem::path& file : value_files(job.output, picture)) reject_overwriting(file, inputs);
-  };
-  if (!job.frames) return check(job.out);
-  for (const std::filesystem::path& input : inputs) {
-    const std::optional<int> frame = frame_in(input.stem().string(), job.out.stem().string());
-    if (frame && *frame >= job.frames->first && *frame <= job.frames->last) check(frame_path(job.out, *frame, *job.frames));
+// Like protect_inputs, for all frames. Examines only files that exist, so that a long animation does not fail at its last frame.
+void protect_frame_inputs(const RenderJob& job) {
+  if (!job.frames) return protect_inputs(job, job.out);
+  const std::filesystem::path folder = job.out.has_parent_path() ? job.out.parent_path() : ".";
+  std::error_code error;
+  for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+    const std::optional<int> frame = frame_in(entry->path().stem().string(), job.out.stem().string());
+    if (frame && *frame >= job.frames->first && *frame <= job.frames->last) protect_inputs(job, frame_path(job.out, *frame, *job.frames));
   }
 }
 
@@ -275,15 +280,14 @@ void protect_inputs(const RenderJob& job, const std::string& scene) {
 void render_command(const RenderArguments& args) {
   const auto start = std::chrono::steady_clock::now();
   std::optional<StageDisplay> reading(std::in_place, "reading " + args.scene);
-  RenderJob job = parse_job(args);
+  const RenderJob job = parse_job(args);
   if (args.print) {
     std::cout << chosen(job).print();
     return;
   }
-  read_models(job);
   reading.reset();
   const double read_ms = milliseconds_since(start);
-  protect_inputs(job, args.scene);
+  protect_frame_inputs(job);
   RenderReport report = run(job);
   report.read_ms = read_ms;
   if (report.spheres_without_wireframe) warn("spheres that are not meshes have no wireframe; they are drawn as surfaces");

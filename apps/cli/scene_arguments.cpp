@@ -33,6 +33,11 @@ void set_scene(SceneFile& file, const std::vector<std::string>& settings, const 
   set_camera(file, camera);
 }
 
+void set_scene(OpenedScene& opened, const std::vector<std::string>& settings, const std::string& camera) {
+  const auto known = opened.camera_names.find(camera);
+  set_scene(opened.scene, settings, known == opened.camera_names.end() ? camera : known->second);
+}
+
 void set_shading(SceneFile& scene, const std::string& rate) {
   if (rate.empty()) return;
   ObjectDescription any;
@@ -41,12 +46,6 @@ void set_shading(SceneFile& scene, const std::string& rate) {
   std::vector<std::string> settings;
   for (const auto& [name, object] : scene.description().objects) settings.push_back("objects." + name + ".shading=" + rate);
   scene.set(settings);
-}
-
-SceneFile open_scene(const std::string& scene, const std::vector<std::string>& settings, const std::string& camera) {
-  SceneFile file = is_model_file(scene) ? open_scene_or_model(scene, {}, 16.0 / 9.0, 30.0).scene : SceneFile::open(scene);
-  set_scene(file, settings, camera);
-  return file;
 }
 
 }  // namespace halfspace

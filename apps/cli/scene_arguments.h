@@ -8,14 +8,14 @@
 
 namespace halfspace {
 
+struct OpenedScene;
 class SceneFile;
 
-/// Opens a scene by name or file name, or the default view of a model file, applies the settings, and selects a camera unless `camera` is
-/// empty. Throws UsageError and InputError.
-SceneFile open_scene(const std::string& scene, const std::vector<std::string>& settings, const std::string& camera);
-
-/// Applies the settings to a scene and selects a camera unless `camera` is empty.
+/// Applies the settings to a scene and selects a camera unless `camera` is empty. Throws UsageError and InputError.
 void set_scene(SceneFile& scene, const std::vector<std::string>& settings, const std::string& camera);
+
+/// Like set_scene() for a SceneFile. Cameras of a model file can be selected by their name in that file as well.
+void set_scene(OpenedScene& opened, const std::vector<std::string>& settings, const std::string& camera);
 
 /// Sets the shading rate of every object unless `rate` is empty. Throws UsageError.
 void set_shading(SceneFile& scene, const std::string& rate);

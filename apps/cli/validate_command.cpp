@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // `halfspace validate SCENE`: compares the shadows of a scene with ray-cast shadows.
+#include <fmt/format.h>
+
+#include <array>
 #include <filesystem>
 #include <iostream>
 
@@ -8,6 +11,7 @@
 #include "cli/charting.h"
 #include "cli/commands.h"
 #include "cli/errors.h"
+#include "cli/input_files.h"
 #include "cli/scene_arguments.h"
 #include "halfspace/core/parallel.h"
 #include "halfspace/image/atomic_output.h"
@@ -20,11 +24,24 @@ namespace halfspace {
 
 namespace {
 
-void write_pictures(const std::filesystem::path& folder, const ShadowComparison& c) {
-  const std::string name = c.score.scene + "-" + c.score.light;
-  write_png(folder / (name + "-map.png"), light_picture(c.map));
-  write_png(folder / (name + "-truth.png"), light_picture(c.truth));
-  write_png(folder / (name + "-difference.png"), difference_picture(c));
+constexpr std::array kPictures{"map", "truth", "difference"};
+
+std::filesystem::path picture_path(const ValidateArguments& args, const std::string& light, const char* picture) {
+  return std::filesystem::path(args.out) / fmt::format("{}-{}-{}.png", std::filesystem::path(args.scene).stem().string(), light, picture);
+}
+
+void write_pictures(const ValidateArguments& args, const ShadowComparison& c) {
+  write_png(picture_path(args, c.score.light, kPictures[0]), light_picture(c.map));
+  write_png(picture_path(args, c.score.light, kPictures[1]), light_picture(c.truth));
+  write_png(picture_path(args, c.score.light, kPictures[2]), difference_picture(c));
+}
+
+// Throws OutputError if a picture would overwrite a file that the scene reads.
+void protect_inputs(const ValidateArguments& args, const SceneDescription& scene, const ReadModels& models) {
+  const std::vector<std::filesystem::path> inputs = input_files(scene, args.scene, models);
+  for (const auto& [light, description] : scene.lights) {
+    for (const char* picture : kPictures) reject_overwriting(picture_path(args, light, picture), inputs);
+  }
 }
 
 // Prints each row as soon as it is complete, and writes the chart at the end.
@@ -59,14 +76,21 @@ void validate_command(const ValidateArguments& args) {
   if (args.table) return print_table(args, size, workers);
   const double time = args.time.empty() ? 0.0 : parse_real("--time", args.time, -1e9, 1e9, "seconds, for example 2.5");
   const double rays = args.rays.empty() ? 1024.0 : parse_real("--rays", args.rays, 1, 1e6, "rays per pixel, for example 1024");
-  const SceneFile scene = open_scene(args.scene, args.set, args.camera);
-  const std::filesystem::path folder = args.out;
-  if (!args.out.empty()) make_directory(folder);
+  OpenedScene opened = open_scene_or_model(args.scene, args.model, static_cast<double>(size.width) / size.height, 30.0,
+                                           args.time.empty() ? std::vector<double>{} : std::vector{time});
+  set_scene(opened, args.set, args.camera);
+  const ReadModels models = read_models(opened);
+  const SceneDescription scene = opened.scene.at(time);
+  if (!args.out.empty()) {
+    make_directory(args.out);
+    protect_inputs(args, scene, models);
+  }
   SceneAssets assets(workers);
-  const Validation validation = validate(std::filesystem::path(args.scene).stem().string(), scene.at(time),
+  add_models(assets, models);
+  const Validation validation = validate(std::filesystem::path(args.scene).stem().string(), scene,
                                          {size.width, size.height, static_cast<int>(rays)}, assets, workers);
   if (!args.out.empty())
-    for (const ShadowComparison& c : validation.lights) write_pictures(folder, c);
+    for (const ShadowComparison& c : validation.lights) write_pictures(args, c);
   std::cout << (args.json ? json_report(validation) : text_report(validation));
 }
 

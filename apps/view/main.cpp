@@ -80,9 +80,9 @@ void run(const ViewArguments& args) {
   set_limits(args.limits);
   const ViewOptions options = options_of(args);
   const double time = args.time.empty() ? 0.0 : parse_real("--time", args.time, -1e9, 1e9, "seconds, for example 2.5");
-  OpenedScene opened = open_scene_or_model(args.scene, args.model, static_cast<double>(options.width) / options.height, 30.0);
-  const auto camera = opened.camera_names.find(args.camera);
-  set_scene(opened.scene, args.set, camera == opened.camera_names.end() ? args.camera : camera->second);
+  OpenedScene opened = open_scene_or_model(args.scene, args.model, static_cast<double>(options.width) / options.height, 30.0,
+                                           args.time.empty() ? std::vector<double>{} : std::vector{time});
+  set_scene(opened, args.set, args.camera);
   set_shading(opened.scene, args.shading);
   Viewer viewer(std::move(opened), time);
   const RunTimes times = args.no_window ? run_without_window(viewer, options) : ViewApp(std::move(viewer), options).run();

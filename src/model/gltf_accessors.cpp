@@ -140,19 +140,27 @@ void GltfAccessors::check_width(const GltfAccessor& accessor, int width) const {
   document_.fail(*accessor.json, "type", fmt::format("has {} components; expected {}", accessor.width, name->name));
 }
 
-void GltfAccessors::read_dense(const GltfAccessor& accessor, GltfSubset subset, float* values) const {
+template <class V>
+void GltfAccessors::read_dense(const GltfAccessor& accessor, GltfSubset subset, V* values) const {
   const std::size_t n = (subset.empty() ? accessor.count : subset.size()) * static_cast<std::size_t>(accessor.width);
   if (accessor.bytes.empty()) {
-    std::fill_n(values, n, 0.0f);
+    std::fill_n(values, n, V{});
     return;
   }
-  const bool packed = accessor.stride == sizeof(float) * static_cast<std::size_t>(accessor.width);
-  if (accessor.component == GltfComponent::float32 && packed && subset.empty()) {
-    std::memcpy(values, accessor.bytes.data(), n * sizeof(float));
+  constexpr GltfComponent kSame = std::is_same_v<V, float> ? GltfComponent::float32 : GltfComponent::uint32;
+  const bool packed = accessor.stride == sizeof(V) * static_cast<std::size_t>(accessor.width);
+  if (accessor.component == kSame && packed && subset.empty()) {
+    std::memcpy(values, accessor.bytes.data(), n * sizeof(V));
     return;
   }
   with_type(accessor.component, [&]<class T>(T) {
-    for_components<T>(accessor, subset, [&](std::size_t i, T value) { values[i] = as_float(value, accessor.normalized); });
+    for_components<T>(accessor, subset, [&](std::size_t i, T value) {
+      if constexpr (std::is_same_v<V, float>) {
+        values[i] = as_float(value, accessor.normalized);
+      } else {
+        values[i] = static_cast<V>(value);
+      }
+    });
   });
 }
 
@@ -174,7 +182,8 @@ std::vector<uint32_t> GltfAccessors::sparse_indices(const GltfAccessor& accessor
   return list;
 }
 
-void GltfAccessors::apply_sparse(const GltfAccessor& accessor, float* values) {
+template <class V>
+void GltfAccessors::apply_sparse(const GltfAccessor& accessor, V* values) {
   const GltfValue& sparse = document_.object(*accessor.json, "sparse");
   const std::vector<uint32_t> indices = sparse_indices(accessor, sparse);
   const GltfValue& json = document_.object(sparse, "values");
@@ -184,25 +193,30 @@ void GltfAccessors::apply_sparse(const GltfAccessor& accessor, float* values) {
   source.count = indices.size();
   const std::size_t element_size = size_of(accessor.component) * width;
   source.bytes = range(sparse, view, document_.integer(json, "byteOffset", 0), source.count, element_size, source.stride);
-  document_.take_memory(json, source.count * width, sizeof(float));
-  std::vector<float> replacements(source.count * width);
+  document_.take_memory(json, source.count * width, sizeof(V));
+  std::vector<V> replacements(source.count * width);
   read_dense(source, {}, replacements.data());
   for (std::size_t i = 0; i < indices.size(); ++i) {
     std::copy_n(replacements.data() + i * width, width, values + indices[i] * width);
   }
 }
 
-void GltfAccessors::read_into(const GltfAccessor& accessor, GltfSubset subset, float* values) {
+template <class V>
+void GltfAccessors::read_into(const GltfAccessor& accessor, GltfSubset subset, V* values) {
   const bool sparse = document_.find(*accessor.json, "sparse") != nullptr;
   if (!sparse) return read_dense(accessor, subset, values);
   if (subset.empty()) {
     read_dense(accessor, {}, values);
     return apply_sparse(accessor, values);
   }
-  const std::vector<float> all = read_floats(accessor);
   const auto width = static_cast<std::size_t>(accessor.width);
+  document_.take_memory(*accessor.json, accessor.count * width, sizeof(V));
+  std::vector<V> all(accessor.count * width);
+  read_into(accessor, {}, all.data());
   for (std::size_t i = 0; i < subset.size(); ++i) std::copy_n(all.data() + subset[i] * width, width, values + i * width);
 }
+
+template void GltfAccessors::read_into(const GltfAccessor&, GltfSubset, float*);
 
 std::vector<float> GltfAccessors::read_floats(const GltfAccessor& accessor, GltfSubset subset) {
   const std::size_t n = (subset.empty() ? accessor.count : subset.size());
@@ -217,21 +231,10 @@ std::vector<uint32_t> GltfAccessors::read_integers(const GltfAccessor& accessor,
   const bool is_unsigned = accessor.component == GltfComponent::uint8 || accessor.component == GltfComponent::uint16 ||
                            accessor.component == GltfComponent::uint32;
   if (!is_unsigned) document_.fail(*accessor.json, "componentType", "is not an unsigned integer; expected 5121, 5123 or 5125");
-  if (document_.find(*accessor.json, "sparse") != nullptr && accessor.component == GltfComponent::uint32) {
-    document_.fail(*accessor.json, "sparse", "is not supported for 32-bit integers; expected 8-bit or 16-bit integers");
-  }
   const std::size_t n = (subset.empty() ? accessor.count : subset.size()) * static_cast<std::size_t>(width);
   document_.take_memory(*accessor.json, n, sizeof(uint32_t));
   std::vector<uint32_t> values(n);
-  if (document_.find(*accessor.json, "sparse") != nullptr) {  // 16-bit integers are exact as floats
-    GltfAccessor source = accessor;
-    source.normalized = false;
-    std::ranges::transform(read_floats(source, subset), values.begin(), [](float x) { return static_cast<uint32_t>(x); });
-  } else if (!accessor.bytes.empty()) {
-    with_type(accessor.component, [&]<class T>(T) {
-      for_components<T>(accessor, subset, [&](std::size_t i, T value) { values[i] = static_cast<uint32_t>(value); });
-    });
-  }
+  read_into(accessor, subset, values.data());
   return values;
 }
 

@@ -76,9 +76,13 @@ class GltfAccessors {
  private:
   std::span<const std::byte> range(const GltfValue& place, int view, uint64_t offset, uint64_t count, std::size_t element_size,
                                    std::size_t& stride);
-  void read_into(const GltfAccessor& accessor, GltfSubset subset, float* values);
-  void read_dense(const GltfAccessor& accessor, GltfSubset subset, float* values) const;
-  void apply_sparse(const GltfAccessor& accessor, float* values);
+  // V: float, or uint32_t for unsigned integers.
+  template <class V>
+  void read_into(const GltfAccessor& accessor, GltfSubset subset, V* values);
+  template <class V>
+  void read_dense(const GltfAccessor& accessor, GltfSubset subset, V* values) const;
+  template <class V>
+  void apply_sparse(const GltfAccessor& accessor, V* values);
   std::vector<uint32_t> sparse_indices(const GltfAccessor& accessor, const GltfValue& sparse);
 
   GltfDocument& document_;

@@ -88,7 +88,9 @@ void read_transmission(GltfDocument& document, const GltfValue& json, ModelMater
 }
 
 void read_specular_glossiness(GltfDocument& document, GltfTextures& textures, const GltfValue& json, ModelMaterial& material) {
-  document.warn("KHR_materials_pbrSpecularGlossiness is converted to metallic-roughness; its textures are approximated");
+  document.warn(
+      "KHR_materials_pbrSpecularGlossiness is converted to metallic-roughness; specularGlossinessTexture is approximated, and its "
+      "glossiness is ignored");
   const glm::vec4 diffuse = color_and_opacity(document, json, "diffuseFactor");
   const glm::vec3 specular = color(document, json, "specularFactor", 1.0);
   const float glossiness = document.factor(json, "glossinessFactor", 1.0f);

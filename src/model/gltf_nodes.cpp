@@ -165,13 +165,21 @@ class NodeReader {
     document_.fail(json_[node], "children", "the nodes form a cycle; expected a hierarchy");
   }
 
-  void check_transforms() const {
+  // A node whose scale is 0 along all axes is hidden, which is a common idiom.
+  static bool is_flattened(const glm::dmat4& world) {
+    const glm::dmat3 m(world);
+    return glm::determinant(m) == 0.0 && m != glm::dmat3(0.0);
+  }
+
+  void check_transforms() {
     std::vector<glm::dmat4> world(json_.size());
     for (const int n : order_) {
       const auto i = static_cast<std::size_t>(n);
       world[i] = matrix_of(model_.nodes[i]);
       if (parents_[i] >= 0) world[i] = world[static_cast<std::size_t>(parents_[i])] * world[i];
       if (!is_bounded_transform(world[i])) document_.fail(json_[i], "the transform has elements above 1e18; expected smaller elements");
+      if (!model_.nodes[i].meshes.empty() && is_flattened(world[i]))
+        document_.warn_at(json_[i], "", "the scale along an axis is 0; the mesh is not drawn");
     }
   }
 

@@ -110,7 +110,8 @@ bool GltfTextures::locate_image(int index) {
   } else {
     document_.warn_at(json, "", "has neither a file nor data; it is skipped");
   }
-  return image.bytes != nullptr || !image.file.empty();
+  image.missing = image.bytes == nullptr && image.file.empty();
+  return !image.missing;
 }
 
 namespace {

@@ -187,7 +187,13 @@ void read_vertices(GltfAccessors& accessors, const GltfValue& primitive, std::si
   read_skin_attributes(document, reader, mesh);
   const GltfValue& targets = document.objects(primitive, "targets");
   document.take_memory(targets, targets.size(), sizeof(MorphTarget));
-  for (const GltfValue& target : targets) mesh.targets.push_back(read_target({accessors, target, count, subset}, mesh));
+  for (const GltfValue& target : targets) {
+    for (auto attribute = target.begin(); attribute != target.end(); ++attribute) {
+      if (attribute.key().starts_with("TEXCOORD_") || attribute.key().starts_with("COLOR_"))
+        document.warn("morph targets of texture coordinates and vertex colors are not supported; they are ignored");
+    }
+    mesh.targets.push_back(read_target({accessors, target, count, subset}, mesh));
+  }
 }
 
 }  // namespace halfspace

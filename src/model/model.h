@@ -31,6 +31,7 @@ struct ModelImage {
   std::filesystem::path file;                           ///< absolute; empty if `bytes` or `pixels` has the image or there is none
   std::shared_ptr<const std::vector<std::byte>> bytes;  ///< null if the image is a file
   std::shared_ptr<const Image<glm::u8vec4>> pixels{};   ///< replaces the other two; never set by readers. Straight alpha
+  bool missing = false;                                 ///< a material uses the image, but the reader did not find it
 };
 
 /// An image and how it is sampled.
@@ -67,6 +68,9 @@ struct ModelMaterial {
   TextureUse base_color_map;         ///< its alpha channel multiplies the opacity
   TextureUse opacity_map;            ///< a separate opacity map; multiplies the opacity
   AlphaMode alpha_mode = AlphaMode::opaque;
+  /// Whether `mask` is only a guess, because the format does not say how opacity is used: if the opacity map has many values between 0 and
+  /// 1, the surface is blended.
+  bool mask_unless_soft = false;
   float alpha_cutoff = 0.5f;
   float metallic = 0.0f, roughness = 1.0f;
   TextureUse metallic_map, roughness_map;

@@ -108,6 +108,7 @@ void MtlConverter::convert_opacity(const MtlMaterial& mtl, ModelMaterial& materi
     material.alpha_mode = AlphaMode::blend;
   } else if (mapped) {
     material.alpha_mode = AlphaMode::mask;
+    material.mask_unless_soft = true;
   }
 }
 

@@ -6,8 +6,8 @@
 //   If Ke exceeds 1, its largest component is a linear intensity, and Ke divided by it is the color.
 // * A color or factor of 0 that has a texture counts as 1, and as 0.8 gray for Kd if the texture is missing.
 // * Opacity is d or, without d, 1 − Tr. Tr = 1 without d is treated as opaque, because programs disagree about its meaning. Opacity below 1
-//   selects AlphaMode::blend. A map_d selects AlphaMode::mask if the opacity is 1. If map_d is the image of map_Kd, its alpha channel is
-//   used.
+//   selects AlphaMode::blend. A map_d selects AlphaMode::mask and mask_unless_soft if the opacity is 1. If map_d is the image of map_Kd,
+//   its alpha channel is used.
 // * Ns is the exponent of a Blinn-Phong highlight: roughness² = sqrt(2/(Ns + 2)) gives the GGX distribution the same width. Without Ns,
 //   roughness is 0.6. map_Ns is a roughness map, as Blender writes it.
 // * Ks scales the reflectance at normal incidence: F0 = 0.08 Ks for Ni = 1.5 or no Ni, so that the usual 0.5 gives the 4% of common

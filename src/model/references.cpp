@@ -75,6 +75,18 @@ std::optional<fs::path> References::find(std::string_view name, std::string_view
   return file;
 }
 
+// All rejected references share one warning, because a model can have hundreds of textures in the same folder.
+void References::warn_outside(const std::string& reference) {
+  if (outside_++ == 0) {
+    outside_warning_ = warnings_.size();
+    first_outside_ = reference;
+    warnings_.push_back(reference + " is outside the folder of the model and was not opened; use --allow-outside to allow it");
+    return;
+  }
+  warnings_[outside_warning_] = fmt::format("{} and {} more {} outside the folder of the model and were not opened; use --allow-outside",
+                                            first_outside_, outside_ - 1, outside_ == 2 ? "file are" : "files are");
+}
+
 std::optional<fs::path> References::search(std::string_view name, std::string_view what) {
   const auto warn = [&](const std::string& text) { warnings_.push_back(fmt::format("{}: {} {}", what, in_quotes(name), text)); };
   std::string text(name);
@@ -111,7 +123,7 @@ std::optional<fs::path> References::search(std::string_view name, std::string_vi
     }
   }
   if (outside && !allow_outside_) {
-    warn("is outside the folder of the model and was not opened; use --allow-outside to allow it");
+    warn_outside(fmt::format("{}: {}", what, in_quotes(name)));
   } else {
     warn("does not exist");
   }

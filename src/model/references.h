@@ -28,11 +28,15 @@ class References {
 
  private:
   std::optional<std::filesystem::path> search(std::string_view name, std::string_view what);
+  void warn_outside(const std::string& reference);
 
   std::filesystem::path folder_;
   bool allow_outside_;
   std::vector<std::string>& warnings_;
   std::vector<std::filesystem::path> found_;
+  int outside_ = 0;                  // references that were rejected because they are outside of the folder
+  std::size_t outside_warning_ = 0;  // index of the only warning about them
+  std::string first_outside_;        // its subject
 };
 
 }  // namespace halfspace

@@ -10,9 +10,39 @@
 
 namespace halfspace {
 
-ModelBounds bounds_of(const PosedModel& posed, const std::filesystem::path& file) {
-  if (!(posed.low.x <= posed.high.x)) throw InputError(file.string() + ": has nothing to draw; expected a scene with at least one mesh");
-  ModelBounds b{0.5 * (posed.low + posed.high), 0.5 * (posed.high - posed.low), 0.0};
+namespace {
+
+constexpr std::size_t kMaxPoses = 64;
+
+// Returns at most kMaxPoses of the times, including the first and the last.
+std::vector<double> some_of(const std::vector<double>& times) {
+  if (times.size() <= kMaxPoses) return times;
+  std::vector<double> some;
+  for (std::size_t i = 0; i < kMaxPoses; ++i) some.push_back(times[i * (times.size() - 1) / (kMaxPoses - 1)]);
+  return some;
+}
+
+}  // namespace
+
+ModelPoses::ModelPoses(const Model& model, const PoseOptions& options, const std::vector<double>& times)
+    : model_(model), options_(options), times_(some_of(times)), first_(at(times_.at(0))) {
+  if (options.animation < 0) times_.resize(1);
+}
+
+PosedModel ModelPoses::at(double time) const {
+  PoseOptions options = options_;
+  options.time = time;
+  return pose(model_, options);
+}
+
+ModelBounds bounds_of(const ModelPoses& poses, const std::filesystem::path& file) {
+  glm::dvec3 low = poses.first().low, high = poses.first().high;
+  poses.for_each([&](const PosedModel& posed) {
+    low = glm::min(low, posed.low);
+    high = glm::max(high, posed.high);
+  });
+  if (!(low.x <= high.x)) throw InputError(file.string() + ": has nothing to draw; expected a scene with at least one mesh");
+  ModelBounds b{0.5 * (low + high), 0.5 * (high - low), 0.0};
   b.radius = glm::length(b.half);
   if (b.radius == 0.0) b.radius = 1.0;
   return b;
@@ -32,24 +62,26 @@ double tangent(double degrees) {
   return a.sin / a.cos;
 }
 
-// Calls f(p) for every vertex of a posed model, in world space.
+// Calls f(p) for every vertex of all poses, in world space.
 template <class F>
-void for_each_vertex(const Model& model, const PosedModel& posed, const F& f) {
-  for (const PosedMesh& part : posed.meshes) {
-    const ModelMesh& mesh = part.deformed != nullptr ? *part.deformed : model.meshes[static_cast<std::size_t>(part.mesh)];
-    for (const glm::vec3& p : mesh.positions) f(glm::dvec3(part.world_from_mesh * glm::dvec4(glm::dvec3(p), 1.0)));
-  }
+void for_each_vertex(const ModelPoses& poses, const F& f) {
+  poses.for_each([&](const PosedModel& posed) {
+    for (const PosedMesh& part : posed.meshes) {
+      const ModelMesh& mesh = part.deformed != nullptr ? *part.deformed : poses.model().meshes[static_cast<std::size_t>(part.mesh)];
+      for (const glm::vec3& p : mesh.positions) f(glm::dvec3(part.world_from_mesh * glm::dvec4(glm::dvec3(p), 1.0)));
+    }
+  });
 }
 
 // A view along −back that shows all vertices with a margin. A vertex at (x, y, z) along the axes of the camera is in view if
 // |x − eye.x| ≤ (eye.z − z)·tan, so the side planes of the view touch the model. The horizontal and the vertical pair of planes meet at
 // different distances, and the eye is at the farther one.
-FittedView fitted(const Model& model, const PosedModel& posed, const ModelBounds& b, const glm::dvec3& back, const ModelView& view) {
+FittedView fitted(const ModelPoses& poses, const ModelBounds& b, const glm::dvec3& back, const ModelView& view) {
   const glm::dvec3 right = glm::normalize(glm::cross(glm::dvec3(0, 1, 0), back)), up = glm::cross(back, right);
   const double tan_y = tangent(0.5 * view.fov) / kMargin, tan_x = tan_y * view.aspect;
   glm::dvec2 low(1e300), high(-1e300);  // of x + z·tan and x − z·tan, whose planes touch the model on either side
   double nearest = -1e300;
-  for_each_vertex(model, posed, [&](const glm::dvec3& p) {
+  for_each_vertex(poses, [&](const glm::dvec3& p) {
     const glm::dvec3 q(glm::dot(p - b.center, right), glm::dot(p - b.center, up), glm::dot(p - b.center, back));
     const glm::dvec2 slope(tan_x, tan_y), side(q);
     high = glm::max(high, side + slope * q.z);
@@ -63,7 +95,7 @@ FittedView fitted(const Model& model, const PosedModel& posed, const ModelBounds
 }
 
 // A view of the center in which all vertices stay visible while the camera goes around the model.
-FittedView fitted_for_turntable(const Model& model, const PosedModel& posed, const ModelBounds& b, const ModelView& view) {
+FittedView fitted_for_turntable(const ModelPoses& poses, const ModelBounds& b, const ModelView& view) {
   constexpr int kDirections = 24;
   const double tan_y = tangent(0.5 * view.fov) / kMargin, tan_x = tan_y * view.aspect;
   double distance = 0.0;
@@ -72,7 +104,7 @@ FittedView fitted_for_turntable(const Model& model, const PosedModel& posed, con
     turned.yaw += 360.0 * i / kDirections;
     const glm::dvec3 back = eye_direction(turned), right = glm::normalize(glm::cross(glm::dvec3(0, 1, 0), back)),
                      up = glm::cross(back, right);
-    for_each_vertex(model, posed, [&](const glm::dvec3& p) {
+    for_each_vertex(poses, [&](const glm::dvec3& p) {
       const glm::dvec3 from_center = p - b.center;
       const double along = glm::dot(from_center, back);
       distance = std::max(
@@ -84,8 +116,8 @@ FittedView fitted_for_turntable(const Model& model, const PosedModel& posed, con
 
 }  // namespace
 
-FittedView fitted_view(const Model& model, const PosedModel& posed, const ModelBounds& b, const ModelView& view) {
-  return view.turn_seconds > 0.0 ? fitted_for_turntable(model, posed, b, view) : fitted(model, posed, b, eye_direction(view), view);
+FittedView fitted_view(const ModelPoses& poses, const ModelBounds& b, const ModelView& view) {
+  return view.turn_seconds > 0.0 ? fitted_for_turntable(poses, b, view) : fitted(poses, b, eye_direction(view), view);
 }
 
 }  // namespace halfspace

@@ -35,10 +35,14 @@ struct Frame {
 };
 
 Frame frame_of(const ModelBounds& b, const std::filesystem::path& file) {
-  constexpr double kFar = 100.0, kSmall = 1e-2, kLarge = 1e4, kSmallest = 0.5 / kMaxCount;
+  constexpr double kFar = 100.0, kSmall = 1e-2, kLarge = 1e4, kSmallest = 0.5 / kMaxCount, kLargest = 1e15;
   if (b.radius < kSmallest) {
     throw InputError(fmt::format("{}: the model is too small to be scaled: the radius of its bounds is {:.3g}; expected at least {:g}",
                                  file.string(), b.radius, kSmallest));
+  }
+  if (b.radius > kLargest) {
+    throw InputError(fmt::format("{}: the model is too large to be scaled: the radius of its bounds is {:.3g}; expected at most {:g}",
+                                 file.string(), b.radius, kLargest));
   }
   Frame frame;
   if (glm::length(b.center) > kFar * b.radius) frame.origin = b.center;
@@ -50,7 +54,7 @@ Frame frame_of(const ModelBounds& b, const std::filesystem::path& file) {
   return frame;
 }
 
-OrderedJson fitted_camera(const Model& model, const PosedModel& posed, const ModelBounds& b, const Frame& frame, const ModelView& view) {
+OrderedJson fitted_camera(const ModelPoses& poses, const ModelBounds& b, const Frame& frame, const ModelView& view) {
   glm::dvec3 target = view.look_at.value_or(b.center), eye = target;
   if (view.eye) {
     eye = *view.eye;
@@ -59,7 +63,7 @@ OrderedJson fitted_camera(const Model& model, const PosedModel& posed, const Mod
     eye = b.center - along * (0.6 * glm::dot(along, b.half)) - glm::dvec3(0, 0.35 * b.half.y, 0);
     target = view.look_at.value_or(eye + along);
   } else {
-    const FittedView fit = fitted_view(model, posed, b, view);
+    const FittedView fit = fitted_view(poses, b, view);
     target = view.look_at.value_or(fit.target);
     eye = fit.eye + (target - fit.target);
   }
@@ -73,8 +77,8 @@ OrderedJson fitted_camera(const Model& model, const PosedModel& posed, const Mod
           {"far", distance + 20.0 * radius}};
 }
 
-// Returns a name for a scene file that is similar to a name in the model: a letter a to z followed by letters, digits and '_', not reserved
-// and not used before.
+// Returns a name for a scene file that is similar to a name in the model: a letter a to z followed by letters a to z, digits and '_', not
+// reserved and not used before.
 std::string scene_name(const std::string& name, const char* fallback, std::set<std::string>& used) {
   static const std::vector<std::string_view> reserved = [] {
     static SceneDescription empty;
@@ -82,12 +86,12 @@ std::string scene_name(const std::string& name, const char* fallback, std::set<s
   }();
   const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
   const auto is_lower = [](char c) { return c >= 'a' && c <= 'z'; };
-  const auto is_upper = [](char c) { return c >= 'A' && c <= 'Z'; };
   std::string word = name;
-  std::ranges::replace_if(
-      word, [&](char c) { return !is_digit(c) && !is_lower(c) && !is_upper(c); }, '_');
+  for (char& c : word) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    if (!is_digit(c) && !is_lower(c)) c = '_';
+  }
   if (word.empty()) word = fallback;
-  if (is_upper(word[0])) word[0] = static_cast<char>(word[0] - 'A' + 'a');
   if (!is_lower(word[0])) word.insert(0, std::string(fallback) + "_");
   std::string unique = word;
   for (int i = 1; used.contains(unique) || std::ranges::find(reserved, unique) != reserved.end(); ++i)
@@ -96,12 +100,12 @@ std::string scene_name(const std::string& name, const char* fallback, std::set<s
   return unique;
 }
 
-OrderedJson cameras_of(const Model& model, const PosedModel& posed, const ModelBounds& b, const Frame& frame, const ModelView& view,
+OrderedJson cameras_of(const ModelPoses& poses, const ModelBounds& b, const Frame& frame, const ModelView& view,
                        std::map<std::string, std::string>& names) {
-  OrderedJson cameras = {{"view", fitted_camera(model, posed, b, frame, view)}};
+  OrderedJson cameras = {{"view", fitted_camera(poses, b, frame, view)}};
   std::set<std::string> used{"view"};
-  for (const PosedCamera& placed : posed.cameras) {
-    const ModelCamera& c = model.cameras[static_cast<std::size_t>(placed.camera)];
+  for (const PosedCamera& placed : poses.first().cameras) {
+    const ModelCamera& c = poses.model().cameras[static_cast<std::size_t>(placed.camera)];
     const glm::dvec3 eye(placed.world_from_camera[3]), ahead(-placed.world_from_camera[2]);
     const double far = std::isfinite(c.far) ? c.far : glm::distance(eye, b.center) + 100.0 * b.radius;
     const double near = std::clamp(c.near * frame.scale, 1e-6, 0.25 * kMaxCount);
@@ -183,6 +187,22 @@ OrderedJson turntable(const OrderedJson& camera, double seconds) {
           {"period", seconds}};
 }
 
+// Returns the animation that plays: that of the view or, if the view has times, the first of the file. Adds a warning if that is a choice.
+std::string animation_of(Model& model, const ModelView& view) {
+  const std::vector<ModelAnimation>& all = model.animations;
+  if (!view.animation.empty() || view.times.empty() || all.empty()) return view.animation;
+  const auto label = [&](std::size_t i) { return all[i].name.empty() ? std::to_string(i) : all[i].name; };
+  if (all.size() > 1) {
+    constexpr std::size_t kMaxNames = 20;
+    std::string others;
+    for (std::size_t i = 1; i < std::min(all.size(), kMaxNames); ++i) others += (i == 1 ? "" : ", ") + label(i);
+    if (all.size() > kMaxNames) others += ", ...";
+    model.warnings.push_back(
+        fmt::format("the animation '{}' plays, the first of {}; use --animation to select another: {}", label(0), all.size(), others));
+  }
+  return label(0);
+}
+
 UpAxis up_axis_of(const Model& model, const std::string& name) { return name == "y" ? UpAxis::y : name == "z" ? UpAxis::z : model.up; }
 
 }  // namespace
@@ -190,19 +210,21 @@ UpAxis up_axis_of(const Model& model, const std::string& name) { return name == 
 GeneratedScene model_scene(const std::filesystem::path& file, const ModelView& view) {
   Model contents = read_model(file, {.allow_outside = view.allow_outside});
   contents.up = up_axis_of(contents, view.up_axis);
-  const auto asset = std::make_shared<const ModelAsset>(std::move(contents));
+  const std::string animation = animation_of(contents, view);
+  const auto asset = std::make_shared<const ModelAsset>(std::move(contents), view.allow_outside);
   const Model& model = asset->model;
   ObjectDescription shown;
   shown.model_scene = view.scene;
-  shown.model_animation = view.animation;
+  shown.model_animation = animation;
   shown.model_variant = view.variant;
-  const PosedModel posed = pose(model, pose_options(model, shown, file.string()));
-  const ModelBounds b = bounds_of(posed, file);
+  const ModelPoses poses(model, pose_options(model, shown, file.string()), view.times.empty() ? std::vector{0.0} : view.times);
+  const PosedModel& posed = poses.first();
+  const ModelBounds b = bounds_of(poses, file);
   const Frame frame = frame_of(b, file);
   const bool own_lights = !posed.lights.empty();
   OrderedJson scene = {{"version", 1}, {"title", file.filename().string()}, {"samples", 4}, {"camera", "view"}};
   std::map<std::string, std::string> camera_names;
-  scene["cameras"] = cameras_of(model, posed, b, frame, view, camera_names);
+  scene["cameras"] = cameras_of(poses, b, frame, view, camera_names);
   scene["lights"] = own_lights ? lights_of(model, posed, frame) : key_light(view);
   OrderedJson environment = {{"type", "studio"}, {"size", 256}, {"brightness", 0.75}};
   if (!view.environment.empty()) environment = {{"type", "equirect"}, {"map", view.environment}};
@@ -224,11 +246,12 @@ GeneratedScene model_scene(const std::filesystem::path& file, const ModelView& v
   if (frame.scale != 1.0) object["scale"] = json_of(glm::dvec3(frame.scale));
   if (view.up_axis != "auto") object["up_axis"] = view.up_axis;
   if (!view.scene.empty()) object["model_scene"] = view.scene;
-  if (!view.animation.empty()) object["model_animation"] = view.animation;
+  if (view.allow_outside) object["allow_outside"] = true;
+  if (!animation.empty()) object["model_animation"] = animation;
   if (!view.variant.empty()) object["model_variant"] = view.variant;
   scene["objects"] = {{"model", object}};
   OrderedJson animations = OrderedJson::object();
-  if (!view.animation.empty()) animations["clock"] = {{"type", "rate"}, {"target", "objects.model.model_time"}, {"rate", 1}};
+  if (!animation.empty()) animations["clock"] = {{"type", "rate"}, {"target", "objects.model.model_time"}, {"rate", 1}};
   if (view.turn_seconds > 0.0) animations["turntable"] = turntable(scene["cameras"]["view"], view.turn_seconds);
   if (!animations.empty()) scene["animations"] = animations;
   if (view.floor && !view.inside) {

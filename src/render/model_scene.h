@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "halfspace/render/model_asset.h"
 
@@ -26,7 +27,8 @@ struct ModelView {
   bool floor = true;                      ///< shadows on a floor below the model
   std::string environment;                ///< image file; empty: a photo studio
   std::string background;                 ///< "#rrggbb", "environment", "transparent", or empty: light gray
-  std::string scene, animation, variant;  ///< names in the file; empty: its defaults
+  std::string scene, animation, variant;  ///< names or indices in the file; empty: its defaults
+  std::vector<double> times;              ///< seconds; the view fits the model at all of them. Empty: 0, and no animation is chosen
   std::string up_axis = "auto";           ///< "auto", "y" or "z"
   double turn_seconds = 0.0;              ///< time in which the camera goes around the model; 0: it does not move
   bool allow_outside = false;             ///< open referenced files outside the folder of the model
@@ -43,7 +45,8 @@ struct GeneratedScene {
 bool is_model_file(const std::filesystem::path& file);
 
 /// Reads the model and returns a scene with the object `model`, the camera `view`, the cameras of the file, and the lights of the file or,
-/// if it has none, a key light with a soft shadow. Throws InputError.
+/// if it has none, a key light with a soft shadow. If `view` has times but no animation, the first animation of the file plays. Throws
+/// InputError.
 GeneratedScene model_scene(const std::filesystem::path& file, const ModelView& view);
 
 }  // namespace halfspace

@@ -37,7 +37,9 @@ struct SurfaceStreams {
 };
 
 // Returns the cache key of a model file.
-inline std::string model_recipe(const std::filesystem::path& file) { return recipe("model", file.string()); }
+inline std::string model_recipe(const std::filesystem::path& file, bool allow_outside) {
+  return recipe("model", file.string(), allow_outside ? "with outside files" : "");
+}
 
 /// Returns how a map continues beyond its edges on a shape.
 MapEdges edges_of(Shape shape);
@@ -102,6 +104,7 @@ class ScenePreparation {
   std::vector<std::pair<int, bool>> wanted_images(const ObjectDescription& o, const Model& model, const PosedModel& posed);
   void load_images(const ObjectDescription& o, const Model& model, const std::vector<std::pair<int, bool>>& list, bool lit);
   const Texture2D* model_texture(const std::filesystem::path& file, int image, bool color);
+  bool is_soft_mask(const ObjectDescription& o, const Model& model, const ModelMaterial& m);
   MetallicMaterial metallic_material(const ObjectDescription& o, const Model& model, const ModelMaterial& m, bool has_uvs);
 
   // prepare_shadows.cpp: renders the shadow maps, after all objects have been placed

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Objects of shape `file`: model files with their own meshes and materials.
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <span>
 
@@ -92,16 +95,24 @@ PreparedDraw draw_of(const MetallicMaterial& m, MetallicStreams variant, bool ma
   return (masked ? draw_of<MetallicStreams::full, true> : draw_of<MetallicStreams::full, false>)(m, s, indices, state);
 }
 
-// Returns the index of the item with that name, or −1 if the name is empty.
+// Returns the index of the item with that name or, if none has it, at that index. Returns −1 if the name is empty. `what`: the plural of
+// the item.
 template <class T, class Name>
-int index_of(const std::vector<T>& list, const std::string& name, const Name& name_of, const std::string& where) {
+int index_of(const std::vector<T>& list, const std::string& name, const Name& name_of, const std::string& where, const char* what) {
   if (name.empty()) return -1;
   std::vector<std::string_view> names;
   for (std::size_t i = 0; i < list.size(); ++i) {
     if (name_of(list[i]) == name) return static_cast<int>(i);
-    names.push_back(name_of(list[i]));
+    if (!name_of(list[i]).empty()) names.push_back(name_of(list[i]));
   }
-  throw InputError(where + ": the file has no '" + name + "'" + suggestion(name, names));
+  if (list.empty()) throw InputError(fmt::format("{} is '{}', but the file has no {}; expected none", where, name, what));
+  int index = -1;
+  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), index);
+  if (error == std::errc() && end == name.data() + name.size() && index >= 0 && index < static_cast<int>(list.size())) return index;
+  const std::string expected = names.empty()
+                                   ? fmt::format("; expected an index from 0 to {}, because its {} have no names", list.size() - 1, what)
+                                   : suggestion(name, names);
+  throw InputError(fmt::format("{}: the file has no '{}'{}", where, name, expected));
 }
 
 // Returns the additional rotation for an object whose up_axis differs from the up axis of the model, which pose() already applies.
@@ -120,15 +131,16 @@ glm::dmat4 turn_of(const ObjectDescription& o, const Model& model) {
 PoseOptions pose_options(const Model& model, const ObjectDescription& o, const std::string& path) {
   const auto own_name = [](const auto& item) -> const std::string& { return item.name; };
   PoseOptions options;
-  options.scene = index_of(model.scenes, o.model_scene, own_name, path + ".model_scene");
-  options.animation = index_of(model.animations, o.model_animation, own_name, path + ".model_animation");
+  options.scene = index_of(model.scenes, o.model_scene, own_name, path + ".model_scene", "scenes");
+  options.animation = index_of(model.animations, o.model_animation, own_name, path + ".model_animation", "animations");
   options.variant = index_of(
-      model.variants, o.model_variant, [](const std::string& name) -> const std::string& { return name; }, path + ".model_variant");
+      model.variants, o.model_variant, [](const std::string& name) -> const std::string& { return name; }, path + ".model_variant",
+      "variants");
   options.time = o.model_time;
   return options;
 }
 
-ModelAsset::ModelAsset(Model m) : model(std::move(m)) {
+ModelAsset::ModelAsset(Model m, bool outside_allowed) : model(std::move(m)), allow_outside(outside_allowed) {
   for (ModelMesh& mesh : model.meshes) {
     if (mesh.material >= 0 && mesh.tangents.empty() && mesh.topology == MeshTopology::triangles) {
       const TextureUse* use = tangent_map(model.materials[static_cast<std::size_t>(mesh.material)]);
@@ -143,8 +155,9 @@ ModelAsset::ModelAsset(Model m) : model(std::move(m)) {
 }
 
 std::shared_ptr<const ModelAsset> ScenePreparation::model_asset(const ObjectDescription& o, const std::string& where) {
-  return used_.asset<ModelAsset>(model_recipe(o.file.path), [&] {
-    ModelAsset model = read_for(where + ".file", [&] { return ModelAsset(read_model(o.file.path)); });
+  return used_.asset<ModelAsset>(model_recipe(o.file.path, o.allow_outside), [&] {
+    ModelAsset model =
+        read_for(where + ".file", [&] { return ModelAsset(read_model(o.file.path, {.allow_outside = o.allow_outside}), o.allow_outside); });
     assets_.warn_of(o.file.path, model);
     return model;
   });
@@ -227,7 +240,7 @@ void ScenePreparation::add_part(int object, const ObjectDescription& o, const st
   if (material.bump_map.texture >= 0 && material.normal_map.texture < 0) add_bumps(surface, o, model->model, part.mesh, material);
   place(surface, world);
   needs_light_ = needs_light_ || (!surface.unlit && surface.emissive == glm::vec3(0.0f));
-  const bool masked = material.alpha_mode == AlphaMode::mask;
+  const bool masked = material.alpha_mode == AlphaMode::mask && !surface.blends;
   MetallicStreams variant = variant_of(surface, streams);
   if (masked && !(variant >= MetallicStreams::mapped)) variant = MetallicStreams::full;
   if (variant == MetallicStreams::detailed && streams.tangents.empty()) variant = MetallicStreams::full;

@@ -9,6 +9,7 @@
 #include "halfspace/core/resource_limits.h"
 #include "halfspace/image/image_io.h"
 #include "halfspace/render/preparation.h"
+#include "halfspace/render/soft_mask.h"
 
 namespace halfspace {
 
@@ -103,6 +104,22 @@ const Texture2D* ScenePreparation::model_texture(const std::filesystem::path& fi
   return used_.existing<Texture2D>(image_recipe(file, image, color)).get();
 }
 
+// Returns true if a mask is only a guess and its map has so many values between 0 and 1 that the surface must be blended.
+bool ScenePreparation::is_soft_mask(const ObjectDescription& o, const Model& model, const ModelMaterial& m) {
+  if (!m.mask_unless_soft || m.alpha_mode != AlphaMode::mask) return false;
+  const bool separate = m.opacity_map.texture >= 0;
+  const int texture = separate ? m.opacity_map.texture : m.base_color_map.texture;
+  if (texture < 0) return false;
+  const int image = model.textures[static_cast<std::size_t>(texture)].image;
+  const Texture2D* map = image < 0 ? nullptr : model_texture(o.file.path, image, !separate);
+  if (map == nullptr) return false;
+  const Channel channel = separate ? m.opacity_map.channel : Channel::alpha;
+  return *used_.asset<bool>(recipe("soft mask", o.file.path.string(), image, static_cast<int>(channel)), [&] {
+    return is_soft(
+        map->width(), map->height(), [&](int x, int y) { return map->texel(0, x, y); }, channel);
+  });
+}
+
 MetallicMaterial ScenePreparation::metallic_material(const ObjectDescription& o, const Model& model, const ModelMaterial& m, bool has_uvs) {
   MetallicMaterial out;
   out.to_eye_ws = glm::vec3(view_.to_eye_ws);
@@ -125,7 +142,7 @@ MetallicMaterial ScenePreparation::metallic_material(const ObjectDescription& o,
   out.ambient = glm::vec3(ambient_);
   out.alpha_cutoff = m.alpha_cutoff;
   out.unlit = m.unlit;
-  out.blends = m.alpha_mode == AlphaMode::blend;
+  out.blends = m.alpha_mode == AlphaMode::blend || (has_uvs && is_soft_mask(o, model, m));
   out.environment = m.unlit ? nullptr : environments_.light();
   if (!has_uvs) return out;
   const auto uses = uses_of(m);

@@ -140,7 +140,8 @@ void SceneAssets::expect(const SceneDescription& scene, int width, int height) {
 
 void SceneAssets::add_model(const std::filesystem::path& file, std::shared_ptr<const ModelAsset> model) {
   warn_of(file, *model);
-  cache_.add(model_recipe(file), std::move(model));
+  const std::string key = model_recipe(file, model->allow_outside);
+  cache_.add(key, std::move(model));
 }
 
 void SceneAssets::warn_of(const std::filesystem::path& file, const ModelAsset& model) const {

@@ -156,10 +156,11 @@ struct ObjectDescription {
   int segments = 1;
   int tiles_u = 1, tiles_v = 1;
   FilePath file;
+  bool allow_outside = false;  ///< open files outside of the folder of `file` that it refers to
   ModelUp up_axis = ModelUp::automatic;
-  std::string model_scene;      ///< name in the file; empty: its default scene
-  std::string model_animation;  ///< name in the file; empty: none
-  std::string model_variant;    ///< name in the file; empty: the default materials
+  std::string model_scene;      ///< name or index in the file; empty: its default scene
+  std::string model_animation;  ///< name or index in the file; empty: none
+  std::string model_variant;    ///< name or index in the file; empty: the default materials
   std::string model_materials;  ///< materials of the scene that replace those of the file: "NAME=MATERIAL, NAME=MATERIAL"
   double model_time = 0.0;      ///< seconds
   bool shadow_only = false;

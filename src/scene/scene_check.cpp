@@ -22,6 +22,7 @@ namespace halfspace {
 namespace {
 
 constexpr double kMinScale = 1e-6, kMinTerm = 1e-6;
+constexpr double kMinModelScale = 1e-15;            // the coordinates of model files can be large
 constexpr int64_t kMaxVertices = int64_t{1} << 23;  // per mesh; this many take 0.6 GB
 constexpr int kMaxPatternWidth = 4096;              // 14 bytes per texel; patterns are square
 constexpr int64_t kMaxCopies = 65536;
@@ -68,15 +69,15 @@ void check(const EnvironmentDescription& e, const std::string& where) {
 void check(const SurfaceDescription&, const std::string&) {}
 void check(const ParticlesDescription&, const std::string&) {}
 
-void check(const Placement& p, const std::string& where) {
+void check(const Placement& p, const std::string& where, double min_scale = kMinScale) {
   const glm::dvec3 s = glm::abs(p.scale);
-  if (std::min({s.x, s.y, s.z}) < kMinScale)
-    reject(where + ".scale", "has a component near zero; expected at least " + number_text(kMinScale) + " in magnitude");
+  if (std::min({s.x, s.y, s.z}) < min_scale)
+    reject(where + ".scale", "has a component near zero; expected at least " + number_text(min_scale) + " in magnitude");
 }
 
 void check(const ObjectDescription& o, const std::string& where) {
   const ShapeKind& kind = kind_of(o);
-  check(o.placement, where);
+  check(o.placement, where, o.shape == Shape::file ? kMinModelScale : kMinScale);
   if (o.shape == Shape::file && o.file.path.empty()) reject(where + ".file", "is missing; expected a model file");
   for (std::size_t i = 0; i < o.instances.size(); ++i) check(o.instances[i], fmt::format("{}.{}.{}", where, kInstances, i));
   if (kind.vertices(o) > kMaxVertices) reject(where + ".longitudes", "more than 2^23 vertices; expected fewer latitudes or longitudes");

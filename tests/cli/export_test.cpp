@@ -146,7 +146,6 @@ TEST_F(Export, RejectsOtherFormats) {
   EXPECT_EQ(run({"export", "none.obj", "-o", "a.glb"}).exit_code, 3);
   write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   EXPECT_EQ(run({"export", "a.obj", "--set", "samples=4", "-o", "a.glb"}).exit_code, 2);
-  EXPECT_EQ(run({"export", "shapes", "--allow-outside", "-o", "a.glb"}).exit_code, 2);
 }
 
 }  // namespace

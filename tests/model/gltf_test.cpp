@@ -124,6 +124,46 @@ TEST(Gltf, AppliesSparseValues) {
   }
 }
 
+// The last index is not exact as a float.
+TEST(Gltf, AppliesSparseIntegers) {
+  constexpr uint32_t kVertices = 3, kLarge = 0x01000001;
+  GltfBuilder file;
+  GltfJson accessor = {{"componentType", 5125}, {"count", 3}, {"type", "SCALAR"}};
+  accessor["bufferView"] = file.view(std::vector<uint32_t>{0, 1, 1});
+  const auto sparse = [&](uint32_t value) {
+    accessor["sparse"] = {{"count", 1},
+                          {"indices", {{"bufferView", file.view(std::vector<uint8_t>{2})}, {"componentType", 5121}}},
+                          {"values", {{"bufferView", file.view(std::vector<uint32_t>{value})}}}};
+    return file.add("accessors", accessor);
+  };
+  const int p = file.triangle();
+  file.mesh_node({{"attributes", {{"POSITION", p}}}, {"indices", sparse(2)}});
+  EXPECT_EQ(file.read().meshes.at(0).indices, (std::vector<uint32_t>{0, 1, kVertices - 1}));
+  file.json["meshes"][0]["primitives"][0]["indices"] = sparse(kLarge);
+  try {
+    file.read();
+    FAIL() << "the index is out of range";
+  } catch (const InputError& e) {
+    EXPECT_NE(std::string(e.what()).find(std::to_string(kLarge)), std::string::npos) << e.what();
+  }
+}
+
+// Features without an effect are named, each in one line.
+TEST(Gltf, NamesFeaturesThatAreIgnored) {
+  GltfBuilder file;
+  const int p = file.triangle(), uv = file.accessor<float>({0, 0, 1, 0, 0, 1}, 2);
+  file.mesh_node({{"attributes", {{"POSITION", p}, {"TEXCOORD_0", uv}}}, {"targets", {{{"TEXCOORD_0", uv}}, {{"TEXCOORD_0", uv}}}}});
+  file.json["nodes"][0]["scale"] = {1, 0, 1};
+  file.add("nodes", {{"mesh", 0}, {"scale", {0, 0, 0}}});  // hidden on purpose
+  file.json["extensionsUsed"] = {"KHR_lights_punctual"};
+  file.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}, {"range", 2}}, {{"type", "directional"}, {"range", 2}}};
+  const std::vector<std::string> warnings = file.read().warnings;
+  ASSERT_EQ(warnings.size(), 3u);
+  EXPECT_NE(warnings[0].find("morph targets of texture coordinates"), std::string::npos) << warnings[0];
+  EXPECT_NE(warnings[1].find("lights[0].range"), std::string::npos) << warnings[1];
+  EXPECT_NE(warnings[2].find("nodes[0]"), std::string::npos) << warnings[2];
+}
+
 TEST(Gltf, ReadsMorphTargetsSkinsAndInstances) {
   GltfBuilder file;
   const int p = file.triangle(), offsets = file.accessor<float>({0, 0, 1, 0, 0, 2, 0, 0, 3}, 3);

@@ -80,6 +80,7 @@ TEST_F(Mtl, ConvertsOpacity) {
   check("d 0\nmap_d a.png\n", 1.0f, AlphaMode::mask);
   check("d 0.5\nmap_d a.png\n", 0.5f, AlphaMode::blend);
   check("map_d missing.png\n", 1.0f, AlphaMode::opaque);
+  EXPECT_TRUE(material("map_d a.png\n").mask_unless_soft);
 }
 
 TEST_F(Mtl, UsesTheAlphaChannelOfTheDiffuseMap) {

@@ -10,25 +10,13 @@
 #include "halfspace/core/srgb.h"
 #include "halfspace/image/image_io.h"
 #include "halfspace/image/png.h"
+#include "halfspace/render/soft_mask.h"
 
 namespace halfspace {
 
 namespace {
 
 using Picture = Image<glm::u8vec4>;
-
-uint8_t channel_value(const glm::u8vec4& texel, Channel channel) {
-  switch (channel) {
-    case Channel::red: return texel.x;
-    case Channel::green: return texel.y;
-    case Channel::blue: return texel.z;
-    case Channel::alpha: return texel.w;
-    case Channel::luminance: break;
-  }
-  // ITU-R BT.709. The values of data maps are linear.
-  const float y = 0.2126f * static_cast<float>(texel.x) + 0.7152f * static_cast<float>(texel.y) + 0.0722f * static_cast<float>(texel.z);
-  return static_cast<uint8_t>(std::min(y + 0.5f, 255.0f));
-}
 
 // The source of a channel of a new image: a channel of a map, or a constant.
 struct Source {
@@ -50,6 +38,7 @@ class MapPacker {
 
   void pack(ModelMaterial& m) {
     pack_metallic_roughness(m);
+    resolve_mask(m);
     pack_opacity(m);
     pack_specular(m);
   }
@@ -117,6 +106,16 @@ class MapPacker {
     m.metallic_map = m.roughness_map = use;
     m.metallic_map.channel = Channel::blue;
     m.roughness_map.channel = Channel::green;
+  }
+
+  void resolve_mask(ModelMaterial& m) {
+    if (!m.mask_unless_soft || m.alpha_mode != AlphaMode::mask) return;
+    const bool separate = m.opacity_map.texture >= 0;
+    const Picture* picture = picture_of(separate ? m.opacity_map : m.base_color_map);
+    if (picture == nullptr) return;
+    const Channel channel = separate ? m.opacity_map.channel : Channel::alpha;
+    const auto texel = [&](int x, int y) { return picture->at(x, y); };
+    if (is_soft(picture->width(), picture->height(), texel, channel)) m.alpha_mode = AlphaMode::blend;
   }
 
   void pack_opacity(ModelMaterial& m) {

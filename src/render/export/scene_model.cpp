@@ -259,7 +259,8 @@ Model scene_model(SceneDescription scene, SceneAssets& assets) {
   const PreparedScene prepared = assets.prepare(meshes, kExportWidth, kExportHeight);
   SceneExporter exporter(meshes, prepared);
   for (const auto& [name, object] : scene.objects) {
-    if (object.shape == Shape::file && object.visible) exporter.add_file(name, object, read_model(object.file.path));
+    if (object.shape == Shape::file && object.visible)
+      exporter.add_file(name, object, read_model(object.file.path, {.allow_outside = object.allow_outside}));
   }
   return exporter.model();
 }

@@ -22,6 +22,7 @@ struct ModelChoice {
   std::string key;    ///< dotted path, in the form that --set accepts
   std::string value;  ///< in the form that --set accepts
   std::string why;
+  bool is_setting = true;  ///< false: nothing was chosen; `why` says why
 };
 
 struct FittedScene {

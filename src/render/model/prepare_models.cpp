@@ -128,7 +128,11 @@ std::shared_ptr<const ReliefDetail> ScenePreparation::relief_detail(const Object
 // `authored` must be an element of the scene's objects, because width_for finds it by its address.
 ObjectDescription ScenePreparation::fitted(const ObjectDescription& authored, const std::string& path, double edge_px,
                                            std::optional<double> color, std::vector<ModelChoice>& choices) {
-  if (is_faceted(authored) || authored.shape == Shape::sphere || authored.shape == Shape::file) return authored;
+  if (authored.shape == Shape::file) {
+    choices.push_back({path + ".file", authored.file.path.filename().string(), "the meshes of a file are left unchanged", false});
+    return authored;
+  }
+  if (is_faceted(authored) || authored.shape == Shape::sphere) return authored;
   if (is_ball(authored) && mesh_only_key(authored).empty() && has_uniformly_scaled_ancestors(scene_, authored)) {
     // A sprite takes 0.76 ms, a mesh 0.54 ms with 8 bands and 1.03 ms with 64 bands (study sphere_model).
     ObjectDescription sphere = authored;
