@@ -19,7 +19,7 @@ struct Color {
 // y points down.
 double edge(Point a, Point b, Point p) { return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x); }
 
-uint8_t code_of(double value) { return static_cast<uint8_t>(255.0 * std::clamp(value, 0.0, 1.0) + 0.5); }
+uint8_t to_byte(double value) { return static_cast<uint8_t>(255.0 * std::clamp(value, 0.0, 1.0) + 0.5); }
 
 int main(int argc, char** argv) {
   const Point a{160, 20}, b{290, 200}, c{30, 160};  // clockwise in the image
@@ -36,9 +36,9 @@ int main(int argc, char** argv) {
       const double wc = edge(a, b, center) / twice_area;
       if (wa < 0 || wb < 0 || wc < 0) continue;
       uint8_t* pixel = &image[3 * static_cast<std::size_t>(y * kWidth + x)];
-      pixel[0] = code_of(wa * red.red + wb * green.red + wc * blue.red);
-      pixel[1] = code_of(wa * red.green + wb * green.green + wc * blue.green);
-      pixel[2] = code_of(wa * red.blue + wb * green.blue + wc * blue.blue);
+      pixel[0] = to_byte(wa * red.red + wb * green.red + wc * blue.red);
+      pixel[1] = to_byte(wa * red.green + wb * green.green + wc * blue.green);
+      pixel[2] = to_byte(wa * red.blue + wb * green.blue + wc * blue.blue);
     }
   }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Indices of a 16-bit list that is destroyed before the pass runs must not compile, and
-// the message must name: the list must outlive the Indices.
+// the error must contain: the list must outlive the Indices.
 #include "halfspace/raster/vertex_input.h"
 
 using namespace halfspace;

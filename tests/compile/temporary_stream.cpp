@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A stream of a vector that is destroyed before the pass runs must not compile, and
-// the message must name: the vector must outlive the stream.
+// the error must contain: the vector must outlive the stream.
 #include "halfspace/raster/vertex_input.h"
 
 using namespace halfspace;
