@@ -234,6 +234,52 @@ def test_materials_of_trimesh_have_their_colors():
 NAN = np.where(np.arange(12).reshape(4, 3) == 7, np.nan, 0.5)
 
 
+def trimesh_quad(**material):
+    """An object like a trimesh.Trimesh with a PBRMaterial."""
+    names = ("baseColorFactor", "baseColorTexture", "metallicFactor", "roughnessFactor", "metallicRoughnessTexture", "normalTexture",
+             "occlusionTexture", "emissiveFactor", "emissiveTexture", "alphaMode", "alphaCutoff", "doubleSided")
+    unknown = set(material) - set(names)
+    assert not unknown
+    uvs = np.array([[0, 0], [1, 0], [1, 1], [0, 1]], float)
+    visual = SimpleNamespace(kind="texture", uv=uvs, material=SimpleNamespace(**{name: material.get(name) for name in names}))
+    return SimpleNamespace(vertices=QUAD[0], faces=QUAD[1], visual=visual)
+
+
+def texels_of(*color):
+    return np.full((4, 4, len(color)), color, np.uint8)
+
+
+@pytest.mark.parametrize("of_trimesh, own", [
+    ({"emissiveFactor": [0.5, 0.25, 1.0]}, {"emissive": (0.5, 0.25, 1)}),
+    ({"emissiveFactor": [1, 1, 1], "emissiveTexture": texels_of(200, 100, 50)}, {"emissive": (1, 1, 1), "emissive_texture": texels_of(200, 100, 50)}),
+    ({"metallicRoughnessTexture": texels_of(0, 60, 255)},
+     {"metallic": 1, "roughness": 1, "metallic_roughness_texture": texels_of(0, 60, 255)}),
+    ({"metallicRoughnessTexture": texels_of(0, 60, 255), "metallicFactor": 0.5, "roughnessFactor": 0.8},
+     {"metallic": 0.5, "roughness": 0.8, "metallic_roughness_texture": texels_of(0, 60, 255)}),
+    ({"normalTexture": texels_of(200, 128, 220)}, {"normal_texture": texels_of(200, 128, 220)}),
+    ({"occlusionTexture": texels_of(40, 40, 40)}, {"occlusion_texture": texels_of(40, 40, 40)}),
+    ({"baseColorTexture": texels_of(255, 0, 0, 100), "alphaMode": "MASK"},
+     {"base_color": (1, 1, 1), "base_color_texture": texels_of(255, 0, 0, 100), "alpha_mode": "mask"}),
+    ({"baseColorTexture": texels_of(255, 0, 0, 100), "alphaMode": "MASK", "alphaCutoff": 0.25},
+     {"base_color": (1, 1, 1), "base_color_texture": texels_of(255, 0, 0, 100), "alpha_mode": "mask", "alpha_cutoff": 0.25}),
+    ({"baseColorTexture": texels_of(255, 0, 0, 100), "alphaMode": "BLEND"},
+     {"base_color": (1, 1, 1), "base_color_texture": texels_of(255, 0, 0, 100), "alpha_mode": "blend"}),
+    ({"doubleSided": False}, {"double_sided": False}),
+])
+def test_materials_of_trimesh_like_objects(of_trimesh, own):
+    def pictures(mesh):
+        scene = halfspace.Scene()
+        scene.add(mesh)
+        return [scene.render((16, 16), camera=halfspace.Camera.look_at(eye, height=3)) for eye in ((0.5, 0.5, 4), (0.5, 0.5, -4))]
+
+    uvs = trimesh_quad().visual.uv
+    expected = pictures(halfspace.Mesh(*QUAD, uvs=uvs, material=halfspace.Material(**own)))
+    shown = pictures(trimesh_quad(**of_trimesh))
+    plain = pictures(trimesh_quad())
+    assert all(np.array_equal(a, b) for a, b in zip(shown, expected))
+    assert not all(np.array_equal(a, b) for a, b in zip(shown, plain))
+
+
 @pytest.mark.parametrize("make, words", [
     (lambda: halfspace.Mesh(np.zeros((4, 2))), "vertices: has the shape (4, 2); expected (N, 3)"),
     (lambda: halfspace.Mesh([[0, 0, 0], [1]]), "vertices: is not an array; expected numbers of shape (N, 3)"),
