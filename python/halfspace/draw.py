@@ -66,7 +66,7 @@ class Stencil:
         s.fail, s.depth_fail = _word("StencilOp", "fail", fail), _word("StencilOp", "depth_fail", depth_fail)
         s.pass_ = _word("StencilOp", "passed", passed)
         for name, value in (("reference", reference), ("read_mask", read_mask), ("write_mask", write_mask)):
-            setattr(s, name, int(_check.number(name, value, 0, 255)))
+            setattr(s, name, _check.integer(name, value, 0, 255))
         self._core = s
 
 
@@ -85,7 +85,7 @@ class State:
     point_size, line_width: in pixels.   sample_mask, alpha_to_coverage, sample_shading: for passes with several samples per pixel.
     """
 
-    __slots__ = ("_core",)
+    __slots__ = ("_core", "_base_vertex")
 
     def __init__(self, *, topology: str = "triangles", polygon_mode: str = "fill", cull: str = "none", front: str = "counter_clockwise",
                  provoking: str = "last", depth_test: bool = True, depth_write: bool = True, depth_compare: str = "less",
@@ -99,33 +99,49 @@ class State:
         s.topology, s.polygon_mode = _word("DrawTopology", "topology", topology), _word("PolygonMode", "polygon_mode", polygon_mode)
         s.cull, s.front = _word("CullMode", "cull", cull), _word("Winding", "front", front)
         s.provoking, s.point_origin = _word("ProvokingVertex", "provoking", provoking), _word("PointOrigin", "point_origin", point_origin)
-        near, far = (_check.number("depth_range", d, 0.0, 1.0) for d in depth_range)
+        near, far = (_check.number("depth_range", d, 0.0, 1.0) for d in _check.pair("depth_range", depth_range, "a pair of depths"))
         s.set_depth(bool(depth_test), bool(depth_write), _word("CompareOp", "depth_compare", depth_compare),
                     _word("ClipDepth", "depth_clip", depth_clip), bool(depth_clamp), near, far)
         s.set_offset(*_check.vector("offset", offset))
-        s.viewport, s.scissor = _rect("viewport", viewport), _rect("scissor", scissor)
+        s.viewport, s.scissor = _rect("viewport", viewport, 1), _rect("scissor", scissor, 0)
         if isinstance(blend, str):
             blend = {"alpha": Blend(), "additive": Blend(destination="one", destination_alpha="one")}[
                 _check.choice("blend", blend, ("alpha", "additive"))]
         if blend is not None:
+            if not isinstance(blend, Blend):
+                raise fail("blend", f"is of type {type(blend).__name__}", "a Blend, alpha, additive or None")
             s.blend = blend._core
-        s.set_color_mask(*(bool(c) for c in color_mask))
+        s.set_color_mask(*(bool(c) for c in _check.pair("color_mask", color_mask, "4 booleans", 4)))
         if stencil is not None:
-            faces = (stencil, stencil) if isinstance(stencil, Stencil) else stencil
+            faces = (stencil, stencil) if isinstance(stencil, Stencil) else _check.pair("stencil", stencil, "a Stencil or a pair of them")
+            for face in faces:
+                if not isinstance(face, Stencil):
+                    raise fail("stencil", f"is of type {type(face).__name__}", "a Stencil or a pair of them")
             s.set_stencil(faces[0]._core, faces[1]._core)
+        if order_independent:
+            if depth_write:
+                raise fail("depth_write", "is True with order_independent=True", "False")
+            if blend is not None:
+                raise fail("blend", "is set with order_independent=True", "None")
+            if depth_compare not in ("less", "less_equal", "greater", "greater_equal"):
+                raise fail("depth_compare", f"is {depth_compare!r} with order_independent=True",
+                           "less, less_equal, greater or greater_equal")
         s.order_independent, s.alpha_to_coverage, s.sample_shading = bool(order_independent), bool(alpha_to_coverage), bool(sample_shading)
         s.point_size = _check.number("point_size", point_size, 0.0, 4096.0)
         s.line_width = _check.number("line_width", line_width, 0.0, 4096.0)
-        s.sample_mask, s.base_vertex = int(sample_mask) & 0xFFFFFFFF, int(base_vertex)
+        s.sample_mask = _check.integer("sample_mask", sample_mask, 0, 0xFFFFFFFF)
+        s.base_vertex = self._base_vertex = _check.integer("base_vertex", base_vertex, -2**31, 2**31 - 1)
         self._core = s
 
 
-def _rect(name: str, value: Any) -> Any:
+def _rect(name: str, value: Any, smallest: int) -> Any:
     if value is None:
         return None
-    x, y, width, height = (int(_check.number(name, n, -32768, 32767)) for n in value)
-    if width < 0 or height < 0:
-        raise fail(name, f"is {tuple(value)}", "a width and a height of at least 0")
+    x, y, width, height = _check.pair(name, value, "(x, y, width, height)", 4)
+    x, y = (_check.integer(name, n, -_check.MAX_SIDE, _check.MAX_SIDE) for n in (x, y))
+    width, height = (_check.integer(name, n, -2**31, 2**31 - 1) for n in (width, height))
+    if not (smallest <= width <= _check.MAX_SIDE and smallest <= height <= _check.MAX_SIDE):
+        raise fail(name, f"is {tuple(value)}", f"a width and a height from {smallest} to {_check.MAX_SIDE}")
     return _core.Rect(x, y, width, height)
 
 
@@ -163,7 +179,8 @@ def _placing(clip_from_world: Any, world_from_object: Any, eye: Any, lights: Ite
     for i, one in enumerate(lights):
         if not isinstance(one, _core.Light):
             raise fail(f"lights[{i}]", f"is of type {type(one).__name__}", "a light of draw.light()")
-    return _core.Placing(_check.numbers("clip_from_world", clip_from_world, (4, 4)), _check.transforms("world_from_object", world)[0],
+    world = _check.transforms("world_from_object", _check.numbers("world_from_object", world, (4, 4)))[0]
+    return _core.Placing(_check.numbers("clip_from_world", clip_from_world, (4, 4)), world,
                          _check.vector("eye", eye), lights, bool(two_sided))
 
 
@@ -230,19 +247,22 @@ class Pass:
         height, width = color.shape[:2]
         _check.size((width, height))
         _check.choice("depth_format", depth_format, ("none", *_DEPTH_TYPES))
+        if depth is not None and depth_format == "none":
+            raise fail("depth", "is given with the format none", "None")
         if depth is not None:
             kind = _DEPTH_TYPES.get(depth_format)
             if not isinstance(depth, np.ndarray) or depth.shape != (height, width) or depth.dtype != kind:
                 raise fail("depth", f"is {_described(depth)}", f"{kind} of shape {(height, width)}")
-        for label, array in (("color", color), ("depth", depth)):
-            if array is not None and not (array.flags.c_contiguous and array.flags.writeable):
+        self._targets = [(label, array, _place(array)) for label, array in (("color", color), ("depth", depth)) if array is not None]
+        for label, array, _ in self._targets:
+            if not (array.flags.c_contiguous and array.flags.writeable):
                 raise fail(label, "is not C-contiguous and writeable", "an array that is")
-        if samples not in (1, 2, 4, 8):
+        if not isinstance(samples, (int, np.integer)) or samples not in (1, 2, 4, 8):
             raise fail("samples", f"is {samples!r}", "1, 2, 4 or 8")
         self._core = _core.Pass(width, height, getattr(_core.ColorFormat, name), color, getattr(_core.DepthFormat, depth_format), depth,
                                 samples)
         self._core.set_load(bool(load), _check.vector("clear_color", clear_color, 4), _check.number("clear_depth", clear_depth, 0.0, 1.0),
-                            int(_check.number("clear_stencil", clear_stencil, 0, 255)))
+                            _check.integer("clear_stencil", clear_stencil, 0, 255))
 
     def draw(self, shader: Any, *, indices: Any = None, state: Optional[State] = None, **arrays: Any) -> None:
         """Adds a draw.
@@ -251,6 +271,10 @@ class Pass:
         indices: uint32 of shape (M,) or (M, 3). The default is 0, 1, 2, ...
         arrays: the arrays that the shader needs, named positions, normals, colors or uvs: float32 of shape (N, 2), (N, 3) or (N, 4).
         """
+        if not isinstance(shader, _core.Shader):
+            raise fail("shader", f"is of type {type(shader).__name__}", "the result of colored(), phong() or metallic()")
+        if state is not None and not isinstance(state, State):
+            raise fail("state", f"is of type {type(state).__name__}", "a State or None")
         needed = shader.attributes
         if sorted(arrays) != sorted(needed):
             raise fail("arrays", f"are {', '.join(sorted(arrays)) or 'missing'}", ", ".join(needed))
@@ -262,13 +286,31 @@ class Pass:
         index = None
         if indices is not None:
             # A copy, because an index that is changed after the check could read outside the arrays.
-            index = _check.indices("indices", np.array(indices).reshape(-1), None, len(streams[0]))
+            try:
+                index = np.array(indices).reshape(-1)
+            except ValueError:  # rows of different lengths
+                raise fail("indices", "is not an array", "integers of shape (M,) or (M, 3)") from None
+            index = _check.indices("indices", index, None, len(streams[0]))
+        base = 0 if state is None else state._base_vertex
+        if base != 0:
+            low, high = (0, len(streams[0]) - 1) if index is None else (int(index.min(initial=0)), int(index.max(initial=0)))
+            if low + base < 0 or high + base >= len(streams[0]):
+                raise fail("base_vertex", f"is {base}, so that vertices {low + base} to {high + base} are drawn",
+                           f"vertices from 0 to {len(streams[0]) - 1}")
         chosen = state._core if state is not None else _core.DrawState()
         self._core.draw(shader, streams, index, chosen)
 
     def run(self, *, threads: Optional[int] = None) -> int:
         """Executes and removes all draws. Returns the number of draws. The pixels do not depend on the number of threads."""
+        for label, array, place in self._targets:
+            if _place(array) != place:
+                raise fail(label, "was resized", "an array that keeps its memory until run()")
         return self._core.run(_check.threads(threads, _core.cores()))
+
+
+def _place(array: np.ndarray) -> Tuple[Any, ...]:
+    """Returns the address and the shape of an array."""
+    return (array.__array_interface__["data"][0], array.shape)
 
 
 def _described(value: Any) -> str:

@@ -171,6 +171,36 @@ def test_a_scene_without_a_camera_shows_everything():
     assert (scene.render((60, 60))[..., 0] > 0).sum() < 20
 
 
+def test_keys_may_be_numpy_numbers_and_arrays():
+    scene = halfspace.Scene(lighting="none")
+    scene.add_light("point", name="lamp", position=[np.float32(1), np.int64(2), np.float64(0.5)], intensity=np.float32(2), shadow=np.bool_(False))
+    assert scene["lights.lamp.position"] == [1, 2, 0.5] and scene["lights.lamp.shadow"] is False
+    scene.merge({"ambient": np.array([1, 0.5, 0.25]), "lights": {"lamp": {"position": (np.float32(3), 0, 0)}}})
+    assert scene["ambient"] == [1, 0.5, 0.25] and scene["lights.lamp.position"] == [3, 0, 0]
+
+
+def test_the_default_view_follows_keys_and_merged_objects():
+    scene = halfspace.Scene(lighting="none")
+    name = scene.add(halfspace.Mesh(*QUAD, material=flat()))
+    assert scene.bounds.tolist() == [[-1, -1, 0], [1, 1, 0]]
+    before = scene.render((40, 40))
+    scene[f"{name}.position"] = (100, 0, 0)
+    assert scene.bounds.tolist() == [[99, -1, 0], [101, 1, 0]]
+    # The rotation from the object to the camera is the same. float32 has 2**-17 = 7.6e-6 units at 100, less than 1/1000 of a pixel.
+    assert np.abs(scene.render((40, 40)).astype(int) - before).max() <= 1 and before.any()
+    scene.place(name, np.diag([2.0, 1, 1, 1]))
+    assert scene.bounds.tolist() == [[98, -1, 0], [102, 1, 0]]
+    scene.merge({"ambient": 1, "objects": {"ball": {"shape": "sphere", "radius": 3}, "box": {"shape": "plane", "position": [0, 0, -7]}}})
+    assert scene.bounds.tolist() == [[-3, -3, -8], [102, 3, 3]]
+    scene[f"{name}.visible"] = False
+    assert scene.bounds.tolist() == [[-3, -3, -8], [3, 3, 3]]
+    scene.merge({"objects": {"ball": None, "box": None}})
+    assert scene.bounds is None
+    points = halfspace.Scene(lighting="none")
+    points.add(halfspace.Mesh([[0, 0, 0], [1, 2, 3]], topology="points"))
+    assert points.bounds.tolist() == [[0, 0, 0], [1, 2, 3]]
+
+
 def test_a_mesh_read_from_a_file_matches_the_file(horse):
     vertices, normals, faces = read_ply(horse)
     by_file = halfspace.Scene.load(horse, floor=False)
@@ -313,6 +343,24 @@ def test_materials_of_trimesh_like_objects(of_trimesh, own):
     (lambda: halfspace.Scene().place("a", np.eye(4)), "name: no object 'a' has been added; expected add() first"),
     (lambda: halfspace.Scene().add_light("sun"), "scene: lights.light_1.type: "),
     (lambda: halfspace.Scene(lighting="sun"), "lighting: is 'sun'; expected one of studio, none"),
+    (lambda: halfspace.Texture(np.zeros((2, 2), np.uint8), wrap=5), "wrap: is 5; expected one of repeat, mirrored, clamp"),
+    (lambda: halfspace.Texture(np.zeros((2, 2), np.uint8), anisotropy=1.5), "anisotropy: is 1.5; expected an integer from 1 to 16"),
+    (lambda: halfspace.Scene().add_light("point", position=(0, 0, np.nan)), "position[2]: is nan; expected a finite number"),
+    (lambda: halfspace.Scene().add_light("point", intensity=np.float32("inf")), "intensity: is inf; expected a finite number"),
+    (lambda: halfspace.Scene().add_light("point", position={1, 2}), "position: is of type set; expected a bool, a number, a string, a list"),
+    (lambda: halfspace.Scene().add_light("point", name=5), "name: is 5; expected a string"),
+    (lambda: halfspace.Scene().remove(["a"]), "name: is ['a']; expected a string"),
+    (lambda: halfspace.Scene()[5], "key: is 5; expected a string"),
+    (lambda: halfspace.Scene().set([("samples", 1)]), "keys: is of type list; expected a dictionary of keys and values"),
+    (lambda: halfspace.Scene().set({5: 1}), "a key: is 5; expected a string"),
+    (lambda: halfspace.Scene().set({"ambient": np.inf}), "ambient: is inf; expected a finite number"),
+    (lambda: halfspace.Scene().set({"ambient": (1, np.nan, 1)}), "ambient: has an element that is not finite; expected finite numbers"),
+    (lambda: halfspace.Scene().merge("x"), "patch: is of type str; expected a dictionary"),
+    (lambda: halfspace.Scene().merge({"lights": {"a": {"position": np.array([1, np.nan, 0])}}}), "lights.a.position[1]: is nan; expected"),
+    (lambda: halfspace.Scene().merge({"lights": {5: {}}}), "lights: a key: is 5; expected a string"),
+    (lambda: halfspace.Scene.load(None), "path: is None; expected a file name"),
+    (lambda: halfspace.Scene().add(halfspace.Mesh(*QUAD), [[1, 2], [3]]), "transform: is not an array; expected numbers of shape (4, 4)"),
+    (lambda: halfspace.Scene().fit(), "fit: the scene has no visible object; expected at least one"),
 ])
 def test_wrong_arrays_are_reported(make, words):
     with pytest.raises(halfspace.InputError) as error:
