@@ -22,6 +22,7 @@ if _folder is not None:
     __path__.insert(0, _folder)
 
 from . import _core  # noqa: E402
+from . import _check, draw  # noqa: E402
 from ._core import InputError, OutputError  # noqa: E402
 from ._one_call import render  # noqa: E402
 from ._options import RenderWarning  # noqa: E402
@@ -32,6 +33,8 @@ from .mesh import Mesh  # noqa: E402
 from .picture import Picture  # noqa: E402
 from .scene import Scene  # noqa: E402
 
+InputError.__doc__ = "An argument or a file cannot be used. The message is one line: where, the problem, and what was expected."
+OutputError.__doc__ = "A result cannot be written. The message is one line: the file, the problem, and what was expected."
 RenderWarning.__module__ = InputError.__module__ = OutputError.__module__ = __name__
 __version__: str = _core.version
 
@@ -41,5 +44,11 @@ def scenes() -> "list[str]":
     return _core.scene_names()
 
 
-__all__ = ["LABELS", "NO_ID", "Camera", "InputError", "Material", "Mesh", "OutputError", "Picture", "RenderWarning", "Scene", "Texture", "render", "scenes",
-           "srgb"]
+def set_tool_folder(folder: "str | _os.PathLike[str]") -> None:
+    """Sets the folder of the programs that decode images and compressed meshes, such as halfspace-image-tool, for the whole process. By
+    default, they are found relative to this package."""
+    _core.set_tool_folder(_check.path("folder", folder))
+
+
+__all__ = ["LABELS", "NO_ID", "Camera", "InputError", "Material", "Mesh", "OutputError", "Picture", "RenderWarning", "Scene", "Texture", "draw", "render",
+           "scenes", "set_tool_folder", "srgb"]

@@ -4,7 +4,8 @@
 from __future__ import annotations
 
 import math
-from typing import Any, Optional, Sequence, Tuple
+import os
+from typing import Any, Iterable, List, Mapping, Optional, Sequence, Tuple
 
 import numpy as np
 
@@ -62,7 +63,10 @@ def indices(name: str, value: Any, width: Optional[int], vertices: int) -> np.nd
 
 def texels(name: str, value: Any) -> np.ndarray:
     """Returns an image as uint8 of shape (H, W, 4). Gray is replicated. If there is no alpha channel, alpha is 255."""
-    array = np.asarray(value)
+    try:
+        array = np.asarray(value)
+    except ValueError:  # rows of different lengths
+        raise fail(name, "is not an array", "uint8 of shape (H, W), (H, W, 3) or (H, W, 4)") from None
     if array.dtype != np.uint8:
         raise fail(name, f"has the dtype {array.dtype}", "uint8")
     if array.ndim == 2:
@@ -76,15 +80,89 @@ def texels(name: str, value: Any) -> np.ndarray:
     return np.ascontiguousarray(array)
 
 
+def plain(name: str, value: Any) -> Any:
+    """Returns a value that JSON can represent. Converts NumPy numbers, arrays and paths, also inside of lists and dictionaries."""
+    if isinstance(value, (np.ndarray, np.generic)):
+        value = value.tolist()
+    if isinstance(value, os.PathLike):
+        value = os.fspath(value)
+    if isinstance(value, Mapping):
+        return {string(f"{name}: a key" if name else "a key", key): plain(f"{name}.{key}" if name else key, item)
+                for key, item in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [plain(f"{name}[{i}]", item) for i, item in enumerate(value)]
+    if isinstance(value, float) and not math.isfinite(value):
+        raise fail(name, f"is {value}", "a finite number")
+    if value is not None and not isinstance(value, (bool, int, float, str)):
+        raise fail(name, f"is of type {type(value).__name__}", "a bool, a number, a string, a list or a dictionary")
+    return value
+
+
+def string(name: str, value: Any) -> str:
+    """Returns a string."""
+    if not isinstance(value, str):
+        raise fail(name, f"is {value!r}", "a string")
+    return value
+
+
+def mapping(name: str, value: Any, expected: str) -> Mapping[Any, Any]:
+    """Returns a dictionary. expected: what it should contain, for example "a dictionary of keys and values"."""
+    if not isinstance(value, Mapping):
+        raise fail(name, f"is of type {type(value).__name__}", expected)
+    return value
+
+
+def path(name: str, value: Any) -> str:
+    """Returns the name of a file."""
+    try:
+        return os.fsdecode(value)
+    except TypeError:
+        raise fail(name, f"is {value!r}", "a file name") from None
+
+
+def items(name: str, value: Any, expected: str) -> List[Any]:
+    """Returns the elements of a sequence or an iterator as a list."""
+    if isinstance(value, (str, bytes)) or not isinstance(value, Iterable):
+        raise fail(name, f"is of type {type(value).__name__}", expected)
+    return list(value)
+
+
+def callback(name: str, value: Any) -> Any:
+    """Returns a function or None."""
+    if value is not None and not callable(value):
+        raise fail(name, f"is of type {type(value).__name__}", "a function or None")
+    return value
+
+
+def integer(name: str, value: Any, low: int, high: int) -> int:
+    """Returns an integer in [low, high]."""
+    try:
+        x = value.__index__()
+    except (TypeError, AttributeError):
+        raise fail(name, f"is {value!r}", f"an integer from {low} to {high}") from None
+    if not low <= x <= high:
+        raise fail(name, f"is {x}", f"an integer from {low} to {high}")
+    return x
+
+
 def number(name: str, value: Any, low: float = -math.inf, high: float = math.inf) -> float:
     """Returns a finite number in [low, high]."""
     try:
+        if isinstance(value, (str, bytes)):
+            raise TypeError
         x = float(value)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise fail(name, f"is {value!r}", "a number") from None
     if not math.isfinite(x) or not low <= x <= high:
         raise fail(name, f"is {value}", "a finite number" if math.isinf(high) and math.isinf(low) else f"a number from {low:g} to {high:g}")
     return x
+
+
+def pair(name: str, value: Any, expected: str, length: int = 2) -> Tuple[Any, ...]:
+    """Returns a sequence of 2 (or another number of) elements as a tuple."""
+    if not isinstance(value, (tuple, list, np.ndarray)) or len(value) != length:
+        raise fail(name, f"is {value!r}", expected)
+    return tuple(value)
 
 
 def vector(name: str, value: Any, length: int = 3) -> Tuple[float, ...]:
@@ -95,6 +173,8 @@ def vector(name: str, value: Any, length: int = 3) -> Tuple[float, ...]:
 def size(value: Any) -> Tuple[int, int]:
     """Returns (width, height)."""
     try:
+        if isinstance(value, Mapping):
+            raise TypeError
         width, height = value
         width, height = width.__index__(), height.__index__()
     except (TypeError, ValueError, AttributeError):
@@ -106,7 +186,7 @@ def size(value: Any) -> Tuple[int, int]:
 
 def choice(name: str, value: Any, choices: Sequence[str]) -> str:
     """Returns one of the words."""
-    if value not in choices:
+    if not isinstance(value, str) or value not in choices:
         raise fail(name, f"is {value!r}", "one of " + ", ".join(choices))
     return value
 
@@ -117,7 +197,7 @@ def threads(value: Optional[int], cores: int) -> int:
         return cores
     try:
         count = value.__index__()
-    except AttributeError:
+    except (TypeError, AttributeError):
         raise fail("threads", f"is {value!r}", "None or a number from 1 to 1024") from None
     if not 1 <= count <= 1024:
         raise fail("threads", f"is {count}", "None or a number from 1 to 1024")
@@ -126,7 +206,10 @@ def threads(value: Optional[int], cores: int) -> int:
 
 def transforms(name: str, value: Any) -> np.ndarray:
     """Returns affine transforms of shape (4, 4) or (N, 4, 4) as an array of shape (N, 4, 4)."""
-    array = np.asarray(value)
+    try:
+        array = np.asarray(value)
+    except ValueError:  # rows of different lengths
+        raise fail(name, "is not an array", "numbers of shape (4, 4) or (N, 4, 4)") from None
     if array.ndim == 2:
         array = array[np.newaxis]
     out = numbers(name, array, (None, 4, 4))

@@ -3,6 +3,7 @@
 build for one machine has only one extension, in the folder of the package."""
 
 import os
+import warnings
 
 _V3 = {"avx", "avx2", "bmi1", "bmi2", "f16c", "fma", "abm", "movbe"}
 _V4 = _V3 | {"avx512f", "avx512bw", "avx512cd", "avx512dq", "avx512vl"}
@@ -23,13 +24,15 @@ def processor_flags(path="/proc/cpuinfo"):
 
 def extension_folder(package, flags):
     """Returns the folder of the extension, or None if the package has only one extension. Raises ImportError if the processor can run none
-    of them.
+    of them. If the features are unknown, warns and returns the extension with the smallest instruction set.
 
     flags: the result of processor_flags().
     """
     present = [(name, needed) for name, needed in _SETS if os.path.isdir(os.path.join(package, name))]
     if present and flags is None:
-        raise ImportError("halfspace: the features of this processor are unknown, because /proc/cpuinfo cannot be read; expected /proc")
+        name, flags = present[-1]
+        warnings.warn(f"halfspace: the features of this processor are unknown, because /proc/cpuinfo cannot be read; the extension for {name} "
+                      "is used, which ends with an illegal instruction on older processors", RuntimeWarning, stacklevel=2)
     for name, needed in present:
         if needed <= flags:
             return os.path.join(package, name)

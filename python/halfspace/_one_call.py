@@ -33,7 +33,7 @@ def render(scene: Union[str, "os.PathLike[str]"], *, size: Size = (1920, 1080), 
     width, height = _check.size(size)
     view.setdefault("aspect", width / height)
     opened = Scene.load(scene, threads=threads, **view)
-    keys = dict(set or {})
+    keys = dict(_check.mapping("set", {} if set is None else set, "a dictionary of keys and values"))
     if isinstance(camera, str):
         keys["camera"] = camera
         camera = None

@@ -7,7 +7,7 @@ import json
 import os
 import sys
 import warnings
-from typing import Any, Dict, List, Mapping, Sequence
+from typing import Any, Dict, Iterable, Iterator, List, Mapping, Sequence
 
 import numpy as np
 
@@ -45,11 +45,14 @@ def _numbers(key: str, value: Any) -> np.ndarray:
         array = np.empty(0, object)
     if array.dtype.kind not in "biuf":
         raise fail(key, "has elements that are not numbers", "a sequence of numbers")
+    if not np.isfinite(array).all():
+        raise fail(key, "has an element that is not finite", "finite numbers")
     return array
 
 
 def setting_text(key: str, value: Any) -> str:
     """Returns "KEY=VALUE" for a Python or NumPy value."""
+    _check.string("a key", key)
     if isinstance(value, (bool, np.bool_)):
         text = "true" if value else "false"
     elif isinstance(value, str):
@@ -59,7 +62,7 @@ def setting_text(key: str, value: Any) -> str:
     elif isinstance(value, (int, np.integer)):
         text = str(int(value))
     elif isinstance(value, (float, np.floating)):
-        text = repr(float(value))
+        text = repr(_check.number(key, value))
     elif isinstance(value, (list, tuple, np.ndarray)):
         array = _numbers(key, value)
         text = ",".join(repr(float(x)) for x in array) if array.ndim == 1 else json.dumps(array.tolist())
@@ -75,7 +78,7 @@ def view_options(path: str, options: Mapping[str, Any]) -> Dict[str, Any]:
             raise TypeError(f"{name}: unknown argument; expected one of {', '.join(_VIEW_OPTIONS)}")
         if not path.lower().endswith(_MODELS) and name != "aspect":
             raise fail(name, "applies only to model files", "a file ending in .obj, .gltf, .glb, .ply or .stl")
-    limits = {"aspect": (1e-3, 1e3), "yaw": (-360.0, 360.0), "pitch": (-89.0, 89.0), "zoom": (1e-3, 1e3), "fov": (1.0, 170.0),
+    limits = {"aspect": (1.0 / _check.MAX_SIDE, _check.MAX_SIDE), "yaw": (-360.0, 360.0), "pitch": (-89.0, 89.0), "zoom": (1e-3, 1e3), "fov": (1.0, 170.0),
               "turn_seconds": (0.0, 1e9)}
     for name, (low, high) in limits.items():
         if name in given:
@@ -89,7 +92,7 @@ def view_options(path: str, options: Mapping[str, Any]) -> Dict[str, Any]:
 
 
 def times_of(time: Any, cameras: Sequence[Any]) -> List[float]:
-    times = [time] * len(cameras) if np.ndim(time) == 0 else list(time)
+    times = list(time) if isinstance(time, Iterable) and np.shape(time) != () or isinstance(time, Iterator) else [time] * len(cameras)
     if len(times) != len(cameras):
         raise fail("time", f"has {len(times)} values", f"one per camera, {len(cameras)}")
     return [_check.number("time", t) for t in times]

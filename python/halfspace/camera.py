@@ -63,7 +63,7 @@ class Camera:
     def from_pose(cls, pose: Any, *, fov: float = 45.0, near: float = 0.1, far: float = 1000.0) -> "Camera":
         """Returns a perspective camera with a pose: camera to world, OpenGL axes, shape (4, 4). See look_at for the other arguments."""
         world = _pose(pose, None)
-        _check.number("fov", fov, 0.01, 179.0)
+        fov = _check.number("fov", fov, 0.01, 179.0)
         _check_planes(near, far)
         scale = 1.0 / math.tan(math.radians(fov) / 2.0)
 
@@ -96,6 +96,7 @@ class Camera:
             the top left pixel, and cx increases to the right and cy downwards.
         extrinsics: [R | t], world to camera, with OpenCV's axes (x right, y down, z forward), shape (3, 4) or (4, 4); or
         pose: camera to world, with OpenGL's axes (x right, y up, z backward), shape (4, 4).
+            Rotations may be rounded to float32 or 4 decimals; the nearest exact rotation is used. Scale is rejected.
         near, far: distances of the clipping planes along the view axis in scene units; 0 < near < far.
         """
         k = _check.numbers("K", K, (3, 3))
@@ -135,11 +136,33 @@ def _matrices(world: np.ndarray, clip: np.ndarray) -> Any:
     return _core.Camera.from_matrices(np.ascontiguousarray(world), np.ascontiguousarray(clip))
 
 
-def _inverse(name: str, matrix: Any) -> np.ndarray:
-    """Returns the inverse of a rigid transform of shape (4, 4)."""
+# Rounding the elements of a rotation R to 4 decimals, by at most 5e-5 each, changes an element of R^T R by at most
+# 2 * 5e-5 * sqrt(3) = 1.74e-4. A scale of 1.001 changes the diagonal by 2e-3.
+_ROUNDED = 2e-4
+_EXACT = 1e-12  # of rotations that were computed in double
+
+
+def _rigid(name: str, matrix: Any) -> np.ndarray:
+    """Returns a rotation and a translation of shape (4, 4). Replaces a rotation that was rounded by the nearest exact one."""
     m = _check.numbers(name, matrix, (4, 4))
     if m[3].tolist() != [0.0, 0.0, 0.0, 1.0]:
         raise fail(name, f"has the last row {m[3].tolist()}", "[0, 0, 0, 1]")
+    turn = m[:3, :3]
+    error = float(np.abs(turn.T @ turn - np.eye(3)).max())
+    if not error <= _ROUNDED:
+        raise fail(name, "is not a rotation and a translation", "rows and columns of length 1 that are perpendicular, without scale")
+    if np.linalg.det(turn) < 0.0:
+        raise fail(name, "contains a reflection", "a rotation and a translation")
+    if error > _EXACT:
+        m = m.copy()
+        left, _, right = np.linalg.svd(turn)
+        m[:3, :3] = left @ right
+    return m
+
+
+def _inverse(name: str, matrix: Any) -> np.ndarray:
+    """Returns the inverse of a rigid transform of shape (4, 4)."""
+    m = _rigid(name, matrix)
     out = np.eye(4)
     out[:3, :3] = m[:3, :3].T
     out[:3, 3] = -m[:3, :3].T @ m[:3, 3]
@@ -151,10 +174,13 @@ def _pose(pose: Any, extrinsics: Any) -> np.ndarray:
     if (pose is None) == (extrinsics is None):
         raise fail("extrinsics, pose", "both or none are given", "one of them")
     if pose is not None:
-        return _check.numbers("pose", pose, (4, 4))
-    rows = np.shape(extrinsics)
+        return _rigid("pose", pose)
+    try:
+        rows = np.shape(extrinsics)
+    except ValueError:  # rows of different lengths
+        raise fail("extrinsics", "is not an array", "numbers of shape (3, 4) or (4, 4)") from None
     if rows == (3, 4):
-        extrinsics = np.vstack([np.asarray(extrinsics), [0.0, 0.0, 0.0, 1.0]])
+        extrinsics = np.vstack([_check.numbers("extrinsics", extrinsics, (3, 4)), [0.0, 0.0, 0.0, 1.0]])
     elif rows != (4, 4):
         raise fail("extrinsics", f"has the shape {rows}", "(3, 4) or (4, 4)")
     return _inverse("extrinsics", extrinsics) @ _TURN

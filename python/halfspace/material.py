@@ -30,12 +30,12 @@ class Texture:
     def __init__(self, texels: Any, *, filter: str = "trilinear", wrap: Union[str, Tuple[str, str]] = "repeat", anisotropy: int = 8) -> None:
         checked = _check.texels("texels", texels)
         self._texels = checked.copy() if np.shares_memory(checked, texels) else checked
-        pair = (wrap, wrap) if isinstance(wrap, str) else tuple(wrap)
+        pair = tuple(wrap) if isinstance(wrap, (tuple, list)) else (wrap, wrap)
         if len(pair) != 2:
             raise fail("wrap", f"is {wrap!r}", "a word or a pair of words")
         wraps = [getattr(_core.Wrap, _check.choice("wrap", w, _WRAPS)) for w in pair]
         chosen = getattr(_core.Filter, _check.choice("filter", filter, _FILTERS))
-        self._sampler = _core.Sampler(chosen, wraps[0], wraps[1], int(_check.number("anisotropy", anisotropy, 1, 16)))
+        self._sampler = _core.Sampler(chosen, wraps[0], wraps[1], _check.integer("anisotropy", anisotropy, 1, 16))
 
 
 def _texture(name: str, value: Any) -> Optional[Texture]:

@@ -75,8 +75,11 @@ class Mesh:
     def from_trimesh(cls, mesh: Any, *, crease: float = 30.0, material: Optional[Material] = None) -> "Mesh":
         """Converts an object with the attributes of trimesh.Trimesh: vertices, faces and, optionally, visual.
 
-        Used from `visual`: vertex_colors or face_colors (depending on its `kind`), or uv with material (baseColorFactor, baseColorTexture,
-        metallicFactor, roughnessFactor or, for simple materials, image and diffuse). trimesh itself is not needed.
+        Used from `visual`: vertex_colors or face_colors (depending on its `kind`), or uv with material. Of a PBRMaterial, these attributes
+        are used: baseColorFactor, baseColorTexture, metallicFactor, roughnessFactor, metallicRoughnessTexture, normalTexture,
+        occlusionTexture, emissiveFactor, emissiveTexture, alphaMode, alphaCutoff and doubleSided. None means the default of glTF, except
+        that surfaces without metallicFactor, roughnessFactor and metallicRoughnessTexture are not metallic, and that surfaces are
+        double-sided unless doubleSided is False. Of simple materials, image and diffuse are used. trimesh itself is not needed.
         """
         for name in ("vertices", "faces"):
             if not hasattr(mesh, name):
@@ -91,9 +94,9 @@ class Mesh:
             index = _check.indices("faces", faces, 3, len(vertices))
             vertices, faces = vertices[index].reshape(-1, 3), np.arange(3 * len(index)).reshape(-1, 3)
             colors = np.repeat(np.asarray(visual.face_colors), 3, axis=0)
-        elif kind == "texture" and getattr(visual, "uv", None) is not None:
-            uvs = np.asarray(visual.uv)
-            material = material if material is not None else _material_of(getattr(visual, "material", None))
+        elif kind == "texture":
+            uvs = None if getattr(visual, "uv", None) is None else np.asarray(visual.uv)
+            material = material if material is not None else _material_of(getattr(visual, "material", None), uvs is not None)
         return cls(vertices, faces, uvs=uvs, colors=colors, material=material, crease=crease)
 
 
@@ -145,11 +148,25 @@ def _base_color_of(m: Any) -> Tuple[Any, Any]:
     return image, srgb(color) if color.dtype == np.uint8 else color
 
 
-def _material_of(m: Any) -> Optional[Material]:
+def _material_of(m: Any, mapped: bool) -> Optional[Material]:
+    """Returns the material that corresponds to a trimesh material. mapped: the mesh has texture coordinates."""
     if m is None:
         return None
-    texture, factor = _base_color_of(m)
-    white = (1.0, 1.0, 1.0) if texture is not None else (0.8, 0.8, 0.8)
-    metallic, roughness = getattr(m, "metallicFactor", None), getattr(m, "roughnessFactor", None)
-    return Material(white if factor is None else factor, metallic=0.0 if metallic is None else metallic,
-                    roughness=0.6 if roughness is None else roughness, base_color_texture=_picture_of(texture))
+
+    def given(name: str, default: Any) -> Any:
+        value = getattr(m, name, None)
+        return default if value is None else value
+
+    def texture(image: Any) -> Optional[Texture]:
+        return _picture_of(image) if mapped else None
+
+    image, factor = _base_color_of(m)
+    white = (1.0, 1.0, 1.0) if image is not None else (0.8, 0.8, 0.8)
+    shine = texture(given("metallicRoughnessTexture", None))
+    mode = given("alphaMode", None)
+    return Material(white if factor is None else factor, metallic=given("metallicFactor", 0.0 if shine is None else 1.0),
+                    roughness=given("roughnessFactor", 0.6 if shine is None else 1.0), emissive=given("emissiveFactor", (0.0, 0.0, 0.0)),
+                    alpha_mode=mode.lower() if isinstance(mode, str) else mode, alpha_cutoff=given("alphaCutoff", 0.5),
+                    double_sided=given("doubleSided", True), base_color_texture=texture(image), metallic_roughness_texture=shine,
+                    normal_texture=texture(given("normalTexture", None)), occlusion_texture=texture(given("occlusionTexture", None)),
+                    emissive_texture=texture(given("emissiveTexture", None)))

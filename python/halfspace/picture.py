@@ -8,7 +8,7 @@ from typing import Any, Optional, Union
 
 import numpy as np
 
-from . import _core
+from . import _check, _core
 from ._check import fail
 
 
@@ -36,7 +36,7 @@ class Picture(np.ndarray):
 
         8-bit pictures: .png, .jpg or .tif. Linear pictures: .exr or .hdr. Raises OutputError if the file cannot be written.
         """
-        name = os.fspath(path)
+        name = _check.path("path", path)
         extension = os.path.splitext(name)[1].lower()
         if self._is_codes():
             if extension not in (".png", ".jpg", ".jpeg", ".tif", ".tiff"):

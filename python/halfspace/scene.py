@@ -6,7 +6,7 @@ from __future__ import annotations
 import json
 import os
 import threading
-from typing import Any, Callable, Dict, Iterable, Iterator, List, Mapping, Optional, Sequence, Tuple, Union
+from typing import Any, Callable, Dict, Iterable, Iterator, List, Mapping, Optional, Tuple, Union
 
 import numpy as np
 
@@ -24,8 +24,7 @@ _MAX_COPIES = 65536
 
 def _check_name(name: Any) -> None:
     """Raises InputError if this is not a valid name for an object of a scene file."""
-    if not isinstance(name, str):
-        raise fail("name", f"is {name!r}", "a string")
+    _check.string("name", name)
     _core.Scene.parse(json.dumps({"version": 1, "objects": {name: {}}}), "scene", 1)
 
 
@@ -53,7 +52,7 @@ class Scene:
         self._meshes: Dict[str, Tuple[Mesh, np.ndarray]] = {}
         self._names = 0
         self._fits = False  # no camera has been given: all objects are shown
-        self.camera: Optional[Camera] = None  #: used if render() is called without a camera
+        self.camera: Union[str, Camera, None] = None  #: used if render() is called without a camera
 
     @classmethod
     def load(cls, path: Union[str, "os.PathLike[str]"], *, threads: Optional[int] = None, **view: Any) -> "Scene":
@@ -67,7 +66,7 @@ class Scene:
 
         Raises InputError if the file cannot be used.
         """
-        name = os.fspath(path)
+        name = _check.path("path", path)
         scene = cls.__new__(cls)
         scene._start(_core.Scene.open(name, view_options(name, view), _check.threads(threads, _core.cores())))
         return scene
@@ -79,8 +78,9 @@ class Scene:
 
         Raises InputError and leaves the scene unchanged if a key or a value is invalid.
         """
+        settings = [setting_text(key, value) for key, value in _check.mapping("keys", keys, "a dictionary of keys and values").items()]
         self._flush()
-        self._core.set([setting_text(key, value) for key, value in keys.items()])
+        self._core.set(settings)
         self._fits = self._fits and not any(key.split(".")[0] in ("camera", "cameras", "main") for key in keys)
 
     def __setitem__(self, key: str, value: Any) -> None:
@@ -89,12 +89,14 @@ class Scene:
     def __getitem__(self, key: str) -> Any:
         """Returns the value of a key as it is represented in JSON: a bool, number, string or list."""
         self._flush()
-        return json.loads(self._core.value(key))
+        return json.loads(self._core.value(_check.string("key", key)))
 
     def merge(self, patch: Mapping[str, Any]) -> None:
-        """Applies a JSON merge patch (RFC 7386) to the scene file, for example {"objects": {"ball": {"shape": "sphere"}}}."""
+        """Applies a JSON merge patch (RFC 7386) to the scene file, for example {"objects": {"ball": {"shape": "sphere"}}}. Values may be
+        NumPy numbers and arrays."""
+        text = json.dumps(_check.plain("", _check.mapping("patch", patch, "a dictionary")))
         self._flush()
-        self._core.merge(json.dumps(patch))
+        self._core.merge(text)
         self._fits = self._fits and not ("camera" in patch or "cameras" in patch)
 
     def text(self) -> str:
@@ -159,34 +161,22 @@ class Scene:
         if name is None:
             with self._lock:
                 name = self._new_name("light", self._core.has_light)
-        elif self._core.has_light(name):
+        elif self._core.has_light(_check.string("name", name)):
             raise fail("name", f"a light '{name}' exists", "another name")
-        light = {"type": type}
-        for key, value in keys.items():
-            light[key] = value.tolist() if isinstance(value, (np.ndarray, np.generic)) else value
+        light = _check.plain("", {"type": type, **keys})
         self._flush()
         self._core.merge(json.dumps({"lights": {name: light}}))
         return name
 
     @property
     def bounds(self) -> Optional[np.ndarray]:
-        """The lowest and highest coordinates of all objects added with add(), in world space: float64 of shape (2, 3). None if there are
-        no such objects."""
-        corners: List[np.ndarray] = []
-        with self._lock:
-            meshes = list(self._meshes.values())
-        for mesh, places in meshes:
-            box = mesh.bounds
-            points = np.array([[box[i, 0], box[j, 1], box[k, 2], 1.0] for i in (0, 1) for j in (0, 1) for k in (0, 1)])
-            if len(places) > 0:
-                corners.append((places @ points.T)[:, :3].transpose(0, 2, 1).reshape(-1, 3))
-        if not corners:
-            return None
-        points = np.concatenate(corners)
-        return np.array([points.min(axis=0), points.max(axis=0)])
+        """The lowest and highest coordinates of all visible objects at time 0, in world space: float64 of shape (2, 3). None if there are
+        no such objects. The box of an object is that of its transformed bounding box."""
+        self._flush()
+        return self._core.bounds()
 
     def fit(self, *, yaw: float = 35.0, pitch: float = 18.0, fov: float = 35.0, aspect: float = 1.0) -> Camera:
-        """Returns a camera that shows all objects added with add().
+        """Returns a camera that shows all visible objects.
 
         yaw, pitch: position of the eye around the objects in degrees, from the front (+z) to the right, and upwards.
         fov: vertical field of view in degrees.
@@ -194,7 +184,7 @@ class Scene:
         """
         box = self.bounds
         if box is None:
-            raise fail("fit", "no object has been added with add()", "at least one")
+            raise fail("fit", "the scene has no visible object", "at least one")
         center, radius = box.mean(axis=0), float(np.linalg.norm(box[1] - box[0])) / 2.0 or 1.0
         yaw, pitch = np.radians(_check.number("yaw", yaw)), np.radians(_check.number("pitch", pitch, -89.0, 89.0))
         towards = np.array([np.sin(yaw) * np.cos(pitch), np.sin(pitch), np.cos(yaw) * np.cos(pitch)])
@@ -206,13 +196,13 @@ class Scene:
 
     # ---- pictures ------------------------------------------------------------------------------------------------
 
-    def render(self, size: Size = (640, 480), *, camera: Optional[Camera] = None, time: float = 0.0, linear: bool = False,
+    def render(self, size: Size = (640, 480), *, camera: Union[str, Camera, None] = None, time: float = 0.0, linear: bool = False,
                alpha: bool = False) -> Picture:
         """Renders a picture.
 
         size: (width, height) in pixels, each 1 to 16384.
-        camera: the default is the member `camera` or, if that is None, the camera of the scene. If there is no camera, a scene
-            created with Scene() is shown as a whole.
+        camera: a Camera, or the name of a camera of the scene or the model. The default is the member `camera` or, if that is None, the
+            camera of the scene. If there is no camera, a scene created with Scene() is shown as a whole.
         time: time in the scene's animations, in seconds.
         alpha: omit the background. Alpha is straight, and 0 where nothing is drawn.
         Returns 8-bit sRGB values: uint8 of shape (height, width, 3), or (height, width, 4) with alpha=True. With linear=True, returns
@@ -220,10 +210,12 @@ class Scene:
         """
         width, height = _check.size(size)
         self._flush()
-        return self._picture(self._core, width, height, time, self._camera(camera, width, height), pixel_kind(linear, alpha), alpha)
+        time = _check.number("time", time)
+        view = self._camera(camera, width, height, time)
+        return self._picture(self._core, width, height, time, view, pixel_kind(linear, alpha), alpha)
 
     def frames(self, frames: Union[int, Iterable[int]], *, size: Size = (640, 480), fps: float = 30.0, time: float = 0.0,
-               camera: Optional[Camera] = None, linear: bool = False, alpha: bool = False) -> Iterator[Picture]:
+               camera: Union[str, Camera, None] = None, linear: bool = False, alpha: bool = False) -> Iterator[Picture]:
         """Returns an iterator over frames of an animation. Frames are rendered one at a time, as `halfspace render --frames` renders them.
 
         frames: how many frames, or the frame numbers, for example range(24, 48).   fps: frames per second.
@@ -232,38 +224,47 @@ class Scene:
         """
         width, height = _check.size(size)
         start, rate = _check.number("time", time), _check.number("fps", fps, 1e-3, 1e6)
-        numbers = list(range(frames) if isinstance(frames, (int, np.integer)) else frames)
+        expected = "a number of frames or a sequence of frame numbers"
+        if isinstance(frames, (int, np.integer)):
+            numbers = list(range(_check.integer("frames", frames, 0, 2**31 - 1)))
+        else:
+            numbers = _check.items("frames", frames, expected)
+            if not all(isinstance(i, (int, np.integer)) for i in numbers):
+                raise fail("frames", f"is {frames!r}", expected)
         times = [start + int(i) / rate for i in numbers]
         self._flush()
-        core, view, kind = self._core.copy(), self._camera(camera, width, height), pixel_kind(linear, alpha)
+        core, kind = self._core.copy(), pixel_kind(linear, alpha)
+        views = [self._camera(camera, width, height, t) for t in times]
         if times:
             core.expect(times, width, height)
-        return (self._picture(core, width, height, t, view, kind, alpha) for t in times)
+        return (self._picture(core, width, height, t, view, kind, alpha) for t, view in zip(times, views))
 
-    def render_batch(self, cameras: Sequence[Optional[Camera]], *, size: Size = (640, 480), time: Union[float, Sequence[float]] = 0.0,
-                     linear: bool = False, alpha: bool = False, progress: Optional[Callable[[int, int], Any]] = None) -> np.ndarray:
+    def render_batch(self, cameras: Iterable[Union[str, Camera, None]], *, size: Size = (640, 480), time: Union[float, Iterable[float]] = 0.0,
+                     linear: bool = False, alpha: bool = False, progress: Optional[Callable[[int, int], Any]] = None) -> Picture:
         """Renders one picture per camera. Several pictures are rendered at the same time, each by one thread.
 
         time: time in seconds for all pictures, or one time per camera.
         progress: called as progress(done, total) after each picture, from any thread. An exception that it raises ends the batch.
-        Returns an array of shape (N, height, width, C) with the pictures that render() returns for each camera.
+        Returns an array of shape (N, height, width, C) with the pictures that render() returns for each camera. Its elements can be saved.
         """
         width, height = _check.size(size)
+        cameras = _check.items("cameras", cameras, "a sequence of cameras")
         times = times_of(time, cameras)
+        _check.callback("progress", progress)
         self._flush()
-        views = [self._camera(camera, width, height) for camera in cameras]
+        views = [self._camera(camera, width, height, t) for camera, t in zip(cameras, times)]
         try:
-            return self._core.render_batch(width, height, times, views, pixel_kind(linear, alpha), bool(alpha), progress)
+            return self._core.render_batch(width, height, times, views, pixel_kind(linear, alpha), bool(alpha), progress).view(Picture)
         finally:
             emit(self._core)
 
     # ---- labels --------------------------------------------------------------------------------------------------
 
-    def labels(self, outputs: Iterable[str] = LABELS, *, size: Size = (640, 480), camera: Optional[Camera] = None, time: float = 0.0,
-               background_depth: float = float("inf")) -> Dict[str, np.ndarray]:
+    def labels(self, outputs: Iterable[str] = LABELS, *, size: Size = (640, 480), camera: Union[str, Camera, None] = None, time: float = 0.0,
+               background_depth: float = float("inf"), alpha: bool = False) -> Dict[str, np.ndarray]:
         """Renders a picture and per-pixel values. Returns a dictionary with an array for each name in `outputs`.
 
-        "color"          uint8 (H, W, 3), the pixels of render()
+        "color"          uint8 (H, W, 3), or (H, W, 4) with alpha=True: the picture that render() returns
         "depth"          float32 (H, W), along the view axis, in scene units; background_depth where there is no surface
         "distance"       float32 (H, W), from the eye along the ray of the pixel; background_depth where there is no surface
         "normal"         float32 (H, W, 3), unit length, in world space; for two-sided surfaces, that of the visible side
@@ -278,19 +279,23 @@ class Scene:
         "mask"           bool (H, W), whether there is a surface
 
         Values are those of the surface at the center of the pixel, without antialiasing. Where there is no surface, they are 0 unless
-        stated otherwise. Blended surfaces are omitted. With background_depth=0, "depth" is the same as in pyrender.
+        stated otherwise. Blended surfaces are omitted. With background_depth=0, "depth" is the same as in pyrender. Color is rendered in one
+        pass, with the samples and shaders of the scene, and all other labels together in a second pass, with one sample per pixel. Without
+        "color", there is only the second pass, and no shadow maps are rendered.
         """
         width, height = _check.size(size)
         names, depth = checked_outputs(outputs), checked_background(background_depth)
         self._flush()
-        view = self._camera(camera, width, height)
+        time = _check.number("time", time)
+        view = self._camera(camera, width, height, time)
         try:
-            return finished(_core.labels(self._core, width, height, _check.number("time", time), view, images_of(names), depth), names)
+            return finished(_core.labels(self._core, width, height, time, view, images_of(names), depth, bool(alpha)),
+                            names)
         finally:
             emit(self._core)
 
-    def label_batch(self, cameras: Sequence[Optional[Camera]], outputs: Iterable[str] = LABELS, *, size: Size = (640, 480),
-                    time: Union[float, Sequence[float]] = 0.0, background_depth: float = float("inf"),
+    def label_batch(self, cameras: Iterable[Union[str, Camera, None]], outputs: Iterable[str] = LABELS, *, size: Size = (640, 480),
+                    time: Union[float, Iterable[float]] = 0.0, background_depth: float = float("inf"), alpha: bool = False,
                     progress: Optional[Callable[[int, int], Any]] = None) -> Dict[str, np.ndarray]:
         """Renders the labels of one frame per camera, several at a time. The arrays have the shapes that labels() returns, with an
         additional first axis of length N.
@@ -299,11 +304,14 @@ class Scene:
         """
         width, height = _check.size(size)
         names, depth = checked_outputs(outputs), checked_background(background_depth)
+        cameras = _check.items("cameras", cameras, "a sequence of cameras")
         times = times_of(time, cameras)
+        _check.callback("progress", progress)
         self._flush()
-        views = [self._camera(camera, width, height) for camera in cameras]
+        views = [self._camera(camera, width, height, t) for camera, t in zip(cameras, times)]
         try:
-            return finished(_core.label_batch(self._core, width, height, times, views, images_of(names), depth, progress), names)
+            return finished(_core.label_batch(self._core, width, height, times, views, images_of(names), depth, bool(alpha), progress),
+                            names)
         finally:
             emit(self._core)
 
@@ -325,18 +333,20 @@ class Scene:
 
     def _picture(self, core: Any, width: int, height: int, time: float, view: Any, kind: Any, alpha: bool) -> Picture:
         try:
-            return core.render(width, height, _check.number("time", time), view, kind, bool(alpha)).view(Picture)
+            return core.render(width, height, time, view, kind, bool(alpha)).view(Picture)
         finally:
             emit(core)
 
-    def _camera(self, camera: Optional[Camera], width: int, height: int) -> Any:
+    def _camera(self, camera: Union[str, Camera, None], width: int, height: int, time: float) -> Any:
         camera = camera if camera is not None else self.camera
         if camera is None and self._fits and self.bounds is not None:
             camera = self.fit(aspect=width / height)
         if camera is None:
             return None
+        if isinstance(camera, str):
+            return self._core.camera(camera, time)
         if not isinstance(camera, Camera):
-            raise fail("camera", f"is of type {type(camera).__name__}", "a halfspace.Camera or None")
+            raise fail("camera", f"is of type {type(camera).__name__}", "a halfspace.Camera, the name of a camera or None")
         return camera._for_size(width, height)
 
     def _flush(self) -> None:
@@ -380,7 +390,7 @@ class Scene:
                 return name
 
     def _mesh(self, name: str) -> Tuple[Mesh, np.ndarray]:
-        if name not in self._meshes:
+        if _check.string("name", name) not in self._meshes:
             raise fail("name", f"no object '{name}' has been added", "one of " + ", ".join(self._meshes) if self._meshes else "add() first")
         return self._meshes[name]
 

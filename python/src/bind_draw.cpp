@@ -1,126 +1,38 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Passes that draw arrays with the shaders of the library. They use the shader variants of scenes, which are already compiled.
-#include <algorithm>
+// Passes that draw arrays with the shaders of the library.
 #include <array>
-#include <cstring>
 #include <memory>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "bindings.h"
+#include "draw_shader.h"
 #include "halfspace/core/parallel.h"
-#include "halfspace/geometry/camera.h"
-#include "halfspace/render/prepared_scene.h"
-#include "matrices.h"
 
 namespace halfspace::python {
 
 namespace {
 
-using Vector = std::array<float, 3>;
-
-glm::vec3 vec_of(const Vector& v) { return {v[0], v[1], v[2]}; }
-
-/// A shader with its uniforms and the data that they point to.
-struct Shader {
-  SceneShader shader;
-  std::vector<std::string> attributes;  ///< names of the arrays that a draw needs
-  std::shared_ptr<const std::vector<Light>> lights;
-  std::shared_ptr<const Texture2D> texture;
-};
-
-Shader colored(const Array<double>& clip_from_object, const std::array<float, 4>& color) {
-  return {
-      ColoredPrimitives{glm::mat4(matrix_of(clip_from_object)), {color[0], color[1], color[2], color[3]}}, {"positions", "colors"}, {}, {}};
-}
-
-// Sets the transforms of a surface. The positions of lights are relative to the eye.
-void place(PlacedSurface& s, const glm::dmat4& clip_from_world, glm::dmat4 world, const glm::dvec3& eye) {
-  s.clip_from_object = glm::mat4(clip_from_world * world);
-  world[3] -= glm::dvec4(eye, 0.0);
-  s.world_from_object = glm::mat4(world);
-  s.normal_from_object = normal_matrix(world);
-  s.handedness = glm::determinant(glm::dmat3(world)) < 0 ? -1.0f : 1.0f;
-}
-
-/// Uniforms that all lit shaders share.
-struct Placing {
-  Array<double> clip_from_world, world_from_object;
-  std::array<double, 3> eye;
-  std::vector<Light> lights;
-  bool two_sided;
-};
-
-void place(PlacedSurface& s, const Placing& p, Shader& out) {
-  const glm::dvec3 eye(p.eye[0], p.eye[1], p.eye[2]);
-  place(s, matrix_of(p.clip_from_world), matrix_of(p.world_from_object), eye);
-  auto lights = std::make_shared<std::vector<Light>>(p.lights);
-  for (Light& light : *lights) {
-    if (light.type != LightType::directional) light.position_rws = glm::vec3(glm::dvec3(light.position_rws) - eye);
-  }
-  s.lights = *lights;
-  s.two_sided = p.two_sided;
-  out.lights = std::move(lights);
-}
-
-std::shared_ptr<const Texture2D> texture_of(const Array<uint8_t>& texels) {
-  Image<glm::u8vec4> image(static_cast<int>(texels.shape(1)), static_cast<int>(texels.shape(0)));
-  std::memcpy(image.data(), texels.data(), static_cast<std::size_t>(texels.nbytes()));
-  return std::make_shared<const Texture2D>(image, TexelFormat::srgb8a8);
-}
-
-template <ShadingRate rate>
-Shader lit_shader(const LitSurface& surface, bool mapped) {
-  if (mapped) return {SurfaceShader<rate, true>{surface}, {"positions", "normals", "uvs"}, {}, {}};
-  return {SurfaceShader<rate, false>{surface}, {"positions", "normals"}, {}, {}};
-}
-
-Shader phong(const Placing& placing, const std::vector<Vector>& factors, float shininess, LightModel model, bool per_vertex,
-             const std::optional<Array<uint8_t>>& texels, const Sampler& sampler) {
-  LitSurface s;
-  Shader rest;
-  place(s, placing, rest);
-  for (std::size_t i = 0; i < factors.size() && i < kShininess; ++i) s.factors[i].constant = vec_of(factors[i]);
-  s.factors[kShininess].constant = glm::vec3(shininess);
-  s.model = model;
-  if (texels) {
-    rest.texture = texture_of(*texels);
-    s.factors[kColor].map = rest.texture.get();
-    s.factors[kColor].sampler = sampler;
-  }
-  Shader out = per_vertex ? lit_shader<ShadingRate::gouraud>(s, texels.has_value()) : lit_shader<ShadingRate::phong>(s, texels.has_value());
-  out.lights = rest.lights;
-  out.texture = rest.texture;
-  return out;
-}
-
-Shader metallic(const Placing& placing, const std::array<float, 4>& base_color, float metallic, float roughness, const Vector& emissive,
-                const Vector& ambient, bool colored, const std::optional<Array<uint8_t>>& texels, const Sampler& sampler) {
-  MetallicMaterial m;
-  Shader rest;
-  place(m, placing, rest);
-  m.base_color = {base_color[0], base_color[1], base_color[2], base_color[3]};
-  m.metallic = metallic;
-  m.roughness = roughness;
-  m.emissive = vec_of(emissive);
-  m.ambient = vec_of(ambient);
-  m.blends = base_color[3] < 1.0f;
-  if (texels) {
-    rest.texture = texture_of(*texels);
-    m.maps[kBaseColorMap].map = rest.texture.get();
-    m.maps[kBaseColorMap].sampler = sampler;
-    return {MetallicSurface<MetallicStreams::mapped>{m}, {"positions", "normals", "uvs"}, rest.lights, rest.texture};
-  }
-  if (colored) return {MetallicSurface<MetallicStreams::colored>{m}, {"positions", "normals", "colors"}, rest.lights, {}};
-  return {MetallicSurface<MetallicStreams::basic>{m}, {"positions", "normals"}, rest.lights, {}};
-}
-
 /// A draw, and the objects that keep its arrays alive.
 struct Draw {
-  PreparedDraw draw;
   Shader shader;
+  VertexView vertices;
+  std::shared_ptr<const Indices> indices;
+  DrawState state;
   std::vector<py::object> arrays;
+
+  void add_to(Pass& pass) const {
+    const auto add = [&]<class S>(const S& chosen) {
+      if constexpr (std::is_same_v<S, SceneShader>) {
+        add_draw(pass, {chosen, vertices, indices, state}, state);
+      } else {
+        pass.draw_depth(chosen, vertices, *indices, state);
+      }
+    };
+    std::visit(add, shader.shader);
+  }
 };
 
 class ArrayPass {
@@ -144,13 +56,14 @@ class ArrayPass {
     depth_target_.stencil_clear_value = clear_stencil;
   }
 
-  void draw(const Shader& shader, const std::vector<Array<float>>& streams, const std::optional<Array<uint32_t>>& indices,
-            const DrawState& state) {
+  /// divisors: for each stream, 0 for one row per vertex or 1 for one row per instance.
+  void draw(const Shader& shader, const std::vector<Array<float>>& streams, const std::vector<uint32_t>& divisors,
+            const std::optional<Array<uint32_t>>& indices, const DrawState& state, uint32_t instances) {
     std::array<VertexStream, kMaxStreams> list;
     std::vector<py::object> kept;
     for (std::size_t i = 0; i < streams.size(); ++i) {
       const auto n = static_cast<int32_t>(streams[i].shape(1));
-      list.at(i) = {streams[i].data(), n, n, static_cast<std::size_t>(streams[i].shape(0)), 0};
+      list.at(i) = {streams[i].data(), n, n, static_cast<std::size_t>(streams[i].shape(0)), divisors.at(i)};
       kept.push_back(streams[i]);
     }
     const VertexView view = detail::bind_streams(std::span(list).first(streams.size()));
@@ -161,27 +74,23 @@ class ArrayPass {
     } else {
       order = std::make_shared<const Indices>(Indices::sequential(view.vertex_count));
     }
-    Draw& added = draws_.emplace_back();
-    added.draw.shader = shader.shader;
-    added.draw.vertices = view;
-    added.draw.indices = std::move(order);
-    added.draw.state = state;
-    added.shader = shader;
-    added.arrays = std::move(kept);
+    draws_.push_back({shader, view, std::move(order), state, std::move(kept)});
+    draws_.back().state.instances = instances;
   }
 
-  /// Returns the number of draws.
-  std::size_t run(int threads) {
+  /// Returns the number of draws and the results of the occlusion queries.
+  std::pair<std::size_t, std::vector<uint64_t>> run(int threads) {
+    PassStatistics statistics;
     const std::vector<Draw> draws = std::exchange(draws_, {});
     try {
       const py::gil_scoped_release release;
       Pass pass(width_, height_, color_target_, depth_target_, {.samples = samples_});
-      for (const Draw& d : draws) add_draw(pass, d.draw, d.draw.state);
-      pass.run(Workers(threads));
+      for (const Draw& d : draws) d.add_to(pass);
+      statistics = pass.run(Workers(threads));
     } catch (const std::logic_error& e) {  // a failed check
       throw InputError(std::string("pass: the draws are invalid (") + e.what() + ")");
     }
-    return draws.size();
+    return {draws.size(), statistics.queries};
   }
 
  private:
@@ -196,41 +105,10 @@ class ArrayPass {
   std::vector<Draw> draws_;
 };
 
-Light light_of(LightType type, const Vector& place, const Vector& diffuse, const Vector& specular, const Vector& attenuation,
-               const Vector& axis, float cos_inner, float cos_outer) {
-  Light light;
-  light.type = type;
-  light.position_rws = vec_of(place);
-  light.diffuse = vec_of(diffuse);
-  light.specular = vec_of(specular);
-  light.attenuation = vec_of(attenuation);
-  light.axis_ws = vec_of(axis);
-  light.cos_outer = cos_outer;
-  light.cone_scale = 1.0f / std::max(cos_inner - cos_outer, 1e-6f);
-  return light;
-}
-
 }  // namespace
 
 void bind_draw(py::module_& m) {
-  py::enum_<LightType>(m, "LightType")
-      .value("directional", LightType::directional)
-      .value("point", LightType::point)
-      .value("spot", LightType::spot);
-  py::enum_<LightModel>(m, "LightModel")
-      .value("lambert", LightModel::lambert)
-      .value("phong", LightModel::phong)
-      .value("blinn_phong", LightModel::blinn_phong);
-  py::class_<Light>(m, "Light").def(py::init(&light_of));
-  py::class_<Placing>(m, "Placing")
-      .def(py::init([](const Array<double>& clip_from_world, const Array<double>& world_from_object, const std::array<double, 3>& eye,
-                       const std::vector<Light>& lights, bool two_sided) {
-        return Placing{clip_from_world, world_from_object, eye, lights, two_sided};
-      }));
-  py::class_<Shader>(m, "Shader").def_readonly("attributes", &Shader::attributes);
-  m.def("colored", &colored);
-  m.def("phong", &phong);
-  m.def("metallic", &metallic);
+  bind_shaders(m);
   py::class_<ArrayPass>(m, "Pass")
       .def(py::init<int, int, ColorFormat, py::object, DepthFormat, py::object, int>())
       .def("set_load", &ArrayPass::set_load)

@@ -35,7 +35,7 @@ void bind_enums(py::module_& m) {
   bind_enum<BlendEquation>(m, "BlendEquation", {"add", "subtract", "reverse_subtract", "min", "max"});
   bind_enum<StencilOp>(m, "StencilOp",
                        {"keep", "zero", "replace", "increment_clamp", "decrement_clamp", "invert", "increment_wrap", "decrement_wrap"});
-  bind_enum<ColorFormat>(m, "ColorFormat", {"none", "rgba8", "srgb8a8", "rgba16f", "rgba32f"});
+  bind_enum<ColorFormat>(m, "ColorFormat", {"none", "rgba8", "srgb8a8", "rgba16f", "rgba32f", "r32f", "rg32f", "rgb32f"});
   bind_enum<DepthFormat>(m, "DepthFormat", {"none", "d16", "d24", "d32f", "d24s8", "d32fs8"});
 }
 
@@ -102,7 +102,8 @@ void bind_draw_state(py::module_& m) {
       .def_readwrite("alpha_to_coverage", &DrawState::alpha_to_coverage)
       .def_readwrite("sample_mask", &DrawState::sample_mask)
       .def_readwrite("order_independent", &DrawState::order_independent)
-      .def_readwrite("blend", &DrawState::blend);
+      .def_readwrite("blend", &DrawState::blend)
+      .def_readwrite("query", &DrawState::query);
   bind_depth(state);
 }
 

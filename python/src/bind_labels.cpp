@@ -41,31 +41,61 @@ struct LabelImages {
 
 using Names = std::set<std::string>;
 
+/// The values that are rendered, and how.
+struct Wanted {
+  Names names;
+  float background_depth;
+  bool alpha;  ///< the color has a fourth channel, and no background
+
+  Shot shot(double time, const CameraDescription* camera) const {
+    Shot shot = shot_of(time, camera);
+    shot.transparent = alpha;
+    shot.unlit = !names.contains("color");
+    return shot;
+  }
+};
+
 /// Allocates the requested images and renders them.
-void render_labels(LabelImages& images, const Names& wanted, float background_depth, PictureSize size, const PreparedScene& scene,
-                   const Workers& workers) {
+void render_labels(LabelImages& images, const Wanted& wanted, PictureSize size, const PreparedScene& scene, const Workers& workers) {
   FrameImages frame;
-  frame.background_depth = background_depth;
+  frame.background_depth = wanted.background_depth;
   images.for_each([&](const char* name, auto& image, auto member) {
-    if (!wanted.contains(name)) return;
+    if (!wanted.names.contains(name)) return;
     image = std::decay_t<decltype(image)>(size.width, size.height);
     frame.*member = &image;
   });
   render_frame(scene, frame, workers);
 }
 
-py::dict labels(SceneCore& scene, int width, int height, double time, const CameraDescription* camera, const Names& wanted,
-                float background_depth) {
+// Returns an array of shape (height, width, 3).
+py::array rgb_of(const Image<glm::u8vec4>& image) {
+  py::array_t<uint8_t> array({py::ssize_t{image.height()}, py::ssize_t{image.width()}, py::ssize_t{3}});
+  uint8_t* out = array.mutable_data();
+  const py::gil_scoped_release release;
+  copy_rgb(image.texels(), out);
+  return array;
+}
+
+py::dict labels(SceneCore& scene, int width, int height, double time, const CameraDescription* camera, const Names& names,
+                float background_depth, bool alpha) {
   LabelImages images;
-  const Shot shot = shot_of(time, camera);
+  const Wanted wanted{names, background_depth, alpha};
+  const Shot shot = wanted.shot(time, camera);
   const PictureSize size{width, height};
   {
     const py::gil_scoped_release release;
-    render_labels(images, wanted, background_depth, size, scene.prepare(shot, size), scene.workers());
+    render_labels(images, wanted, size, scene.prepare(shot, size), scene.workers());
   }
   py::dict arrays;
-  images.for_each([&](const char* name, auto& image, auto) {
-    if (wanted.contains(name)) arrays[name] = array_of(std::move(image));
+  images.for_each([&]<class Texel>(const char* name, Image<Texel>& image, auto) {
+    if (!names.contains(name)) return;
+    if constexpr (std::is_same_v<Texel, glm::u8vec4>) {
+      if (!alpha) {
+        arrays[name] = rgb_of(image);
+        return;
+      }
+    }
+    arrays[name] = array_of(std::move(image));
   });
   return arrays;
 }
@@ -73,13 +103,17 @@ py::dict labels(SceneCore& scene, int width, int height, double time, const Came
 /// Arrays of shape (N, height, width, ...) that a batch fills.
 class LabelArrays {
  public:
-  LabelArrays(const Names& wanted, std::size_t count, PictureSize size) {
+  LabelArrays(const Wanted& wanted, std::size_t count, PictureSize size) : alpha_(wanted.alpha) {
     LabelImages images;
     images.for_each([&](const char* name, auto& image, auto) {
       using Texel = std::decay_t<decltype(*image.data())>;
-      if (!wanted.contains(name)) return;
+      if (!wanted.names.contains(name)) return;
       std::vector<py::ssize_t> shape{static_cast<py::ssize_t>(count), size.height, size.width};
-      if constexpr (!std::is_arithmetic_v<Texel>) shape.push_back(Texel::length());
+      if constexpr (std::is_same_v<Texel, glm::u8vec4>) {
+        shape.push_back(alpha_ ? 4 : 3);
+      } else if constexpr (!std::is_arithmetic_v<Texel>) {
+        shape.push_back(Texel::length());
+      }
       py::array array(py::dtype::of<Number<Texel>>(), shape);
       places_[name] = static_cast<std::byte*>(array.mutable_data());
       arrays_[name] = std::move(array);
@@ -88,9 +122,14 @@ class LabelArrays {
 
   /// Copies the images of one shot. Thread-safe for different shots.
   void store(std::size_t shot, LabelImages& images) const {
-    images.for_each([&](const char* name, const auto& image, auto) {
+    images.for_each([&]<class Texel>(const char* name, const Image<Texel>& image, auto) {
+      const auto place = places_.find(name);
+      if (place == places_.end()) return;
+      if constexpr (std::is_same_v<Texel, glm::u8vec4>) {
+        if (!alpha_) return copy_rgb(image.texels(), reinterpret_cast<uint8_t*>(place->second) + shot * 3 * image.texels().size());
+      }
       const std::size_t bytes = image.texels().size_bytes();
-      if (const auto place = places_.find(name); place != places_.end()) std::memcpy(place->second + shot * bytes, image.data(), bytes);
+      std::memcpy(place->second + shot * bytes, image.data(), bytes);
     });
   }
 
@@ -109,22 +148,25 @@ class LabelArrays {
   template <class Texel>
   using Number = typename NumberOf<Texel>::type;
 
+  bool alpha_;
   py::dict arrays_;
   std::map<std::string, std::byte*> places_;
 };
 
 py::dict label_batch(SceneCore& scene, int width, int height, const std::vector<double>& times,
-                     const std::vector<CameraDescription*>& cameras, const Names& wanted, float background_depth,
+                     const std::vector<CameraDescription*>& cameras, const Names& names, float background_depth, bool alpha,
                      const py::object& progress) {
   const PictureSize size{width, height};
-  const std::vector<Shot> shots = shots_of(times, cameras);
+  const Wanted wanted{names, background_depth, alpha};
+  std::vector<Shot> shots;
+  for (std::size_t i = 0; i < times.size(); ++i) shots.push_back(wanted.shot(times[i], cameras[i]));
   const LabelArrays arrays(wanted, shots.size(), size);
   std::atomic<std::size_t> finished = 0;
   {
     const py::gil_scoped_release release;
     scene.for_each_shot(shots, size, [&](std::size_t i, const PreparedScene& prepared, const Workers& workers) {
       LabelImages images;
-      render_labels(images, wanted, background_depth, size, prepared, workers);
+      render_labels(images, wanted, size, prepared, workers);
       arrays.store(i, images);
       report(progress, ++finished, shots.size());
     });

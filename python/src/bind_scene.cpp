@@ -7,6 +7,7 @@
 #include <cstring>
 #include <memory>
 #include <span>
+#include <system_error>
 
 #include "bindings.h"
 #include "matrices.h"
@@ -21,15 +22,6 @@ using Release = py::call_guard<py::gil_scoped_release>;
 
 /// How pixels are returned: 8-bit sRGB values with 3 or 4 channels, or linear light.
 enum class PixelKind { rgb, rgba, light };
-
-// Copies texels to `out` without alpha.
-void copy_rgb(std::span<const glm::u8vec4> texels, uint8_t* out) {
-  for (const glm::u8vec4& texel : texels) {
-    *out++ = texel.x;
-    *out++ = texel.y;
-    *out++ = texel.z;
-  }
-}
 
 // Copies an image to `out` without alpha, with several threads.
 void copy_image_rgb(const Image<glm::u8vec4>& image, uint8_t* out, const Workers& workers) {
@@ -82,7 +74,8 @@ py::array render_picture(SceneCore& scene, int width, int height, double time, c
   return render_whole<glm::vec4>(scene, shot, size);
 }
 
-// Renders all shots and hands each image to copy(image, out), where `out` is its place in the array.
+// Renders all shots and hands each image to copy(image, out), where `out` is its place in the array. Copying takes less than 0.1% of the
+// time of a frame (0.01 ms for 320x240 RGBA).
 template <class Pixel, class Number, class Copy>
 py::array render_array(SceneCore& scene, const std::vector<Shot>& shots, PictureSize size, py::ssize_t channels, const py::object& progress,
                        const Copy& copy) {
@@ -152,6 +145,17 @@ ModelView model_view(const py::dict& options) {
   return view;
 }
 
+// Returns the bounds of the scene as an array of shape (2, 3), or None.
+py::object bounds(SceneCore& scene) {
+  std::optional<std::array<glm::dvec3, 2>> box;
+  {
+    const py::gil_scoped_release release;
+    box = scene.bounds();
+  }
+  if (!box) return py::none();
+  return py::array_t<double>({py::ssize_t{2}, py::ssize_t{3}}, &box->front().x);
+}
+
 std::shared_ptr<SceneCore> open(const std::string& name, const py::dict& options, int threads) {
   const ModelView view = model_view(options);
   const py::gil_scoped_release release;
@@ -159,8 +163,9 @@ std::shared_ptr<SceneCore> open(const std::string& name, const py::dict& options
 }
 
 std::shared_ptr<SceneCore> parse(const std::string& text, const std::string& source, int threads) {
-  return std::make_shared<SceneCore>(OpenedScene{SceneFile::parse(text, source, std::filesystem::current_path()), {}, nullptr, {}},
-                                     threads);
+  std::error_code failed;  // of a current folder that was removed
+  const std::filesystem::path folder = std::filesystem::current_path(failed);
+  return std::make_shared<SceneCore>(OpenedScene{SceneFile::parse(text, source, failed ? "." : folder), {}, nullptr, {}}, threads);
 }
 
 }  // namespace
@@ -175,6 +180,8 @@ void bind_scene(py::module_& m) {
       .def("value", &SceneCore::value, Release())
       .def("merge", &SceneCore::merge, Release())
       .def("objects", &SceneCore::objects, Release())
+      .def("bounds", &bounds)
+      .def("camera", &SceneCore::camera, Release())
       .def("has_object", &SceneCore::has_object, Release())
       .def("has_light", &SceneCore::has_light, Release())
       .def("print", &SceneCore::print, Release())

@@ -42,6 +42,15 @@ std::span<const T> rows_of(const Array<typename T::value_type>& array) {
   return {reinterpret_cast<const T*>(array.data()), static_cast<std::size_t>(array.size() / n)};
 }
 
+/// Copies texels to `out` without alpha.
+inline void copy_rgb(std::span<const glm::u8vec4> texels, uint8_t* out) {
+  for (const glm::u8vec4& texel : texels) {
+    *out++ = texel.x;
+    *out++ = texel.y;
+    *out++ = texel.z;
+  }
+}
+
 /// Returns an array of shape (height, width) that owns the image.
 template <class Number>
 requires std::is_arithmetic_v<Number> py::array array_of(Image<Number>&& image) {

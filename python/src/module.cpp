@@ -7,6 +7,7 @@
 #include "halfspace/core/cpu.h"
 #include "halfspace/core/lanes.h"
 #include "halfspace/core/parallel.h"
+#include "halfspace/core/tool_folder.h"
 #include "halfspace/scene/scene_file.h"
 
 namespace halfspace::python {
@@ -32,6 +33,7 @@ PYBIND11_MODULE(_core, m) {
   m.attr("arch") = build_arch();
   m.def("cores", &Workers::cores);
   m.def("scene_names", &scene_names);
+  m.def("set_tool_folder", [](const std::string& folder) { set_tool_folder(folder); });
   bind_camera(m);
   bind_scene(m);
   bind_model(m);

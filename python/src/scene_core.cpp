@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -10,6 +11,56 @@
 #include "halfspace/scene/scene_paths.h"
 
 namespace halfspace::python {
+
+namespace {
+
+/// The smallest axis-aligned box that contains all added points.
+class Box {
+ public:
+  void add(const glm::dvec3& point) {
+    low_ = glm::min(low_, point);
+    high_ = glm::max(high_, point);
+  }
+  bool is_empty() const { return !(low_.x <= high_.x); }
+  const glm::dvec3& low() const { return low_; }
+  const glm::dvec3& high() const { return high_; }
+
+ private:
+  static constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  glm::dvec3 low_{kInfinity}, high_{-kInfinity};
+};
+
+// Adds the corners of a transformed box.
+void add_corners(Box& box, const Box& object, const glm::dmat4& world_from_object) {
+  for (int i = 0; i < 8; ++i) {
+    const glm::dvec3 corner((i & 1) != 0 ? object.high().x : object.low().x, (i & 2) != 0 ? object.high().y : object.low().y,
+                            (i & 4) != 0 ? object.high().z : object.low().z);
+    box.add(glm::dvec3(world_from_object * glm::dvec4(corner, 1.0)));
+  }
+}
+
+std::optional<std::array<glm::dvec3, 2>> bounds_of(const PreparedScene& scene) {
+  Box all;
+  std::map<const glm::vec3*, Box> meshes;  // copies of an object share their positions
+  for (const PreparedDraw& draw : scene.draws) {
+    const std::span<const glm::vec3> positions = draw.source.streams.positions;
+    if (draw.source.object < 0 || positions.empty()) continue;
+    Box& mesh = meshes[positions.data()];
+    if (mesh.is_empty()) std::ranges::for_each(positions, [&](const glm::vec3& p) { mesh.add(glm::dvec3(p)); });
+    add_corners(all, mesh, draw.source.world_from_object);
+  }
+  for (const PlacedSpheres& placed : scene.spheres) {
+    for (std::size_t i = 0; i < placed.particles->radii.size(); ++i) {
+      const glm::dvec3 radius(static_cast<double>(placed.particles->radii[i])), &center = placed.particles->centers_ws[i];
+      all.add(center - radius);
+      all.add(center + radius);
+    }
+  }
+  if (all.is_empty()) return std::nullopt;
+  return std::array{all.low(), all.high()};
+}
+
+}  // namespace
 
 SceneCore::SceneCore(OpenedScene opened, int threads)
     : state_{std::move(opened.scene), {}, {}},
@@ -37,6 +88,7 @@ void SceneCore::set(const std::vector<std::string>& settings) {
     if (found != camera_names_.end()) setting = std::string(kCamera) + found->second;
   }
   state_.scene.set(own);
+  bounds_known_ = false;
 }
 
 std::string SceneCore::value(const std::string& path) const {
@@ -48,6 +100,7 @@ std::string SceneCore::value(const std::string& path) const {
 void SceneCore::merge(const std::string& patch) {
   const std::lock_guard lock(mutex_);
   state_.scene.merge(patch, state_.scene.source());
+  bounds_known_ = false;
 }
 
 std::vector<std::string> SceneCore::objects() const {
@@ -67,9 +120,29 @@ bool SceneCore::has_light(const std::string& name) const {
   return find_named(state_.scene.description().lights, name) != nullptr;
 }
 
+CameraDescription SceneCore::camera(const std::string& name, double time) const {
+  const std::lock_guard lock(mutex_);
+  const auto renamed = camera_names_.find(name);
+  const SceneDescription description = state_.scene.at(time);
+  if (const CameraDescription* found = find_named(description.cameras, renamed != camera_names_.end() ? renamed->second : name))
+    return *found;
+  std::string names;
+  for (const auto& [known, camera] : description.cameras) names += (names.empty() ? "one of " : ", ") + known;
+  throw InputError("camera: no camera '" + name + "' in this scene; expected " + (names.empty() ? "a halfspace.Camera" : names));
+}
+
 std::string SceneCore::print() const {
   const std::lock_guard lock(mutex_);
   return state_.scene.print();
+}
+
+std::optional<std::array<glm::dvec3, 2>> SceneCore::bounds() {
+  const std::lock_guard lock(mutex_);
+  if (bounds_known_) return bounds_;
+  Shot shot{.camera = CameraDescription{}, .unlit = true};  // any camera: nothing is culled
+  bounds_ = bounds_of(state_.prepare(shot, {16, 16}, assets_));
+  bounds_known_ = true;
+  return bounds_;
 }
 
 void SceneCore::provide(const std::string& file, std::shared_ptr<const ModelAsset> model) {
@@ -80,6 +153,7 @@ void SceneCore::provide(const std::string& file, std::shared_ptr<const ModelAsse
 void SceneCore::place(const std::string& object, std::vector<glm::dmat4> transforms) {
   const std::lock_guard lock(mutex_);
   state_.places[object] = std::move(transforms);
+  bounds_known_ = false;
 }
 
 void SceneCore::forget_object(const std::string& object) {
@@ -110,6 +184,10 @@ SceneDescription SceneCore::State::description(const Shot& shot) const {
     object.instances.clear();
     for (const glm::dmat4& transform : found->second) object.instances.push_back({.matrix = transform});
     object.visible = object.visible && !found->second.empty();
+  }
+  if (shot.unlit) {
+    for (auto& [name, light] : description.lights) light.shadow = false;
+    description.head.ambient = Color{glm::dvec3(1.0)};
   }
   if (shot.transparent) description.background.type = BackgroundType::transparent;
   if (shot.camera) {

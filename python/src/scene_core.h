@@ -4,6 +4,7 @@
 // images. All functions are thread-safe and are called without the GIL, because they wait for each other.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <map>
 #include <memory>
@@ -31,6 +32,7 @@ struct Shot {
   double time = 0.0;                          ///< seconds
   std::optional<CameraDescription> camera{};  ///< replaces the camera of the scene
   bool transparent = false;                   ///< alpha is 0 where nothing is drawn, and the background is omitted
+  bool unlit = false;                         ///< no color is needed: skips shadow maps, and the warning about missing lights
 };
 
 class SceneCore {
@@ -49,8 +51,13 @@ class SceneCore {
   std::vector<std::string> objects() const;
   bool has_object(const std::string& name) const;
   bool has_light(const std::string& name) const;
+  /// Returns a camera of the scene at a time in seconds. name: as in a setting of `camera`.
+  CameraDescription camera(const std::string& name, double time) const;
   /// Returns the whole scene as the text of a scene file.
   std::string print() const;
+  /// Returns the lowest and highest coordinates of all visible objects at time 0, in world space; nullopt if there are none. The box of an
+  /// object is that of its transformed bounding box.
+  std::optional<std::array<glm::dvec3, 2>> bounds();
 
   /// Provides the model for objects with this file name.
   void provide(const std::string& file, std::shared_ptr<const ModelAsset> model);
@@ -92,8 +99,10 @@ class SceneCore {
   }
   void warn(const std::string& problem);
 
-  mutable std::mutex mutex_;  ///< guards the state, the assets and the picture
+  mutable std::mutex mutex_;  ///< guards the state, its bounds, the assets and the picture
   State state_;
+  bool bounds_known_ = false;
+  std::optional<std::array<glm::dvec3, 2>> bounds_;        ///< valid if bounds_known_
   const std::map<std::string, std::string> camera_names_;  ///< names in the model and the corresponding names in the scene
   Image<glm::u8vec4> picture_;
   std::mutex warnings_mutex_;

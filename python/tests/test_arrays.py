@@ -171,6 +171,36 @@ def test_a_scene_without_a_camera_shows_everything():
     assert (scene.render((60, 60))[..., 0] > 0).sum() < 20
 
 
+def test_keys_may_be_numpy_numbers_and_arrays():
+    scene = halfspace.Scene(lighting="none")
+    scene.add_light("point", name="lamp", position=[np.float32(1), np.int64(2), np.float64(0.5)], intensity=np.float32(2), shadow=np.bool_(False))
+    assert scene["lights.lamp.position"] == [1, 2, 0.5] and scene["lights.lamp.shadow"] is False
+    scene.merge({"ambient": np.array([1, 0.5, 0.25]), "lights": {"lamp": {"position": (np.float32(3), 0, 0)}}})
+    assert scene["ambient"] == [1, 0.5, 0.25] and scene["lights.lamp.position"] == [3, 0, 0]
+
+
+def test_the_default_view_follows_keys_and_merged_objects():
+    scene = halfspace.Scene(lighting="none")
+    name = scene.add(halfspace.Mesh(*QUAD, material=flat()))
+    assert scene.bounds.tolist() == [[-1, -1, 0], [1, 1, 0]]
+    before = scene.render((40, 40))
+    scene[f"{name}.position"] = (100, 0, 0)
+    assert scene.bounds.tolist() == [[99, -1, 0], [101, 1, 0]]
+    # The rotation from the object to the camera is the same. float32 has 2**-17 = 7.6e-6 units at 100, less than 1/1000 of a pixel.
+    assert np.abs(scene.render((40, 40)).astype(int) - before).max() <= 1 and before.any()
+    scene.place(name, np.diag([2.0, 1, 1, 1]))
+    assert scene.bounds.tolist() == [[98, -1, 0], [102, 1, 0]]
+    scene.merge({"ambient": 1, "objects": {"ball": {"shape": "sphere", "radius": 3}, "box": {"shape": "plane", "position": [0, 0, -7]}}})
+    assert scene.bounds.tolist() == [[-3, -3, -8], [102, 3, 3]]
+    scene[f"{name}.visible"] = False
+    assert scene.bounds.tolist() == [[-3, -3, -8], [3, 3, 3]]
+    scene.merge({"objects": {"ball": None, "box": None}})
+    assert scene.bounds is None
+    points = halfspace.Scene(lighting="none")
+    points.add(halfspace.Mesh([[0, 0, 0], [1, 2, 3]], topology="points"))
+    assert points.bounds.tolist() == [[0, 0, 0], [1, 2, 3]]
+
+
 def test_a_mesh_read_from_a_file_matches_the_file(horse):
     vertices, normals, faces = read_ply(horse)
     by_file = halfspace.Scene.load(horse, floor=False)
@@ -234,6 +264,52 @@ def test_materials_of_trimesh_have_their_colors():
 NAN = np.where(np.arange(12).reshape(4, 3) == 7, np.nan, 0.5)
 
 
+def trimesh_quad(**material):
+    """An object like a trimesh.Trimesh with a PBRMaterial."""
+    names = ("baseColorFactor", "baseColorTexture", "metallicFactor", "roughnessFactor", "metallicRoughnessTexture", "normalTexture",
+             "occlusionTexture", "emissiveFactor", "emissiveTexture", "alphaMode", "alphaCutoff", "doubleSided")
+    unknown = set(material) - set(names)
+    assert not unknown
+    uvs = np.array([[0, 0], [1, 0], [1, 1], [0, 1]], float)
+    visual = SimpleNamespace(kind="texture", uv=uvs, material=SimpleNamespace(**{name: material.get(name) for name in names}))
+    return SimpleNamespace(vertices=QUAD[0], faces=QUAD[1], visual=visual)
+
+
+def texels_of(*color):
+    return np.full((4, 4, len(color)), color, np.uint8)
+
+
+@pytest.mark.parametrize("of_trimesh, own", [
+    ({"emissiveFactor": [0.5, 0.25, 1.0]}, {"emissive": (0.5, 0.25, 1)}),
+    ({"emissiveFactor": [1, 1, 1], "emissiveTexture": texels_of(200, 100, 50)}, {"emissive": (1, 1, 1), "emissive_texture": texels_of(200, 100, 50)}),
+    ({"metallicRoughnessTexture": texels_of(0, 60, 255)},
+     {"metallic": 1, "roughness": 1, "metallic_roughness_texture": texels_of(0, 60, 255)}),
+    ({"metallicRoughnessTexture": texels_of(0, 60, 255), "metallicFactor": 0.5, "roughnessFactor": 0.8},
+     {"metallic": 0.5, "roughness": 0.8, "metallic_roughness_texture": texels_of(0, 60, 255)}),
+    ({"normalTexture": texels_of(200, 128, 220)}, {"normal_texture": texels_of(200, 128, 220)}),
+    ({"occlusionTexture": texels_of(40, 40, 40)}, {"occlusion_texture": texels_of(40, 40, 40)}),
+    ({"baseColorTexture": texels_of(255, 0, 0, 100), "alphaMode": "MASK"},
+     {"base_color": (1, 1, 1), "base_color_texture": texels_of(255, 0, 0, 100), "alpha_mode": "mask"}),
+    ({"baseColorTexture": texels_of(255, 0, 0, 100), "alphaMode": "MASK", "alphaCutoff": 0.25},
+     {"base_color": (1, 1, 1), "base_color_texture": texels_of(255, 0, 0, 100), "alpha_mode": "mask", "alpha_cutoff": 0.25}),
+    ({"baseColorTexture": texels_of(255, 0, 0, 100), "alphaMode": "BLEND"},
+     {"base_color": (1, 1, 1), "base_color_texture": texels_of(255, 0, 0, 100), "alpha_mode": "blend"}),
+    ({"doubleSided": False}, {"double_sided": False}),
+])
+def test_materials_of_trimesh_like_objects(of_trimesh, own):
+    def pictures(mesh):
+        scene = halfspace.Scene()
+        scene.add(mesh)
+        return [scene.render((16, 16), camera=halfspace.Camera.look_at(eye, height=3)) for eye in ((0.5, 0.5, 4), (0.5, 0.5, -4))]
+
+    uvs = trimesh_quad().visual.uv
+    expected = pictures(halfspace.Mesh(*QUAD, uvs=uvs, material=halfspace.Material(**own)))
+    shown = pictures(trimesh_quad(**of_trimesh))
+    plain = pictures(trimesh_quad())
+    assert all(np.array_equal(a, b) for a, b in zip(shown, expected))
+    assert not all(np.array_equal(a, b) for a, b in zip(shown, plain))
+
+
 @pytest.mark.parametrize("make, words", [
     (lambda: halfspace.Mesh(np.zeros((4, 2))), "vertices: has the shape (4, 2); expected (N, 3)"),
     (lambda: halfspace.Mesh([[0, 0, 0], [1]]), "vertices: is not an array; expected numbers of shape (N, 3)"),
@@ -267,6 +343,24 @@ NAN = np.where(np.arange(12).reshape(4, 3) == 7, np.nan, 0.5)
     (lambda: halfspace.Scene().place("a", np.eye(4)), "name: no object 'a' has been added; expected add() first"),
     (lambda: halfspace.Scene().add_light("sun"), "scene: lights.light_1.type: "),
     (lambda: halfspace.Scene(lighting="sun"), "lighting: is 'sun'; expected one of studio, none"),
+    (lambda: halfspace.Texture(np.zeros((2, 2), np.uint8), wrap=5), "wrap: is 5; expected one of repeat, mirrored, clamp"),
+    (lambda: halfspace.Texture(np.zeros((2, 2), np.uint8), anisotropy=1.5), "anisotropy: is 1.5; expected an integer from 1 to 16"),
+    (lambda: halfspace.Scene().add_light("point", position=(0, 0, np.nan)), "position[2]: is nan; expected a finite number"),
+    (lambda: halfspace.Scene().add_light("point", intensity=np.float32("inf")), "intensity: is inf; expected a finite number"),
+    (lambda: halfspace.Scene().add_light("point", position={1, 2}), "position: is of type set; expected a bool, a number, a string, a list"),
+    (lambda: halfspace.Scene().add_light("point", name=5), "name: is 5; expected a string"),
+    (lambda: halfspace.Scene().remove(["a"]), "name: is ['a']; expected a string"),
+    (lambda: halfspace.Scene()[5], "key: is 5; expected a string"),
+    (lambda: halfspace.Scene().set([("samples", 1)]), "keys: is of type list; expected a dictionary of keys and values"),
+    (lambda: halfspace.Scene().set({5: 1}), "a key: is 5; expected a string"),
+    (lambda: halfspace.Scene().set({"ambient": np.inf}), "ambient: is inf; expected a finite number"),
+    (lambda: halfspace.Scene().set({"ambient": (1, np.nan, 1)}), "ambient: has an element that is not finite; expected finite numbers"),
+    (lambda: halfspace.Scene().merge("x"), "patch: is of type str; expected a dictionary"),
+    (lambda: halfspace.Scene().merge({"lights": {"a": {"position": np.array([1, np.nan, 0])}}}), "lights.a.position[1]: is nan; expected"),
+    (lambda: halfspace.Scene().merge({"lights": {5: {}}}), "lights: a key: is 5; expected a string"),
+    (lambda: halfspace.Scene.load(None), "path: is None; expected a file name"),
+    (lambda: halfspace.Scene().add(halfspace.Mesh(*QUAD), [[1, 2], [3]]), "transform: is not an array; expected numbers of shape (4, 4)"),
+    (lambda: halfspace.Scene().fit(), "fit: the scene has no visible object; expected at least one"),
 ])
 def test_wrong_arrays_are_reported(make, words):
     with pytest.raises(halfspace.InputError) as error:

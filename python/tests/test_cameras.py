@@ -133,6 +133,23 @@ def test_exact_spheres_reject_off_center_cameras():
         scene.render((32, 32), camera=halfspace.Camera.from_intrinsics(moved(centered, 1), pose=pose))
 
 
+@pytest.mark.parametrize("rounded", [lambda m: m.astype(np.float32), lambda m: np.round(m, 4)])
+def test_rounded_rotations_are_made_exact(rounded):
+    """The error of a pixel is the rounding of the pose: at most 5e-5 * sqrt(3) radians, or 0.009 px at a focal length of 100 px."""
+    scene, rng = textured_scene(), np.random.default_rng(5)
+    for _ in range(20):
+        eye = rng.normal(size=3)
+        eye *= 4 / np.linalg.norm(eye)
+        pose = look_at_pose(eye, (0.0, 0.0, 0.0))
+        near = halfspace.Camera.from_pose(rounded(pose), fov=40, near=1, far=20)
+        exact = halfspace.Camera.from_pose(pose, fov=40, near=1, far=20)
+        positions = [scene.labels(["position", "mask"], size=(60, 40), camera=camera) for camera in (near, exact)]
+        both = positions[0]["mask"] & positions[1]["mask"]
+        assert both.sum() > 100
+        # A pixel is about 0.07 units wide; a grazing angle of up to 80 degrees multiplies the error by 6.
+        assert np.percentile(np.abs(positions[0]["position"] - positions[1]["position"])[both], 99) < 0.07 * 0.01 * 6
+
+
 @pytest.mark.parametrize("camera", [
     halfspace.Camera.look_at((1, 2, 3), (0, 0.5, 0), (0, 0, 1), fov=30, near=0.5, far=20),
     halfspace.Camera.look_at((1, 2, 3), height=2),
@@ -164,7 +181,14 @@ def test_a_pickled_camera_shows_the_same(camera):
     (lambda c: c.from_matrices(np.eye(4)), "view, pose: both or none are given; expected one of them"),
     (lambda c: c.from_matrices(np.eye(4), view=np.ones((4, 4))), "view: has the last row [1.0, 1.0, 1.0, 1.0]; expected [0, 0, 0, 1]"),
     (lambda c: c.from_matrices(np.ones((4, 4)), pose=np.eye(4)), "camera: the projection matrix cannot be used; expected"),
-    (lambda c: c.from_pose(2 * np.eye(4))._for_size(4, 4), "camera: the pose is not a rotation and a translation; expected"),
+    (lambda c: c.from_pose(np.diag([2.0, 2, 2, 1])), "pose: is not a rotation and a translation; expected"),
+    (lambda c: c.from_pose(np.diag([1.001, 1.001, 1.001, 1])), "pose: is not a rotation and a translation; expected"),
+    (lambda c: c.from_pose(np.diag([-1.0, 1, 1, 1])), "pose: contains a reflection; expected a rotation and a translation"),
+    (lambda c: c.from_pose(np.ones((4, 4))), "pose: has the last row [1.0, 1.0, 1.0, 1.0]; expected [0, 0, 0, 1]"),
+    (lambda c: c.from_matrices(np.diag([1.0, 1, -0.1, 1]), view=np.diag([2.0, 2, 2, 1])), "view: is not a rotation and a translation"),
+    (lambda c: c.from_intrinsics(K, extrinsics=np.diag([2.0, 2, 2, 1])), "extrinsics: is not a rotation and a translation; expected"),
+    (lambda c: c.from_intrinsics(K, extrinsics=[[1, 2], [3]]), "extrinsics: is not an array; expected numbers of shape (3, 4) or (4, 4)"),
+    (lambda c: c.from_intrinsics(K, extrinsics=[["a"] * 4] * 3), "extrinsics: has the dtype <U1; expected a floating-point or integer dtype"),
 ])
 def test_wrong_cameras_are_reported(make, words):
     with pytest.raises(halfspace.InputError) as error:

@@ -208,6 +208,27 @@ IMAGE = np.zeros((2, 2, 4), np.uint8)
     (lambda: draw.phong(np.eye(4), eye=(0, 0, 1), lights=["sun"]), "lights[0]: is of type str; expected a light of draw.light()"),
     (lambda: draw.metallic(np.eye(4), eye=(0, 0, 1), lights=draw.light()), "lights: is of type Light; expected a list of lights"),
     (lambda: draw.colored(np.eye(3)), "clip_from_object: has the shape (3, 3); expected (4, 4)"),
+    (lambda: draw.phong(np.eye(4), np.tile(np.eye(4), (3, 1, 1)), eye=(0, 0, 1)), "world_from_object: has the shape (3, 4, 4); expected (4, 4)"),
+    (lambda: draw.Pass(IMAGE, np.zeros((2, 2)), depth_format="none"), "depth: is given with the format none; expected None"),
+    (lambda: draw.Pass(IMAGE, samples=np.ones(2)), "samples: is array([1., 1.]); expected 1, 2, 4 or 8"),
+    (lambda: draw.Pass(IMAGE).draw(None), "shader: is of type NoneType; expected the result of"),
+    (lambda: paint(draw.Pass(IMAGE), RED, state={}), "state: is of type dict; expected a State or None"),
+    (lambda: paint(draw.Pass(IMAGE), RED, state=draw.State(base_vertex=1)),
+     "base_vertex: is 1, so that vertices 1 to 6 are drawn; expected vertices from 0 to 5"),
+    (lambda: draw.State(base_vertex=2**40), "base_vertex: is 1099511627776; expected an integer from -2147483648 to 2147483647"),
+    (lambda: draw.State(base_vertex=float("nan")), "base_vertex: is nan; expected an integer from"),
+    (lambda: draw.State(viewport=(0, 0, 3)), "viewport: is (0, 0, 3); expected (x, y, width, height)"),
+    (lambda: draw.State(viewport=(0, 0, 0, 0)), "viewport: is (0, 0, 0, 0); expected a width and a height from 1 to 16384"),
+    (lambda: draw.State(scissor=(0, 0, 20000, 1)), "scissor: is (0, 0, 20000, 1); expected a width and a height from 0 to 16384"),
+    (lambda: draw.State(depth_range=0.5), "depth_range: is 0.5; expected a pair of depths"),
+    (lambda: draw.State(color_mask=True), "color_mask: is True; expected 4 booleans"),
+    (lambda: draw.State(stencil=(draw.Stencil(), 3)), "stencil: is of type int; expected a Stencil or a pair of them"),
+    (lambda: draw.State(blend=3), "blend: is of type int; expected a Blend, alpha, additive or None"),
+    (lambda: draw.State(order_independent=True), "depth_write: is True with order_independent=True; expected False"),
+    (lambda: draw.State(order_independent=True, depth_write=False, blend="alpha"), "blend: is set with order_independent=True; expected None"),
+    (lambda: draw.State(order_independent=True, depth_write=False, depth_compare="always"),
+     "depth_compare: is 'always' with order_independent=True; expected less, less_equal, greater or greater_equal"),
+    (lambda: draw.Stencil(reference=0.5), "reference: is 0.5; expected an integer from 0 to 255"),
 ])
 def test_wrong_draws_are_reported(make, words):
     with pytest.raises(halfspace.InputError) as error:
@@ -215,10 +236,12 @@ def test_wrong_draws_are_reported(make, words):
     assert str(error.value).startswith(words) and "\n" not in str(error.value)
 
 
-def test_a_failed_check_is_an_exception():
-    p = draw.Pass(IMAGE)
-    paint(p, RED, state=draw.State(order_independent=True))  # which needs depth_write=False
-    with pytest.raises(halfspace.InputError, match="pass: the draws are invalid"):
+def test_arrays_must_not_be_resized_before_the_pass_runs():
+    image = np.zeros((2, 2, 4), np.uint8)
+    p = draw.Pass(image)
+    paint(p, RED)
+    image.resize((1, 1, 4), refcheck=False)
+    with pytest.raises(halfspace.InputError, match="color: was resized; expected"):
         p.run()
 
 

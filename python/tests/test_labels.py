@@ -134,11 +134,67 @@ def test_alpha_is_zero_where_nothing_is_drawn(quads):
     ({"outputs": ["deph"]}, "outputs: is 'deph'; expected one of color, depth"),
     ({"outputs": "depth"}, "outputs: is 'depth'; expected a list of names"),
     ({"background_depth": float("nan")}, "background_depth: is nan; expected"),
+    ({"background_depth": None}, "background_depth: is None; expected a number or infinity"),
+    ({"background_depth": "far"}, "background_depth: is 'far'; expected a number or infinity"),
+    ({"outputs": None}, "outputs: is of type NoneType; expected a list of names"),
+    ({"time": "1"}, "time: is '1'; expected a number"),
+    ({"camera": 5}, "camera: is of type int; expected a halfspace.Camera, the name of a camera or None"),
 ])
 def test_wrong_arguments_are_reported(quads, arguments, words):
     with pytest.raises(halfspace.InputError) as error:
         quads.labels(size=SIZE, **arguments)
     assert str(error.value).startswith(words)
+
+
+@pytest.mark.parametrize("arguments, words", [
+    ({"cameras": halfspace.Camera.look_at((0, 0, 4))}, "cameras: is of type Camera; expected a sequence of cameras"),
+    ({"cameras": "main"}, "cameras: is of type str; expected a sequence of cameras"),
+    ({"cameras": [None], "progress": 5}, "progress: is of type int; expected a function or None"),
+    ({"cameras": [None], "time": [0, 1]}, "time: has 2 values; expected one per camera, 1"),
+])
+def test_wrong_arguments_of_batches_are_reported(quads, arguments, words):
+    for batch in (quads.render_batch, quads.label_batch):
+        with pytest.raises(halfspace.InputError) as error:
+            batch(size=SIZE, **arguments)
+        assert str(error.value).startswith(words)
+
+
+def test_cameras_and_times_may_be_iterators(quads):
+    cameras = [look_down_z(d) for d in (3.5, 4)]
+    expected = quads.render_batch(cameras, size=SIZE)
+    assert np.array_equal(quads.render_batch((camera for camera in cameras), size=SIZE, time=(t for t in (0.0, 1.0))), expected)
+
+
+def test_labels_without_color_do_not_need_light():
+    """A warning is an error in this suite."""
+    scene = halfspace.Scene(lighting="none")
+    scene.add(halfspace.Mesh(*QUAD))
+    depth = scene.labels(["depth"], size=SIZE, camera=look_down_z())["depth"]
+    batch = scene.label_batch([look_down_z()] * 2, ["depth", "albedo"], size=SIZE)
+    assert np.array_equal(batch["depth"][1], depth)
+    with pytest.warns(halfspace.RenderWarning, match="nothing lights the scene"):
+        labels = scene.labels(size=SIZE, camera=look_down_z())
+    assert np.array_equal(labels["depth"], depth) and np.array_equal(labels["albedo"], batch["albedo"][0])
+
+
+def test_lights_and_shadows_do_not_change_labels():
+    scene = halfspace.Scene.load("shadow-knot")
+    color = scene.labels(size=SIZE)
+    values = scene.labels([name for name in halfspace.LABELS if name != "color"], size=SIZE)
+    assert all(np.array_equal(color[name], values[name]) for name in values)
+
+
+def test_colors_are_pictures(quads):
+    labels = quads.labels(["color"], size=SIZE, camera=look_down_z(), alpha=True)
+    expected = quads.render(SIZE, camera=look_down_z(), alpha=True)
+    assert labels["color"].shape == (30, 40, 4) and np.array_equal(labels["color"], expected)
+    batch = quads.label_batch([look_down_z()] * 2, ["color"], size=SIZE, alpha=True)["color"]
+    assert np.array_equal(batch[1], expected)
+    pictures = quads.render_batch([look_down_z()] * 2, size=SIZE)
+    opaque = quads.labels(["color"], size=SIZE, camera=look_down_z())["color"]
+    for picture in (opaque, labels["color"], batch[0], pictures[1], quads.label_batch([None], ["color"], size=SIZE)["color"][0]):
+        assert picture.flags.c_contiguous and picture._repr_png_().startswith(b"\x89PNG")
+    assert pictures._repr_png_() is None
 
 
 def test_face_ids_match_the_given_faces():

@@ -240,8 +240,8 @@ def test_the_extension_is_chosen_by_the_processor(tmp_path):
     (tmp_path / "cpuinfo").write_text("processor : 0\nflags\t\t: fpu avx2 movbe\n")
     assert sets.processor_flags(tmp_path / "cpuinfo") == {"fpu", "avx2", "movbe"}
     assert sets.processor_flags(tmp_path / "missing") is None
-    with pytest.raises(ImportError, match="/proc/cpuinfo cannot be read; expected"):
-        sets.extension_folder(str(tmp_path), None)
+    with pytest.warns(RuntimeWarning, match="/proc/cpuinfo cannot be read; the extension for x86-64-v3 is used"):
+        assert sets.extension_folder(str(tmp_path), None) == str(tmp_path / "x86-64-v3")
     assert sets.processor_flags()
 
 
@@ -256,3 +256,34 @@ def test_an_extension_in_a_folder_is_imported(tmp_path):
     code = "import halfspace; print(halfspace._core.__file__, halfspace.render('moon', size=(8, 8)).shape)"
     out = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, env={**os.environ, "PYTHONPATH": str(tmp_path)})
     assert out.stdout.startswith(str(package / "x86-64-v3")) and "(8, 8, 3)" in out.stdout
+
+
+def run(code, **more):
+    return subprocess.run([sys.executable, "-W", "error", "-c", code], check=True, capture_output=True, text=True, **more).stdout.split()
+
+
+def test_draw_is_a_part_of_the_package():
+    assert run("import halfspace; print(halfspace.draw.Pass.__name__)") == ["Pass"]
+
+
+def test_a_scene_can_be_made_without_a_current_folder(tmp_path):
+    code = "import os; os.rmdir(os.getcwd()); import halfspace; print(halfspace.Scene().render((4, 4)).shape[0])"
+    assert run(code, cwd=tmp_path, env={**os.environ, "PYTHONPATH": os.path.dirname(os.path.dirname(halfspace.__file__))}) == ["4"]
+
+
+def test_the_folder_of_the_decoders_can_be_set(tmp_path):
+    halfspace.render("moon", size=(16, 16)).save(tmp_path / "map.jpg")
+    code = f"""
+import halfspace
+def works():
+    try:
+        return halfspace.render("earth", size=(4, 4), set={{"earth.color": {str(tmp_path / "map.jpg")!r}}}).size == 48
+    except halfspace.InputError:
+        return False
+print(works())
+halfspace.set_tool_folder({str(tmp_path)!r})
+print(works())
+halfspace.set_tool_folder("")
+print(works())
+"""
+    assert run(code) == ["True", "False", "True"]

@@ -132,3 +132,35 @@ def test_pictures_can_be_displayed_and_saved(tmp_path):
     with pytest.raises(halfspace.OutputError) as error:
         picture.save(tmp_path / "file" / "picture.png")
     assert isinstance(error.value, OSError)
+
+
+@pytest.mark.parametrize("size", [(2048, 1), (1, 2048)])
+def test_any_aspect_ratio_matches_the_command_line(command_line, size):
+    path = command_line("moon", "--size", f"{size[0]}x{size[1]}")
+    assert same_bytes(halfspace.render("moon", size=size), path)
+
+
+def test_a_camera_can_be_given_by_name(command_line):
+    path = command_line("moon", "--size", "160x90", "--set", "camera=terminator")
+    scene = halfspace.Scene.load("moon")
+    assert same_bytes(scene.render(SMALL, camera="terminator"), path)
+    assert same_bytes(scene.render_batch([None, "terminator"], size=SMALL)[1], path)
+    assert same_bytes(scene.labels(["color"], size=SMALL, camera="terminator")["color"], path)
+    assert same_bytes(next(scene.frames(1, size=SMALL, camera="terminator")), path)
+    scene.camera = "terminator"
+    assert same_bytes(scene.render(SMALL), path)
+    with pytest.raises(halfspace.InputError, match="^camera: no camera 'nope' in this scene; expected one of whole, terminator$"):
+        scene.render(SMALL, camera="nope")
+
+
+def test_a_named_camera_moves_with_the_animation():
+    scene = halfspace.Scene.load("moon")
+    scene.merge({"cameras": {"moving": {"position": [0, 0, 4]}},
+                 "animations": {"back": {"type": "rate", "target": "moving.position", "rate": [0, 0, 4]}}})
+    first, last = scene.frames([0, 30], size=SMALL, fps=30, camera="moving")
+    batch = scene.render_batch(["moving"] * 2, size=SMALL, time=[0, 1])
+    assert np.array_equal(batch[0], first) and np.array_equal(batch[1], last) and not np.array_equal(first, last)
+
+
+def test_errors_have_docstrings():
+    assert "argument" in halfspace.InputError.__doc__ and "written" in halfspace.OutputError.__doc__
