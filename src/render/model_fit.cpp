@@ -5,12 +5,14 @@
 #include <cmath>
 
 #include "halfspace/core/check.h"
+#include "halfspace/core/float_mode.h"
 #include "halfspace/core/trig_double.h"
 #include "halfspace/core/units.h"
 
 namespace halfspace {
 
 ModelBounds bounds_of(const PosedModel& posed, const std::filesystem::path& file) {
+  const FloatMode float_mode;
   if (!(posed.low.x <= posed.high.x)) throw InputError(file.string() + ": has nothing to draw; expected a scene with at least one mesh");
   ModelBounds b{0.5 * (posed.low + posed.high), 0.5 * (posed.high - posed.low), 0.0};
   b.radius = glm::length(b.half);
@@ -85,6 +87,7 @@ FittedView fitted_for_turntable(const Model& model, const PosedModel& posed, con
 }  // namespace
 
 FittedView fitted_view(const Model& model, const PosedModel& posed, const ModelBounds& b, const ModelView& view) {
+  const FloatMode float_mode;
   return view.turn_seconds > 0.0 ? fitted_for_turntable(model, posed, b, view) : fitted(model, posed, b, eye_direction(view), view);
 }
 
