@@ -136,6 +136,7 @@ function(halfspace_pkg_config module requires libraries)
   if(module STREQUAL "core")
     get_target_property(options halfspace_flags INTERFACE_COMPILE_OPTIONS)
     get_target_property(definitions halfspace_flags INTERFACE_COMPILE_DEFINITIONS)
+    list(FILTER options EXCLUDE REGEX "[$]<")  # flags that not every compiler knows
     list(TRANSFORM definitions PREPEND -D)
     list(JOIN options " " options)
     list(JOIN definitions " " definitions)
