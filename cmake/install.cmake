@@ -35,6 +35,9 @@ function(halfspace_library_properties name)
       SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR} INSTALL_RPATH $ORIGIN DEFINE_SYMBOL ""
       LINK_DEPENDS ${halfspace_SOURCE_DIR}/cmake/exports.map)
     target_link_options(halfspace_${name} PRIVATE LINKER:--version-script=${halfspace_SOURCE_DIR}/cmake/exports.map)
+  elseif(NOT BUILD_SHARED_LIBS)
+    # A shared object that contains this library, such as an extension module of Python, does not export its functions.
+    set_target_properties(halfspace_${name} PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
   endif()
   if(HALFSPACE_INSTALL AND name IN_LIST halfspace_modules)
     install(TARGETS halfspace_${name} EXPORT halfspace-${name} COMPONENT dev
