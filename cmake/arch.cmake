@@ -3,7 +3,7 @@
 # Rendered pixels are bit-identical for all instruction sets except x86-64-v2, which has no fma instruction and does not guarantee this.
 #
 # halfspace_flags contains the flags that every translation unit needs that includes a Halfspace header; consumers inherit it from the
-# libraries. Warnings and the macros that restrict GLM are directory options, so they apply only to our own sources.
+# libraries. All other flags are directory options, so they apply only to our own sources.
 
 set(HALFSPACE_ARCH native CACHE STRING "native, x86-64-v2, x86-64-v3 or x86-64-v4")
 set_property(CACHE HALFSPACE_ARCH PROPERTY STRINGS native x86-64-v2 x86-64-v3 x86-64-v4)
@@ -62,9 +62,8 @@ set_target_properties(halfspace_flags PROPERTIES EXPORT_NAME flags)
 target_compile_features(halfspace_flags INTERFACE cxx_std_20)
 set(HALFSPACE_BUILD_LANES ${lanes})
 target_compile_definitions(halfspace_flags INTERFACE HALFSPACE_LANES=${lanes})
-# Contraction of a*b + c would make results depend on the compiler; errno only costs time. -Wno-psabi suppresses a note that g++ prints
-# wherever wide vectors are passed by value.
-set(halfspace_common_options -ffp-contract=off -fno-math-errno -Wno-psabi)
+# Contraction of a*b + c would make results depend on the compiler.
+set(halfspace_common_options -ffp-contract=off)
 target_compile_options(halfspace_flags INTERFACE -march=${HALFSPACE_ARCH} ${halfspace_common_options})
 # Gives a program the include path and the options of halfspace_flags, but another instruction set. It must not link halfspace_flags, whose
 # -march would follow this one and override it.
@@ -73,20 +72,28 @@ function(halfspace_set_arch target arch)
   target_compile_features(${target} PRIVATE cxx_std_20)
   target_compile_options(${target} PRIVATE -march=${arch} ${halfspace_common_options})
 endfunction()
+
+# Copy vectors as a whole. When tuning for x86-64-v3 and many processors, g++ copies them in halves. A subsequent load of the whole vector
+# then stalls until both halves have left the store buffer. Shaders of consumers need these flags as well. An installation may be used with
+# another compiler, and only g++ 12 and later know them.
 if(arch_macros MATCHES "__AVX512F__")
-  target_compile_options(halfspace_flags INTERFACE -mprefer-vector-width=512)
   set(vector_bits 512)
 elseif(arch_macros MATCHES "__AVX__")
   set(vector_bits 256)
 else()
   set(vector_bits 128)
 endif()
-# Copy vectors as a whole. When tuning for x86-64-v3 and many processors, g++ 12 copies them in halves. A subsequent load of the whole
-# vector then stalls until both halves have left the store buffer.
-include(CheckCXXCompilerFlag)
-check_cxx_compiler_flag("-mmove-max=${vector_bits} -mstore-max=${vector_bits}" HALFSPACE_HAS_MOVE_MAX)
-if(HALFSPACE_HAS_MOVE_MAX)
-  target_compile_options(halfspace_flags INTERFACE -mmove-max=${vector_bits} -mstore-max=${vector_bits})
+set(has_move_max $<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_GREATER_EQUAL:$<CXX_COMPILER_VERSION>,12>>)
+target_compile_options(halfspace_flags INTERFACE
+  $<${has_move_max}:-mmove-max=${vector_bits}> $<${has_move_max}:-mstore-max=${vector_bits}>)
+
+# Options of our own sources. Results do not depend on them. errno of math functions only costs time. -Wno-psabi suppresses a note that g++
+# prints wherever vectors are passed by value that are wider than the registers. Macros such as __FILE__ contain paths relative to the source
+# tree, so that binaries do not name the folder they were built in. Unique symbols would keep a shared object loaded after dlclose().
+add_compile_options(-fno-math-errno -Wno-psabi -fmacro-prefix-map=${halfspace_SOURCE_DIR}/=
+  -fmacro-prefix-map=${halfspace_BINARY_DIR}/include/= $<$<CXX_COMPILER_ID:GNU>:-fno-gnu-unique>)
+if(arch_macros MATCHES "__AVX512F__")
+  add_compile_options(-mprefer-vector-width=512)
 endif()
 add_compile_options(-Wall -Wextra -Wpedantic -Wconversion -Wshadow)
 if(HALFSPACE_WERROR)

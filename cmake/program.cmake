@@ -28,7 +28,7 @@ function(halfspace_program name short)
     target_include_directories(${name} PRIVATE ${halfspace_BINARY_DIR}/include)
     target_compile_options(${name} PRIVATE -march=x86-64)
     target_compile_definitions(${name} PRIVATE HALFSPACE_LIBRARY="$<TARGET_SONAME_FILE_NAME:${library}>"
-      HALFSPACE_FUNCTION="halfspace_${short}_main" HALFSPACE_NEEDS="${needs}" HALFSPACE_ARCH="x86-64-v3" HALFSPACE_LANES=8)
+      HALFSPACE_FUNCTION="halfspace_${short}_main" HALFSPACE_NEEDS="${needs}" HALFSPACE_ARCH="x86-64-v3" HALFSPACE_LANES=8 HALFSPACE_PORTABLE)
     target_link_libraries(${name} PRIVATE ${CMAKE_DL_LIBS})
     set_target_properties(${name} PROPERTIES BUILD_RPATH $ORIGIN UNITY_BUILD OFF)
     install(TARGETS ${library} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/${folder} COMPONENT isa NAMELINK_SKIP)

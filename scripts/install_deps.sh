@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
 # Installs the packages that halfspace needs to build (Debian 12 and 13, Ubuntu 24.04). Does nothing if all are installed.
 #
-#   scripts/install_deps.sh [--tests | --benchmarks] [--view]
-#     --tests       also installs the packages that the tests need, including matplotlib for charts
-#     --benchmarks  also installs the packages that scripts/bench.sh needs
-#     --view        also installs the packages that halfspace-view and the tests of its window and of web pages need
+#   scripts/install_deps.sh [--tests | --benchmarks] [--view] [--package=NAME]...
+#     --tests         also installs the packages that the tests need, including matplotlib for charts
+#     --benchmarks    also installs the packages that scripts/bench.sh needs
+#     --view          also installs the packages that halfspace-view and the tests of its window and of web pages need
+#     --package=NAME  also installs this package
 set -euo pipefail
 
 packages=(g++ cmake ninja-build libglm-dev libtbb-dev libopenimageio-dev libopenexr-dev libjpeg-dev libspng-dev libcli11-dev nlohmann-json3-dev
@@ -20,7 +21,8 @@ for argument in "$@"; do
     --tests) packages+=("${test_packages[@]}" "${document_packages[@]}") ;;
     --benchmarks) packages+=("${test_packages[@]}" "${document_packages[@]}" "${benchmark_packages[@]}") ;;
     --view) packages+=("${view_packages[@]}") ;;
-    *) echo "install_deps.sh: unknown argument '$argument'; expected --tests, --benchmarks, --view or nothing" >&2; exit 2 ;;
+    --package=?*) packages+=("${argument#--package=}") ;;
+    *) echo "install_deps.sh: unknown argument '$argument'; expected --tests, --benchmarks, --view, --package=NAME or nothing" >&2; exit 2 ;;
   esac
 done
 

@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "bindings.h"
+#include "halfspace/core/float_mode.h"
 #include "matrices.h"
 #include "scene_core.h"
 #include "shots.h"
@@ -18,7 +19,7 @@ namespace halfspace::python {
 
 namespace {
 
-using Release = py::call_guard<py::gil_scoped_release>;
+using Release = py::call_guard<py::gil_scoped_release, FloatMode>;
 
 /// How pixels are returned: 8-bit sRGB values with 3 or 4 channels, or linear light.
 enum class PixelKind { rgb, rgba, light };

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Lifetimes, threads, processes, memory use and import time."""
 
+import ctypes
 import gc
 import multiprocessing
 import os
@@ -216,6 +217,23 @@ def test_meshes_that_are_removed_leak_nothing():
     render(200)
     gc.collect()
     assert resident_bytes() - before < 8 << 20  # 200 meshes need 30 MB
+
+
+def test_the_rounding_mode_of_the_process_has_no_effect():
+    """Uses the values of <fenv.h> on x86-64."""
+    libm = ctypes.CDLL("libm.so.6")
+    scene = ball_scene()
+    expected = [halfspace.render("moon", size=(64, 36)), scene.render((64, 48)), *scene.labels(size=(64, 48)).values()]
+    for mode in (0x400, 0x800, 0xC00):  # FE_DOWNWARD, FE_UPWARD, FE_TOWARDZERO
+        libm.fesetround(mode)
+        try:
+            actual = [halfspace.render("moon", size=(64, 36)), scene.render((64, 48)), *scene.labels(size=(64, 48)).values()]
+            after = libm.fegetround()
+        finally:
+            libm.fesetround(0)
+        assert after == mode
+        for a, b in zip(expected, actual):
+            np.testing.assert_array_equal(a, b)
 
 
 def test_import_is_fast():

@@ -64,9 +64,11 @@ constexpr Feature kFeatures[] = {
     {"AVX512FP16", "512FP16", 7, 0, Register::edx, 23, kZmm},
 };
 
+#ifndef HALFSPACE_PORTABLE
 // Features required by x86-64-v2 and v3, used to name a build that would run on this processor.
 constexpr char kLevel2[] = " SSE3 SSSE3 SSE4_1 SSE4_2 POPCNT ";
 constexpr char kLevel3[] = " SSE3 SSSE3 SSE4_1 SSE4_2 POPCNT AVX AVX2 BMI BMI2 F16C FMA LZCNT MOVBE ";
+#endif
 
 // Returns the low half of XCR0, the register state that the operating system saves; 0 if XGETBV is unavailable.
 unsigned saved_state() {
@@ -140,6 +142,9 @@ const char* missing_cpu_features() noexcept {
     line.text[line.size = before] = '\0';
   }
   line.add(", which this processor does not support; ");
+#ifdef HALFSPACE_PORTABLE  // whoever installed a package cannot rebuild it
+  line.add("packages of halfspace need a processor with x86-64-v3");
+#else
   if (runs(kLevel3, state)) {
     line.add("rebuild with -DHALFSPACE_ARCH=x86-64-v3");
   } else if (runs(kLevel2, state)) {
@@ -147,6 +152,7 @@ const char* missing_cpu_features() noexcept {
   } else {
     line.add("halfspace needs a processor with at least x86-64-v2");
   }
+#endif
   return line.text;
 }
 

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "halfspace/core/check.h"
+#include "halfspace/core/float_mode.h"
 #include "halfspace/core/trig_double.h"
 #include "halfspace/core/vec.h"
 
@@ -50,6 +51,7 @@ glm::dmat4 orthographic(double height, double aspect, double a, double b) {
 }  // namespace
 
 glm::dmat4 look_at(const glm::dvec3& eye, const glm::dvec3& target, const glm::dvec3& up) {
+  const FloatMode float_mode;
   const glm::dvec3 back = checked_unit(eye - target);
   const glm::dvec3 right = checked_unit(glm::cross(up, back));
   const glm::dvec3 true_up = glm::cross(back, right);
@@ -65,6 +67,7 @@ glm::dmat4 look_at(const glm::dvec3& eye, const glm::dvec3& target, const glm::d
 
 // Clip depth a·z + b must equal −w at z = −near and w at z = −far, where w = −z.
 glm::dmat4 perspective_gl(double fovy, double aspect, double near, double far) {
+  const FloatMode float_mode;
   HS_CHECK_OP(near, >, 0.0);
   HS_CHECK_OP(near, <, far);
   HS_CHECK_OP(far, <, std::numeric_limits<double>::infinity());
@@ -73,6 +76,7 @@ glm::dmat4 perspective_gl(double fovy, double aspect, double near, double far) {
 
 // Clip depth must equal w at z = −near and 0 at z = −far. The limit for an infinite far plane is a = 0, b = near.
 glm::dmat4 perspective_reversed(double fovy, double aspect, double near, double far) {
+  const FloatMode float_mode;
   HS_CHECK_OP(near, >, 0.0);
   HS_CHECK_OP(near, <, far);
   if (std::isinf(far)) return perspective(fovy, aspect, 0.0, near);
@@ -80,16 +84,19 @@ glm::dmat4 perspective_reversed(double fovy, double aspect, double near, double 
 }
 
 glm::dmat4 orthographic_gl(double height, double aspect, double near, double far) {
+  const FloatMode float_mode;
   HS_CHECK_OP(near, <, far);
   return orthographic(height, aspect, -2.0 / (far - near), -(far + near) / (far - near));
 }
 
 glm::dmat4 orthographic_reversed(double height, double aspect, double near, double far) {
+  const FloatMode float_mode;
   HS_CHECK_OP(near, <, far);
   return orthographic(height, aspect, 1.0 / (far - near), far / (far - near));
 }
 
 glm::mat3 normal_matrix(const glm::dmat4& world_from_object) {
+  const FloatMode float_mode;
   return glm::mat3(glm::transpose(glm::inverse(glm::dmat3(world_from_object))));
 }
 

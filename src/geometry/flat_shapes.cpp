@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "halfspace/core/check.h"
+#include "halfspace/core/float_mode.h"
 #include "halfspace/geometry/shapes.h"
 
 namespace halfspace {
@@ -50,6 +51,7 @@ void add_face(SurfaceMesh& mesh, double h, const Face& face, int segments, bool 
 }  // namespace
 
 Mesh plane(float size, int segments, const Displacement* displacement) {
+  const FloatMode float_mode;
   HS_CHECK_OP(size, >, 0.0f);
   HS_CHECK_OP(segments, >=, 1);
   SurfaceMesh mesh(displacement);
@@ -58,6 +60,7 @@ Mesh plane(float size, int segments, const Displacement* displacement) {
 }
 
 Mesh cube(float size, int segments, const Displacement* displacement) {
+  const FloatMode float_mode;
   HS_CHECK_OP(size, >, 0.0f);
   HS_CHECK_OP(segments, >=, 1);
   SurfaceMesh mesh(displacement);

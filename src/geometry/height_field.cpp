@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "halfspace/core/check.h"
+#include "halfspace/core/float_mode.h"
 #include "halfspace/core/lane_math.h"
 #include "halfspace/core/trig_double.h"
 
@@ -170,6 +171,7 @@ SplineWeights spline_weights(double t) {
 }  // namespace
 
 HeightField::HeightField(const Image<float>& map, double smoothing, const Workers& workers, MapEdges edges) : edges_(edges) {
+  const FloatMode float_mode;
   HS_CHECK_OP(map.width(), >=, 2);
   HS_CHECK_OP(map.height(), >=, 1);
   HS_CHECK_OP(smoothing, >=, 0.0);
@@ -258,6 +260,7 @@ HeightSample HeightField::at(double u, double v) const {
 }
 
 HeightField HeightField::filtered(int max_width, const Workers& workers) const {
+  const FloatMode float_mode;
   HS_CHECK_OP(max_width, >=, 2);
   if (width() <= max_width) return *this;
   const int to_width = max_width / 2 * 2;

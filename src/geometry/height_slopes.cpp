@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "halfspace/core/float_mode.h"
+
 namespace halfspace {
 
 namespace {
@@ -23,6 +25,7 @@ Neighbors neighbors(int i, int size, Wrap wrap) {
 }  // namespace
 
 Image<glm::vec4> height_slopes(const Image<float>& heights, Wrap wrap_s, Wrap wrap_t) {
+  const FloatMode float_mode;
   const int width = heights.width(), height = heights.height();
   Image<glm::vec4> slopes(width, height);
   for (int y = 0; y < height; ++y) {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "halfspace/core/check.h"
+#include "halfspace/core/float_mode.h"
 #include "halfspace/core/lane_math.h"
 #include "halfspace/geometry/double_vectors.h"
 #include "halfspace/geometry/shapes.h"
@@ -167,6 +168,7 @@ class Icosphere {
 }  // namespace
 
 Mesh icosphere(int level, float radius, const Displacement* displacement) {
+  const FloatMode float_mode;
   HS_CHECK_OP(level, >=, 0);
   HS_CHECK_OP(radius, >, 0.0f);
   return Icosphere(level, static_cast<double>(radius), displacement).make();

@@ -3,9 +3,12 @@
 
 #include <cmath>
 
+#include "halfspace/core/float_mode.h"
+
 namespace halfspace {
 
 Image<glm::u8vec4> normal_map(const Image<float>& heights, double strength, MapEdges edges, const Workers& workers) {
+  const FloatMode float_mode;
   const HeightField field(heights, 0.0, workers, edges);
   const int width = heights.width(), height = heights.height();
   Image<glm::u8vec4> map(width, height);

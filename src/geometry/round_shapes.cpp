@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "halfspace/core/check.h"
+#include "halfspace/core/float_mode.h"
 #include "halfspace/geometry/shapes.h"
 
 namespace halfspace {
@@ -91,6 +92,7 @@ void check_counts(int bands, int sectors, int min_bands) {
 }  // namespace
 
 Mesh cylinder(float radius, float length, int bands, int sectors, const Displacement* displacement) {
+  const FloatMode float_mode;
   HS_CHECK_OP(radius, >, 0.0f);
   HS_CHECK_OP(length, >, 0.0f);
   check_counts(bands, sectors, 1);
@@ -118,6 +120,7 @@ Mesh cylinder(float radius, float length, int bands, int sectors, const Displace
 }
 
 Mesh cone(float radius, float length, int bands, int sectors, const Displacement* displacement) {
+  const FloatMode float_mode;
   HS_CHECK_OP(radius, >, 0.0f);
   HS_CHECK_OP(length, >, 0.0f);
   check_counts(bands, sectors, 1);
@@ -145,6 +148,7 @@ Mesh cone(float radius, float length, int bands, int sectors, const Displacement
 }
 
 Mesh torus(float radius, float tube, int bands, int sectors, const Displacement* displacement) {
+  const FloatMode float_mode;
   HS_CHECK_OP(tube, >, 0.0f);
   HS_CHECK_OP(radius, >, tube);
   check_counts(bands, sectors, 3);

@@ -2,6 +2,7 @@
 #include "halfspace/geometry/shapes.h"
 
 #include "halfspace/core/check.h"
+#include "halfspace/core/float_mode.h"
 
 namespace halfspace {
 
@@ -39,6 +40,7 @@ SphereFrame sphere_frame(const SinCosDouble& two_pi_u, const SinCosDouble& pi_v)
 }
 
 Mesh uv_sphere(int latitudes, int longitudes, float radius) {
+  const FloatMode float_mode;
   HS_CHECK_OP(latitudes, >=, 2);
   HS_CHECK_OP(longitudes, >=, 3);
   HS_CHECK_OP(radius, >, 0.0f);

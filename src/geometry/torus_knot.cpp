@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "halfspace/core/check.h"
+#include "halfspace/core/float_mode.h"
 #include "halfspace/geometry/shapes.h"
 
 namespace halfspace {
@@ -47,6 +48,7 @@ Along along(double radius, double u) {
 }  // namespace
 
 Mesh torus_knot(float radius, float tube, int bands, int sectors, const Displacement* displacement) {
+  const FloatMode float_mode;
   HS_CHECK_OP(tube, >, 0.0f);
   HS_CHECK_OP(radius, >, tube);
   HS_CHECK_OP(bands, >=, 3);

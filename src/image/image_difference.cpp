@@ -9,6 +9,7 @@
 #include <numbers>
 #include <vector>
 
+#include "halfspace/core/float_mode.h"
 #include "halfspace/core/lane_math.h"
 #include "halfspace/core/srgb_curve.h"
 
@@ -103,6 +104,7 @@ int compared_channels(const Image<Texel>& a, const Image<Texel>& b) {
 
 template <class Texel>
 ImageDifference compare(const Image<Texel>& a, const Image<Texel>& b) {
+  const FloatMode float_mode;
   HS_CHECK(!a.empty());
   ImageDifference d;
   d.channels = compared_channels(a, b);
@@ -134,6 +136,7 @@ ImageDifference compare(const Image<Texel>& a, const Image<Texel>& b) {
 
 template <class Texel>
 Image<float> map_of(const Image<Texel>& a, const Image<Texel>& b) {
+  const FloatMode float_mode;
   const int channels = compared_channels(a, b);
   Image<float> out(a.width(), a.height());
   for (std::size_t i = 0; i < a.texels().size(); ++i)
@@ -159,6 +162,7 @@ Image<float> difference_map(const Image<glm::u8vec4>& a, const Image<glm::u8vec4
 Image<float> difference_map(const Image<glm::vec4>& a, const Image<glm::vec4>& b) { return map_of(a, b); }
 
 Image<glm::u8vec4> difference_colors(const Image<float>& differences) {
+  const FloatMode float_mode;
   Image<glm::u8vec4> out(differences.width(), differences.height());
   std::ranges::transform(differences.texels(), out.data(), heat);
   return out;

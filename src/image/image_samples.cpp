@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "halfspace/core/check.h"
+#include "halfspace/core/float_mode.h"
 #include "halfspace/core/half.h"
 #include "halfspace/core/lane_math.h"
 #include "halfspace/core/srgb.h"
@@ -98,10 +99,12 @@ GrayPicture first_channel(const ColorPicture& picture) {
 }
 
 Image<float> to_numbers(GrayPicture picture, const std::string& name) {
+  const FloatMode float_mode;
   return std::visit([&](auto&& image) { return numbers(std::move(image), name); }, std::move(picture));
 }
 
 Image<glm::vec4> to_linear(ColorPicture picture, bool premultiplied, const std::string& name) {
+  const FloatMode float_mode;
   return std::visit([&](auto&& image) { return linear(std::move(image), premultiplied, name); }, std::move(picture));
 }
 

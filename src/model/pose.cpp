@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "halfspace/core/check.h"
+#include "halfspace/core/float_mode.h"
 #include "halfspace/model/animation.h"
 #include "halfspace/model/deform.h"
 #include "halfspace/model/node_transform.h"
@@ -213,6 +214,7 @@ class Poser {
 }  // namespace
 
 PosedModel pose(const Model& model, const PoseOptions& options) {
+  const FloatMode float_mode;
   HS_CHECK(options.scene < static_cast<int>(model.scenes.size()));
   HS_CHECK(options.animation < static_cast<int>(model.animations.size()));
   HS_CHECK(options.variant < static_cast<int>(model.variants.size()) || options.variant < 0);

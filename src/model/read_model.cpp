@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "halfspace/core/check.h"
+#include "halfspace/core/float_mode.h"
 #include "halfspace/model/file_bytes.h"
 #include "halfspace/model/model.h"
 #include "halfspace/model/read_gltf.h"
@@ -78,6 +79,7 @@ std::vector<std::filesystem::path> files_of(const Model& model) {
 }
 
 Model read_model(const std::filesystem::path& file, const ReadModelOptions& options) {
+  const FloatMode float_mode;
   ReadModelOptions left = options;  // other models and images may be in memory
   left.max_memory = static_cast<std::size_t>(std::min<uint64_t>(options.max_memory, memory_left()));
   const std::vector<std::byte> bytes = file_bytes(file, left.max_memory);

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "halfspace/core/check.h"
+#include "halfspace/core/float_mode.h"
 #include "halfspace/core/trig_double.h"
 #include "halfspace/geometry/displaced_sphere.h"
 #include "halfspace/procedural/noise.h"
@@ -136,6 +137,7 @@ void put_heights(const Terrain& t, int x, std::span<float> row) {
 }  // namespace
 
 Image<float> procedural_earth_heights(int width, int height, const Workers& workers) {
+  const FloatMode float_mode;
   HS_CHECK_OP(width, >=, 1);
   HS_CHECK_OP(height, >=, 1);
   Image<float> map(width, height);
@@ -147,6 +149,7 @@ Image<float> procedural_earth_heights(int width, int height, const Workers& work
 }
 
 Image<glm::u8vec4> procedural_earth(int width, int height, const Workers& workers) {
+  const FloatMode float_mode;
   HS_CHECK_OP(width, >=, 1);
   HS_CHECK_OP(height, >=, 1);
   Image<glm::u8vec4> map(width, height);
@@ -158,6 +161,7 @@ Image<glm::u8vec4> procedural_earth(int width, int height, const Workers& worker
 }
 
 EarthMaps procedural_earth_maps(int width, int height, const Workers& workers) {
+  const FloatMode float_mode;
   HS_CHECK_OP(width, >=, 1);
   HS_CHECK_OP(height, >=, 1);
   EarthMaps maps{Image<glm::u8vec4>(width, height), Image<float>(width, height)};

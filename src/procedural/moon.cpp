@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "halfspace/core/check.h"
+#include "halfspace/core/float_mode.h"
 #include "halfspace/core/trig_double.h"
 #include "halfspace/procedural/craters.h"
 #include "halfspace/procedural/noise.h"
@@ -245,6 +246,7 @@ int octaves_of(int width) {
 }  // namespace
 
 MoonMaps procedural_moon(int width, const Workers& workers) {
+  const FloatMode float_mode;
   HS_CHECK_OP(width, >=, 2);
   HS_CHECK_OP(width % 2, ==, 0);
   const int height = width / 2;

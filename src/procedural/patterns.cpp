@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "halfspace/core/check.h"
+#include "halfspace/core/float_mode.h"
 #include "halfspace/core/hash.h"
 #include "halfspace/procedural/noise.h"
 #include "halfspace/procedural/palette.h"
@@ -203,6 +204,7 @@ void fill_row(PatternMaps& maps, Pattern pattern, int y) {
 }  // namespace
 
 PatternMaps procedural_pattern(Pattern pattern, int width, const Workers& workers) {
+  const FloatMode float_mode;
   HS_CHECK_OP(width, >=, 1);
   PatternMaps maps{Image<glm::u8vec4>(width, width), Image<glm::u8vec4>(width, width), Image<glm::u8vec4>(width, width),
                    Image<uint16_t>(width, width)};

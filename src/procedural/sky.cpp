@@ -6,6 +6,7 @@
 
 #include "halfspace/core/check.h"
 #include "halfspace/core/cube_map.h"
+#include "halfspace/core/float_mode.h"
 #include "halfspace/core/lane_math.h"
 #include "halfspace/procedural/noise.h"
 #include "halfspace/procedural/palette.h"
@@ -146,6 +147,7 @@ SkyFaces fill_faces(int size, const Light& light, const Workers& workers) {
 }  // namespace
 
 SkyFaces procedural_day_sky(int size, const DaySky& sky, const Workers& workers) {
+  const FloatMode float_mode;
   const Daylight day = daylight_of(sky.sun_ms.y);
   return fill_faces(
       size, [&](const Vec& d) { return day_light(d, sky, day); }, workers);
@@ -154,6 +156,7 @@ SkyFaces procedural_day_sky(int size, const DaySky& sky, const Workers& workers)
 SkyFaces procedural_studio(int size, const Workers& workers) { return fill_faces(size, studio_light, workers); }
 
 SkyFaces procedural_night_sky(int size, const NightSky& sky, const Workers& workers) {
+  const FloatMode float_mode;
   return fill_faces(
       size, [&](const Vec& d) { return night_light(d, sky); }, workers);
 }

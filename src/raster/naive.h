@@ -13,6 +13,7 @@
 #include <optional>
 #include <vector>
 
+#include "halfspace/core/float_mode.h"
 #include "halfspace/core/image.h"
 #include "halfspace/raster/detail/naive_steps.h"
 #include "halfspace/raster/draw_state.h"
@@ -174,6 +175,7 @@ void rasterize(NaiveTarget<R>& target, const S& shader, const std::array<const V
 /// no blending, no stencil test, no polygon offset and no instancing.
 template <class R, Shader S>
 void draw_naive(NaiveTarget<R>& target, const S& shader, const VertexView& vertices, const Indices& indices, const DrawState& state = {}) {
+  const FloatMode float_mode;
   static_assert(!kUsesPrimitiveId<S>, "draw_naive() does not support primitive ids");
   using V = typename S::template Varyings<R>;
   const Rect rect = state.viewport.value_or(Rect{0, 0, target.color.width(), target.color.height()});

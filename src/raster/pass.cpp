@@ -226,7 +226,6 @@ void PassState::add_vertex_tasks(std::size_t draw) {
 }
 
 void PassState::run_vertex_stage(std::span<VertexTask> tasks, const Workers& workers) {
-  const FloatMode mode;  // needed for place_draw() of large draws, which runs outside of tasks
   context_.shaded.resize(context_.draws.size());
   const auto begin_draw = [this](std::size_t draw) {
     place_draw(context_.draws[draw]);
@@ -296,6 +295,7 @@ std::size_t PassState::set_up_chunks(Plan& plan, std::size_t next, PassMemory& m
 }
 
 PassStatistics PassState::run(TileRunner& tiles, const Workers& workers) {
+  const FloatMode float_mode;
   Plan plan = std::exchange(plan_, {});
   PassStatistics statistics = std::move(plan.submitted);
   PassMemory memory = take_pass_memory();

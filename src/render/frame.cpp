@@ -5,6 +5,7 @@
 #include <tuple>
 #include <utility>
 
+#include "halfspace/core/float_mode.h"
 #include "halfspace/core/half.h"
 #include "halfspace/core/resource_limits.h"
 #include "halfspace/render/display.h"
@@ -267,6 +268,7 @@ bool wants_values(const FrameImages& i) {
 }
 
 PassStatistics render_frame(const PreparedScene& scene, const FrameImages& images, const Workers& workers) {
+  const FloatMode float_mode;
   const glm::ivec2 size = view_size(scene, images);
   const FrameRenderer renderer(scene, images.crop, size.x, size.y, workers, [&workers](Pass& pass) { return pass.run(workers); });
   PassStatistics statistics;
@@ -278,6 +280,7 @@ PassStatistics render_frame(const PreparedScene& scene, const FrameImages& image
 }
 
 double frame_exposure(const PreparedScene& scene, const Image<glm::vec4>& light, const Workers& workers) {
+  const FloatMode float_mode;
   const PostDescription post = display_of(scene);
   return post.auto_exposure ? automatic_exposure(post, light, workers) : post.exposure;
 }
@@ -285,11 +288,13 @@ double frame_exposure(const PreparedScene& scene, const Image<glm::vec4>& light,
 ToneMapping frame_tone(const PreparedScene& scene, double exposure) { return tone_of(display_of(scene), exposure); }
 
 PassStatistics render_with(const PreparedScene& scene, Image<glm::u8vec4>& picture, const Workers& workers, const PassRunner& run_pass) {
+  const FloatMode float_mode;
   const std::optional<ImageRect> whole;
   return FrameRenderer(scene, whole, scene.view.width_px, scene.view.height_px, workers, run_pass).render(picture);
 }
 
 void display_frame(const PreparedScene& scene, const Image<glm::vec4>& light, const FrameImages& images, const Workers& workers) {
+  const FloatMode float_mode;
   HS_CHECK(!images.crop && !wants_values(images));
   const glm::ivec2 size = view_size(scene, images);
   HS_CHECK(light.width() == size.x && light.height() == size.y);

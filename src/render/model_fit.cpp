@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "halfspace/core/check.h"
+#include "halfspace/core/float_mode.h"
 #include "halfspace/core/trig_double.h"
 #include "halfspace/core/units.h"
 
@@ -30,12 +31,14 @@ ModelPoses::ModelPoses(const Model& model, const PoseOptions& options, const std
 }
 
 PosedModel ModelPoses::at(double time) const {
+  const FloatMode float_mode;
   PoseOptions options = options_;
   options.time = time;
   return pose(model_, options);
 }
 
 ModelBounds bounds_of(const ModelPoses& poses, const std::filesystem::path& file) {
+  const FloatMode float_mode;
   glm::dvec3 low = poses.first().low, high = poses.first().high;
   poses.for_each([&](const PosedModel& posed) {
     low = glm::min(low, posed.low);
@@ -117,6 +120,7 @@ FittedView fitted_for_turntable(const ModelPoses& poses, const ModelBounds& b, c
 }  // namespace
 
 FittedView fitted_view(const ModelPoses& poses, const ModelBounds& b, const ModelView& view) {
+  const FloatMode float_mode;
   return view.turn_seconds > 0.0 ? fitted_for_turntable(poses, b, view) : fitted(poses, b, eye_direction(view), view);
 }
 

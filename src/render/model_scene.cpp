@@ -10,6 +10,7 @@
 #include <set>
 
 #include "halfspace/core/check.h"
+#include "halfspace/core/float_mode.h"
 #include "halfspace/core/units.h"
 #include "halfspace/model/pose.h"
 #include "halfspace/render/model_fit.h"
@@ -208,6 +209,7 @@ UpAxis up_axis_of(const Model& model, const std::string& name) { return name == 
 }  // namespace
 
 GeneratedScene model_scene(const std::filesystem::path& file, const ModelView& view) {
+  const FloatMode float_mode;
   Model contents = read_model(file, {.allow_outside = view.allow_outside});
   contents.up = up_axis_of(contents, view.up_axis);
   const std::string animation = animation_of(contents, view);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <variant>
 
+#include "halfspace/core/float_mode.h"
 #include "halfspace/render/naive_draws.h"
 #include "halfspace/scene/scene_paths.h"
 
@@ -39,6 +40,7 @@ std::string naive_obstacle(const PreparedScene& scene, const SceneDescription& d
 }
 
 void render_naive(const PreparedScene& scene, Image<glm::vec4>& light) {
+  const FloatMode float_mode;
   NaiveTarget<float> target(light.width(), light.height(), vec4<float>(scene.clear_color), 0.0f);
   draw_all_naive(
       target, scene, [](const auto& shader) -> const auto& { return shader; });

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "halfspace/core/check.h"
+#include "halfspace/core/float_mode.h"
 #include "halfspace/core/hash.h"
 #include "halfspace/core/trig_double.h"
 
@@ -99,6 +100,7 @@ double particle_radius(const ParticlesDescription& p) {
 }
 
 Particles make_particles(const ParticlesDescription& p) {
+  const FloatMode float_mode;
   Particles out;
   const auto count = static_cast<std::size_t>(p.count);
   out.centers_ws.reserve(count);

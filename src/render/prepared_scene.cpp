@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "halfspace/core/float_mode.h"
 #include "halfspace/core/trig_double.h"
 #include "halfspace/geometry/camera.h"
 #include "halfspace/render/preparation.h"
@@ -149,6 +150,7 @@ void SceneAssets::warn_of(const std::filesystem::path& file, const ModelAsset& m
 }
 
 PreparedScene SceneAssets::prepare(const SceneDescription& scene, int width, int height) {
+  const FloatMode float_mode;
   PreparedScene prepared = ScenePreparation(*this, scene, width, height).prepare();
   cache_.remove_unwanted();
   return prepared;

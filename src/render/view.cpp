@@ -7,6 +7,7 @@
 #include <string>
 
 #include "halfspace/core/check.h"
+#include "halfspace/core/float_mode.h"
 #include "halfspace/core/trig_double.h"
 #include "halfspace/core/units.h"
 #include "halfspace/geometry/camera.h"
@@ -77,6 +78,7 @@ void set_planes(CameraDescription& c, double a, double b) {
 }  // namespace
 
 CameraDescription matrix_camera(const CameraMatrices& matrices) {
+  const FloatMode float_mode;
   const glm::dmat4 &world = matrices.world_from_camera, &p = matrices.clip_from_camera;
   if (!is_finite_matrix(world) || !is_finite_matrix(p)) throw InputError("camera: a matrix is not finite; expected finite numbers");
   if (!is_rigid(world)) throw InputError("camera: the pose is not a rotation and a translation; expected a rigid transform");
@@ -98,6 +100,7 @@ CameraDescription matrix_camera(const CameraMatrices& matrices) {
 }
 
 View make_view(const CameraDescription& c, int width, int height) {
+  const FloatMode float_mode;
   if (c.matrices) return matrix_view(c, width, height);
   const double aspect = static_cast<double>(width) / height;
   const glm::dmat4 view = look_at(c.position, c.target, c.up);

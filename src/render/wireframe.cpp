@@ -5,6 +5,8 @@
 #include <array>
 #include <type_traits>
 
+#include "halfspace/core/float_mode.h"
+
 namespace halfspace {
 
 namespace {
@@ -50,6 +52,7 @@ glm::vec4 line_color(const glm::vec4& background) {
 }
 
 bool make_wireframe(PreparedScene& scene, const SceneDescription& description, HiddenLines hidden) {
+  const FloatMode float_mode;
   const auto colors = std::make_shared<const std::array<Palette, 2>>(
       std::array<Palette, 2>{Palette{line_color(scene.clear_color)}, Palette{scene.clear_color}});
   scene.assets.push_back(colors);

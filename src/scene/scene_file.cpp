@@ -11,6 +11,7 @@
 #include <set>
 
 #include "halfspace/core/check.h"
+#include "halfspace/core/float_mode.h"
 #include "halfspace/core/text.h"
 #include "halfspace/scene/animation.h"
 #include "halfspace/scene/scene_check.h"
@@ -253,6 +254,7 @@ void drop_foreign_keys(const Section& fields, Json& section) {
 }  // namespace
 
 SceneFile SceneFile::parse(std::string_view text, const std::string& source, const std::filesystem::path& directory) {
+  const FloatMode float_mode;
   SceneFile file;
   file.source_ = source;
   file.directory_ = directory;
@@ -262,6 +264,7 @@ SceneFile SceneFile::parse(std::string_view text, const std::string& source, con
 }
 
 SceneFile SceneFile::open(const std::string& name_or_file) {
+  const FloatMode float_mode;
   std::vector<std::string_view> names;
   for (const ShippedScene& scene : shipped_scenes()) {
     if (scene.name == name_or_file) return parse(scene.text, "scene " + name_or_file, {});
@@ -278,6 +281,7 @@ SceneFile SceneFile::open(const std::string& name_or_file) {
 }
 
 void SceneFile::set(std::span<const std::string> settings) {
+  const FloatMode float_mode;
   SceneFile next = *this;
   Json json = *json_;
   for (const std::string& setting : settings) {
@@ -304,6 +308,7 @@ void SceneFile::set(std::span<const std::string> settings) {
 }
 
 void SceneFile::merge(std::string_view patch, const std::string& source) {
+  const FloatMode float_mode;
   Json json = *json_;
   json.merge_patch(parse_json(patch, source));
   description_ = read_scene(json, source_, directory_);
@@ -311,6 +316,7 @@ void SceneFile::merge(std::string_view patch, const std::string& source) {
 }
 
 SceneDescription SceneFile::at(double seconds) const {
+  const FloatMode float_mode;
   const double time = description_.time.hours / 24.0 * description_.time.day + seconds * description_.animation.speed;
   SceneDescription scene = with_materials_at(time);
   for (const auto& [name, animation] : description_.animations) {

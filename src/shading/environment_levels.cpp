@@ -5,6 +5,7 @@
 
 #include "halfspace/core/check.h"
 #include "halfspace/core/cube_map.h"
+#include "halfspace/core/float_mode.h"
 #include "halfspace/core/trig_double.h"
 #include "halfspace/shading/environment.h"
 
@@ -126,6 +127,7 @@ Image<Texel> bordered(const Faces<Texel>& faces, int face) {
 
 template <class Texel>
 EnvironmentMap::EnvironmentMap(const Image<Texel>& panorama, TexelFormat format) : layout_(EnvironmentLayout::panorama) {
+  const FloatMode float_mode;
   for (const Image<Texel>& level : levels_of(panorama, format)) {
     images_.push_back(one_level(bordered(levels_ == 0 ? level : low_passed(level)), format));
     ++levels_;
@@ -134,6 +136,7 @@ EnvironmentMap::EnvironmentMap(const Image<Texel>& panorama, TexelFormat format)
 
 template <class Texel>
 EnvironmentMap::EnvironmentMap(const std::array<Image<Texel>, 6>& faces, TexelFormat format) : layout_(EnvironmentLayout::cube) {
+  const FloatMode float_mode;
   std::array<std::vector<Image<Texel>>, 6> chains;
   for (std::size_t f = 0; f < 6; ++f) {
     HS_CHECK_OP(faces[f].width(), ==, faces[0].width());

@@ -8,6 +8,7 @@
 
 #include "halfspace/core/check.h"
 #include "halfspace/core/cube_map.h"
+#include "halfspace/core/float_mode.h"
 #include "halfspace/core/trig_double.h"
 #include "halfspace/shading/ggx.h"
 
@@ -178,6 +179,7 @@ DirectionalReflectance<Real> integrated_reflectance(const std::vector<glm::vec3>
 }
 
 const Texture2D& reflectance_table() {
+  const FloatMode float_mode;
   static const Texture2D table = [] {
     Image<glm::vec4> image(kTableSize, kTableSize);
     for (int y = 0; y < kTableSize; ++y) {

@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cstring>
 
+#include "halfspace/core/float_mode.h"
 #include "halfspace/shading/texels.h"
 
 namespace halfspace {
@@ -77,6 +78,7 @@ Texture2D::Texture2D(std::span<const Image<glm::vec4>> levels, TexelFormat forma
 
 template <class Texel>
 void Texture2D::add_levels(std::span<const Image<Texel>> levels) {
+  const FloatMode float_mode;
   HS_CHECK_OP(levels.size(), >=, 1u);
   std::size_t size = 0;
   for (const Image<Texel>& level : levels) size += with_border(level.width(), level.height());
@@ -86,6 +88,7 @@ void Texture2D::add_levels(std::span<const Image<Texel>> levels) {
 
 template <class Texel>
 void Texture2D::add_chain(const Image<Texel>& base, const Workers* workers) {
+  const FloatMode float_mode;
   const std::size_t size = with_border(base.width(), base.height());
   texels_.reserve(words_of(size + size / 2, format_));
   add_level(base, workers);  // checks the size

@@ -18,9 +18,13 @@ import tempfile
 import unittest
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+import no_skips  # noqa: E402
+
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 LONG_TESTS = "HALFSPACE_LONG_TESTS" in os.environ
+CLANG = shutil.which("clang++")
 BUILD = COMPILER = TEMPORARY = PREFIX = None
 
 
@@ -169,6 +173,23 @@ class Package(unittest.TestCase):
             self.assertEqual(result.returncode == 0, links, result.stderr[-2000:])
         self.assertIn(f"lanes{other}::Pass", result.stderr)
 
+    def test_only_flags_that_all_compilers_know_are_passed_on(self):
+        """A project may use another compiler than the installation. Options that only some compilers know depend on the compiler's name."""
+        common = {"-ffp-contract=off", "-pthread"}
+        unknown = [flag for flag in package_flags() if flag not in common and not flag.startswith(("-march=", "-D", "-I"))]
+        self.assertEqual(unknown, [])
+        text = (LIBRARIES / "cmake" / "Halfspace" / "Halfspace-core.cmake").read_text()
+        options = re.search(r'INTERFACE_COMPILE_OPTIONS "(.*?)"', text)[1].replace("\\$", "$").split(";")
+        unknown = [o for o in options if o not in common and not o.startswith(("-march=", "$<$<AND:$<CXX_COMPILER_ID:GNU>,"))]
+        self.assertEqual(unknown, [])
+
+    @unittest.skipUnless(CLANG, "clang is not installed")
+    def test_clang_can_use_the_installation(self):
+        folder, result = configure(HERE, "clang", f"-DCMAKE_PREFIX_PATH={PREFIX}", f"-DCMAKE_CXX_COMPILER={CLANG}", "-DCOMPONENTS=raster")
+        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+        expect("cmake", "--build", folder)
+        self.assertIn("all pixels are as expected", expect(folder / "own_shader"))
+
     @unittest.skipUnless(LONG_TESTS and shutil.which("pkg-config"), "needs HALFSPACE_LONG_TESTS and pkg-config")
     def test_pkg_config(self):
         environment = {**os.environ, "PKG_CONFIG_PATH": str(LIBRARIES / "pkgconfig"), "LD_LIBRARY_PATH": str(LIBRARIES)}
@@ -217,6 +238,16 @@ class Host(unittest.TestCase):
     def test_fetch_content(self):
         self.configure("fetch", "-DFETCH=ON")
 
+    def test_modules_without_their_packages_are_left_out(self):
+        missing = [f"-DCMAKE_DISABLE_FIND_PACKAGE_{name}=ON" for name in ("fmt", "nlohmann_json", "JPEG", "OpenEXR")]
+        missing += [f"-D{name}=NOTFOUND" for name in ("SPNG_LIBRARY", "MESHOPTIMIZER_LIBRARY")]
+        self.configure("only-raster", "-DFETCH=ON", "-DONLY_RASTER=ON", *missing)
+
+    def test_nothing_is_installed_unless_asked(self):
+        folder = self.configure("python", "-DHALFSPACE_PYTHON=ON")
+        for script in (folder / "halfspace").rglob("cmake_install.cmake"):
+            self.assertNotIn("file(INSTALL", script.read_text(), script)
+
 
 def main():
     global BUILD, COMPILER, TEMPORARY, PREFIX, LIBRARIES, MODULES, TBB
@@ -228,7 +259,7 @@ def main():
         LIBRARIES = next(PREFIX.glob("lib*/**/pkgconfig")).parent
         MODULES = [p.stem.removeprefix("halfspace-") for p in (LIBRARIES / "pkgconfig").glob("*.pc")]
         TBB = ["-ltbb"] if "tbb" in (LIBRARIES / "pkgconfig" / "halfspace-core.pc").read_text() else []
-        return not unittest.main(argv=sys.argv[:1], exit=False).result.wasSuccessful()
+        return no_skips.main()
 
 
 if __name__ == "__main__":

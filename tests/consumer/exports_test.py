@@ -3,6 +3,7 @@
 """Compares the symbols that the shared libraries export with tests/consumer/exports.txt.
 
     exports_test.py FOLDER
+    exports_test.py --modules FILE...    extension modules of Python, which must not export functions of Halfspace
 
 FOLDER contains the libraries of a build with BUILD_SHARED_LIBS. With HALFSPACE_RENEW_EXPORTS=1, the file is written instead. Each line is
 the name of a function or variable, without parameters. The names of private functions must not appear in it.
@@ -29,7 +30,25 @@ def exported(library):
     return names
 
 
+def check_modules(files):
+    """Other modules in the process may contain Halfspace as well, in another version or for another instruction set."""
+    for file in map(Path, files):
+        lines = subprocess.run(["nm", "-D", "-C", "--defined-only", file], check=True, capture_output=True, text=True).stdout.splitlines()
+        names = {line.split(" ", 2)[2] for line in lines}
+        initializer = f"PyInit_{file.name.split('.')[0]}"
+        if initializer not in names:
+            sys.exit(f"exports_test.py: {file.name} does not export {initializer}")
+        # The other symbols of a module from outside the tree are up to its author.
+        extra = sorted(name for name in names if "halfspace" in name or file.name.startswith("_core") and name != initializer)
+        if extra:
+            sys.exit(f"{file.name} exports {len(extra)} names; expected only {initializer}:\n  " + "\n  ".join(extra[:20]))
+    print(f"{len(files)} modules export no functions of Halfspace")
+
+
 def main():
+    if sys.argv[1] == "--modules":
+        check_modules(sys.argv[2:])
+        return
     libraries = sorted(Path(sys.argv[1]).glob("libhalfspace-*-lanes*.so"))
     if not libraries:
         sys.exit(f"exports_test.py: no shared libraries of Halfspace in {sys.argv[1]}")

@@ -21,6 +21,9 @@ sys.dont_write_bytecode = True
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from png_rows import read_rows  # noqa: E402
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+import no_skips  # noqa: E402
+
 SKIPPED = 77  # ctest shows the test as skipped
 PROGRAMS = Path(".")
 WIDTH, HEIGHT = 320, 180
@@ -397,4 +400,4 @@ if __name__ == "__main__":
     if not (PROGRAMS / "halfspace-view").exists():
         print("window_test.py: skipped: halfspace-view is not built (Debian and Ubuntu: libsdl2-dev libimgui-dev)")
         sys.exit(SKIPPED)
-    unittest.main()
+    sys.exit(no_skips.main(sys.argv[1:]))

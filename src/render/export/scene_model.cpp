@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "halfspace/core/float_mode.h"
 #include "halfspace/core/trig_double.h"
 #include "halfspace/core/units.h"
 #include "halfspace/model/normals.h"
@@ -248,6 +249,7 @@ class SceneExporter {
 }  // namespace
 
 Model scene_model(SceneDescription scene, SceneAssets& assets) {
+  const FloatMode float_mode;
   scene.shadow.method = ShadowMethod::none;
   for (auto& [name, object] : scene.objects) {
     if (object.shape != Shape::sphere) continue;

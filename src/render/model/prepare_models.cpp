@@ -10,6 +10,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "halfspace/core/float_mode.h"
 #include "halfspace/render/particles.h"
 #include "halfspace/render/preparation.h"
 #include "halfspace/scene/lights.h"
@@ -281,6 +282,7 @@ FittedScene ScenePreparation::fit(const AllowedError& allowed) {
 }
 
 FittedScene SceneAssets::fit(const SceneDescription& scene, int width, int height, const AllowedError& allowed) {
+  const FloatMode float_mode;
   return ScenePreparation(*this, scene, width, height).fit(allowed);
 }
 
