@@ -8,11 +8,10 @@
 #include <memory>
 #include <vector>
 
+#include "halfspace/render/model_asset.h"
 #include "halfspace/scene/description.h"
 
 namespace halfspace {
-
-struct ModelAsset;
 
 /// Returns all files that the keys of a scene refer to, and the images of its models.
 std::vector<std::filesystem::path> input_files(SceneDescription scene,

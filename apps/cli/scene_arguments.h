@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-namespace halfspace {
+#include "halfspace/scene/scene_file.h"
 
-class SceneFile;
+namespace halfspace {
 
 /// Opens a scene by name or file name, or the default view of a model file, applies the settings, and selects a camera unless `camera` is
 /// empty. Throws UsageError and InputError.

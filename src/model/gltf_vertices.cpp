@@ -10,7 +10,7 @@
 #include "halfspace/model/normals.h"
 #include "halfspace/model/text_lines.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -190,4 +190,4 @@ void read_vertices(GltfAccessors& accessors, const GltfValue& primitive, std::si
   for (const GltfValue& target : targets) mesh.targets.push_back(read_target({accessors, target, count, subset}, mesh));
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

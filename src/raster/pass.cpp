@@ -13,7 +13,7 @@
 #include "halfspace/raster/tile/blend.h"
 #include "halfspace/raster/tile_worker.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -64,8 +64,6 @@ void check_rect(const Rect& r, int smallest) {
 }  // namespace
 
 namespace detail {
-
-inline namespace HS_LANES_NAMESPACE {
 
 class PassState {
  public:
@@ -336,8 +334,6 @@ void add_draw(PassState& state, const ShaderKernels& kernels, KeptShader shader,
 
 void set_post_step(PassState& state, PostStep post) { state.set_post_step(std::move(post)); }
 
-}  // namespace HS_LANES_NAMESPACE
-
 }  // namespace detail
 
 Pass::Pass(std::span<const ColorTarget> colors, int width, int height, const DepthTarget& depth, const PassOptions& options)
@@ -362,10 +358,6 @@ PassStatistics Pass::run(const Workers& workers) {
   return state_->run(tiles, workers);
 }
 
-inline namespace HS_LANES_NAMESPACE {
-
 PassStatistics run_with(Pass& pass, TileRunner& tiles, const Workers& workers) { return pass.state_->run(tiles, workers); }
 
-}  // namespace HS_LANES_NAMESPACE
-
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

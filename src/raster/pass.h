@@ -23,7 +23,7 @@
 #include "halfspace/raster/target.h"
 #include "halfspace/raster/vertex_input.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Options of a pass. Only `samples` and `supersample` affect the rendered image; the others affect speed and memory use.
 struct PassOptions {
@@ -43,8 +43,6 @@ struct PassOptions {
 };
 
 class TileRunner;
-
-inline namespace HS_LANES_NAMESPACE {
 
 /// A list of draws that render to the same attachments. draw() and draw_depth() record draws, and run() executes them. A Pass must only be
 /// used by one thread at a time.
@@ -131,6 +129,4 @@ class Pass {
   std::unique_ptr<detail::PassState> state_;
 };
 
-}  // namespace HS_LANES_NAMESPACE
-
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -9,7 +9,7 @@
 #include "halfspace/core/trig_double.h"
 #include "halfspace/core/units.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 ModelBounds bounds_of(const PosedModel& posed, const std::filesystem::path& file) {
   const FloatMode float_mode;
@@ -91,4 +91,4 @@ FittedView fitted_view(const Model& model, const PosedModel& posed, const ModelB
   return view.turn_seconds > 0.0 ? fitted_for_turntable(model, posed, b, view) : fitted(model, posed, b, eye_direction(view), view);
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

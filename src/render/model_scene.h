@@ -12,7 +12,7 @@
 
 #include "halfspace/render/model_asset.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// How a model is shown. The default is a view from the front right and above that shows the whole model.
 struct ModelView {
@@ -46,4 +46,4 @@ bool is_model_file(const std::filesystem::path& file);
 /// if it has none, a key light with a soft shadow. Throws InputError.
 GeneratedScene model_scene(const std::filesystem::path& file, const ModelView& view);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

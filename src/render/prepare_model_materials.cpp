@@ -10,7 +10,7 @@
 #include "halfspace/image/image_io.h"
 #include "halfspace/render/preparation.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -151,4 +151,4 @@ MetallicMaterial ScenePreparation::metallic_material(const ObjectDescription& o,
   return out;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -12,7 +12,7 @@
 #include "halfspace/core/trig_double.h"
 #include "halfspace/shading/ggx.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -214,4 +214,4 @@ template DirectionalReflectance<RealN<8>> directional_reflectance(RealN<8>, Real
 template DirectionalReflectance<RealN<16>> directional_reflectance(RealN<16>, RealN<16>);
 template DirectionalReflectance<FragmentReal> directional_reflectance(FragmentReal, FragmentReal);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -11,7 +11,7 @@
 #include "halfspace/image/image_io.h"
 #include "halfspace/image/png.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -152,4 +152,4 @@ void pack_maps(Model& model) {
   for (ModelMaterial& material : model.materials) packer.pack(material);
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE
