@@ -7,11 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "halfspace/render/prepared_scene.h"
 #include "workload.h"
 
 namespace halfspace {
-
-struct PreparedScene;
 
 /// The workloads of a model file, which differ in the number of samples per pixel.
 struct ModelRow {

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-namespace halfspace {
+#include "halfspace/render/opened_scene.h"
+#include "halfspace/scene/scene_file.h"
 
-struct OpenedScene;
-class SceneFile;
+namespace halfspace {
 
 /// Applies the settings to a scene and selects a camera unless `camera` is empty. Throws UsageError and InputError.
 void set_scene(SceneFile& scene, const std::vector<std::string>& settings, const std::string& camera);

@@ -9,13 +9,12 @@
 #include <string>
 
 #include "halfspace/core/image.h"
+#include "halfspace/render/opened_scene.h"
 #include "halfspace/render/prepared_scene.h"
 #include "view/overlay.h"
 #include "view/picked_pixel.h"
 
 namespace halfspace {
-
-struct OpenedScene;
 
 /// Selects the resolution of frames.
 class CoarseControl {

@@ -11,7 +11,7 @@
 
 #include "halfspace/core/lanes.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace detail {
 
@@ -93,4 +93,4 @@ HS_INLINE constexpr auto tie_fields(T& t) {
   }
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -7,7 +7,7 @@
 #include <cstring>
 #include <new>
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -45,4 +45,4 @@ void free_lines(void* memory, std::size_t bytes) noexcept {
   }
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -8,7 +8,9 @@
 #include <type_traits>
 #include <utility>
 
-namespace halfspace {
+#include "halfspace/core/namespace.h"
+
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Allocates zeroed memory that starts on a cache line boundary, so that code can write whole lines. Blocks of 4 MiB or more are mapped
 /// directly from the system, on huge pages where available. The kernel clears each such page on the thread that first touches it.
@@ -37,4 +39,4 @@ struct CacheLineAllocator {
   friend bool operator==(const CacheLineAllocator&, const CacheLineAllocator&) { return true; }
 };
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -10,7 +10,7 @@
 
 #include "halfspace/core/task_check.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -60,4 +60,4 @@ void report_from_task(const TaskCheckFailure& failure) { report(failure.failure)
 
 }  // namespace detail
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -17,7 +17,9 @@
 #include <stdexcept>
 #include <string>
 
-namespace halfspace {
+#include "halfspace/core/namespace.h"
+
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Thrown for invalid user input. what() is a single line that names the place, the problem and what was expected.
 class InputError : public std::runtime_error {
@@ -83,7 +85,7 @@ template <class A, class B>
 
 }  // namespace detail
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE
 
 // These are macros because they need the text of the condition and the location of the caller. A check that passes costs
 // one comparison; failure handling is out of line.

@@ -3,7 +3,9 @@
 
 #include <glm/glm.hpp>
 
-namespace halfspace {
+#include "halfspace/core/namespace.h"
+
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Returns the direction through the point (s, t) of a cube map face, in cube map space. face is 0 to 5 for +x, −x, +y, −y,
 /// +z, −z; s and t are in [−1, 1], and t points down. The direction is not normalized: its component along the axis of the
@@ -19,4 +21,4 @@ inline glm::dvec3 cube_direction(int face, double s, double t) {
   }
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

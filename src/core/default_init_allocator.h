@@ -5,7 +5,9 @@
 #include <new>
 #include <utility>
 
-namespace halfspace {
+#include "halfspace/core/namespace.h"
+
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Allocator for containers whose resize() default-initializes new elements instead of clearing them. Use it when the
 /// elements are overwritten anyway.
@@ -29,4 +31,4 @@ struct DefaultInitAllocator : std::allocator<T> {
   }
 };
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

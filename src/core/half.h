@@ -8,7 +8,7 @@
 
 #include "halfspace/core/lanes.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// The largest finite half.
 inline constexpr float kMaxHalf = 65504.0f;
@@ -109,4 +109,4 @@ HS_INLINE IntN<W> float_to_finite_half(RealN<W> x) {
   return float_to_half(min(kMaxHalf, max(-kMaxHalf, x)));  // min and max return their second argument for NaN
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -7,7 +7,7 @@
 
 #include "halfspace/core/lanes.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Returns a·b modulo 2^32.
 template <class I>
@@ -35,4 +35,4 @@ HS_INLINE R unit_fraction(IntOf<R> hash) {
   return to_real<R>((hash >> 8) & 0xffffff) * R(0x1p-24f);
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

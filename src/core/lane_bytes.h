@@ -5,7 +5,7 @@
 
 #include "halfspace/core/lanes.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Loads one byte per lane, from 0 to 255. p need not be aligned.
 template <class I>
@@ -42,4 +42,4 @@ HS_INLINE void store_u8(uint8_t* p, IntN<W> i) {
   store(p, __builtin_convertvector(i.v, typename detail::Vectors<W>::B));
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

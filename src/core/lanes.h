@@ -19,36 +19,13 @@
 #include <cstring>
 #include <type_traits>
 
-// Each #error below falls back to one lane, so that no further errors hide the message.
-#ifndef HALFSPACE_LANES
-#error "HALFSPACE_LANES is not defined: link the CMake target Halfspace::raster, which sets it and the compiler flags it needs"
-#define HALFSPACE_LANES 1
-#elif HALFSPACE_LANES != 1 && HALFSPACE_LANES != 4 && HALFSPACE_LANES != 8 && HALFSPACE_LANES != 16
-#error "HALFSPACE_LANES must be 1, 4, 8 or 16"
-#undef HALFSPACE_LANES
-#define HALFSPACE_LANES 1
-#elif HALFSPACE_LANES == 8 && !defined(__AVX2__)
-#error "HALFSPACE_LANES is 8, which needs AVX2: compile with -march=x86-64-v3, or link the CMake target Halfspace::raster"
-#undef HALFSPACE_LANES
-#define HALFSPACE_LANES 1
-#elif HALFSPACE_LANES == 16 && !(defined(__AVX512F__) && defined(__AVX512BW__) && defined(__AVX512DQ__) && defined(__AVX512VL__))
-#error \
-    "HALFSPACE_LANES is 16, which needs AVX-512 F, BW, DQ and VL: compile with -march=x86-64-v4, or link the CMake target Halfspace::raster"
-#undef HALFSPACE_LANES
-#define HALFSPACE_LANES 1
-#endif
+#include "halfspace/core/namespace.h"
 
 // HS_INLINE forces inlining, which keeps lanes in registers. HS_FLATTEN inlines everything that a function calls, including shaders.
 #define HS_INLINE inline __attribute__((always_inline))
 #define HS_FLATTEN __attribute__((flatten))
 
-// Inline namespace for names that do not contain the SIMD width but depend on it. The width becomes part of these names, so object files
-// and libraries that were compiled for different widths do not link with each other.
-#define HS_JOIN_EXPANDED(a, b) a##b
-#define HS_JOIN(a, b) HS_JOIN_EXPANDED(a, b)
-#define HS_LANES_NAMESPACE HS_JOIN(lanes, HALFSPACE_LANES)
-
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace detail {
 
@@ -205,15 +182,11 @@ inline constexpr bool kIsLanes<RealN<W>> = true;
 template <class R>
 concept Number = std::is_same_v<R, float> || std::is_same_v<R, double> || kIsLanes<R>;
 
-inline namespace HS_LANES_NAMESPACE {
-
 // The SIMD width of this build. CMake sets HALFSPACE_LANES to 1, 4, 8 or 16.
 inline constexpr int kLanes = HALFSPACE_LANES;
 using Real = std::conditional_t<kLanes == 1, std::type_identity<float>, std::type_identity<RealN<kLanes == 1 ? 4 : kLanes>>>::type;
 using Int = IntOf<Real>;
 using Mask = MaskOf<Real>;
-
-}  // namespace HS_LANES_NAMESPACE
 
 // ---- masks -----------------------------------------------------------------------------------------------------
 
@@ -616,4 +589,4 @@ HS_INLINE R difference_of_products(R a, std::type_identity_t<R> b, std::type_ide
   return fma(a, b, -cd) + error;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -19,7 +19,7 @@
 #include "halfspace/core/float_mode.h"
 #include "halfspace/core/task_check.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -127,4 +127,4 @@ int Workers::cores() {
   return n == 0 ? 1 : static_cast<int>(n);
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

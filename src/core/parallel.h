@@ -8,7 +8,9 @@
 #include <functional>
 #include <memory>
 
-namespace halfspace {
+#include "halfspace/core/namespace.h"
+
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// A team of threads. Results must never depend on the number of threads, which only determines who runs a task.
 class Workers {
@@ -37,4 +39,4 @@ class Workers {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

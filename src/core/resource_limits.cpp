@@ -7,7 +7,7 @@
 #include <fstream>
 #include <mutex>
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -93,4 +93,4 @@ void check_pixel_limit(uint64_t width, uint64_t height, const std::string& place
                    std::to_string(limit) + " pixels (--max-pixels)");
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

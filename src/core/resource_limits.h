@@ -9,7 +9,7 @@
 
 #include "halfspace/core/check.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// A file needs more than a limit permits. Programs end with this error even where they tolerate other invalid files.
 class LimitError : public InputError {
@@ -57,4 +57,4 @@ class MemoryClaim {
 /// Throws LimitError, whose message begins with `place`, if an image has more pixels than permitted.
 void check_pixel_limit(uint64_t width, uint64_t height, const std::string& place);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -5,7 +5,7 @@
 // the closest value is at a relative distance of 2^-35.
 #include "halfspace/core/srgb.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -68,4 +68,4 @@ static_assert(kTable.one_threshold_a_bucket);
 alignas(64) constexpr std::array<float, 256> kSrgbToLinear = make_decode_table();
 constexpr std::array<int32_t, detail::kSrgbBuckets> detail::kSrgbEncode = kTable.entries;
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

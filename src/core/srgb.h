@@ -12,7 +12,7 @@
 
 #include "halfspace/core/lane_pairs.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace detail {
 
@@ -109,4 +109,4 @@ HS_INLINE IntOf<R> linear_to_unorm8(R x) {
   }
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 bool has_word(std::string_view text, std::string_view word) {
   while (!text.empty()) {
@@ -55,4 +55,4 @@ std::string suggestion(std::string_view wrong, std::span<const std::string_view>
   return text;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -5,7 +5,9 @@
 #include <string>
 #include <string_view>
 
-namespace halfspace {
+#include "halfspace/core/namespace.h"
+
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Returns true if the text, words separated by single spaces, contains the word.
 bool has_word(std::string_view text, std::string_view word);
@@ -20,4 +22,4 @@ std::string_view nearest_name(std::string_view wrong, std::span<const std::strin
 /// Returns "; did you mean 'NAME'?" or, if no name is close, "; expected one of A, B, C". Meant to be appended to an error line.
 std::string suggestion(std::string_view wrong, std::span<const std::string_view> names);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -9,7 +9,7 @@
 #include <system_error>
 #include <vector>
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -53,4 +53,4 @@ std::filesystem::path find_tool(const char* name) {
   return {};
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

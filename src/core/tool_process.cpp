@@ -13,7 +13,7 @@
 
 extern char** environ;
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -137,4 +137,4 @@ int ToolProcess::wait() {
   return WIFSIGNALED(status) ? WTERMSIG(status) : 0;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -9,7 +9,9 @@
 #include <filesystem>
 #include <string>
 
-namespace halfspace {
+#include "halfspace/core/namespace.h"
+
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Owns a process and the channels to and from it.
 class ToolProcess {
@@ -48,4 +50,4 @@ class ToolProcess {
   pid_t child_ = -1;
 };
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -9,7 +9,9 @@
 #include <cmath>
 #include <numbers>
 
-namespace halfspace {
+#include "halfspace/core/namespace.h"
+
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 struct SinCosDouble {
   double sin, cos;
@@ -68,4 +70,4 @@ inline SinCosDouble sincos_turns(double turns) {
 /// Returns the sine and cosine of an angle in radians. The division by 2π adds one rounding.
 inline SinCosDouble sincos_radians(double radians) { return sincos_turns(radians / (2.0 * std::numbers::pi)); }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

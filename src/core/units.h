@@ -5,8 +5,10 @@
 
 #include <numbers>
 
-namespace halfspace {
+#include "halfspace/core/namespace.h"
+
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 inline constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -7,7 +7,7 @@
 
 #include "halfspace/explain/fragment_values.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Returns the perspective-correct weights of the submitted vertices, given the weights that the shader receives, which refer to the
 /// clipped triangle.
@@ -149,4 +149,4 @@ class FragmentEvaluator {
   std::array<V, 3> unchanged_{};  // varyings of the submitted vertices, if they depend on the lights
 };
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -5,7 +5,7 @@
 #include "halfspace/explain/light_terms.h"
 #include "halfspace/explain/varying_names.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -85,4 +85,4 @@ FragmentValues fragment_values(const SceneShader& shader, const FragmentPlace& p
   return std::visit([&](const auto& s) { return values_of(s, place, light_names); }, shader);
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

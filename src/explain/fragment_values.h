@@ -10,7 +10,7 @@
 #include "halfspace/explain/pixel_history.h"
 #include "halfspace/raster/inspect/inspection.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// The triangle and the position of a fragment.
 struct FragmentPlace {
@@ -32,4 +32,4 @@ struct FragmentValues {
 /// Returns the values of a fragment. light_names: the names of the scene's lights, in order.
 FragmentValues fragment_values(const SceneShader& shader, const FragmentPlace& place, std::span<const std::string> light_names);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

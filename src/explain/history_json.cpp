@@ -6,7 +6,7 @@
 
 #include "halfspace/explain/history_text.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -84,4 +84,4 @@ std::string history_json(const PixelHistory& h, const FrameTrace& trace) {
   return out.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -162,4 +162,4 @@ std::string history_text(const std::string& title, const PixelHistory& h, const 
   return out + result_text(h);
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

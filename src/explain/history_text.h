@@ -7,7 +7,7 @@
 
 #include "halfspace/explain/pixel_history.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Returns a description of a color format, for example "half floats".
 const char* storage_text(ColorFormat format);
@@ -18,4 +18,4 @@ std::string history_text(const std::string& title, const PixelHistory& history, 
 /// Returns the history as a JSON object. Numbers have enough digits to reproduce the same floats when parsed.
 std::string history_json(const PixelHistory& history, const FrameTrace& trace);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

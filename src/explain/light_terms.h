@@ -11,7 +11,7 @@
 
 #include "halfspace/explain/fragment_evaluator.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Collects the terms of a fragment.
 template <class S>
@@ -137,4 +137,4 @@ class LightTerms {
   FragmentValues& out_;
 };
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

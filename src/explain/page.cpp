@@ -9,7 +9,7 @@
 #include "halfspace/explain/pixel_history.h"
 #include "halfspace/raster/tile/tile.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -127,4 +127,4 @@ std::string explain_page(const SceneDescription& description, const PreparedScen
   return replaced(std::move(page), "@data@", script_safe(json.dump()));
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -9,7 +9,7 @@
 #include "halfspace/render/prepared_scene.h"
 #include "halfspace/scene/description.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 struct PageOptions {
   std::string scene;                ///< name or file of the scene, as given by the user
@@ -24,4 +24,4 @@ struct PageOptions {
 std::string explain_page(const SceneDescription& description, const PreparedScene& scene, const PageOptions& options,
                          const Workers& workers);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -11,7 +11,7 @@
 #include "halfspace/explain/stage_geometry.h"
 #include "halfspace/explain/stage_pictures.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 using PageJson = nlohmann::ordered_json;
 
@@ -59,4 +59,4 @@ PageJson tile_times_json(const PageInput& in);
 
 PageJson statistics_json(const PassStatistics& s);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -10,7 +10,7 @@
 #include "halfspace/core/srgb_curve.h"
 #include "halfspace/image/png.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -73,4 +73,4 @@ std::string script_safe(std::string_view json) {
   return out;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -12,7 +12,7 @@
 
 #include "halfspace/core/image.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Returns a data URI of a PNG file.
 std::string picture_uri(const Image<glm::u8vec4>& picture);
@@ -39,4 +39,4 @@ glm::u8vec4 srgb_code(const glm::vec3& linear);
 /// Escapes JSON for use inside a <script> element, so that it does not contain "</".
 std::string script_safe(std::string_view json);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

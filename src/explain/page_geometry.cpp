@@ -9,7 +9,7 @@
 #include "halfspace/raster/pipeline/pixel_box.h"
 #include "halfspace/scene/scene_paths.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -254,4 +254,4 @@ PageJson perspective_json(const PageInput& in) {
   return json;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -6,7 +6,7 @@
 
 #include "halfspace/explain/page_encode.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -203,4 +203,4 @@ PageJson histories_json(const PageInput& in, const FrameTrace& trace) {
           {"details", details_json(in, trace)}};
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -8,7 +8,7 @@
 #include "halfspace/explain/page_data.h"
 #include "halfspace/explain/pixel_history.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Limits that keep a page below 25 MB: on the number of fragments, and on the total number of values of the fragments that are stored with
 /// all values. If a frame exceeds a limit, the page contains fewer fragments per pixel and stores the number of omitted fragments.
@@ -28,4 +28,4 @@ std::vector<glm::ivec2> detailed_pixels(int width, int height, glm::ivec2 center
 
 PageJson histories_json(const PageInput& in, const FrameTrace& trace);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

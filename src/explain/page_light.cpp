@@ -9,7 +9,7 @@
 #include "halfspace/explain/stage_tone.h"
 #include "halfspace/raster/pipeline/sample_pattern.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -197,4 +197,4 @@ PageJson samples_json(const PageInput& in) {
   return json;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -7,7 +7,7 @@
 #include "halfspace/raster/inspect/inspection.h"
 #include "halfspace/render/scene_pass.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -170,4 +170,4 @@ PageJson tile_times_json(const PageInput& in) {
   return {{"runs", kTimedRuns}, {"ms", best}};
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -7,7 +7,7 @@
 
 #include "halfspace/core/check.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -81,4 +81,4 @@ Quote quote(const QuoteRange& range) {
   return out;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

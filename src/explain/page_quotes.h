@@ -7,7 +7,9 @@
 #include <string>
 #include <string_view>
 
-namespace halfspace {
+#include "halfspace/core/namespace.h"
+
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// A source file of the library, for example "raster/primitives/bin.cpp", or a part of the page.
 struct EmbeddedFile {
@@ -32,4 +34,4 @@ struct Quote {
 /// Returns the lines, without their common indentation.
 Quote quote(const QuoteRange& range);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

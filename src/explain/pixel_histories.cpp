@@ -11,7 +11,7 @@
 #include "halfspace/scene/scene_paths.h"
 #include "halfspace/shading/tone.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -138,4 +138,4 @@ std::vector<PixelHistory> pixel_histories(const SceneDescription& scene, const P
   return out;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -54,4 +54,4 @@ glm::ivec2 FrameTrace::busiest_pixel() const {
   return {static_cast<int>(best % row), static_cast<int>(best / row)};
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -22,7 +22,7 @@
 #include "halfspace/render/prepared_scene.h"
 #include "halfspace/scene/description.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 struct PassContext;
 
@@ -113,4 +113,4 @@ std::vector<PixelHistory> pixel_histories(const SceneDescription& scene, const P
 void visit_set_up_scene(const PreparedScene& scene, const Workers& workers,
                         const std::function<void(const PassContext& context, int round)>& visit);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -4,7 +4,7 @@
 #include "halfspace/core/float_mode.h"
 #include "halfspace/raster/primitives/primitive_assembly.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -66,4 +66,4 @@ StageClip stage_clip(const PassContext& context, const StageGeometry& geometry, 
   return out;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

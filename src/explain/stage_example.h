@@ -9,7 +9,7 @@
 #include "halfspace/explain/stage_geometry.h"
 #include "halfspace/raster/primitives/clip.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// A vertex in every space. clip, window and outcode are the renderer's values; the other positions are computed in double, one transform
 /// at a time.
@@ -48,4 +48,4 @@ struct StageClip {
 };
 StageClip stage_clip(const PassContext& context, const StageGeometry& geometry, uint32_t primitive);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

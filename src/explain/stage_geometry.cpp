@@ -12,7 +12,7 @@
 #include "halfspace/raster/primitives/setup.h"
 #include "halfspace/raster/primitives/vertex_stage.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -122,4 +122,4 @@ std::vector<uint32_t> triangles_per_tile(const PassContext& context) {
   return counts;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

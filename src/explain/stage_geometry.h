@@ -8,7 +8,7 @@
 #include "halfspace/raster/pipeline/pass_context.h"
 #include "halfspace/render/prepared_scene.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// The outcome of primitive setup for a submitted primitive.
 enum class StageOutcome : uint8_t {
@@ -53,4 +53,4 @@ uint64_t covered_pixels(const PassContext& context, const Draw& draw, const Tria
 /// Returns the number of triangles in the bin of each tile, row by row from the lower left.
 std::vector<uint32_t> triangles_per_tile(const PassContext& context);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

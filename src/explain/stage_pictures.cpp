@@ -4,7 +4,7 @@
 #include "halfspace/render/frame.h"
 #include "halfspace/shading/footprint.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -128,4 +128,4 @@ Image<MipLookup> mip_levels(const PreparedScene& scene, const Workers& workers) 
   return out;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -6,7 +6,7 @@
 #include "halfspace/core/image.h"
 #include "halfspace/render/prepared_scene.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Returns the stored window depth of sample 0 of each pixel: 1 is near, 0 is far.
 Image<float> depth_buffer(const PreparedScene& scene, const Workers& workers);
@@ -29,4 +29,4 @@ struct MipLookup {
 /// Returns the lookup in the color map of the opaque surface at each pixel.
 Image<MipLookup> mip_levels(const PreparedScene& scene, const Workers& workers);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

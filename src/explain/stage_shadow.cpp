@@ -8,7 +8,7 @@
 #include "halfspace/shading/shadow_bias.h"
 #include "halfspace/shading/shadow_view.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -79,4 +79,4 @@ Image<glm::u8vec4> shadow_map_picture(const ShadowView& view, int size) {
   return picture;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -10,7 +10,7 @@
 #include "halfspace/core/image.h"
 #include "halfspace/render/prepared_scene.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Number of texels in each direction around a point that a lookup shows.
 inline constexpr int kShadowReach = 6;
@@ -37,4 +37,4 @@ ShadowLookup shadow_lookup(const Light& light, const glm::vec3& position_rws, co
 /// of depths is scaled to the range of gray values.
 Image<glm::u8vec4> shadow_map_picture(const ShadowView& view, int size);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

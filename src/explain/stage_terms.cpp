@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -125,4 +125,4 @@ Image<glm::vec4> render_term(const PreparedScene& scene, const LightTerm& term, 
   return light;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

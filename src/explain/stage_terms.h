@@ -9,7 +9,7 @@
 #include "halfspace/core/image.h"
 #include "halfspace/render/prepared_scene.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 enum class TermKind : uint8_t { ambient, diffuse, specular, emitted, reflected, background };
 
@@ -29,4 +29,4 @@ enum class TermShadow : bool { without, with };
 /// Returns the linear light of one term. In exact arithmetic, the sum over all terms is the light of the frame.
 Image<glm::vec4> render_term(const PreparedScene& scene, const LightTerm& term, TermShadow shadow, const Workers& workers);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -8,7 +8,7 @@
 #include "halfspace/core/half.h"
 #include "halfspace/render/display.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -74,4 +74,4 @@ ToneSteps tone_steps(const PreparedScene& scene, const ToneMapping& tone, const 
   return s;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

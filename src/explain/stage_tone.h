@@ -10,7 +10,7 @@
 #include "halfspace/render/prepared_scene.h"
 #include "halfspace/shading/tone.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// The histogram covers luminances from 2^kLowStop to 2^kHighStop. Each stop is divided into kBinsPerStop bins of equal width: with
 /// e = kLowStop + i, bin 8·i + m contains [2^e·(1 + m/8), 2^e·(1 + (m + 1)/8)). These are the exponent and the first three mantissa bits of
@@ -36,4 +36,4 @@ struct ToneSteps {
 };
 ToneSteps tone_steps(const PreparedScene& scene, const ToneMapping& tone, const glm::vec3& light);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -3,7 +3,7 @@
 
 #include "halfspace/explain/fragment_evaluator.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -65,4 +65,4 @@ glm::vec3 submitted_weights(const InspectedTriangle& t, const Weights<float>& we
   return out;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

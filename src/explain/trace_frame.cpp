@@ -6,7 +6,7 @@
 #include "halfspace/raster/inspect/inspection.h"
 #include "halfspace/render/scene_pass.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -89,4 +89,4 @@ void visit_set_up_scene(const PreparedScene& scene, const Workers& workers,
   });
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

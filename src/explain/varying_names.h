@@ -8,7 +8,7 @@
 
 #include "halfspace/render/prepared_scene.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// The members of S::Varyings in order, including members that some variants of the shader do not have.
 template <class S>
@@ -34,4 +34,4 @@ inline constexpr std::array<std::string_view, 1> kVaryingNames<ColoredPrimitives
 template <>
 inline constexpr std::array<std::string_view, 2> kVaryingNames<ShadowCatcher>{"position_os", "position_rws"};
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

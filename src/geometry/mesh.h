@@ -5,7 +5,9 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-namespace halfspace {
+#include "halfspace/core/namespace.h"
+
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Indexed triangle list, counter-clockwise when seen from the front. Every non-empty stream has one entry per vertex. Normals have
 /// unit length. `tangents` may be empty. Otherwise xyz points along increasing u, and cross(normal, xyz)·w along decreasing v (v =
@@ -18,4 +20,4 @@ struct Mesh {
   std::vector<uint32_t> indices;
 };
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

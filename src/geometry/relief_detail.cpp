@@ -7,7 +7,7 @@
 
 #include "halfspace/core/lane_math.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -78,4 +78,4 @@ double ReliefDetail::error(double columns) const {
   return levels_.back().error;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <string_view>
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -74,4 +74,4 @@ std::vector<std::string> exr_channel_names(const std::filesystem::path& file) {
   return {};
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

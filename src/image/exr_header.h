@@ -7,10 +7,12 @@
 #include <string>
 #include <vector>
 
-namespace halfspace {
+#include "halfspace/core/namespace.h"
+
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Returns the names of the channels of a single-part OpenEXR file, sorted. Returns an empty list if the file cannot be read or its header
 /// is invalid. Source: "OpenEXR File Layout", sections Header and Channel List.
 std::vector<std::string> exr_channel_names(const std::filesystem::path& file);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

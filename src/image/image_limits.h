@@ -8,7 +8,7 @@
 
 #include "halfspace/core/resource_limits.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 inline constexpr uint32_t kMaxImageEdge = 32768;  // same as Texture2D::kMaxSize
 inline constexpr uint64_t kMaxImagePixels = ResourceLimits::kMaxPixels;
@@ -28,4 +28,4 @@ inline uint64_t decoding_memory(uint64_t width, uint64_t height, uint64_t bytes_
   return width * height * bytes_per_pixel / 4 * 13;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -12,7 +12,7 @@
 #include "halfspace/core/lane_math.h"
 #include "halfspace/core/srgb.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -108,4 +108,4 @@ Image<glm::vec4> to_linear(ColorPicture picture, bool premultiplied, const std::
   return std::visit([&](auto&& image) { return linear(std::move(image), premultiplied, name); }, std::move(picture));
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

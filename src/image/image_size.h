@@ -6,7 +6,9 @@
 #include <span>
 #include <string>
 
-namespace halfspace {
+#include "halfspace/core/namespace.h"
+
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 struct ImageSize {
   int width = 0, height = 0;
@@ -17,4 +19,4 @@ struct ImageSize {
 ImageSize image_size(const std::filesystem::path& path);
 ImageSize image_size(std::span<const std::byte> file, const std::string& name);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -13,7 +13,7 @@
 #include "halfspace/image/image_errors.h"
 #include "halfspace/image/png.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -112,4 +112,4 @@ int ImageSource::descriptor() {
   return descriptor_;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -18,7 +18,7 @@
 #include "halfspace/image/jpeg_encode.h"
 #include "halfspace/image/png.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -166,4 +166,4 @@ void write_exr(const std::filesystem::path& path, int width, int height, std::sp
   fail_for_memory(path);
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -13,7 +13,9 @@
 #include <csetjmp>
 #include <utility>
 
-namespace halfspace {
+#include "halfspace/core/namespace.h"
+
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Receives the errors of one jpeg_decompress_struct or jpeg_compress_struct. Must not move.
 class JpegErrors {
@@ -57,4 +59,4 @@ class JpegErrors {
   char text_[JMSG_LENGTH_MAX] = "";
 };
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -12,7 +12,7 @@
 
 #include "halfspace/image/image_limits.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -143,4 +143,4 @@ ColorPicture decode_png(std::span<const std::byte> bytes, const std::string& nam
   return decode_texels<glm::u8vec4>(context.get(), header, SPNG_FMT_RGBA8, name);
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -13,7 +13,7 @@
 #include "halfspace/image/image_io.h"
 #include "halfspace/image/image_samples.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// The meaning of the 8-bit values in a file.
 enum class PngCodes { srgb, numbers };
@@ -32,4 +32,4 @@ bool is_png(std::span<const std::byte> bytes);
 /// begins with `name`, for damaged or oversized files.
 ColorPicture decode_png(std::span<const std::byte> bytes, const std::string& name);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -7,7 +7,7 @@
 #include "halfspace/core/check.h"
 #include "halfspace/model/node_transform.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -109,4 +109,4 @@ void apply_animation(const ModelAnimation& animation, double time, std::span<Mod
   }
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

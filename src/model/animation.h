@@ -10,7 +10,7 @@
 
 #include "halfspace/model/model.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Returns the spherical linear interpolation (slerp) from a to b along the shorter arc. a and b must have unit length, and t must be in
 /// [0, 1]. The arc is halved until linear interpolation is exact to double precision. The result is bit-identical on every machine, and its
@@ -24,4 +24,4 @@ std::vector<double> value_at(const AnimationChannel& channel, double time);
 /// Applies all channels of an animation to the nodes of a model.
 void apply_animation(const ModelAnimation& animation, double time, std::span<ModelNode> nodes);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

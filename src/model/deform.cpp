@@ -6,7 +6,7 @@
 
 #include "halfspace/model/text_lines.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -97,4 +97,4 @@ void apply_skin(ModelMesh& mesh, std::span<const glm::dmat4> joint_matrices) {
   mesh.origin = glm::dvec3(0.0);
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

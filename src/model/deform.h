@@ -8,7 +8,7 @@
 
 #include "halfspace/model/model.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Adds the morph targets of a mesh, scaled by their weights. Missing weights are 0. Targets without normals leave normals unchanged.
 void apply_morph_targets(ModelMesh& mesh, std::span<const float> weights);
@@ -17,4 +17,4 @@ void apply_morph_targets(ModelMesh& mesh, std::span<const float> weights);
 /// joint of the skin. Normals are transformed by the inverse transpose. The origin of the mesh is added to the positions.
 void apply_skin(ModelMesh& mesh, std::span<const glm::dmat4> joint_matrices);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

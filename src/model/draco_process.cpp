@@ -7,7 +7,7 @@
 #include "halfspace/core/check.h"
 #include "halfspace/core/tool_folder.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -88,4 +88,4 @@ bool DracoProcess::receive(std::size_t attributes, uint64_t max_bytes, DracoMesh
   return complete;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -13,7 +13,7 @@
 #include "halfspace/core/tool_process.h"
 #include "halfspace/model/draco_tool/protocol.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// A decoded mesh, or the reason why decoding failed.
 struct DracoMesh {
@@ -42,4 +42,4 @@ class DracoProcess {
   ToolProcess tool_;
 };
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -13,7 +13,7 @@
 
 #include "halfspace/core/resource_limits.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -69,4 +69,4 @@ std::span<const std::byte> without_byte_order_mark(std::span<const std::byte> by
   return marked ? bytes.subspan(kMark.size()) : bytes;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -6,7 +6,9 @@
 #include <span>
 #include <vector>
 
-namespace halfspace {
+#include "halfspace/core/namespace.h"
+
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Reads a whole file. Throws InputError if it is missing, a directory, unreadable or not a regular file, and LimitError if it is larger
 /// than `max_bytes`.
@@ -16,4 +18,4 @@ std::vector<std::byte> file_bytes(const std::filesystem::path& file, std::size_t
 /// such mark.
 std::span<const std::byte> without_byte_order_mark(std::span<const std::byte> bytes);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

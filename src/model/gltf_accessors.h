@@ -15,7 +15,7 @@
 #include "halfspace/model/gltf_buffers.h"
 #include "halfspace/model/gltf_document.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 enum class GltfComponent : uint16_t { int8 = 5120, uint8 = 5121, int16 = 5122, uint16 = 5123, uint32 = 5125, float32 = 5126 };
 
@@ -90,4 +90,4 @@ class GltfAccessors {
   std::map<std::size_t, Decoded> decoded_;  // key: index of the accessor
 };
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -9,7 +9,7 @@
 
 #include "halfspace/model/text_lines.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -119,4 +119,4 @@ void read_gltf_animations(GltfAccessors& accessors, Model& model) {
   }
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

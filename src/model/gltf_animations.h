@@ -4,9 +4,9 @@
 #include "halfspace/model/gltf_accessors.h"
 #include "halfspace/model/model.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Reads the animations of a glTF file. Nodes and meshes must have been read. Channels that cannot be applied are skipped with a warning.
 void read_gltf_animations(GltfAccessors& accessors, Model& model);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -12,7 +12,7 @@
 #include "halfspace/model/gltf_uri.h"
 #include "halfspace/model/read_gltf.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -136,4 +136,4 @@ const GltfView& GltfBuffers::view(std::size_t index) {
   return *view;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

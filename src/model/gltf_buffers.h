@@ -12,7 +12,7 @@
 #include "halfspace/model/gltf_document.h"
 #include "halfspace/model/references.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// The parts of a glTF file.
 struct GltfChunks {
@@ -51,4 +51,4 @@ class GltfBuffers {
   std::vector<std::vector<std::byte>> storage_;  // moving a vector of vectors keeps the addresses of their elements
 };
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

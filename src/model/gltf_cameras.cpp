@@ -7,7 +7,7 @@
 
 #include "halfspace/model/gltf_nodes.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -83,4 +83,4 @@ void read_gltf_cameras_and_lights(GltfDocument& document, Model& model) {
   for (const GltfValue& json : document.objects(*lights, "lights")) model.lights.push_back(light_of(document, json));
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

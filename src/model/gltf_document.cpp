@@ -9,7 +9,7 @@
 
 #include "halfspace/core/check.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -283,4 +283,4 @@ std::vector<int> GltfDocument::indices(const GltfValue& object, const char* key,
   return list;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

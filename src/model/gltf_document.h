@@ -15,7 +15,9 @@
 #include <string_view>
 #include <vector>
 
-namespace halfspace {
+#include "halfspace/core/namespace.h"
+
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 using GltfValue = nlohmann::json;
 
@@ -107,4 +109,4 @@ class GltfDocument {
 /// Returns a string from a file in quotation marks for use in a message. Control characters are removed, and long strings are cut.
 std::string gltf_quoted(std::string_view text);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -8,7 +8,7 @@
 
 #include "halfspace/model/gltf_indices.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -91,4 +91,4 @@ bool GltfDraco::decode(const GltfValue& primitive) {
   return true;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -6,7 +6,7 @@
 #include "halfspace/model/draco_process.h"
 #include "halfspace/model/gltf_accessors.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Returns true if such primitives can be decoded, that is, if halfspace-draco-tool is installed.
 bool can_decode_draco();
@@ -30,4 +30,4 @@ class GltfDraco {
   DracoProcess process_;
 };
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -9,7 +9,7 @@
 
 #include "halfspace/model/gltf_draco.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -62,4 +62,4 @@ void read_gltf_extensions(GltfDocument& document, Model& model) {
   }
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -63,4 +63,4 @@ std::vector<uint32_t> compact_indices(std::vector<uint32_t>& indices) {
   return used;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -8,7 +8,7 @@
 
 #include "halfspace/model/model.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// The values of primitive.mode.
 enum class GltfMode : uint8_t { points, lines, line_loop, line_strip, triangles, triangle_strip, triangle_fan };
@@ -21,4 +21,4 @@ std::vector<uint32_t> list_of_primitives(GltfMode mode, std::vector<uint32_t> in
 /// Renumbers the vertices in `indices` from 0, keeping their order, and returns their former indices.
 std::vector<uint32_t> compact_indices(std::vector<uint32_t>& indices);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

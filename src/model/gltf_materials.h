@@ -5,7 +5,7 @@
 #include "halfspace/model/gltf_textures.h"
 #include "halfspace/model/model.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Returns the materials of a glTF file, with the extensions KHR_materials_unlit, emissive_strength, specular, ior, clearcoat, transmission
 /// (approximated by blending) and pbrSpecularGlossiness (converted).
@@ -18,4 +18,4 @@ ModelMaterial gltf_default_material();
 /// the metallic factor is chosen so that the mixture with a dielectric of reflectance 0.04 has the same specular color.
 void convert_specular_glossiness(const glm::dvec3& diffuse, const glm::dvec3& specular, double glossiness, ModelMaterial& material);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

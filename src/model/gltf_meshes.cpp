@@ -14,7 +14,7 @@
 #include "halfspace/model/normals.h"
 #include "halfspace/model/tangents.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -174,4 +174,4 @@ std::vector<GltfMesh> gltf_meshes(GltfAccessors& accessors, Model& model) {
   return meshes;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -5,7 +5,7 @@
 #include "halfspace/model/gltf_document.h"
 #include "halfspace/model/model.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// A mesh of a glTF file, which has one ModelMesh per primitive.
 struct GltfMesh {
@@ -18,4 +18,4 @@ struct GltfMesh {
 /// Reads all meshes and adds their primitives to the model. Materials and variants must have been read before.
 std::vector<GltfMesh> gltf_meshes(GltfAccessors& accessors, Model& model);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -3,7 +3,7 @@
 
 #include <meshoptimizer.h>
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -88,4 +88,4 @@ bool decode_meshopt(const MeshoptStream& stream, std::span<const std::byte> sour
   return false;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

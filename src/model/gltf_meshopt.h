@@ -9,7 +9,7 @@
 
 #include "halfspace/model/gltf_document.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 enum class MeshoptMode : uint8_t { attributes, triangles, indices };
 enum class MeshoptFilter : uint8_t { none, octahedral, quaternion, exponential };
@@ -28,4 +28,4 @@ MeshoptStream meshopt_stream(const GltfDocument& document, const GltfValue& json
 /// Decompresses `source` to stream.count · stream.stride bytes. Returns false if the data is damaged.
 bool decode_meshopt(const MeshoptStream& stream, std::span<const std::byte> source, std::span<std::byte> result);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -9,7 +9,7 @@
 #include "halfspace/model/node_transform.h"
 #include "halfspace/model/text_lines.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -214,4 +214,4 @@ void read_gltf_nodes(GltfAccessors& accessors, const std::vector<GltfMesh>& mesh
   NodeReader(accessors, meshes, model).read();
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -6,7 +6,7 @@
 #include "halfspace/model/gltf_meshes.h"
 #include "halfspace/model/model.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Reads the nodes and scenes of a glTF file, including EXT_mesh_gpu_instancing. Meshes, skins, cameras and lights must have been read.
 /// Throws InputError if the nodes are not a forest, or if their transforms overflow.
@@ -18,4 +18,4 @@ void read_gltf_skins(GltfAccessors& accessors, Model& model);
 /// Reads the cameras of a glTF file and the lights of KHR_lights_punctual.
 void read_gltf_cameras_and_lights(GltfDocument& document, Model& model);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -78,4 +78,4 @@ std::string percent_encoded(const std::string& name) {
   return encoded;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -12,7 +12,7 @@
 
 #include "halfspace/model/model.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 using OutputJson = nlohmann::ordered_json;
 
@@ -85,4 +85,4 @@ void write_gltf_skins_and_animations(const Model& model, GltfOutput& out);
 /// Encodes the characters of a file name that a URI cannot contain.
 std::string percent_encoded(const std::string& name);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

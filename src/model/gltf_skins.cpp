@@ -5,7 +5,7 @@
 
 #include "halfspace/model/gltf_nodes.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -46,4 +46,4 @@ void read_gltf_skins(GltfAccessors& accessors, Model& model) {
   for (const GltfValue& json : accessors.document().list("skins")) model.skins.push_back(skin_of(accessors, json));
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

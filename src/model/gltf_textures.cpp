@@ -9,7 +9,7 @@
 #include "halfspace/core/trig_double.h"
 #include "halfspace/model/gltf_uri.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -144,4 +144,4 @@ TextureUse GltfTextures::use(const GltfValue& object, const char* key, Channel c
   return use;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -8,7 +8,7 @@
 #include "halfspace/model/model.h"
 #include "halfspace/model/references.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Reads the textures that materials use. All arguments of the constructor must outlive this object.
 class GltfTextures {
@@ -31,4 +31,4 @@ class GltfTextures {
   std::vector<bool> tried_;  // for each image, whether locate_image was called
 };
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -5,7 +5,7 @@
 #include <array>
 #include <cstdint>
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -76,4 +76,4 @@ std::string percent_decoded(std::string_view text) {
   return decoded;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -7,7 +7,9 @@
 #include <string_view>
 #include <vector>
 
-namespace halfspace {
+#include "halfspace/core/namespace.h"
+
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Returns whether a URI contains its data ("data:...").
 bool is_data_uri(std::string_view uri);
@@ -19,4 +21,4 @@ std::optional<std::vector<std::byte>> data_of_uri(std::string_view uri);
 /// Replaces percent-encoded characters. Percent signs that are not followed by two hexadecimal digits are kept.
 std::string percent_decoded(std::string_view text);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

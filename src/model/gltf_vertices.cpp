@@ -10,7 +10,7 @@
 #include "halfspace/model/normals.h"
 #include "halfspace/model/text_lines.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -196,4 +196,4 @@ void read_vertices(GltfAccessors& accessors, const GltfValue& primitive, std::si
   }
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

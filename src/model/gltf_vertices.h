@@ -6,7 +6,7 @@
 #include "halfspace/model/gltf_accessors.h"
 #include "halfspace/model/model.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Reads the attributes of a primitive for all vertices, or for a subset. Positions that are not finite are errors. Values that are not
 /// finite in other attributes are replaced, with a warning. Normals and tangents are normalized. Tangents without normals are skipped, and
@@ -14,4 +14,4 @@ namespace halfspace {
 void read_vertices(GltfAccessors& accessors, const GltfValue& primitive, std::size_t count, GltfSubset subset,
                    const std::array<int, 2>& uv_sets, ModelMesh& mesh);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

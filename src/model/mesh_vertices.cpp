@@ -3,7 +3,7 @@
 
 #include <utility>
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -34,4 +34,4 @@ void copy_vertices(ModelMesh& mesh, std::span<const uint32_t> sources) {
   copy_list(mesh.more_weights, sources);
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

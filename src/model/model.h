@@ -21,7 +21,7 @@
 #include "halfspace/core/resource_limits.h"
 #include "halfspace/shading/sampler.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 // ---- textures --------------------------------------------------------------------------------------------------
 
@@ -235,4 +235,4 @@ struct ReadModelOptions {
 /// "FILE: PLACE: problem; expected ..." if the file cannot be read.
 Model read_model(const std::filesystem::path& file, const ReadModelOptions& options = {});
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -10,7 +10,7 @@
 #include "halfspace/model/srgb_color.h"
 #include "halfspace/model/text_lines.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -180,4 +180,4 @@ TextureUse MtlConverter::texture(const MtlMaterial& mtl, MtlMap which) {
   return use;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -28,7 +28,7 @@
 #include "halfspace/model/read_mtl.h"
 #include "halfspace/model/references.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 struct Model;
 struct ModelMaterial;
@@ -64,4 +64,4 @@ class MtlConverter {
   std::map<std::string, int> images_;  // key: folder and name; -1 if missing
 };
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

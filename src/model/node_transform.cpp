@@ -6,7 +6,7 @@
 
 #include "halfspace/model/text_lines.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 glm::dquat unit_rotation(const glm::dquat& q) {
   // Scale first, so that squares neither overflow nor underflow.
@@ -34,4 +34,4 @@ bool is_bounded_transform(const glm::dmat4& m) {
   return true;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -8,7 +8,7 @@
 
 #include "halfspace/model/model.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Returns the rotation normalized, or the identity if its length is 0.
 glm::dquat unit_rotation(const glm::dquat& rotation);
@@ -20,4 +20,4 @@ glm::dmat4 matrix_of(const ModelNode& node);
 /// Returns true if no element of a matrix exceeds 1e18 in magnitude or is NaN.
 bool is_bounded_transform(const glm::dmat4& matrix);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

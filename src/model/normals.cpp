@@ -17,7 +17,7 @@
 #include "halfspace/model/mesh_vertices.h"
 #include "halfspace/model/position_ids.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 glm::vec3 unit_vector(const glm::dvec3& n) {
   constexpr double kRounding = 2e-7;  // rounding error of the squared length of a unit vector of floats
@@ -257,4 +257,4 @@ void add_smooth_normals(ModelMesh& mesh, float crease_degrees, std::span<const u
   std::move(normals).store(mesh);
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

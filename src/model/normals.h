@@ -7,7 +7,7 @@
 
 #include "halfspace/model/model.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Returns the vector normalized and rounded to float. A vector that already has unit length except for float rounding is returned
 /// unchanged, so that normals survive writing and reading a file. n must be finite and not 0.
@@ -24,4 +24,4 @@ void add_flat_normals(ModelMesh& mesh);
 /// vertices at creases are split.
 void add_smooth_normals(ModelMesh& mesh, float crease_degrees, std::span<const uint32_t> groups = {});
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

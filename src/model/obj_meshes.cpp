@@ -11,7 +11,7 @@
 #include "halfspace/model/srgb_color.h"
 #include "halfspace/model/triangulate.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -185,4 +185,4 @@ ObjMeshes obj_meshes(const ObjText& obj, float crease_degrees) {
   return result;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

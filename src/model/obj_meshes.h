@@ -8,7 +8,7 @@
 #include "halfspace/model/model.h"
 #include "halfspace/model/obj_text.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 struct ObjMeshes {
   std::vector<ModelMesh> meshes;  ///< `material` is ObjState::material
@@ -22,4 +22,4 @@ struct ObjMeshes {
 /// crease_degrees.
 ObjMeshes obj_meshes(const ObjText& obj, float crease_degrees);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -13,7 +13,7 @@
 #include "halfspace/model/normals.h"
 #include "halfspace/model/text_lines.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -230,4 +230,4 @@ ObjText parse_obj(const std::filesystem::path& file, std::string_view text, std:
   return ObjParser(file, text, warnings).parse();
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

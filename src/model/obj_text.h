@@ -18,7 +18,7 @@
 
 #include "halfspace/model/model.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Marks a corner without texture coordinate or normal.
 inline constexpr uint32_t kNoIndex = 0xffffffffu;
@@ -65,4 +65,4 @@ struct ObjText {
 /// of range. Other invalid statements are ignored, with one warning for each kind. The text must be smaller than 4 GiB.
 ObjText parse_obj(const std::filesystem::path& file, std::string_view text, std::vector<std::string>& warnings);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

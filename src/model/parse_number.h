@@ -6,7 +6,9 @@
 #include <optional>
 #include <string_view>
 
-namespace halfspace {
+#include "halfspace/core/namespace.h"
+
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Returns the value of a decimal number such as "-1.5e3", or nullopt if the word is not a number. Unlike number_in, it accepts "nan" and
 /// "inf", and returns infinity for numbers that are too large for a double. Readers skip vertices with such values.
@@ -22,4 +24,4 @@ inline std::optional<double> parse_number(std::string_view word) {
   return is_tiny ? 0.0 : std::numeric_limits<double>::infinity();
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -15,7 +15,7 @@
 #include "halfspace/model/srgb_color.h"
 #include "halfspace/model/text_lines.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -249,4 +249,4 @@ PlyContents read_ply_contents(const PlyHeader& header, std::string_view data, co
   return ContentsReader(header, data, file).read();
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -10,7 +10,7 @@
 
 #include "halfspace/model/ply_header.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 struct PlyContents {
   // One entry per vertex, or empty if the file has no such values. Only positions may be infinite or NaN.
@@ -31,4 +31,4 @@ struct PlyContents {
 /// ..." if the data is invalid.
 PlyContents read_ply_contents(const PlyHeader& header, std::string_view data, const std::string& file);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -13,7 +13,7 @@
 #include "halfspace/core/text.h"
 #include "halfspace/model/text_lines.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -171,4 +171,4 @@ int PlyElement::find_list(std::initializer_list<std::string_view> names) const {
 
 PlyHeader parse_ply_header(std::string_view contents, const std::string& file) { return HeaderParser(contents, file).parse(); }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

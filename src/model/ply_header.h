@@ -11,7 +11,9 @@
 #include <string_view>
 #include <vector>
 
-namespace halfspace {
+#include "halfspace/core/namespace.h"
+
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 enum class PlyEncoding : uint8_t { ascii, little_endian, big_endian };
 
@@ -50,4 +52,4 @@ struct PlyHeader {
 /// declares more rows than the file can have. `file` is for messages.
 PlyHeader parse_ply_header(std::string_view contents, const std::string& file);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -7,7 +7,7 @@
 #include "halfspace/model/parse_number.h"
 #include "halfspace/model/text_lines.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -37,4 +37,4 @@ void PlyValues::fail_length(const PlyProperty& list, double length, std::size_t 
                    max_length));
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -14,7 +14,7 @@
 
 #include "halfspace/model/ply_header.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 class PlyValues {
  public:
@@ -83,4 +83,4 @@ class PlyValues {
   uint64_t row_ = 0;
 };
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

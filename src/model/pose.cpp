@@ -11,7 +11,7 @@
 #include "halfspace/model/deform.h"
 #include "halfspace/model/node_transform.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -221,4 +221,4 @@ PosedModel pose(const Model& model, const PoseOptions& options) {
   return Poser(model, options).pose();
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -7,7 +7,7 @@
 
 #include "halfspace/model/model.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 struct PoseOptions {
   int scene = -1;      ///< index in Model::scenes; -1: the default scene
@@ -46,4 +46,4 @@ struct PosedModel {
 /// Returns the model in world space, y up: a model with z up is turned by −90° around x. All options must be valid indices.
 PosedModel pose(const Model& model, const PoseOptions& options);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

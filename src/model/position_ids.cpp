@@ -4,7 +4,7 @@
 #include <bit>
 #include <limits>
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -34,4 +34,4 @@ std::vector<uint32_t> position_ids(std::span<const glm::vec3> positions) {
   return ids;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -8,9 +8,11 @@
 #include <span>
 #include <vector>
 
-namespace halfspace {
+#include "halfspace/core/namespace.h"
+
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Returns for every position the index of the first position that is equal to it. 0 and −0 are equal. Positions must be finite.
 std::vector<uint32_t> position_ids(std::span<const glm::vec3> positions);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -15,7 +15,7 @@
 #include "halfspace/model/gltf_nodes.h"
 #include "halfspace/model/gltf_textures.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -69,4 +69,4 @@ Model read_gltf(const std::filesystem::path& file, std::span<const std::byte> by
   return model;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -7,7 +7,7 @@
 
 #include "halfspace/model/model.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Returns whether a file is a binary glTF file, by its first four bytes.
 bool is_glb(std::span<const std::byte> bytes);
@@ -17,4 +17,4 @@ bool is_glb(std::span<const std::byte> bytes);
 /// the path of the value in the file, for example "accessors[3].count".
 Model read_gltf(const std::filesystem::path& file, std::span<const std::byte> bytes, const ReadModelOptions& options);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -15,7 +15,7 @@
 #include "halfspace/model/read_stl.h"
 #include "halfspace/model/text_lines.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -88,4 +88,4 @@ Model read_model(const std::filesystem::path& file, const ReadModelOptions& opti
   return reader_of(file, contents)(file, contents, left);
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -9,7 +9,7 @@
 
 #include "halfspace/model/text_lines.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -201,4 +201,4 @@ std::vector<MtlMaterial> parse_mtl(std::string_view name, std::string_view text,
   return MtlParser(name, text, warnings).parse();
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -10,7 +10,9 @@
 #include <string_view>
 #include <vector>
 
-namespace halfspace {
+#include "halfspace/core/namespace.h"
+
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// The textures of a material, named after their statements. `bump` is a height map and `norm` a normal map.
 enum class MtlMap : uint8_t { Kd, Ks, Ns, Ke, d, bump, norm, Pr, Pm, Pc, Pcr };
@@ -42,4 +44,4 @@ struct MtlMaterial {
 std::vector<MtlMaterial> parse_mtl(std::string_view name, std::string_view text, std::vector<std::string>& warnings);
 inline constexpr std::size_t kMaxMtlMaterials = 65536;
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

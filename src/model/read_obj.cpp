@@ -17,7 +17,7 @@
 #include "halfspace/model/references.h"
 #include "halfspace/model/text_lines.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -171,4 +171,4 @@ Model read_obj(const std::filesystem::path& file, std::span<const std::byte> byt
   return model;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

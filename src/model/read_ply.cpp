@@ -18,7 +18,7 @@
 #include "halfspace/model/single_mesh.h"
 #include "halfspace/model/triangulate.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -182,4 +182,4 @@ Model read_ply(const std::filesystem::path& file, std::span<const std::byte> byt
   return model;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -17,7 +17,7 @@
 #include "halfspace/model/srgb_color.h"
 #include "halfspace/model/stl_triangles.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -122,4 +122,4 @@ Model read_stl(const std::filesystem::path& file, std::span<const std::byte> byt
   }
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -7,7 +7,7 @@
 
 #include "halfspace/model/model.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Returns whether a file with these contents is a binary STL file: its size matches the number of triangles that it declares.
 bool is_binary_stl(std::span<const std::byte> bytes);
@@ -23,4 +23,4 @@ bool is_text_stl(std::span<const std::byte> bytes);
 /// is not valid.
 Model read_stl(const std::filesystem::path& file, std::span<const std::byte> bytes, const ReadModelOptions& options);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

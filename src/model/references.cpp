@@ -9,7 +9,7 @@
 
 #include "halfspace/model/text_lines.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -130,4 +130,4 @@ std::optional<fs::path> References::search(std::string_view name, std::string_vi
   return std::nullopt;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -9,7 +9,9 @@
 #include <string_view>
 #include <vector>
 
-namespace halfspace {
+#include "halfspace/core/namespace.h"
+
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Finds files that a model refers to. A path that leaves the folder of the model (absolute, with too many "..", or through a symbolic
 /// link) is not opened unless `allow_outside` is set. Instead, the folder of the model is searched for the file name without its folders.
@@ -39,4 +41,4 @@ class References {
   std::string first_outside_;        // its subject
 };
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

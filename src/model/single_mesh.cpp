@@ -12,7 +12,7 @@
 #include "halfspace/model/mtl_materials.h"
 #include "halfspace/model/text_lines.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 bool is_finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
@@ -57,4 +57,4 @@ void check_memory(std::size_t bytes, const ReadModelOptions& options) {
   throw InputError(fmt::format("reading needs {} MiB; expected at most {} (--max-memory)", bytes >> 20, options.max_memory >> 20));
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

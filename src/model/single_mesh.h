@@ -10,7 +10,7 @@
 
 #include "halfspace/model/model.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 bool is_finite(const glm::dvec3& v);
 
@@ -29,4 +29,4 @@ void check_memory(std::size_t bytes, const ReadModelOptions& options);
 /// Upper bound on the memory per triangle while normals are computed, in bytes.
 inline constexpr std::size_t kBytesPerTriangle = 200;
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -8,7 +8,7 @@
 
 #include "halfspace/core/srgb.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Returns the linear value of an sRGB-encoded value, which is clamped to [0, 1]. Values between two 8-bit values are interpolated
 /// linearly; the error is below 7e-6.
@@ -22,4 +22,4 @@ inline glm::vec3 linear_from_srgb(const glm::vec3& encoded) {
   return {linear_from_srgb(encoded.x), linear_from_srgb(encoded.y), linear_from_srgb(encoded.z)};
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

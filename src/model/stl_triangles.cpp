@@ -12,7 +12,7 @@
 #include "halfspace/model/parse_number.h"
 #include "halfspace/model/text_lines.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -138,4 +138,4 @@ StlTriangles binary_stl_triangles(std::span<const std::byte> bytes, const std::s
 
 StlTriangles text_stl_triangles(std::string_view text, const std::string& file) { return TextParser(text, file).parse(); }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -11,7 +11,9 @@
 #include <string_view>
 #include <vector>
 
-namespace halfspace {
+#include "halfspace/core/namespace.h"
+
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 struct StlTriangles {
   std::vector<glm::dvec3> corners;   ///< three per triangle
@@ -25,4 +27,4 @@ StlTriangles binary_stl_triangles(std::span<const std::byte> bytes, const std::s
 /// if the text is not valid.
 StlTriangles text_stl_triangles(std::string_view text, const std::string& file);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -16,7 +16,7 @@
 #include "halfspace/core/lane_math.h"
 #include "halfspace/model/mesh_vertices.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -169,4 +169,4 @@ void add_tangents(ModelMesh& mesh, int uv_set) {
   TangentBuilder(mesh, uv_set).build();
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

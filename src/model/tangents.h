@@ -5,7 +5,7 @@
 
 #include "halfspace/model/model.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Computes the tangents of a mesh for the texture coordinates of set `uv_set`. The mesh must have that set and normals. The method is that
 /// of MikkTSpace (M. Mikkelsen, "Simulation of wrinkled surfaces revisited", 2008), which glTF prescribes and most baking tools use: the
@@ -14,4 +14,4 @@ namespace halfspace {
 /// tangent perpendicular to the normal is chosen.
 void add_tangents(ModelMesh& mesh, int uv_set);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

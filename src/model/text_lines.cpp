@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 std::string_view TextLines::take() {
   const std::size_t end = std::min(text_.find(end_, at_), text_.size());
@@ -49,4 +49,4 @@ std::string in_quotes(std::string_view name) {
   return "'" + text + (length < name.size() ? "...'" : "'");
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -10,7 +10,9 @@
 #include <string>
 #include <string_view>
 
-namespace halfspace {
+#include "halfspace/core/namespace.h"
+
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Maximum magnitude of the numbers in a model file, chosen so that squares of floats do not overflow.
 inline constexpr double kMaxModelNumber = 1e18;
@@ -87,4 +89,4 @@ inline std::optional<double> number_in(std::string_view word) {
 /// Returns a name from a file in quotation marks for use in a message: control characters are replaced, and long names are cut.
 std::string in_quotes(std::string_view name);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -13,7 +13,7 @@
 #include <cmath>
 #include <limits>
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -282,4 +282,4 @@ void triangulate(std::span<const dvec3> corners, std::vector<uint32_t>& triangle
   EarClipper(std::move(points)).clip(triangles);
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -9,7 +9,7 @@
 #include "halfspace/model/pose.h"
 #include "halfspace/model/write_model.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// stem: the name of the main file without its extension.
 WrittenModel write_gltf(const Model& model, const std::string& stem, bool binary);
@@ -49,4 +49,4 @@ class WorldMesh {
   bool turned_, mirrored_;
 };
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

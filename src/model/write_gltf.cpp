@@ -10,7 +10,7 @@
 #include "halfspace/model/gltf_output.h"
 #include "halfspace/model/write_formats.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -157,4 +157,4 @@ WrittenModel write_gltf(const Model& model, const std::string& stem, bool binary
   return written;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

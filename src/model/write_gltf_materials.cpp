@@ -11,7 +11,7 @@
 #include "halfspace/model/gltf_output.h"
 #include "halfspace/model/write_model.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -220,4 +220,4 @@ void write_gltf_materials(const Model& model, GltfOutput& out) {
   for (const ModelMaterial& material : model.materials) writer.write(material);
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -6,7 +6,7 @@
 
 #include "halfspace/model/gltf_output.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -214,4 +214,4 @@ class NodeWriter {
 
 void write_gltf_meshes_and_nodes(const Model& model, GltfOutput& out) { NodeWriter(model, out).write(); }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -7,7 +7,7 @@
 #include "halfspace/core/check.h"
 #include "halfspace/model/write_formats.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 std::optional<ModelFormat> model_format_of(const std::filesystem::path& file) {
   std::string extension = file.extension().string();
@@ -77,4 +77,4 @@ uint32_t WorldMesh::corner(std::size_t triangle, std::size_t corner) const {
   return mesh_->indices[3 * triangle + (mirrored_ && corner > 0 ? 3 - corner : corner)];
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -12,7 +12,7 @@
 
 #include "halfspace/model/model.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 enum class ModelFormat : uint8_t { glb, gltf, obj, ply, stl };
 
@@ -49,4 +49,4 @@ WrittenModel written_model(const Model& model, const std::filesystem::path& file
 /// Returns ".png" or ".jpg" for an image in a format that all glTF readers support, otherwise an empty string.
 std::string image_extension(std::span<const std::byte> image);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

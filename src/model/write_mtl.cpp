@@ -9,7 +9,7 @@
 #include "halfspace/core/srgb.h"
 #include "halfspace/model/mtl_materials.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -149,4 +149,4 @@ std::string mtl_text(const Model& model, const std::vector<std::string>& materia
   return text;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -9,7 +9,7 @@
 
 #include "halfspace/model/model.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Inverse of linear_from_srgb. The argument is clamped to [0, 1].
 float srgb_from_linear(float value);
@@ -20,4 +20,4 @@ float srgb_from_linear(float value);
 std::string mtl_text(const Model& model, const std::vector<std::string>& material_names, const std::vector<std::string>& image_names,
                      double diagonal, std::vector<std::string>& warnings);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

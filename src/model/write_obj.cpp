@@ -10,7 +10,7 @@
 #include "halfspace/model/write_formats.h"
 #include "halfspace/model/write_mtl.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -149,4 +149,4 @@ WrittenModel write_obj(const Model& model, const std::string& stem) {
   return written;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

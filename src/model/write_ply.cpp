@@ -7,7 +7,7 @@
 #include "halfspace/core/srgb.h"
 #include "halfspace/model/write_formats.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -120,4 +120,4 @@ WrittenModel write_ply(const Model& model, const std::string& stem) {
   return written;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

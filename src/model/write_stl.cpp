@@ -6,7 +6,7 @@
 #include "halfspace/core/check.h"
 #include "halfspace/model/write_formats.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -54,4 +54,4 @@ WrittenModel write_stl(const Model& model, const std::string& stem) {
   return written;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -14,7 +14,7 @@
 #include "halfspace/procedural/noise.h"
 #include "halfspace/procedural/palette.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -257,4 +257,4 @@ MoonMaps procedural_moon(int width, const Workers& workers) {
   return maps;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -10,7 +10,7 @@
 #include "halfspace/core/image.h"
 #include "halfspace/core/parallel.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 using SkyFaces = std::array<Image<glm::vec4>, 6>;
 
@@ -34,4 +34,4 @@ SkyFaces procedural_night_sky(int size, const NightSky& sky, const Workers& work
 /// luminance is 0.1 to 6.
 SkyFaces procedural_studio(int size, const Workers& workers);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

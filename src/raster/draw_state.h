@@ -10,7 +10,9 @@
 
 #include <glm/glm.hpp>
 
-namespace halfspace {
+#include "halfspace/core/namespace.h"
+
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// A rectangle of pixels in window coordinates (origin at the lower left): [x, x + width) × [y, y + height).
 struct Rect {
@@ -205,4 +207,4 @@ constexpr bool draws_points(const DrawState& s) {
   return s.topology == Topology::points || (!is_lines(s.topology) && s.polygon_mode == PolygonMode::point);
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

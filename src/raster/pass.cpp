@@ -13,7 +13,7 @@
 #include "halfspace/raster/primitives/vertex_stage.h"
 #include "halfspace/raster/tile/blend.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -64,8 +64,6 @@ void check_rect(const Rect& r, int smallest) {
 }  // namespace
 
 namespace detail {
-
-inline namespace HS_LANES_NAMESPACE {
 
 class PassState {
  public:
@@ -340,8 +338,6 @@ struct PassAccess {
   static PassState& state_of(Pass& pass) { return *pass.state_; }
 };
 
-}  // namespace HS_LANES_NAMESPACE
-
 }  // namespace detail
 
 Pass::Pass(std::span<const ColorTarget> colors, int width, int height, const DepthTarget& depth, const PassOptions& options)
@@ -366,12 +362,8 @@ PassStatistics Pass::run(const Workers& workers) {
   return state_->run(tiles, workers);
 }
 
-inline namespace HS_LANES_NAMESPACE {
-
 PassStatistics run_with(Pass& pass, TileRunner& tiles, const Workers& workers) {
   return detail::PassAccess::state_of(pass).run(tiles, workers);
 }
 
-}  // namespace HS_LANES_NAMESPACE
-
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

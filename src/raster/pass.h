@@ -23,7 +23,7 @@
 #include "halfspace/raster/target.h"
 #include "halfspace/raster/vertex_input.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Options of a pass. `samples` and `supersample` affect the rendered image. The others affect speed and memory use, except that bin_budget
 /// can change the result of order-independent blending (DrawState::order_independent).
@@ -42,8 +42,6 @@ struct PassOptions {
   /// If false, all fragments are shaded immediately, in submission order.
   bool defer = true;
 };
-
-inline namespace HS_LANES_NAMESPACE {
 
 /// A list of draws that render to the same attachments. draw() and draw_depth() record draws, and run() executes them. A Pass must only be
 /// used by one thread at a time.
@@ -130,6 +128,4 @@ class Pass {
   std::unique_ptr<detail::PassState> state_;
 };
 
-}  // namespace HS_LANES_NAMESPACE
-
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

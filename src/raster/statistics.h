@@ -4,7 +4,9 @@
 #include <cstdint>
 #include <vector>
 
-namespace halfspace {
+#include "halfspace/core/namespace.h"
+
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Counters of a pass. They do not depend on the number of threads. samples_tested can vary with the SIMD width, because it depends on
 /// which blocks are rejected by hierarchical Z.
@@ -40,4 +42,4 @@ struct PassStatistics {
   friend bool operator==(const PassStatistics&, const PassStatistics&) = default;
 };
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

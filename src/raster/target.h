@@ -12,7 +12,7 @@
 
 #include "halfspace/core/image.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 using U16Vec4 = glm::vec<4, uint16_t>;
 
@@ -138,4 +138,4 @@ inline DepthTarget d32f_target(Image<float>& image, float clear_value) {
   return target;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

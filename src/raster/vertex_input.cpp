@@ -3,7 +3,7 @@
 
 #include <limits>
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace detail {
 
@@ -92,4 +92,4 @@ std::span<const VertexStream> at_instance(const VertexStreams& vertices, uint32_
   return moved;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

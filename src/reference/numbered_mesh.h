@@ -4,7 +4,7 @@
 #include "halfspace/shading/depth_only.h"
 #include "halfspace/shading/sphere_depth.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Writes the number of a mesh to the red channel.
 struct NumberedMesh : DepthOnly {
@@ -28,4 +28,4 @@ struct NumberedSphere : SphereDepth {
   }
 };
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -7,7 +7,7 @@
 #include "halfspace/shading/contract.h"
 #include "halfspace/shading/lighting.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Output: (fraction of the light that arrives according to the shadow map, or 1 without a map; dot product of shading normal and light
 /// direction; 1 + mesh; triangle).
@@ -51,4 +51,4 @@ struct ShadowMask {
   }
 };
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

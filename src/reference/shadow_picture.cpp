@@ -10,7 +10,7 @@
 #include "halfspace/reference/pixel_truth.h"
 #include "halfspace/reference/shadow_mask.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -70,4 +70,4 @@ ShadowPicture draw_shadow_picture(const LightChoice& choice, const View& view, i
   return out;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

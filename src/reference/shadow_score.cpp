@@ -12,7 +12,7 @@
 #include "halfspace/scene/lights.h"
 #include "halfspace/shading/shadow_bias.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -230,4 +230,4 @@ ShadowComparison compare_shadow(const LightChoice& choice, const RayScene& rays,
   return out;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

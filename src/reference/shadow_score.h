@@ -9,7 +9,7 @@
 #include "halfspace/reference/edge_distance.h"
 #include "halfspace/reference/pixel_truth.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Fractions of pixels by their distance from the exact shadow edge. The distance is measured perpendicular to the light, in shadow map
 /// texels, and the filter radius is subtracted.
@@ -45,4 +45,4 @@ struct ShadowComparison {
 ShadowComparison compare_shadow(const LightChoice& light, const RayScene& rays, const RayScene& casters, int width, int height,
                                 int rays_per_pixel, const Workers& workers);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -8,7 +8,7 @@
 #include "halfspace/core/trig_double.h"
 #include "halfspace/scene/scene_file.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -103,4 +103,4 @@ std::string csv_line(const TableRow& row) {
                      s.false_light.beyond_3, s.edge_px.mean, s.edge_px.p95, s.edge_px.max, s.error, s.map_ms, s.lookup_ms);
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

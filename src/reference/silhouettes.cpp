@@ -9,7 +9,7 @@
 #include "halfspace/reference/numbered_mesh.h"
 #include "halfspace/render/sphere_camera.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -64,4 +64,4 @@ EdgeDistance silhouette_distance(const Image<int>& picture, const Image<int>& tr
   return wrong_band_width(wrong, finer);
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

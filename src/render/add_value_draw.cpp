@@ -5,7 +5,7 @@
 #include "halfspace/shading/sphere_values.h"
 #include "halfspace/shading/surface_values.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -123,4 +123,4 @@ void add_value_draw(Pass& pass, const PreparedDraw& draw, const FrameCamera& cam
   if (draw.source.object >= 0 && !draw.state.order_independent) std::visit(Adder{pass, draw, camera, wanted, state}, draw.shader);
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

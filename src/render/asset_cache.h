@@ -10,7 +10,7 @@
 
 #include "halfspace/core/check.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Maps strings to assets. The string, called the recipe, lists everything that the asset is made from. A recipe always belongs to the same
 /// type of asset. Not thread-safe.
@@ -49,4 +49,4 @@ class AssetCache {
   std::map<std::string, Entry> entries_;
 };
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -10,7 +10,7 @@
 #include "halfspace/core/half.h"
 #include "halfspace/shading/tone.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -149,4 +149,4 @@ void show_fine(Pass& pass, const PostDescription& post, double exposure, Image<g
 
 void show_light(Pass& pass, Image<glm::vec4>& light) { pass.post(ToLight{}, rgba32f_target(light)); }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

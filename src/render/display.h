@@ -7,7 +7,7 @@
 #include "halfspace/scene/description.h"
 #include "halfspace/shading/tone_types.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Added to each luminance by log_average_luminance, because black has no logarithm.
 inline constexpr float kMinLuminance = 1e-6f;
@@ -35,4 +35,4 @@ void show_fine(Pass& pass, const PostDescription& post, double exposure, Image<g
 /// Makes a pass write linear color with straight alpha to `light`. The colors of the pass must be premultiplied.
 void show_light(Pass& pass, Image<glm::vec4>& light);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -11,7 +11,7 @@
 #include "halfspace/render/display.h"
 #include "halfspace/render/scene_pass.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -312,4 +312,4 @@ PassStatistics render(const PreparedScene& scene, Image<glm::vec4>& light, const
   return render_frame(scene, {.light = &light}, workers);
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -10,7 +10,7 @@
 #include "halfspace/render/prepared_scene.h"
 #include "halfspace/shading/frame_values.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// A rectangle of an image, in pixels from the upper left corner.
 struct ImageRect {
@@ -69,4 +69,4 @@ void display_frame(const PreparedScene& scene, const Image<glm::vec4>& light, co
 void add_value_draw(Pass& pass, const PreparedDraw& draw, const FrameCamera& camera, const std::array<bool, kFrameValues>& wanted,
                     const DrawState& state);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -9,7 +9,7 @@
 #include "halfspace/raster/pass.h"
 #include "halfspace/scene/description.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// A model file with validated indices and with tangents where its materials need them. Movable.
 struct ModelAsset {
@@ -24,4 +24,4 @@ struct ModelAsset {
 /// name, by index. If the file has no such item, throws an InputError that begins with `path`.
 PoseOptions pose_options(const Model& model, const ObjectDescription& o, const std::string& path);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

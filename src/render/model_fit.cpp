@@ -9,7 +9,7 @@
 #include "halfspace/core/trig_double.h"
 #include "halfspace/core/units.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -124,4 +124,4 @@ FittedView fitted_view(const ModelPoses& poses, const ModelBounds& b, const Mode
   return view.turn_seconds > 0.0 ? fitted_for_turntable(poses, b, view) : fitted(poses, b, eye_direction(view), view);
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -10,7 +10,7 @@
 #include "halfspace/model/pose.h"
 #include "halfspace/render/model_scene.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Bounds of a posed model in world space. `radius` is that of the bounding sphere of the box, or 1 if the model is a single point.
 struct ModelBounds {
@@ -59,4 +59,4 @@ struct FittedView {
 /// divided by its zoom. If the camera goes around the model, the view shows all vertices from every side.
 FittedView fitted_view(const ModelPoses& poses, const ModelBounds& b, const ModelView& view);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -16,7 +16,7 @@
 #include "halfspace/render/model_fit.h"
 #include "halfspace/scene/scene_paths.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -268,4 +268,4 @@ GeneratedScene model_scene(const std::filesystem::path& file, const ModelView& v
   }
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -13,7 +13,7 @@
 
 #include "halfspace/render/model_asset.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// How a model is shown. The default is a view from the front right and above that shows the whole model.
 struct ModelView {
@@ -49,4 +49,4 @@ bool is_model_file(const std::filesystem::path& file);
 /// InputError.
 GeneratedScene model_scene(const std::filesystem::path& file, const ModelView& view);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

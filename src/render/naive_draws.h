@@ -7,7 +7,7 @@
 #include "halfspace/raster/naive.h"
 #include "halfspace/render/prepared_scene.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Whether the naive pipeline can draw with a shader. It cannot draw points.
 template <class S>
@@ -29,4 +29,4 @@ void draw_all_naive(NaiveTarget<R>& target, const PreparedScene& scene, const F&
   }
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -10,7 +10,7 @@
 #include "halfspace/render/naive_draws.h"
 #include "halfspace/scene/scene_paths.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -47,4 +47,4 @@ void render_naive(const PreparedScene& scene, Image<glm::vec4>& light) {
   std::ranges::transform(target.color.texels(), light.data(), [](const vec4<float>& c) { return glm::vec4(c.x, c.y, c.z, c.w); });
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

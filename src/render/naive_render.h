@@ -7,7 +7,7 @@
 
 #include "halfspace/render/prepared_scene.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Returns the reason why the naive pipeline cannot draw the scene, as one line that begins with the path of the object or key, or an empty
 /// string if it can. It draws opaque triangles with one sample per pixel. The scene must have been prepared from `description`.
@@ -17,4 +17,4 @@ std::string naive_obstacle(const PreparedScene& scene, const SceneDescription& d
 /// Image<glm::vec4>. naive_obstacle() must have returned an empty string. The size of `light` determines the size of the image.
 void render_naive(const PreparedScene& scene, Image<glm::vec4>& light);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

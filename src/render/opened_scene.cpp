@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <utility>
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 OpenedScene open_scene_or_model(const std::string& name_or_file, const ModelView& view) {
   if (!is_model_file(name_or_file)) return {SceneFile::open(name_or_file), {}, nullptr, {}};
@@ -25,4 +25,4 @@ void expect_frames(SceneAssets& assets, const SceneFile& scene, int frames, cons
   }
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -13,7 +13,7 @@
 #include "halfspace/render/prepared_scene.h"
 #include "halfspace/scene/scene_file.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// A scene and, if it was generated for a model file, that file.
 struct OpenedScene {
@@ -32,4 +32,4 @@ OpenedScene open_scene_or_model(const std::string& name_or_file, const ModelView
 void expect_frames(SceneAssets& assets, const SceneFile& scene, int frames, const std::function<double(int)>& time_of, int width,
                    int height);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

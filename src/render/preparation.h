@@ -20,7 +20,7 @@
 #include "halfspace/render/used_assets.h"
 #include "halfspace/render/view.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 // A mesh and its validated indices.
 struct MeshAsset {
@@ -148,4 +148,4 @@ class ScenePreparation {
   SceneEnvironments environments_;
 };
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

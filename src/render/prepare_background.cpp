@@ -3,7 +3,7 @@
 // The background behind all objects.
 #include "halfspace/render/preparation.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -66,4 +66,4 @@ void ScenePreparation::add_background() {
   }
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -6,7 +6,7 @@
 #include "halfspace/render/preparation.h"
 #include "halfspace/scene/shapes.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -86,4 +86,4 @@ std::shared_ptr<const MeshAsset> ScenePreparation::mesh_of(const ObjectDescripti
   });
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -9,7 +9,7 @@
 #include "halfspace/image/image_io.h"
 #include "halfspace/render/preparation.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -88,4 +88,4 @@ void ScenePreparation::add_bumps(MetallicMaterial& surface, const ObjectDescript
   }
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

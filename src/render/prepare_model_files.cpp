@@ -16,7 +16,7 @@
 #include "halfspace/render/wireframe.h"
 #include "halfspace/scene/material_overrides.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -308,4 +308,4 @@ void ScenePreparation::add_blended() {
   blended_.clear();
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

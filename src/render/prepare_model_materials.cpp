@@ -11,7 +11,7 @@
 #include "halfspace/render/preparation.h"
 #include "halfspace/render/soft_mask.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -168,4 +168,4 @@ MetallicMaterial ScenePreparation::metallic_material(const ObjectDescription& o,
   return out;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -9,7 +9,7 @@
 #include "halfspace/render/preparation.h"
 #include "halfspace/scene/scene_paths.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -148,4 +148,4 @@ void ScenePreparation::add_object(int object) {
   }
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -4,7 +4,7 @@
 #include "halfspace/render/particles.h"
 #include "halfspace/render/preparation.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 std::shared_ptr<const Particles> ScenePreparation::particles(const ParticlesDescription& p, const std::string& path) {
   if (!p.file.path.empty()) {
@@ -33,4 +33,4 @@ void ScenePreparation::add_particles(int object, const ParticlesDescription& p, 
   }
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -19,7 +19,7 @@
 #include "halfspace/shading/shadow_bias.h"
 #include "halfspace/shading/sphere_depth.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -203,4 +203,4 @@ void ScenePreparation::add_shadows() {
   }
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

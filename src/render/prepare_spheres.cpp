@@ -4,7 +4,7 @@
 #include "halfspace/render/particles.h"
 #include "halfspace/render/preparation.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -77,4 +77,4 @@ void ScenePreparation::add_exact_spheres(int object, const std::string& path, co
   out_.spheres.push_back({spheres, o.casts_shadow, o.receives_shadow, object});
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

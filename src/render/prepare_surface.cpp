@@ -4,7 +4,7 @@
 #include "halfspace/geometry/height_slopes.h"
 #include "halfspace/render/preparation.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 // The map is omitted if the factor is zero or the shading rate does not read it.
 void ScenePreparation::add_factor(LitSurface& s, MaterialFactor factor, const glm::dvec3& constant, const MapValue& map,
@@ -74,4 +74,4 @@ DetailMap ScenePreparation::bump_map(const ObjectDescription& o, const std::stri
   return d;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

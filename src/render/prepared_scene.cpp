@@ -9,7 +9,7 @@
 #include "halfspace/render/preparation.h"
 #include "halfspace/scene/lights.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -156,4 +156,4 @@ PreparedScene SceneAssets::prepare(const SceneDescription& scene, int width, int
   return prepared;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -32,7 +32,7 @@
 #include "halfspace/shading/star_sky.h"
 #include "halfspace/shading/surface_shader.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// All shaders that a scene can use. Every std::visit over this type instantiates all of them, so only a few translation units may do so.
 using SceneShader = std::variant<SurfaceShader<ShadingRate::none, false>, SurfaceShader<ShadingRate::none, true>,            //
@@ -182,4 +182,4 @@ class SceneAssets {
 PassStatistics render(const PreparedScene& scene, Image<glm::u8vec4>& picture, const Workers& workers);
 PassStatistics render(const PreparedScene& scene, Image<glm::vec4>& light, const Workers& workers);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

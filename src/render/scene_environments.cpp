@@ -15,7 +15,7 @@
 #include "halfspace/procedural/earth.h"
 #include "halfspace/procedural/sky.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -249,4 +249,4 @@ const EnvironmentLightBlend* SceneEnvironments::light() {
   return light_.get();
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

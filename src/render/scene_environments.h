@@ -10,7 +10,7 @@
 #include "halfspace/render/scene_maps.h"
 #include "halfspace/shading/environment_light.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 // Minimum sizes of generated environments, in texels.
 struct EnvironmentSizes {
@@ -55,4 +55,4 @@ class SceneEnvironments {
   std::shared_ptr<const EnvironmentLightBlend> light_;             // null: not needed yet
 };
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

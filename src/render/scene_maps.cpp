@@ -16,7 +16,7 @@
 #include "halfspace/render/shadow/shadow_views.h"
 #include "halfspace/scene/shapes.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 Sampler make_sampler(const TextureDescription& t) {
   Sampler s;
@@ -195,4 +195,4 @@ std::shared_ptr<const HeightField> SceneMaps::height_field(const MapUse& use, co
                                   [&] { return HeightField(*map, o.height_smoothing, workers_, edges); });
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

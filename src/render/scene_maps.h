@@ -17,7 +17,7 @@
 #include "halfspace/scene/description.h"
 #include "halfspace/shading/texture.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 // A texture as used by one object.
 struct MapUse {
@@ -69,4 +69,4 @@ class SceneMaps {
   const Workers& workers_;
 };
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

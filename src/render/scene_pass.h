@@ -8,7 +8,7 @@
 #include "halfspace/render/prepared_scene.h"
 #include "halfspace/shading/tone_types.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Runs a pass that draws a scene.
 using PassRunner = std::function<PassStatistics(Pass& pass)>;
@@ -24,4 +24,4 @@ double frame_exposure(const PreparedScene& scene, const Image<glm::vec4>& light,
 /// Returns the tone mapping that is used to display the scene's light. Without `hdr`, light is only clamped to [0, 1].
 ToneMapping frame_tone(const PreparedScene& scene, double exposure);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -3,7 +3,7 @@
 // Textures of procedural patterns, generated at the resolution that the view needs.
 #include "halfspace/render/scene_maps.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -48,4 +48,4 @@ std::shared_ptr<const Texture2D> SceneMaps::pattern_texture(const MapUse& use) {
   });
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "halfspace/render/sphere_camera.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -28,4 +28,4 @@ std::vector<glm::vec3> SphereCamera::centers_cs(const Particles& spheres) const 
   return centers;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -8,7 +8,7 @@
 #include "halfspace/render/particles.h"
 #include "halfspace/shading/sphere_intersection.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 class SphereCamera {
  public:
@@ -27,4 +27,4 @@ class SphereCamera {
   double near_, far_;
 };
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

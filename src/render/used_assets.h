@@ -11,7 +11,7 @@
 #include "halfspace/render/asset_cache.h"
 #include "halfspace/scene/keys.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 // Builds the cache key of an asset from the parameters that determine it.
 template <class... T>
@@ -66,4 +66,4 @@ class UsedAssets {
   std::vector<std::shared_ptr<const void>>& used_;
 };
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -7,7 +7,7 @@
 
 #include "halfspace/core/float_mode.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -76,4 +76,4 @@ bool make_wireframe(PreparedScene& scene, const SceneDescription& description, H
   return has_spheres;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -5,7 +5,7 @@
 
 #include "halfspace/render/prepared_scene.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Whether edges behind surfaces are visible.
 enum class HiddenLines : uint8_t { shown, removed };
@@ -18,4 +18,4 @@ glm::vec4 line_color(const glm::vec4& background);
 /// unchanged. Returns true if there are such spheres. description: the scene that was prepared.
 bool make_wireframe(PreparedScene& scene, const SceneDescription& description, HiddenLines hidden);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -9,7 +9,7 @@
 #include "halfspace/core/trig_double.h"
 #include "halfspace/scene/scene_paths.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -107,4 +107,4 @@ void animate(SceneDescription& scene, const AnimationDescription& a, const std::
   read_value(field, value.size() == 1 ? Json(value[0]) : Json(value), a.target, {source + ": " + path, {}, {}});
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

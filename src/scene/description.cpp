@@ -6,7 +6,7 @@
 #include "halfspace/scene/lights.h"
 #include "halfspace/scene/shapes.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 template <>
 struct ChoiceNames<Projection> {
@@ -314,4 +314,4 @@ Section section_of(TimeOfDay& t) {
   return {{keys, &t}};
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -15,7 +15,7 @@
 #include "halfspace/shading/sampler.h"
 #include "halfspace/shading/tone_types.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Named items, in file order.
 template <class T>
@@ -383,4 +383,4 @@ void for_each_single(Scene& scene, F&& visit) {
   visit("time", "The time of day", scene.time);
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

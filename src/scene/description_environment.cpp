@@ -3,7 +3,7 @@
 // Key tables, continued from description.cpp: particles, environments, background, reflections and post-processing.
 #include "halfspace/scene/description.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 template <>
 struct ChoiceNames<EnvironmentType> {
@@ -132,4 +132,4 @@ Section section_of(PostDescription& p) {
   return {{keys, &p}};
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -11,7 +11,7 @@
 #include "halfspace/core/srgb.h"
 #include "halfspace/core/text.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -361,4 +361,4 @@ Json schema_of(const Key& key) {
   return schema;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

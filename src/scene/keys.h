@@ -14,7 +14,9 @@
 #include <variant>
 #include <vector>
 
-namespace halfspace {
+#include "halfspace/core/namespace.h"
+
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 using Json = nlohmann::ordered_json;
 
@@ -171,4 +173,4 @@ std::string expectation(const Key& key);
 /// Returns the JSON Schema (draft 2020-12) of the key's value.
 Json schema_of(const Key& key);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -9,7 +9,7 @@
 #include "halfspace/scene/keys.h"
 #include "halfspace/shading/light_types.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 inline constexpr std::size_t kLightTypes = 3;
 
@@ -35,4 +35,4 @@ const LightKind& kind_of(LightType type);
 /// program ends.
 const char* lights_with(std::string_view key);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

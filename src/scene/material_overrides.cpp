@@ -7,7 +7,7 @@
 #include "halfspace/core/text.h"
 #include "halfspace/scene/scene_paths.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -55,4 +55,4 @@ void check_material_overrides(const SceneDescription& scene, const ObjectDescrip
   });
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -8,7 +8,7 @@
 
 #include "halfspace/scene/description.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Returns the material of the scene that replaces the material `name` of the object's model file: the entry of `model_materials` for that
 /// name, or else the object's `material`. Returns null if the model keeps its own. The object must have passed check_material_overrides.
@@ -18,4 +18,4 @@ const SurfaceDescription* override_of(const SceneDescription& scene, const Objec
 /// names a material that the scene does not have.
 void check_material_overrides(const SceneDescription& scene, const ObjectDescription& o, const std::string& where);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -17,7 +17,7 @@
 #include "halfspace/scene/scene_paths.h"
 #include "halfspace/scene/shapes.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -188,4 +188,4 @@ void check_scene(SceneDescription& scene, const std::string& source) {
   check_mesh_limits(scene.objects, source);
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

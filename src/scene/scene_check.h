@@ -6,7 +6,7 @@
 
 #include "halfspace/scene/description.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Checks constraints that the types and ranges of keys do not express: names that must exist, values that must be consistent with
 /// each other, and limits on memory. Throws InputError with a message that begins with `source`.
@@ -23,4 +23,4 @@ bool has_uniformly_scaled_ancestors(const SceneDescription& scene, const ObjectD
 /// Checks that all objects together stay within the limits on vertices and copies. Throws InputError like check_scene.
 void check_mesh_limits(const Named<ObjectDescription>& objects, const std::string& source);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

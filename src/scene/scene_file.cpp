@@ -17,7 +17,7 @@
 #include "halfspace/scene/scene_check.h"
 #include "halfspace/scene/scene_paths.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -343,4 +343,4 @@ SceneDescription SceneFile::with_materials_at(double time) const {
 
 std::string SceneFile::print() const { return json_of(description_).dump(2) + "\n"; }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

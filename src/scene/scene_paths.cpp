@@ -10,7 +10,7 @@
 #include "halfspace/core/check.h"
 #include "halfspace/core/text.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -163,4 +163,4 @@ std::string object_path(const SceneDescription& scene, int object) {
   return (object < objects ? "objects." : "particle_systems.") + name;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

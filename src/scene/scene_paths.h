@@ -10,7 +10,7 @@
 
 #include "halfspace/scene/description.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Key of an object's list of placements.
 inline constexpr std::string_view kInstances = "instances";
@@ -67,4 +67,4 @@ std::vector<std::string_view> names_of(const Named<T>& list) {
   return names;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -5,7 +5,7 @@
 
 #include "halfspace/scene/scene_paths.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -49,4 +49,4 @@ std::string scene_schema() {
   return out.dump(2) + "\n";
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -8,7 +8,7 @@
 
 #include "halfspace/scene/description.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// The names of the shapes, in the order of the table.
 template <>
@@ -78,4 +78,4 @@ inline ObjectDescription with_parts(ObjectDescription o, int parts, bool places_
 /// Returns ShapeKind::chord_error of the object.
 inline double chord_error(const ObjectDescription& o) { return kind_of(o).chord_error(o); }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

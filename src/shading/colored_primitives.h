@@ -5,7 +5,7 @@
 
 #include "halfspace/shading/contract.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 struct ColoredPrimitives {
   glm::mat4 clip_from_object;
@@ -32,4 +32,4 @@ struct ColoredPrimitives {
   }
 };
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

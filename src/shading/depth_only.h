@@ -5,7 +5,7 @@
 
 #include "halfspace/shading/contract.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 struct DepthOnly {
   glm::mat4 clip_from_object;
@@ -23,4 +23,4 @@ struct DepthOnly {
   }
 };
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

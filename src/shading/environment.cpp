@@ -10,7 +10,7 @@
 
 #include "halfspace/core/lane_math.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -145,4 +145,4 @@ template vec3<RealN<16>> EnvironmentMap::sample_level(const vec3<RealN<16>>&, Re
 template RealN<16> EnvironmentMap::level_of_detail(const vec3<RealN<16>>&, const vec3<RealN<16>>&, const vec3<RealN<16>>&) const;
 #endif
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

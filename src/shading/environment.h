@@ -24,7 +24,7 @@
 
 #include "halfspace/shading/texture.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 enum class EnvironmentLayout : uint8_t { panorama, cube };
 
@@ -124,4 +124,4 @@ struct EnvironmentBlend {
   }
 };
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -9,7 +9,7 @@
 #include "halfspace/core/trig_double.h"
 #include "halfspace/shading/environment.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -169,4 +169,4 @@ template EnvironmentMap::EnvironmentMap(const Image<glm::vec4>&, TexelFormat);
 template EnvironmentMap::EnvironmentMap(const std::array<Image<glm::u8vec4>, 6>&, TexelFormat);
 template EnvironmentMap::EnvironmentMap(const std::array<Image<glm::vec4>, 6>&, TexelFormat);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

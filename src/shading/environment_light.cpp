@@ -12,7 +12,7 @@
 #include "halfspace/core/trig_double.h"
 #include "halfspace/shading/ggx.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -216,4 +216,4 @@ template DirectionalReflectance<RealN<16>> directional_reflectance(RealN<16>, Re
 #endif
 template DirectionalReflectance<FragmentReal> directional_reflectance(FragmentReal, FragmentReal);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -13,7 +13,7 @@
 #include "halfspace/shading/environment.h"
 #include "halfspace/shading/lighting.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// An environment map prefiltered for rough surfaces, in the map space of the environment.
 struct FilteredEnvironment {
@@ -90,4 +90,4 @@ struct DirectionalReflectance {
 template <class R>
 DirectionalReflectance<R> directional_reflectance(R roughness, R n_v);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

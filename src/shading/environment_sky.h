@@ -9,7 +9,7 @@
 #include "halfspace/shading/environment.h"
 #include "halfspace/shading/star_sky.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 struct EnvironmentSky {
   glm::vec3 forward_ws{0, 0, -1};  ///< direction through the center of the image: a unit vector in a symmetric view
@@ -51,4 +51,4 @@ struct EnvironmentSky {
   }
 };
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -18,7 +18,7 @@
 #include "halfspace/core/lane_math.h"
 #include "halfspace/core/vec.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Returns OpenGL's ρ² (8.14.1): the square of the longer of the two texture-space steps of a pixel to the right and up, in texels of
 /// a level 0 of width x height. NaN in duv_dx is ignored; NaN in duv_dy gives NaN.
@@ -72,4 +72,4 @@ HS_INLINE Footprint<R> footprint(int width, int height, const vec2<R>& duv_dx, c
   return {truncate_to_int(select(many, probes, one)), lod, span};
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

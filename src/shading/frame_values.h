@@ -7,7 +7,7 @@
 
 #include "halfspace/shading/contract.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// The values, in the order of the attachments that store them.
 enum class FrameValue : uint8_t {
@@ -63,4 +63,4 @@ HS_INLINE std::array<vec4<R>, kFrameValues> frame_values(const FrameCamera& came
           vec4<R>(v.barycentrics, one)};
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -15,7 +15,7 @@
 #include "halfspace/core/lane_math.h"
 #include "halfspace/core/vec.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Smaller values of roughness are clamped to this one, so that the highlight of a point light stays finite and visible.
 inline constexpr float kMinRoughness = 0.045f;
@@ -40,4 +40,4 @@ HS_INLINE R schlick_weight(R cosine) {
   return x2 * x2 * x;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

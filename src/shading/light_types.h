@@ -6,7 +6,9 @@
 
 #include <cstdint>
 
-namespace halfspace {
+#include "halfspace/core/namespace.h"
+
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 enum class LightType : uint8_t { directional, point, spot };
 
@@ -60,4 +62,4 @@ struct ShadowSettings {
   float light_radius = 0.0f;
 };
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -22,7 +22,7 @@
 #include "halfspace/shading/light_types.h"
 #include "halfspace/shading/shadow.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// A light source. Colors are linear and include the intensity. The suffix _rws denotes camera-relative world space: the axes of
 /// the world with the eye as the origin, so that floats are most precise near the eye.
@@ -121,4 +121,4 @@ HS_INLINE Illumination<R> illuminate(std::span<const Light> lights, LightModel m
   return sum;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -13,7 +13,7 @@
 #include "halfspace/shading/environment.h"
 #include "halfspace/shading/placed_surface.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// The factors of a material.
 enum MaterialFactor : uint8_t { kColor, kAmbient, kDiffuse, kSpecular, kEmissive, kShininess };
@@ -79,4 +79,4 @@ struct LitSurface : PlacedSurface {
   }
 };
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -7,7 +7,7 @@
 
 #include "halfspace/core/lane_pairs.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Loads texels i, …, i + N − 1 (N up to 4) of row j of a map with `width` columns. Columns outside the map are clamped to the first
 /// and the last one. Row j, counted in memory order, must exist.
@@ -25,4 +25,4 @@ HS_INLINE std::array<R, N> map_row(const float* map, int width, IntOf<R> i, IntO
   return texels;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -7,7 +7,7 @@
 #include "halfspace/shading/metallic_surface.h"
 #include "halfspace/shading/tone.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// How opacity decides whether a texel of a shadow map is covered.
 struct OpacityTest {
@@ -63,4 +63,4 @@ struct MaskedDepth {
   }
 };
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

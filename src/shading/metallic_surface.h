@@ -14,7 +14,7 @@
 #include "halfspace/shading/ggx.h"
 #include "halfspace/shading/placed_surface.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// The maps of a metallic-roughness material, in the order in which they are sampled.
 enum MetallicMap : uint8_t {
@@ -306,4 +306,4 @@ struct MetallicSurface : MetallicMaterial {
   }
 };
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -10,7 +10,7 @@
 #include "halfspace/shading/texels.h"
 #include "halfspace/shading/texture.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -215,4 +215,4 @@ template std::vector<Image<uint16_t>> mip_chain(const Image<uint16_t>&, TexelFor
 template std::vector<Image<glm::u8vec4>> mip_chain(const Image<glm::u8vec4>&, TexelFormat, const Workers*);
 template std::vector<Image<glm::vec4>> mip_chain(const Image<glm::vec4>&, TexelFormat, const Workers*);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -9,7 +9,7 @@
 #include "halfspace/core/srgb.h"
 #include "halfspace/core/vec.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Storage formats of texels. Formats with one channel read as (r, 0, 0, 1).
 enum class TexelFormat : uint8_t {
@@ -89,4 +89,4 @@ HS_INLINE vec4<R> decode_rgba16f(IntOf<R> first, IntOf<R> second) {
 
 }  // namespace detail
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

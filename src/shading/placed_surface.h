@@ -8,7 +8,7 @@
 #include "halfspace/shading/lighting.h"
 #include "halfspace/shading/texture.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Texture coordinates of a pixel. duv_dx and duv_dy are the changes in uv to the next pixel to the right and to the next pixel up.
 template <class R>
@@ -38,4 +38,4 @@ struct PlacedSurface {
   }
 };
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

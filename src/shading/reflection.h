@@ -10,7 +10,7 @@
 #include "halfspace/core/lane_math.h"
 #include "halfspace/shading/environment.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// A vector and its derivatives for one pixel to the right and up.
 template <class R>
@@ -46,4 +46,4 @@ HS_INLINE vec3<R> environment_reflection(const EnvironmentBlend& environment, co
   return environment.light(r.at, r.dx, r.dy);
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -7,7 +7,9 @@
 
 #include <glm/glm.hpp>
 
-namespace halfspace {
+#include "halfspace/core/namespace.h"
+
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// OpenGL's NEAREST and LINEAR (both sample only level 0) and LINEAR_MIPMAP_LINEAR. For magnification, trilinear means bilinear.
 enum class Filter : uint8_t { nearest, bilinear, trilinear };
@@ -27,4 +29,4 @@ struct Sampler {
   glm::vec4 border_color{0.0f};
 };
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -3,7 +3,7 @@
 
 #include "halfspace/shading/shadow_lookup.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 template float shadow_factor(const Shadow&, const ShadowReceiver<float>&);
 template double shadow_factor(const Shadow&, const ShadowReceiver<double>&);
@@ -12,4 +12,4 @@ template FragmentReal shadow_factor(const Shadow&, const ShadowReceiver<Fragment
 template Real shadow_factor(const Shadow&, const ShadowReceiver<Real>&);
 #endif
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

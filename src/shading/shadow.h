@@ -6,7 +6,7 @@
 #include "halfspace/core/lane_pairs.h"
 #include "halfspace/shading/shadow_map.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Returns the fraction of the light that reaches the point, from 0 (in shadow) to 1 (lit). The first view that contains the point
 /// with the whole filter kernel is used. Points outside all views or behind the light are lit.
@@ -20,4 +20,4 @@ extern template FragmentReal shadow_factor(const Shadow&, const ShadowReceiver<F
 extern template Real shadow_factor(const Shadow&, const ShadowReceiver<Real>&);
 #endif
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

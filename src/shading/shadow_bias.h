@@ -7,7 +7,7 @@
 
 #include "halfspace/shading/shadow_view.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Returns the radius of the filter kernel in texels, over which the bias has to be sufficient.
 inline float filter_reach(const ShadowSettings& s) {
@@ -75,4 +75,4 @@ HS_INLINE ShadowCoordinates<R> biased_coordinates(const ShadowView& view, const 
   return p;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -6,7 +6,7 @@
 #include "halfspace/shading/contract.h"
 #include "halfspace/shading/placed_surface.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 struct ShadowCatcher : PlacedSurface {
   float strength = 0.6f;        ///< opacity of a full shadow
@@ -51,4 +51,4 @@ struct ShadowCatcher : PlacedSurface {
   }
 };
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

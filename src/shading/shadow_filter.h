@@ -8,7 +8,7 @@
 #include "halfspace/shading/shadow_moments.h"
 #include "halfspace/shading/shadow_view.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace detail {
 
@@ -158,4 +158,4 @@ HS_INLINE R filtered_shadow(const ShadowView& view, const ShadowSettings& s, con
   return R(1);
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

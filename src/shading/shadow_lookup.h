@@ -7,7 +7,7 @@
 #include "halfspace/shading/shadow_bias.h"
 #include "halfspace/shading/shadow_filter.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 template <class R>
 R shadow_factor(const Shadow& shadow, const ShadowReceiver<R>& at) {
@@ -25,4 +25,4 @@ R shadow_factor(const Shadow& shadow, const ShadowReceiver<R>& at) {
   return light;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

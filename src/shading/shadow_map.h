@@ -16,7 +16,7 @@
 #include "halfspace/core/vec.h"
 #include "halfspace/shading/light_types.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Maximum penumbra radius of pcss, in texels.
 inline constexpr float kMaxPenumbra = 64.0f;
@@ -53,4 +53,4 @@ struct ShadowReceiver {
   R x_px, y_px;  ///< window coordinates; they determine the rotation of the disks of vogel and pcss
 };
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

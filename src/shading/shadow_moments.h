@@ -6,7 +6,7 @@
 
 #include "halfspace/shading/shadow_view.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Returns the linear depth: 0 at the near plane of the view, 1 at its far plane, proportional to the distance along the axis.
 template <class R>
@@ -77,4 +77,4 @@ HS_INLINE R four_moment_shadow(const ShadowView& view, const ShadowCoordinates<R
   return clamp(R(1) - shadow, R(0), R(1));
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

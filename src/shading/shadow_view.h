@@ -7,7 +7,7 @@
 #include "halfspace/shading/map_row.h"
 #include "halfspace/shading/shadow_map.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// A point in a shadow view. Texel coordinates start at the lower left corner; texel i covers [i, i + 1].
 template <class R>
@@ -97,4 +97,4 @@ HS_INLINE std::array<R, N> lit_by_texels(const ShadowView& view, const ShadowCoo
   return texels;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

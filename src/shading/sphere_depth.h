@@ -6,7 +6,7 @@
 #include "halfspace/shading/contract.h"
 #include "halfspace/shading/sphere_intersection.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Returns the rectangle that the sprite of a sphere covers, and its minimum depth.
 template <class R>
@@ -48,4 +48,4 @@ struct SphereDepth {
   }
 };
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -17,7 +17,7 @@
 #include "halfspace/shading/lighting.h"
 #include "halfspace/shading/sphere_depth.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Uniforms of both variants.
 struct SphereImpostors {
@@ -108,4 +108,4 @@ struct SphereImpostor : SphereImpostors {
   }
 };
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

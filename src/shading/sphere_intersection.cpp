@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -21,4 +21,4 @@ double SphereIntersection::root_in_double(const glm::vec3& center_cs, float radi
   return (px * px + py * py + 1.0) * r * r - (ex * ex + ey * ey + twist * twist);
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -22,7 +22,7 @@
 #include "halfspace/core/lane_math.h"
 #include "halfspace/core/vec.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// A double, stored as the sum of two floats.
 struct SplitDouble {
@@ -228,4 +228,4 @@ struct SphereIntersection {
   }
 };
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

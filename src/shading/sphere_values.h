@@ -6,7 +6,7 @@
 #include "halfspace/shading/frame_values.h"
 #include "halfspace/shading/sphere_impostor.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Has the attributes, coverage and depth of SphereImpostor. Positions on exact spheres are on the ray of the pixel. Those on classic
 /// sprites are on the hemisphere that they show, which differs from the depth that they write.
@@ -34,4 +34,4 @@ struct SphereValueShader : SphereImpostor<exact> {
   }
 };
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -12,7 +12,7 @@
 #include "halfspace/core/hash.h"
 #include "halfspace/shading/contract.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 struct StarSky {
   glm::vec3 forward_ws{0, 0, -1};  ///< unit vector
@@ -83,4 +83,4 @@ struct StarSky {
   }
 };
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

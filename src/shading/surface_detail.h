@@ -7,7 +7,7 @@
 #include "halfspace/shading/lit_surface.h"
 #include "halfspace/shading/pixel.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Applies a tangent-space normal map. x is along the tangent and y along the bitangent, which points up in the image of the map;
 /// components are encoded as 2c − 1 (as in glTF 2.0). n_ws and tangent_ws are the interpolated vectors, not renormalized
@@ -75,4 +75,4 @@ HS_INLINE vec3<R> normal_from_slopes(const vec3<R>& n, const vec3<R>& slope) {
   return n * slope.z - east * slope.x - north * slope.y;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

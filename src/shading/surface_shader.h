@@ -8,7 +8,7 @@
 #include "halfspace/shading/reflection.h"
 #include "halfspace/shading/surface_detail.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// The source of per-pixel normal detail (shading/surface_detail.h). Only ShadingRate::phong supports it.
 enum class NormalDetail : uint8_t {
@@ -245,4 +245,4 @@ struct SurfaceShader : LitSurface {
   }
 };
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

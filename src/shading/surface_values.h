@@ -9,7 +9,7 @@
 #include "halfspace/shading/surface_detail.h"
 #include "halfspace/shading/surface_shader.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Uniforms of a surface. Its normal is the one that its own shader uses for lighting.
 struct SurfaceValueUniforms : PlacedSurface {
@@ -122,4 +122,4 @@ struct SurfaceValueShader : SurfaceValueUniforms {
   }
 };
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

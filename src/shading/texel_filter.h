@@ -12,7 +12,7 @@
 #include "halfspace/core/transpose.h"
 #include "halfspace/shading/packed_texels.h"
 
-namespace halfspace::detail {
+namespace halfspace::inline HS_LANES_NAMESPACE::detail {
 
 inline constexpr int kFractionBits = 15;  ///< of texel weights; Texture2D::kMaxSize leaves room for them
 
@@ -245,4 +245,4 @@ HS_INLINE Value filtered(const TexelSquare<R>& s) {
     return filtered_by_channel<Value, format>(s);
 }
 
-}  // namespace halfspace::detail
+}  // namespace halfspace::inline HS_LANES_NAMESPACE::detail

@@ -13,7 +13,7 @@
 #include "halfspace/core/parallel.h"
 #include "halfspace/shading/texture.h"
 
-namespace halfspace::detail {
+namespace halfspace::inline HS_LANES_NAMESPACE::detail {
 
 template <TexelFormat format, class R>
 struct Rgba8Texels {
@@ -117,4 +117,4 @@ void for_each_row(const Workers* workers, int rows, const F& f) {
   for (int row = 0; row < rows; ++row) f(row);
 }
 
-}  // namespace halfspace::detail
+}  // namespace halfspace::inline HS_LANES_NAMESPACE::detail

@@ -10,7 +10,7 @@
 #include "halfspace/core/float_mode.h"
 #include "halfspace/shading/texels.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -170,4 +170,4 @@ glm::u8vec4 Texture2D::texel(int level, int x, int row) const {
   return {t & 255, (t >> 8) & 255, (t >> 16) & 255, t >> 24};
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -30,7 +30,7 @@
 #include "halfspace/shading/sampler.h"
 #include "halfspace/shading/texel_filter.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// The largest rgba32f texel: half of the largest float, so that the difference of two texels cannot overflow.
 inline constexpr float kMaxTexel = 0x1.fffffep126f;
@@ -340,4 +340,4 @@ R Texture2D::sample_alpha(const Sampler& sampler, const vec2<R>& uv, const vec2<
   return sample_any<R>(sampler, uv, duv_dx, duv_dy).w;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -6,7 +6,7 @@
 #include "halfspace/shading/texels.h"
 #include "halfspace/shading/texture.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -200,4 +200,4 @@ template vec4<RealN<16>> Texture2D::sample_any(const Sampler&, const vec2<RealN<
 template vec4<RealN<16>> Texture2D::sample_levels_any(const Sampler&, const vec2<RealN<16>>&, const LevelChoice<RealN<16>>&) const;
 #endif
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

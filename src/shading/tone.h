@@ -26,7 +26,7 @@
 #include "halfspace/core/vec.h"
 #include "halfspace/shading/tone_types.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 template <class R>
 struct SceneLight {
@@ -126,4 +126,4 @@ HS_INLINE Encoded<R> dithered(const Encoded<R>& e, R threshold) {
   return {codes};
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -5,7 +5,9 @@
 
 #include <cstdint>
 
-namespace halfspace {
+#include "halfspace/core/namespace.h"
+
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 enum class ToneCurve : uint8_t { none, reinhard, reinhard_extended, exponential, aces };
 enum class ToneOn : uint8_t { luminance, channel };
@@ -17,4 +19,4 @@ struct ToneMapping {
   float white = 4.0f;  ///< for reinhard_extended: the exposed light that maps to 1, 1e-3 to 1e6
 };
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -11,7 +11,7 @@
 #include "halfspace/study/pictures.h"
 #include "halfspace/study/polygon_area.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -132,4 +132,4 @@ Study study_antialiasing(const StudyOptions& options, const Workers& workers) {
   return study;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

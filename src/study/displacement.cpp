@@ -6,7 +6,7 @@
 #include "halfspace/scene/scene_file.h"
 #include "halfspace/study/pictures.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -55,4 +55,4 @@ Study study_displacement(const StudyOptions& options, const Workers& workers) {
   return study;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -14,7 +14,7 @@
 
 extern char** environ;
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -96,4 +96,4 @@ std::string draw_charts(const std::vector<std::string>& names, const std::filesy
   return "";
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

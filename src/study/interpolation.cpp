@@ -10,7 +10,7 @@
 #include "halfspace/shading/pixel.h"
 #include "halfspace/study/study.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -194,4 +194,4 @@ Study study_interpolation(const StudyOptions& options, const Workers&) {
   return study;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -12,7 +12,7 @@
 #include "halfspace/scene/shapes.h"
 #include "halfspace/study/pictures.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -138,4 +138,4 @@ Study study_max_error(const StudyOptions& options, const Workers& workers) {
   return study;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -6,7 +6,7 @@
 #include "halfspace/scene/scene_file.h"
 #include "halfspace/study/pictures.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -81,4 +81,4 @@ Study study_normals(const StudyOptions& options, const Workers& workers) {
   return study;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -7,7 +7,7 @@
 #include "halfspace/core/srgb.h"
 #include "halfspace/image/image_difference.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -95,4 +95,4 @@ double deepest_chord(const Mesh& mesh, double radius) {
   return deepest;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

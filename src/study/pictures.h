@@ -6,7 +6,7 @@
 #include "halfspace/render/prepared_scene.h"
 #include "halfspace/study/study.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// A rendered scene in linear light, and the time of one frame without the preparation of the scene.
 struct TimedPicture {
@@ -55,4 +55,4 @@ double rms_error(const Image<glm::vec4>& light, const Image<double>& truth);
 /// Returns the largest distance between the sphere and the plane of a triangle of its mesh, in world units.
 double deepest_chord(const Mesh& mesh, double radius);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

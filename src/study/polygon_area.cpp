@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -59,4 +59,4 @@ Image<T> area_coverage(const std::vector<TrianglePx>& triangles, int width, int 
 template Image<double> area_coverage<double>(const std::vector<TrianglePx>&, int, int);
 template Image<long double> area_coverage<long double>(const std::vector<TrianglePx>&, int, int);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

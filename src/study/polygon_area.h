@@ -9,7 +9,7 @@
 
 #include "halfspace/core/image.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 using TrianglePx = std::array<glm::dvec2, 3>;  ///< window coordinates, y up
 
@@ -18,4 +18,4 @@ using TrianglePx = std::array<glm::dvec2, 3>;  ///< window coordinates, y up
 template <class T>
 Image<T> area_coverage(const std::vector<TrianglePx>& triangles, int width, int height);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

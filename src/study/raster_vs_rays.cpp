@@ -11,7 +11,7 @@
 #include "halfspace/scene/scene_file.h"
 #include "halfspace/study/study.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -119,4 +119,4 @@ Study study_raster_vs_rays(const StudyOptions& options, const Workers& workers) 
   return study;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -10,7 +10,7 @@
 #include "halfspace/scene/scene_file.h"
 #include "halfspace/study/pictures.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -80,4 +80,4 @@ Study study_shading_rate(const StudyOptions& options, const Workers& workers) {
   return study;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

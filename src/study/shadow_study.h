@@ -8,7 +8,7 @@
 #include "halfspace/reference/shadow_table.h"
 #include "halfspace/study/study.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Returns a study named shadow_table, whose variants are means over the scenes of the table. A normal table gives one variant for each
 /// bias, filter and resolution; rows that vary the angle are ignored. A full table gives one variant for each pair of filter and bias at
@@ -16,4 +16,4 @@ namespace halfspace {
 /// validated images in pixels.
 Study shadow_table_study(const std::vector<TableRow>& rows, int width, int height);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

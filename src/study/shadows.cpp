@@ -8,7 +8,7 @@
 
 #include "halfspace/study/shadow_study.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -156,4 +156,4 @@ Study shadow_table_study(const std::vector<TableRow>& rows, int width, int heigh
   return study;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -9,7 +9,7 @@
 #include "halfspace/core/lane_math.h"
 #include "halfspace/study/study.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -95,4 +95,4 @@ Study study_specular(const StudyOptions& options, const Workers&) {
   return study;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -10,7 +10,7 @@
 #include "halfspace/scene/scene_file.h"
 #include "halfspace/study/pictures.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -87,4 +87,4 @@ Study study_sphere_model(const StudyOptions& options, const Workers& workers) {
   return study;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

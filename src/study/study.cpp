@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <chrono>
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 Timing time_of(const std::function<void()>& work, const StudyOptions& options) {
   using Clock = std::chrono::steady_clock;
@@ -52,4 +52,4 @@ std::vector<StudyEntry> studies() {
           {"max_error", study_max_error}};
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

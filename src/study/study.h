@@ -16,7 +16,7 @@
 #include "halfspace/core/image.h"
 #include "halfspace/core/parallel.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 struct StudyOptions {
   bool quick = false;  ///< small images and few variants, as a functional test; the numbers are not meaningful
@@ -91,4 +91,4 @@ Study study_raster_vs_rays(const StudyOptions& options, const Workers& workers);
 Study study_max_error(const StudyOptions& options, const Workers& workers);
 Study study_specular(const StudyOptions& options, const Workers& workers);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

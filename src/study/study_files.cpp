@@ -11,7 +11,7 @@
 #include "halfspace/image/atomic_output.h"
 #include "halfspace/image/image_io.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -131,4 +131,4 @@ void write_study(const Study& study, const RunFacts& facts, const std::filesyste
   write_text(folder / (study.name + ".json"), json_of(study, front, facts, folder).dump(2) + "\n");
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

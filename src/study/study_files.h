@@ -10,7 +10,7 @@
 
 #include "halfspace/study/study.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Information about a run, stored with the data.
 struct RunFacts {
@@ -36,4 +36,4 @@ void write_index(const std::filesystem::path& folder);
 /// Converts the name of a variant to a part of a file name: lowercase letters, digits and '-'.
 std::string file_word(std::string_view name);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

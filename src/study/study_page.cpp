@@ -10,7 +10,7 @@
 #include "halfspace/image/atomic_output.h"
 #include "halfspace/study/study_files.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -116,4 +116,4 @@ void write_index(const std::filesystem::path& folder) {
   write_file(folder / "index.html", std::as_bytes(std::span(html)));
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

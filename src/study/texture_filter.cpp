@@ -11,7 +11,7 @@
 #include "halfspace/raster/pass.h"
 #include "halfspace/study/pictures.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -138,4 +138,4 @@ Study study_texture_filter(const StudyOptions& options, const Workers& workers) 
   return study;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -9,7 +9,7 @@
 #include "halfspace/shading/tone.h"
 #include "halfspace/study/study.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -117,4 +117,4 @@ Study study_tone(const StudyOptions& options, const Workers&) {
   return study;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -45,6 +45,10 @@ def cached(name):
     return match[1] if match else ""
 
 
+def other_width(lanes):
+    return 4 if lanes != 4 else 1
+
+
 def files(folder):
     return sorted(path.relative_to(folder).as_posix() for path in folder.rglob("*") if not path.is_dir())
 
@@ -162,16 +166,40 @@ class Package(unittest.TestCase):
 
     def test_another_width_does_not_link(self):
         lanes = int(re.search(r"-DHALFSPACE_LANES=(\d+)", " ".join(package_flags()))[1])
-        other = 4 if lanes != 4 else 1
-        flags = [f for f in package_flags() if not f.startswith("-DHALFSPACE_LANES")] + [f"-DHALFSPACE_LANES={other}"]
-        for width, links in ((lanes, True), (other, False)):
-            flags[-1] = f"-DHALFSPACE_LANES={width}"
-            library = next(LIBRARIES.glob("libhalfspace-raster*[0-9ra]")).name
-            names = [library.replace("-raster", f"-{m}") for m in ("raster", "shading", "core")]
-            result = run(COMPILER, "-std=c++20", *shlex.split(cached("CMAKE_CXX_FLAGS")), *flags, HERE / "other_width.cpp", "-o",
-                         TEMPORARY / "other_width", *(LIBRARIES / n for n in names), *TBB)
-            self.assertEqual(result.returncode == 0, links, result.stderr[-2000:])
-        self.assertIn(f"lanes{other}::Pass", result.stderr)
+        other = other_width(lanes)
+        library = next(LIBRARIES.glob("libhalfspace-raster*[0-9ra]")).name
+        modules = [m for m in ("render", "raster", "image", "procedural", "geometry", "scene", "model", "shading", "core") if m in MODULES]
+        libraries = [LIBRARIES / library.replace("-raster", f"-{m}") for m in modules]
+        for source, missing in (("other_width", ("Pass::run",)), ("scene", ("SceneAssets::prepare", "SceneFile::open", "write_image"))):
+            if source == "scene" and "render" not in MODULES:
+                continue
+            flags = [f for f in package_flags() if not f.startswith("-DHALFSPACE_LANES")]
+            for width in (lanes, other) if source == "other_width" else (other,):
+                result = run(COMPILER, "-std=c++20", *shlex.split(cached("CMAKE_CXX_FLAGS")), *flags, f"-DHALFSPACE_LANES={width}",
+                             HERE / f"{source}.cpp", "-o", TEMPORARY / source, *libraries, *TBB)
+                self.assertEqual(result.returncode == 0, width == lanes, result.stderr[-2000:])
+            for name in missing:
+                self.assertRegex(result.stderr, rf"undefined reference to .*halfspace::lanes{other}::{name}\b")
+
+    @unittest.skipUnless(LONG_TESTS, "needs HALFSPACE_LONG_TESTS")
+    def test_two_widths_in_one_process(self):
+        lanes = int(re.search(r"-DHALFSPACE_LANES=(\d+)", " ".join(package_flags()))[1])
+        installed, result = configure(HERE, "installed-width", f"-DCMAKE_PREFIX_PATH={PREFIX}")
+        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+        other, result = configure(HERE / "host", "other-width", f"-DHALFSPACE_SOURCE={ROOT}", f"-DHALFSPACE_LANES={other_width(lanes)}",
+                                  "-DCMAKE_CXX_COMPILER_LAUNCHER=" + cached("CMAKE_CXX_COMPILER_LAUNCHER"))
+        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+        modules = []
+        for folder in (installed, other):
+            expect("cmake", "--build", folder, "--target", "own_shader_module", "-j", "2")
+            modules.append(str(folder / "libown_shader_module.so"))
+        # RTLD_GLOBAL lets the second module use the symbols of the first.
+        code = "import ctypes, sys; sys.exit(sum(m.main() for m in [ctypes.CDLL(f, ctypes.RTLD_GLOBAL) for f in sys.argv[1:]]))"
+        for order in (modules, modules[::-1]):
+            output = expect(sys.executable, "-c", code, *order)
+            self.assertEqual(output.count("all pixels are as expected"), 2, output)
+            for width in (lanes, other_width(lanes)):
+                self.assertIn(f"{width} lanes:", output)
 
     def test_only_flags_that_all_compilers_know_are_passed_on(self):
         """A project may use another compiler than the installation. Options that only some compilers know depend on the compiler's name."""
@@ -240,7 +268,7 @@ class Host(unittest.TestCase):
 
     def test_modules_without_their_packages_are_left_out(self):
         missing = [f"-DCMAKE_DISABLE_FIND_PACKAGE_{name}=ON" for name in ("fmt", "nlohmann_json", "JPEG", "OpenEXR")]
-        missing += [f"-D{name}=NOTFOUND" for name in ("SPNG_LIBRARY", "MESHOPTIMIZER_LIBRARY")]
+        missing += [f"-D{name}=OFF" for name in ("SPNG_LIBRARY", "MESHOPTIMIZER_LIBRARY")]
         self.configure("only-raster", "-DFETCH=ON", "-DONLY_RASTER=ON", *missing)
 
     def test_nothing_is_installed_unless_asked(self):

@@ -14,6 +14,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+# core/cpu.h, which is also compiled for the baseline instruction set.
+WITHOUT_WIDTH = {"halfspace::build_arch", "halfspace::build_description", "halfspace::missing_cpu_features"}
 LIST = Path(__file__).resolve().parent / "exports.txt"
 
 
@@ -24,7 +26,7 @@ def exported(library):
     for line in lines:
         match = re.fullmatch(r"[0-9a-f]+ ([A-Za-z]) (.*?)(@@.*)?", line)
         if match[1] in "TDBR":
-            names.add(re.sub(r"lanes\d+", "lanes", re.sub(r"\(.*", "", match[2].replace("(anonymous namespace)", "ANONYMOUS"))))
+            names.add(re.sub(r"\(.*", "", match[2].replace("(anonymous namespace)", "ANONYMOUS")))
         elif not re.search(r"\bhalfspace::", match[2]):
             names.add(match[2])
     return names
@@ -56,6 +58,11 @@ def main():
     foreign = [name for name in found if not re.match(r"(non-virtual thunk to |vtable for |typeinfo (name )?for )?halfspace::", name)]
     if foreign:
         sys.exit("exported, but not in namespace halfspace:\n" + "\n".join(foreign))
+    # Libraries for different widths can be loaded into one process, because their names differ.
+    common = [name for name in found if not re.search(r"halfspace::lanes\d+::", name) and name not in WITHOUT_WIDTH]
+    if common:
+        sys.exit("exported, but not in the namespace of the SIMD width (core/namespace.h):\n" + "\n".join(common))
+    found = sorted({re.sub(r"\blanes\d+::", "", name) for name in found})
     if os.environ.get("HALFSPACE_RENEW_EXPORTS"):
         LIST.write_text("\n".join(found) + "\n")
     listed = LIST.read_text().split("\n")[:-1]

@@ -105,7 +105,7 @@ def check_library_include(includer, included):
         return None
     if target not in allowed_modules(module):
         return f"includes {included}: {module} may include {', '.join(sorted(allowed_modules(module)))}"
-    if includer in PLAIN_HEADERS and included not in PLAIN_HEADERS:
+    if includer in PLAIN_HEADERS and included not in PLAIN_HEADERS | {"core/namespace.h"}:
         return f"includes {included}: plain headers may only include other plain headers"
     if module == target == "raster":
         from_row, to_row = raster_phase(includer), raster_phase(included)

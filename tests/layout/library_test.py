@@ -65,6 +65,14 @@ class Library(unittest.TestCase):
             for macro in re.findall(r"^\s*#\s*define\s+(\w+)", text, re.M):
                 self.assertRegex(macro, "^(HS|HALFSPACE)_", name)
 
+    def test_names_are_in_the_namespace_of_the_simd_width(self):
+        """Otherwise code that was compiled for different widths could link, or share functions in one process (core/namespace.h)."""
+        for path in sorted((ROOT / "src").rglob("*")):
+            name = path.relative_to(ROOT).as_posix()
+            if path.suffix in (".h", ".cpp") and name not in ("src/core/cpu.h", "src/core/cpu.cpp"):  # also compiled for the launcher
+                for line in re.findall(r"^namespace halfspace\b.*$", path.read_text(encoding="utf-8"), re.M):
+                    self.assertTrue(line.startswith("namespace halfspace::inline HS_LANES_NAMESPACE"), f"{name}: {line}")
+
     def test_public_headers_exist(self):
         headers = public_headers()
         self.assertGreater(len(headers), 50)

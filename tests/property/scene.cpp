@@ -79,7 +79,7 @@ std::string compare_color(const char* name, const Scene& scene, ColorFormat form
 
 }  // namespace
 
-namespace detail {
+namespace draw_memory {
 
 void lay_out_vertices(const float* rows, std::size_t count, int components, VertexLayout layout, DrawMemory& memory) {
   VertexView& view = memory.view;
@@ -149,7 +149,7 @@ void lay_out_indices(const std::vector<uint32_t>& list, std::size_t vertex_count
   }
 }
 
-}  // namespace detail
+}  // namespace draw_memory
 
 Rect viewport_of(const Scene& scene, const DrawState& state) { return state.viewport.value_or(Rect{0, 0, scene.width, scene.height}); }
 

@@ -89,7 +89,7 @@ SceneDraw make_draw(const S& shader, const std::string& name, std::vector<typena
 
 // ---- code that depends on the shader type ------------------------------------------------------------------------
 
-namespace detail {
+namespace draw_memory {
 
 /// Owns the memory of a draw.
 struct DrawMemory {
@@ -108,19 +108,19 @@ void lay_out_indices(const std::vector<uint32_t>& list, std::size_t vertex_count
 void lay_out_instances(const float* rows, std::size_t count, int components, std::size_t instance_components, uint32_t divisor,
                        DrawMemory& memory);
 
-}  // namespace detail
+}  // namespace draw_memory
 
 template <class S>
 SceneDraw make_draw(const S& shader, const std::string& name, const oracle::Input<S>& input, const DrawState& state,
                     VertexLayout vertex_layout, IndexLayout index_layout) {
   constexpr auto components = static_cast<int>(kComponents<typename S::template Attributes<float>>);
-  const auto memory = std::make_shared<detail::DrawMemory>();
-  detail::lay_out_vertices(reinterpret_cast<const float*>(input.vertices.data()), input.vertices.size(), components, vertex_layout,
+  const auto memory = std::make_shared<draw_memory::DrawMemory>();
+  draw_memory::lay_out_vertices(reinterpret_cast<const float*>(input.vertices.data()), input.vertices.size(), components, vertex_layout,
                            *memory);
-  detail::lay_out_instances(reinterpret_cast<const float*>(input.instances.data()), input.instances.size(), components,
+  draw_memory::lay_out_instances(reinterpret_cast<const float*>(input.instances.data()), input.instances.size(), components,
                             input.instance_components, input.divisor, *memory);
   const std::size_t indexable = input.vertices.size() + static_cast<std::size_t>(-std::min(state.base_vertex, 0));
-  detail::lay_out_indices(input.indices, indexable, input.restart, index_layout, *memory);
+  draw_memory::lay_out_indices(input.indices, indexable, input.restart, index_layout, *memory);
   SceneDraw d;
   d.state = state;
   d.shader = name;

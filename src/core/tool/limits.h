@@ -5,7 +5,9 @@
 
 #include <cstdint>
 
-namespace halfspace {
+#include "halfspace/core/namespace.h"
+
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Ends this process when the reader of standard output is gone.
 void exit_with_reader();
@@ -16,4 +18,4 @@ void limit_memory(uint64_t bytes);
 /// Ends this process after another `seconds` of CPU time, or after five times as many seconds of elapsed time.
 void limit_time(unsigned seconds);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

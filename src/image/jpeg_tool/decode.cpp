@@ -14,7 +14,7 @@
 #include "halfspace/image/tool/failure.h"
 #include "halfspace/image/tool/protocol.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -130,4 +130,4 @@ bool decode_and_answer(const ReadRequest& request) {
   return true;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -19,7 +19,9 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace halfspace {
+#include "halfspace/core/namespace.h"
+
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 inline constexpr const char* kImageToolName = "halfspace-image-tool";
 inline constexpr const char* kJpegToolName = "halfspace-jpeg-tool";
@@ -62,4 +64,4 @@ inline constexpr std::size_t row_bytes(const PictureHeader& h) {
   return static_cast<std::size_t>(h.width) * h.channels * sample_bytes(h.sample);
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

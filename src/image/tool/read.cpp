@@ -13,7 +13,7 @@
 #include "halfspace/image/tool/failure.h"
 #include "halfspace/image/tool/protocol.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -129,4 +129,4 @@ bool read_and_answer(const ReadRequest& request) {
   return true;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -7,7 +7,9 @@
 #include <cstdint>
 #include <string>
 
-namespace halfspace {
+#include "halfspace/core/namespace.h"
+
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 struct ReadRequest {
   /// An open file. The service closes it after the request.
@@ -40,4 +42,4 @@ void receive(void* memory, std::size_t bytes);
 /// contain. bytes_per_pixel: size of a decoded pixel, with all channels.
 void check_claimed_size(const ReadRequest& request, int64_t width, int64_t height, uint64_t bytes_per_pixel);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -3,9 +3,11 @@
 
 #include <string>
 
-namespace halfspace {
+#include "halfspace/core/namespace.h"
+
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Encodes the image received on standard input and writes the answer (see protocol.h) to standard output. Returns false if that failed.
 bool write_and_answer(const std::string& format);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

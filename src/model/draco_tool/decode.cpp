@@ -7,7 +7,7 @@
 #include <limits>
 #include <memory>
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -106,4 +106,4 @@ DecodedDraco decode_draco(std::span<const char> stream, std::span<const uint32_t
   return decoded;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -15,7 +15,7 @@
 #include "halfspace/raster/shade/fragment_kernel.h"
 #include "halfspace/raster/tile/post_step.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace detail {
 
@@ -137,8 +137,6 @@ consteval bool require_depth_draw() {
   return false;
 }
 
-inline namespace HS_LANES_NAMESPACE {
-
 /// State of a Pass: its attachments, draws and work. Pass only stores a pointer to it.
 class PassState;
 /// Gives the private code of this module access to the state of a Pass.
@@ -147,8 +145,6 @@ std::pmr::memory_resource& memory_of(PassState& state);
 void add_draw(PassState& state, const ShaderKernels& kernels, KeptShader shader, const VertexView& vertices,
               std::shared_ptr<const Indices> indices, const DrawState& draw_state);
 void set_post_step(PassState& state, PostStep post);
-
-}  // namespace HS_LANES_NAMESPACE
 
 /// Index list that can be drawn: Indices, or a contiguous range of uint32_t or uint16_t.
 template <class T>
@@ -176,4 +172,4 @@ void draw(PassState& state, const S& shader, const VertexView& vertices, std::sh
 
 }  // namespace detail
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -14,14 +14,10 @@
 #include "halfspace/raster/loop/tile_worker.h"
 #include "halfspace/raster/trace/fragment_trace.h"
 
-namespace halfspace {
-
-inline namespace HS_LANES_NAMESPACE {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Runs a pass like Pass::run(), but calls tiles.run() in each round instead of drawing the tiles.
 PassStatistics run_with(Pass& pass, TileRunner& tiles, const Workers& workers);
-
-}  // namespace HS_LANES_NAMESPACE
 
 /// Runs a pass and traces its fragments. Images and statistics are the same as with Pass::run().
 PassStatistics run_traced(Pass& pass, const Workers& workers, PassTrace& trace);
@@ -56,4 +52,4 @@ class TriangleInspector {
   std::vector<std::vector<SubmittedPrimitive>> primitives_;  // for each chunk
 };
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -9,7 +9,7 @@
 #include "halfspace/raster/shade/fragment_batch.h"
 #include "halfspace/raster/visibility/full_tile.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 PixelBounds tile_pixels(const PassContext& context, int tile_x0, int tile_x1, int tile_y) {
   const int size = context.tile_size;
@@ -70,4 +70,4 @@ void fill_images(const PassContext& context, const Attachments& attachments, con
     fill_depth(attachments.depth, context.width, context.height, area.pixels);
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

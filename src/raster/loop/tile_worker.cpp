@@ -13,7 +13,7 @@
 #include "halfspace/raster/loop/tile_draws.h"
 #include "halfspace/raster/trace/tile_trace.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -231,4 +231,4 @@ void run_tiles(const PassContext& context, const Attachments& attachments, Round
   TileWorker<PassStatistics, true>(context, attachments, round, nullptr, ms).run(workers, statistics);
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

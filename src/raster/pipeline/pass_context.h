@@ -14,7 +14,7 @@
 #include "halfspace/raster/target.h"
 #include "halfspace/shading/varyings.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 struct PrimitiveBatch;
 struct FragmentBatch;
@@ -112,4 +112,4 @@ inline const Draw& draw_of(const PassContext& context, TriangleId id) {
   return context.draws[chunk.ranges[range].draw];
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

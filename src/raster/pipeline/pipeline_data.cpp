@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "halfspace/raster/pipeline/pipeline_data.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 void Chunk::clear() {
   ranges.clear();
@@ -21,4 +21,4 @@ std::size_t Chunk::bytes() const {
          clip_vertices.capacity() * sizeof(ClipVertex) + (clip_varyings.capacity() + primitives.capacity()) * sizeof(float);
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -18,7 +18,7 @@
 #include "halfspace/raster/statistics.h"
 #include "halfspace/raster/vertex_input.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 // ---- window coordinates ----------------------------------------------------------------------------------------
 
@@ -249,4 +249,4 @@ constexpr TriangleId triangle_id(uint32_t chunk, uint32_t triangle) { return chu
 constexpr uint32_t chunk_of(TriangleId id) { return id >> 16; }
 constexpr uint32_t index_in_chunk(TriangleId id) { return id & 0xffff; }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -76,4 +76,4 @@ std::array<uint32_t, 3> Assembly::next_of_run() {
   return {};
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

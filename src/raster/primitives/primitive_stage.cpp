@@ -5,7 +5,7 @@
 
 #include "halfspace/raster/primitives/primitive_assembly.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -134,4 +134,4 @@ std::vector<SubmittedPrimitive> submitted_primitives(const PassContext& context,
   return out;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -10,7 +10,7 @@
 #include "halfspace/raster/primitives/setup_range.h"
 #include "halfspace/raster/primitives/setup_simd.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -169,4 +169,4 @@ uint32_t max_triangles_per_primitive(const Draw& draw, int samples) {
   return corners;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -4,7 +4,7 @@
 #include "halfspace/raster/primitives/setup_points_lines.h"
 #include "halfspace/raster/primitives/vertex_stage.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -102,4 +102,4 @@ void set_up_clipped(SetupRange& r, const PrimitiveSlots& slots, ClipFunction cli
   r.note_source(before, slots);
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

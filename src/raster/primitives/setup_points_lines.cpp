@@ -9,7 +9,7 @@
 #include "halfspace/raster/pipeline/window.h"
 #include "halfspace/raster/primitives/setup_clipped.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -154,4 +154,4 @@ Cull append_clip_line(SetupRange& r, uint32_t a, uint32_t b, Facing facing) {
   return why == Cull::none ? why : other;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

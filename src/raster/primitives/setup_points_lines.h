@@ -6,7 +6,7 @@
 
 #include "halfspace/raster/primitives/setup_range.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Sets up the next `count` points or lines of a draw range.
 void set_up_points(SetupRange& range, uint32_t count);
@@ -24,4 +24,4 @@ Cull append_point(SetupRange& range, const PointSpriteRect& rect, const ScreenVe
 /// Appends the line between two clip vertices. If the pass is multisampled, the line is a rectangle of two triangles.
 Cull append_clip_line(SetupRange& range, uint32_t a, uint32_t b, Facing facing);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

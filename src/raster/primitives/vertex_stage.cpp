@@ -8,7 +8,7 @@
 #include "halfspace/raster/pipeline/window.h"
 #include "halfspace/raster/primitives/point_sprite.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -122,4 +122,4 @@ Outcode shade_vertices(const Draw& draw, std::size_t begin, std::size_t end, Sha
   return any;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

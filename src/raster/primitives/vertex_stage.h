@@ -6,7 +6,7 @@
 
 #include "halfspace/raster/pipeline/pass_context.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Returns the transform from clip space to window coordinates. The viewport is in pixels.
 Viewport make_viewport(const Rect& viewport, const DepthState& depth);
@@ -18,4 +18,4 @@ Outcode shade_vertices(const Draw& draw, std::size_t begin, std::size_t end, Sha
 /// Allocates memory for all vertices that the draw uses.
 void allocate_vertices(const Draw& draw, ShadedVertices& out);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -9,7 +9,7 @@
 #include "halfspace/raster/trace/tile_trace.h"
 #include "halfspace/raster/visibility/depth_stencil_test.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 // Data that all fragments share.
 template <class S>
@@ -93,4 +93,4 @@ void count_fragments(const Shading& c, const PacketMask* packets, int count) {
   for (int i = 0; i < count; ++i) c.statistics.fragments_shaded += static_cast<uint64_t>(std::popcount(packets[i].lanes));
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

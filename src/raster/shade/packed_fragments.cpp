@@ -3,7 +3,7 @@
 
 #include <bit>
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 std::size_t unpack(const ShaderKernels& kernels, const FragmentOutput& packed, std::size_t first, std::span<const PacketMask> packets,
                    FragmentOutput& out) {
@@ -19,4 +19,4 @@ std::size_t unpack(const ShaderKernels& kernels, const FragmentOutput& packed, s
   return first;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -6,7 +6,7 @@
 #include "halfspace/raster/shade/fragment_batch.h"
 #include "halfspace/raster/visibility/packed_pixels.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 struct PackedFragments {
   PackedPixels pixels;
@@ -18,4 +18,4 @@ struct PackedFragments {
 std::size_t unpack(const ShaderKernels& kernels, const FragmentOutput& packed, std::size_t first, std::span<const PacketMask> packets,
                    FragmentOutput& out);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

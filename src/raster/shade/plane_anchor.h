@@ -20,7 +20,9 @@
 #include <array>
 #include <cstdint>
 
-namespace halfspace {
+#include "halfspace/core/namespace.h"
+
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Vertex of a triangle in window coordinates.
 struct PlaneCorner {
@@ -57,4 +59,4 @@ struct PlaneAnchor {
 /// Returns the anchor of a triangle with counter-clockwise vertices for the pixels of a cell.
 PlaneAnchor plane_anchor(const std::array<PlaneCorner, 3>& corner, const PlaneCell& cell);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -9,7 +9,7 @@
 #include "halfspace/raster/visibility/block_edges.h"
 #include "halfspace/raster/visibility/centroid.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -252,4 +252,4 @@ void shade_deferred(const PassContext& context, Tile& tile, DeferredShading& mem
 template void shade_deferred(const PassContext&, Tile&, DeferredShading&, PassStatistics&);
 template void shade_deferred(const PassContext&, Tile&, DeferredShading&, TracedStatistics&);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -4,7 +4,7 @@
 #include <mutex>
 #include <utility>
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -39,4 +39,4 @@ TileMemoryLease::~TileMemoryLease() {
   p.first_idle = std::move(memory_);
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

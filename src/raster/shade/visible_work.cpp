@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <bit>
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -176,4 +176,4 @@ std::size_t take_sorted_draw(std::span<ShadingWork>& work, std::span<PacketMask>
   return taken;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -5,7 +5,7 @@
 #include "halfspace/raster/tile/blend_programs.h"
 #include "halfspace/raster/tile/tile_format.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -128,4 +128,4 @@ bool uses_second_source(const BlendState& blend) {
   return second(blend.source_color) || second(blend.destination_color) || second(blend.source_alpha) || second(blend.destination_alpha);
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

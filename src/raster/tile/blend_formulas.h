@@ -5,7 +5,7 @@
 
 #include "halfspace/raster/tile/tile.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Values that blend factors refer to. With a fixed-point attachment, src1 and constant must be clamped before use.
 struct BlendSources {
@@ -56,4 +56,4 @@ HS_INLINE Real blend_sum(BlendEquation e, Real src, Real src_factor, Real dst, R
   return src;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -6,7 +6,7 @@
 #include "halfspace/raster/tile/blend_formulas.h"
 #include "halfspace/raster/tile/tile_format.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -138,4 +138,4 @@ BlendPrograms blend_programs(ColorFormat format, const BlendState& s) {
   }
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -8,7 +8,7 @@
 
 #include "halfspace/raster/tile/tile.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Blends one color per packet with the existing colors, in the order of the packets. src1: second colors, for dual-source blending.
 using BlendProgram = void (*)(ColorBuffer& buffer, std::span<const PacketMask> packets, const PacketColor* src, const PacketColor* src1,
@@ -31,4 +31,4 @@ struct BlendTarget {
   const BlendState* state = nullptr;
 };
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

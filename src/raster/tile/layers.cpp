@@ -6,7 +6,7 @@
 
 #include "halfspace/raster/tile/blend.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -79,4 +79,4 @@ void TransparentLayers::write(ColorBuffer& buffer) {
   used_.clear();
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -9,7 +9,7 @@
 
 #include "halfspace/raster/tile/tile.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 class TransparentLayers {
  public:
@@ -45,4 +45,4 @@ class TransparentLayers {
   std::array<int16_t, kPackets> index_{};  // for each packet, the index of its stack plus 1, or 0 if it has none
 };
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -3,7 +3,7 @@
 
 #include "halfspace/raster/tile/tile_format.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -69,4 +69,4 @@ void resolve_color(const Tile& tile, ColorBuffer& color) {
   });
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

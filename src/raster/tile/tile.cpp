@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "halfspace/raster/tile/tile.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 void refresh_hiz(Tile& tile, int block) {
   const float* depth = &tile.depth[static_cast<std::size_t>(block) * kPixelsPerBlock];
@@ -27,4 +27,4 @@ void refresh_hiz(Tile& tile, int block) {
   tile.hiz_writes[b] = 0;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

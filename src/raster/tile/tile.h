@@ -15,7 +15,7 @@
 #include "halfspace/raster/pipeline/sample_pattern.h"
 #include "halfspace/raster/target.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 inline constexpr int kBlockSize = 8;
 inline constexpr int kBlocksPerRow = kMaxTileSize / kBlockSize;
@@ -138,4 +138,4 @@ void fill_depth(const DepthTarget& target, int target_width, int target_height, 
 /// Recomputes the exact depth bounds of a block.
 void refresh_hiz(Tile& tile, int block);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 PixelBytes encode_pixel(ColorFormat format, const PacketColor& color) {
   PixelBytes bytes{};
@@ -49,4 +49,4 @@ void fill_buffer(ColorBuffer& buffer, const PacketColor& color) {
   }
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

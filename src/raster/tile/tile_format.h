@@ -9,7 +9,7 @@
 #include "halfspace/core/srgb.h"
 #include "halfspace/raster/tile/tile.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 // ---- color -----------------------------------------------------------------------------------------------------
 
@@ -157,4 +157,4 @@ void with_codec(DepthFormat format, F f) {
   }
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -3,7 +3,7 @@
 
 #include "halfspace/raster/pipeline/edge.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -46,4 +46,4 @@ const SamplePosition* find_centroids(const PacketBatch& batch, std::span<SampleP
   return out.data();
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

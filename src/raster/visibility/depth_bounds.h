@@ -7,7 +7,7 @@
 
 #include "halfspace/raster/tile/tile.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Number of writes after which the bounds of a block are recomputed before the next test. This costs about as much as one packet.
 inline constexpr uint8_t kRefreshAfter = 8;
@@ -63,4 +63,4 @@ inline BlockTest test_tile(CompareOp op, const Tile& tile, float low, float high
   return test_bounds(op, low, high, tile_min, tile_max);
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -9,7 +9,7 @@
 #include "halfspace/raster/tile/tile_format.h"
 #include "halfspace/raster/visibility/tile_edges.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Bounds of a triangle's depth, represented as in Tile::depth.
 struct DepthBounds {
@@ -117,4 +117,4 @@ class DepthPlane {
   int32_t dx_ = 0, dy_ = 0;
 };
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -3,7 +3,7 @@
 
 #include "halfspace/core/lane_bytes.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -41,4 +41,4 @@ void update_stencil(const StencilFace& face, Tile& tile, int packet, Mask failed
   store_u8(&tile.stencil[static_cast<std::size_t>(packet) * kLanes], value);
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -13,7 +13,7 @@
 #include "halfspace/raster/visibility/packet_queue.h"
 #include "halfspace/raster/visibility/visibility.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Returns true for draws with depth test "less" whose depth is tested before and after the shader, such as alpha-tested draws.
 inline bool lists_undecided(const DrawInTile& d) {
@@ -163,4 +163,4 @@ class ListWriter {
   int shift_ = 0;           // distance of its packets from those of sample 0
 };
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -6,7 +6,7 @@
 #include "halfspace/core/lane_packing.h"
 #include "halfspace/raster/pipeline/pass_context.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -91,4 +91,4 @@ uint16_t unpack_keep(const uint16_t* packed, std::size_t first, uint32_t lanes) 
 
 Real unpack_values(const float* packed, std::size_t first, uint32_t lanes) { return unpack_lanes(load<Real>(packed + first), lanes); }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -9,7 +9,7 @@
 
 #include "halfspace/raster/visibility/packet_batch.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 struct Draw;
 
@@ -52,4 +52,4 @@ uint16_t unpack_keep(const uint16_t* packed, std::size_t first, uint32_t lanes);
 /// The same for floats, such as depths. Reads W of them.
 Real unpack_values(const float* packed, std::size_t first, uint32_t lanes);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

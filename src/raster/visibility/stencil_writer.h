@@ -10,7 +10,7 @@
 #include "halfspace/raster/visibility/depth_stencil_test.h"
 #include "halfspace/raster/visibility/visibility.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// For draws with one sample per pixel whose visibility depends only on coverage, the depth test and the stencil test.
 class StencilWriter {
@@ -64,4 +64,4 @@ class StencilWriter {
   bool tests_, writes_depth_, writes_id_;
 };
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -7,7 +7,7 @@
 #include "halfspace/raster/visibility/depth_bounds.h"
 #include "halfspace/raster/visibility/depth_stencil_test.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -78,4 +78,4 @@ void write_depth(const DepthState& state, Tile& tile, int packet, Real z, Mask m
   tile.hiz_writes[block] = kRefreshAfter;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -10,7 +10,7 @@
 #include "halfspace/raster/visibility/thin_line.h"
 #include "halfspace/raster/visibility/trace_rejected.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -214,4 +214,4 @@ void rasterize_queued(const DrawInTile& d, const Triangle& t, TriangleId id, Pac
 template void rasterize_queued(const DrawInTile&, const Triangle&, TriangleId, PacketQueue&, PassStatistics&);
 template void rasterize_queued(const DrawInTile&, const Triangle&, TriangleId, PacketQueue&, TracedStatistics&);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

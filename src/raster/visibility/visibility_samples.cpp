@@ -10,7 +10,7 @@
 #include "halfspace/raster/visibility/opaque_writer.h"
 #include "halfspace/raster/visibility/small_triangle.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -222,4 +222,4 @@ template std::size_t rasterize_small_samples_queued(const DrawInTile&, uint32_t,
 template std::size_t rasterize_small_samples_queued(const DrawInTile&, uint32_t, std::span<const uint16_t>, PacketQueue&,
                                                     TracedStatistics&);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -13,7 +13,7 @@
 #include "halfspace/raster/visibility/small_triangle.h"
 #include "halfspace/raster/visibility/stencil_writer.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -278,4 +278,4 @@ std::size_t rasterize_small_queued(const DrawInTile& d, uint32_t chunk, std::spa
 template std::size_t rasterize_small_queued(const DrawInTile&, uint32_t, std::span<const uint16_t>, PacketQueue&, PassStatistics&);
 template std::size_t rasterize_small_queued(const DrawInTile&, uint32_t, std::span<const uint16_t>, PacketQueue&, TracedStatistics&);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

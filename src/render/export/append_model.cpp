@@ -3,7 +3,7 @@
 
 #include <array>
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -97,4 +97,4 @@ std::vector<std::vector<int>> append_model(Model& to, const Model& from, int sce
   return roots;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -7,7 +7,7 @@
 #include "halfspace/model/file_bytes.h"
 #include "halfspace/model/write_model.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -37,4 +37,4 @@ void embed_images(Model& model) {
   }
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -12,7 +12,7 @@
 #include "halfspace/image/png.h"
 #include "halfspace/render/soft_mask.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -151,4 +151,4 @@ void pack_maps(Model& model) {
   for (ModelMaterial& material : model.materials) packer.pack(material);
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -3,11 +3,11 @@
 
 #include "halfspace/model/model.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Combines material maps that glTF stores in one image: metalness (blue) with roughness (green), and base color with opacity. Moves the
 /// specular map to the alpha channel. The new images are 8-bit PNGs with the size of the larger map. Maps stay unchanged if they already
 /// have the right channels, if their texture coordinates or samplers differ, or if an image is not in memory.
 void pack_maps(Model& model);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

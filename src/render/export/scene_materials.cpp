@@ -6,7 +6,7 @@
 
 #include "halfspace/image/png.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -82,4 +82,4 @@ TextureUse SceneMaterials::texture_use(const Texture2D* texture, const Sampler& 
   return use;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

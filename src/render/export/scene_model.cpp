@@ -14,7 +14,7 @@
 #include "halfspace/render/model_asset.h"
 #include "halfspace/scene/lights.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -267,4 +267,4 @@ Model scene_model(SceneDescription scene, SceneAssets& assets) {
   return exporter.model();
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -14,10 +14,10 @@
 #include "halfspace/model/model.h"
 #include "halfspace/render/prepared_scene.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Returns the scene as a model with images in memory. Model::warnings has one line for each kind of data that is omitted. Throws
 /// InputError if a file that the scene refers to cannot be used.
 Model scene_model(SceneDescription scene, SceneAssets& assets);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

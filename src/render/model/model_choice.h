@@ -9,7 +9,7 @@
 
 #include "halfspace/scene/description.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Maximum difference from the image of the same scene with the finest models.
 struct AllowedError {
@@ -30,4 +30,4 @@ struct FittedScene {
   std::vector<ModelChoice> choices;  ///< keys that differ from the scene, and keys that could not be chosen
 };
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

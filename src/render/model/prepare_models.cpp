@@ -18,7 +18,7 @@
 #include "halfspace/scene/shapes.h"
 #include "halfspace/shading/tone.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -286,4 +286,4 @@ FittedScene SceneAssets::fit(const SceneDescription& scene, int width, int heigh
   return ScenePreparation(*this, scene, width, height).fit(allowed);
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

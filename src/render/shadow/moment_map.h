@@ -7,10 +7,10 @@
 #include "halfspace/core/parallel.h"
 #include "halfspace/shading/shadow_map.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Returns the mean of the first four powers of linear depth over squares of 2·radius + 1 texels, with the map clamped at its
 /// edges. `depth` holds size² reversed window depths, top row first. radius ≥ 0.
 Image<glm::vec4> filtered_moments(const ShadowView& view, const Image<float>& depth, int radius, const Workers& workers);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

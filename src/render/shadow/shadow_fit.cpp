@@ -8,7 +8,7 @@
 #include "halfspace/geometry/camera.h"
 #include "halfspace/scene/lights.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -175,4 +175,4 @@ std::vector<LightView> fitted_views(const View& view, const std::vector<PlacedMe
   return finder.cube(light.position);
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

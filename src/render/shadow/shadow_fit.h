@@ -9,7 +9,7 @@
 #include "halfspace/render/shadow/shadow_views.h"
 #include "halfspace/render/view.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Returns the views for maps of size² texels, with `margin` texels around each view for filtering. A directional light has
 /// one view per cascade that shows a receiver. A spot light has one view. A point light, or a spot light with an outer angle above
@@ -17,4 +17,4 @@ namespace halfspace {
 std::vector<LightView> fitted_views(const View& view, const std::vector<PlacedMesh>& meshes, const std::vector<PlacedSpheres>& spheres,
                                     const LightDescription& light, const ShadowDescription& shadow, int size, double margin);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

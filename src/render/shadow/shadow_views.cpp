@@ -10,7 +10,7 @@
 #include "halfspace/core/vec.h"
 #include "halfspace/geometry/camera.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -188,4 +188,4 @@ std::vector<double> cascade_splits(double near, double far, int count, double we
   return splits;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -9,7 +9,9 @@
 
 #include <glm/glm.hpp>
 
-namespace halfspace {
+#include "halfspace/core/namespace.h"
+
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// A view from a light, in world space and double precision. Depth is reversed, with clip depth in [0, w].
 struct LightView {
@@ -63,4 +65,4 @@ std::array<LightView, 6> cube_views(const glm::dvec3& position, double near, dou
 /// between uniform (weight 0) and geometric (weight 1) steps (Zhang et al., "Parallel-split shadow maps", VRCIA 2006).
 std::vector<double> cascade_splits(double near, double far, int count, double weight);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE
