@@ -7,7 +7,9 @@
 #include <concepts>
 #include <cstdint>
 
-namespace halfspace {
+#include "halfspace/core/namespace.h"
+
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// SplitMix64 (Steele, Lea and Flood, "Fast splittable pseudorandom number generators", OOPSLA 2014). Draw only one number per statement or
 /// use braces, because the evaluation order of function arguments is unspecified. Committed hashes depend on the numbers.
@@ -34,4 +36,4 @@ class SplitMix64 {
   uint64_t state_;
 };
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -8,7 +8,7 @@
 
 #include "halfspace/model/model.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Returns the 8-bit value of a channel of a data texel.
 inline uint8_t channel_value(const glm::u8vec4& texel, Channel channel) {
@@ -38,4 +38,4 @@ bool is_soft(int width, int height, const F& texel, Channel channel) {
   return 20 * between > int64_t{width} * height;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE
