@@ -94,7 +94,7 @@ void explain_command(const ExplainArguments& args) {
     const SceneDescription scene = file.at(time);
     if (is_page) protect_page_inputs(scene, args.scene, models, out);
     const PreparedScene prepared = prepare_explained(scene, file.source(), size, assets);
-    const ExplainJob job{scene, prepared, args.scene, pixel, explain_command_line(args, time), workers};
+    const ExplainJob job{scene, prepared, args.scene, pixel, explain_commands(args, time), workers};
     output = is_page ? page_of(job) : explained_history(job, args.json);
   }
   if (!is_page) {
