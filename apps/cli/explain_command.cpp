@@ -81,7 +81,7 @@ void explain_command(const ExplainArguments& args) {
     const SceneDescription scene = opened.scene.at(time);
     if (is_page) reject_overwriting(out, input_files(scene, args.scene, models));
     const PreparedScene prepared = prepare_explained(scene, opened.scene.source(), size, assets);
-    const ExplainJob job{scene, prepared, args.scene, pixel, explain_command_line(args, time), workers};
+    const ExplainJob job{scene, prepared, args.scene, pixel, explain_commands(args, time), workers};
     output = is_page ? page_of(job) : explained_history(job, args.json);
   }
   if (!is_page) {

@@ -13,13 +13,19 @@
 
 namespace halfspace {
 
+/// Command lines for the same frame, which can be run in the same folder.
+struct ExplainCommands {
+  std::string explain;  ///< without --pixel and -o; prints the history of a pixel if "--pixel X,Y --text" is appended
+  std::string render;   ///< renders the picture
+};
+
 /// The input of `halfspace explain`.
 struct ExplainJob {
   const SceneDescription& scene;
   const PreparedScene& prepared;
   std::string title;                ///< the scene as named by the user
   std::optional<glm::ivec2> pixel;  ///< the pixel that the user chose, from the upper left
-  std::string command;              ///< command line that prints the history of a pixel if "--pixel X,Y --text" is appended
+  ExplainCommands commands;
   const Workers& workers;
 };
 
@@ -31,8 +37,7 @@ inline constexpr const char* kExplainSize = "640x360";  ///< default of --size
 // The page (explain_page.cpp).
 /// Returns the file that the page is written to. Throws UsageError.
 std::filesystem::path page_path(const ExplainArguments& args);
-/// Returns the command line that explains the same frame, without --pixel and -o.
-std::string explain_command_line(const ExplainArguments& args, double seconds);
+ExplainCommands explain_commands(const ExplainArguments& args, double seconds);
 /// Returns the page.
 std::string page_of(const ExplainJob& job);
 

@@ -18,21 +18,23 @@ std::filesystem::path page_path(const ExplainArguments& args) {
   return out;
 }
 
-std::string explain_command_line(const ExplainArguments& args, double seconds) {
+ExplainCommands explain_commands(const ExplainArguments& args, double seconds) {
   RenderArguments render;
   render.scene = args.scene;
-  render.size = args.size == kExplainSize ? "" : args.size;
   render.set = args.set;
   render.camera = args.camera;
   render.shading = args.shading;
   render.model = args.model;
-  std::string line = render_comment(render, seconds);
-  const std::string_view name = "render";
-  return line.replace(line.find(name), name.size(), "explain");
+  render.size = args.size;
+  const std::string rendered = render_comment(render, seconds, FileNames::as_given);
+  if (args.size == kExplainSize) render.size.clear();
+  const std::string_view before = "halfspace render";
+  return {"halfspace explain" + render_comment(render, seconds, FileNames::as_given).substr(before.size()), rendered};
 }
 
 std::string page_of(const ExplainJob& job) {
-  return explain_page(job.scene, job.prepared, {job.title, job.command, HALFSPACE_VERSION, job.pixel}, job.workers);
+  return explain_page(job.scene, job.prepared, {job.title, job.commands.explain, job.commands.render, HALFSPACE_VERSION, job.pixel},
+                      job.workers);
 }
 
 }  // namespace halfspace

@@ -23,13 +23,14 @@ std::string quoted(const std::string& text) {
   return result + "'";
 }
 
-// Like quoted(), for a file name without its folders.
-std::string quoted_file(const std::string& file) { return quoted(file.substr(file.find_last_of("/\\") + 1)); }
+std::string quoted_file(const std::string& file, FileNames names) {
+  return quoted(names == FileNames::as_given ? file : file.substr(file.find_last_of("/\\") + 1));
+}
 
 }  // namespace
 
-std::string render_comment(const RenderArguments& args, double seconds) {
-  std::string line = "halfspace render " + quoted_file(args.scene);
+std::string render_comment(const RenderArguments& args, double seconds, FileNames names) {
+  std::string line = "halfspace render " + quoted_file(args.scene, names);
   const auto add = [&](const char* option, const std::string& value) {
     if (!value.empty()) line += fmt::format(" {} {}", option, quoted(value));
   };
@@ -39,7 +40,7 @@ std::string render_comment(const RenderArguments& args, double seconds) {
   add("--size", args.size);
   for (const std::string& setting : args.set) {
     const std::size_t equals = setting.find('=');
-    line += fmt::format(" --set {}={}", setting.substr(0, equals), quoted_file(setting.substr(equals + 1)));
+    line += fmt::format(" --set {}={}", setting.substr(0, equals), quoted_file(setting.substr(equals + 1), names));
   }
   add("--camera", args.camera);
   add("--shading", args.shading);
@@ -63,7 +64,7 @@ std::string render_comment(const RenderArguments& args, double seconds) {
                                                                 {"--animation", &m.animation},
                                                                 {"--variant", &m.variant}};
   for (const auto& [option, value] : options) add(option, *value);
-  if (!m.environment.empty()) line += " --environment " + quoted_file(m.environment);
+  if (!m.environment.empty()) line += " --environment " + quoted_file(m.environment, names);
   if (!m.turntable.empty()) add("--fps", args.fps);
   if (!args.wireframe.empty()) line += args.wireframe == "hidden" ? " --wireframe=hidden" : " --wireframe";
   add_flag("--inside", m.inside);

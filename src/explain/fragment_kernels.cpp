@@ -2,6 +2,7 @@
 //
 // Instantiates all scene shaders in float. They are slow to compile, so they have their own translation unit.
 #include "halfspace/explain/fragment_values.h"
+#include "halfspace/explain/light_factors.h"
 #include "halfspace/explain/light_terms.h"
 #include "halfspace/explain/varying_names.h"
 
@@ -83,6 +84,15 @@ FragmentValues values_of(const S& shader, const FragmentPlace& place, std::span<
 
 FragmentValues fragment_values(const SceneShader& shader, const FragmentPlace& place, std::span<const std::string> light_names) {
   return std::visit([&](const auto& s) { return values_of(s, place, light_names); }, shader);
+}
+
+LightingDetail lighting_detail(const SceneShader& shader, const FragmentPlace& place, std::span<const std::string> light_names) {
+  return std::visit(
+      [&]<class S>(const S& s) {
+        const FragmentEvaluator<S> fragment(s, place);
+        return LightFactorFinder<S>(s, fragment, light_names).find();
+      },
+      shader);
 }
 
 }  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -110,8 +110,9 @@ std::string fragments_text(std::size_t number, std::span<const FragmentDetail> s
   const TracedFragment& f = d.fragment;
   const std::string copy = d.copy == 0 ? std::string() : fmt::format(", copy {}", d.copy);
   const std::string instance = f.instance == 0 ? std::string() : fmt::format(", instance {}", f.instance);
-  std::string out = fmt::format("{}. {}{}: {} {} of draw {}{}{}\n", number, d.object, copy, primitive_text(d.topology), f.primitive, f.draw,
-                                instance, d.is_front ? "" : ", seen from behind");
+  const std::string numbers = same.size() == 1 ? fmt::format("{}", number) : fmt::format("{}-{}", number, number + same.size() - 1);
+  std::string out = fmt::format("{}. {}{}: {} {} of draw {}{}{}\n", numbers, d.object, copy, primitive_text(d.topology), f.primitive,
+                                f.draw, instance, d.is_front ? "" : ", seen from behind");
   for (const FragmentDetail& s : same) out += outcome_line(s, samples);
   out += shader_text(d);
   for (const FragmentDetail& s : same) {
@@ -151,11 +152,10 @@ std::string history_text(const std::string& title, const PixelHistory& h, const 
   out += fmt::format("colors are stored as {}\n", storage_text(trace.format));
   if (trace.samples > 1) out += fmt::format("{} samples per pixel; each sample of a triangle is a fragment\n", trace.samples);
   out += fmt::format("\n{}\n", row_text("clear color", color_text(h.clear_color), alpha_text(h.clear_color)));
-  std::size_t number = 0;
   for (std::size_t begin = 0; begin < h.fragments.size();) {
     std::size_t end = begin + 1;
     while (end < h.fragments.size() && shows_same(h.fragments[begin], h.fragments[end])) ++end;
-    out += fragments_text(++number, std::span(h.fragments).subspan(begin, end - begin), trace.samples);
+    out += fragments_text(begin + 1, std::span(h.fragments).subspan(begin, end - begin), trace.samples);
     begin = end;
   }
   if (h.others != 0) out += fmt::format("{} more fragments are not listed.\n\n", h.others);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "halfspace/explain/page.h"
 
+#include <algorithm>
+
 #include "halfspace/core/cpu.h"
 #include "halfspace/explain/page_data.h"
 #include "halfspace/explain/page_encode.h"
@@ -23,7 +25,7 @@ PageJson quotes_json() {
 }
 
 // Returns the fragment that is visible at a pixel: the last one that replaced the color or, if there is none, the last one that was shaded.
-// Returns null if no fragment was shaded.
+// If a pixel has several samples, it is visible at one of them. Returns null if no fragment was shaded.
 const TracedFragment* visible_fragment(const FrameTrace& trace, glm::ivec2 pixel) {
   const TracedFragment* best = nullptr;
   for (const TracedFragment& f : trace.at(pixel)) {
@@ -31,6 +33,16 @@ const TracedFragment* visible_fragment(const FrameTrace& trace, glm::ivec2 pixel
     if (replaces || (f.is_shaded && (best == nullptr || best->outcome != FragmentOutcome::shaded))) best = &f;
   }
   return best;
+}
+
+// Returns the light that the frame stores. Without HDR, it has been rounded to 8-bit values. With a transparent background, it is divided
+// by alpha, as before the tone curve.
+Image<glm::vec4> straight_light(const PreparedScene& scene, const FrameTrace& trace) {
+  Image<glm::vec4> light = trace.light;
+  if (!scene.transparent) return light;
+  std::ranges::transform(light.texels(), light.data(),
+                         [](const glm::vec4& c) { return glm::vec4(glm::vec3(c) / (c.w > 0.0f ? c.w : 1.0f), c.w); });
+  return light;
 }
 
 uint32_t example_primitive(const StageGeometry& g, const TracedFragment* f) {
@@ -83,6 +95,7 @@ PageJson frame_json(const PageInput& in, const FrameTrace& trace) {
           {"height", trace.height},
           {"samples", trace.samples},
           {"pixel", {in.pixel.x, in.pixel.y}},
+          {"visible", visible_json(in)},
           {"build", {{"description", build_description()}, {"lanes", kLanes}, {"packet", {kPacketWidth, kPacketHeight}}}},
           {"statistics", statistics_json(trace.statistics)},
           {"draws", draws_json(in)},
@@ -100,6 +113,8 @@ PageJson frame_json(const PageInput& in, const FrameTrace& trace) {
           {"shadow", shadow_json(in)},
           {"tone", tone_json(in)},
           {"sample_positions", samples_json(in)},
+          {"sample_block", sample_block_json(in)},
+          {"layers", layers_json(in)},
           {"overdraw", overdraw_json(in, trace)},
           {"history", histories_json(in, trace)},
           {"tile_times", tile_times_json(in)},
@@ -110,16 +125,19 @@ std::string explain_page(const SceneDescription& description, const PreparedScen
                          const Workers& workers) {
   const FrameTrace trace = trace_frame(scene, workers);
   const glm::ivec2 pixel = options.pixel.value_or(trace.busiest_pixel());
-  // The linear light of the frame. Without HDR, the tiles store 8-bit values, so the light is rendered again.
-  Image<glm::vec4> light = scene.post.hdr ? trace.light : Image<glm::vec4>(trace.width, trace.height);
-  if (!scene.post.hdr) render(scene, light, workers);
+  const Image<glm::vec4> light = straight_light(scene, trace);
+  const TracedFragment* visible = visible_fragment(trace, pixel);
   const ValuePictures values = value_pictures(scene, workers);
-  PageJson json{{"scene", options.scene}, {"command", options.command}, {"title", description.head.title}, {"version", options.version}};
+  PageJson json{{"scene", options.scene},
+                {"command", options.command},
+                {"render_command", options.render_command},
+                {"title", description.head.title},
+                {"version", options.version}};
   visit_set_up_scene(scene, workers, [&](const PassContext& context, int round) {
     if (round > 0) return;  // for a very large scene, the page shows only the triangles of the first round
     const StageGeometry geometry = stage_geometry(context);
-    const uint32_t example = example_primitive(geometry, visible_fragment(trace, pixel));
-    json.update(frame_json({description, scene, context, geometry, light, values, pixel, example, workers}, trace));
+    const uint32_t example = example_primitive(geometry, visible);
+    json.update(frame_json({description, scene, context, geometry, trace, light, values, pixel, visible, example, workers}, trace));
   });
   std::string page(embedded_text("page.html"));
   page = replaced(std::move(page), "@style@", embedded_text("page.css"));

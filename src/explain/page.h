@@ -14,6 +14,7 @@ namespace halfspace::inline HS_LANES_NAMESPACE {
 struct PageOptions {
   std::string scene;                ///< name or file of the scene, as given by the user
   std::string command;              ///< command that generates this page, without --pixel
+  std::string render_command;       ///< command that renders the same picture
   std::string version;              ///< version of the program
   std::optional<glm::ivec2> pixel;  ///< example pixel, counted from the upper left; default: the pixel with the most fragments
 };

@@ -21,10 +21,12 @@ struct PageInput {
   const PreparedScene& scene;
   const PassContext& context;
   const StageGeometry& geometry;
-  const Image<glm::vec4>& light;  ///< linear, before exposure and tone curve
+  const FrameTrace& trace;
+  const Image<glm::vec4>& light;  ///< straight alpha, linear, as the frame stores it before exposure and tone curve
   const ValuePictures& values;
-  glm::ivec2 pixel;    ///< the example pixel, counted from the upper left
-  uint32_t primitive;  ///< the primitive that is visible at the example pixel, or kNoPrimitive
+  glm::ivec2 pixel;               ///< the example pixel, counted from the upper left
+  const TracedFragment* visible;  ///< the visible fragment of the example pixel; null if no fragment was shaded
+  uint32_t primitive;             ///< its primitive, or kNoPrimitive
   const Workers& workers;
 };
 inline constexpr uint32_t kNoPrimitive = 0xffffffffu;
@@ -49,6 +51,7 @@ PageJson terms_json(const PageInput& in);
 PageJson shadow_json(const PageInput& in);
 PageJson tone_json(const PageInput& in);
 PageJson samples_json(const PageInput& in);
+PageJson sample_block_json(const PageInput& in);
 
 // page_pictures.cpp
 PageJson pictures_json(const PageInput& in, const Image<glm::u8vec4>& picture);
@@ -56,6 +59,10 @@ PageJson depth_json(const PageInput& in);
 PageJson mip_json(const PageInput& in);
 PageJson overdraw_json(const PageInput& in, const FrameTrace& trace);
 PageJson tile_times_json(const PageInput& in);
+
+// page_visible.cpp
+PageJson visible_json(const PageInput& in);
+PageJson layers_json(const PageInput& in);
 
 PageJson statistics_json(const PassStatistics& s);
 

@@ -7,6 +7,7 @@
 #include "halfspace/explain/page_encode.h"
 #include "halfspace/raster/pipeline/edge.h"
 #include "halfspace/raster/pipeline/pixel_box.h"
+#include "halfspace/raster/pipeline/sample_pattern.h"
 #include "halfspace/scene/scene_paths.h"
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
@@ -34,8 +35,10 @@ PageJson json_of_triangle(const PassContext& context, const Draw& draw, const Tr
                 {"front", t.is(kFrontFacing)},
                 {"small", t.is(kSmall)},
                 {"clipped", t.is(kClipped)}};
-  const PixelBounds box = pixel_bounds(draw, t, draw.bounds, context.samples_at);
-  json["box"] = {box.x0, box.y0, box.x1, box.y1};
+  const auto json_of_box = [](const PixelBounds& b) { return PageJson{b.x0, b.y0, b.x1, b.y1}; };
+  json["box"] = json_of_box(pixel_bounds(draw, t, draw.bounds, context.samples_at));
+  for (int s = 0; s < context.samples; ++s)
+    json["boxes"].push_back(json_of_box(pixel_bounds(draw, t, draw.bounds, sample_position(context.samples, s))));
   json["covered"] = covered_pixels(context, draw, t);
   if (t.is(kPointSprite | kLine)) return json;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -60,6 +63,28 @@ PageJson json_of_vertex(const StageVertex& v) {
   json["z"] = v.window.z;
   json["inv_w"] = v.window.inv_w;
   json["outcode"] = v.outcode;
+  return json;
+}
+
+int example_sample(const PageInput& in) { return in.visible == nullptr ? 0 : in.visible->sample; }
+
+// Returns the index of the triangle that covers the visible sample of the example pixel. A clipped primitive consists of several triangles.
+std::size_t shown_triangle(const PageInput& in, const Draw& draw, const std::vector<Triangle>& triangles) {
+  const int y = in.trace.height - 1 - in.pixel.y;
+  const auto covered = [&](const Triangle& t) { return covers(in.context, draw, t, in.pixel.x, y, example_sample(in)); };
+  const auto found = std::ranges::find_if(triangles, covered);
+  return found == triangles.end() ? 0 : static_cast<std::size_t>(found - triangles.begin());
+}
+
+// Returns the covered samples of each pixel of the 8x8 block of the example pixel as bits, row by row from the lower left.
+PageJson block_coverage_json(const PageInput& in, const Draw& draw, const Triangle& t) {
+  const int x0 = in.pixel.x / 8 * 8, y0 = (in.trace.height - 1 - in.pixel.y) / 8 * 8;
+  PageJson json = PageJson::array();
+  for (int i = 0; i < 64; ++i) {
+    int bits = 0;
+    for (int s = 0; s < in.context.samples; ++s) bits |= int{covers(in.context, draw, t, x0 + i % 8, y0 + i / 8, s)} << s;
+    json.push_back(bits);
+  }
   return json;
 }
 
@@ -159,6 +184,11 @@ PageJson example_json(const PageInput& in) {
   for (int k = 0; k < e.corners; ++k) json["vertices"].push_back(json_of_vertex(e.vertices[static_cast<std::size_t>(k)]));
   const Draw& draw = in.context.draws[e.primitive.draw];
   for (const Triangle& t : e.triangles) json["triangles"].push_back(json_of_triangle(in.context, draw, t));
+  if (!e.triangles.empty()) {
+    const std::size_t shown = shown_triangle(in, draw, e.triangles);
+    json["shown"] = shown;
+    json["block"] = block_coverage_json(in, draw, e.triangles[shown]);
+  }
   if (e.sprite) json["sprite"] = {e.sprite->x0, e.sprite->y0, e.sprite->x1, e.sprite->y1};
   return json;
 }

@@ -2,8 +2,10 @@
 #include "halfspace/explain/page_history.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
 
+#include "halfspace/explain/history_text.h"
 #include "halfspace/explain/page_encode.h"
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
@@ -12,14 +14,28 @@ namespace {
 
 constexpr int kDetailSide = 64, kDetailStep = 8;
 
+// The example pixel, the block around it, and the grid.
+constexpr std::size_t kDetailGroups = 3;
+
+struct PixelBlock {
+  int x0, y0;
+  bool contains(glm::ivec2 p) const { return p.x >= x0 && p.x < x0 + kDetailSide && p.y >= y0 && p.y < y0 + kDetailSide; }
+};
+
+PixelBlock detailed_block(int width, int height, glm::ivec2 center) {
+  return {std::clamp(center.x - kDetailSide / 2, 0, std::max(0, width - kDetailSide)),
+          std::clamp(center.y - kDetailSide / 2, 0, std::max(0, height - kDetailSide))};
+}
+
 // The columns of a table of fragments.
 struct FragmentColumns {
   std::vector<uint16_t> draw;
   std::vector<uint32_t> instance, primitive;
-  std::vector<uint8_t> sample, outcome;
+  std::vector<uint8_t> index, sample, outcome;  // index: of the fragment among the traced fragments of its pixel
   std::vector<float> depth;
 
-  void add(const TracedFragment& f) {
+  void add(const TracedFragment& f, uint32_t number) {
+    index.push_back(static_cast<uint8_t>(number));
     draw.push_back(static_cast<uint16_t>(f.draw));
     instance.push_back(f.instance);
     primitive.push_back(f.primitive);
@@ -29,6 +45,7 @@ struct FragmentColumns {
   }
   PageJson json() const {
     return {{"count", draw.size()},
+            {"index", packed_planes(std::span<const uint8_t>(index))},
             {"draw", packed_planes(std::span<const uint16_t>(draw))},
             {"instance", packed_planes(std::span<const uint32_t>(instance))},
             {"primitive", packed_planes(std::span<const uint32_t>(primitive))},
@@ -38,7 +55,7 @@ struct FragmentColumns {
   }
 };
 
-// Stores all values of some pixels. The names of the values are stored once per shader.
+// Stores all values of some fragments. The names of the values are stored once per shader.
 class Details {
  public:
   void add(const PixelHistory& h, uint32_t max_fragments) {
@@ -47,19 +64,21 @@ class Details {
     const std::vector<uint32_t> kept = kept_fragments(traced, max_fragments);
     pixels_.push_back(static_cast<uint32_t>(h.pixel.x) | static_cast<uint32_t>(h.pixel.y) << 16);
     counts_.push_back(static_cast<uint8_t>(kept.size()));
-    others_.push_back(h.others + static_cast<uint32_t>(h.fragments.size() - kept.size()));
     add_display(h);
-    for (const uint32_t i : kept) add_fragment(h.fragments[i]);
+    for (const uint32_t i : kept) {
+      index_.push_back(static_cast<uint8_t>(i));
+      add_fragment(h.fragments[i]);
+    }
   }
 
   PageJson json() const {
     return {{"pixels", pixels_.size()},
             {"place", packed_planes(std::span<const uint32_t>(pixels_))},
             {"counts", packed_planes(std::span<const uint8_t>(counts_))},
-            {"others", packed_planes(std::span<const uint32_t>(others_))},
             {"kinds", kinds_},
+            {"fragments", kind_.size()},
+            {"index", packed_planes(std::span<const uint8_t>(index_))},
             {"kind", packed_planes(std::span<const uint16_t>(kind_))},
-            {"fragments", columns_.json()},
             {"numbers", values_.size()},
             {"values", packed_planes(std::span<const float>(values_))}};
   }
@@ -79,13 +98,12 @@ class Details {
 
   void add_fragment(const FragmentDetail& f) {
     const TracedFragment& t = f.fragment;
-    columns_.add(t);
     values_.insert(values_.end(), {t.tested_depth, t.stored_depth, t.is_tested ? 1.0f : 0.0f, t.is_shaded ? 1.0f : 0.0f});
     put(f.barycentrics);
     values_.push_back(f.inv_w);
     put(f.color);
     put(t.value);
-    PageJson kind{{"object", f.object}, {"copy", f.copy}, {"shader", f.shader}, {"blend", f.blend}};
+    PageJson kind{{"shader", f.shader}, {"blend", f.blend}, {"front", f.is_front}};
     const auto put_all = [&](const char* key, const std::vector<NamedValue>& list) {
       kind[key] = PageJson::array();
       for (const NamedValue& v : list) {
@@ -105,9 +123,9 @@ class Details {
     return found->second;
   }
 
-  std::vector<uint32_t> pixels_, others_;
+  std::vector<uint32_t> pixels_;
   std::vector<uint8_t> counts_;
-  FragmentColumns columns_;
+  std::vector<uint8_t> index_;  // of each fragment among the fragments of its pixel
   std::vector<uint16_t> kind_;
   std::vector<float> values_;
   PageJson kinds_ = PageJson::array();
@@ -122,26 +140,46 @@ std::size_t numbers_of(const FragmentDetail& f) {
   return n;
 }
 
-// Returns the number of fragments per pixel that the page can store with all values.
-uint32_t details_per_pixel(const std::vector<PixelHistory>& histories) {
-  for (uint32_t max_fragments = FrameTrace::kMaxFragments; max_fragments > 1; max_fragments /= 2) {
-    std::size_t numbers = 0;
-    for (const PixelHistory& h : histories) {
-      const std::size_t n = std::min<std::size_t>(h.fragments.size(), max_fragments);
-      for (std::size_t i = 0; i < n; ++i) numbers += numbers_of(h.fragments[i]);
-    }
-    if (numbers <= kMaxPageValues) return max_fragments;
+// A set of pixels for which the page stores the values of the same number of fragments.
+using PixelGroup = std::vector<const PixelHistory*>;
+
+std::size_t numbers_of(const PixelGroup& group, uint32_t most) {
+  std::size_t numbers = 0;
+  for (const PixelHistory* h : group) {
+    const std::size_t n = std::min<std::size_t>(h->fragments.size(), most);
+    for (std::size_t i = 0; i < n; ++i) numbers += numbers_of(h->fragments[i]);
   }
-  return 1;
+  return numbers;
 }
 
-PageJson details_json(const PageInput& in, const FrameTrace& trace) {
-  const std::vector<glm::ivec2> pixels = detailed_pixels(trace.width, trace.height, in.pixel);
+// Returns the number of fragments per pixel whose values are stored, for the example pixel, the block around it, and the grid. The groups
+// share the budget in this order, but at least one fragment per pixel is stored.
+std::array<uint32_t, kDetailGroups> details_per_pixel(const std::array<PixelGroup, kDetailGroups>& groups, std::size_t budget) {
+  std::array<uint32_t, kDetailGroups> out{};
+  std::size_t used = 0;
+  for (const PixelGroup& group : groups) used += numbers_of(group, 1);
+  for (std::size_t i = 0; i < kDetailGroups; ++i) {
+    used -= numbers_of(groups[i], 1);
+    uint32_t most = FrameTrace::kMaxFragments;
+    while (most > 1 && used + numbers_of(groups[i], most) > budget) --most;
+    used += numbers_of(groups[i], most);
+    out[i] = most;
+  }
+  return out;
+}
+
+PageJson details_json(const PageInput& in, const FrameTrace& trace, std::span<const glm::ivec2> pixels) {
   const std::vector<PixelHistory> histories = pixel_histories(in.description, in.scene, trace, pixels, in.workers);
-  const uint32_t max_fragments = details_per_pixel(histories);
+  const PixelBlock block = detailed_block(trace.width, trace.height, in.pixel);
+  const auto group_of = [&](glm::ivec2 p) { return p == in.pixel ? 0u : block.contains(p) ? 1u : 2u; };
+  std::array<PixelGroup, kDetailGroups> groups;
+  for (const PixelHistory& h : histories) groups[group_of(h.pixel)].push_back(&h);
+  const std::array<uint32_t, kDetailGroups> most = details_per_pixel(groups, kMaxPageValues);
   Details details;
-  for (const PixelHistory& h : histories) details.add(h, max_fragments);
-  return details.json();
+  for (const PixelHistory& h : histories) details.add(h, most[group_of(h.pixel)]);
+  PageJson json = details.json();
+  json["most"] = most;
+  return json;
 }
 
 }  // namespace
@@ -167,40 +205,44 @@ std::vector<uint32_t> kept_fragments(std::span<const TracedFragment> fragments, 
 }
 
 std::vector<glm::ivec2> detailed_pixels(int width, int height, glm::ivec2 center) {
-  const int x0 = std::clamp(center.x - kDetailSide / 2, 0, std::max(0, width - kDetailSide));
-  const int y0 = std::clamp(center.y - kDetailSide / 2, 0, std::max(0, height - kDetailSide));
+  const PixelBlock block = detailed_block(width, height, center);
   std::vector<glm::ivec2> pixels;
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
-      const bool near = x >= x0 && x < x0 + kDetailSide && y >= y0 && y < y0 + kDetailSide;
-      if (near || (x % kDetailStep == 0 && y % kDetailStep == 0)) pixels.emplace_back(x, y);
+      const bool is_example = x == center.x && y == center.y;
+      if (is_example || block.contains({x, y}) || (x % kDetailStep == 0 && y % kDetailStep == 0)) pixels.emplace_back(x, y);
     }
   }
   return pixels;
 }
 
 PageJson histories_json(const PageInput& in, const FrameTrace& trace) {
-  const uint32_t max_fragments = fragments_per_pixel(trace, kMaxPageFragments);
+  const uint32_t most = fragments_per_pixel(trace, kMaxPageFragments);
+  const std::vector<glm::ivec2> detailed = detailed_pixels(trace.width, trace.height, in.pixel);
   FragmentColumns columns;
   std::vector<uint8_t> counts;
   std::vector<uint32_t> others;
+  auto next = detailed.begin();
   for (int y = 0; y < trace.height; ++y) {
     for (int x = 0; x < trace.width; ++x) {
       const std::span<const TracedFragment> fragments = trace.at({x, y});
-      const std::vector<uint32_t> kept = kept_fragments(fragments, max_fragments);
-      for (const uint32_t i : kept) columns.add(fragments[i]);
+      const bool is_detailed = next != detailed.end() && *next == glm::ivec2(x, y);
+      if (is_detailed) ++next;
+      const std::vector<uint32_t> kept = kept_fragments(fragments, is_detailed ? FrameTrace::kMaxFragments : most);
+      for (const uint32_t i : kept) columns.add(fragments[i], i);
       counts.push_back(static_cast<uint8_t>(kept.size()));
       others.push_back(trace.count({x, y}) - static_cast<uint32_t>(kept.size()));
     }
   }
   PageJson outcomes = PageJson::array();
   for (std::size_t i = 0; i < kFragmentOutcomes; ++i) outcomes.push_back(outcome_text(static_cast<FragmentOutcome>(i)));
-  return {{"most", max_fragments},
+  return {{"most", most},
+          {"stored_as", storage_text(trace.format)},
           {"outcomes", outcomes},
           {"counts", packed_planes(std::span<const uint8_t>(counts))},
           {"others", packed_planes(std::span<const uint32_t>(others))},
           {"fragments", columns.json()},
-          {"details", details_json(in, trace)}};
+          {"details", details_json(in, trace, detailed)}};
 }
 
 }  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "halfspace/explain/history_text.h"
 #include "halfspace/explain/page_data.h"
 #include "halfspace/explain/page_encode.h"
 #include "halfspace/explain/stage_shadow.h"
@@ -163,8 +164,16 @@ PageJson tone_json(const PageInput& in) {
   static constexpr std::array kCurves{"none", "reinhard", "reinhard_extended", "exponential", "aces"};
   const StageTone t = stage_tone(in.scene, in.light, in.workers);
   const ToneSteps s = tone_steps(in.scene, t.tone, rgb(in.light.at(in.pixel.x, in.pixel.y)));
+  const glm::u8vec4 code = in.trace.picture.at(in.pixel.x, in.pixel.y);
+  PageJson samples = PageJson::array();
+  const auto first =
+      (static_cast<std::size_t>(in.pixel.y) * static_cast<std::size_t>(in.trace.width) + static_cast<std::size_t>(in.pixel.x)) *
+      static_cast<std::size_t>(in.trace.samples);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(in.trace.samples); ++i)
+    samples.push_back(json_of(glm::dvec4(in.trace.values[first + i])));
   return {{"hdr", t.hdr},
-          {"half", t.hdr && in.scene.post.format == LightFormat::rgba16f},
+          {"stored_as", storage_text(in.trace.format)},
+          {"is_8_bit", in.trace.format == ColorFormat::srgb8a8},
           {"exposure", t.tone.exposure},
           {"auto", in.scene.post.hdr && in.scene.post.auto_exposure},
           {"log_average", t.log_average},
@@ -185,7 +194,26 @@ PageJson tone_json(const PageInput& in) {
             {"exposed", json_of(glm::dvec3(s.exposed))},
             {"display", json_of(glm::dvec3(s.display))},
             {"encoded", json_of(glm::dvec3(s.encoded))},
-            {"code", {s.code.x, s.code.y, s.code.z}}}}};
+            {"rounded", {s.code.x, s.code.y, s.code.z}},
+            {"code", {code.x, code.y, code.z}}}},
+          {"samples", samples}};
+}
+
+PageJson sample_block_json(const PageInput& in) {
+  const ToneMapping tone = stage_tone(in.scene, in.light, in.workers).tone;
+  const int x0 = in.pixel.x / 8 * 8, row0 = (in.trace.height - 1 - in.pixel.y) / 8 * 8;
+  PageJson json = PageJson::array();
+  for (int i = 0; i < 64; ++i) {
+    const int x = x0 + i % 8, y = in.trace.height - 1 - (row0 + i / 8);
+    if (x >= in.trace.width || y < 0) continue;
+    const std::size_t first = (static_cast<std::size_t>(y) * static_cast<std::size_t>(in.trace.width) + static_cast<std::size_t>(x)) *
+                              static_cast<std::size_t>(in.trace.samples);
+    for (std::size_t s = 0; s < static_cast<std::size_t>(in.trace.samples); ++s) {
+      const glm::ivec3 code = tone_steps(in.scene, tone, rgb(in.trace.values[first + s])).code;
+      json.push_back({i % 8, i / 8, s, code.x, code.y, code.z});
+    }
+  }
+  return json;
 }
 
 PageJson samples_json(const PageInput& in) {

@@ -106,17 +106,29 @@ PageJson depth_json(const PageInput& in) {
     const float z = depth.at(x, y);
     return z > 0.0f ? heat_color((std::log2(z) - from) / range) : kNothing;
   });
-  return {{"picture", picture}, {"low", low}, {"high", high}, {"values", packed_planes(depth.texels())}};
+  const DepthBlocks blocks = depth_blocks(in.scene, in.trace);
+  return {{"picture", picture},
+          {"low", low},
+          {"high", high},
+          {"values", packed_planes(depth.texels())},
+          {"block_low", packed_planes(std::span<const float>(blocks.low))},
+          {"block_high", packed_planes(std::span<const float>(blocks.high))}};
 }
 
 PageJson mip_json(const PageInput& in) {
   const Image<MipLookup> mips = mip_levels(in.scene, in.workers);
   float high = 0.0f;
   uint64_t pixels = 0;
-  for (const MipLookup& m : mips.texels()) {
-    if (m.probes == 0.0f) continue;
-    high = std::max(high, m.lod);
-    ++pixels;
+  glm::ivec2 pixel = in.pixel;  // or the first pixel with a color map
+  const bool has_map = mips.at(pixel.x, pixel.y).probes != 0.0f;
+  for (int y = mips.height() - 1; y >= 0; --y) {
+    for (int x = mips.width() - 1; x >= 0; --x) {
+      const MipLookup& m = mips.at(x, y);
+      if (m.probes == 0.0f) continue;
+      high = std::max(high, m.lod);
+      ++pixels;
+      if (!has_map) pixel = {x, y};
+    }
   }
   if (pixels == 0) return nullptr;
   const float range = std::max(high + 1.0f, 1.0f);  // from level −1 (magnified) to the highest level
@@ -126,12 +138,17 @@ PageJson mip_json(const PageInput& in) {
   });
   std::vector<float> lods;
   for (const MipLookup& m : mips.texels()) lods.push_back(m.probes == 0.0f ? -100.0f : std::round(m.lod * 64.0f) / 64.0f);
-  const MipLookup& at = mips.at(in.pixel.x, in.pixel.y);
+  const MipLookup& at = mips.at(pixel.x, pixel.y);
   return {{"picture", picture},
           {"high", high},
           {"pixels", pixels},
           {"values", packed_planes(std::span<const float>(lods))},
-          {"pixel", {{"lod", at.lod}, {"probes", at.probes}, {"dx", at.scale_x}, {"dy", at.scale_y}}}};
+          {"pixel",
+           {{"at", {pixel.x, pixel.y}},
+            {"lod", at.lod},
+            {"probes", at.probes},
+            {"anisotropic", at.is_anisotropic},
+            {"axes", {at.axes.x, at.axes.y}}}}};
 }
 
 PageJson overdraw_json(const PageInput& in, const FrameTrace& trace) {

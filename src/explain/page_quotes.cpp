@@ -28,6 +28,7 @@ constexpr std::array kRanges{
     QuoteRange{"depth", "raster/visibility/depth_bounds.h", "case CompareOp::greater: return outcome(", "case CompareOp::greater: return"},
     QuoteRange{"interpolation", "shading/pixel.h", "const R e0 = difference_of_products(t.e1x - dx", "return {p.p1, p.p2"},
     QuoteRange{"varyings", "shading/pixel.h", "HS_INLINE R interpolate(const Weights<R>& w", "return fma(w.p2, delta2"},
+    QuoteRange{"mips", "shading/footprint.h", "const R a = fma(ux, ux, uy * uy)", "const R size2 = max("},
     QuoteRange{"mips", "shading/footprint.h", "HS_INLINE R squared_scale_factor(", "return max("},
     QuoteRange{"mips", "shading/footprint.h", "HS_INLINE R level_of_detail(", "return R(0.5f)"},
     QuoteRange{"lighting", "shading/lighting.h", "for (const Light& light : lights) {", "sum.specular += light.specular"},
@@ -38,7 +39,15 @@ constexpr std::array kRanges{
     QuoteRange{"srgb", "core/srgb_curve.h", "static constexpr FixedPower power_of", "return min(select("},
     QuoteRange{"samples", "raster/tile/resolve.cpp", "// Returns the mean of `samples` colors.", "for (Real& x : mean)"},
     QuoteRange{"layers", "raster/tile/layers.cpp", "Mask TransparentLayers::add(", "return "},
+    QuoteRange{"layers", "raster/tile/layers.cpp", "void TransparentLayers::write(", "write_color("},
     QuoteRange{"final", "raster/loop/tile_worker.cpp", "load(tile);", "if (has_post_step) run_post_step("},
+    QuoteRange{"history", "raster/trace/tile_trace.cpp", "void TileTrace::add(", "f.is_tested = is_tested;"},
+    QuoteRange{"history", "raster/trace/tile_trace.cpp", "void TileTrace::set_shaded(", "f.color = color_of("},
+    QuoteRange{"overdraw", "explain/pixel_history.cpp", "uint32_t FrameTrace::count(", "return first["},
+    QuoteRange{"overdraw", "raster/visibility/depth_bounds.h", "case CompareOp::greater: return outcome(",
+               "case CompareOp::greater: return"},
+    QuoteRange{"times", "raster/loop/tile_worker.cpp", "const auto start = std::chrono", "const std::chrono::duration"},
+    QuoteRange{"statistics", "raster/statistics.h", "uint64_t vertices_in = 0;", "uint64_t flushes = 0;"},
 };
 
 std::vector<std::string_view> lines_of(std::string_view text) {

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "halfspace/explain/stage_pictures.h"
 
+#include <algorithm>
+#include <cmath>
+
+#include "halfspace/raster/pipeline/sample_pattern.h"
 #include "halfspace/render/frame.h"
 #include "halfspace/shading/footprint.h"
 
@@ -43,13 +47,15 @@ struct MipLevels {
     const int width = map.map->width(), height = map.map->height();
     const vec2<R> size(static_cast<float>(width), static_cast<float>(height));
     const vec2<R> dx = at.duv_dx * size, dy = at.duv_dy * size;
-    R lod = level_of_detail(width, height, at.duv_dx, at.duv_dy), probes(1);
-    if (map.sampler.anisotropy > 1) {
-      const Footprint<R> f = footprint(width, height, at.duv_dx, at.duv_dy, map.sampler.anisotropy);
-      lod = f.lod;
-      probes = to_real<R>(f.probes);
+    if (map.sampler.anisotropy <= 1) {
+      const R lod = level_of_detail(width, height, at.duv_dx, at.duv_dy);
+      return {vec4<R>(clamp(lod, R(-99), R(99)), R(-1), sqrt(dot(dx, dx)), sqrt(dot(dy, dy)))};
     }
-    return {vec4<R>(clamp(lod, R(-99), R(99)), probes, sqrt(dot(dx, dx)), sqrt(dot(dy, dy)))};
+    // The axes of the footprint, with the formulas of footprint().
+    const Footprint<R> f = footprint(width, height, at.duv_dx, at.duv_dy, map.sampler.anisotropy);
+    const R a = fma(dx.x, dx.x, dy.x * dy.x), b = fma(dx.x, dx.y, dy.x * dy.y), c = fma(dx.y, dx.y, dy.y * dy.y), d = R(0.5f) * (a - c);
+    const R major2 = fma(R(0.5f), a + c, sqrt(fma(d, d, b * b))), det = difference_of_products(dx.x, dy.y, dy.x, dx.y);
+    return {vec4<R>(clamp(f.lod, R(-99), R(99)), to_real<R>(f.probes), sqrt(major2), sqrt(max(det * det / major2, R(1))))};
   }
 };
 
@@ -87,6 +93,29 @@ Image<float> depth_buffer(const PreparedScene& scene, const Workers& workers) {
   return depth;
 }
 
+DepthBlocks depth_blocks(const PreparedScene& scene, const FrameTrace& trace) {
+  DepthBlocks out{(trace.width + 7) / 8, (trace.height + 7) / 8, {}, {}};
+  const auto count = static_cast<std::size_t>(out.columns) * static_cast<std::size_t>(out.rows);
+  out.low.assign(count, 1.0f);
+  out.high.assign(count, 0.0f);
+  std::array<float, kMaxSamples> stored;
+  for (int y = 0; y < trace.height; ++y) {
+    for (int x = 0; x < trace.width; ++x) {
+      stored.fill(0.0f);
+      for (const TracedFragment& f : trace.at({x, y})) {
+        const bool passed = f.outcome >= FragmentOutcome::hidden_before_shading && f.outcome <= FragmentOutcome::blended;
+        if (passed && scene.draws[f.draw].state.depth.write) stored[f.sample] = std::max(stored[f.sample], f.depth);
+      }
+      const auto block = static_cast<std::size_t>((trace.height - 1 - y) / 8 * out.columns + x / 8);
+      for (int s = 0; s < trace.samples; ++s) {
+        out.low[block] = std::min(out.low[block], stored[static_cast<std::size_t>(s)]);
+        out.high[block] = std::max(out.high[block], stored[static_cast<std::size_t>(s)]);
+      }
+    }
+  }
+  return out;
+}
+
 ValuePictures value_pictures(const PreparedScene& scene, const Workers& workers) {
   const int w = scene.view.width_px, h = scene.view.height_px;
   ValuePictures v{Image<glm::vec3>(w, h), Image<glm::vec3>(w, h), Image<glm::vec3>(w, h), Image<glm::vec2>(w, h),
@@ -122,7 +151,7 @@ Image<MipLookup> mip_levels(const PreparedScene& scene, const Workers& workers) 
   for (int y = 0; y < values.height(); ++y) {
     for (int x = 0; x < values.width(); ++x) {
       const glm::vec4& v = values.at(x, y);
-      out.at(x, y) = {v.x, v.y, v.z, v.w};
+      out.at(x, y) = {v.x, std::fabs(v.y), v.y > 0.0f, {v.z, v.w}};  // the sign of the probes tells the kinds of lookup apart
     }
   }
   return out;

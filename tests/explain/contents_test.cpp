@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Checks the text of the page: its chapters, its quotes of source code, and that its numbers do not depend on the number of threads.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -8,6 +9,7 @@
 #include "explain/prepared.h"
 #include "halfspace/explain/page.h"
 #include "halfspace/explain/page_encode.h"
+#include "halfspace/explain/page_history.h"
 #include "halfspace/explain/page_quotes.h"
 #include "halfspace/image/png.h"
 #include "support/files.h"
@@ -17,7 +19,7 @@ namespace {
 
 std::string page_of(const std::string& scene, int threads) {
   const PreparedText s(SceneFile::open(scene).at(0.0), 96, 54, threads);
-  return explain_page(s.description, s.prepared, {scene, "halfspace explain " + scene, "test", {}}, s.workers);
+  return explain_page(s.description, s.prepared, {scene, "halfspace explain " + scene, "halfspace render " + scene, "test", {}}, s.workers);
 }
 
 // Returns the data of a page.
@@ -44,6 +46,67 @@ TEST(Page, NumbersDoNotDependOnThreads) {
   };
   for (const char* scene : {"day-night", "particles"})
     EXPECT_EQ(without_times(data_of(page_of(scene, 1))), without_times(data_of(page_of(scene, 2)))) << scene;
+}
+
+// Returns the data of the page of a scene with some settings.
+nlohmann::json page_data(const std::string& scene, const std::vector<std::string>& settings, int width, int height) {
+  SceneFile file = SceneFile::open(scene);
+  file.set(settings);
+  const PreparedText s(file.at(0.0), width, height);
+  return data_of(
+      explain_page(s.description, s.prepared, {scene, "halfspace explain " + scene, "halfspace render " + scene, "test", {}}, s.workers));
+}
+
+// The formulas of the page start with the light that the frame stores, so they end in the pixel of the picture.
+TEST(Page, TheToneChapterEndsInThePicture) {
+  for (const ShippedScene& shipped : shipped_scenes()) {
+    for (const int samples : {1, 4, 8}) {
+      const std::string name(shipped.name);
+      const std::vector<std::string> settings{"samples=" + std::to_string(samples)};
+      const nlohmann::json data = page_data(name, settings, 48, 27), &tone = data["tone"];
+      SceneFile file = SceneFile::open(name);
+      file.set(settings);
+      const PreparedText s(file.at(0.0), 48, 27);
+      Image<glm::u8vec4> picture(48, 27);
+      render(s.prepared, picture, s.workers);
+      const glm::u8vec4 expected = picture.at(data["pixel"][0].get<int>(), data["pixel"][1].get<int>());
+      EXPECT_EQ(tone["samples"].size(), static_cast<std::size_t>(samples));
+      for (int k = 0; k < 3; ++k) {
+        const auto i = static_cast<std::size_t>(k);
+        EXPECT_EQ(tone["pixel"]["code"][i].get<int>(), int{expected[k]}) << name << samples;
+        if (!tone["dither"].get<bool>()) EXPECT_EQ(tone["pixel"]["rounded"][i].get<int>(), int{expected[k]}) << name << samples;
+      }
+    }
+  }
+}
+
+// Twenty-four panes, one behind the other and drawn from back to front.
+std::string many_layers() {
+  std::string objects;
+  for (int i = 0; i < 24; ++i)
+    objects += fmt::format(R"({}"pane{}": {{"shape": "plane", "size": 2, "rotation": [90, 0, 0], "position": [0, 0, {}]}})",
+                           i == 0 ? "" : ", ", i, -12.0 + 0.25 * i);
+  return R"({"version": 1, "samples": 2, "cameras": {"c": {"position": [0, 0, 6], "target": [0, 0, 0]}}, "lights": {"sun": {}}, "objects": {)" +
+         objects + "}}";
+}
+
+// All fragments of the example pixel are listed, with their values.
+TEST(Page, TheExamplePixelIsComplete) {
+  const PreparedText s(many_layers(), 64, 36);
+  const FrameTrace trace = trace_frame(s.prepared, s.workers);
+  const glm::ivec2 pixel = trace.busiest_pixel();
+  ASSERT_GT(trace.at(pixel).size(), 40u);
+  const nlohmann::json history = data_of(explain_page(s.description, s.prepared, {"test", "", "", "test", {}}, s.workers))["history"];
+  EXPECT_EQ(history["most"], 64);
+  EXPECT_EQ(history["details"]["most"][0], 64);
+}
+
+TEST(Page, TheDetailedPixelsContainTheExamplePixel) {
+  for (const glm::ivec2 center : {glm::ivec2(0, 0), glm::ivec2(639, 359), glm::ivec2(321, 183)}) {
+    const std::vector<glm::ivec2> pixels = detailed_pixels(640, 360, center);
+    EXPECT_EQ(std::ranges::count(pixels, center), 1);
+    EXPECT_GE(pixels.size(), 64u * 64u + 80u * 45u - 64u) << "64 pixels of the grid are in the block";
+  }
 }
 
 TEST(Page, QuotesAreTheLinesOfTheSources) {

@@ -8,9 +8,11 @@ windows, and that there are no errors.
 Needs the Debian packages chromium, chromium-driver and python3-selenium. If a folder is given, a screenshot of every chapter is written to
 it.
 """
+import json
 import os
 import re
 import shutil
+import struct
 import subprocess
 import sys
 import tempfile
@@ -37,7 +39,12 @@ PROGRAM = Path(sys.argv[1]).resolve() if len(sys.argv) > 1 else None
 SCREENSHOTS = Path(sys.argv[2]) if len(sys.argv) > 2 else None
 # Scenes that together use every stage: clipped triangles, shadows, HDR, points, several samples, transparent layers.
 SCENES = {"earth": ["earth"], "day-night": ["day-night", "--camera", "street"], "particles": ["particles"],
-          "knot": ["shadow-knot", "--set", "samples=4"], "box": ["box.obj"]}
+          "knot": ["shadow-knot", "--set", "samples=4"], "box": ["box.obj"], "panes": ["panes.json"]}
+HELMET = Path(__file__).resolve().parents[2].parent / "shared/data/gltf/DamagedHelmet/glTF-Binary/DamagedHelmet.glb"
+# Twenty-four squares, one behind the other and drawn from back to front, with two samples per pixel.
+PANES = {"version": 1, "samples": 2, "cameras": {"c": {"position": [0, 0, 6], "target": [0, 0, 0]}}, "lights": {"sun": {}},
+         "objects": {f"pane{i}": {"shape": "plane", "size": 2, "rotation": [90, 0, 0], "position": [0, 0, 0.25 * i - 6], "color": [0.04 * i, 0.5, 0.5]}
+                     for i in range(24)}}
 BOX = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n"
 
 
@@ -106,6 +113,7 @@ class Page(unittest.TestCase):
         cls.driver.set_script_timeout(120)
         cls.pages = {}
         (Path(cls.folder.name) / "box.obj").write_text(BOX)
+        (Path(cls.folder.name) / "panes.json").write_text(json.dumps(PANES))
         for name, arguments in SCENES.items():
             page = Path(cls.folder.name) / f"{name}.html"
             subprocess.run([PROGRAM, "explain", *arguments, "--size", "320x180", "-o", page], check=True, cwd=cls.folder.name)
@@ -204,9 +212,105 @@ class Page(unittest.TestCase):
         self.assertNotEqual(self.run_script(background), light, "prefers-color-scheme: dark")
 
     def test_coverage_on_the_page_matches_the_renderer(self):
-        self.open("earth")
-        own, expected = self.run_script("return [countCovered(), DATA.example.triangles[0].covered]")
-        self.assertEqual(own, expected)
+        for name in SCENES:
+            self.open(name)
+            own, expected = self.run_script("return [countCovered(), TRI.covered]")
+            self.assertEqual(own, expected, name)
+            own, expected = self.run_script("""const [x0, y0] = WINDOW.map(blockOf);
+                return [EX.block.map((_, i) => allSamples.reduce((bits, s) => bits | covers(TRI, x0 + i % 8, y0 + (i >> 3), s) << s, 0)), EX.block]""")
+            self.assertEqual(own, expected, name)
+            self.assertTrue(self.run_script("return covers(TRI, ...WINDOW)"), f"{name}: the example covers the visible sample")
+
+    def test_the_depth_of_the_setup_chapter_is_that_of_the_fragment(self):
+        for name in SCENES:
+            self.open(name)
+            if self.run_script("return isTriangle"):
+                depth, expected = self.run_script("return [depthFromEdges(), VISIBLE.depth]")
+                self.assertLessEqual(abs(depth - expected), 1e-6 * abs(expected), f"{name}: the renderer uses floats")
+
+    def test_the_formulas_end_in_the_pixel(self):
+        for name in SCENES:
+            self.open(name)
+            page, pixel = self.driver.execute_async_script(
+                "const done = arguments[0]; unpackHistory().then(() => done([TONE.pixel, detailsOf(...PIXEL)]))")
+            self.assertEqual(page["code"], pixel["code"][:3], name)
+            self.assertEqual(page["light"], pixel["light"][:3], name)
+            if self.run_script("return DATA.mips !== null"):
+                size, lod = self.run_script("return [mipSize(), MIP.lod]")
+                self.assertAlmostEqual(2 ** lod / size, 1, 5, name)
+
+    def test_sums_of_layers_match_the_stored_color(self):
+        self.open("box")
+        end, result = self.run_script("return [blendedSums().pop(), LAYERS.result]")
+        for a, b in zip(end, result):  # the stored color is rounded to half floats or to 8 bits, a step of at most 1/255 in sRGB
+            self.assertLessEqual(abs(a - b), 0.01 * max(abs(b), 0.01))
+
+    def test_commands_can_be_run(self):
+        folder = Path(self.folder.name)
+        (folder / "sub folder").mkdir()
+        (folder / "sub folder" / "box.obj").write_text(BOX)
+        page = folder / "command.html"
+        subprocess.run([PROGRAM, "explain", "sub folder/box.obj", "--yaw", "20", "--set", "samples=2", "-o", page], check=True, cwd=folder)
+        set_window(self.driver, 1200)
+        self.driver.get(f"file://{page}#history")
+        WebDriverWait(self.driver, 30).until(lambda d: d.execute_script("return document.querySelector('article') !== null"))
+        explain, render, code, (x, y) = self.run_script("return [DATA.command, DATA.render_command, TONE.pixel.code, PIXEL]")
+        run = lambda line: subprocess.run(line.replace("halfspace", str(PROGRAM), 1), shell=True, check=True, capture_output=True, text=True, cwd=folder).stdout
+        result = json.loads(run(f"{explain} --pixel {x},{y} --json"))
+        self.assertEqual([result["size"], result["code"][:3]], [[640, 360], code])
+        run(f"{render} -o command.ppm")
+        data = (folder / "command.ppm").read_bytes()
+        self.assertEqual(data[:14], b"P6\n640 360\n255"[:14])
+        at = len(data) - 640 * 360 * 3 + (y * 640 + x) * 3
+        self.assertEqual(list(data[at:at + 3]), code)
+
+    def test_pages_are_smaller_than_25_mb(self):
+        folder = Path(self.folder.name)
+        names = subprocess.run([PROGRAM, "list", "--names"], check=True, capture_output=True, text=True).stdout.split()
+        runs = [[name] for name in names] + [["panes.json", "--set", "samples=8"],
+                                             ["particles", "--set", "particles.count=100000", "--set", "particles.arrangement=ball", "--set", "samples=4"]]
+        helmet = HELMET if HELMET.exists() else None
+        for arguments in runs + ([[helmet]] if helmet else []):
+            page = folder / "size.html"
+            subprocess.run([PROGRAM, "explain", *arguments, "-o", page], check=True, cwd=folder)
+            self.assertLess(page.stat().st_size, 25_000_000, arguments)
+
+    def test_all_fragments_of_the_example_are_listed(self):
+        """Scenes with many layers at the example pixel list all of its fragments, with the numbers of --text and with all values."""
+        self.open("panes", "history")
+        x, y = self.run_script("return PIXEL")
+        shown = self.show_pixel(x, y)
+        text = self.text_of("panes", [x, y])
+        count = int(re.search(r"(\d+) fragments? in", text).group(1))
+        self.assertGreater(count, 20)
+        self.assertEqual(self.run_script("return document.querySelectorAll('#history-panel .fragments > li > details').length"), count)
+        for number in range(1, count + 1):
+            self.assertRegex(shown, rf"(?m)^{number}\. ")
+        self.assertNotIn("does not list", shown)
+
+    def test_arrow_keys_select_a_pixel(self):
+        self.open("earth", "depth")
+        canvas = self.driver.find_element(By.CSS_SELECTOR, "figure canvas")
+        canvas.send_keys(Keys.ARROW_RIGHT)
+        x, y = self.run_script("return PIXEL")
+        self.assertIn(f"pixel ({min(x + 1, 319)}, {y})", self.driver.find_element(By.CLASS_NAME, "readout").text)
+        self.assertEqual(self.run_script("return state.step"), 0, "the keys do not change the step")
+
+    def test_labels_are_readable_on_a_phone(self):
+        for name in SCENES:
+            self.open(name, width=390)
+            for chapter, step, size in self.tour("""() => Math.min(99, ...[...document.querySelectorAll('figure svg text')].map((t) => {
+                const svg = t.closest('svg'); return parseFloat(t.getAttribute('font-size')) * svg.getBoundingClientRect().width / svg.viewBox.baseVal.width; }))"""):
+                self.assertGreaterEqual(size, 10, f"{name}, {chapter}, step {step}: font size in pixels")
+
+    def test_links_have_enough_contrast(self):
+        for dark in (False, True):
+            self.open("earth", dark=dark)
+            ratio = self.run_script("""const rgb = (s) => s.match(/[\\d.]+/g).slice(0, 3).map((v) => v / 255).map((v) => (v <= 0.04045 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4));
+                const y = (s) => rgb(s).reduce((n, v, k) => n + v * [0.2126, 0.7152, 0.0722][k], 0);
+                const a = document.querySelector('nav a.absent'), l = [y(getComputedStyle(a).color), y(getComputedStyle(document.body).backgroundColor)].sort((p, q) => q - p);
+                return getComputedStyle(a).opacity === '1' ? (l[0] + 0.05) / (l[1] + 0.05) : 0""")
+            self.assertGreaterEqual(ratio, 4.5, "dark" if dark else "light")  # WCAG 2.1, success criterion 1.4.3
 
     def test_the_bar_of_the_example_contains_its_luminance(self):
         for name in SCENES:
@@ -238,15 +342,46 @@ class Page(unittest.TestCase):
         WebDriverWait(self.driver, 30).until(lambda d: d.execute_script("const h = document.querySelector('#history-panel h3'); return h && h.textContent") == title)
 
     def test_a_pixel_shows_the_numbers_of_the_text(self):
-        number = re.compile(r"-?\d+\.\d+(?:e[-+]\d+)?|-?\d+e[-+]\d+")
+        number = re.compile(r"(?<![\w.])-?\d+(?:\.\d+)?(?:e[-+]\d+)?(?![\w.]*\w)")
         for name, arguments in SCENES.items():
             self.open(name, "history")
             for pixel in (self.run_script("return PIXEL"), [160, 88], [8, 16]):
-                text = subprocess.run([PROGRAM, "explain", *arguments, "--size", "320x180", "--pixel", "{},{}".format(*pixel), "--text"],
-                                      check=True, capture_output=True, text=True, cwd=self.folder.name).stdout
+                text = self.text_of(name, pixel)
                 shown = set(number.findall(self.show_pixel(*pixel)))
-                missing = [n for n in number.findall(text) if n not in shown]
+                missing = [n for n in number.findall(text.replace("8x8", "")) if n not in shown]
                 self.assertEqual(missing, [], f"{name}, pixel {pixel}: numbers of --text that the page does not show\n{text}")
+
+    def text_of(self, name, pixel, kind="--text"):
+        return subprocess.run([PROGRAM, "explain", *SCENES[name], "--size", "320x180", "--pixel", "{},{}".format(*pixel), kind],
+                              check=True, capture_output=True, text=True, cwd=self.folder.name).stdout
+
+    def test_a_pixel_has_the_values_of_the_json(self):
+        def as_floats(x):
+            if isinstance(x, list):
+                return [as_floats(v) for v in x]
+            return struct.unpack("f", struct.pack("f", x))[0] if isinstance(x, float) else x
+        as_list = lambda v: v if isinstance(v, list) else [v]
+        for name in SCENES:
+            self.open(name, "history")
+            for pixel in (self.run_script("return PIXEL"), [160, 88], [8, 16]):
+                expected = json.loads(self.text_of(name, pixel, "--json"))
+                page = self.driver.execute_async_script(
+                    "const done = arguments[2]; unpackHistory().then(() => done(detailsOf(arguments[0], arguments[1])))", *pixel)
+                where = f"{name}, pixel {pixel}"
+                self.assertEqual(page["others"], expected["fragments_left_out"], where)
+                self.assertEqual([f["index"] for f in page["list"]], list(range(len(expected["fragments"]))), where)
+                for own, f in zip(page["list"], expected["fragments"]):
+                    rows = [("draw", "draw"), ("instance", "instance"), ("primitive", "primitive"), ("sample", "sample"), ("depth", "depth"),
+                            ("barycentrics", "barycentrics"), ("invW", "inv_w"), ("color", "color")]
+                    rows += [("tested", "tested_depth"), ("stored", "stored_depth")] if "tested_depth" in f else []
+                    rows += [("value", "value")] if "value" in f else []
+                    for key, json_key in rows:
+                        self.assertEqual(as_floats(own[key]), as_floats(f[json_key]), f"{where}, {json_key}")
+                    self.assertEqual([own["kind"]["front"], own["kind"]["shader"], bool(own["isShaded"])], [f["front_facing"], f["shader"], f["shaded"]], where)
+                    for key in ("varyings", "terms", "factors"):
+                        self.assertEqual({k: as_floats(v) for k, v in own[key]}, {k: as_floats(as_list(v)) for k, v in f[key].items()}, where)
+                self.assertEqual(as_floats(page["samples"]), as_floats(expected["samples"]), where)
+                self.assertEqual([as_floats(page["light"]), page["code"]], [as_floats(expected["light"]), expected["code"]], where)
 
     def test_a_click_selects_the_pixel(self):
         self.open("earth", "history")

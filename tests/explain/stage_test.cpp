@@ -4,11 +4,14 @@
 #include <gtest/gtest.h>
 
 #include "explain/prepared.h"
+#include "halfspace/explain/fragment_values.h"
 #include "halfspace/explain/stage_example.h"
 #include "halfspace/explain/stage_geometry.h"
+#include "halfspace/explain/stage_pictures.h"
 #include "halfspace/explain/stage_shadow.h"
 #include "halfspace/explain/stage_terms.h"
 #include "halfspace/explain/stage_tone.h"
+#include "halfspace/raster/pipeline/pixel_box.h"
 
 namespace halfspace {
 namespace {
@@ -121,6 +124,73 @@ TEST(Stages, AClippedTriangleEndsAtTheNearPlane) {
   });
 }
 
+// Every covered sample of a triangle is a fragment, and the other samples are not.
+TEST(Stages, CoverageMatchesTheFragmentsOfTheFrame) {
+  for (const int samples : {1, 4}) {
+    SceneFile file = SceneFile::open("shadow-knot");
+    file.set({"samples=" + std::to_string(samples)});
+    const PreparedText s(file.at(0.0), 96, 54);
+    const FrameTrace trace = trace_frame(s.prepared, s.workers);
+    uint64_t traced = 0;
+    for (int y = 0; y < 54; ++y) {
+      for (int x = 0; x < 96; ++x) traced += trace.count({x, y});
+    }
+    s.visit([&](const PassContext& context, const StageGeometry& g) {
+      uint64_t covered = 0;
+      for (std::size_t i = 0; i < g.triangles.size(); ++i) {
+        const Draw& draw = context.draws[g.primitives[g.primitive_of[i]].draw];
+        const PixelBounds box = pixel_bounds(draw, g.triangles[i], draw.bounds, context.samples_at);
+        for (int y = box.y0; y < box.y1; ++y) {
+          for (int x = box.x0; x < box.x1; ++x) {
+            for (int k = 0; k < samples; ++k) covered += covers(context, draw, g.triangles[i], x, y, k);
+          }
+        }
+      }
+      EXPECT_EQ(covered, traced) << samples;
+    });
+  }
+}
+
+TEST(Stages, DepthBlocksBoundTheDepthBuffer) {
+  for (const int samples : {1, 4}) {
+    for (const char* name : {"earth", "day-night", "particles", "shapes"}) {
+      SceneFile file = SceneFile::open(name);
+      file.set({"samples=" + std::to_string(samples)});
+      const PreparedText s(file.at(0.0), 96, 54);
+      const DepthBlocks blocks = depth_blocks(s.prepared, trace_frame(s.prepared, s.workers));
+      const Image<float> depth = depth_buffer(s.prepared, s.workers);
+      std::vector<float> low(blocks.low.size(), 1.0f), high(low.size(), 0.0f);
+      for (int y = 0; y < 54; ++y) {
+        for (int x = 0; x < 96; ++x) {
+          const auto b = static_cast<std::size_t>((53 - y) / 8 * blocks.columns + x / 8);
+          low[b] = std::min(low[b], depth.at(x, y));
+          high[b] = std::max(high[b], depth.at(x, y));
+        }
+      }
+      for (std::size_t b = 0; b < low.size(); ++b) {
+        EXPECT_LE(blocks.low[b], low[b]) << name;
+        EXPECT_GE(blocks.high[b], high[b]) << name;
+        if (samples > 1) continue;  // the depth buffer has sample 0 only
+        EXPECT_EQ(blocks.low[b], low[b]) << name;
+        EXPECT_EQ(blocks.high[b], high[b]) << name;
+      }
+    }
+  }
+}
+
+// The level of detail follows from the axes of the footprint. The lookup works with squares of lengths: 2e-5 is a few ulps of float.
+TEST(Stages, TheMipLevelFollowsFromTheAxes) {
+  const PreparedText s(SceneFile::open("earth").at(0.0), 96, 54);
+  int compared = 0;
+  for (const MipLookup& m : mip_levels(s.prepared, s.workers).texels()) {
+    if (m.probes == 0.0f) continue;
+    const float size = m.is_anisotropic ? std::max(m.axes.y, m.axes.x / m.probes) : std::max(m.axes.x, m.axes.y);
+    EXPECT_NEAR(m.lod, std::log2(size), 2e-5f);
+    compared += m.is_anisotropic;
+  }
+  EXPECT_GT(compared, 100);
+}
+
 // ---- light ------------------------------------------------------------------------------------------------------------
 
 // Ambient light of 0.25 and a frontal light of 0.5 on a surface with a gray of 0.5.
@@ -155,6 +225,40 @@ TEST(Stages, TermsAddUpToTheLight) {
     }
     EXPECT_LT(worst, 1e-5f) << name;
   }
+}
+
+glm::vec3 product(const glm::vec3& a, const glm::vec3& b, float factor) { return a * b * factor; }
+
+// The product of the factors differs from the term by rounding: six factors, with a relative error of 1e-6 each and of terms around 1.
+TEST(Stages, FactorsOfTheLightMultiplyToTheTerms) {
+  int compared = 0;
+  for (const char* name : {"shapes", "three-lights", "shadow-knot", "day-night", "particles"}) {
+    const PreparedText s(SceneFile::open(name).at(0.0), 96, 54);
+    const FrameTrace trace = trace_frame(s.prepared, s.workers);
+    s.visit([&](const PassContext& context, const StageGeometry&) {
+      const TriangleInspector triangles(context);
+      for (int i = 0; i < 96 * 54; i += 7) {
+        const glm::ivec2 pixel(i % 96, i / 96);
+        for (const TracedFragment& f : trace.at(pixel)) {
+          if (!f.is_shaded) continue;
+          InspectedTriangle t;
+          triangles.find(f.id, t);
+          const LightingDetail d =
+              lighting_detail(s.prepared.draws[f.draw].shader, {t, {pixel.x, 53 - pixel.y}, kPixelCenter, f.depth}, {});
+          for (const LightFactors& l : d.lights) {
+            const glm::vec3 diffuse = product(l.diffuse_color, d.albedo * d.diffuse, l.n_l * l.shadow);
+            const glm::vec3 specular = product(l.specular_color, d.specular, l.highlight * l.shadow);
+            for (int k = 0; k < 3; ++k) {
+              EXPECT_NEAR(diffuse[k], l.diffuse[k], 1e-5f * std::max(1.0f, l.diffuse[k])) << name << " " << pixel.x << "," << pixel.y;
+              EXPECT_NEAR(specular[k], l.specular[k], 1e-5f * std::max(1.0f, l.specular[k])) << name << " " << pixel.x << "," << pixel.y;
+            }
+            ++compared;
+          }
+        }
+      }
+    });
+  }
+  EXPECT_GT(compared, 500);
 }
 
 TEST(Stages, ToneStepsEndInThePixelValues) {

@@ -31,10 +31,12 @@ function fmt(x, digits = 6) {
   const text = String(Number(x.toPrecision(digits)));
   return text.replace("-", "−").replace("e+", "e").replace("e-", "e−");
 }
-const group = (x) => (x < 0 ? "−" : "") + String(Math.abs(x)).replace(/\B(?=(\d{3})+$)/g, " ");
+const group = (x) => (x < 0 ? "−" : "") + String(Math.abs(x)).replace(/\B(?=(\d{3})+$)/g, "\u00a0");
 const num = (x, digits) => `<span class="n">${fmt(x, digits)}</span>`;
 const vec = (v, digits = 5) => `(${v.map((x) => fmt(x, digits)).join(", ")})`;
 const plural = (n, one, many = one + "s") => `${fmt(n)} ${n === 1 ? one : many}`;
+// Prose inside a formula, which wraps.
+const say = (html) => `<span class="prose">${html}</span>`;
 const css = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
 // Decodes the PNG files in which a page stores its arrays (page_encode.h).

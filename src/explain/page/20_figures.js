@@ -5,15 +5,40 @@ function canvasFigure(width, height, label, pixelated = false) {
   return {canvas, pen: canvas.getContext("2d")};
 }
 
+// SVG figures are drawn in a narrower coordinate system on a phone, so that their labels stay readable.
+const narrowWindow = matchMedia("(max-width: 620px)");
+const figureWidth = () => (narrowWindow.matches ? 380 : 720);
+
 function svgFigure(width, height, label, ...children) {
   return svg("svg", {viewBox: `0 0 ${width} ${height}`, role: "img", "aria-label": label}, ...children);
+}
+
+// Makes the cells of a figure selectable with the arrow keys while the figure has the focus. start: the first selected cell, from the upper
+// left. pick(x, y) shows the values of a cell.
+function pickable(element, columns, rows, start, pick) {
+  let [x, y] = start;
+  const arrows = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1]};
+  element.setAttribute("tabindex", 0);
+  element.setAttribute("data-pick", "");
+  element.setAttribute("aria-label", `${element.getAttribute("aria-label")}. The arrow keys select a ${columns === W ? "pixel" : "cell"}.`);
+  element.addEventListener("keydown", (e) => {
+    const by = arrows[e.key];
+    if (!by || e.altKey || e.ctrlKey || e.metaKey) return;
+    const step = e.shiftKey ? 8 : 1;
+    e.preventDefault();
+    e.stopPropagation();
+    [x, y] = [Math.min(columns - 1, Math.max(0, x + by[0] * step)), Math.min(rows - 1, Math.max(0, y + by[1] * step))];
+    pick(x, y);
+  });
+  return (px, py) => { [x, y] = [px, py]; };
 }
 
 // Shows a picture of the frame with an optional overlay, and calls read(x, y) for the pixel under the pointer.
 function picture(uri, label, {overlay = null, read = null, click = null, scale = 2} = {}) {
   const {canvas, pen} = canvasFigure(W * scale, H * scale, label);
   const box = el("div", {class: "stage"}, canvas);
-  const readout = read ? el("div", {class: "readout", "aria-live": "off"}, "Point at the picture to read its values.") : null;
+  const readout = read ? el("div", {class: "readout", "aria-live": "polite"}, "Point at the picture to read its values, or focus it and press the arrow keys.") : null;
+  const mark = el("div", {class: "mark", "aria-hidden": "true", hidden: true});
   loadImage(uri).then((image) => {
     pen.imageSmoothingEnabled = false;
     pen.drawImage(image, 0, 0, W * scale, H * scale);
@@ -23,9 +48,24 @@ function picture(uri, label, {overlay = null, read = null, click = null, scale =
     const r = canvas.getBoundingClientRect();
     return [Math.min(W - 1, Math.max(0, Math.floor((e.clientX - r.left) / r.width * W))), Math.min(H - 1, Math.max(0, Math.floor((e.clientY - r.top) / r.height * H)))];
   };
-  if (read) canvas.addEventListener("pointermove", (e) => { readout.innerHTML = read(...pixelOf(e)); });
-  if (click) canvas.addEventListener("click", (e) => click(...pixelOf(e)));
+  if (read) {
+    const show = (x, y) => {
+      readout.innerHTML = read(x, y);
+      if (click) return click(x, y);
+      mark.hidden = false;
+      placeMark(mark, x, y);
+    };
+    const moveTo = pickable(canvas, W, H, click ? historyState.pixel : PIXEL, show);
+    box.append(mark);
+    canvas.addEventListener("pointermove", (e) => { const at = pixelOf(e); moveTo(...at); mark.hidden = true; readout.innerHTML = read(...at); });
+    if (click) canvas.addEventListener("click", (e) => { const at = pixelOf(e); moveTo(...at); click(...at); });
+  }
   return [box, readout].filter(Boolean);
+}
+
+function placeMark(mark, x, y) {
+  mark.style.left = `${(x + 0.5) / W * 100}%`;
+  mark.style.top = `${(y + 0.5) / H * 100}%`;
 }
 
 const legend = (low, high) => el("div", {class: "legend"}, el("span", {html: low}), el("i", {"aria-hidden": "true"}), el("span", {html: high}));
@@ -57,16 +97,18 @@ const tableOf = (head, rows, mark = -1) => el("div", {class: "table"}, el("table
   el("tbody", {}, ...rows.map((r, i) => el("tr", {class: i === mark ? "mark" : null}, ...r.map((c) => el("td", {class: isText(c) ? "text" : null, html: typeof c === "number" ? fmt(c) : c.replace("¶", "")})))))));
 
 // A bar chart. bars: [{value, label, name, marked}].
-function bars(list, label, {width = 720, height = 240, unit = ""} = {}) {
+function bars(list, label, {width = figureWidth(), height = 240, unit = ""} = {}) {
   const sorted = list.map((b) => b.value).sort((a, b) => b - a), top = Math.max(sorted[0], 1), isCut = list.length > 20 && top > 4 * sorted[1];
   const most = isCut ? Math.max(sorted[1] * 1.25, 1) : top, step = (width - 50) / list.length, root = svgFigure(width, height, label);
+  const labeled = list.flatMap((b, i) => (b.label === undefined ? [] : [i])), spacing = step * (labeled.length > 1 ? labeled[1] - labeled[0] : list.length);
+  const isStaggered = spacing < 60 && list.some((b) => b.label !== undefined && b.label.length > 5), every = isStaggered ? 1 : Math.ceil(26 / spacing);
   list.forEach((b, i) => {
     const h = Math.min(1, b.value / most) * (height - 50), x = 40 + i * step;
     const bar = svg("rect", {x: x + 0.5, y: height - 30 - h, width: Math.max(1, step - 1.5), height: Math.max(h, b.value > 0 ? 1 : 0), fill: b.marked ? "var(--accent)" : "var(--soft)", opacity: b.marked ? 1 : 0.55});
     bar.append(svg("title", {}, document.createTextNode(`${b.name}: ${fmt(b.value)}${unit}`)));
     root.append(bar);
     if (b.value > most) root.append(svg("text", {x: x + step + 3, y: 30, "font-size": 13}, document.createTextNode("↑ " + fmt(b.value))));
-    if (b.label !== undefined) root.append(svg("text", {x: x + step / 2, y: height - 10, "font-size": 13, "text-anchor": "middle"}, document.createTextNode(b.label)));
+    if (b.label !== undefined && labeled.indexOf(i) % every === 0) root.append(svg("text", {x: x + step / 2, y: height - (isStaggered ? (i % 2 ? 3 : 17) : 10), "font-size": 13, "text-anchor": "middle"}, document.createTextNode(b.label)));
   });
   root.append(svg("line", {x1: 40, x2: width - 10, y1: height - 29.5, y2: height - 29.5, stroke: "var(--line)"}));
   root.append(svg("text", {x: 6, y: 17, "font-size": 13}, document.createTextNode(fmt(Math.round(most)))));

@@ -118,7 +118,7 @@ function move(by) {
 }
 
 function onKey(e) {
-  if (e.altKey || e.ctrlKey || e.metaKey || e.target.closest("input, textarea, select, pre, .formula, .table")) return;
+  if (e.altKey || e.ctrlKey || e.metaKey || e.target.closest("[data-pick], input, textarea, select, pre, .formula, .table")) return;
   if (e.key === "ArrowRight") move(1);
   else if (e.key === "ArrowLeft") move(-1);
   else return;
@@ -146,6 +146,7 @@ function startNavigation() {
   const narrow = matchMedia("(max-width: 900px)");
   const fold = () => { contents.open = !narrow.matches; };
   narrow.addEventListener("change", fold);
+  narrowWindow.addEventListener("change", () => goToStep(state.step));
   fold();
   document.addEventListener("keydown", onKey);
   addEventListener("hashchange", () => goTo(indexOfHash()));

@@ -30,7 +30,7 @@ chapter({
 function pipelineDiagram() {
   const s = DATA.statistics;
   const stages = [["vertices", s.vertices_shaded, "shaded"], ["primitives", s.primitives_in, "submitted"], ["setup", s.triangles_binned, "kept"], ["bins", s.bin_entries, "entries"], ["samples", s.samples_passed, "passed"], ["fragments", s.fragments_shaded, "shaded"]];
-  const narrow = innerWidth < 620, columns = narrow ? 3 : 6, root = svgFigure(24 + columns * 118, narrow ? 260 : 150, "Pipeline. " + stages.map(([name, count, what]) => `${name}: ${fmt(count)} ${what}`).join(", "));
+  const narrow = narrowWindow.matches, columns = narrow ? 3 : 6, root = svgFigure(24 + columns * 118, narrow ? 260 : 150, "Pipeline. " + stages.map(([name, count, what]) => `${name}: ${fmt(count)} ${what}`).join(", "));
   stages.forEach(([name, count, what], i) => {
     const x = 12 + i % columns * 118, top = Math.floor(i / columns) * 116;
     root.append(svg("rect", {x, y: top + 32, width: 100, height: 84, rx: 10, fill: "var(--card)", stroke: i === 0 ? "var(--accent)" : "var(--line)", "stroke-width": 1.5}));
@@ -95,7 +95,7 @@ function wireCanvas(label, triangles, lines, example, points = []) {
       l.points.map(to).forEach(([x, y], i) => (i ? pen.lineTo(x, y) : pen.moveTo(x, y)));
       pen.stroke();
       pen.setLineDash([]);
-      if (l.name) { const [x, y] = to(l.points[l.points.length - 1]); pen.fillStyle = css(l.color || "--soft"); pen.font = "600 19px system-ui"; pen.fillText(l.name, x + 7, y + 5); }
+      if (l.name) { const [x, y] = to(l.points[l.points.length - 1]); pen.fillStyle = css(l.color || "--soft"); pen.font = `600 ${narrowWindow.matches ? 34 : 19}px system-ui`; pen.fillText(l.name, x + 7, y + 5); }
     }
     if (example) markExample(pen, example.map(to));
   };
@@ -206,11 +206,16 @@ const matrixRows = (m) => {
 function spaceFormulas() {
   const v = EX.vertices[0], rows = (v.ws ? [["object", [...v.os, 1]], ["world", [...v.ws, 1]], ["view", [...v.vs, 1]]] : []).concat([["clip", v.clip], ["NDC", v.ndc]]);
   const chain = rows.map(([n, values]) => column(n, values)).join("\n") + "\n" + column("window", [v.x / SUB, v.y / SUB, v.z], 9);
-  const formula = `<em>p</em><sub>clip</sub> = P · V · M · <em>p</em><sub>object</sub>        <em>p</em><sub>ndc</sub> = (<em>x</em>, <em>y</em>, <em>z</em>) / <em>w</em>\n\nThe first vertex of ${exampleName}:\n`;
+  const formula = `<em>p</em><sub>clip</sub> = P · V · M · <em>p</em><sub>object</sub>        <em>p</em><sub>ndc</sub> = (<em>x</em>, <em>y</em>, <em>z</em>) / <em>w</em>\n\n${say(`The first vertex of ${exampleName}:`)}`;
+  const own = EX.vertices[0].ws ? `\n\n${say(`<em>p</em><sub>world</sub> = M · <em>p</em><sub>object</sub>, row by row:`)}${productRows(DATA.draws[EX.draw].world_from_object, v.os, v.ws)}` : "";
   const x = `\n\n<em>x</em><sub>window</sub> = round(256 · (<em>x</em>/<em>w</em> · ${fmt(W / 2)} + ${fmt(W / 2)})) / 256\n         = round(256 · (${fmt(v.ndc[0], 7)} · ${fmt(W / 2)} + ${fmt(W / 2)})) / 256 = <b>${fmt(v.x)}/256 = ${fmt(v.x / SUB, 9)}</b>`;
-  const matrices = EX.vertices[0].ws ? [`V (view from world)\n${matrixRows(M.view_from_world).join("\n")}\n\nP (clip from view)\n${matrixRows(M.clip_from_view).join("\n")}`] : [];
-  return [formula + chain + x, ...matrices];
+  const matrices = EX.vertices[0].ws ? [`M (world from object)\n${matrixRows(DATA.draws[EX.draw].world_from_object).join("\n")}\n\nV (view from world)\n${matrixRows(M.view_from_world).join("\n")}\n\nP (clip from view)\n${matrixRows(M.clip_from_view).join("\n")}`] : [];
+  const ndc = `\n\n<em>x</em><sub>ndc</sub> = <em>x</em><sub>clip</sub> / <em>w</em> = ${fmt(v.clip[0], 7)} / ${fmt(v.clip[3], 7)} = <b>${fmt(v.ndc[0], 7)}</b>`;
+  return [formula + chain + own + ndc + x, ...matrices];
 }
+
+// The first three rows of a matrix times a point, with numbers.
+const productRows = (m, p, result) => [0, 1, 2].map((r) => `${[0, 1, 2].map((c) => `${fmt(m[4 * c + r], 5)} · ${fmt(p[c], 5)}`).join(" + ")} + ${fmt(m[12 + r], 5)} = <b>${fmt(result[r], 6)}</b>`).join("\n");
 
 chapter({
   id: "spaces", title: "From the mesh to the window", kicker: "Vertex stage",

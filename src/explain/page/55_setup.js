@@ -5,7 +5,7 @@ const CLIPPED = DATA.clipped;
 // Plots a triangle and the clip planes: w (the distance along the view axis) to the right, x or y up.
 function clipPicture(c, axis, after) {
   const name = "xy"[axis], points = [...c.before.map((p) => [p[3], p[axis]]), [0, 0]], shown = c.after.map((a) => [a.clip[3], a.clip[axis]]);
-  const width = 720, height = 400, span = (k) => { const v = points.map((p) => p[k]); return [Math.min(...v), Math.max(...v)]; };
+  const width = figureWidth(), height = 400, span = (k) => { const v = points.map((p) => p[k]); return [Math.min(...v), Math.max(...v)]; };
   const [[w0, w1], [y0, y1]] = [span(0), span(1)], scale = Math.min((width - 90) / Math.max(w1 - w0, 1e-9), (height - 60) / Math.max(y1 - y0, 1e-9));
   const to = ([w, y]) => [50 + (w - w0) * scale, 30 + (y1 - y) * scale], path = (list) => list.map(to).map((p) => p.map((v) => v.toFixed(1)).join(",")).join(" ");
   const root = svgFigure(width, height, `A clipped triangle in clip space, ${after ? "after" : "before"} clipping: w to the right, ${name} up`);
@@ -20,7 +20,10 @@ function clipPicture(c, axis, after) {
   if (after) c.after.forEach((a) => { const [x, y] = to([a.clip[3], a.clip[axis]]); root.append(svg("circle", {cx: x, cy: y, r: a.vertex < 0 ? 6 : 4, fill: a.vertex < 0 ? "var(--accent)" : "var(--ink)"})); });
   const label = (at, text) => { const [x, y] = to(at); root.append(svg("text", {x: Math.min(x, width - 120), y: Math.max(18, Math.min(y, height - 8)), "font-size": 14}, document.createTextNode(text))); };
   label([near, y1], " near plane");
-  label([far * 0.8, far * 0.8], `${name} = w`);
+  // The name of a side of the view volume is written where the side crosses the figure.
+  const up = Math.min(w1, y1), down = Math.min(w1, -y0);
+  if (up >= down && up > 0) label([up * 0.7, up * 0.7], ` ${name} = w`);
+  else if (down > 0) label([down * 0.7, -down * 0.7], ` ${name} = −w`);
   return el("div", {class: "stage"}, root);
 }
 
@@ -28,7 +31,7 @@ function clipFormula(c) {
   const cut = c.after.find((a) => a.vertex < 0);
   if (!cut) return [];
   const used = [0, 1, 2].filter((k) => cut.weights[k] !== 0);
-  return [`A new vertex on a clip plane is a weighted sum of the original vertices. The first new vertex of this polygon:\n\n<em>p</em> = ${used.map((k) => `${fmt(cut.weights[k], 6)} · <em>v</em><sub>${k}</sub>`).join(" + ")}\n  = ${used.map((k) => `${fmt(cut.weights[k], 6)} · ${vec(c.before[k], 5)}`).join("\n  + ")}\n  = <b>${vec(cut.clip, 6)}</b>`];
+  return [`${say("A new vertex on a clip plane is a weighted sum of the original vertices. The first new vertex of this polygon:")}<em>p</em> = ${used.map((k) => `${fmt(cut.weights[k], 6)} · <em>v</em><sub>${k}</sub>`).join(" + ")}\n  = ${used.map((k) => `${fmt(cut.weights[k], 6)} · ${vec(c.before[k], 5)}`).join("\n  + ")}\n  = <b>${vec(cut.clip, 6)}</b>`];
 }
 
 chapter({
@@ -67,6 +70,9 @@ function cullPicture(outcome) {
   }});
 }
 
+// The rectangle of the example point. Its coordinates include the last covered position, in 1/256 pixel.
+const pointRectangle = () => `x: ${fmt(TRI.x[0])} … ${fmt(TRI.x[1])}, y: ${fmt(TRI.y[0])} … ${fmt(TRI.y[1])} in 1/256 pixel\n\n${say(`The rectangle around ${exampleName} covers the pixels with a sample in it:`)}⌈(${fmt(TRI.x[0])} − ${sampleX(0)}) / 256⌉ ≤ x ≤ ⌊(${fmt(TRI.x[1])} − ${sampleX(0)}) / 256⌋ → <b>${TRI.boxes[SAMPLE][0]} … ${TRI.boxes[SAMPLE][2] - 1}</b>\n⌈(${fmt(TRI.y[0])} − ${sampleY(0)}) / 256⌉ ≤ y ≤ ⌊(${fmt(TRI.y[1])} − ${sampleY(0)}) / 256⌋ → <b>${TRI.boxes[SAMPLE][1]} … ${TRI.boxes[SAMPLE][3] - 1}</b>`;
+
 const area2 = (t) => (t.x[1] - t.x[0]) * (t.y[2] - t.y[0]) - (t.y[1] - t.y[0]) * (t.x[2] - t.x[0]);
 const submitted = () => ({x: EX.vertices.map((v) => v.x), y: EX.vertices.map((v) => v.y)});
 
@@ -80,7 +86,7 @@ chapter({
       draw: () => bars(OUTCOMES.map((name, i) => ({value: DATA.outcomes[i], name, label: ["kept", "clipped", "outside", "facing", "no area", "no sample", "∞ or NaN"][i], marked: i === 0})), "Number of primitives by outcome: " + OUTCOMES.map((name, i) => `${DATA.outcomes[i]} ${name}`).join(", "))},
     ...[0, 3, 5].filter((i) => DATA.outcomes[i] > 0 && FRAME.outcomes.includes(i)).map((i) => ({name: `Primitives ${OUTCOMES[i]}`, caption: i === 3 ? "The far sides of closed surfaces. About half of the triangles of a solid object are culled this way." : i === 5 ? "Triangles that are so small or thin that they cover no sample." : "These primitives are passed to the rasterizer.", draw: () => cullPicture(i)})),
   ],
-  formula: () => (isTriangle ? [`2 · area = (<em>x</em><sub>1</sub> − <em>x</em><sub>0</sub>)(<em>y</em><sub>2</sub> − <em>y</em><sub>0</sub>) − (<em>y</em><sub>1</sub> − <em>y</em><sub>0</sub>)(<em>x</em><sub>2</sub> − <em>x</em><sub>0</sub>)\n\nfor ${exampleName}, in 1/256 pixel:\n\n= (${fmt(submitted().x[1] - submitted().x[0])}) · (${fmt(submitted().y[2] - submitted().y[0])}) − (${fmt(submitted().y[1] - submitted().y[0])}) · (${fmt(submitted().x[2] - submitted().x[0])}) = <b>${fmt(area2(submitted()))}</b>\n\n${area2(submitted()) > 0 ? "Positive: counter-clockwise." : "Negative: clockwise."} The area is ${fmt(Math.abs(area2(submitted())) / 131072, 6)} pixels.`] : []),
+  formula: () => (isPoint ? [pointRectangle(), `${say("A point is culled if its rectangle is empty, outside the window, or covers no sample.")}${fmt(TRI.box[2] - TRI.box[0])} × ${fmt(TRI.box[3] - TRI.box[1])} pixels &gt; 0 → <b>kept</b>`] : isTriangle ? [`2 · area = (<em>x</em><sub>1</sub> − <em>x</em><sub>0</sub>)(<em>y</em><sub>2</sub> − <em>y</em><sub>0</sub>) − (<em>y</em><sub>1</sub> − <em>y</em><sub>0</sub>)(<em>x</em><sub>2</sub> − <em>x</em><sub>0</sub>)\n\n${say(`for ${exampleName}, in 1/256 pixel:`)}= (${fmt(submitted().x[1] - submitted().x[0])}) · (${fmt(submitted().y[2] - submitted().y[0])}) − (${fmt(submitted().y[1] - submitted().y[0])}) · (${fmt(submitted().x[2] - submitted().x[0])}) = <b>${fmt(area2(submitted()))}</b>\n\n${say(`${area2(submitted()) > 0 ? "Positive: counter-clockwise." : "Negative: clockwise."} The area is ${fmt(Math.abs(area2(submitted())) / 131072, 6)} pixels.`)}`] : []),
   exercises: () => [
     {ask: "How many primitives were culled because of their facing?", answer: DATA.statistics.culled_face, hint: "See the bar “facing”.", why: "In the window, their winding is that of culled faces."},
     {ask: "What percentage of the submitted primitives is drawn? (Rounded to an integer.)", answer: Math.round((DATA.outcomes[0] + DATA.outcomes[1]) / Math.max(1, DATA.statistics.primitives_in) * 100), tolerance: 0.5, hint: "Divide the number of kept and clipped primitives by the number of all primitives.", why: `${fmt(DATA.outcomes[0] + DATA.outcomes[1])} of ${fmt(DATA.statistics.primitives_in)}.`},
@@ -93,14 +99,14 @@ chapter({
 // Draws the example triangle and its edges on the surrounding pixel grid.
 function edgePicture(highlight) {
   const t = TRI, margin = 1.2, box = t.box, x0 = Math.min(...t.x) / SUB - margin, x1 = Math.max(...t.x) / SUB + margin, y0 = Math.min(...t.y) / SUB - margin, y1 = Math.max(...t.y) / SUB + margin;
-  const size = Math.max(x1 - x0, (y1 - y0) * 1.6), scale = 720 / size, width = 720, height = Math.max(240, (y1 - y0) * scale), left = (width - (x1 - x0) * scale) / 2, top = (height - (y1 - y0) * scale) / 2;
+  const size = Math.max(x1 - x0, (y1 - y0) * 1.6), width = figureWidth(), scale = width / size, height = Math.max(240, (y1 - y0) * scale), left = (width - (x1 - x0) * scale) / 2, top = (height - (y1 - y0) * scale) / 2;
   const to = (x, y) => [left + (x / SUB - x0) * scale, top + (y1 - y / SUB) * scale];
   const root = svgFigure(width, height, "The example triangle and its three edges on the pixel grid");
   if (scale > 5) gridLines(root, to, Math.floor(x0), Math.ceil(x1), Math.floor(y0), Math.ceil(y1));
   root.append(svg("polygon", {points: t.x.map((x, i) => to(x, t.y[i]).join(",")).join(" "), fill: "var(--accent)", "fill-opacity": 0.16}));
   t.edges.forEach((e, i) => edgeArrow(root, to, e, i, highlight === i || highlight === 3));
   t.x.forEach((x, i) => { const [a, b] = to(x, t.y[i]); root.append(svg("circle", {cx: a, cy: b, r: 4.5, fill: "var(--ink)"}), svg("text", {x: a + 8, y: b - 8, "font-size": 15, "font-weight": 650}, document.createTextNode("v" + i))); });
-  if (scale > 5) for (let y = box[1]; y < box[3]; ++y) for (let x = box[0]; x < box[2]; ++x) { const [a, b] = to(center(x), center(y)); root.append(svg("circle", {cx: a, cy: b, r: Math.min(3.5, scale / 8), fill: covered(t, x, y) ? "var(--accent)" : "var(--soft)"})); }
+  if (scale > 5) for (let y = box[1]; y < box[3]; ++y) for (let x = box[0]; x < box[2]; ++x) { const [a, b] = to(sampleX(x), sampleY(y)); root.append(svg("circle", {cx: a, cy: b, r: Math.min(3.5, scale / 8), fill: covers(t, x, y) ? "var(--accent)" : "var(--soft)"})); }
   return el("div", {class: "stage"}, root);
 }
 
@@ -116,11 +122,12 @@ function edgeArrow(root, to, e, i, strong) {
   root.append(svg("line", {x1: a[0], y1: a[1], x2: b[0], y2: b[1], stroke: color, "stroke-width": strong ? 3 : 1.5}));
   const tip = (s, t) => [m[0] + d[0] * s - d[1] * t, m[1] + d[1] * s + d[0] * t].join(",");
   root.append(svg("polygon", {points: `${tip(8, 0)} ${tip(-5, 6)} ${tip(-5, -6)}`, fill: color}));
-  root.append(svg("text", {x: m[0] + d[1] * 20 - 8, y: m[1] - d[0] * 20 + 5, "font-size": 15, "font-weight": 650, style: `fill:${color}`}, document.createTextNode("E" + i)));
+  root.append(svg("text", {x: m[0] - d[1] * 20 - 8, y: m[1] + d[0] * 20 + 5, "font-size": 15, "font-weight": 650, style: `fill:${color}`}, document.createTextNode("E" + i)));
 }
 
-const edgeLine = (e, i) => `E<sub>${i}</sub>(x, y) = ${fmt(e.ex)} · (y − ${fmt(e.y0)}) − (${fmt(e.ey)}) · (x − ${fmt(e.x0)})${e.bias ? " − 1" : ""}`;
-const edgesAtPixel = () => TRI.edges.map((e) => edgeAt(e, center(WINDOW[0]), center(WINDOW[1])));
+const edgeLine = (e, i) => `E<sub>${i}</sub>(x, y) = ${fmt(e.ex)} · (y − ${fmt(e.y0)}) − (${fmt(e.ey)}) · (x − ${fmt(e.x0)})`;
+const edgesAtPixel = () => TRI.edges.map((e) => edgeAt(e, sampleX(WINDOW[0]), sampleY(WINDOW[1])));
+const depthFromEdges = () => { const at = edgesAtPixel(); return TRI.z0 + at[1] * TRI.z_edge1 + at[2] * TRI.z_edge2; };
 
 chapter({
   id: "setup", title: "Triangle setup", kicker: "Primitive setup",
@@ -129,19 +136,19 @@ chapter({
   input: () => ["three window positions in 1/256 pixel", "three depths"],
   output: () => ["three edge functions", "depth as z₀ + E₁ · a + E₂ · b", TRI && TRI.small ? "a small triangle: all values fit into 32 bits" : "a large triangle: values are shifted to fit into 32 bits"],
   steps: () => [
-    {name: "Three edges", caption: `${exampleName[0].toUpperCase() + exampleName.slice(1)}. Its vertices are in counter-clockwise order, starting with the farthest one (v0). The dots are pixel centers.`, draw: () => edgePicture(3)},
-    ...TRI.edges.map((e, i) => ({name: `Edge E${i}`, caption: `From v${(i + 1) % 3} to v${(i + 2) % 3}, opposite v${i}. ${e.bias ? "Samples exactly on this edge belong to the neighboring triangle, so 1 is subtracted." : "Samples exactly on this edge belong to this triangle."}`, draw: () => edgePicture(i)})),
+    {name: "Three edges", caption: `${exampleName[0].toUpperCase() + exampleName.slice(1)}. Its vertices are in counter-clockwise order, starting with the farthest one (v0). The dots are ${DATA.samples === 1 ? "pixel centers" : `sample ${SAMPLE} of each pixel, the one at which the triangle is visible in the example pixel`}.`, draw: () => edgePicture(3)},
+    ...TRI.edges.map((e, i) => ({name: `Edge E${i}`, caption: `From v${(i + 1) % 3} to v${(i + 2) % 3}, opposite v${i}. ${e.bias ? `Samples exactly on this edge belong to the neighboring triangle, so E${i} must be at least 1 inside.` : `Samples exactly on this edge belong to this triangle, so E${i} may be 0.`}`, draw: () => edgePicture(i)})),
   ],
   formula: () => {
     const at = edgesAtPixel();
-    return [`${TRI.edges.map(edgeLine).join("\n")}\n\nat the center of pixel (${WINDOW}), which is (${fmt(center(WINDOW[0]))}, ${fmt(center(WINDOW[1]))}) in units of 1/256 pixel:\n\n${TRI.edges.map((e, i) => `E<sub>${i}</sub> = ${fmt(at[i])}${e.bias ? " − 1" : ""} → <b>${at[i] - e.bias >= 0 ? "inside" : "outside"}</b>`).join("\n")}`,
-      `<em>z</em>(x, y) = z<sub>0</sub> + E<sub>1</sub> · ${fmt(TRI.z_edge1, 9)} + E<sub>2</sub> · ${fmt(TRI.z_edge2, 9)}\n     = ${fmt(TRI.z0, 9)} + ${fmt(at[1])} · ${fmt(TRI.z_edge1, 5)} + ${fmt(at[2])} · ${fmt(TRI.z_edge2, 5)} = <b>${fmt(TRI.z0 + at[1] * TRI.z_edge1 + at[2] * TRI.z_edge2, 8)}</b>`];
+    return [`${TRI.edges.map(edgeLine).join("\n")}\n\n${say(`at ${sampleName} of pixel (${WINDOW}), which is at (${fmt(sampleX(WINDOW[0]))}, ${fmt(sampleY(WINDOW[1]))}) in units of 1/256 pixel:`)}${TRI.edges.map((e, i) => `E<sub>${i}</sub> = ${fmt(at[i])} ≥ ${e.bias} → <b>${at[i] - e.bias >= 0 ? "inside" : "outside"}</b>`).join("\n")}`,
+      `<em>z</em>(x, y) = z<sub>0</sub> + E<sub>1</sub> · ${fmt(TRI.z_edge1, 9)} + E<sub>2</sub> · ${fmt(TRI.z_edge2, 9)}\n     = ${fmt(TRI.z0, 9)} + ${fmt(at[1])} · ${fmt(TRI.z_edge1, 5)} + ${fmt(at[2])} · ${fmt(TRI.z_edge2, 5)} = <b>${fmt(depthFromEdges(), 8)}</b>${say(`The renderer computed the depth ${fmt(VISIBLE.depth, 8)} in floats.`)}`];
   },
   exercises: () => {
     const at = edgesAtPixel();
     return [
-      {ask: "What is E₀ at the center of the example pixel, before the fill rule?", answer: at[0], hint: "See the formula above.", why: "The value is exact; nothing was rounded."},
-      {ask: "What is E₀ + E₁ + E₂ at that pixel?", answer: at[0] + at[1] + at[2], hint: "It is the same at every point of the plane.", why: "The sum is twice the area of the triangle at every point."},
+      {ask: `What is E₀ at ${sampleName} of the example pixel, before the fill rule?`, answer: at[0], hint: "See the formula above.", why: "The value is exact; nothing was rounded."},
+      {ask: "What is E₀ + E₁ + E₂ there?", answer: at[0] + at[1] + at[2], hint: "It is the same at every point of the plane.", why: "The sum is twice the area of the triangle at every point."},
       {ask: "What is the barycentric weight of v1 there? (Three decimal places.)", answer: at[1] / area2(TRI), tolerance: 0.0011, hint: "Divide E₁ by the sum from the previous exercise.", why: "The values of the edge functions are unnormalized barycentric coordinates."},
     ];
   },

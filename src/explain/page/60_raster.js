@@ -11,6 +11,9 @@ function eachTile(f) {
   for (let ty = 0; ty < BINS.rows; ++ty) for (let tx = 0; tx < BINS.columns; ++tx) f(tx, ty, tx * TILE, H - Math.min(H, (ty + 1) * TILE), Math.min(TILE, W - tx * TILE), Math.min(TILE, H - ty * TILE));
 }
 
+// Returns the font size of labels of tiles in a picture that is scaled by s: at least 9 pixels on the screen.
+const tileFont = (s) => Math.max(Math.round(TILE / 8 * s), Math.ceil(9 * W * s / Math.min(innerWidth - 40, 880)));
+
 // Tiles over the picture. mode: "grid", "heat" or "example".
 function tilePicture(mode) {
   const read = (x, y) => { const tx = Math.floor(x / TILE), ty = Math.floor((H - 1 - y) / TILE); return `tile (${tx}, ${ty}): ${plural(binCount(tx, ty), "primitive")}`; };
@@ -25,11 +28,12 @@ function tilePicture(mode) {
       pen.strokeStyle = "rgb(255 255 255 / .45)";
       pen.lineWidth = 1;
       pen.strokeRect(x * s + 0.5, y * s + 0.5, w * s - 1, h * s - 1);
-      if (mode !== "heat" || w < 24 || h < 12) return;
+      if (mode !== "heat") return;
       pen.fillStyle = n / mostBinned > 0.55 ? "#111" : "#fff";
-      pen.font = `${Math.round(TILE / 4 * s / 2)}px system-ui`;
+      const size = tileFont(s);
+      pen.font = `${size}px system-ui`;
       pen.textAlign = "center";
-      pen.fillText(fmt(n), (x + w / 2) * s, (y + h / 2 + TILE / 12) * s);
+      if (pen.measureText(fmt(n)).width + size / 2 < w * s && size < h * s) pen.fillText(fmt(n), (x + w / 2) * s, (y + h / 2) * s + size / 3);
     });
     if (mode === "example" && isTriangle) polygon(pen, TRI.x.map((v, i) => [v / SUB * s, (H - TRI.y[i] / SUB) * s]), {stroke: "#fff", fill: css("--accent"), width: 2});
   }});
@@ -61,7 +65,7 @@ chapter({
     {name: "Primitives per tile", caption: `The fullest tile has ${fmt(mostBinned)} primitives, and ${fmt(BINS.counts.filter((n) => n === 0).length)} tiles have none. Empty tiles are filled with the background color without processing their pixels one by one.`, draw: () => [tilePicture("heat"), legend("0", fmt(mostBinned))].flat()},
     {name: "The tiles of the example", caption: EX === null ? "No primitive is visible at the example pixel." : `${exampleName[0].toUpperCase() + exampleName.slice(1)} is listed in the bins of ${plural(touchedTiles().length, "tile")}.`, draw: () => tilePicture("example")},
   ],
-  formula: () => (isTriangle ? [`A tile is skipped if the maximum of an edge function over the tile is negative.\n\nTile (${EXTILE}), which contains the example pixel:\n${TRI.edges.map((e, i) => `max E<sub>${i}</sub> = ${fmt(maxInTile(e, ...EXTILE))} → <b>${maxInTile(e, ...EXTILE) - e.bias >= 0 ? "may overlap" : "cannot overlap"}</b>`).join("\n")}`] : []),
+  formula: () => (isPoint ? [`tiles = ⌊x<sub>0</sub> / ${TILE}⌋ … ⌊x<sub>1</sub> / ${TILE}⌋ × ⌊y<sub>0</sub> / ${TILE}⌋ … ⌊y<sub>1</sub> / ${TILE}⌋\n\n${say(`${exampleName[0].toUpperCase() + exampleName.slice(1)} covers the pixels x = ${TRI.box[0]} … ${TRI.box[2] - 1} and y = ${TRI.box[1]} … ${TRI.box[3] - 1}:`)}x: ⌊${TRI.box[0]} / ${TILE}⌋ … ⌊${TRI.box[2] - 1} / ${TILE}⌋ = <b>${tileBox(TRI)[0]} … ${tileBox(TRI)[2]}</b>\ny: ⌊${TRI.box[1]} / ${TILE}⌋ … ⌊${TRI.box[3] - 1} / ${TILE}⌋ = <b>${tileBox(TRI)[1]} … ${tileBox(TRI)[3]}</b>`] : isTriangle ? [`${say(`A tile is skipped if the maximum of an edge function over the samples of the tile is less than its bias. Tile (${EXTILE}), which contains the example pixel:`)}${TRI.edges.map((e, i) => `max E<sub>${i}</sub> = ${fmt(maxInTile(e, ...EXTILE))} ≥ ${e.bias} → <b>${maxInTile(e, ...EXTILE) - e.bias >= 0 ? "may overlap" : "cannot overlap"}</b>`).join("\n")}`] : []),
   exercises: () => [
     {ask: "How many primitives does the fullest tile have?", answer: mostBinned, hint: "See the heat map.", why: "This is the largest number in the heat map."},
     {ask: "How many tiles does a primitive overlap on average? (Two decimal places.)", answer: DATA.statistics.bin_entries / Math.max(1, DATA.statistics.triangles_binned), tolerance: 0.0051, hint: "Divide the number of entries by the number of primitives.", why: `${fmt(DATA.statistics.bin_entries)} entries for ${fmt(DATA.statistics.triangles_binned)} primitives.`},
@@ -73,13 +77,13 @@ chapter({
 // ---- coverage -----------------------------------------------------------------------------------------------------------
 
 const PACKET = DATA.build.packet;
-const blockOf = (v) => Math.floor(v / 8) * 8;
 
-// Returns the coverage of the 8x8 block whose lower left pixel is (x, y), from the edge functions at its corners: "none", "some" or "whole".
+// Returns the coverage of the 8x8 block whose lower left pixel is (x, y), from the edge functions at the visible
+// sample of its corner pixels: "none", "some" or "whole".
 function blockCoverage(t, x, y) {
   let whole = true;
   for (const e of t.edges) {
-    const values = [[0, 0], [7, 0], [0, 7], [7, 7]].map(([i, j]) => edgeAt(e, center(x + i), center(y + j)) - e.bias);
+    const values = [[0, 0], [7, 0], [0, 7], [7, 7]].map(([i, j]) => edgeAt(e, sampleX(x + i), sampleY(y + j)) - e.bias);
     if (Math.max(...values) < 0) return "none";
     if (Math.min(...values) < 0) whole = false;
   }
@@ -87,7 +91,7 @@ function blockCoverage(t, x, y) {
 }
 
 function gridPicture(x0, y0, columns, rows, label, cell) {
-  const size = Math.min(720 / columns, 460 / rows), width = 720, height = rows * size + 8, left = (width - columns * size) / 2;
+  const size = Math.min(figureWidth() / columns, 460 / rows), width = figureWidth(), height = rows * size + 8, left = (width - columns * size) / 2;
   const root = svgFigure(width, height, label);
   const to = (x, y) => [left + (x / SUB - x0) * size, 4 + (y0 + rows - y / SUB) * size];
   for (let y = y0; y < y0 + rows; ++y) for (let x = x0; x < x0 + columns; ++x) {
@@ -118,7 +122,7 @@ function blocksPicture() {
 
 function packetPicture() {
   const [x0, y0] = WINDOW.map(blockOf), [pw, ph] = PACKET;
-  const g = gridPicture(x0, y0, 8, 8, "One block of 8 by 8 pixels with its packets", (x, y) => ({fill: covered(TRI, x, y) ? "var(--accent)" : "transparent", opacity: 0.55}));
+  const g = gridPicture(x0, y0, 8, 8, "One block of 8 by 8 pixels with its packets", (x, y) => ({fill: covers(TRI, x, y) ? "var(--accent)" : "transparent", opacity: 0.55}));
   for (let y = y0; y < y0 + 8; y += ph) for (let x = x0; x < x0 + 8; x += pw) {
     const [a, b] = g.to(x * SUB, (y + ph) * SUB);
     g.root.append(svg("rect", {x: a, y: b, width: g.size * pw, height: g.size * ph, fill: "none", stroke: "var(--ink)", "stroke-width": 1.8}));
@@ -133,18 +137,19 @@ function packetPicture() {
 function samplePicture() {
   const [x0, y0] = WINDOW.map((v) => blockOf(v));
   const readout = el("div", {class: "readout", "aria-live": "polite"});
-  const show = (x, y) => { readout.innerHTML = `pixel (${x}, ${y}) from the lower left: ` + (TRI.edges ? TRI.edges.map((e, i) => `E${i} = ${fmt(edgeAt(e, center(x), center(y)) - e.bias)}`).join(" · ") : "") + ` → ${covered(TRI, x, y) ? "covered" : "not covered"}`; };
-  const g = gridPicture(x0, y0, 8, 8, "The samples of one block", (x, y) => ({fill: covered(TRI, x, y) ? "var(--accent)" : "transparent", opacity: 0.3}));
+  const show = (x, y) => { readout.innerHTML = `pixel (${x}, ${y}) from the lower left, ${sampleName}: ` + (TRI.edges ? TRI.edges.map((e, i) => `E${i} = ${fmt(edgeAt(e, sampleX(x), sampleY(y)))} ${edgeAt(e, sampleX(x), sampleY(y)) >= e.bias ? "≥" : "<"} ${e.bias}`).join(" · ") : `(${fmt(sampleX(x))}, ${fmt(sampleY(y))}) in 1/256 pixel`) + ` → ${covers(TRI, x, y) ? "covered" : "not covered"}`; };
+  const g = gridPicture(x0, y0, 8, 8, "The samples of one block", (x, y) => ({fill: covers(TRI, x, y) ? "var(--accent)" : "transparent", opacity: 0.3}));
   for (let y = y0; y < y0 + 8; ++y) for (let x = x0; x < x0 + 8; ++x) {
-    const [a, b] = g.to(center(x), center(y)), example = x === WINDOW[0] && y === WINDOW[1];
-    const dot = svg("circle", {cx: a, cy: b, r: example ? 9 : 6, fill: covered(TRI, x, y) ? "var(--accent)" : "var(--soft)", stroke: example ? "var(--ink)" : "none", "stroke-width": 2.5});
-    const hit = svg("rect", {x: a - g.size / 2, y: b - g.size / 2, width: g.size, height: g.size, fill: "transparent"});
+    const [a, b] = g.to(sampleX(x), sampleY(y)), example = x === WINDOW[0] && y === WINDOW[1];
+    const dot = svg("circle", {cx: a, cy: b, r: example ? 9 : 6, fill: covers(TRI, x, y) ? "var(--accent)" : "var(--soft)", stroke: example ? "var(--ink)" : "none", "stroke-width": 2.5});
+    const [left, top] = g.to(x * SUB, (y + 1) * SUB), hit = svg("rect", {x: left, y: top, width: g.size, height: g.size, fill: "transparent"});
     for (const type of ["pointermove", "click"]) hit.addEventListener(type, () => show(x, y));
     g.root.append(dot, hit);
   }
   outline(g.root, g.to, corners(TRI), 1.5);
   g.root.setAttribute("overflow", "hidden");
   show(...WINDOW);
+  pickable(g.root, 8, 8, [WINDOW[0] - x0, 7 - (WINDOW[1] - y0)], (x, y) => show(x0 + x, y0 + 7 - y));
   return [el("div", {class: "stage"}, g.root), readout];
 }
 
@@ -153,10 +158,11 @@ const SHARED = (() => {
   const p = [[128, 128], [1664, 128], [1664, 1664], [128, 1664]], make = (a, b, c) => ({x: [a, b, c].map((i) => p[i][0]), y: [a, b, c].map((i) => p[i][1])});
   return [make(0, 1, 2), make(0, 2, 3)].map((t) => ({...t, box: [0, 0, 7, 7], edges: [0, 1, 2].map((i) => { const a = (i + 1) % 3, b = (i + 2) % 3, ex = t.x[b] - t.x[a], ey = t.y[b] - t.y[a]; return {x0: t.x[a], y0: t.y[a], ex, ey, bias: ey < 0 || (ey === 0 && ex > 0) ? 0 : 1}; })}));
 })();
+const inShared = (i, x, y) => inside(SHARED[i], x * SUB + SUB / 2, y * SUB + SUB / 2);
 function sharedPicture() {
-  const g = gridPicture(0, 0, 7, 7, "Two triangles that share an edge through pixel centers; each center belongs to exactly one of the triangles", (x, y) => ({fill: covered(SHARED[0], x, y) ? "var(--accent)" : covered(SHARED[1], x, y) ? "var(--soft)" : "transparent", opacity: 0.55}));
+  const g = gridPicture(0, 0, 7, 7, "Two triangles that share an edge through pixel centers; each center belongs to exactly one of the triangles", (x, y) => ({fill: inShared(0, x, y) ? "var(--accent)" : inShared(1, x, y) ? "var(--soft)" : "transparent", opacity: 0.55}));
   for (const t of SHARED) outline(g.root, g.to, corners(t));
-  for (let y = 0; y < 7; ++y) for (let x = 0; x < 7; ++x) { const [a, b] = g.to(center(x), center(y)); g.root.append(svg("circle", {cx: a, cy: b, r: 4.5, fill: "var(--ink)"})); }
+  for (let y = 0; y < 7; ++y) for (let x = 0; x < 7; ++x) { const [a, b] = g.to(x * SUB + SUB / 2, y * SUB + SUB / 2); g.root.append(svg("circle", {cx: a, cy: b, r: 4.5, fill: "var(--ink)"})); }
   return el("div", {class: "stage"}, g.root);
 }
 
@@ -165,23 +171,23 @@ function countCovered() {
   for (let y = TRI.box[1]; y < TRI.box[3]; ++y) for (let x = TRI.box[0]; x < TRI.box[2]; ++x) n += covered(TRI, x, y);
   return n;
 }
-const inBlock = () => { let n = 0; const [x0, y0] = WINDOW.map(blockOf); for (let y = y0; y < y0 + 8; ++y) for (let x = x0; x < x0 + 8; ++x) n += covered(TRI, x, y); return n; };
+const inBlock = () => { let n = 0; const [x0, y0] = WINDOW.map(blockOf); for (let y = y0; y < y0 + 8; ++y) for (let x = x0; x < x0 + 8; ++x) n += covers(TRI, x, y); return n; };
 
 chapter({
   id: "coverage", title: "Coverage", kicker: "Tiles",
   lead: () => "Which samples are inside the triangle? The rasterizer proceeds from coarse to fine: tile, block of 8 × 8 pixels, packet, sample. Blocks that are entirely inside or outside need no test per sample.",
   absent: () => (TRI === null ? `No primitive is visible at the example pixel. A frame with triangles: ${command("halfspace explain earth")}.` : null),
-  input: () => ["the bin of the tile", "three edge functions per triangle"],
+  input: () => ["the bin of the tile", isPoint ? "the rectangle of each point" : "three edge functions per triangle"],
   output: () => [`packets of ${PACKET[0]} × ${PACKET[1]} pixels with a coverage mask, one bit per lane`, `this build has ${DATA.build.lanes} lanes (${escapeHtml(DATA.build.description)})`],
   steps: () => [
-    ...(TRI.edges ? [{name: "Blocks of the tile", caption: `The tile of the example pixel, divided into blocks of 8 × 8 pixels. Only blocks that an edge crosses are tested further.`, draw: blocksPicture}] : []),
-    {name: "Packets", caption: `The block of the example pixel. This build (${escapeHtml(DATA.build.description)}) processes ${DATA.build.lanes} pixels at once, in packets of ${PACKET[0]} × ${PACKET[1]}, because a register holds ${DATA.build.lanes} floats. Filled pixels are covered.`, draw: packetPicture},
-    {name: "Samples", caption: "A sample is covered if no edge function is negative after the fill rule has been applied. Point at a sample to see its values.", draw: samplePicture},
+    ...(TRI.edges ? [{name: "Blocks of the tile", caption: `The tile of the example pixel, divided into blocks of 8 × 8 pixels. Only blocks that an edge crosses are tested further.${DATA.samples > 1 ? ` The picture is for sample ${SAMPLE}; each of the ${DATA.samples} samples is processed like a picture of its own.` : ""}`, draw: blocksPicture}] : []),
+    {name: "Packets", caption: `The block of the example pixel. This build (${escapeHtml(DATA.build.description)}) processes ${DATA.build.lanes} pixels at once, in packets of ${PACKET[0]} × ${PACKET[1]}, because a register holds ${DATA.build.lanes} floats. Filled pixels are covered${DATA.samples > 1 ? ` at sample ${SAMPLE}` : ""}.`, draw: packetPicture},
+    {name: "Samples", caption: "A sample is covered if no edge function is negative after the fill rule has been applied. Point at a sample to see its values, or focus the picture and press the arrow keys." + (DATA.samples > 1 ? ` The dots are sample ${SAMPLE} of each pixel, the one at which ${exampleName} is visible in the example pixel.` : ""), draw: samplePicture},
     {name: "A shared edge", caption: "Two triangles that form a square (not part of this frame). Their common edge passes exactly through pixel centers. Each of these centers belongs to exactly one triangle: the one for which the edge is a left edge, or a horizontal edge with the inside above it.", draw: sharedPicture},
   ],
-  formula: () => (isTriangle ? [`covered = E<sub>0</sub> ≥ bias<sub>0</sub>  and  E<sub>1</sub> ≥ bias<sub>1</sub>  and  E<sub>2</sub> ≥ bias<sub>2</sub>\n\n${TRI.edges.map((e, i) => `${fmt(edgesAtPixel()[i])} ≥ ${e.bias} → <b>${edgesAtPixel()[i] >= e.bias}</b>`).join("\n")}\n\nbias = 0 if the edge goes down (e<sub>y</sub> &lt; 0), or to the right (e<sub>y</sub> = 0, e<sub>x</sub> &gt; 0); otherwise 1`] : []),
+  formula: () => (isPoint ? [pointRectangle(), `${say(`${sampleName === "the center" ? "The center" : `Sample ${SAMPLE}`} of pixel (${WINDOW}):`)}${fmt(TRI.x[0])} ≤ ${fmt(sampleX(WINDOW[0]))} ≤ ${fmt(TRI.x[1])}  and  ${fmt(TRI.y[0])} ≤ ${fmt(sampleY(WINDOW[1]))} ≤ ${fmt(TRI.y[1])} → <b>covered</b>${say("The shader then discards the fragments of the rectangle that are outside the sphere.")}`] : isTriangle ? [`covered = E<sub>0</sub> ≥ bias<sub>0</sub>  and  E<sub>1</sub> ≥ bias<sub>1</sub>  and  E<sub>2</sub> ≥ bias<sub>2</sub>\n\n${say(`at ${sampleName} of pixel (${WINDOW}):`)}${TRI.edges.map((e, i) => `E<sub>${i}</sub> = ${fmt(edgesAtPixel()[i])} ≥ ${e.bias} → <b>${edgesAtPixel()[i] >= e.bias}</b>`).join("\n")}\n\n${say("bias = 0 if the edge goes down (e<sub>y</sub> &lt; 0), or to the right (e<sub>y</sub> = 0, e<sub>x</sub> &gt; 0); otherwise 1")}`] : []),
   exercises: () => [
-    {ask: `How many pixel centers does ${exampleName} cover?`, answer: countCovered(), hint: `Count the filled pixels. The ${TRI.edges ? "triangle" : "primitive"} may extend beyond the block that is shown.`, why: TRI.edges ? "The page counted them with the exact edge functions." : "They are the pixel centers inside the rectangle of the primitive."},
+    {ask: `${DATA.samples === 1 ? "How many pixel centers" : "Of how many pixels"} does ${exampleName} cover${DATA.samples === 1 ? "" : " at least one sample"}?`, answer: countCovered(), hint: `Count the filled pixels. The ${TRI.edges ? "triangle" : "primitive"} may extend beyond the block that is shown.`, why: TRI.edges ? "The page counted them with the exact edge functions." : "They are the pixels with a sample inside the rectangle of the primitive."},
     {ask: "How many pixels of the block in the “Packets” step are covered?", answer: inBlock(), hint: "Count the filled pixels in that step.", why: "At most 64 are possible."},
     {ask: `How many packets does a block of 8 × 8 pixels have in this build?`, answer: 64 / DATA.build.lanes, hint: `A packet has ${DATA.build.lanes} pixels.`, why: `64 / ${DATA.build.lanes}.`},
   ],
@@ -189,16 +195,8 @@ chapter({
 
 // ---- depth --------------------------------------------------------------------------------------------------------------
 
-// Returns the smallest and largest depth of each block of 8x8 pixels in the final depth buffer. Blocks start at the lower left, like tiles.
-function hierarchicalZ() {
-  const columns = Math.ceil(W / 8), rows = Math.ceil(H / 8), low = new Float32Array(columns * rows).fill(2), high = new Float32Array(columns * rows).fill(-1);
-  for (let y = 0; y < H; ++y) for (let x = 0; x < W; ++x) {
-    const b = Math.floor((H - 1 - y) / 8) * columns + Math.floor(x / 8), z = FRAME.depth[y * W + x];
-    low[b] = Math.min(low[b], z);
-    high[b] = Math.max(high[b], z);
-  }
-  return {columns, rows, low, high};
-}
+// The smallest and the largest depth of each block of 8x8 pixels at the end of the frame. Blocks start at the lower left, like tiles.
+const hierarchicalZ = () => ({columns: Math.ceil(W / 8), rows: Math.ceil(H / 8), low: FRAME.blockLow, high: FRAME.blockHigh});
 const depthHeat = (z) => (z <= 0 ? "transparent" : heat((Math.log2(z) - Math.log2(DATA.depth.low)) / Math.max(1e-6, Math.log2(DATA.depth.high) - Math.log2(DATA.depth.low))));
 
 function hizPicture(which) {
@@ -211,6 +209,13 @@ function hizPicture(which) {
 }
 const depthAt = (x, y) => FRAME.depth[y * W + x];
 const exampleBlock = () => { const z = hierarchicalZ(), b = Math.floor(WINDOW[1] / 8) * z.columns + Math.floor(WINDOW[0] / 8); return {low: z.low[b], high: z.high[b]}; };
+// Returns the number of pixels in the block of the example pixel whose depth is below a value.
+function fartherInBlock(z) {
+  let n = 0;
+  for (let y = blockOf(WINDOW[1]); y < Math.min(H, blockOf(WINDOW[1]) + 8); ++y) for (let x = blockOf(WINDOW[0]); x < Math.min(W, blockOf(WINDOW[0]) + 8); ++x) n += depthAt(x, H - 1 - y) < z;
+  return n;
+}
+const ofSample0 = DATA.samples > 1 ? " of sample 0" : "";
 
 chapter({
   id: "depth", title: "Depth", kicker: "Tiles",
@@ -219,18 +224,21 @@ chapter({
   input: () => ["covered packets", "a depth plane per triangle"],
   output: () => [`${fmt(DATA.statistics.samples_passed)} of ${fmt(DATA.statistics.samples_tested)} tested samples passed`, "the id of the visible triangle for each sample"],
   steps: () => [
-    {name: "The depth buffer", caption: "The depth buffer of the finished frame, on a logarithmic scale. Point at the picture to read the exact values.", draw: () => [picture(DATA.depth.picture, "The depth buffer as a heat map", {read: (x, y) => `pixel (${x}, ${y}): depth ${fmt(depthAt(x, y), 9)}`, overlay: (pen, s) => ring(pen, s, PIXEL)}), legend(`far, ${fmt(DATA.depth.low, 4)}`, `near, ${fmt(DATA.depth.high, 4)}`)].flat()},
-    {name: "Farthest depth of each block", caption: "Hierarchical Z: if the nearest point of a triangle is behind the farthest depth of a block, the triangle is hidden in all 64 pixels of the block. One comparison rejects them all.", draw: () => hizPicture("low")},
+    {name: "The depth buffer", caption: `The depth buffer${ofSample0} of the finished frame, on a logarithmic scale. Point at the picture to read the exact values.`, draw: () => [picture(DATA.depth.picture, "The depth buffer as a heat map", {read: (x, y) => `pixel (${x}, ${y}): depth${ofSample0} ${fmt(depthAt(x, y), 9)}`, overlay: (pen, s) => ring(pen, s, PIXEL)}), legend(`far, ${fmt(DATA.depth.low, 4)}`, `near, ${fmt(DATA.depth.high, 4)}`)].flat()},
+    {name: "Farthest depth of each block", caption: "Hierarchical Z: if the nearest point of a triangle is behind the farthest depth of a block, the triangle is hidden in all 64 pixels of the block. One comparison rejects them all." + (DATA.samples > 1 ? " All samples are taken into account." : ""), draw: () => hizPicture("low")},
     {name: "Nearest depth of each block", caption: "The opposite bound: a triangle that is entirely in front of the nearest depth of a block passes the test in the whole block, without a depth test per pixel.", draw: () => hizPicture("high")},
   ],
   formula: () => {
-    const b = exampleBlock(), z = depthAt(...PIXEL);
-    return [`pass = <em>z</em><sub>fragment</sub> &gt; <em>z</em><sub>stored</sub>\n\nstored at pixel (${PIXEL}): <b>${fmt(z, 9)}</b>\nin its 8 × 8 block: farthest ${fmt(b.low, 9)}, nearest ${fmt(b.high, 9)}\n\nA triangle with <em>z</em><sub>max</sub> ≤ ${fmt(b.low, 7)} is rejected with the whole block.\nA triangle with <em>z</em><sub>0</sub> &gt; ${fmt(b.high, 7)} passes in the whole block.`];
+    const b = exampleBlock(), v = VISIBLE, failed = v.failed;
+    const test = v.is_tested ? `${say(`The visible fragment of pixel (${PIXEL})${DATA.samples > 1 ? ` at sample ${SAMPLE}` : ""}, which belongs to ${exampleName}:`)}${fmt(v.depth, 9)} &gt; ${fmt(v.stored_depth, 9)} → <b>pass</b>\n` : v.depth === undefined ? "" : `${say(`The depth of the visible fragment of pixel (${PIXEL}) is ${fmt(v.depth, 9)}. It was not compared: the block was known to be farther away.`)}`;
+    const fail = failed ? `${say(`The first fragment there that ${failed.outcome.startsWith("rejected") ? `was ${escapeHtml(failed.outcome)}` : escapeHtml(failed.outcome)}:`)}${fmt(failed.tested, 9)} &gt; ${fmt(failed.stored, 9)} → <b>${failed.tested > failed.stored}</b>\n` : "";
+    return [`pass = <em>z</em><sub>fragment</sub> &gt; <em>z</em><sub>stored</sub>\n\n${test}${fail}`,
+      `${say("The 8 × 8 block of the example pixel at the end of the frame:")}farthest depth <b>${fmt(b.low, 9)}</b>\nnearest depth  <b>${fmt(b.high, 9)}</b>\n\n${say(`A triangle with <em>z</em><sub>max</sub> ≤ ${fmt(b.low, 7)} is rejected with the whole block. A triangle with <em>z</em><sub>0</sub> &gt; ${fmt(b.high, 7)} passes in the whole block.`)}`];
   },
   exercises: () => {
     return [
-      {ask: `The depths of a triangle are between 0.25 and 0.5, and the depths stored in a block are between 0.6 and 0.9. Can the triangle be visible in the block? (yes or no)`, answer: "no", hint: "A larger depth is nearer.", why: "The nearest point of the triangle is behind the farthest pixel of the block, so one comparison rejects 64 pixels."},
-      {ask: `What is the depth at the example pixel? (Three significant digits.)`, answer: depthAt(...PIXEL), tolerance: depthAt(...PIXEL) * 0.006 + 1e-9, hint: "Point at the center of the ring in the first step.", why: "This is the value in the depth buffer."},
+      {ask: `A triangle at the constant depth ${num(depthAt(...PIXEL), 7)} is drawn over the whole 8 × 8 block of the example pixel, after all other primitives. At how many pixels does it pass the depth test${DATA.samples > 1 ? " of sample 0" : ""}?`, answer: fartherInBlock(depthAt(...PIXEL)), hint: `It passes where the stored depth is smaller. The block is x = ${blockOf(WINDOW[0])} … ${blockOf(WINDOW[0]) + 7}, y = ${H - 1 - blockOf(WINDOW[1]) - 7} … ${H - 1 - blockOf(WINDOW[1])} in the first step.`, why: "These pixels are farther away than the example pixel."},
+      {ask: `What is the depth${ofSample0} at the example pixel? (Three significant digits.)`, answer: depthAt(...PIXEL), tolerance: depthAt(...PIXEL) * 0.006 + 1e-9, hint: "Point at the center of the ring in the first step.", why: "This is the value in the depth buffer."},
       {ask: "How many blocks of 8 × 8 pixels does one tile have?", answer: (TILE / 8) ** 2, hint: `A tile has ${TILE} × ${TILE} pixels.`, why: `${TILE / 8} · ${TILE / 8}.`},
     ];
   },

@@ -11,6 +11,12 @@ function weightsAt(x, y) {
   return {linear, perspective: scaled.map((v) => v / sum)};
 }
 
+// Draws triangle P with affine and perspective-correct interpolation, next to each other or, on a phone, one above the other.
+function checkeredPair() {
+  const panel = (kind, name) => { const box = checkered(kind); box.prepend(el("div", {class: "panel-name"}, name)); return box; };
+  return el("div", {class: "pair"}, panel("linear", "affine"), panel("perspective", "perspective-correct"));
+}
+
 // Draws triangle P, magnified, with a checkerboard in barycentric coordinates.
 function checkered(kind) {
   const xs = P.xy.map((p) => p[0] / SUB), ys = P.xy.map((p) => p[1] / SUB), x0 = Math.min(...xs), y0 = Math.min(...ys), w = Math.max(...xs) - x0, h = Math.max(...ys) - y0;
@@ -39,23 +45,41 @@ chapter({
   input: () => ["edge functions at a sample", "1/w of the three vertices"],
   output: () => ["three weights that add up to 1"],
   steps: () => [
-    {name: "Affine", caption: `Triangle ${fmt(P.primitive)} of <i>${escapeHtml(P.object)}</i>, for which the difference is easy to see. The weights are the normalized edge functions, so all squares have the same size on the screen.`, draw: () => checkered("linear")},
-    {name: "Perspective-correct", caption: `The weights are divided by w and normalized. 1/w is ${P.inv_w.map((v) => fmt(v, 4)).join(", ")} at the vertices.`, draw: () => checkered("perspective")},
+    {name: "Affine and perspective-correct", caption: `Triangle ${fmt(P.primitive)} of <i>${escapeHtml(P.object)}</i>, for which the difference is easy to see. Affine: the weights are the normalized edge functions, so all squares have the same size on the screen. Perspective-correct: the weights are divided by w and normalized. 1/w is ${P.inv_w.map((v) => fmt(v, 4)).join(", ")} at the vertices.`, draw: checkeredPair},
     {name: "Difference", caption: `The difference of the weights, from 0 (dark) to 0.25 or more (bright). Along an edge, affine interpolation displaces a value by up to ${fmt(P.error, 3)} pixels.`, draw: () => [checkered("difference"), legend("0", "0.25")]},
   ],
   formula: () => {
     const m = middle();
-    return [`<em>p</em><sub>i</sub> = E<sub>i</sub> q<sub>i</sub> / (E<sub>0</sub> q<sub>0</sub> + E<sub>1</sub> q<sub>1</sub> + E<sub>2</sub> q<sub>2</sub>)      q<sub>i</sub> = 1/w<sub>i</sub>\n\nat the centroid of the triangle on the screen, where the linear weights are ⅓, ⅓, ⅓:\n\n${[0, 1, 2].map((i) => `p<sub>${i}</sub> = ⅓ · ${fmt(P.inv_w[i], 6)} / (⅓ · ${fmt(P.inv_w[0] + P.inv_w[1] + P.inv_w[2], 6)}) = <b>${fmt(m.perspective[i], 6)}</b>`).join("\n")}`];
+    return [`<em>p</em><sub>i</sub> = E<sub>i</sub> q<sub>i</sub> / (E<sub>0</sub> q<sub>0</sub> + E<sub>1</sub> q<sub>1</sub> + E<sub>2</sub> q<sub>2</sub>)      q<sub>i</sub> = 1/w<sub>i</sub>\n\n${say("at the centroid of the triangle on the screen, where the linear weights are ⅓, ⅓, ⅓:")}${[0, 1, 2].map((i) => `p<sub>${i}</sub> = ⅓ · ${fmt(P.inv_w[i], 6)} / (⅓ · ${fmt(P.inv_w[0] + P.inv_w[1] + P.inv_w[2], 6)}) = <b>${fmt(m.perspective[i], 6)}</b>`).join("\n")}`];
   },
   exercises: () => {
     const m = middle().perspective;
     return [
       {ask: "What is p₁ at the centroid of the triangle? (Three decimal places.)", answer: m[1], tolerance: 0.0011, hint: "Divide q₁ by the sum of all three q.", why: "At the centroid, the linear weights are equal and cancel out."},
-      {ask: "What do the three weights add up to?", answer: 1, tolerance: 1e-9, hint: "They are divided by their sum.", why: "A value that is equal at all vertices must be constant over the triangle."},
+      {ask: "By how much is the largest of the three weights larger there than with affine interpolation? (Three decimal places.)", answer: Math.max(...m) - 1 / 3, tolerance: 0.0011, hint: "With affine interpolation, all weights are ⅓.", why: "The vertex nearest to the eye gets the largest weight, because the surface is foreshortened behind the centroid."},
       {ask: "Which vertex is nearest to the eye: 0, 1 or 2?", answer: P.inv_w.indexOf(Math.max(...P.inv_w)), hint: "1/w is largest there.", why: "w is the distance along the view axis."},
     ];
   },
 });
+
+// The values of the visible fragment that the shader computes. They are evaluated at the pixel center or, with sample shading, at the sample.
+const VARYINGS = VISIBLE.varyings || [];
+const shadedWhere = DATA.samples === 1 || !VISIBLE.shaded_at || (VISIBLE.shaded_at[0] === 128 && VISIBLE.shaded_at[1] === 128) ? "center" : `sample ${SAMPLE}`;
+// The vertices of the example triangle relative to the eye, and the interpolated position; null if there is no such varying.
+const POSITION = (() => {
+  const found = VARYINGS.find(([name]) => name === "position_rws");
+  return found && isTriangle && EX.vertices[0].ws ? {value: found[1], corners: EX.vertices.map((v) => v.ws.map((x, k) => x - DATA.transforms.eye[k])), weights: VISIBLE.barycentrics} : null;
+})();
+
+function interpolationFormula() {
+  const p = POSITION, [, p1, p2] = p.weights;
+  const line = (k) => `${"xyz"[k]} = ${fmt(p.corners[0][k], 6)} + ${fmt(p1, 6)} · (${fmt(p.corners[1][k] - p.corners[0][k], 6)}) + ${fmt(p2, 6)} · (${fmt(p.corners[2][k] - p.corners[0][k], 6)}) = <b>${fmt(p.corners[0][k] * p.weights[0] + p.corners[1][k] * p1 + p.corners[2][k] * p2, 6)}</b>`;
+  return `\n\n${say(`The position relative to the eye at ${shadedWhere === "center" ? "the center" : shadedWhere} of pixel (${PIXEL}), where ${exampleName} is visible:`)}${[0, 1, 2].map(line).join("\n")}${say(`The shader received ${vec(p.value, 6)}.`)}`;
+}
+function varyingTable() {
+  if (VARYINGS.length === 0) return null;
+  return [el("h3", {}, `Varyings at pixel (${PIXEL})`), tableOf(["name", "value"], VARYINGS.map(([name, v]) => [`<code>${name}</code>`, vec(v, 6)]))];
+}
 
 // ---- varyings -------------------------------------------------------------------------------------------------------------
 
@@ -71,10 +95,13 @@ chapter({
     ["position", "Position in world space", "Red, green and blue are x, y and z, scaled to the range of their values in this frame."],
     ["albedo", "Surface color", "The color before lighting: the product of the material color, the vertex color and the color map."],
   ].map(([key, name, caption]) => ({name, caption, draw: () => picture(DATA.pictures[key], `${name} as colors`, {overlay: (pen, s) => ring(pen, s, PIXEL)})})),
-  formula: () => ["value = a<sub>0</sub> + p<sub>1</sub> · (a<sub>1</sub> − a<sub>0</sub>) + p<sub>2</sub> · (a<sub>2</sub> − a<sub>0</sub>)"],
+  formula: () => ["value = a<sub>0</sub> + p<sub>1</sub> · (a<sub>1</sub> − a<sub>0</sub>) + p<sub>2</sub> · (a<sub>2</sub> − a<sub>0</sub>)" + (POSITION ? interpolationFormula() : isPoint ? `\n\n${say("The varyings of a point are constant: all fragments of the rectangle receive the values of its vertex.")}` : "")],
+  body: () => [varyingTable()].flat().filter(Boolean),
   exercises: () => [
-    {ask: "A value is 2, 4 and 6 at the vertices, and the weights are 0.5, 0.25 and 0.25. What is it at the pixel?", answer: 3.5, tolerance: 1e-9, hint: "Use the formula: 2 + p₁ · 2 + p₂ · 4.", why: "2 + 0.25 · 2 + 0.25 · 4."},
-    {ask: "In the picture of the normals, what is the color of a normal that points along +z? Give red, green and blue from 0 to 255, separated by spaces.", answer: "128 128 255", hint: "(n + 1) / 2, times 255, rounded.", why: "(0.5, 0.5, 1)."},
+    POSITION ? {ask: `A value is ${POSITION.corners.map((c) => num(c[0], 5)).join(", ")} at the three vertices, and the weights are ${POSITION.weights.map((w) => num(w, 5)).join(", ")}. What is it at the pixel? (Three significant digits.)`, answer: POSITION.corners.reduce((s, c, i) => s + c[0] * POSITION.weights[i], 0), tolerance: 0.006 * Math.max(...POSITION.corners.map((c) => Math.abs(c[0]))) + 1e-6, hint: "Use the formula, or multiply each value by its weight and add the products.", why: "This is x in the formula above."}
+      : {ask: `How many numbers does the shader receive as varyings at pixel (${PIXEL})?`, answer: VARYINGS.reduce((n, [, v]) => n + v.length, 0), hint: "Count the components of all varyings in the table.", why: VARYINGS.map(([name, v]) => `${name}: ${v.length}`).join(", ") + "."},
+    VISIBLE.normal ? {ask: `The normal at the example pixel is ${vec(VISIBLE.normal, 4)}. What is the red value of the pixel in the picture of the normals, from 0 to 255?`, answer: Math.floor((Math.min(1, Math.max(-1, VISIBLE.normal[0])) + 1) / 2 * 255 + 0.5), tolerance: 1, hint: "(x + 1) / 2, times 255, rounded.", why: `(${fmt(VISIBLE.normal[0], 4)} + 1) / 2 · 255.`}
+      : {ask: "How many pixels have no fragments, and therefore no varyings?", answer: DATA.overdraw.histogram[0], hint: "See the chapter “Overdraw”.", why: "They show the background color."},
     {ask: "How many fragments were shaded in this frame?", answer: DATA.statistics.fragments_shaded, hint: "See the chapter “Statistics”.", why: "Opaque surfaces are shaded once per visible pixel, after the depth of the whole tile is known."},
   ],
 });
@@ -84,6 +111,14 @@ chapter({
 const lodAt = (x, y) => FRAME.lods[y * W + x];
 // The example pixel or, if it has no color map, the first pixel with one.
 const MIP = DATA.mips ? DATA.mips.pixel : null;
+// The size of a probe in texels.
+const mipSize = () => (MIP.anisotropic ? Math.max(MIP.axes[1], MIP.axes[0] / MIP.probes) : Math.max(...MIP.axes));
+function mipFormula() {
+  const [a, b] = MIP.axes, where = say(`at pixel (${MIP.at})${MIP.at.join() === PIXEL.join() ? "" : ", the first pixel with a color map, because the example pixel has none"}, in texels of level 0:`);
+  const result = `λ = log<sub>2</sub>(${fmt(mipSize(), 6)}) = <b>${fmt(Math.log2(mipSize()), 6)}</b>`;
+  if (!MIP.anisotropic) return [`λ = log<sub>2</sub> max(|∂(s,t)/∂x|, |∂(s,t)/∂y|)\n\n${where}max(${fmt(a, 6)}, ${fmt(b, 6)}) = ${fmt(mipSize(), 6)}\n${result}`];
+  return [`${say("A pixel covers an ellipse of the texture. Probes of the same size are placed along its major axis.")}N    = min(⌈major / minor⌉, limit)      minor ≥ 1\nsize = max(minor, major / N)\nλ    = log<sub>2</sub>(size)\n\n${where}major = ${fmt(a, 6)}, minor = ${fmt(b, 6)}, N = ${fmt(MIP.probes)}\nsize = max(${fmt(b, 6)}, ${fmt(a, 6)} / ${fmt(MIP.probes)}) = ${fmt(mipSize(), 6)}\n${result}`];
+}
 
 chapter({
   id: "mips", title: "Mip levels", kicker: "Shading",
@@ -92,11 +127,12 @@ chapter({
   input: () => ["texture coordinates and their derivatives"],
   output: () => ["the level of detail, which selects the two mip levels to sample"],
   steps: () => [
-    {name: "Level of detail", caption: `Level 0 is the full texture, and each level has half the width and height of the previous one. ${fmt(DATA.mips.pixels)} pixels use a color map. Point at the picture to read the levels.`, draw: () => [picture(DATA.mips.picture, "The mip level of each pixel as a heat map", {read: (x, y) => `pixel (${x}, ${y}): ${lodAt(x, y) < -50 ? "no color map" : "level " + fmt(lodAt(x, y), 4) + (lodAt(x, y) < 0 ? " (magnified)" : "")}`, overlay: (pen, s) => ring(pen, s, PIXEL)}), legend("magnified", `level ${fmt(DATA.mips.high, 3)}`)].flat()},
+    {name: "Level of detail", caption: `Level 0 is the full texture, and each level has half the width and height of the previous one. ${fmt(DATA.mips.pixels)} pixels use a color map. Point at the picture to read the levels.`, draw: () => [picture(DATA.mips.picture, "The mip level of each pixel as a heat map", {read: (x, y) => `pixel (${x}, ${y}): ${lodAt(x, y) < -50 ? "no color map" : "level " + fmt(lodAt(x, y), 4) + (lodAt(x, y) < 0 ? " (magnified)" : "")}`, overlay: (pen, s) => ring(pen, s, MIP.at)}), legend("magnified", `level ${fmt(DATA.mips.high, 3)}`)].flat()},
   ],
-  formula: () => (MIP.probes === 0 ? ["λ = log<sub>2</sub> max(|∂(s,t)/∂x|, |∂(s,t)/∂y|)"] : [`λ = log<sub>2</sub> max(|∂(s,t)/∂x|, |∂(s,t)/∂y|), in texels of level 0\n\nat pixel (${PIXEL}):\n\nλ = log<sub>2</sub> max(${fmt(MIP.dx, 6)}, ${fmt(MIP.dy, 6)}) = ${fmt(Math.log2(Math.max(MIP.dx, MIP.dy)), 6)}${MIP.probes > 1 ? `\nwith ${fmt(MIP.probes)} probes along the longer axis: <b>${fmt(MIP.lod, 6)}</b>` : ` → <b>${fmt(MIP.lod, 6)}</b>`}`]),
+  formula: mipFormula,
   exercises: () => [
-    {ask: "From one pixel to the next, the texture coordinates change by 8 texels of level 0. Which level is read?", answer: 3, hint: "8 is which power of 2?", why: "2³ = 8."},
+    MIP.anisotropic ? {ask: `Near pixel (${MIP.at}), the renderer reads ${plural(MIP.probes, "probe")} of ${num(mipSize(), 6)} texels. If the texture had twice the width and height, and the number of probes were the same, what would the level of detail be? (Two decimal places.)`, answer: MIP.lod + 1, tolerance: 0.0051, hint: "All distances in texels double, so the logarithm increases by 1.", why: `${fmt(MIP.lod, 5)} + 1.`}
+      : {ask: `At pixel (${MIP.at}), the longer step is ${num(mipSize(), 6)} texels. What would the level of detail be if the texture had twice the width and height? (Two decimal places.)`, answer: MIP.lod + 1, tolerance: 0.0051, hint: "All distances in texels double, so the logarithm increases by 1.", why: `${fmt(MIP.lod, 5)} + 1.`},
     {ask: "What is the highest level of detail in this frame? (One decimal place.)", answer: DATA.mips.high, tolerance: 0.051, hint: "See the legend.", why: "The level of detail is high far away and at grazing angles."},
     {ask: "For how many pixels is the texture magnified, that is, is the level of detail below 0?", answer: FRAME.lods.reduce((n, l) => n + (l < 0 && l > -50), 0), tolerance: 0, hint: "Point at the picture to find such pixels. “Show answer” gives their number.", why: "There, a texel is larger than a pixel."},
   ],
@@ -108,6 +144,32 @@ const TERMS = DATA.terms;
 const sumOf = (list) => list.reduce((a, v) => a.map((x, k) => x + v[k]), [0, 0, 0]);
 const mean3 = (v) => 0.2126 * v[0] + 0.7152 * v[1] + 0.0722 * v[2];
 
+// The terms of each light at the visible fragment, as products of their factors.
+const LIGHTING = VISIBLE.lighting || null;
+const MODEL_NAMES = {lambert: "Lambert", phong: "Phong", blinn_phong: "Blinn–Phong", metallic: "metallic-roughness"};
+const triple = (v, digits = 5) => v.map((x) => fmt(x, digits).padStart(10)).join(" ");
+function lightFormulas() {
+  if (LIGHTING === null) return [];
+  const isMetallic = LIGHTING.model === "metallic", isLit = (l) => Math.max(...l.diffuse_color, ...l.specular_color) > 0;
+  const cosine = {phong: "(r · v)", blinn_phong: "(n · h)"}[LIGHTING.model];
+  const head = isMetallic ? "diffuse  = light · (n · l) · shadow · albedo · (1 − metallic) · (1 − F)\nspecular = light · shadow · reflectance of the microfacets"
+    : `diffuse  = light · (n · l) · shadow · albedo · k<sub>d</sub>${cosine ? `\nspecular = light · ${cosine}<sup>${fmt(LIGHTING.shininess, 4)}</sup> · shadow · k<sub>s</sub>` : ""}`;
+  const blocks = LIGHTING.lights.filter(isLit).slice(0, 4).map((l) => `${say(`Light ${escapeHtml(l.name)}:`)}${isMetallic ? metallicLight(l) : modelLight(l, cosine)}`);
+  return [`${say(`The visible fragment of pixel (${PIXEL}) is lit with the ${MODEL_NAMES[LIGHTING.model]} model, evaluated at ${shadedWhere === "center" ? "its center" : shadedWhere} (red, green, blue). n · l includes the attenuation of the light.`)}${head}\n\nalbedo      ${triple(LIGHTING.albedo)}\n${isMetallic ? "" : `k<sub>d</sub>          ${triple(LIGHTING.diffuse)}\n${cosine ? `k<sub>s</sub>          ${triple(LIGHTING.specular)}\n` : ""}`}\n${blocks.join("\n\n")}`];
+}
+function modelLight(l, cosine) {
+  const d = LIGHTING.albedo.map((a, k) => l.diffuse_color[k] * l.n_l * l.shadow * a * LIGHTING.diffuse[k]);
+  const s = LIGHTING.specular.map((a, k) => l.specular_color[k] * l.highlight * l.shadow * a);
+  const factors = `light ${vec(l.diffuse_color, 4)} · n·l ${fmt(l.n_l, 6)} · shadow ${fmt(l.shadow, 5)}`;
+  return `${factors}\n→ diffuse   <b>${triple(d)}</b>${cosine ? `\n${cosine}<sup>${fmt(LIGHTING.shininess, 4)}</sup> = ${fmt(l.highlight, 6)}\n→ specular  <b>${triple(s)}</b>` : ""}`;
+}
+// The remaining factors are the quotient of the term and the other factors.
+function metallicLight(l) {
+  const rest = l.diffuse.map((d, k) => d / (l.diffuse_color[k] * l.n_l * l.shadow * LIGHTING.albedo[k])), shine = l.specular.map((s, k) => s / (l.specular_color[k] * l.shadow));
+  const known = (v) => (v.every(Number.isFinite) ? triple(v) : "–");
+  return `light ${vec(l.diffuse_color, 4)} · n·l ${fmt(l.n_l, 6)} · shadow ${fmt(l.shadow, 5)}\n(1 − metallic) · (1 − F)  ${known(rest)}\n→ diffuse   <b>${triple(l.diffuse)}</b>\nreflectance ${known(shine)}\n→ specular  <b>${triple(l.specular)}</b>`;
+}
+
 chapter({
   id: "lighting", title: "Light, term by term", kicker: "Shading",
   lead: () => "The color of a surface is a sum of terms. Each picture shows one term, rendered by the same shaders with all other terms set to zero.",
@@ -117,7 +179,7 @@ chapter({
     {name: t.name[0].toUpperCase() + t.name.slice(1), caption: `The mean luminance is ${num(mean3(t.mean), 4)}, and the luminance at the example pixel is ${num(mean3(t.value), 4)}.`, draw: () => picture(t.picture, `The term “${t.name}”`, {overlay: (pen, s) => ring(pen, s, PIXEL)})},
     ...(t.shadow ? [{name: `Shadow factor of ${t.name.split(", ")[1]}`, caption: "The fraction of this light that reaches the surface: white is all, black is none. Surfaces that face away from the light are transparent in this picture.", draw: () => picture(t.shadow, `The shadow factor of ${t.name.split(", ")[1]}`, {overlay: (pen, s) => ring(pen, s, PIXEL)})}] : []),
   ]), {name: "Sum", caption: "The sum of all terms, after exposure, tone curve and encoding, is the final picture.", draw: () => picture(DATA.pictures.final, "The sum of all terms", {overlay: (pen, s) => ring(pen, s, PIXEL)})}],
-  formula: () => [`color = sum of the terms, at pixel (${PIXEL}):\n\n${TERMS.map((t) => `${t.name.padEnd(22)} ${t.value.map((v) => fmt(v, 5).padStart(11)).join(" ")}`).join("\n")}\n${"sum".padEnd(22)} <b>${sumOf(TERMS.map((t) => t.value)).map((v) => fmt(v, 5).padStart(11)).join(" ")}</b>\n${(DATA.tone.half ? "stored as half floats" : "rendered").padEnd(22)} ${DATA.tone.pixel.light.map((v) => fmt(v, 5).padStart(11)).join(" ")}`],
+  formula: () => [...lightFormulas(), `${say(`color = sum of the terms, at pixel (${PIXEL})${DATA.samples > 1 ? ", as the mean of its samples" : ""}:`)}${TERMS.map((t) => `${t.name.padEnd(22)} ${t.value.map((v) => fmt(v, 5).padStart(11)).join(" ")}`).join("\n")}\n${"sum".padEnd(22)} <b>${sumOf(TERMS.map((t) => t.value)).map((v) => fmt(v, 5).padStart(11)).join(" ")}</b>\n${"stored".padEnd(22)} ${DATA.tone.pixel.light.map((v) => fmt(v, 5).padStart(11)).join(" ")}${say(`The frame stores light as ${DATA.tone.stored_as}, so the last row is rounded.`)}`],
   exercises: () => {
     const best = TERMS.reduce((a, b) => (mean3(b.mean) > mean3(a.mean) ? b : a)), sum = sumOf(TERMS.map((t) => t.value));
     return [
@@ -153,12 +215,14 @@ function lookupPicture() {
   const n = LOOK.side, reach = (n - 1) / 2, g = gridPicture(0, 0, n, n, "The texels around the point; gray texels occlude it", (x, y) => ({fill: LOOK.lit[y * n + x] ? "var(--accent-soft)" : "var(--soft)", opacity: LOOK.lit[y * n + x] ? 1 : 0.75}));
   const [px, py] = g.to((LOOK.x - LOOK.i + reach) * SUB, (LOOK.y - LOOK.j + reach) * SUB);
   g.root.append(svg("circle", {cx: px, cy: py, r: 6, fill: "var(--accent)", stroke: "var(--ink)", "stroke-width": 1.5}));
-  const readout = el("div", {class: "readout"}, "Point at a texel to read its depth.");
+  const readout = el("div", {class: "readout", "aria-live": "polite"}, "Point at a texel to read its depth, or focus the picture and press the arrow keys.");
+  const show = (x, y) => { readout.textContent = `texel (${LOOK.i + x - reach}, ${LOOK.j + y - reach}): depth ${fmt(LOOK.texels[y * n + x], 9)} → ${LOOK.lit[y * n + x] ? "does not occlude" : "occludes"}`; };
   for (let y = 0; y < n; ++y) for (let x = 0; x < n; ++x) {
     const [a, b] = g.to(x * SUB, (y + 1) * SUB), hit = svg("rect", {x: a, y: b, width: g.size, height: g.size, fill: "transparent"});
-    hit.addEventListener("pointermove", () => { readout.textContent = `texel (${LOOK.i + x - reach}, ${LOOK.j + y - reach}): depth ${fmt(LOOK.texels[y * n + x], 9)} → ${LOOK.lit[y * n + x] ? "does not occlude" : "occludes"}`; });
+    hit.addEventListener("pointermove", () => show(x, y));
     g.root.append(hit);
   }
+  pickable(g.root, n, n, [reach, reach], (x, y) => show(x, n - 1 - y));
   return [el("div", {class: "stage"}, g.root), readout];
 }
 
@@ -174,10 +238,14 @@ chapter({
       {name: "One pixel", caption: `Pixel (${SHADOW.pixel})${nearestPixel()} reads the map at texel (${LOOK.i}, ${LOOK.j}).`, draw: () => picture(DATA.pictures.final, "The picture, with a ring around the pixel whose shadow is looked up", {overlay: (pen, s) => ring(pen, s, SHADOW.pixel)})},
       {name: "The texels around the point", caption: `Gray texels are nearer to the light than the plane of the surface, so they occlude the point. The dot marks the point. The filter ${SHADOW.filter} computes a shadow factor of ${num(LOOK.factor, 5)}.`, draw: lookupPicture}] : []),
   ],
-  formula: () => (LOOK ? [`texel (${LOOK.i}, ${LOOK.j}), point at (${fmt(LOOK.x, 7)}, ${fmt(LOOK.y, 7)}):\n\n<em>d</em> = depth + bias = ${fmt(LOOK.depth, 8)} + ${fmt(LOOK.biased - LOOK.depth, 4)} = ${fmt(LOOK.biased, 8)}\nplane: ${fmt(LOOK.dx, 4)} per texel to the right, ${fmt(LOOK.dy, 4)} up\n\nlit = <em>d</em> + slope · distance to the center of the texel ≥ depth in the map\n\nmap: ${fmt(LOOK.texels[(LOOK.side * LOOK.side - 1) / 2], 8)} → <b>${LOOK.lit[(LOOK.side * LOOK.side - 1) / 2] ? "lit" : "in shadow"}</b>      after the filter: <b>${fmt(LOOK.factor, 6)}</b>`] : []),
+  formula: () => (LOOK ? [`texel (${LOOK.i}, ${LOOK.j}), point at (${fmt(LOOK.x, 7)}, ${fmt(LOOK.y, 7)}):\n\n<em>d</em> = depth + bias = ${fmt(LOOK.depth, 8)} + ${fmt(LOOK.biased - LOOK.depth, 4)} = ${fmt(LOOK.biased, 8)}\nplane: ${fmt(LOOK.dx, 4)} per texel to the right, ${fmt(LOOK.dy, 4)} up\n\n${say("lit = <em>d</em> + slope · distance to the center of the texel ≥ depth in the map")}map: ${fmt(LOOK.texels[(LOOK.side * LOOK.side - 1) / 2], 8)} → <b>${LOOK.lit[(LOOK.side * LOOK.side - 1) / 2] ? "lit" : "in shadow"}</b>      after the filter: <b>${fmt(LOOK.factor, 6)}</b>`] : []),
   exercises: () => (LOOK ? [
     {ask: "How many of the texels shown occlude the point?", answer: LOOK.lit.filter((l) => !l).length, hint: `Count the gray ones; ${LOOK.lit.length} texels are shown.`, why: "The depth of each texel is compared separately."},
     {ask: "What is the shadow factor of the pixel? (Two decimal places.)", answer: LOOK.factor, tolerance: 0.0051, hint: "See the caption of the last step.", why: "The light's diffuse and specular terms are multiplied by it."},
     {ask: "How many texels does the map have?", answer: SHADOW.size ** 2, hint: "Square its width.", why: `${SHADOW.size} · ${SHADOW.size}.`},
-  ] : [{ask: "How many texels does the map have?", answer: SHADOW.size ** 2, hint: "Square its width.", why: `${SHADOW.size} · ${SHADOW.size}.`}]),
+  ] : [
+    {ask: "How many texels does the map have?", answer: SHADOW.size ** 2, hint: "Square its width.", why: `${SHADOW.size} · ${SHADOW.size}.`},
+    {ask: "How many bytes does the map have, with four bytes per texel?", answer: SHADOW.size ** 2 * 4, hint: "Multiply the number of texels by 4.", why: "Each texel stores one float."},
+    {ask: "How many maps does the light have?", answer: SHADOW.views, hint: "See “Input”.", why: "A light can need several maps, for example one for each part of the view."},
+  ]),
 });

@@ -5,7 +5,7 @@ let historyReady = null;
 
 async function unpackColumns(c) {
   const n = c.count, of = (key, Type) => unpackArray(c[key], Type, n);
-  return {draw: await of("draw", Uint16Array), instance: await of("instance", Uint32Array), primitive: await of("primitive", Uint32Array), sample: await of("sample", Uint8Array), outcome: await of("outcome", Uint8Array), depth: await of("depth", Float32Array)};
+  return {index: await of("index", Uint8Array), draw: await of("draw", Uint16Array), instance: await of("instance", Uint32Array), primitive: await of("primitive", Uint32Array), sample: await of("sample", Uint8Array), outcome: await of("outcome", Uint8Array), depth: await of("depth", Float32Array)};
 }
 
 // Unpacks the fragments of all pixels when they are needed for the first time.
@@ -13,7 +13,7 @@ function unpackHistory() {
   historyReady ||= (async () => {
     const d = HISTORY.details, counts = await unpackArray(HISTORY.counts, Uint8Array, W * H);
     FRAME.history = {counts, first: offsets(counts), others: await unpackArray(HISTORY.others, Uint32Array, W * H), fragments: await unpackColumns(HISTORY.fragments)};
-    const full = {counts: await unpackArray(d.counts, Uint8Array, d.pixels), others: await unpackArray(d.others, Uint32Array, d.pixels), kind: await unpackArray(d.kind, Uint16Array, d.fragments.count), fragments: await unpackColumns(d.fragments), values: await unpackArray(d.values, Float32Array, d.numbers), at: new Map()};
+    const full = {counts: await unpackArray(d.counts, Uint8Array, d.pixels), index: await unpackArray(d.index, Uint8Array, d.fragments), kind: await unpackArray(d.kind, Uint16Array, d.fragments), values: await unpackArray(d.values, Float32Array, d.numbers), at: new Map()};
     placeDetails(full, await unpackArray(d.place, Uint32Array, d.pixels));
     FRAME.details = full;
   })();
@@ -41,7 +41,7 @@ function placeDetails(full, place) {
   });
 }
 
-const rowOf = (columns, i) => ({draw: columns.draw[i], instance: columns.instance[i], primitive: columns.primitive[i], sample: columns.sample[i], outcome: HISTORY.outcomes[columns.outcome[i]], depth: columns.depth[i]});
+const rowOf = (columns, i) => ({index: columns.index[i], draw: columns.draw[i], instance: columns.instance[i], primitive: columns.primitive[i], sample: columns.sample[i], outcome: HISTORY.outcomes[columns.outcome[i]], depth: columns.depth[i]});
 
 // Returns the fragments of a pixel, without details.
 function fragmentsOf(x, y) {
@@ -50,18 +50,19 @@ function fragmentsOf(x, y) {
   return {list, others: h.others[p]};
 }
 
-// Returns all values of a pixel, or null if the page does not contain them.
+// Returns the fragments of a pixel and all values, or null if the page does not contain them. If the pixel has very many fragments, some of
+// them have no values; their `kind` is undefined.
 function detailsOf(x, y) {
   const full = FRAME.details, found = full.at.get(y * W + x);
   if (!found) return null;
   let at = found.at;
   const take = (n) => [...full.values.subarray(at, at += n)];
-  const pixel = {clear: take(4), samples: Array.from({length: DATA.samples}, () => take(4)), light: take(4), exposure: take(1)[0], toneMapped: take(3), code: take(4), others: full.others[found.index], list: []};
+  const pixel = {clear: take(4), samples: Array.from({length: DATA.samples}, () => take(4)), light: take(4), exposure: take(1)[0], toneMapped: take(3), code: take(4), ...fragmentsOf(x, y)};
+  const byIndex = new Map(pixel.list.map((f) => [f.index, f]));
   for (let k = 0; k < full.counts[found.index]; ++k) {
     const i = found.fragment + k, kind = HISTORY.details.kinds[full.kind[i]], [tested, stored, isTested, isShaded] = take(4);
-    const f = {...rowOf(full.fragments, i), kind, tested, stored, isTested, isShaded, barycentrics: take(3), invW: take(1)[0], color: take(4), value: take(4)};
+    const f = Object.assign(byIndex.get(full.index[i]), {kind, tested, stored, isTested, isShaded, barycentrics: take(3), invW: take(1)[0], color: take(4), value: take(4)});
     for (const key of ["varyings", "terms", "factors"]) f[key] = kind[key].map(([name, size]) => [name, take(size)]);
-    pixel.list.push(f);
   }
   return pixel;
 }
@@ -75,8 +76,8 @@ function nearestDetailed(x, y) {
   return best;
 }
 
-const objectOf = (f) => { const d = DATA.draws[f.draw]; return escapeHtml(d.object) + (d.copy + f.instance ? ` (${d.copy + f.instance})` : ""); };
-const primitiveName = (f) => `${{triangles: "triangle", points: "point", lines: "line"}[DATA.draws[f.draw].kind]} ${fmt(f.primitive)}`;
+const objectOf = (f) => { const d = DATA.draws[f.draw]; return escapeHtml(d.object) + (d.copy ? `, copy ${d.copy}` : ""); };
+const primitiveName = (f) => `${{triangles: "triangle", points: "point", lines: "line"}[DATA.draws[f.draw].kind]} ${f.primitive}`;
 // Formats a number like %.6g in C, as --text does.
 function shortest(x) {
   if (!Number.isFinite(x)) return String(x);
@@ -102,8 +103,8 @@ function valueTable(f) {
   return el("div", {class: "table"}, el("table", {}, el("tbody", {}, ...rows.map(([name, v]) => el("tr", {}, el("th", {scope: "row"}, name), el("td", {html: exact(v)}))))));
 }
 
-function fragmentItem(f, i, open) {
-  const head = `${i + 1}. ${primitiveName(f)} of <i>${objectOf(f)}</i>${DATA.samples > 1 ? `, sample ${f.sample}` : ""}: <b>${f.outcome}</b> at depth ${exactNumber(f.depth)}`;
+function fragmentItem(f, open) {
+  const head = `${f.index + 1}. ${primitiveName(f)} of <i>${objectOf(f)}</i> (draw ${f.draw}${f.instance ? `, instance ${f.instance}` : ""}${f.kind && !f.kind.front ? ", seen from behind" : ""})${DATA.samples > 1 ? `, sample ${f.sample}` : ""}: <b>${f.outcome}</b> at depth ${exactNumber(f.depth)}`;
   if (!f.kind) return el("li", {html: head});
   return el("li", {}, el("details", {class: "quote", open}, el("summary", {html: (f.isShaded ? swatch(f.color) : "") + head}),
     el("div", {class: "values"}, el("p", {html: `${f.kind.shader}. Depth test: ${testText(f)}.${f.kind.blend ? ` Blended: ${escapeHtml(f.kind.blend)}.` : ""}`}),
@@ -112,7 +113,7 @@ function fragmentItem(f, i, open) {
 
 function displayText(p) {
   const samples = p.samples.length > 1 ? p.samples.map((s, i) => `sample ${i}    ${exact(s)}\n`).join("") : "";
-  return `before      ${exact(p.clear)}\n${samples}light       ${exact(p.light)}\nexposure    ${shortest(p.exposure)}\ndisplayed   ${exact(p.toneMapped)}\n<b>8-bit value ${p.code.slice(0, 3).join(", ")}</b>`;
+  return `clear color ${exact(p.clear)}\n${samples}light       ${exact(p.light)}\nexposure    ${shortest(p.exposure)}\ndisplayed   ${exact(p.toneMapped)}\n<b>8-bit value ${p.code.slice(0, p.code[3] === 255 ? 3 : 4).join(", ")}</b>`;
 }
 
 function historyPanel(x, y, go) {
@@ -120,9 +121,10 @@ function historyPanel(x, y, go) {
   const last = list.map((f) => Boolean(f.isShaded)).lastIndexOf(true);
   return [
     el("h3", {}, `Pixel ${x}, ${y}`),
-    el("p", {html: `Counted from the upper left. In OpenGL window coordinates, its center is at (${x + 0.5}, ${H - y - 0.5}). ${plural(list.length + others, "fragment")}${list.length + others ? ", in drawing order" : ""}:`}),
-    el("ol", {class: "fragments"}, ...list.map((f, i) => fragmentItem(f, i, i === last))),
-    others ? el("p", {}, `… and ${plural(others, "more fragment")} that this page does not contain.`) : null,
+    el("p", {html: `Counted from the upper left. In OpenGL window coordinates, its center is at (${x + 0.5}, ${H - y - 0.5}). ${plural(list.length + others, "fragment")}${list.length + others ? ", in drawing order" : ""}. Colors are stored as ${HISTORY.stored_as}.${DATA.samples > 1 ? ` A pixel has ${DATA.samples} samples, and each covered sample of a primitive is a fragment.` : ""}`}),
+    el("ol", {class: "fragments"}, ...list.map((f, i) => fragmentItem(f, i === last))),
+    others ? el("p", {}, `… and ${plural(others, "more fragment")} that this page does not list.`) : null,
+    full && list.some((f) => !f.kind) ? el("p", {class: "keys", html: `The page contains all values of ${fmt(list.filter((f) => f.kind).length)} of these fragments. To print those of the others: ${command(`${DATA.command} --pixel ${x},${y} --text`)}`}) : null,
     full ? el("div", {class: "formula", tabindex: 0, role: "group", "aria-label": "From the samples of the pixel to its 8-bit value", html: displayText(full)}) : null,
     full ? null : el("p", {html: `To print all values of this pixel: ${command(`${DATA.command} --pixel ${x},${y} --text`)}`}),
     nearest ? el("p", {}, el("button", {type: "button", onclick: () => go(...nearest)}, `Show pixel ${nearest.join(", ")}, the nearest pixel with all values`)) : null,
@@ -142,8 +144,7 @@ function historyPicture() {
   const go = (x, y) => {
     historyState.pixel = [x, y];
     form.set(x, y);
-    mark.style.left = `${(x + 0.5) / W * 100}%`;
-    mark.style.top = `${(y + 0.5) / H * 100}%`;
+    placeMark(mark, x, y);
     unpackHistory().then(() => {
       const panel = document.getElementById("history-panel");  // null if the reader has left the chapter
       if (panel && historyState.pixel.join() === [x, y].join()) panel.replaceChildren(...historyPanel(x, y, go).filter(Boolean));
@@ -158,7 +159,9 @@ function historyPicture() {
 chapter({
   id: "history", title: "Pixel history", kicker: "Output",
   lead: () => "Click a pixel to see all of its fragments in drawing order, and what the renderer did with each of them. A fragment can be rejected together with its block, fail the depth test, be hidden before it is shaded, or be shaded.",
-  steps: () => [{name: "Choose a pixel", caption: `This page contains the draw, primitive, depth and outcome of the fragments of all pixels${HISTORY.most < 64 ? `, up to ${HISTORY.most} fragments per pixel` : ""}. It contains all values for the 64 × 64 pixels around the example pixel and for every eighth pixel in x and y.`, draw: historyPicture}],
+  input: () => [`${fmt(DATA.overdraw.total)} fragments of the whole frame`],
+  output: () => [`${W} × ${H} pixels, whose colors are stored as ${HISTORY.stored_as}`],
+  steps: () => [{name: "Choose a pixel", caption: `This page contains the draw, primitive, depth and outcome of the fragments of all pixels${HISTORY.most < 64 ? `, up to ${HISTORY.most} fragments per pixel` : ""}. It contains all values ${HISTORY.details.most.some((n) => n < 64) ? `of up to ${HISTORY.details.most.join(", ")} fragments per pixel for the example pixel, ` : "for "}the 64 × 64 pixels around ${HISTORY.details.most.some((n) => n < 64) ? "it" : "the example pixel"} and ${HISTORY.details.most.some((n) => n < 64) ? "" : "for "}every eighth pixel in x and y.`, draw: historyPicture}],
   body: () => el("div", {id: "history-panel", "aria-live": "polite"}, el("p", {class: "loading"}, "Loading the fragments …")),
   exercises: () => [
     {ask: `How many fragments does the example pixel (${PIXEL}) have?`, answer: fragmentsAt(...PIXEL), hint: "Enter its coordinates below the picture.", why: "Its history lists them."},

@@ -6,8 +6,9 @@ chapter({
   id: "final", title: "The final picture", kicker: "Output",
   lead: () => "Finished tiles are written to the image. The picture is bit-identical to the one that <code>halfspace render</code> writes.",
   input: () => [plural(DATA.statistics.tiles_touched, "tile with primitives", "tiles with primitives")],
+  formula: () => [`picture(x, y) = tile(⌊x / ${TILE}⌋, ⌊(${H} − 1 − y) / ${TILE}⌋)\n\n${say(`Pixel (${PIXEL}) comes from tile (${EXTILE}):`)}⌊${PIXEL[0]} / ${TILE}⌋ = <b>${EXTILE[0]}</b>,  ⌊(${H} − 1 − ${PIXEL[1]}) / ${TILE}⌋ = <b>${EXTILE[1]}</b>\nvalue = <b>${TONE.pixel.code.join(", ")}</b>`],
   output: () => [`${W} × ${H} pixels with 8 bits per channel`],
-  steps: () => [{name: "The picture", caption: `Rendered with ${command(DATA.command.replace("explain", "render"))}.`, draw: () => picture(DATA.pictures.final, "The final picture", {read: (x, y) => `pixel (${x}, ${y}), in OpenGL's window coordinates (${x}, ${H - 1 - y}): ${plural(fragmentsAt(x, y), "fragment")}`})}],
+  steps: () => [{name: "The picture", caption: `Rendered with ${command(DATA.render_command)}.`, draw: () => picture(DATA.pictures.final, "The final picture", {read: (x, y) => `pixel (${x}, ${y}), in OpenGL's window coordinates (${x}, ${H - 1 - y}): ${plural(fragmentsAt(x, y), "fragment")}`})}],
   exercises: () => [
     {ask: "How many bytes does the uncompressed picture have, with one byte each for red, green and blue?", answer: W * H * 3, hint: "A pixel has three bytes.", why: `${W} · ${H} · 3.`},
     {ask: `The example pixel is in row ${PIXEL[1]}, counted from the top. Which row is it in OpenGL's window coordinates, which count from the bottom?`, answer: H - 1 - PIXEL[1], hint: `There are ${H} rows, and both counts start at 0.`, why: `${H} − 1 − ${PIXEL[1]}.`},
@@ -18,6 +19,8 @@ chapter({
 chapter({
   id: "overdraw", title: "Overdraw", kicker: "The whole frame",
   lead: () => "How many fragments compete for each pixel? Hidden fragments of opaque surfaces are rejected before they are shaded.",
+  input: () => [plural(DATA.overdraw.total, "fragment")],
+  output: () => [plural(DATA.statistics.fragments_shaded, "shaded fragment"), plural(W * H, "pixel")],
   steps: () => [
     {name: "Fragments per pixel", caption: "Bright pixels are covered by many primitives. Point at the picture to read the numbers.", draw: () => [picture(DATA.overdraw.picture, "Number of fragments per pixel as a heat map", {read: (x, y) => `pixel (${x}, ${y}): ${plural(fragmentsAt(x, y), "fragment")}`, overlay: (pen, s) => ring(pen, s, PIXEL)}), legend("1", fmt(DATA.overdraw.most))].flat()},
     {name: "Histogram", caption: `The number of pixels for each number of fragments${DATA.overdraw.most > 64 ? "; the last bar is for 64 and more" : ""}.`, draw: () => bars(DATA.overdraw.histogram.map((value, i) => ({value, name: plural(i, "fragment"), label: DATA.overdraw.histogram.length < 25 || i % 8 === 0 ? String(i) : undefined})), "Histogram: number of pixels for each number of fragments", {unit: " pixels"})},
@@ -43,7 +46,7 @@ function timePicture() {
   })}), legend("0", `${fmt(slowest * 1000, 3)} µs`)].flat();
 }
 function timePlot() {
-  const width = 720, height = 380, root = svgFigure(width, height, "Rendering time of each tile over its number of primitives");
+  const width = figureWidth(), height = 380, root = svgFigure(width, height, "Rendering time of each tile over its number of primitives");
   const to = (n, ms) => [60 + n / mostBinned * (width - 90), height - 45 - ms / slowest * (height - 75)];
   root.append(svg("path", {d: `M60 20 V${height - 45} H${width - 20}`, fill: "none", stroke: "var(--line)"}));
   TIMES.forEach((ms, i) => { if (ms === 0) return; const [x, y] = to(BINS.counts[i], ms); root.append(svg("circle", {cx: x, cy: y, r: 5, fill: "var(--accent)", "fill-opacity": 0.55})); });
@@ -57,6 +60,9 @@ function timePlot() {
 chapter({
   id: "times", title: "Tile times", kicker: "The whole frame",
   lead: () => `Which tiles take the most time? Each tile was rendered ${DATA.tile_times.runs} times on one thread of the machine that generated this page, and the shortest time is shown. Unlike most numbers on this page, times differ from machine to machine.`,
+  input: () => [plural(BINS.columns * BINS.rows, "tile"), plural(DATA.statistics.bin_entries, "entry", "entries") + " in the bins"],
+  output: () => [`${fmt(allTimes, 3)} ms for all timed tiles on one thread`],
+  formula: () => { const n = TIMES.filter((t) => t > 0).length; return [`mean = total / tiles = ${fmt(allTimes, 4)} ms / ${fmt(n)} = <b>${fmt(allTimes / Math.max(1, n) * 1000, 4)} µs</b>\nslowest / mean = ${fmt(slowest * 1000, 4)} / ${fmt(allTimes / Math.max(1, n) * 1000, 4)} = <b>${fmt(slowest * n / Math.max(1e-9, allTimes), 4)}</b>`]; },
   steps: () => [
     {name: "Time per tile", caption: `All tiles together took ${fmt(allTimes, 3)} ms. Tiles of a single color are filled at once and were not timed.`, draw: timePicture},
     {name: "Time and primitives", caption: "Each dot is a tile. Primitives take time, but so does shading: a tile with a single triangle can be slow if its shader is slow.", draw: timePlot},
@@ -64,7 +70,7 @@ chapter({
   exercises: () => [
     {ask: "How many tiles were timed?", answer: TIMES.filter((t) => t > 0).length, hint: `There are ${TIMES.length} tiles. Those filled with one color were not timed.`, why: "The second step shows a dot for each of them."},
     {ask: "What percentage of the total time did the slowest tile take? (Rounded to an integer.)", answer: Math.round(slowest / Math.max(allTimes, 1e-9) * 100), tolerance: 0.51, hint: "Its time is in the legend, and the total is in the caption.", why: "However many threads there are, a frame takes at least as long as its slowest tile."},
-    {ask: "How many threads at most can draw timed tiles at the same time?", answer: TIMES.filter((t) => t > 0).length, hint: "Each tile is drawn by one thread.", why: "With more threads than tiles, some threads are idle."},
+    {ask: "By what factor at most could more threads shorten the drawing of the timed tiles? (One decimal place.)", answer: allTimes / slowest, tolerance: 0.051, hint: "Each tile is drawn by one thread, so the slowest tile is a lower limit. Divide the total time by the time of the slowest tile.", why: `${fmt(allTimes, 4)} ms / ${fmt(slowest, 4)} ms.`},
   ],
 });
 
@@ -78,11 +84,14 @@ const STATISTICS = [
 chapter({
   id: "statistics", title: "Statistics", kicker: "The whole frame",
   lead: () => "These are the counters of the pass that rendered this frame. They are the same on every machine, except for samples_tested, which depends on the number of lanes.",
+  input: () => [plural(DATA.statistics.primitives_in, "primitive")],
+  output: () => [plural(DATA.statistics.fragments_shaded, "shaded fragment")],
+  formula: () => { const s = DATA.statistics, culled = s.culled_non_finite + s.culled_outside + s.culled_face + s.culled_degenerate + s.culled_no_sample; return [`${say("Each submitted primitive is culled or drawn:")}primitives_in = culled + drawn\n${fmt(s.primitives_in)} = ${[s.culled_non_finite, s.culled_outside, s.culled_face, s.culled_degenerate, s.culled_no_sample].map((n) => fmt(n)).join(" + ")} + ${fmt(DATA.outcomes[0] + DATA.outcomes[1])} = ${fmt(culled)} + <b>${fmt(s.primitives_in - culled)}</b>\n\nshaded per pixel = ${fmt(s.fragments_shaded)} / ${fmt(W * H)} = <b>${fmt(s.fragments_shaded / (W * H), 4)}</b>`]; },
   steps: () => [{name: "From primitives to pixels", caption: "The number of items that each stage of the pipeline outputs.", draw: () => el("div", {class: "stage"}, pipelineDiagram())}],
   body: () => [tableOf(["counter", "value", "meaning"], STATISTICS.map(([key, text]) => [`<code>${key}</code>`, DATA.statistics[key], "¶" + text]))],
   exercises: () => [
     {ask: "How many times was a shaded vertex used on average? (Two decimal places.)", answer: DATA.statistics.vertices_in / Math.max(1, DATA.statistics.vertices_shaded), tolerance: 0.0051, hint: "Divide vertices_in by vertices_shaded.", why: "In a large closed mesh, a vertex belongs to about six triangles on average."},
     {ask: "How many tested samples failed?", answer: DATA.statistics.samples_tested - DATA.statistics.samples_passed, tolerance: 0, hint: "Subtract samples_passed from samples_tested.", why: "Most of them were behind a surface that had been drawn before."},
-    {ask: "How many bits differ if the picture is rendered with 16 threads instead of 1?", answer: 0, hint: "Threads do not share pixels.", why: "Each tile is drawn by one thread, with its primitives in submission order."},
+    {ask: "How many fragments were shaded per pixel on average? (Two decimal places.)", answer: DATA.statistics.fragments_shaded / (W * H), tolerance: 0.0051, hint: "Divide fragments_shaded by the number of pixels.", why: "Opaque surfaces are shaded once per visible pixel. Pixels without surfaces lower the average; edges and transparent surfaces raise it."},
   ],
 });
