@@ -116,11 +116,12 @@ random_views() {
 fuzz() {
   local dir=build/full/fuzz format status=0
   build "$dir" fuzz -DCMAKE_CXX_COMPILER=clang++ -DHALFSPACE_FUZZ=ON -DHALFSPACE_BUILD_BENCHMARKS=OFF || return 1
-  for format in obj gltf ply stl; do
-    mkdir -p "$dir/corpus-$format"
-    find ../shared/data -size -64k \( -name "*.$format" -o -name "*.${format/gltf/glb}" \) -exec cp -t "$dir/corpus-$format" {} + 2> /dev/null || true
+  rm -rf "$dir/seeds"
+  "$dir/bin/fuzz-seeds" "$dir/seeds" && tests/fuzz/collect_seeds.py "$dir/seeds" tests/fuzz/crashes ../shared/data || return 1
+  for format in obj mtl gltf ply stl; do
+    mkdir -p "$dir/corpus-$format"  # new inputs are written to the first folder
     "$dir/bin/fuzz-$format" -max_len=65536 -timeout=10 -max_total_time=60 -artifact_prefix="$dir/$format-" "$dir/corpus-$format" \
-      > "$dir/$format.log" 2>&1 || { tail -20 "$dir/$format.log"; status=1; }
+      "$dir/seeds/$format" > "$dir/$format.log" 2>&1 || { tail -20 "$dir/$format.log"; status=1; }
     grep -oE 'Done [0-9]+ runs' "$dir/$format.log" | sed "s/^/$format: /"
   done
   return $status

@@ -1,50 +1,60 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Shared by the fuzz targets for model files (libFuzzer). A target passes its input to one reader, which must return a model or throw an
-// InputError with a one-line message.
+// InputError with a one-line message. The model is then posed at several times and shown by a fitted camera, as `halfspace render` does.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <span>
-#include <string_view>
 
-#include "halfspace/core/check.h"
-#include "halfspace/model/model.h"
+#include "fuzz/model_checks.h"
+#include "halfspace/render/model_fit.h"
+#include "support/files.h"
+#include "support/temporary_folder.h"
 
 namespace halfspace {
 
 inline constexpr std::size_t kMaxFuzzBytes = std::size_t{64} << 10;
 
-/// Checks that all indices of the mesh are in range and that its lists have one entry per vertex.
-inline void check_mesh(const ModelMesh& mesh) {
-  const std::size_t count = mesh.positions.size();
-  for (const uint32_t index : mesh.indices) HS_CHECK_OP(index, <, count);
-  const auto check_list = [&](std::size_t size) { HS_CHECK(size == 0 || size == count); };
-  for (const auto& uvs : mesh.uvs) check_list(uvs.size());
-  for (const std::size_t size : {mesh.normals.size(), mesh.tangents.size(), mesh.colors.size(), mesh.joints.size(), mesh.weights.size()}) {
-    check_list(size);
-  }
-  if (mesh.topology == MeshTopology::triangles) HS_CHECK_OP(mesh.indices.size() % 3, ==, 0u);
+/// Returns the folder of the model. It contains files that inputs can refer to: the image `a.png` (not decoded), the material library
+/// `a.mtl` and the buffer `a.bin`, 4096 zeros.
+inline const std::filesystem::path& fuzz_folder() {
+  static const TemporaryFolder folder;
+  static const bool written = [] {
+    write_bytes(folder.path() / "a.png", "no image");
+    write_bytes(folder.path() / "a.mtl", "newmtl a\nKd 1 0 0\nmap_Kd -s 2 2 a.png\nmap_bump -bm 2 a.png\nnewmtl b\nd 0.5\nPr 0.1\nPm 1\n");
+    write_bytes(folder.path() / "a.bin", std::string(4096, '\0'));
+    return true;
+  }();
+  (void)written;
+  return folder.path();
 }
 
-/// Reads one input. Only an InputError is accepted; other exceptions end the process.
+/// Fits the camera to a posed model, also for a camera that goes around it.
+inline void check_fitted_view(const Model& model, const PosedModel& posed) {
+  const ModelBounds bounds = bounds_of(posed, "a");
+  for (const double seconds : {0.0, 1.0}) {
+    ModelView view;
+    view.turn_seconds = seconds;
+    const FittedView fitted = fitted_view(model, posed, bounds, view);
+    for (int i = 0; i < 3; ++i) HS_CHECK(std::isfinite(fitted.eye[i]) && std::isfinite(fitted.target[i]));
+  }
+}
+
+/// Reads one input and uses the model. Only an InputError is accepted; other exceptions end the process.
 template <class Reader>
 int fuzz_model(Reader&& reader, const char* name, const uint8_t* data, std::size_t size) {
   if (size > kMaxFuzzBytes) return -1;
   ReadModelOptions options;
   options.max_memory = std::size_t{256} << 20;
-  // The folder does not exist, so references to other files are not found.
-  const std::filesystem::path file = std::filesystem::path("/no-such-folder") / name;
-  try {
-    const Model model = reader(file, std::as_bytes(std::span(data, size)), options);
-    for (const ModelMesh& mesh : model.meshes) check_mesh(mesh);
-  } catch (const InputError& e) {
-    HS_CHECK(std::string_view(e.what()).find('\n') == std::string_view::npos);
-  }
+  accept_input_error([&] {
+    const Model model = reader(fuzz_folder() / name, std::as_bytes(std::span(data, size)), options);
+    check_model(model);
+    for_each_pose(model, [&](const PosedModel& posed) { check_fitted_view(model, posed); });
+  });
   return 0;
 }
 

@@ -1,0 +1,7 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fuzz/fuzz_model.h"
+#include "fuzz/mtl_model.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, std::size_t size) {
+  return halfspace::fuzz_model(halfspace::read_mtl_model, "a.mtl", data, size);
+}

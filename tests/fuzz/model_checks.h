@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What holds for every model that a reader returns, whatever its file contains.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <initializer_list>
+#include <string_view>
+
+#include "halfspace/core/check.h"
+#include "halfspace/model/model.h"
+#include "halfspace/model/pose.h"
+
+namespace halfspace {
+
+/// Checks that all indices of the mesh are in range and that its lists have one entry per vertex.
+inline void check_mesh(const ModelMesh& mesh) {
+  const std::size_t count = mesh.positions.size();
+  for (const uint32_t index : mesh.indices) HS_CHECK_OP(index, <, count);
+  const auto check_list = [&](std::size_t size) { HS_CHECK(size == 0 || size == count); };
+  for (const auto& uvs : mesh.uvs) check_list(uvs.size());
+  for (const std::size_t size : {mesh.normals.size(), mesh.tangents.size(), mesh.colors.size(), mesh.joints.size(), mesh.weights.size()}) {
+    check_list(size);
+  }
+  if (mesh.topology == MeshTopology::triangles) HS_CHECK_OP(mesh.indices.size() % 3, ==, 0u);
+}
+
+/// Checks that the factors of a material are finite and that its textures exist.
+inline void check_material(const ModelMaterial& m, const Model& model) {
+  for (const float x : {m.base_color.x,     m.base_color.y, m.base_color.z,       m.base_color.w,        m.alpha_cutoff,
+                        m.metallic,         m.roughness,    m.specular,           m.specular_color.x,    m.specular_color.y,
+                        m.specular_color.z, m.ior,          m.clearcoat,          m.clearcoat_roughness, m.clearcoat_normal_scale,
+                        m.normal_scale,     m.bump_scale,   m.occlusion_strength, m.emissive.x,          m.emissive.y,
+                        m.emissive.z}) {
+    HS_CHECK(std::isfinite(x));
+  }
+  for (const float x : {m.base_color.w, m.metallic, m.roughness, m.clearcoat, m.clearcoat_roughness}) HS_CHECK(x >= 0.0f && x <= 1.0f);
+  for (const TextureUse* use :
+       {&m.base_color_map, &m.opacity_map, &m.metallic_map, &m.roughness_map, &m.specular_map, &m.specular_color_map, &m.clearcoat_map,
+        &m.clearcoat_roughness_map, &m.clearcoat_normal_map, &m.normal_map, &m.bump_map, &m.occlusion_map, &m.emissive_map}) {
+    HS_CHECK(use->texture >= -1 && use->texture < static_cast<int>(model.textures.size()));
+    HS_CHECK(use->uv_set == 0 || use->uv_set == 1);
+  }
+}
+
+inline void check_model(const Model& model) {
+  for (const ModelMesh& mesh : model.meshes) check_mesh(mesh);
+  for (const ModelMaterial& material : model.materials) check_material(material, model);
+  for (const ModelTexture& texture : model.textures) HS_CHECK(texture.image >= -1 && texture.image < static_cast<int>(model.images.size()));
+  for (const std::string& warning : model.warnings) HS_CHECK(warning.find('\n') == std::string_view::npos);
+}
+
+/// Calls f(posed) for the model without animation and for every animation and variant at several times, but for at most four of each.
+template <class F>
+void for_each_pose(const Model& model, F&& f) {
+  const auto last = [](std::size_t count) { return static_cast<int>(std::min<std::size_t>(count, 4)); };
+  const auto use = [&](const PoseOptions& options) {
+    const PosedModel posed = pose(model, options);
+    for (int i = 0; i < 3; ++i) HS_CHECK(!std::isnan(posed.low[i]) && !std::isnan(posed.high[i]));
+    for (const PosedMesh& mesh : posed.meshes) {
+      if (mesh.deformed != nullptr) check_mesh(*mesh.deformed);
+    }
+    f(posed);
+  };
+  use({});
+  for (int i = 0; i < last(model.scenes.size()); ++i) use({.scene = i});
+  for (int i = 0; i < last(model.variants.size()); ++i) use({.variant = i});
+  for (int i = 0; i < last(model.animations.size()); ++i) {
+    for (const double time : {0.0, 0.3, 1e6}) use({.animation = i, .time = time});
+  }
+}
+
+/// Calls f(). An InputError is accepted if its message is one line; other exceptions are not caught.
+template <class F>
+void accept_input_error(F&& f) {
+  try {
+    f();
+  } catch (const InputError& e) {
+    HS_CHECK(std::string_view(e.what()).find('\n') == std::string_view::npos);
+  }
+}
+
+}  // namespace halfspace
