@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kNear = 0.1, kFar = 500.0;
 
-glm::dmat4 light_matrix(const SceneLight& light) {
+glm::dmat4 light_matrix(const SceneLighting& light) {
   const double r = light.shadow_radius;
   const glm::dmat4 view = look_at(light.shadow_center + glm::dvec3(light.to_sun), light.shadow_center, {0, 1, 0});
   return orthographic_gl(2 * r, 1.0, 1 - r, 1 + r) * view;

@@ -50,7 +50,7 @@ struct SceneObject {
   glm::dmat4 world_from_object;  ///< also transforms normals, which must then be normalized
 };
 
-struct SceneLight {
+struct SceneLighting {
   glm::vec3 to_sun;            ///< unit vector
   glm::vec3 sun, sky, ground;  ///< colors; sky and ground light surfaces that face up and down
   glm::vec3 lamp_ws, lamp;     ///< position and color of a lamp that casts no shadow
@@ -72,7 +72,7 @@ struct Scene {
   std::vector<std::shared_ptr<const Texture2D>> textures;
   std::vector<SceneMaterial> materials;
   std::vector<SceneObject> objects;
-  SceneLight light;
+  SceneLighting light;
   std::array<SceneCamera, kSceneCameras> cameras;
 
   const SceneMaterial& material(const SceneObject& object) const { return materials[object.material]; }

@@ -14,7 +14,7 @@ struct SceneUniforms {
   glm::mat4 world_from_object, clip_from_world, light_from_world;
   glm::vec3 eye_ws;
   const float* shadow_map;
-  const SceneLight* light;
+  const SceneLighting* light;
   const Texture2D* map;
   glm::vec3 tint;
   float gloss, alpha;

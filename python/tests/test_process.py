@@ -223,6 +223,7 @@ def test_the_rounding_mode_of_the_process_has_no_effect():
     """Uses the values of <fenv.h> on x86-64."""
     libm = ctypes.CDLL("libm.so.6")
     scene = ball_scene()
+    scene.camera = scene.fit()  # NumPy computes cameras in the mode of the process
     expected = [halfspace.render("moon", size=(64, 36)), scene.render((64, 48)), *scene.labels(size=(64, 48)).values()]
     for mode in (0x400, 0x800, 0xC00):  # FE_DOWNWARD, FE_UPWARD, FE_TOWARDZERO
         libm.fesetround(mode)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The inline namespace of all names of Halfspace. It is named after the SIMD width, so that object files and libraries that were compiled for
-// different widths do not link with each other, and can be loaded into one process. Code that uses Halfspace does not name it.
+// The inline namespace of all names of Halfspace. It is named after the SIMD width, so that object files and libraries that were compiled
+// for different widths do not link with each other, and can be loaded into one process. Code that uses Halfspace does not name it.
 #pragma once
 
 // Each #error below falls back to one lane, so that no further errors hide the message.

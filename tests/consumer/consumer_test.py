@@ -181,6 +181,23 @@ class Package(unittest.TestCase):
             for name in missing:
                 self.assertRegex(result.stderr, rf"undefined reference to .*halfspace::lanes{other}::{name}\b")
 
+    def test_functions_of_two_widths_in_one_process(self):
+        lanes = int(re.search(r"-DHALFSPACE_LANES=(\d+)", " ".join(package_flags()))[1])
+        objects = []
+        for width in (lanes, other_width(lanes)):
+            objects.append(str(TEMPORARY / f"packets{width}.so"))
+            flags = [f for f in package_flags() if not f.startswith(("-I", "-DHALFSPACE_LANES"))]
+            expect(COMPILER, "-std=c++20", "-shared", "-fPIC", *flags, f"-DHALFSPACE_LANES={width}", f"-I{BUILD / 'include'}",
+                   HERE / "packet_positions.cpp", "-o", objects[-1])
+        # RTLD_GLOBAL lets the second object use the symbols of the first.
+        code = """import ctypes, sys
+for functions in [ctypes.CDLL(f, ctypes.RTLD_GLOBAL) for f in sys.argv[1:]]:
+    print([functions.packet_and_position(x, y) for x in range(4) for y in range(4)])"""
+        alone = [expect(sys.executable, "-c", code, name) for name in objects]
+        self.assertNotEqual(*alone)
+        self.assertEqual(expect(sys.executable, "-c", code, *objects), alone[0] + alone[1])
+        self.assertEqual(expect(sys.executable, "-c", code, *objects[::-1]), alone[1] + alone[0])
+
     @unittest.skipUnless(LONG_TESTS, "needs HALFSPACE_LONG_TESTS")
     def test_two_widths_in_one_process(self):
         lanes = int(re.search(r"-DHALFSPACE_LANES=(\d+)", " ".join(package_flags()))[1])
@@ -193,7 +210,6 @@ class Package(unittest.TestCase):
         for folder in (installed, other):
             expect("cmake", "--build", folder, "--target", "own_shader_module", "-j", "2")
             modules.append(str(folder / "libown_shader_module.so"))
-        # RTLD_GLOBAL lets the second module use the symbols of the first.
         code = "import ctypes, sys; sys.exit(sum(m.main() for m in [ctypes.CDLL(f, ctypes.RTLD_GLOBAL) for f in sys.argv[1:]]))"
         for order in (modules, modules[::-1]):
             output = expect(sys.executable, "-c", code, *order)

@@ -116,9 +116,9 @@ SceneDraw make_draw(const S& shader, const std::string& name, const oracle::Inpu
   constexpr auto components = static_cast<int>(kComponents<typename S::template Attributes<float>>);
   const auto memory = std::make_shared<draw_memory::DrawMemory>();
   draw_memory::lay_out_vertices(reinterpret_cast<const float*>(input.vertices.data()), input.vertices.size(), components, vertex_layout,
-                           *memory);
+                                *memory);
   draw_memory::lay_out_instances(reinterpret_cast<const float*>(input.instances.data()), input.instances.size(), components,
-                            input.instance_components, input.divisor, *memory);
+                                 input.instance_components, input.divisor, *memory);
   const std::size_t indexable = input.vertices.size() + static_cast<std::size_t>(-std::min(state.base_vertex, 0));
   draw_memory::lay_out_indices(input.indices, indexable, input.restart, index_layout, *memory);
   SceneDraw d;

@@ -51,14 +51,16 @@ TEST(RoundingMode, HasNoEffectOnModels) {
   const std::filesystem::path file = folder.path() / "model.obj";
   write_bytes(file, "v 0.1 0.2 0.3\nv 1.1 0.7 0.123456789\nv 0.9 1.3 -0.1\nv 0.3 0.3 1.7\nf 1 2 3\nf 1 3 4\nf 2 3 4\n");
   const Model expected = read_model(file);
-  const std::string expected_scene = model_scene(file, {.yaw = 31.0}).text;
+  ModelView view;
+  view.yaw = 31.0;
+  const std::string expected_scene = model_scene(file, view).text;
   for (const int rounding : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
     const RoundingMode mode(rounding);
     const Model actual = read_model(file);
     EXPECT_EQ(std::fegetround(), rounding);
     EXPECT_EQ(expected.meshes.at(0).positions, actual.meshes.at(0).positions);
     EXPECT_EQ(expected.meshes.at(0).normals, actual.meshes.at(0).normals);
-    EXPECT_EQ(expected_scene, model_scene(file, {.yaw = 31.0}).text);
+    EXPECT_EQ(expected_scene, model_scene(file, view).text);
     EXPECT_EQ(std::fegetround(), rounding);
   }
 }

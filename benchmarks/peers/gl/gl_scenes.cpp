@@ -31,7 +31,7 @@ class ObjectProgram {
     program_.set("clip_from_world", view.clip_from_world);
     program_.set("map", 0);
     if (!is_lit) return;
-    const SceneLight& light = scene.light;
+    const SceneLighting& light = scene.light;
     program_.set("shadow_map", 1);
     program_.set("light_from_world", view.light_from_world);
     program_.set("eye_ws", view.eye_ws);
