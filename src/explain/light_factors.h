@@ -4,6 +4,8 @@
 // factors set to 1 or 0, so it is computed by the shader's own code.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "halfspace/explain/fragment_evaluator.h"
@@ -79,7 +81,7 @@ class LightFactorFinder {
     S black = shader_;
     black.lights = {};
     black.factors[kAmbient].constant = black.factors[kEmissive].constant = glm::vec3(0.0f);
-    black.surroundings = nullptr;
+    black.reflected_environment = nullptr;
     const auto factor = [&](MaterialFactor k) { return color(black, [&](S& s) { s.factors[kEmissive] = shader_.factors[k]; }); };
     const auto with_ambient = [&](const S& from) { return color(from, [](S& s) { s.factors[kAmbient] = Factor{}; }); };
     LightingDetail out;

@@ -6,7 +6,7 @@
 
 #include "halfspace/explain/fragment_values.h"
 #include "halfspace/explain/page_data.h"
-#include "halfspace/raster/inspection.h"
+#include "halfspace/raster/inspect/inspection.h"
 #include "halfspace/scene/scene_paths.h"
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
