@@ -74,7 +74,9 @@ TEST(Page, TheToneChapterEndsInThePicture) {
       for (int k = 0; k < 3; ++k) {
         const auto i = static_cast<std::size_t>(k);
         EXPECT_EQ(tone["pixel"]["code"][i].get<int>(), int{expected[k]}) << name << samples;
-        if (!tone["dither"].get<bool>()) EXPECT_EQ(tone["pixel"]["rounded"][i].get<int>(), int{expected[k]}) << name << samples;
+        if (!tone["dither"].get<bool>()) {
+          EXPECT_EQ(tone["pixel"]["rounded"][i].get<int>(), int{expected[k]}) << name << samples;
+        }
       }
     }
   }
