@@ -62,10 +62,10 @@ TEST(ConformanceRandomState, ShrinksToAMinimalFailure) {
     }
     return false;
   };
-  int shrunk = 0;
+  int failures = 0;
   for (uint64_t seed = 0; seed < 100; ++seed) {
     if (!subtracts(random_picture({seed, 0}))) continue;
-    ++shrunk;
+    ++failures;
     const RandomState shrunk = shrink({seed, 0}, subtracts);
     RandomState again;
     ASSERT_TRUE(RandomState::parse(shrunk.text(), again));
@@ -77,7 +77,7 @@ TEST(ConformanceRandomState, ShrinksToAMinimalFailure) {
     EXPECT_FALSE(s.stencil || s.scissor || s.viewport || s.query);
     EXPECT_LE(p.draws[0].indices.size(), 8u);  // of up to 20
   }
-  EXPECT_GT(shrunk, 5);
+  EXPECT_GT(failures, 5);
 }
 
 }  // namespace halfspace::conformance
