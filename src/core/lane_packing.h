@@ -14,9 +14,10 @@ namespace halfspace::inline HS_LANES_NAMESPACE {
 namespace detail {
 
 /// Lane numbers for each mask of eight lanes, one byte per lane. If to_front, byte k is the number of the lane of the k-th set bit.
-/// Otherwise, byte i is the number of set bits below bit i. The other bytes are 0.
+/// Otherwise, byte i is the number of set bits below bit i. The other bytes are 0. Hidden, because g++ exports templates of
+/// variables in spite of -fvisibility=hidden.
 template <bool to_front>
-inline constexpr std::array<uint64_t, 256> kPackedLanes = [] {
+[[gnu::visibility("hidden")]] inline constexpr std::array<uint64_t, 256> kPackedLanes = [] {
   std::array<uint64_t, 256> table{};
   for (std::size_t lanes = 0; lanes < table.size(); ++lanes) {
     uint64_t rank = 0;
