@@ -41,13 +41,13 @@ constexpr std::array kRanges{
     QuoteRange{"layers", "raster/tile/layers.cpp", "Mask TransparentLayers::add(", "return "},
     QuoteRange{"layers", "raster/tile/layers.cpp", "void TransparentLayers::write(", "write_color("},
     QuoteRange{"final", "raster/loop/tile_worker.cpp", "load(tile);", "if (has_post_step) run_post_step("},
-    QuoteRange{"history", "raster/trace/tile_trace.cpp", "void TileTrace::add(", "f.is_tested = is_tested;"},
+    QuoteRange{"history", "raster/trace/tile_trace.cpp", "void TileTrace::add(", "f.is_tested = "},
     QuoteRange{"history", "raster/trace/tile_trace.cpp", "void TileTrace::set_shaded(", "f.color = color_of("},
-    QuoteRange{"overdraw", "explain/pixel_history.cpp", "uint32_t FrameTrace::count(", "return first["},
+    QuoteRange{"overdraw", "explain/pixel_history.cpp", "uint32_t FrameTrace::count(", "return first"},
     QuoteRange{"overdraw", "raster/visibility/depth_bounds.h", "case CompareOp::greater: return outcome(",
                "case CompareOp::greater: return"},
     QuoteRange{"times", "raster/loop/tile_worker.cpp", "const auto start = std::chrono", "const std::chrono::duration"},
-    QuoteRange{"statistics", "raster/statistics.h", "uint64_t vertices_in = 0;", "uint64_t flushes = 0;"},
+    QuoteRange{"statistics", "raster/statistics.h", "uint64_t vertices_in", "uint64_t flushes"},
 };
 
 std::vector<std::string_view> lines_of(std::string_view text) {

@@ -75,7 +75,7 @@ TEST_F(ExplainPage, DoesNotReplaceTheSceneThatItReads) {
   write_bytes(directory / "scene.html", R"({"version": 1, "cameras": {"c": {}}})");
   const Outcome o = explain({"scene.html", "-o", "scene.html"});
   EXPECT_EQ(o.exit_code, 4);
-  EXPECT_NE(o.err.find("read by this scene"), std::string::npos) << o.err;
+  EXPECT_NE(o.err.find("is read by"), std::string::npos) << o.err;
   EXPECT_EQ(read_bytes(directory / "scene.html").front(), '{');
 }
 

@@ -181,8 +181,9 @@ TEST(Stages, DepthBlocksBoundTheDepthBuffer) {
 // The level of detail follows from the axes of the footprint. The lookup works with squares of lengths: 2e-5 is a few ulps of float.
 TEST(Stages, TheMipLevelFollowsFromTheAxes) {
   const PreparedText s(SceneFile::open("earth").at(0.0), 96, 54);
+  const Image<MipLookup> lookups = mip_levels(s.prepared, s.workers);
   int compared = 0;
-  for (const MipLookup& m : mip_levels(s.prepared, s.workers).texels()) {
+  for (const MipLookup& m : lookups.texels()) {
     if (m.probes == 0.0f) continue;
     const float size = m.is_anisotropic ? std::max(m.axes.y, m.axes.x / m.probes) : std::max(m.axes.x, m.axes.y);
     EXPECT_NEAR(m.lod, std::log2(size), 2e-5f);
