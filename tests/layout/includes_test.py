@@ -49,6 +49,7 @@ RASTER_PRIVATE_USERS = [
     "src/explain/",  # shows the results of every stage
     "benchmarks/stages/",  # measures the stages one by one
     "benchmarks/multisample.cpp",  # gives the peers the same sample positions
+    "tests/consumer/packet_positions.cpp",  # loads packet functions of two SIMD widths into one process
     "tests/raster/",
     "tests/explain/",
     "tests/render/display_test.cpp",  # counts allocations that are as large as tile memory
