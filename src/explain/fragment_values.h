@@ -38,7 +38,7 @@ struct LightFactors {
   glm::vec3 diffuse_color{0.0f}, specular_color{0.0f};  ///< of the light, including its intensity
   float n_l = 0.0f;                                     ///< max(n·l, 0), times the attenuation of the light
   float highlight = 0.0f;                               ///< the specular light per unit of light and of the specular factor
-  float shadow = 1.0f;                                  ///< 0: in shadow
+  float shadow = 1.0f;                                  ///< 0: in shadow, or the surface faces away from the light
   glm::vec3 diffuse{0.0f}, specular{0.0f};              ///< the terms
 };
 

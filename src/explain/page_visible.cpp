@@ -58,12 +58,22 @@ void add_shading(const PageInput& in, PageJson& json) {
 
 bool is_layer(const TracedFragment& f) { return f.outcome == FragmentOutcome::layered || f.outcome == FragmentOutcome::layer_merged; }
 
-// Returns the number of layers of the sample with the most layers, and its index.
-std::pair<int, uint8_t> most_layers(const FrameTrace& trace, glm::ivec2 pixel) {
-  std::array<int, kMaxSamples> counts{};
-  for (const TracedFragment& f : trace.at(pixel)) counts[f.sample] += is_layer(f);
-  const auto most = std::ranges::max_element(counts);
-  return {*most, static_cast<uint8_t>(most - counts.begin())};
+// The layers of a sample.
+struct SampleLayers {
+  int count = 0;
+  float alpha = 0.0f;  // sum
+  uint8_t sample = 0;
+  auto operator<=>(const SampleLayers& o) const { return std::pair(count, alpha) <=> std::pair(o.count, o.alpha); }
+};
+
+// Returns the sample of a pixel with the most layers. Layers that are completely transparent are not counted.
+SampleLayers most_layers(const FrameTrace& trace, glm::ivec2 pixel) {
+  std::array<SampleLayers, kMaxSamples> samples;
+  for (const TracedFragment& f : trace.at(pixel)) {
+    if (!is_layer(f) || !(f.color.w > 0.0f)) continue;
+    samples[f.sample] = {samples[f.sample].count + 1, samples[f.sample].alpha + f.color.w, f.sample};
+  }
+  return *std::ranges::max_element(samples, [](const SampleLayers& a, const SampleLayers& b) { return (a <=> b) < 0; });
 }
 
 }  // namespace
@@ -86,18 +96,18 @@ PageJson visible_json(const PageInput& in) {
 
 PageJson layers_json(const PageInput& in) {
   glm::ivec2 pixel = in.pixel;  // or the first pixel with the most layers
-  int most = most_layers(in.trace, pixel).first;
-  const bool has_layers = most > 0;
+  SampleLayers most = most_layers(in.trace, pixel);
+  const bool has_layers = most.count > 0;
   for (int y = 0; y < in.trace.height && !has_layers; ++y) {
     for (int x = 0; x < in.trace.width; ++x) {
-      const int n = most_layers(in.trace, {x, y}).first;
-      if (n <= most) continue;
-      most = n;
+      const SampleLayers here = most_layers(in.trace, {x, y});
+      if ((here <=> most) <= 0) continue;
+      most = here;
       pixel = {x, y};
     }
   }
-  if (most == 0) return nullptr;
-  const uint8_t sample = most_layers(in.trace, pixel).second;
+  if (most.count == 0) return nullptr;
+  const uint8_t sample = most.sample;
   std::vector<TracedFragment> layers;
   glm::vec4 under = in.scene.clear_color;
   for (const TracedFragment& f : in.trace.at(pixel)) {

@@ -160,14 +160,15 @@ function lightFormulas() {
 function modelLight(l, cosine) {
   const d = LIGHTING.albedo.map((a, k) => l.diffuse_color[k] * l.n_l * l.shadow * a * LIGHTING.diffuse[k]);
   const s = LIGHTING.specular.map((a, k) => l.specular_color[k] * l.highlight * l.shadow * a);
-  const factors = `light ${vec(l.diffuse_color, 4)} · n·l ${fmt(l.n_l, 6)} · shadow ${fmt(l.shadow, 5)}`;
+  const factors = `light ${vec(l.diffuse_color, 4)} · n·l ${fmt(l.n_l, 6)} · shadow ${shadowOf(l)}`;
   return `${factors}\n→ diffuse   <b>${triple(d)}</b>${cosine ? `\n${cosine}<sup>${fmt(LIGHTING.shininess, 4)}</sup> = ${fmt(l.highlight, 6)}\n→ specular  <b>${triple(s)}</b>` : ""}`;
 }
+const shadowOf = (l) => (l.n_l > 0 || l.highlight > 0 ? fmt(l.shadow, 5) : "–, because the surface faces away from the light");
 // The remaining factors are the quotient of the term and the other factors.
 function metallicLight(l) {
   const rest = l.diffuse.map((d, k) => d / (l.diffuse_color[k] * l.n_l * l.shadow * LIGHTING.albedo[k])), shine = l.specular.map((s, k) => s / (l.specular_color[k] * l.shadow));
   const known = (v) => (v.every(Number.isFinite) ? triple(v) : "–");
-  return `light ${vec(l.diffuse_color, 4)} · n·l ${fmt(l.n_l, 6)} · shadow ${fmt(l.shadow, 5)}\n(1 − metallic) · (1 − F)  ${known(rest)}\n→ diffuse   <b>${triple(l.diffuse)}</b>\nreflectance ${known(shine)}\n→ specular  <b>${triple(l.specular)}</b>`;
+  return `light ${vec(l.diffuse_color, 4)} · n·l ${fmt(l.n_l, 6)} · shadow ${shadowOf(l)}\n(1 − metallic) · (1 − F)  ${known(rest)}\n→ diffuse   <b>${triple(l.diffuse)}</b>\nreflectance ${known(shine)}\n→ specular  <b>${triple(l.specular)}</b>`;
 }
 
 chapter({
