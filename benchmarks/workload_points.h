@@ -6,8 +6,8 @@
 
 namespace halfspace {
 
-/// Point sprites shaded as spheres. The fragment function computes the normal and depth of the sphere. Eye space is world space relative
-/// to the eye.
+/// Point sprites shaded as spheres. The fragment function computes the normal and depth of the sphere. Eye space is world space translated
+/// to the eye, without a rotation.
 struct PointShader {
   glm::mat4 clip_from_world;
   glm::vec3 eye_ws;

@@ -35,7 +35,7 @@ class Results:
         return row["ms"] if row else None
 
     def picture_counts(self, contender, workload, size):
-        """Whether the picture is within 1/255 of double precision on 99.9% of the covered pixels, and as accurate as llvmpipe's."""
+        """Whether 99.9% of the covered pixels are within 1/255 of the reference, and the picture is as accurate as llvmpipe's."""
         ours = self.pictures.get((contender, workload, size))
         theirs = self.pictures.get(("llvmpipe 1", workload, size))
         if not ours or ours["colors_off"] > ours["covered"] / 1000:

@@ -35,8 +35,8 @@ def line_comments(path, marker):
         while i < len(lines) and lines[i].lstrip().startswith(marker):
             i += 1
         if i > begin:
-            block = [line for line in lines[begin:i] if "SPDX" not in line and not line.startswith("#!") and re.search("[a-z]{3}", line)]
-            if block and "----" not in "".join(block):
+            block = [line for line in lines[begin:i] if "SPDX" not in line and not line.startswith("#!")]
+            if re.search("[a-z]{3}", "".join(block)) and "----" not in "".join(block):
                 yield begin + 1, "\n".join(block + lines[i : i + LINES_AFTER])
         elif marker == "//" and trailing.match(lines[i]) and '"' not in lines[i] and "// namespace" not in lines[i]:
             yield i + 1, "\n".join(lines[i : i + 1 + LINES_AFTER])

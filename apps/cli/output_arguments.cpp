@@ -62,7 +62,7 @@ ImageRect parse_crop(std::string_view text, const PictureSize& size) {
   const bool inside = r.x >= 0 && r.y >= 0 && r.width >= 1 && r.height >= 1 && r.x < size.width && r.y < size.height &&
                       r.width <= size.width - r.x && r.height <= size.height - r.y;
   if (!inside) {
-    throw UsageError(fmt::format("--crop is '{}'; expected X,Y,W,H inside the image of {}x{}, for example 0,0,{},{}", text, size.width,
+    throw UsageError(fmt::format("--crop is '{}'; expected X,Y,W,H inside the {}x{} image, for example 0,0,{},{}", text, size.width,
                                  size.height, (size.width + 1) / 2, (size.height + 1) / 2));
   }
   return r;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Lesson 4: the picture of lesson 3, drawn with the library. The camera is a matrix, the mesh is a list of vertices and indices, and the
+// Lesson 4: the picture from lesson 3, drawn with the library. The camera is a matrix, the mesh is a list of vertices and indices, and the
 // shader transforms the vertices and colors the pixels.
 #include "halfspace/geometry/camera.h"
 #include "halfspace/image/image_io.h"

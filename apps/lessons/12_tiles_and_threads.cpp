@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Lesson 12: threads draw parts of an image in parallel. Compares the loops of lesson 11 with bands of rows and the tiles of the library.
+// Lesson 12: threads draw parts of an image in parallel. Compares the loops from lesson 11 with bands of rows and with the tiles of the
+// library.
 #include <chrono>
 #include <cstdio>
 

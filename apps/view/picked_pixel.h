@@ -13,7 +13,7 @@ namespace halfspace {
 struct PickedPixel {
   glm::ivec2 pixel{0};       ///< position in the window, from the upper left corner
   std::string object;        ///< name of the visible object; empty if there is none
-  std::string history;       ///< output of `halfspace explain --text`; empty until a frame was rendered
+  std::string history;       ///< output of `halfspace explain --text`; empty until a frame has been rendered
   bool is_outdated = false;  ///< the history is that of an earlier frame
 };
 

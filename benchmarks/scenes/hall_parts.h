@@ -11,7 +11,7 @@ inline constexpr int kBays = 8;
 inline constexpr double kBay = 4.5, kEnd = 0.5 * kBays * kBay;  // length of a bay; half the length of the hall
 inline constexpr double kNave = 4.5, kAisle = 9.0;              // distances of the columns and of the outer walls from the axis
 inline constexpr double kSpring = 4.2, kAisleHeight = 6.2;      // height of the columns, and of the aisles
-inline constexpr double kVaultSpring = 11.0, kEaves = 12.4, kRoofRidge = 18.2;  // lower end of the vault; lower and upper end of the roof
+inline constexpr double kVaultSpring = 11.0, kEaves = 12.4, kRoofRidge = 18.2;  // bottom of the vault; bottom and top of the roof
 inline constexpr double kDaisFront = -12.0, kDais = 1.44;                       // edge and height of the dais
 
 inline double bay_center(int i) { return -kEnd + kBay * (i + 0.5); }

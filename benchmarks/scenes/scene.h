@@ -97,7 +97,7 @@ DrawState scene_state(const SceneMaterial& material);
 
 /// For the comparison with the shadow map, a point is moved along its normal by this distance, in meters.
 inline constexpr float kSceneNormalOffset = 0.05f;
-/// Bias of the comparison in window depth.
+/// Bias of the shadow comparison, in window-space depth.
 inline constexpr float kSceneBias = 0.0004f;
 
 /// A row of the benchmark.

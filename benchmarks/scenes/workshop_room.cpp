@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kThick = 0.3, kX = 0.5 * kRoom.x, kZ = 0.5 * kRoom.z;
 
-// An opening in a wall: the position of its center along the wall, its width, and its lower and upper ends.
+// An opening in a wall: the position of its center along the wall, its width, and its bottom and top edges.
 struct Opening {
   double middle, width, low, high;
 };

@@ -66,7 +66,8 @@ def phong(clip_from_world: Any, world_from_object: Any = None, *, eye: Any, ligh
           ambient: Any = (0.0, 0.0, 0.0), diffuse: Any = (1.0, 1.0, 1.0), specular: Any = (0.0, 0.0, 0.0), emissive: Any = (0.0, 0.0, 0.0),
           shininess: float = 32.0, model: str = "blinn_phong", per_vertex: bool = False, two_sided: bool = False, texture: Any = None,
           normal_texture: Any = None, normal_scale: float = 1.0) -> Any:
-    """Returns a shader for surfaces: color (ambient + diffuse D) + specular S + emissive. Arrays: positions, normals (N, 3), and uvs (N, 2)
+    """Returns a shader for surfaces. It computes color * (ambient + diffuse * D) + specular * S + emissive, where D and S are the sums
+    of the diffuse and specular terms of the lights. Arrays: positions, normals (N, 3), and uvs (N, 2)
     if there is a texture, which multiplies the color.
 
     eye: position of the camera in world space.   model: lambert, phong, blinn_phong.   per_vertex: Gouraud shading.

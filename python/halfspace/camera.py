@@ -76,7 +76,7 @@ class Camera:
     def from_matrices(cls, projection: Any, *, view: Any = None, pose: Any = None) -> "Camera":
         """Returns a camera with the given OpenGL matrices.
 
-        projection: camera to clip space, shape (4, 4), float; -w at the near plane and w at the far plane. Perspective and
+        projection: camera to clip space, shape (4, 4), float. Clip-space z is -w at the near plane and w at the far plane. Perspective and
             orthographic projections may be off-center or skewed. The aspect ratio of the picture should match the projection.
         view: world to camera, OpenGL axes, shape (4, 4); or
         pose: its inverse, camera to world.

@@ -170,8 +170,8 @@ class Scene:
 
     @property
     def bounds(self) -> Optional[np.ndarray]:
-        """The lowest and highest coordinates of all visible objects at time 0, in world space: float64 of shape (2, 3). None if there are
-        no such objects. The box of an object is that of its transformed bounding box."""
+        """The minimum and maximum coordinates of all visible objects at time 0, in world space: float64 of shape (2, 3). None if there are
+        no such objects. Each object contributes the axis-aligned box around its transformed bounding box."""
         self._flush()
         return self._core.bounds()
 
@@ -245,7 +245,7 @@ class Scene:
 
         time: time in seconds for all pictures, or one time per camera.
         progress: called as progress(done, total) after each picture, from any thread. An exception that it raises ends the batch.
-        Returns an array of shape (N, height, width, C) with the pictures that render() returns for each camera. Its elements can be saved.
+        Returns an array of shape (N, height, width, C): for each camera, the picture that render() returns. Each can be passed to save().
         """
         width, height = _check.size(size)
         cameras = _check.items("cameras", cameras, "a sequence of cameras")

@@ -55,8 +55,8 @@ class SceneCore {
   CameraDescription camera(const std::string& name, double time) const;
   /// Returns the whole scene as the text of a scene file.
   std::string print() const;
-  /// Returns the lowest and highest coordinates of all visible objects at time 0, in world space; nullopt if there are none. The box of an
-  /// object is that of its transformed bounding box.
+  /// Returns the minimum and maximum coordinates of all visible objects at time 0, in world space; nullopt if there are none. Each object
+  /// contributes the axis-aligned box around its transformed bounding box.
   std::optional<std::array<glm::dvec3, 2>> bounds();
 
   /// Provides the model for objects with this file name.

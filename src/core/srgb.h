@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Conversion between 8-bit values and linear values, for the sRGB transfer function (IEC 61966-2-1) and for unsigned normalized integers,
-// which can also be decoded from 16 bits. Results are correctly rounded and bit-identical at every width. Nothing here computes a power:
-// decoding uses a table of 256 floats, encoding a table of thresholds. Both tables are computed at compile time using only + − × ÷
-// (srgb.cpp).
+// Conversion between 8-bit values and linear values, for the sRGB transfer function (IEC 61966-2-1) and for unsigned normalized integers.
+// 16-bit unsigned normalized integers can only be decoded. Results are correctly rounded and bit-identical at every width. Nothing here
+// computes a power: decoding uses a table of 256 floats, encoding a table of thresholds. Both tables are computed at compile time using
+// only + − × ÷ (srgb.cpp).
 //
 //   decode(v) = v/12.92 for v <= 0.04045, else ((v + 0.055)/1.055)^2.4        encode is its inverse
 #pragma once

@@ -20,8 +20,8 @@ inline constexpr std::size_t kMaxPageFragments = 2'600'000, kMaxPageValues = 4'0
 /// FrameTrace::kMaxFragments.
 uint32_t fragments_per_pixel(const FrameTrace& trace, std::size_t max_fragments);
 
-/// Returns the indices of at most `max_fragments` fragments of a pixel, in order. Shaded fragments are preferred over others, and earlier fragments
-/// over later ones.
+/// Returns the indices of at most `max_fragments` fragments of a pixel, in order. Shaded fragments are preferred over others, and earlier
+/// fragments over later ones.
 std::vector<uint32_t> kept_fragments(std::span<const TracedFragment> fragments, uint32_t max_fragments);
 
 /// Returns the pixels that are stored with all values: the center, 64x64 pixels around it, and every eighth pixel in x and y. They are

@@ -20,7 +20,7 @@ struct LightTerm {
   std::string name;
 };
 
-/// Returns the terms of a scene, except those that no shader of the scene can have.
+/// Returns the light terms that the shaders of a scene can use.
 std::vector<LightTerm> light_terms(const PreparedScene& scene);
 
 /// Whether surfaces receive the shadows of the lights.

@@ -33,10 +33,11 @@ enum class MapEdges : uint8_t { sphere, torus, cylinder, sheet };
 /// stays within the range of the texels, and reproduces constants and ramps. Results depend only on the map and the arguments, bit for bit.
 class HeightField {
  public:
-  /// `map` may be in any unit; width ≥ 2 and height ≥ 1. On a sphere, a map with an odd width is resampled to one column less, because half
-  /// a turn must be an integer number of texels. `smoothing` ≥ 0 is the standard deviation of a Gaussian in texels: about 1 for a sharp
-  /// map, 2 to 3 to remove the terraces of 8-bit maps. On a sphere it is measured in texels at the equator and has the same length along u
-  /// and v. A row at v is smoothed along u by smoothing / sin πv texels, so that the crowded texels near the poles do not become noise.
+  /// `map` may be in any unit; width ≥ 2 and height ≥ 1. On a sphere, a map with an odd width is resampled to one fewer column, because
+  /// half a turn must be an integer number of texels. `smoothing` ≥ 0 is the standard deviation of a Gaussian in texels: about 1 for a
+  /// sharp map, 2 to 3 to remove the terraces of 8-bit maps. On a sphere it is measured in texels at the equator and has the same length
+  /// along u and v. A row at v is smoothed along u by smoothing / sin πv texels, so that the compressed texels near the poles do not turn
+  /// into noise.
   HeightField(const Image<float>& map, double smoothing, const Workers& workers, MapEdges edges = MapEdges::sphere);
 
   int width() const { return texels_.width(); }

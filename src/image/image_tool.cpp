@@ -92,7 +92,7 @@ Exchange receive_samples(ToolProcess& tool, const PictureHeader& h, const std::s
   return complete ? Exchange::answered : Exchange::tool_ended;
 }
 
-// Receives the decoder's answer, an image or a message.
+// Receives the decoder's response: an image or an error message.
 template <class Picture>
 Exchange receive_picture(ToolProcess& tool, uint32_t channels, const std::string& name, Picture& picture, std::string& message) {
   PictureHeader h;
@@ -193,7 +193,7 @@ std::vector<std::byte> encode_by_tool(const std::filesystem::path& path, const c
   std::vector<std::byte> file;
   std::string message;
   const auto failure = exchange_with_tool(image_tool_pool(), program, [&](ToolProcess& tool) {
-    // An encoder that reports an error ends before it has received all rows; its answer contains the reason.
+    // An encoder that fails exits before it has received all rows; its response gives the reason.
     const bool sent = tool.send(&request, sizeof request) && tool.send(&header, sizeof header) && send_rows(tool, header, fill_row);
     const Exchange result = receive_file(tool, max_bytes, file, message);
     return sent || !message.empty() ? result : Exchange::tool_ended;

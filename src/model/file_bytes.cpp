@@ -35,7 +35,7 @@ std::size_t size_of(const std::filesystem::path& file, int descriptor, std::size
   struct stat status = {};
   if (::fstat(descriptor, &status) != 0) fail_with_errno(file);
   if (S_ISDIR(status.st_mode)) fail(file, "is a directory; expected a file");
-  if (!S_ISREG(status.st_mode)) fail(file, "is not a regular file; expected a regular file");
+  if (!S_ISREG(status.st_mode)) fail(file, "is a device, pipe or socket; expected a regular file");
   const auto size = static_cast<std::size_t>(status.st_size);
   if (size > max_bytes)
     throw LimitError(fmt::format("{}: has {} bytes; expected at most {} (--max-memory)", file.string(), size, max_bytes));

@@ -82,7 +82,7 @@ void read_clearcoat(GltfDocument& document, GltfTextures& textures, const GltfVa
 void read_transmission(GltfDocument& document, const GltfValue& json, ModelMaterial& material) {
   const float transmission = document.factor(json, "transmissionFactor", 0.0f);
   if (transmission == 0.0f) return;
-  document.warn("KHR_materials_transmission is approximated by blending, without refraction and transmission textures");
+  document.warn("KHR_materials_transmission is approximated by blending; refraction and transmission textures are ignored");
   material.alpha_mode = AlphaMode::blend;
   material.base_color.w *= std::max(1.0f - transmission, kMinGlassOpacity);
 }

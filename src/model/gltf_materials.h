@@ -11,7 +11,7 @@ namespace halfspace::inline HS_LANES_NAMESPACE {
 /// (approximated by blending) and pbrSpecularGlossiness (converted).
 std::vector<ModelMaterial> gltf_materials(GltfDocument& document, GltfTextures& textures);
 
-/// Returns the material of primitives without one. glTF defines it as a rough white metal.
+/// Returns the default material, which is used by primitives that do not name one. glTF defines it as a rough white metal.
 ModelMaterial gltf_default_material();
 
 /// Converts the factors of KHR_materials_pbrSpecularGlossiness to base color, metallic and roughness, as in the appendix of that extension:

@@ -14,7 +14,7 @@ namespace halfspace::inline HS_LANES_NAMESPACE {
 /// Returns whether a URI contains its data ("data:...").
 bool is_data_uri(std::string_view uri);
 
-/// Returns the data of a data URI, encoded in Base64 or with percent signs (RFC 2397), or nothing if it is invalid. The result is not
+/// Returns the data of a data URI (RFC 2397), which is Base64-encoded or percent-encoded, or nothing if it is invalid. The result is not
 /// longer than the URI.
 std::optional<std::vector<std::byte>> data_of_uri(std::string_view uri);
 

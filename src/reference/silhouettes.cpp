@@ -34,8 +34,7 @@ Image<int> seen_objects(const PreparedScene& scene, int finer, const Workers& wo
   Pass pass(width, height, rgba32f_target(numbers), {.format = DepthFormat::d32f, .clear_value = 0.0f});
   for (const PlacedMesh& m : scene.meshes) {
     pass.draw(NumberedMesh{{glm::mat4(view.clip_from_world * m.world_from_object)}, static_cast<float>(m.object + 1)},
-              make_vertex_view(stream(m.positions)), *m.indices,
-              opaque_state(m.two_sided ? CullMode::none : CullMode::back, m.mirrored()));
+              make_vertex_view(stream(m.positions)), *m.indices, opaque_state(m.two_sided ? CullMode::none : CullMode::back, m.mirrored()));
   }
   const SphereCamera camera(view.clip_from_world, view.near, view.far);
   std::deque<std::vector<glm::vec3>> centers_cs;  // the pass keeps pointers to the elements

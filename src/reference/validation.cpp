@@ -77,8 +77,9 @@ std::string json_report(const Validation& validation) {
 }
 
 std::string text_report(const Validation& validation) {
-  std::string text = fmt::format("{:<14} {:<10} {:<9} {:<14} {:>5}  {:^29}  {:^29}  {:>18} {:>7} {:>7}\n", "scene", "light", "method",
-                                 "bias", "size", "false shadow, % of lit", "false light, % of shadowed", "edge, px", "map ms", "lookup");
+  std::string text =
+      fmt::format("{:<14} {:<10} {:<9} {:<14} {:>5}  {:^29}  {:^29}  {:>18} {:>7} {:>7}\n", "scene", "light", "method", "bias", "size",
+                  "false shadow, % of lit px", "false light, % of shadowed px", "edge, px", "map ms", "lookup");
   text += fmt::format("{:<14} {:<10} {:<9} {:<14} {:>5}  {:>9}{:>10}{:>10}  {:>9}{:>10}{:>10}  {:>5} {:>5} {:>6}\n", "", "", "", "", "",
                       "<=1 texel", "1 to 3", "beyond", "<=1 texel", "1 to 3", "beyond", "mean", "p95", "max");
   for (const ShadowComparison& c : validation.lights) {

@@ -15,10 +15,10 @@
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
 
-/// How a model is shown. The default is a view from the front right and above that shows the whole model.
+/// How a model is shown. The default is a three-quarter view from above, which shows the whole model.
 struct ModelView {
   double aspect = 16.0 / 9.0;              ///< width / height of the image
-  double yaw = 35.0, pitch = 18.0;         ///< degrees; position of the eye around the model: from the front (+z) to the right, and upwards
+  double yaw = 35.0, pitch = 18.0;         ///< degrees; orbit angles of the eye; yaw is 0 in front (+z) and positive to the right
   double zoom = 1.0;                       ///< > 0; larger values bring the eye nearer
   double fov = 35.0;                       ///< full vertical angle in degrees
   std::optional<glm::dvec3> eye, look_at;  ///< world space; replace the computed positions

@@ -109,7 +109,7 @@ Section section_of(CameraDescription& c) {
       key<&T::fov>("fov", "Vertical field of view", {.unit = "degrees", .low = 0.01, .high = 179, .only = "perspective"}),
       key<&T::height>("height", "Height of the view volume", {.unit = "units", .low = kTiny, .high = kMaxCount, .only = "orthographic"}),
       key<&T::near>("near", "Distance of the near plane", {.unit = "units", .low = kTiny, .high = kMaxCount}),
-      key<&T::far>("far", "Distance of the far plane", {.unit = "units", .low = kTiny, .high = kMaxCount}),
+      key<&T::far>("far", "Distance to the far plane", {.unit = "units", .low = kTiny, .high = kMaxCount}),
   };
   return {{keys, &c}};
 }
@@ -169,7 +169,7 @@ Section section_of(SurfaceDescription& s) {
       key<&T::shininess_map>("shininess_map", "Map that multiplies the exponent, not decoded from sRGB", {.low = 0, .high = 1}),
       key<&T::emissive>("emissive", "Light emitted by the surface", {.low = 0}),
       key<&T::emissive_map>("emissive_map", "Map that multiplies the emitted light", {.low = 0}),
-      key<&T::reflection>("reflection", "Factor for reflections of the environment; requires shading phong", {.low = 0, .high = 1e3}),
+      key<&T::reflection>("reflection", "Strength of the reflections of the environment; requires Phong shading", {.low = 0, .high = 1e3}),
       key<&T::textured>("textured", "Whether color maps are used"),
       key<&T::model>("model", "Reflection model: diffuse only, or with a highlight from the reflected ray or from the half vector"),
       key<&T::shading>("shading", "How often lighting is computed: never, per triangle, per vertex, per pixel"),

@@ -28,11 +28,11 @@ struct LightKind {
   bool has_cone;          ///< shines only in the directions between LightDescription::inner and outer
 };
 
-/// Returns the row of a type.
+/// Returns the table entry of a light type.
 const LightKind& kind_of(LightType type);
 
-/// Returns the names of the types that have a key, separated by spaces, in the form that Limits::only requires. The string lives until the
-/// program ends.
+/// Returns the names of the light types that support the given key, separated by spaces, as Limits::only requires. The string lives until
+/// the program ends.
 const char* lights_with(std::string_view key);
 
 }  // namespace halfspace::inline HS_LANES_NAMESPACE

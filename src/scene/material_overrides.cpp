@@ -48,7 +48,7 @@ void check_material_overrides(const SceneDescription& scene, const ObjectDescrip
   for_each_override(o.model_materials, [&](std::string_view of, std::string_view material) {
     if (of.empty() || material.empty())
       throw InputError(where + ".model_materials: '" + o.model_materials +
-                       "'; expected NAME=MATERIAL, NAME=MATERIAL with names of the model's materials");
+                       "'; expected NAME=MATERIAL[, NAME=MATERIAL...], where each NAME is a material of the model");
     if (find_named(scene.materials, material) == nullptr)
       throw InputError(where + ".model_materials: no material '" + std::string(material) + "'" +
                        suggestion(material, names_of(scene.materials)));

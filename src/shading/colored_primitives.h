@@ -9,7 +9,7 @@ namespace halfspace::inline HS_LANES_NAMESPACE {
 
 struct ColoredPrimitives {
   glm::mat4 clip_from_object;
-  glm::vec4 color{1.0f};    ///< linear; multiplies the vertex colors
+  glm::vec4 color{1.0f};  ///< linear; multiplies the vertex colors
 
   template <class R>
   struct Attributes {

@@ -67,8 +67,8 @@ Faces filled_faces(int size, const Workers& workers, const F& color) {
   return faces;
 }
 
-// One direction of incident light relative to the normal +z, its weight, and a level of the base map. The texels of this level are as large
-// as the solid angle of the sample.
+// One direction of incident light relative to the normal +z, its weight, and a level of the base map whose texels cover about the solid
+// angle of the sample.
 struct LobeSample {
   glm::vec3 l;
   float weight, level;

@@ -20,7 +20,8 @@ namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Maximum penumbra radius of pcss, in texels.
 inline constexpr float kMaxPenumbra = 64.0f;
-/// For ShadowBias::automatic: offset in texels (see automatic_depth_offset), and the maximum tangent of the angle of incidence (89.99 degrees).
+/// For ShadowBias::automatic: offset in texels (see automatic_depth_offset), and the maximum tangent of the angle of incidence (89.99
+/// degrees).
 inline constexpr float kAutomaticDepthOffset = 0.5f, kSteepestSlope = 1e4f;
 
 /// One depth image as seen from a light. Positions are in camera-relative world space (_rws, see Light).

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Projection of points to shadow maps.
+// Projects points into shadow maps.
 #pragma once
 
 #include "halfspace/core/lane_math.h"

@@ -76,8 +76,8 @@ struct SphereImpostor : SphereImpostors {
     return {vec4<R>(color, R(1)), h.seen, lens.window_depth(h.t, h.t_low)};
   }
 
-  /// Returns the side length of the classic sprite in pixels: point_scale · radius / distance, where distance is z times the
-  /// tangent of half the horizontal field of view (orthographic: half the width of the view).
+  /// Returns the side length of the sprite in pixels: point_scale · radius / half_width, where half_width is half the width of the view
+  /// volume at depth z.
   template <class R>
   HS_INLINE R point_size(const vec3<R>& center_cs, R radius) const {
     const R size = R(point_scale / lens.half.x) * radius;

@@ -6,7 +6,7 @@
 //
 // The ray of a pixel is t·d with d = (dx, dy, 1), where t is the depth along z; in an orthographic view it is (dx, dy, t). The
 // computation starts where the ray crosses the plane z = c.z through the center c of the sphere. Relative to c this is the point
-// e = d·c.z − c, which has z = 0, so that all lengths are of the order of the sphere even if it is far away. The distance δ from a
+// e = d·c.z − c, which has z = 0, so that all lengths are on the order of the radius even if the sphere is far away. The distance δ from a
 // point p = e + s·d of the ray to the sphere satisfies, with a = d·d:
 //   a·δ² + 2·(p·d)·δ + |p|² − r² = 0, δ = (−p·d − √((p·d)² + a·(r² − |p|²))) / a, t = c.z + s + δ, normal = (p + δ·d) / r.
 // If p is the point closest to the center, s = −(e·d)/a, then p·d is only a rounding error, and r² − |p|² measures how deep the ray enters

@@ -271,7 +271,7 @@ inline constexpr float kLevelLog2[] = {1.44264627f, -0.720555007f, 0.485306472f,
 
 }  // namespace detail
 
-/// whole must be floor(lod + kLevelSnap). If lod is out of range, any number beyond the same end of the chain is sufficient.
+/// whole must be floor(lod + kLevelSnap). If lod is out of range, any level beyond that end of the mip chain will do.
 template <class R>
 HS_INLINE Texture2D::LevelChoice<R> Texture2D::choose_level(const Sampler& sampler, R lod, IntOf<R> whole) const {
   const MaskOf<R> minified = lod > R(0.0f);

@@ -53,7 +53,8 @@ Plane plane_of(const Corners& corners, const std::array<float, 3>& v, float x0, 
   return {a, b, v[0] - a * (f(corners[0].x) - x0) - b * (f(corners[0].y) - y0)};
 }
 
-// The methods. The constructor performs the triangle setup. value(x, y) interpolates at positions in 1/256 px, for all lanes at once.
+// The interpolation methods that are compared. The constructor performs the triangle setup. value(x, y) interpolates in all lanes at once;
+// positions are in units of 1/256 px.
 struct Affine {
   using R = Real;
   TriangleLanes<R> t;

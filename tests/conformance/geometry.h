@@ -52,7 +52,7 @@ enum class Where : uint8_t { inside, outside, unsure };
 inline constexpr double kMargin = 2.0 / 256.0;
 Where where(const Region& region, const glm::dvec2& point, double margin = kMargin);
 
-/// Returns a convex polygon in the window. The vertices can be in either orientation.
+/// Returns a convex polygon in the window. The vertices can be in either winding order.
 Region polygon(std::span<const glm::dvec2> corners);
 /// Computes the visible part of a clip-space triangle from the planes of its homogeneous weights. w may have any sign. The part is limited
 /// by the near and far planes unless depth is clamped. Returns nothing if the triangle is seen edge-on.

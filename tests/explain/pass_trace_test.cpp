@@ -250,7 +250,7 @@ TEST(PassTrace, SamplesOfAnEdgePixelHaveTheirOwnFragments) {
   EXPECT_GE(edge_pixels, 1);
 }
 
-TEST(PassTrace, DrawsWithoutColorWriteOnlyDepth) {
+TEST(PassTrace, DepthOnlyDrawsLeaveColorUnchanged) {
   Traced t;
   t.draw(ConstantShader(kRed), part(0.0f), kDepthOnlyState);
   t.run();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What holds for every model that a reader returns, whatever its file contains.
+// Invariants of every model that a reader returns, whatever its file contains.
 #pragma once
 
 #include <algorithm>

@@ -173,7 +173,7 @@ TEST_F(DecoderProcess, IsReplacedAfterAFailedWrite) {
 }
 
 // An earlier image may have corrupted a process, which then crashes on a valid image.
-TEST_F(DecoderProcess, CrashOfAUsedProcessIsRetried) {
+TEST_F(DecoderProcess, RetriesWhenAReusedProcessCrashes) {
   EXPECT_EQ(error_if_signaled(SIGSEGV), "");
   EXPECT_EQ(zombies(), 0u);
 }

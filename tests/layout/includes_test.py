@@ -90,7 +90,7 @@ def raster_phase(path):
 
 
 def check_raster_include(file, included):
-    """Returns the problem with an include of a file of raster (path relative to src/) from outside of raster, or None."""
+    """Describes the error if a file outside raster includes a private header of raster (path relative to src/); otherwise returns None."""
     is_private = included.count("/") > 1
     if is_private and not file.startswith(tuple(RASTER_PRIVATE_USERS)):
         return f"includes {included}: the folders of raster are private; expected a header of src/raster itself"

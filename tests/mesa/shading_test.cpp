@@ -53,7 +53,7 @@ class ColorsOnGrid : public SoupTest {
   }
 };
 TEST_P(ColorsOnGrid, SmoothAgrees) { draw(SmoothColor{}); }
-TEST_P(ColorsOnGrid, NoPerspectiveAgrees) { draw(LinearColor{}); }
+TEST_P(ColorsOnGrid, NoperspectiveMatchesTheReference) { draw(LinearColor{}); }
 TEST_P(ColorsOnGrid, FlatFromTheLastVertexAgrees) { draw(FlatColor{}); }
 TEST_P(ColorsOnGrid, FlatFromTheFirstVertexAgrees) { draw(FlatColor{}, kFirstVertex); }
 
@@ -78,7 +78,7 @@ class ColorsOf : public SoupTest {
   }
 };
 TEST_P(ColorsOf, SmoothAgrees) { draw(SmoothColor{}); }
-TEST_P(ColorsOf, NoPerspectiveAgrees) { draw(LinearColor{}); }
+TEST_P(ColorsOf, NoperspectiveMatchesTheReference) { draw(LinearColor{}); }
 TEST_P(ColorsOf, FlatFromTheLastVertexAgrees) { draw(FlatColor{}); }
 TEST_P(ColorsOf, FlatFromTheFirstVertexAgrees) { draw(FlatColor{}, kFirstVertex); }
 

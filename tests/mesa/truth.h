@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Computes a pixel in double precision, following the OpenGL specification as directly as possible: all triangles in order, no clipping
-// (coverage follows from the signs of clip-space weights), and the shader evaluated with R = double. This decides which renderer causes a
-// difference. Vertex functions are evaluated in float, as in both renderers. The target stores 8-bit values: the result of every fragment
-// is rounded to 8 bits, and the next blend reads the rounded value.
+// (coverage follows from the signs of clip-space weights), and the shader evaluated with R = double. If two renderers differ, this
+// determines which one is at fault. Vertex functions are evaluated in float, as in both renderers. The target stores 8-bit values: the
+// result of every fragment is rounded to 8 bits, and the next blend reads the rounded value.
 #pragma once
 
 #include <algorithm>

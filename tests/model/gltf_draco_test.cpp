@@ -17,8 +17,7 @@ namespace {
 
 constexpr int kPositionBits = 14, kNormalBits = 10, kUvBits = 12, kWeightBits = 12;
 
-// A square patch of a wave with size x size vertices. The first joint of each vertex is the number of the vertex, which compression
-// preserves.
+// A square patch of a wave with size x size vertices. The first joint of each vertex is its vertex index, which compression preserves.
 struct Patch {
   std::vector<glm::vec3> positions, normals;
   std::vector<glm::vec2> uvs;

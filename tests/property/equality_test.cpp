@@ -94,7 +94,10 @@ TEST_P(RandomScenes, MatchTheOracleForAnyThreadsTilesChunksAndFlushes) {
   const char* one = std::getenv("HALFSPACE_SEED");
   const char* many = std::getenv("HALFSPACE_STATES");
   const uint64_t first = one != nullptr ? std::strtoull(one, nullptr, 10) : 0;
-  const uint64_t count = one != nullptr ? 1 : many != nullptr ? std::strtoull(many, nullptr, 10) : runs_long_tests() ? kScenesOfLongTests : kScenes;
+  const uint64_t count = one != nullptr      ? 1
+                         : many != nullptr   ? std::strtoull(many, nullptr, 10)
+                         : runs_long_tests() ? kScenesOfLongTests
+                                             : kScenes;
   uint64_t draws = 0, pixels = 0, passed = 0, triangles = 0;
   for (uint64_t seed = first; seed < first + count; ++seed) {
     Scene scene = random_scene(theme, seed);

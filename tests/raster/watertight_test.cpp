@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Meshes with shared vertices must draw every inside sample exactly once: additive blending must give 1, without holes or double hits. The
-// reference counts crossings of the mesh outline in integer arithmetic. The result for samples on the outline is therefore also
-// well-defined, and there is no tolerance.
+// Meshes with shared vertices must cover every interior sample exactly once: additive blending must give 1 everywhere, without holes or
+// overlaps. The reference counts crossings of the mesh outline in integer arithmetic. The result for samples on the outline is therefore
+// also well-defined, and there is no tolerance.
 #include <algorithm>
 #include <cmath>
 
@@ -420,8 +420,8 @@ class PlaneFan {
   PlaneFan(Random& r, const Projection& projection, int spokes) : project_(projection) {
     const glm::dmat3 turn = random_rotation(r);
     const glm::dvec3 middle(r.real(-0.5, 0.5) / project_.scale_x, r.real(-0.5, 0.5) / project_.scale_y, -1.0);
-    // Half of the fans have their center in view. For the others it is in front of the near plane or behind the eye, so that the near plane
-    // cuts narrow wedges.
+    // Half of the fans have their center in view. For the others it is between the eye and the near plane, or behind the eye, so that the
+    // near plane cuts narrow wedges.
     const double depth = (r.coin() ? r.magnitude(2.0, 200.0) : r.real(-5.0, 1.0)) * project_.near;
     normal_ = turn[2];
     offset_ = glm::dot(normal_, middle * depth);

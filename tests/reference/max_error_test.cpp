@@ -12,8 +12,8 @@
 #include "halfspace/image/image_difference.h"
 #include "halfspace/reference/silhouettes.h"
 #include "halfspace/reference/validation.h"
-#include "halfspace/scene/shapes.h"
 #include "halfspace/scene/scene_file.h"
+#include "halfspace/scene/shapes.h"
 #include "support/workers.h"
 
 namespace halfspace {

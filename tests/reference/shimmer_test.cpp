@@ -26,7 +26,7 @@ SceneDescription contact_scene(const std::string& method, int resolution) {
 
 bool is_lit(const Image<float>& light, int x, int y) { return light.at(x, y) > 0.5f; }
 
-// Returns whether the light crosses 1/2 between a pixel and one of its eight neighbors.
+// Returns whether the lit fraction crosses 1/2 between a pixel and one of its eight neighbors.
 bool is_edge(const Image<float>& light, int x, int y) {
   for (int j = std::max(0, y - 1); j <= std::min(kFrameHeight - 1, y + 1); ++j)
     for (int i = std::max(0, x - 1); i <= std::min(kFrameWidth - 1, x + 1); ++i)

@@ -124,7 +124,7 @@ TEST(SceneFile, AcceptsColorsInThreeForms) {
   EXPECT_NEAR(ambient("\"#000080\"").z, 0.21586050, 1e-7);
 }
 
-TEST(SceneFile, PathsAreRelativeToTheFileAndInSetToTheWorkingDirectory) {
+TEST(SceneFile, ResolvesPathsRelativeToTheFileOrForSetToTheWorkingDirectory) {
   SceneFile scene = scene_of(R"({"version": 1, "objects": {"ball": {"color": "maps/a.png"}}})");
   EXPECT_EQ(std::get<FilePath>(scene.description().objects[0].second.surface.color).path, "/somewhere/maps/a.png");
   scene.set("ball.color=maps/b.png");

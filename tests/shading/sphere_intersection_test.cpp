@@ -173,8 +173,8 @@ TEST(SphereIntersection, SpheresCutByTheNearPlaneMatchLongDouble) {
   RecordProperty("worst_normal_1e-6", std::to_string(worst.normal * 1e6));
 }
 
-// Constructs spheres that the ray almost touches. Ten million rays pass just inside or just outside the rim, by 2^-8 of the radius down to
-// less than one ulp of it.
+// Constructs spheres that the ray grazes. Ten million rays pass just inside or just outside the silhouette, at distances from 2^-8 of the
+// radius down to less than one ulp of the radius.
 TEST(SphereIntersection, VisibilityAtTheRimMatchesLongDouble) {
   const SphereIntersection lens = lens_for(true);
   Numbers random(5);

@@ -53,7 +53,7 @@ TEST_P(EveryCurve, MatchesItsFormulaForEveryHalfAndIsMonotonic) {
     for (uint32_t h = 0; h < 0x7c00; ++h) {  // non-negative finite halves
       const float x = half_to_float(static_cast<uint16_t>(h)), y = shown(x, tone);
       ASSERT_TRUE(y >= last && y <= 1.0f) << x;
-      // About six roundings of 6e-8. In addition, 1 − e^(−x) has the error of a power near 1, 1.02 ulp (6e-8).
+      // About six roundings of 6e-8. In addition, 1 − e^(−x) inherits the error of the power near 1: 1.02 ulp (6e-8).
       const double want = truth(GetParam(), static_cast<double>(x) * static_cast<double>(exposure), 4.0);
       ASSERT_NEAR(static_cast<double>(y), want, 4e-7 * want + (GetParam() == ToneCurve::exponential && want > 0.06 ? 1e-7 : 1e-40)) << x;
       last = y;

@@ -93,11 +93,11 @@ TEST(Stability, FlatShadingDoesNotDependOnVertexOrder) {
     return max_difference;
   };
   // The face normal is a cross product of differences of the same vertices, whose rounding depends on their order.
-  record_and_check(
-      {12, "flat shading of non-planar quads",
-       "a saddle, drawn again with the vertices of each triangle rotated; lighting at the provoking vertex vs. with the face normal",
-       "largest change in brightness"},
-      change(false), 0.05, change(true), 1e-5);
+  record_and_check({12, "flat shading of non-planar quads",
+                    "a saddle, drawn again with the vertices of each triangle permuted cyclically; lighting at the provoking vertex vs. "
+                    "with the face normal",
+                    "largest change in brightness"},
+                   change(false), 0.05, change(true), 1e-5);
 }
 
 // ---- bumps --------------------------------------------------------------------------------------------------------------

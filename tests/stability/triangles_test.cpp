@@ -16,7 +16,8 @@ __extension__ using Wide = __int128;
 
 constexpr int kSize = 64;
 
-// Returns whether a triangle covers the center of a pixel, by edge functions in T. With `inclusive`, centers on any edge count as covered.
+// Returns whether a triangle covers the center of a pixel, using edge functions evaluated in type T. With `inclusive`, centers on any edge
+// count as covered.
 template <class T>
 bool covers(const PointTriangle& triangle, int px, int py, bool inclusive = false) {
   PointTriangle t = triangle;

@@ -16,11 +16,11 @@ def skipped_tests_fail():
 
 
 def main(arguments=()):
-    """Returns the exit code of the program. arguments: for unittest, such as the names of tests."""
+    """Returns the exit code of the program. arguments: passed on to unittest, for example the names of tests."""
     result = unittest.main(module="__main__", argv=[sys.argv[0], *arguments], exit=False).result
     failed = not result.wasSuccessful()
     for test, reason in result.skipped:
         if skipped_tests_fail() and not re.search(ALLOWED, reason):
-            print(f"{os.path.basename(sys.argv[0])}: {test.id()} is skipped: {reason}", file=sys.stderr)
+            print(f"{os.path.basename(sys.argv[0])}: {test.id()} was skipped: {reason}", file=sys.stderr)
             failed = True
     return int(failed)

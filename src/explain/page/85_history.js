@@ -26,11 +26,11 @@ function offsets(counts) {
   return first;
 }
 
-// The number of values that each fragment has before those of its shader, and the number of values of a pixel (page_history.cpp).
+// The number of values that precede those of the shader in each fragment, and the number of values per pixel (page_history.cpp).
 const FIXED = 16, PIXEL_NUMBERS = 4 + 4 * DATA.samples + 12;
 const sizeOf = (kind) => FIXED + ["varyings", "terms", "factors"].flatMap((key) => kind[key]).reduce((n, [, size]) => n + size, 0);
 
-// Finds where the values of each pixel with details begin.
+// Finds the offset of the values of each detailed pixel.
 function placeDetails(full, place) {
   const sizes = HISTORY.details.kinds.map(sizeOf);
   let at = 0, fragment = 0;

@@ -7,11 +7,11 @@
 #include <functional>
 #include <vector>
 
+#include "halfspace/raster/loop/tile_worker.h"
 #include "halfspace/raster/pass.h"
 #include "halfspace/raster/pipeline/sample_pattern.h"
 #include "halfspace/raster/primitives/primitive_stage.h"
 #include "halfspace/raster/shade/triangle_attributes.h"
-#include "halfspace/raster/loop/tile_worker.h"
 #include "halfspace/raster/trace/fragment_trace.h"
 
 namespace halfspace::inline HS_LANES_NAMESPACE {

@@ -7,10 +7,10 @@
 #include <optional>
 
 #include "halfspace/raster/loop/constant_tiles.h"
+#include "halfspace/raster/loop/tile_draws.h"
 #include "halfspace/raster/primitives/bin.h"
 #include "halfspace/raster/shade/tile_memory.h"
 #include "halfspace/raster/tile/resolve.h"
-#include "halfspace/raster/loop/tile_draws.h"
 #include "halfspace/raster/trace/tile_trace.h"
 
 namespace halfspace::inline HS_LANES_NAMESPACE {

@@ -113,7 +113,7 @@ struct VertexBatch {
   int32_t instance;     ///< the same for all vertices
   float* varyings;      ///< null for the position kernel
   float* clip;          ///< output: clip-space x, y, z and w in four rows of kVertexBatch floats
-  /// Output rows, or null: the point size and clip distances, or the low x, low y, high x and high y of a point sprite.
+  /// Output rows, or null: the point size and clip distances, or the min x, min y, max x and max y of a point sprite.
   float* extra;
 };
 inline constexpr int kMaxClipDistances = 8;

@@ -13,7 +13,7 @@ namespace halfspace::inline HS_LANES_NAMESPACE::detail {
 /// Window coordinates of the pixels of two packets, and the positions of their centroid varyings.
 struct PacketPixels {
   IntOf<FragmentReal> x, y;
-  /// For each packet, one position per lane. Null if centroid varyings have the same position as all others.
+  /// For each packet, one position per lane. Null if centroid varyings are evaluated at the same position as all others.
   std::array<const SamplePosition*, 2> centroids;
 };
 /// Returns the pixels of packets a and b of a batch.

@@ -55,7 +55,7 @@ class WorkWriter {
   std::size_t count_ = 0;
 };
 
-// Returns the lanes whose triangle is shaded per pixel. lanes: the lanes that show a triangle.
+// Returns the lanes whose triangle is shaded per pixel. lanes: the lanes that are covered by a triangle.
 uint32_t shaded_per_pixel(const PassContext& context, const TriangleId* ids, uint32_t lanes) {
   const Int packet_ids = load<Int>(ids);
   uint32_t result = 0;

@@ -189,8 +189,9 @@ class TrianglePackets {
     }
   }
 
-  // Lists a packet if it has covered pixels. at: offsets of the edges from their values in the first packet of the tile. The outcome is
-  // nearly random and a branch would often be mispredicted, so the code has none. All packets are listed before the first one is written.
+  // Appends a packet to the list if it has covered pixels. at: differences of the edge functions from their values in the first packet of
+  // the tile. The outcome is nearly random and a branch would often be mispredicted, so the code has none. The list is complete before the
+  // first packet is written.
   HS_INLINE void list(const std::array<int32_t, 3>& at, int column, int row) {
     uint32_t lanes = kAllBits<Mask> & ~negative_bits((first_[0] + at[0]) | (first_[1] + at[1]) | (first_[2] + at[2]));
     if (d_.needs_bounds_test) lanes &= bits(inside(rect_, column * kPacketWidth, row * kPacketHeight));

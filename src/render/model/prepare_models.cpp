@@ -83,7 +83,8 @@ double max_light(const SceneDescription& scene) {
   return std::max({sum.x, sum.y, sum.z}) * (scene.post.hdr ? scene.post.exposure : 1.0);
 }
 
-// Returns true if pixels differ only by diffuse light from directional lights, which can be computed per vertex.
+// Returns true if the only lighting that varies over the surface is diffuse light from directional lights, which can be computed per
+// vertex.
 bool may_shade_by_vertex(const ObjectDescription& o, const SceneDescription& scene) {
   const SurfaceDescription& s = o.surface;
   const bool is_smooth = !is_map(o.height) && !is_map(s.normal_map) && !is_map(s.bump_map) && s.specular.linear == glm::dvec3(0.0) &&

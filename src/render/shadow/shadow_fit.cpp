@@ -12,8 +12,8 @@ namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
-// Maximum angle from the axis, in degrees, for a single view of a spot light. Above it, texels at the border become too large, and
-// from 90 degrees a single plane is impossible, so cube faces are used instead.
+// Maximum angle from the axis, in degrees, for a single view of a spot light. Above it, texels at the border become too large, and at 90
+// degrees or more a single projection plane is impossible, so cube faces are used instead.
 constexpr double kWidestSpot = 60.0;
 
 // The bounds of a mesh, or of a set of spheres.
