@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <climits>
 #include <optional>
 #include <string_view>
 
@@ -15,6 +16,8 @@ namespace halfspace {
 namespace {
 
 constexpr uint64_t kMinMemory = uint64_t{1} << 20, kMaxMemory = uint64_t{1} << 50;
+// Two cores draw a model with this many primitives in a few seconds.
+constexpr uint64_t kMaxPrimitives = 50'000'000;
 
 // Returns the exponent of the power of two that a suffix denotes.
 std::optional<int> shift_of(std::string_view suffix) {
@@ -36,7 +39,7 @@ std::optional<uint64_t> parse_bytes(std::string_view text) {
 }  // namespace
 
 void set_limits(const LimitArguments& args) {
-  ResourceLimits limits{.counts_resident = true};
+  ResourceLimits limits{.max_primitives = kMaxPrimitives, .counts_resident = true};
   if (!args.memory.empty()) {
     const std::optional<uint64_t> bytes = parse_bytes(args.memory);
     if (!bytes || *bytes < kMinMemory)
@@ -48,6 +51,11 @@ void set_limits(const LimitArguments& args) {
     if (pixels < 1 || static_cast<uint64_t>(pixels) > ResourceLimits::kMaxPixels)
       throw UsageError(fmt::format("--max-pixels is '{}'; expected 1 to {}", args.pixels, ResourceLimits::kMaxPixels));
     limits.max_pixels = static_cast<uint64_t>(pixels);
+  }
+  if (!args.primitives.empty()) {
+    const int primitives = parse_number(args.primitives);
+    if (primitives < 1) throw UsageError(fmt::format("--max-primitives is '{}'; expected 1 to {}", args.primitives, INT_MAX));
+    limits.max_primitives = static_cast<uint64_t>(primitives);
   }
   set_resource_limits(limits);
 }

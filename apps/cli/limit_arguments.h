@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The options --max-memory and --max-pixels.
+// The options --max-memory, --max-pixels and --max-primitives.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@ namespace halfspace {
 
 /// Values as given on the command line; empty: the defaults of ResourceLimits.
 struct LimitArguments {
-  std::string memory, pixels;
+  std::string memory, pixels, primitives;
 };
 
 /// Sets the limits of this process. Throws UsageError.

@@ -93,4 +93,11 @@ void check_pixel_limit(uint64_t width, uint64_t height, const std::string& place
                    std::to_string(limit) + " pixels (--max-pixels)");
 }
 
+void check_primitive_limit(uint64_t primitives, const std::string& place) {
+  const uint64_t limit = resource_limits().max_primitives;
+  if (primitives <= limit) return;
+  throw LimitError(place + ": draws " + std::to_string(primitives) + " triangles, lines and points; expected at most " +
+                   std::to_string(limit) + " (--max-primitives)");
+}
+
 }  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Limits on the memory that files may make this process use, and on the number of pixels of an image. Readers check the sizes in a file's
-// header against these limits before they allocate memory.
+// Limits on the memory that files may make this process use, on the number of pixels of an image, and on the number of primitives that a
+// model draws. Readers check the sizes in a file's header against these limits before they allocate memory.
 #pragma once
 
 #include <cstdint>
@@ -21,6 +21,8 @@ class LimitError : public InputError {
 struct ResourceLimits {
   uint64_t max_memory = default_max_memory();  ///< bytes, for all files together
   uint64_t max_pixels = kMaxPixels;            ///< in one image
+  /// Triangles, lines and points that one model draws; each placed copy counts. Unlimited unless the program sets it.
+  uint64_t max_primitives = UINT64_MAX;
   /// Whether max_memory also covers the resident memory of the process. Programs set this; in a library, most of that memory may belong to
   /// the host.
   bool counts_resident = false;
@@ -56,5 +58,9 @@ class MemoryClaim {
 
 /// Throws LimitError, whose message begins with `place`, if an image has more pixels than permitted.
 void check_pixel_limit(uint64_t width, uint64_t height, const std::string& place);
+
+/// Throws LimitError, whose message begins with `place`, if a model draws more primitives than permitted. A small file can place a mesh
+/// many times, so its size does not limit the rendering time.
+void check_primitive_limit(uint64_t primitives, const std::string& place);
 
 }  // namespace halfspace::inline HS_LANES_NAMESPACE

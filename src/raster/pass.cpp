@@ -85,7 +85,10 @@ class PassState {
   };
   // The work of the pass. Updated whenever a draw is added.
   struct Plan {
-    std::vector<VertexTask> vertex_tasks;
+    std::vector<VertexTask> vertex_tasks;  // in the order of the draws
+    std::size_t next_task = 0;             // the first task that has not run
+    std::size_t first_kept = 0;            // the vertices of draws [first_kept, end_shaded) are in memory
+    std::size_t end_shaded = 0;
     std::vector<std::vector<DrawRange>> chunks;
     uint64_t primitives = 0;  // in all chunks
     uint32_t capacity = 0;    // primitives that still fit in the last chunk
@@ -95,9 +98,12 @@ class PassState {
 
   void add_vertex_tasks(std::size_t draw);
   void run_vertex_stage(std::span<VertexTask> tasks, const Workers& workers);
+  // Shades the vertices of the draws of the next chunk and, up to the memory limit, of the draws after it. The vertices of draws before the
+  // next chunk are discarded.
+  void shade_more_vertices(Plan& plan, std::size_t next_chunk, const Workers& workers);
   void add_draw_ranges(uint32_t draw);
-  // Sets up chunks of the plan starting at `next`, until the budget is reached, all chunk ids are in use or no chunks are left. Returns the
-  // next chunk.
+  // Sets up chunks of the plan starting at `next`, until the budget is reached, all chunk ids are in use or no chunks with shaded vertices
+  // are left. Returns the next chunk.
   std::size_t set_up_chunks(Plan& plan, std::size_t next, PassMemory& memory, const Workers& workers, PassStatistics& statistics);
   int tile_size() const;
   // Sets the draw's viewport, bounds and depth range.
@@ -223,8 +229,28 @@ void PassState::add_vertex_tasks(std::size_t draw) {
   tasks.push_back({draw, draw + 1, 0, count, false});
 }
 
+void PassState::shade_more_vertices(Plan& plan, std::size_t next_chunk, const Workers& workers) {
+  if (next_chunk == plan.chunks.size()) return;
+  const std::size_t first = plan.chunks[next_chunk].front().draw, last = plan.chunks[next_chunk].back().draw;
+  if (last < plan.end_shaded) return;
+  // The next draws take over the memory of the draws that are finished.
+  std::size_t to = plan.end_shaded;
+  for (; plan.first_kept < std::min(first, plan.end_shaded); ++plan.first_kept) {
+    ShadedVertices finished = std::exchange(context_.shaded[plan.first_kept], {});
+    if (to < context_.shaded.size()) context_.shaded[to++] = std::move(finished);
+  }
+  const std::vector<VertexTask>& tasks = plan.vertex_tasks;
+  const std::size_t begin = plan.next_task;
+  for (std::size_t bytes = 0; plan.next_task < tasks.size() && (tasks[plan.next_task].draw <= last || bytes < options_.bin_budget);) {
+    const VertexTask& task = tasks[plan.next_task];
+    for (std::size_t d = task.draw; d < task.end_draw; ++d) bytes += shaded_bytes(context_.draws[d]);
+    plan.end_shaded = task.end_draw;
+    while (plan.next_task < tasks.size() && tasks[plan.next_task].draw < plan.end_shaded) ++plan.next_task;
+  }
+  run_vertex_stage(std::span(plan.vertex_tasks).subspan(begin, plan.next_task - begin), workers);
+}
+
 void PassState::run_vertex_stage(std::span<VertexTask> tasks, const Workers& workers) {
-  context_.shaded.resize(context_.draws.size());
   const auto begin_draw = [this](std::size_t draw) {
     place_draw(context_.draws[draw]);
     allocate_vertices(context_.draws[draw], context_.shaded[draw]);
@@ -271,10 +297,14 @@ void PassState::add_draw_ranges(uint32_t draw) {
 
 std::size_t PassState::set_up_chunks(Plan& plan, std::size_t next, PassMemory& memory, const Workers& workers, PassStatistics& statistics) {
   std::size_t bytes = 0;
-  while (next < plan.chunks.size() && (context_.chunks.empty() || bytes < options_.bin_budget) &&
+  const auto is_shaded = [&plan](std::size_t chunk) {
+    return chunk < plan.chunks.size() && plan.chunks[chunk].back().draw < plan.end_shaded;
+  };
+  while (is_shaded(next) && (context_.chunks.empty() || bytes < options_.bin_budget) &&
          context_.chunks.size() + kChunksPerSet <= kMaxChunks) {
     const std::size_t begin = context_.chunks.size();
-    const std::size_t count = std::min(kChunksPerSet, plan.chunks.size() - next);
+    std::size_t count = 1;
+    while (count < kChunksPerSet && is_shaded(next + count)) ++count;
     for (std::size_t i = 0; i < count; ++i) context_.chunks.push_back(take_or_make(memory.chunks));
     workers.for_each(static_cast<int>(count), [&](int i) {
       Chunk& chunk = context_.chunks[begin + static_cast<std::size_t>(i)];
@@ -298,11 +328,12 @@ PassStatistics PassState::run(TileRunner& tiles, const Workers& workers) {
   PassStatistics statistics = std::move(plan.submitted);
   PassMemory memory = take_pass_memory();
   context_.shaded = std::move(memory.shaded);
-  run_vertex_stage(plan.vertex_tasks, workers);
+  context_.shaded.resize(context_.draws.size());
   Round round{.first = true, .last = false};
   std::size_t next = 0;
   do {
     recycle_chunks(context_.chunks, memory.chunks);
+    shade_more_vertices(plan, next, workers);
     next = set_up_chunks(plan, next, memory, workers, statistics);
     round.last = next == plan.chunks.size();
     if (!round.last) {

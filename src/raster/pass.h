@@ -37,7 +37,8 @@ struct PassOptions {
   int tile_size = 64;
   /// Maximum number of primitives per setup task: 1 to 8192.
   uint32_t chunk_triangles = 8192;
-  /// Size limit for triangles and bins, in bytes. When it is reached, the tiles are rendered before more triangles are set up.
+  /// Size limit in bytes, for triangles with their bins and for shaded vertices. When one of them reaches it, the tiles are rendered before
+  /// more triangles are set up. The vertices of a single draw can exceed it.
   std::size_t bin_budget = 1 << 28;
   /// If false, all fragments are shaded immediately, in submission order.
   bool defer = true;

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <span>
 
+#include "halfspace/core/resource_limits.h"
 #include "halfspace/core/text.h"
 #include "halfspace/model/pose.h"
 #include "halfspace/model/tangents.h"
@@ -184,6 +185,17 @@ bool is_lit(const SceneDescription& scene, const ObjectDescription& o, const Mod
   return mesh.topology == MeshTopology::triangles && !material.unlit && override_of(scene, o, material.name) == nullptr;
 }
 
+// Returns the number of triangles, lines and points of a posed model.
+uint64_t primitive_count(const ModelAsset& asset, const PosedModel& posed) {
+  uint64_t count = 0;
+  for (const PosedMesh& part : posed.meshes) {
+    const auto mesh = static_cast<std::size_t>(part.mesh);
+    const MeshTopology topology = asset.model.meshes[mesh].topology;
+    count += asset.indices[mesh].size() / (topology == MeshTopology::triangles ? 3 : topology == MeshTopology::lines ? 2 : 1);
+  }
+  return count;
+}
+
 }  // namespace
 
 void ScenePreparation::add_model(int object, const std::string& path, const ObjectDescription& o) {
@@ -192,11 +204,13 @@ void ScenePreparation::add_model(int object, const std::string& path, const Obje
   options.bounds = false;
   const auto posed = std::make_shared<const PosedModel>(pose(model->model, options));
   out_.assets.push_back(posed);
+  const auto places = places_of(scene_, o);
+  check_primitive_limit(primitive_count(*model, *posed) * std::size(places), o.file.path.string());
   const glm::dmat4 turn = turn_of(o, model->model);
   const bool lit = std::ranges::any_of(posed->meshes, [&](const PosedMesh& part) { return is_lit(scene_, o, model->model, part); });
   load_images(o, model->model, wanted_images(o, model->model, *posed), lit);
   int instance = 0;
-  for (const glm::dmat4& place : places_of(scene_, o)) {
+  for (const glm::dmat4& place : places) {
     for (const PosedMesh& part : posed->meshes) {
       const std::size_t opaque = out_.draws.size(), blended = blended_.size();
       add_part(object, o, path, model, part, place * turn * part.world_from_mesh);

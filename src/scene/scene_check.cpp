@@ -106,7 +106,7 @@ void check_parents(SceneDescription& scene, const ObjectDescription& object, con
     const ObjectDescription* parent = find_named(scene.objects, o->parent);
     if (parent == nullptr) reject(where + ".parent", "no object '" + o->parent + "'" + suggestion(o->parent, names_of(scene.objects)));
     if (++generations > scene.objects.size())
-      reject(where + ".parent", "the object is its own ancestor; expected a parent that is not one of its descendants");
+      reject(where + ".parent", "the chain of parents is a loop; expected it to end at an object without a parent");
     if (object.shape == Shape::sphere && !is_uniformly_scaled(parent->placement))
       reject(where + ".parent",
              "'" + o->parent + "' is not scaled uniformly, which the shape sphere requires; expected the shape uv_sphere");

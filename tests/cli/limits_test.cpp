@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Files and image sizes that exceed --max-memory or --max-pixels end the program with one line, before anything is decoded.
+// Files and image sizes that exceed --max-memory, --max-pixels or --max-primitives end the program with one line, before anything is
+// decoded or drawn.
 #include <fstream>
 
 #include "cli/cli_run.h"
@@ -69,6 +70,16 @@ TEST_F(Limits, ShadowMaps) {
       {"lights.sun", "shadow maps", "512 MiB", "--max-memory"});
 }
 
+// A small file can place a mesh many times.
+TEST_F(Limits, PlacedPrimitives) {
+  write("a.gltf", R"({"asset":{"version":"2.0"},"nodes":[{"mesh":0},{"mesh":0},{"mesh":0}],
+    "meshes":[{"primitives":[{"attributes":{"POSITION":0}},{"attributes":{"POSITION":0},"mode":1},{"attributes":{"POSITION":0},"mode":0}]}],
+    "accessors":[{"componentType":5126,"count":60,"type":"VEC3"}]})");
+  // Three copies of 20 triangles, 30 lines and 60 points.
+  expect_rejected({"render", "a.gltf", "--size", "64x36", "--max-primitives", "329"}, {"a.gltf: draws 330", "--max-primitives"});
+  EXPECT_EQ(run({"render", "a.gltf", "--size", "64x36", "--max-primitives", "330"}).exit_code, 0);
+}
+
 TEST_F(Limits, SizeOfTheOutput) {
   expect_rejected({"render", "earth", "-o", "a.exr", "--size", "16384x16384", "--max-memory", "1G"}, {"--size 16384x16384", "4096 MiB"});
   expect_rejected({"render", "earth", "--size", "100x50", "--max-pixels", "4999"}, {"--size", "100x50", "4999"});
@@ -83,6 +94,8 @@ TEST_F(Limits, RejectsInvalidValues) {
   }
   for (const char* value : {"0", "268435457", "1M"}) EXPECT_EQ(run({"info", "--max-pixels", value}).exit_code, 2) << value;
   EXPECT_EQ(run({"info", "--max-memory", "3G", "--max-pixels", "268435456"}).exit_code, 0);
+  for (const char* value : {"0", "-1", "1e3", "2147483648"}) EXPECT_EQ(run({"info", "--max-primitives", value}).exit_code, 2) << value;
+  EXPECT_EQ(run({"info", "--max-primitives", "2147483647"}).exit_code, 0);
 }
 
 // A material library that exceeds the memory limit is an error; all other problems of material libraries are warnings.

@@ -22,7 +22,9 @@ ROOT = Path(__file__).resolve().parents[2]
 PROGRAMS = Path()
 MARK = re.compile(r"<!-- (not run|slow): (.+) -->")
 LONG_TESTS = "HALFSPACE_LONG_TESTS" in os.environ
-PROGRAM_NAMES = ("halfspace", "halfspace-bench")
+PROGRAM_NAMES = ("halfspace", "halfspace-bench", "halfspace-bench-gl", "halfspace-limits", "halfspace-stages", "halfspace-view")
+# The options of these programs are known only if they are built.
+OPTIONAL_PROGRAMS = ("halfspace-bench-gl", "halfspace-limits", "halfspace-stages", "halfspace-view")
 
 
 class Block:
@@ -112,7 +114,9 @@ def help_of(words):
     command = [str(PROGRAMS / name)]
     if name == "halfspace" and len(words) > 1 and not words[1].startswith("-"):
         command.append(words[1])
-    return subprocess.run([*command, "--help"], capture_output=True, text=True, check=True).stdout
+    text = subprocess.run([*command, "--help"], capture_output=True, text=True, check=True).stdout
+    more = re.findall(r"--help-\w+", text)  # other parts of the help
+    return text + "".join(subprocess.run([*command, option], capture_output=True, text=True, check=True).stdout for option in more)
 
 
 def missing_parts(command):
@@ -120,7 +124,10 @@ def missing_parts(command):
     words, missing = words_of(command), []
     options = [word.split("=")[0] for word in words[1:] if word.startswith("--")]
     first = words[0]
-    if program_name(first):
+    name = program_name(first)
+    if name in OPTIONAL_PROGRAMS and not (PROGRAMS / name).exists():
+        return []
+    if name:
         text = help_of(words)
         missing += [option for option in options if not re.search(re.escape(option) + r"\b", text)]
     elif is_script(first):

@@ -531,6 +531,34 @@ TEST(Statistics, FlushesAreCountedAndDoNotChangeTheResult) {
   EXPECT_EQ(posted, images[0]);
 }
 
+// The vertices of later draws take over the memory of finished draws. The draws differ in size, and a chunk contains parts of several.
+TEST(Statistics, VerticesOfAllDrawsNeedNotFitIntoMemory) {
+  Random r(2);
+  std::vector<std::vector<glm::vec4>> positions(60), colors(60);
+  for (std::size_t d = 0; d < positions.size(); ++d) {
+    const int triangles = r.between(0, 40) * r.between(0, 40);
+    for (int i = 0; i < 3 * triangles; ++i) {
+      positions[d].push_back({r.real(-1.5f, 1.5f), r.real(-1.5f, 1.5f), r.real(-1.0f, 1.0f), 1});
+      colors[d].push_back({r.real(0.0f, 1.0f), r.real(0.0f, 1.0f), 0, 1});
+    }
+  }
+  const auto render = [&](Image<glm::vec4>& image, std::size_t budget, uint32_t chunk_triangles, const Workers& workers) {
+    Pass pass(100, 80, rgba32f_target(image), {.format = DepthFormat::d32f}, {.chunk_triangles = chunk_triangles, .bin_budget = budget});
+    for (std::size_t d = 0; d < positions.size(); ++d)
+      pass.draw(FlatColorShader{}, make_vertex_view(stream(positions[d]), stream(colors[d])));
+    return pass.run(workers).flushes;
+  };
+  Image<glm::vec4> expected(100, 80);
+  EXPECT_EQ(render(expected, std::size_t{1} << 30, 100, one_worker()), 0u);
+  for (const std::size_t budget : {std::size_t{1}, std::size_t{20000}, std::size_t{200000}}) {
+    for (const uint32_t chunk_triangles : {7u, 100u, 5000u}) {
+      Image<glm::vec4> image(100, 80);
+      EXPECT_GE(render(image, budget, chunk_triangles, Workers(2)), 2u) << budget << " " << chunk_triangles;
+      EXPECT_EQ(image, expected) << budget << " " << chunk_triangles;
+    }
+  }
+}
+
 // ---- shaders that decide visibility ----------------------------------------------------------------------------
 
 TEST(Discard, DropsColorAndDepth) {

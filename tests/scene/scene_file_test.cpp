@@ -313,7 +313,7 @@ const Wrong kWrong[] = {
     {"ParentsInALoop",
      R"({"version": 1, "objects": {"a": {"parent": "b"}, "b": {"parent": "c"}, "c": {"parent": "b"}}})",
      "test.json: objects.a.parent",
-     {"its own ancestors"}},
+     {"is a loop"}},
     {"StretchedParentOfSphere",
      R"({"version": 1, "objects": {"a": {"shape": "sphere", "parent": "b"}, "b": {"scale": [1, 2, 1]}}})",
      "test.json: objects.a.parent",

@@ -59,6 +59,12 @@ Viewport make_viewport(const Rect& r, const DepthState& depth) {
   return v;
 }
 
+std::size_t shaded_bytes(const Draw& draw) {
+  const std::size_t n = (draw.indices->end_vertex() - draw.indices->first_vertex()) * std::size_t{draw.state.instances};
+  const auto floats = static_cast<std::size_t>(draw.kernels.varying_count + draw.kernels.clip_distance_count);
+  return n * (sizeof(ScreenVertex) + sizeof(Outcode) + floats * sizeof(float) + (draws_points(draw.state) ? sizeof(PointSpriteRect) : 0));
+}
+
 void allocate_vertices(const Draw& draw, ShadedVertices& out) {
   out.first = draw.indices->first_vertex();
   out.count = draw.indices->end_vertex() - out.first;

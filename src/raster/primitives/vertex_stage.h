@@ -15,6 +15,9 @@ Viewport make_viewport(const Rect& viewport, const DepthState& depth);
 /// Returns the union of the outcodes.
 Outcode shade_vertices(const Draw& draw, std::size_t begin, std::size_t end, ShadedVertices& out);
 
+/// Returns the memory that allocate_vertices() needs for a draw, in bytes.
+std::size_t shaded_bytes(const Draw& draw);
+
 /// Allocates memory for all vertices that the draw uses.
 void allocate_vertices(const Draw& draw, ShadedVertices& out);
 
