@@ -45,9 +45,9 @@ void draw(Image<glm::u8vec4>& image, const std::vector<Vertex>& vertices, int to
         if (!any(visible)) continue;
         const vec4<R> color = (vertices[k].color * wa + vertices[k + 2].color * wb + vertices[k + 1].color * wc) * R(255);
         const I red = round_to_int(color.x), green = round_to_int(color.y), blue = round_to_int(color.z);
-        const I pixel = red | green << 8 | blue << 16 | I(-1) << 24, old_pixel = load<I>(&image.at(x, y));
+        const I pixel = red | green << 8 | blue << 16 | I(-1) << 24;
         store(&depths.at(x, y - top), select(visible, depth, old_depth));
-        store(&image.at(x, y), select(visible, pixel, old_pixel));
+        store(&image.at(x, y), select(visible, pixel, load<I>(&image.at(x, y))));
       }
   }
 }
