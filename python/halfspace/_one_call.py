@@ -7,13 +7,14 @@ import os
 from typing import Any, Mapping, Optional, Union
 
 from . import _check
+from ._options import is_model_file
 from .camera import Camera
 from .picture import Picture
 from .scene import Scene, Size
 
 
 def render(scene: Union[str, "os.PathLike[str]"], *, size: Size = (1920, 1080), set: Optional[Mapping[str, Any]] = None,
-           camera: Union[str, Camera, None] = None, time: float = 0.0, linear: bool = False, alpha: bool = False,
+           camera: Union[str, Camera, None] = None, time: Optional[float] = None, linear: bool = False, alpha: bool = False,
            threads: Optional[int] = None, **view: Any) -> Picture:
     """Renders a scene or a model file. The pixels are bit-identical to those that `halfspace render` writes.
 
@@ -21,7 +22,8 @@ def render(scene: Union[str, "os.PathLike[str]"], *, size: Size = (1920, 1080), 
     size: (width, height) in pixels.
     set: keys of the scene and their values, for example {"time.hours": 18}.
     camera: the name of a camera of the scene or the model, or a Camera.
-    time: time in the scene's animations, in seconds.
+    time: time in the scene's animations, in seconds. The default is 0. The camera of a model file shows the pose at this time. If a time is
+        given and no animation is named, the first animation of the model file plays; there is a warning if it has several.
     threads: number of threads. The default is one per core.
     alpha: omit the background. Alpha is straight, and 0 where nothing is drawn.
     view: arguments of Scene.load, for model files.
@@ -31,12 +33,17 @@ def render(scene: Union[str, "os.PathLike[str]"], *, size: Size = (1920, 1080), 
     Raises InputError with the message that the command line prints. Warnings have the category RenderWarning.
     """
     width, height = _check.size(size)
+    path = _check.path("scene", scene)
     view.setdefault("aspect", width / height)
-    opened = Scene.load(scene, threads=threads, **view)
+    if time is not None:
+        time = _check.number("time", time, -1e9, 1e9)
+        if is_model_file(path):
+            view.setdefault("times", [time])
+    opened = Scene.load(path, threads=threads, **view)
     keys = dict(_check.mapping("set", {} if set is None else set, "a dictionary of keys and values"))
     if isinstance(camera, str):
         keys["camera"] = camera
         camera = None
     if keys:
         opened.set(keys)
-    return opened.render((width, height), camera=camera, time=time, linear=linear, alpha=alpha)
+    return opened.render((width, height), camera=camera, time=0.0 if time is None else time, linear=linear, alpha=alpha)

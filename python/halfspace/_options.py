@@ -34,7 +34,7 @@ LIGHTING = {"studio": _STUDIO, "none": _DARK}
 
 # Options of Scene.load for model files, in the order of ModelView.
 _VIEW_OPTIONS = ("aspect", "yaw", "pitch", "zoom", "fov", "eye", "look_at", "up", "inside", "floor", "environment", "background",
-                 "model_scene", "model_animation", "model_variant", "up_axis", "turn_seconds", "allow_outside")
+                 "model_scene", "model_animation", "model_variant", "times", "up_axis", "turn_seconds", "allow_outside")
 _MODELS = (".obj", ".gltf", ".glb", ".ply", ".stl")
 
 
@@ -71,12 +71,16 @@ def setting_text(key: str, value: Any) -> str:
     return f"{key}={text}"
 
 
+def is_model_file(path: str) -> bool:
+    return path.lower().endswith(_MODELS)
+
+
 def view_options(path: str, options: Mapping[str, Any]) -> Dict[str, Any]:
     given = {name: value for name, value in options.items() if value is not None}
     for name in given:
         if name not in _VIEW_OPTIONS:
             raise TypeError(f"{name}: unknown argument; expected one of {', '.join(_VIEW_OPTIONS)}")
-        if not path.lower().endswith(_MODELS) and name != "aspect":
+        if not is_model_file(path) and name != "aspect":
             raise fail(name, "applies only to model files", "a file ending in .obj, .gltf, .glb, .ply or .stl")
     limits = {"aspect": (1.0 / _check.MAX_SIDE, _check.MAX_SIDE), "yaw": (-360.0, 360.0), "pitch": (-89.0, 89.0), "zoom": (1e-3, 1e3), "fov": (1.0, 170.0),
               "turn_seconds": (0.0, 1e9)}
@@ -86,6 +90,9 @@ def view_options(path: str, options: Mapping[str, Any]) -> Dict[str, Any]:
     for name in ("eye", "look_at", "up"):
         if name in given:
             given[name] = _check.vector(name, given[name])
+    if "times" in given:
+        times = _check.items("times", given["times"], "a sequence of numbers")
+        given["times"] = [_check.number(f"times[{i}]", t, -1e9, 1e9) for i, t in enumerate(times)]
     if "up_axis" in given:
         _check.choice("up_axis", given["up_axis"], ("y", "z"))
     return given

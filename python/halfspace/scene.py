@@ -61,8 +61,12 @@ class Scene:
         A model file is shown as `halfspace render MODEL` shows it. The following arguments change the view; None means the default:
         aspect (width / height for which the model is fitted into the picture; default 16/9), yaw, pitch (degrees), zoom, fov (vertical,
         degrees), eye, look_at, up (world space), inside, floor (bool), environment (image file), background ("#rrggbb" or "environment"),
-        model_scene, model_animation, model_variant (names in the file), up_axis ("y" or "z"), turn_seconds (time in which the camera
-        moves around the model once), allow_outside (bool: open files outside the folder of the model).
+        model_scene, model_animation, model_variant (names in the file), times (sequence of times in seconds at which the whole model is in
+        view; default: only time 0), up_axis ("y" or "z"), turn_seconds (time in which the camera moves around the model once),
+        allow_outside (bool: open files outside the folder of the model).
+
+        An animated model moves if model_animation or times is given. With times alone, the first animation of the file plays. For frames
+        that are the same as those of `halfspace render MODEL --frames`, pass the times of all frames.
 
         Raises InputError if the file cannot be used.
         """

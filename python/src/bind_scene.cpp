@@ -137,6 +137,7 @@ ModelView model_view(const py::dict& options) {
   set("model_scene", view.scene);
   set("model_animation", view.animation);
   set("model_variant", view.variant);
+  set("times", view.times);
   set("up_axis", view.up_axis);
   set("turn_seconds", view.turn_seconds);
   set("allow_outside", view.allow_outside);
