@@ -15,8 +15,8 @@ MAX_SIDE = 16384
 
 
 def fail(name: str, problem: str, expected: str) -> "InputError":
-    """Returns the exception to raise."""
-    return InputError(f"{name}: {problem}; expected {expected}")
+    """Returns the exception to raise. Its message is one line, even if the problem contains an array."""
+    return InputError(" ".join(f"{name}: {problem}; expected {expected}".split("\n")))
 
 
 def _shape_text(shape: Sequence[Optional[int]]) -> str:
@@ -103,6 +103,22 @@ def string(name: str, value: Any) -> str:
     if not isinstance(value, str):
         raise fail(name, f"is {value!r}", "a string")
     return value
+
+
+def name_or_index(name: str, value: Any) -> str:
+    """Returns the name of a part of a model file, or its index as a string."""
+    if isinstance(value, str):
+        return value
+    if isinstance(value, (bool, np.bool_)) or not hasattr(value, "__index__"):
+        raise fail(name, f"is {value!r}", "a name or an index")
+    return str(integer(name, value, 0, 2**31 - 1))
+
+
+def flag(name: str, value: Any) -> bool:
+    """Returns a bool."""
+    if not isinstance(value, (bool, np.bool_)):
+        raise fail(name, f"is {value!r}", "True or False")
+    return bool(value)
 
 
 def mapping(name: str, value: Any, expected: str) -> Mapping[Any, Any]:

@@ -25,7 +25,7 @@ def render(scene: Union[str, "os.PathLike[str]"], *, size: Size = (1920, 1080), 
     time: time in the scene's animations, in seconds. The default is 0. The camera of a model file shows the pose at this time. If a time is
         given and no animation is named, the first animation of the model file plays; there is a warning if it has several.
     threads: number of threads. The default is one per core.
-    alpha: omit the background. Alpha is straight, and 0 where nothing is drawn.
+    alpha: omit the background. Alpha is straight, and 0 where nothing is drawn. background="transparent" has the same effect.
     view: arguments of Scene.load, for model files.
     Returns 8-bit sRGB values: uint8 of shape (height, width, 3), or (height, width, 4) with alpha=True. With linear=True, returns linear
     values before exposure and tone mapping: float32 of shape (height, width, 4).
@@ -34,6 +34,7 @@ def render(scene: Union[str, "os.PathLike[str]"], *, size: Size = (1920, 1080), 
     """
     width, height = _check.size(size)
     path = _check.path("scene", scene)
+    alpha = alpha or (isinstance(view.get("background"), str) and view["background"] == "transparent")
     view.setdefault("aspect", width / height)
     if time is not None:
         time = _check.number("time", time, -1e9, 1e9)

@@ -3,11 +3,13 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import os
+import re
 import sys
 import warnings
-from typing import Any, Dict, Iterable, Iterator, List, Mapping, Sequence
+from typing import Any, Callable, Dict, Iterable, Iterator, List, Mapping, Sequence
 
 import numpy as np
 
@@ -75,7 +77,24 @@ def is_model_file(path: str) -> bool:
     return path.lower().endswith(_MODELS)
 
 
+_BACKGROUND = '"#rrggbb", "environment", "transparent" or three linear numbers from 0 to 1'
+
+
+def _background(name: str, value: Any) -> Any:
+    """Returns a string, or a linear color as a tuple."""
+    if isinstance(value, str):
+        if value in ("environment", "transparent") or re.fullmatch("#[0-9a-fA-F]{6}", value):
+            return value
+    else:
+        with contextlib.suppress(_core.InputError):
+            color = _check.vector(name, value)
+            if min(color) >= 0.0 and max(color) <= 1.0:
+                return color
+    raise fail(name, f"is {value!r}", _BACKGROUND)
+
+
 def view_options(path: str, options: Mapping[str, Any]) -> Dict[str, Any]:
+    """Returns the checked options of a view for _core. `background` can be a tuple, which _core does not accept."""
     given = {name: value for name, value in options.items() if value is not None}
     for name in given:
         if name not in _VIEW_OPTIONS:
@@ -84,18 +103,18 @@ def view_options(path: str, options: Mapping[str, Any]) -> Dict[str, Any]:
             raise fail(name, "applies only to model files", "a file ending in .obj, .gltf, .glb, .ply or .stl")
     limits = {"aspect": (1.0 / _check.MAX_SIDE, _check.MAX_SIDE), "yaw": (-360.0, 360.0), "pitch": (-89.0, 89.0), "zoom": (1e-3, 1e3), "fov": (1.0, 170.0),
               "turn_seconds": (0.0, 1e9)}
-    for name, (low, high) in limits.items():
-        if name in given:
-            given[name] = _check.number(name, given[name], low, high)
-    for name in ("eye", "look_at", "up"):
-        if name in given:
-            given[name] = _check.vector(name, given[name])
-    if "times" in given:
-        times = _check.items("times", given["times"], "a sequence of numbers")
-        given["times"] = [_check.number(f"times[{i}]", t, -1e9, 1e9) for i, t in enumerate(times)]
-    if "up_axis" in given:
-        _check.choice("up_axis", given["up_axis"], ("y", "z"))
-    return given
+    checks: Dict[str, Callable[[str, Any], Any]] = {
+        **{name: lambda name, value: _check.number(name, value, *limits[name]) for name in limits},
+        **dict.fromkeys(("eye", "look_at", "up"), _check.vector),
+        **dict.fromkeys(("inside", "floor", "allow_outside"), _check.flag),
+        **dict.fromkeys(("model_scene", "model_animation", "model_variant"), _check.name_or_index),
+        "environment": _check.path,
+        "background": _background,
+        "times": lambda name, value: [_check.number(f"times[{i}]", t, -1e9, 1e9)
+                                      for i, t in enumerate(_check.items("times", value, "a sequence of numbers"))],
+        "up_axis": lambda name, value: _check.choice(name, value, ("y", "z")),
+    }
+    return {name: checks[name](name, value) for name, value in given.items()}
 
 
 def times_of(time: Any, cameras: Sequence[Any]) -> List[float]:

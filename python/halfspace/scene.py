@@ -58,12 +58,20 @@ class Scene:
     def load(cls, path: Union[str, "os.PathLike[str]"], *, threads: Optional[int] = None, **view: Any) -> "Scene":
         """Opens a shipped scene by name, a scene file, or a model file (.obj, .gltf, .glb, .ply, .stl).
 
-        A model file is shown as `halfspace render MODEL` shows it. The following arguments change the view; None means the default:
-        aspect (width / height for which the model is fitted into the picture; default 16/9), yaw, pitch (degrees), zoom, fov (vertical,
-        degrees), eye, look_at, up (world space), inside, floor (bool), environment (image file), background ("#rrggbb" or "environment"),
-        model_scene, model_animation, model_variant (names in the file), times (sequence of times in seconds at which the whole model is in
-        view; default: only time 0), up_axis ("y" or "z"), turn_seconds (time in which the camera moves around the model once),
-        allow_outside (bool: open files outside the folder of the model).
+        A model file is shown as `halfspace render MODEL` shows it. The following arguments change the view; None means the default.
+
+        aspect: width / height of the pictures, to which the view of the model is fitted. The default is 16/9.
+        yaw, pitch: position of the eye around the model in degrees, from the front (+z) to the right, and upwards.
+        zoom: factor by which the eye is nearer.   fov: vertical field of view in degrees, 1 to 170.
+        eye, look_at, up: position of the eye, point at the center of the picture, and direction that points up, in world space: (x, y, z).
+        inside: whether the eye is inside the model.   floor: whether there is a shadow on a floor below the model.
+        environment: image file of a panorama that lights the model.
+        background: "#rrggbb", three linear numbers from 0 to 1, "environment" or "transparent". Colors are those before exposure and tone
+            mapping.
+        model_scene, model_animation, model_variant: names in the file, or indices from 0.
+        times: times in seconds at which the whole model is in view. The default is time 0.
+        up_axis: "y" or "z".   turn_seconds: time in which the camera moves around the model once. 0: it does not move.
+        allow_outside: whether files outside the folder of the model may be opened.
 
         An animated model moves if model_animation or times is given. With times alone, the first animation of the file plays. For frames
         that are the same as those of `halfspace render MODEL --frames`, pass the times of all frames.
@@ -72,7 +80,11 @@ class Scene:
         """
         name = _check.path("path", path)
         scene = cls.__new__(cls)
-        scene._start(_core.Scene.open(name, view_options(name, view), _check.threads(threads, _core.cores())))
+        options = view_options(name, view)
+        color = options.pop("background") if isinstance(options.get("background"), tuple) else None
+        scene._start(_core.Scene.open(name, options, _check.threads(threads, _core.cores())))
+        if color is not None:
+            scene.set({"background.color": color})
         return scene
 
     # ---- keys ----------------------------------------------------------------------------------------------------

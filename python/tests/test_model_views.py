@@ -15,10 +15,11 @@ from conftest import same_bytes
 SMALL = (160, 90)
 
 
-def write_model(path, animations=("Slide",), **more):
+def write_model(path, animations=("Slide",)):
     """Writes a glTF file with a quad of two scenes, "flat" and "tall". Each animation moves it to the right, by 10 units per second and
     animation, from an offset of 0.5."""
-    data = b"".join([struct.pack("<12f", -1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0), struct.pack("<6H", 0, 1, 2, 0, 2, 3), struct.pack("<2f", 0, 1)])
+    corners = (-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0)
+    data = struct.pack("<12f", *corners) + struct.pack("<6H", 0, 1, 2, 0, 2, 3) + struct.pack("<2f", 0, 1)
     accessors = [{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3", "min": [-1, -1, 0], "max": [1, 1, 0]},
                  {"bufferView": 1, "componentType": 5123, "count": 6, "type": "SCALAR"},
                  {"bufferView": 2, "componentType": 5126, "count": 2, "type": "SCALAR", "min": [0], "max": [1]}]
@@ -38,7 +39,7 @@ def write_model(path, animations=("Slide",), **more):
             "extensionsUsed": ["KHR_materials_variants"],
             "extensions": {"KHR_materials_variants": {"variants": [{"name": "red"}, {"name": "blue"}]}},
             "bufferViews": [{"buffer": 0, "byteOffset": start, "byteLength": size} for start, size in views],
-            "buffers": [{"byteLength": len(data), "uri": "data:application/octet-stream;base64," + base64.b64encode(data).decode()}], **more}
+            "buffers": [{"byteLength": len(data), "uri": "data:application/octet-stream;base64," + base64.b64encode(data).decode()}]}
     path.write_text(json.dumps(gltf))
     return path
 
@@ -90,3 +91,56 @@ def test_wrong_times_are_reported(model, times, words):
     with pytest.raises(halfspace.InputError) as error:
         halfspace.Scene.load(model, times=times)
     assert str(error.value).startswith(words)
+
+
+# ---- types -----------------------------------------------------------------------------------------------------------
+
+@pytest.mark.parametrize("arguments, words", [
+    ({"background": (1, 0)}, 'background: is (1, 0); expected "#rrggbb", '),
+    ({"background": (255, 0, 0)}, "background: is (255, 0, 0); expected"),
+    ({"background": np.eye(3)}, "background: is array([[1., 0., 0.], "),
+    ({"background": [[1], [1, 2], 3]}, "background: is [[1], [1, 2], 3]; expected"),
+    ({"background": 0.5}, "background: is 0.5; expected"),
+    ({"background": "red"}, "background: is 'red'; expected"),
+    ({"environment": 3}, "environment: is 3; expected a file name"),
+    ({"floor": "no"}, "floor: is 'no'; expected True or False"),
+    ({"inside": "x"}, "inside: is 'x'; expected True or False"),
+    ({"allow_outside": "x"}, "allow_outside: is 'x'; expected True or False"),
+    ({"model_scene": 1.5}, "model_scene: is 1.5; expected a name or an index"),
+    ({"model_animation": True}, "model_animation: is True; expected a name or an index"),
+    ({"model_variant": -1}, "model_variant: is -1; expected an integer from 0"),
+    ({"up_axis": 1}, "up_axis: is 1; expected one of y, z"),
+    ({"eye": "x"}, "eye: has the shape (); expected (3,)"),
+])
+def test_wrong_types_are_reported(model, arguments, words):
+    with pytest.raises(halfspace.InputError) as error:
+        halfspace.render(model, size=SMALL, **arguments)
+    assert str(error.value).startswith(words) and "\n" not in str(error.value)
+
+
+@pytest.mark.parametrize("argument, option, name, index", [
+    ("model_scene", "--scene", "tall", 1),
+    ("model_animation", "--animation", "Fly", np.int64(1)),
+    ("model_variant", "--variant", "blue", 1),
+])
+def test_parts_of_a_model_can_be_given_by_index(command_line, tmp_path, argument, option, name, index):
+    model = write_model(tmp_path / "two.gltf", ("Slide", "Fly"))
+    time = {"time": 0.5, "model_animation": "Slide"}
+    options = {"--time": "0.5", "--animation": "Slide", option: name}
+    path = command_line(model, "--size", "160x90", *(word for pair in options.items() for word in pair))
+    for value in (name, index):
+        picture = halfspace.render(model, size=SMALL, **{**time, argument: value})
+        assert same_bytes(picture, path)
+    assert (picture != halfspace.render(model, size=SMALL, **{**time, argument: 0})).any()
+
+
+@pytest.mark.parametrize("color", [(0, 0.5, 1), [0, 0.5, 1], np.array([0, 0.5, 1])])
+def test_a_background_can_be_a_linear_color(command_line, model, color):
+    path = command_line(model, "--size", "160x90", "--set", "background.color=0,0.5,1")
+    assert same_bytes(halfspace.render(model, size=SMALL, background=color), path)
+
+
+def test_a_transparent_background_matches_the_command_line(command_line, model):
+    path = command_line(model, "--size", "160x90", "--background", "transparent")
+    assert same_bytes(halfspace.render(model, size=SMALL, background="transparent"), path)
+    assert same_bytes(halfspace.render(model, size=SMALL, alpha=True), path)
