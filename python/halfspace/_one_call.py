@@ -7,7 +7,7 @@ import os
 from typing import Any, Mapping, Optional, Union
 
 from . import _check
-from ._options import is_model_file
+from ._options import check_names, is_model_file
 from .camera import Camera
 from .picture import Picture
 from .scene import Scene, Size
@@ -26,12 +26,13 @@ def render(scene: Union[str, "os.PathLike[str]"], *, size: Size = (1920, 1080), 
         given and no animation is named, the first animation of the model file plays; there is a warning if it has several.
     threads: number of threads. The default is one per core.
     alpha: omit the background. Alpha is straight, and 0 where nothing is drawn. background="transparent" has the same effect.
-    view: arguments of Scene.load, for model files.
+    view: arguments of Scene.load for model files, such as yaw, background and animation.
     Returns 8-bit sRGB values: uint8 of shape (height, width, 3), or (height, width, 4) with alpha=True. With linear=True, returns linear
     values before exposure and tone mapping: float32 of shape (height, width, 4).
 
     Raises InputError with the message that the command line prints. Warnings have the category RenderWarning.
     """
+    check_names(view, ("size", "set", "camera", "time", "linear", "alpha", "threads"))
     width, height = _check.size(size)
     path = _check.path("scene", scene)
     alpha = alpha or (isinstance(view.get("background"), str) and view["background"] == "transparent")

@@ -36,7 +36,9 @@ LIGHTING = {"studio": _STUDIO, "none": _DARK}
 
 # Options of Scene.load for model files, in the order of ModelView.
 _VIEW_OPTIONS = ("aspect", "yaw", "pitch", "zoom", "fov", "eye", "look_at", "up", "inside", "floor", "environment", "background",
-                 "model_scene", "model_animation", "model_variant", "times", "up_axis", "turn_seconds", "allow_outside")
+                 "model_scene", "animation", "variant", "times", "up_axis", "turn_seconds", "allow_outside")
+# Names that differ from those of _core, which are also accepted.
+_LONG_NAMES = {"animation": "model_animation", "variant": "model_variant"}
 _MODELS = (".obj", ".gltf", ".glb", ".ply", ".stl")
 
 
@@ -93,13 +95,21 @@ def _background(name: str, value: Any) -> Any:
     raise fail(name, f"is {value!r}", _BACKGROUND)
 
 
+def check_names(options: Mapping[str, Any], others: Sequence[str] = ()) -> None:
+    """Raises TypeError if an option of a view has an unknown name. others: other arguments of the function."""
+    for name in options:
+        if name not in _VIEW_OPTIONS and name not in _LONG_NAMES.values():
+            raise TypeError(f"{name}: unknown argument; expected one of {', '.join((*others, *_VIEW_OPTIONS))}")
+
+
 def view_options(path: str, options: Mapping[str, Any]) -> Dict[str, Any]:
-    """Returns the checked options of a view for _core. `background` can be a tuple, which _core does not accept."""
+    """Returns the checked options of a view with the names of _core. `background` can be a tuple, which _core does not accept."""
     given = {name: value for name, value in options.items() if value is not None}
+    for name, long_name in _LONG_NAMES.items():
+        if name in given and long_name in given:
+            raise fail(long_name, f"is another name of {name}", "only one of them")
     for name in given:
-        if name not in _VIEW_OPTIONS:
-            raise TypeError(f"{name}: unknown argument; expected one of {', '.join(_VIEW_OPTIONS)}")
-        if not is_model_file(path) and name != "aspect":
+        if not is_model_file(path) and name not in ("aspect", "allow_outside"):
             raise fail(name, "applies only to model files", "a file ending in .obj, .gltf, .glb, .ply or .stl")
     limits = {"aspect": (1.0 / _check.MAX_SIDE, _check.MAX_SIDE), "yaw": (-360.0, 360.0), "pitch": (-89.0, 89.0), "zoom": (1e-3, 1e3), "fov": (1.0, 170.0),
               "turn_seconds": (0.0, 1e9)}
@@ -107,14 +117,14 @@ def view_options(path: str, options: Mapping[str, Any]) -> Dict[str, Any]:
         **{name: lambda name, value: _check.number(name, value, *limits[name]) for name in limits},
         **dict.fromkeys(("eye", "look_at", "up"), _check.vector),
         **dict.fromkeys(("inside", "floor", "allow_outside"), _check.flag),
-        **dict.fromkeys(("model_scene", "model_animation", "model_variant"), _check.name_or_index),
+        **dict.fromkeys(("model_scene", *_LONG_NAMES, *_LONG_NAMES.values()), _check.name_or_index),
         "environment": _check.path,
         "background": _background,
         "times": lambda name, value: [_check.number(f"times[{i}]", t, -1e9, 1e9)
                                       for i, t in enumerate(_check.items("times", value, "a sequence of numbers"))],
         "up_axis": lambda name, value: _check.choice(name, value, ("y", "z")),
     }
-    return {name: checks[name](name, value) for name, value in given.items()}
+    return {_LONG_NAMES.get(name, name): checks[name](name, value) for name, value in given.items()}
 
 
 def times_of(time: Any, cameras: Sequence[Any]) -> List[float]:

@@ -12,7 +12,7 @@ import numpy as np
 
 from . import _check, _core
 from ._check import fail
-from ._options import LIGHTING, emit, pixel_kind, setting_text, times_of, view_options
+from ._options import LIGHTING, check_names, emit, is_model_file, pixel_kind, setting_text, times_of, view_options
 from .camera import Camera
 from .labels import LABELS, checked_background, checked_outputs, finished, images_of
 from .mesh import Mesh
@@ -68,16 +68,18 @@ class Scene:
         environment: image file of a panorama that lights the model.
         background: "#rrggbb", three linear numbers from 0 to 1, "environment" or "transparent". Colors are those before exposure and tone
             mapping.
-        model_scene, model_animation, model_variant: names in the file, or indices from 0.
+        model_scene, animation, variant: scene, animation and material variant of the file: names, or indices from 0. `animation` and
+            `variant` can also be called model_animation and model_variant, like the keys of an object.
         times: times in seconds at which the whole model is in view. The default is time 0.
         up_axis: "y" or "z".   turn_seconds: time in which the camera moves around the model once. 0: it does not move.
-        allow_outside: whether files outside the folder of the model may be opened.
+        allow_outside: whether models may refer to files outside their folders. Also applies to scene files.
 
-        An animated model moves if model_animation or times is given. With times alone, the first animation of the file plays. For frames
+        An animated model moves if `animation` or `times` is given. With `times` alone, the first animation of the file plays. For frames
         that are the same as those of `halfspace render MODEL --frames`, pass the times of all frames.
 
-        Raises InputError if the file cannot be used.
+        Raises InputError if the file or an argument cannot be used, and TypeError for an unknown argument.
         """
+        check_names(view, ("threads",))
         name = _check.path("path", path)
         scene = cls.__new__(cls)
         options = view_options(name, view)
@@ -85,6 +87,9 @@ class Scene:
         scene._start(_core.Scene.open(name, options, _check.threads(threads, _core.cores())))
         if color is not None:
             scene.set({"background.color": color})
+        if options.get("allow_outside") and not is_model_file(name):
+            files = [object for object in scene.objects if scene[f"objects.{object}.shape"] == "file"]
+            scene.set({f"objects.{object}.allow_outside": True for object in files})
         return scene
 
     # ---- keys ----------------------------------------------------------------------------------------------------

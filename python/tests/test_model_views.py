@@ -55,7 +55,8 @@ def model(tmp_path):
     ({}, []),
     ({"time": 0}, ["--time", "0"]),  # plays the animation
     ({"time": 0.75}, ["--time", "0.75"]),
-    ({"time": 0.75, "model_animation": "Slide"}, ["--time", "0.75", "--animation", "Slide"]),
+    ({"time": 0.75, "animation": "Slide"}, ["--time", "0.75", "--animation", "Slide"]),
+    ({"animation": "Slide"}, ["--animation", "Slide"]),
     ({"model_animation": "Slide"}, ["--animation", "Slide"]),
 ])
 def test_an_animated_model_matches_the_command_line(command_line, model, view, options):
@@ -72,7 +73,7 @@ def test_the_first_of_several_animations_plays_with_a_warning(command_line, tmp_
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         halfspace.render(model, size=SMALL)  # nothing plays
-        halfspace.render(model, size=SMALL, time=1, model_animation="Fly")
+        halfspace.render(model, size=SMALL, time=1, animation="Fly")
 
 
 def test_frames_of_an_animated_model_match_the_command_line(command_line, model):
@@ -107,8 +108,9 @@ def test_wrong_times_are_reported(model, times, words):
     ({"inside": "x"}, "inside: is 'x'; expected True or False"),
     ({"allow_outside": "x"}, "allow_outside: is 'x'; expected True or False"),
     ({"model_scene": 1.5}, "model_scene: is 1.5; expected a name or an index"),
-    ({"model_animation": True}, "model_animation: is True; expected a name or an index"),
+    ({"animation": True}, "animation: is True; expected a name or an index"),
     ({"model_variant": -1}, "model_variant: is -1; expected an integer from 0"),
+    ({"animation": 0, "model_animation": 0}, "model_animation: is another name of animation; expected only one of them"),
     ({"up_axis": 1}, "up_axis: is 1; expected one of y, z"),
     ({"eye": "x"}, "eye: has the shape (); expected (3,)"),
 ])
@@ -120,12 +122,13 @@ def test_wrong_types_are_reported(model, arguments, words):
 
 @pytest.mark.parametrize("argument, option, name, index", [
     ("model_scene", "--scene", "tall", 1),
-    ("model_animation", "--animation", "Fly", np.int64(1)),
+    ("animation", "--animation", "Fly", np.int64(1)),
+    ("variant", "--variant", "blue", 1),
     ("model_variant", "--variant", "blue", 1),
 ])
 def test_parts_of_a_model_can_be_given_by_index(command_line, tmp_path, argument, option, name, index):
     model = write_model(tmp_path / "two.gltf", ("Slide", "Fly"))
-    time = {"time": 0.5, "model_animation": "Slide"}
+    time = {"time": 0.5, "animation": "Slide"}
     options = {"--time": "0.5", "--animation": "Slide", option: name}
     path = command_line(model, "--size", "160x90", *(word for pair in options.items() for word in pair))
     for value in (name, index):
@@ -144,3 +147,20 @@ def test_a_transparent_background_matches_the_command_line(command_line, model):
     path = command_line(model, "--size", "160x90", "--background", "transparent")
     assert same_bytes(halfspace.render(model, size=SMALL, background="transparent"), path)
     assert same_bytes(halfspace.render(model, size=SMALL, alpha=True), path)
+
+
+def test_models_of_a_scene_file_can_refer_to_files_outside_their_folders(tmp_path):
+    folder = tmp_path / "inner"
+    folder.mkdir()
+    halfspace.Picture((4, 4, 3), np.uint8).save(tmp_path / "outer.png")
+    (folder / "a.mtl").write_text("newmtl m\nmap_Kd ../outer.png\n")
+    (folder / "a.obj").write_text("mtllib a.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    (folder / "scene.json").write_text(json.dumps({
+        "version": 1, "samples": 1, "ambient": 1, "cameras": {"front": {"position": [0, 0, 4]}}, "camera": "front",
+        "objects": {"shown": {"shape": "file", "file": "a.obj"}, "ball": {"shape": "sphere"}}}))
+    for file in ("a.obj", "scene.json"):
+        with pytest.warns(halfspace.RenderWarning, match="outside the folder"):
+            halfspace.render(folder / file, size=SMALL)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            halfspace.render(folder / file, size=SMALL, allow_outside=True)

@@ -103,8 +103,10 @@ def test_wrong_arguments_are_reported(arguments, words):
 
 
 def test_unknown_arguments_are_reported():
-    with pytest.raises(TypeError, match="yaww: unknown argument; expected one of aspect, yaw"):
+    with pytest.raises(TypeError, match="^yaww: unknown argument; expected one of size, set, camera, time, linear, alpha, threads, aspect, yaw, "):
         halfspace.render("model.glb", yaww=3)
+    with pytest.raises(TypeError, match="^yaww: unknown argument; expected one of threads, aspect, yaw, .*model_scene, animation, variant, "):
+        halfspace.Scene.load("model.glb", yaww=None)
 
 
 def test_warnings_are_python_warnings(tmp_path):
