@@ -30,7 +30,7 @@ def render(scene: Union[str, "os.PathLike[str]"], *, size: Size = (1920, 1080), 
     Returns 8-bit sRGB values: uint8 of shape (height, width, 3), or (height, width, 4) with alpha=True. With linear=True, returns linear
     values before exposure and tone mapping: float32 of shape (height, width, 4).
 
-    Raises InputError with the message that the command line prints. Warnings have the category RenderWarning.
+    Raises InputError with the message that the command line prints, in terms of Python's arguments. Warnings have the category RenderWarning.
     """
     check_names(view, ("size", "set", "camera", "time", "linear", "alpha", "threads"))
     width, height = _check.size(size)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The extension module halfspace._core.
+#include <exception>
 #include <stdexcept>
 
 #include "bindings.h"
@@ -9,6 +10,7 @@
 #include "halfspace/core/parallel.h"
 #include "halfspace/core/tool_folder.h"
 #include "halfspace/scene/scene_file.h"
+#include "messages.h"
 
 namespace halfspace::python {
 
@@ -22,11 +24,23 @@ std::vector<std::string> scene_names() {
   return names;
 }
 
+PyObject* input_error = nullptr;  // the type of the Python exception
+
+// Called before the translator of register_exception(), because it is registered later.
+void translate_input_error(std::exception_ptr raised) {
+  try {
+    if (raised) std::rethrow_exception(raised);
+  } catch (const InputError& e) {
+    PyErr_SetString(input_error, in_python_terms(e.what()).c_str());
+  }
+}
+
 }  // namespace
 
 PYBIND11_MODULE(_core, m) {
   set_check_handler(throw_failed_check);
-  py::register_exception<InputError>(m, "InputError", PyExc_ValueError);
+  input_error = py::register_exception<InputError>(m, "InputError", PyExc_ValueError).ptr();
+  py::register_exception_translator(translate_input_error);
   py::register_exception<OutputError>(m, "OutputError", PyExc_OSError);
   m.attr("version") = HALFSPACE_VERSION;
   m.attr("lanes") = kLanes;

@@ -9,6 +9,7 @@
 
 #include "halfspace/core/check.h"
 #include "halfspace/scene/scene_paths.h"
+#include "messages.h"
 
 namespace halfspace::python {
 
@@ -168,7 +169,7 @@ void SceneCore::forget_model(const std::string& file) {
 
 void SceneCore::warn(const std::string& problem) {
   const std::lock_guard lock(warnings_mutex_);
-  if (warned_.insert(problem).second) warnings_.push_back(problem);
+  if (warned_.insert(problem).second) warnings_.push_back(in_python_terms(problem));
 }
 
 std::vector<std::string> SceneCore::take_warnings() {
@@ -203,7 +204,8 @@ PreparedScene SceneCore::State::prepare(const Shot& shot, PictureSize size, Scen
   try {
     return assets.prepare(shown, size.width, size.height);
   } catch (const InputError& e) {
-    throw InputError(scene.source() + ": " + e.what());
+    const std::string place = scene.source() + ": ", what = e.what();
+    throw InputError(what.starts_with(place) ? what : place + what);
   }
 }
 

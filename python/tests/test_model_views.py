@@ -67,7 +67,7 @@ def test_an_animated_model_matches_the_command_line(command_line, model, view, o
 
 def test_the_first_of_several_animations_plays_with_a_warning(command_line, tmp_path):
     model = write_model(tmp_path / "two.gltf", ("Slide", "Fly"))
-    with pytest.warns(halfspace.RenderWarning, match="'Slide' plays, the first of 2") as caught:
+    with pytest.warns(halfspace.RenderWarning, match="'Slide' plays, the first of 2; pass animation= to select another: Fly$") as caught:
         picture = halfspace.render(model, size=SMALL, time=1)
     assert len(caught) == 1 and same_bytes(picture, command_line(model, "--size", "160x90", "--time", "1"))
     with warnings.catch_warnings():

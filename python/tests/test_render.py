@@ -81,7 +81,24 @@ def test_errors_match_the_command_line(program, call, arguments):
     assert isinstance(error.value, ValueError)
     printed = subprocess.run([program, "render", *arguments], capture_output=True, text=True, check=False)
     assert printed.returncode == 3
-    assert printed.stderr == f"halfspace: {error.value}\n"
+    assert printed.stderr.replace("--set: ", "") == f"halfspace: {error.value}\n"  # options of the command line are not mentioned
+
+
+def test_messages_name_no_options_of_the_command_line(tmp_path):
+    scene = halfspace.Scene()
+    with pytest.raises(halfspace.InputError, match="^nope: no 'nope' in this scene"):
+        scene["nope"] = 1
+    with pytest.raises(halfspace.InputError, match="^ambient: "):
+        halfspace.render("moon", size=SMALL, set={"ambient": "many"})
+    with pytest.raises(halfspace.InputError, match="nope") as error:
+        halfspace.render("moon", size=SMALL, camera="nope")
+    assert "--" not in str(error.value)
+    (tmp_path / "m.mtl").write_text("newmtl m\nmap_Kd ../outside.png\nmap_Ks ../other.png\n")
+    model = tmp_path / "m.obj"
+    model.write_text("mtllib m.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    with pytest.warns(halfspace.RenderWarning, match="pass allow_outside=True to allow it$") as caught:
+        halfspace.render(model, size=SMALL)
+    assert not any("--" in str(warning.message) for warning in caught)
 
 
 @pytest.mark.parametrize("arguments, words", [

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "messages.h"
+
+#include <string_view>
+#include <utility>
+
+namespace halfspace::python {
+
+namespace {
+
+// Phrases and their replacements. A phrase that begins with another one comes before it.
+constexpr std::pair<std::string_view, std::string_view> kPhrases[] = {
+    {"use --allow-outside to allow it", "pass allow_outside=True to allow it"},
+    {"use --allow-outside", "pass allow_outside=True to allow it"},
+    {"use --animation to select another", "pass animation= to select another"},
+    {" (--max-memory)", ""},
+    {" (--max-pixels)", ""},
+    {" (--max-primitives)", ""},
+};
+
+}  // namespace
+
+std::string in_python_terms(std::string message) {
+  constexpr std::string_view kSettings = "--set: ";
+  if (message.starts_with(kSettings)) message.erase(0, kSettings.size());
+  for (const auto& [phrase, replacement] : kPhrases) {
+    if (const std::size_t at = message.rfind(phrase); at != std::string::npos) message.replace(at, phrase.size(), replacement);
+  }
+  return message;
+}
+
+}  // namespace halfspace::python
