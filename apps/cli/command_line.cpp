@@ -2,8 +2,10 @@
 #include "cli/command_line.h"
 
 #include <CLI/CLI.hpp>
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <iostream>
 #include <memory>
 #include <string_view>
@@ -85,6 +87,13 @@ std::string one_line(std::string text) {
   return text;
 }
 
+// Describes an option with too few or too many values.
+std::string mismatch(const CLI::ArgumentMismatch& e) {
+  const std::string text = one_line(e.what());
+  const std::string::size_type end = text.find(": At Most 1 required");
+  return end == std::string::npos ? text : text.substr(0, end) + " is given more than once; expected it once";
+}
+
 // Prints an error as a single line. Control characters, which can come from files or arguments, are escaped.
 int report(const CLI::App& program, ExitCode code, std::string_view what) {
   std::string line = program.get_name() + ": ";
@@ -147,6 +156,8 @@ int run_program(CLI::App& program, const std::function<void()>& parse_and_run) {
     parse_and_run();
   } catch (const CLI::ExtrasError&) {
     return report(program, kUsage, unknown_argument(program).what());
+  } catch (const CLI::ArgumentMismatch& e) {
+    return report(program, kUsage, mismatch(e) + see_help(program));
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() != 0) return report(program, kUsage, one_line(e.what()) + see_help(program));
     program.exit(e, std::cout, std::cerr);  // --help
@@ -163,8 +174,10 @@ int run_program(CLI::App& program, const std::function<void()>& parse_and_run) {
   } catch (const std::exception& e) {
     return report(program, kBadInput, std::string("system error: ") + e.what());
   }
+  errno = 0;  // 0 afterwards if the stream had failed before
   std::cout.flush();
-  if (!std::cout) return report(program, kCannotWrite, "standard output: cannot write");
+  if (!std::cout)
+    return report(program, kCannotWrite, "standard output: cannot write" + (errno == 0 ? "" : std::string(": ") + std::strerror(errno)));
   return kOk;
 }
 

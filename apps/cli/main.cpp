@@ -18,11 +18,6 @@ namespace halfspace {
 
 namespace {
 
-// Rejects an empty name of a scene, for example from an unset variable of a shell script.
-CLI::Validator not_empty() {
-  return {[](const std::string& name) { return std::string(name.empty() ? "the name is empty; expected a scene or a file" : ""); }, ""};
-}
-
 // Adds the options for the output. They are listed by --help-output, so that the help of the command fits on a screen.
 void add_output_options(CLI::App* command, OutputArguments& args) {
   const auto add = [&](const char* name, std::string& value, const char* help, const char* type) {
@@ -52,7 +47,7 @@ void add_render_command(CLI::App& program) {
       ->required()
       ->type_name("")
       ->check(not_empty());
-  command->add_option("-o,--output", args->out, ".png .jpg .tif .exr .hdr (see --help-output)")->type_name("OUT");
+  command->add_option("-o,--output", args->out, ".png .jpg .tif .exr .hdr (see --help-output)")->type_name("OUT")->check(not_empty());
   command->add_option("--size", args->size, "Size in pixels (default 1920x1080)")->type_name("WxH");
   add_set_option(command, args->set);
   add_view_options(command, args->camera, args->shading, args->time);
@@ -83,7 +78,7 @@ void add_explain_command(CLI::App& program) {
       ->required()
       ->type_name("")
       ->check(not_empty());
-  command->add_option("-o,--output", args->out, "Output file (default SCENE.html)")->type_name("PAGE");
+  command->add_option("-o,--output", args->out, "Output file (default SCENE.html)")->type_name("PAGE")->check(not_empty());
   command->add_option("--pixel", args->pixel, "Pixel, from the upper left (default: most fragments)")->type_name("X,Y");
   command->add_flag("--text", args->text, "Print the history of the pixel as text instead");
   command->add_flag("--json", args->json, "Print the history of the pixel as JSON instead");
@@ -104,7 +99,10 @@ void add_export_command(CLI::App& program) {
   CLI::App* command = program.add_subcommand("export", "Write a scene or a model as glTF, OBJ, PLY or STL");
   const auto args = std::make_shared<ExportArguments>();
   command->add_option("SCENE", args->scene, "Scene, scene file or model file")->required()->type_name("")->check(not_empty());
-  command->add_option("-o,--output", args->out, "Output file: .glb, .gltf, .obj, .ply or .stl")->required()->type_name("FILE");
+  command->add_option("-o,--output", args->out, "Output file: .glb, .gltf, .obj, .ply or .stl")
+      ->required()
+      ->type_name("FILE")
+      ->check(not_empty());
   add_set_option(command, args->set);
   command->add_flag("--allow-outside", args->allow_outside, "Read files outside the folder of the model");
   command->add_option("--threads", args->threads, "Threads (default: one per core)")->type_name("N");
@@ -120,7 +118,10 @@ void add_convert_normal_command(CLI::App& program) {
   CLI::App* command = program.add_subcommand("convert-normal", "Convert a height map to a normal map");
   const auto args = std::make_shared<ConvertNormalArguments>();
   command->add_option("HEIGHT", args->height, "Height map with 8-bit, 16-bit or float texels")->required()->type_name("");
-  command->add_option("-o,--output", args->out, "Normal map as PNG, in tangent space, green up")->required()->type_name("NORMAL");
+  command->add_option("-o,--output", args->out, "Normal map as PNG, in tangent space, green up")
+      ->required()
+      ->type_name("NORMAL")
+      ->check(not_empty());
   command->add_option("--strength", args->strength, "Height of white, in texels (default 8)")->type_name("S");
   command->add_option("--edges", args->edges, "Edges of the map: repeat (default), clamp, sphere")->type_name("E");
   command->footer(
@@ -136,7 +137,7 @@ void add_validate_command(CLI::App& program) {
   const auto args = std::make_shared<ValidateArguments>();
   command->add_option("SCENE", args->scene, "Scene or scene file")->type_name("")->check(not_empty());
   command->add_flag("--json", args->json, "Report as JSON, one object per light");
-  command->add_option("-o,--output", args->out, "Folder for images, or for the chart of --table")->type_name("DIR");
+  command->add_option("-o,--output", args->out, "Folder for images, or for the chart of --table")->type_name("DIR")->check(not_empty());
   command->add_flag("--table", args->table, "Score all biases and filters on four scenes (CSV)");
   command->add_flag("--full", args->full, "With --table: all combinations (takes hours)");
   add_set_option(command, args->set);
@@ -158,7 +159,7 @@ void add_chart_command(CLI::App& program) {
   CLI::App* command = program.add_subcommand("chart", "Chart the error and the time of rendering methods");
   const auto args = std::make_shared<ChartArguments>();
   command->add_option("STUDY", args->study, "One of the studies below, or all")->required()->type_name("");
-  command->add_option("-o,--output", args->out, "Output folder (default charts)")->type_name("DIR");
+  command->add_option("-o,--output", args->out, "Output folder (default charts)")->type_name("DIR")->check(not_empty());
   command->add_flag("--quick", args->quick, "Use small images, as a functional test");
   command->add_option("--threads", args->threads, "Threads (default: one per core)")->type_name("N");
   command->footer("Studies:" + study_lines() +
@@ -178,7 +179,7 @@ void add_compare_command(CLI::App& program) {
   command->add_option("A", args->a, "First image")->required()->type_name("");
   command->add_option("B", args->b, "Second image, of the same size")->required()->type_name("");
   command->add_flag("--json", args->json, "Report as JSON");
-  command->add_option("-o,--output", args->out, "Write a color-coded difference image (PNG)")->type_name("DIFF");
+  command->add_option("-o,--output", args->out, "Write a color-coded difference image (PNG)")->type_name("DIFF")->check(not_empty());
   command->add_option("--tolerance", args->tolerance, "Exit with 1 if a channel differs by more than T")->type_name("T");
   command->footer(
       "Examples:\n"

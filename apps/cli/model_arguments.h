@@ -20,10 +20,10 @@ struct ModelArguments {
   bool inside = false, floor = false, no_floor = false, allow_outside = false;
 };
 
-/// Opens a scene by name or file name, or generates one for a model file with the view that the options describe. `aspect`: width / height
-/// of the image; `fps`: frames per second of --turntable; `times`: see ModelView. Throws UsageError for options that do not apply, and
-/// InputError.
-OpenedScene open_scene_or_model(const std::string& scene, const ModelArguments& args, double aspect, double fps,
+/// Opens a scene by name or file name, or generates one for a model file with the view that the options describe. `camera`: value of
+/// --camera; `aspect`: width / height of the image; `fps`: frames per second of --turntable; `times`: see ModelView. Throws UsageError for
+/// options that do not apply, and InputError.
+OpenedScene open_scene_or_model(const std::string& scene, const ModelArguments& args, const std::string& camera, double aspect, double fps,
                                 const std::vector<double>& times = {});
 
 /// Allows all models of a scene to refer to files outside of their folders.

@@ -20,6 +20,10 @@ std::string typed_name(const CLI::App* command) {
 
 }  // namespace
 
+CLI::Validator not_empty() {
+  return {[](const std::string& name) { return std::string(name.empty() ? "the name is empty; expected a name or a file" : ""); }, ""};
+}
+
 void print_group(const CLI::App* command, const char* group, const std::string& title) {
   std::cout << title << '\n';
   for (const CLI::Option* option : command->get_options()) {
@@ -38,7 +42,7 @@ void add_set_option(CLI::App* command, std::vector<std::string>& settings) {
 }
 
 void add_view_options(CLI::App* command, std::string& camera, std::string& shading, std::string& time) {
-  command->add_option("--camera", camera, "Name of one of the scene's cameras")->type_name("NAME");
+  command->add_option("--camera", camera, "Name of one of the scene's cameras")->type_name("NAME")->check(not_empty());
   command->add_option("--shading", shading, "Shading: none, flat, provoking, gouraud or phong")->type_name("RATE");
   command->add_option("--time", time, "Seconds into the animation (default 0)")->type_name("S");
 }

@@ -11,9 +11,13 @@
 
 namespace CLI {
 class App;
-}
+class Validator;
+}  // namespace CLI
 
 namespace halfspace {
+
+/// Rejects an empty name, for example from an unset variable of a shell script.
+CLI::Validator not_empty();
 
 /// Adds --set KEY=VALUE, which can be given several times.
 void add_set_option(CLI::App* command, std::vector<std::string>& settings);

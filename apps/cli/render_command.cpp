@@ -122,7 +122,7 @@ RenderJob parse_job(const RenderArguments& args) {
   if (args.naive && (!output.values.empty() || output.crop))
     throw UsageError("--naive draws only whole pictures; expected it without --aov and --crop");
   check_picture(size, bytes_per_pixel(output, format));
-  OpenedScene opened = open_scene_or_model(args.scene, args.model, static_cast<double>(size.width) / size.height, fps,
+  OpenedScene opened = open_scene_or_model(args.scene, args.model, args.camera, static_cast<double>(size.width) / size.height, fps,
                                            animated_times(args, time, fps, frames));
   set_scene(opened, args.set, args.camera);
   set_shading(opened.scene, args.shading);
@@ -170,7 +170,8 @@ PreparedScene prepare(const RenderJob& job, double seconds, SceneAssets& assets,
     if (job.arguments.naive) check_naive(prepared, scene);
     return prepared;
   } catch (const InputError& e) {
-    throw InputError(job.scene.source() + ": " + e.what());
+    const std::string place = job.scene.source() + ": ", what = e.what();
+    throw InputError(what.starts_with(place) ? what : place + what);
   }
 }
 

@@ -80,7 +80,7 @@ void run(const ViewArguments& args) {
   set_limits(args.limits);
   const ViewOptions options = options_of(args);
   const double time = args.time.empty() ? 0.0 : parse_real("--time", args.time, -1e9, 1e9, "seconds, for example 2.5");
-  OpenedScene opened = open_scene_or_model(args.scene, args.model, static_cast<double>(options.width) / options.height, 30.0,
+  OpenedScene opened = open_scene_or_model(args.scene, args.model, args.camera, static_cast<double>(options.width) / options.height, 30.0,
                                            args.time.empty() ? std::vector<double>{} : std::vector{time});
   set_scene(opened, args.set, args.camera);
   set_shading(opened.scene, args.shading);

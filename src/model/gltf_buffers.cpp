@@ -73,8 +73,14 @@ std::vector<std::byte> GltfBuffers::load(const GltfValue& json) {
     if (!data) document_.fail(json, "uri", "the data URI is invalid; expected data:...;base64,...");
     return std::move(*data);
   }
+  const int outside = references_.outside();
   const auto path = references_.find(percent_decoded(uri), "a buffer");
-  if (!path) document_.fail(json, "uri", "the buffer " + gltf_quoted(uri) + " cannot be opened; expected an existing file");
+  if (!path) {
+    document_.fail(json, "uri",
+                   "the buffer " + gltf_quoted(uri) +
+                       (references_.outside() > outside ? " is outside the folder of the model; expected it inside, or --allow-outside"
+                                                        : " cannot be opened; expected an existing file"));
+  }
   std::vector<std::byte> data = file_bytes(*path, document_.memory_left());
   document_.take_memory(json, data.size(), 1);
   return data;

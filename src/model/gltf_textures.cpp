@@ -16,7 +16,6 @@ namespace {
 // OpenGL constants.
 constexpr uint64_t kNearest = 9728, kLinear = 9729, kNearestMipmapNearest = 9984, kLinearMipmapLinear = 9987;
 constexpr uint64_t kRepeat = 10497, kClampToEdge = 33071, kMirroredRepeat = 33648;
-constexpr int kAnisotropy = 8;
 
 Wrap wrap_of(const GltfDocument& document, const GltfValue& json, const char* key) {
   switch (document.integer(json, key, kRepeat)) {
@@ -39,7 +38,7 @@ Sampler sampler_of(const GltfDocument& document, const GltfValue& json) {
     sampler.min = Filter::bilinear;
   } else if (min >= kNearestMipmapNearest && min <= kLinearMipmapLinear) {
     sampler.min = Filter::trilinear;
-    sampler.anisotropy = kAnisotropy;
+    sampler.anisotropy = kModelAnisotropy;
   } else {
     document.fail(json, "minFilter", "is not a filter; expected 9728, 9729 or 9984 to 9987");
   }

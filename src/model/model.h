@@ -40,6 +40,9 @@ struct ModelTexture {
   Sampler sampler;
 };
 
+/// Maximum anisotropy of model textures that are filtered with mip levels.
+inline constexpr int kModelAnisotropy = 8;
+
 /// A channel of a texture: red, green, blue, alpha, or the luminance of the color.
 enum class Channel : uint8_t { red, green, blue, alpha, luminance };
 

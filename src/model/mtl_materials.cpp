@@ -167,7 +167,7 @@ TextureUse MtlConverter::texture(const MtlMaterial& mtl, MtlMap which) {
   const MtlTexture& map = mtl.map(which);
   TextureUse use;
   if (map.file.empty()) return use;
-  ModelTexture texture{image(mtl, which), {}};
+  ModelTexture texture{image(mtl, which), {.anisotropy = kModelAnisotropy}};
   if (texture.image < 0) return use;
   if (map.clamp) texture.sampler.wrap_s = texture.sampler.wrap_t = Wrap::clamp;
   const auto same = std::ranges::find_if(model_.textures, [&](const ModelTexture& other) {

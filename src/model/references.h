@@ -27,6 +27,8 @@ class References {
 
   /// Returns the paths that find() has returned.
   const std::vector<std::filesystem::path>& found() const { return found_; }
+  /// Returns how many references were rejected because they are outside the folder of the model.
+  int outside() const { return outside_; }
 
  private:
   std::optional<std::filesystem::path> search(std::string_view name, std::string_view what);

@@ -97,7 +97,10 @@ class NodeWriter {
       attributes["WEIGHTS_1"] = out_.accessor(m.more_weights, Use::vertices);
     }
     if (!m.indices.empty()) known["indices"] = out_.index_accessor(m.indices, m.positions.size());
-    if (m.material >= 0) known["material"] = m.material;
+    // Points and lines without a material are drawn in a color that contrasts with the background, and not in that of the default material.
+    const bool has_material =
+        m.material >= 0 && (m.topology == MeshTopology::triangles || !model_.materials[static_cast<std::size_t>(m.material)].is_default);
+    if (has_material) known["material"] = m.material;
     known["mode"] = m.topology == MeshTopology::points ? kGlPoints : m.topology == MeshTopology::lines ? kGlLines : kGlTriangles;
     for (const MorphTarget& target : m.targets) known["targets"].push_back(target_json(target));
     add_variants(known, m);

@@ -103,8 +103,8 @@ std::string scene_name(const std::string& name, const char* fallback, std::set<s
 
 OrderedJson cameras_of(const ModelPoses& poses, const ModelBounds& b, const Frame& frame, const ModelView& view,
                        std::map<std::string, std::string>& names) {
-  OrderedJson cameras = {{"view", fitted_camera(poses, b, frame, view)}};
-  std::set<std::string> used{"view"};
+  OrderedJson cameras = {{kFittedCamera, fitted_camera(poses, b, frame, view)}};
+  std::set<std::string> used{kFittedCamera};
   for (const PosedCamera& placed : poses.first().cameras) {
     const ModelCamera& c = poses.model().cameras[static_cast<std::size_t>(placed.camera)];
     const glm::dvec3 eye(placed.world_from_camera[3]), ahead(-placed.world_from_camera[2]);
@@ -224,7 +224,7 @@ GeneratedScene model_scene(const std::filesystem::path& file, const ModelView& v
   const ModelBounds b = bounds_of(poses, file);
   const Frame frame = frame_of(b, file);
   const bool own_lights = !posed.lights.empty();
-  OrderedJson scene = {{"version", 1}, {"title", file.filename().string()}, {"samples", 4}, {"camera", "view"}};
+  OrderedJson scene = {{"version", 1}, {"title", file.filename().string()}, {"samples", 4}, {"camera", kFittedCamera}};
   std::map<std::string, std::string> camera_names;
   scene["cameras"] = cameras_of(poses, b, frame, view, camera_names);
   scene["lights"] = own_lights ? lights_of(model, posed, frame) : key_light(view);
@@ -254,7 +254,7 @@ GeneratedScene model_scene(const std::filesystem::path& file, const ModelView& v
   scene["objects"] = {{"model", object}};
   OrderedJson animations = OrderedJson::object();
   if (!animation.empty()) animations["clock"] = {{"type", "rate"}, {"target", "objects.model.model_time"}, {"rate", 1}};
-  if (view.turn_seconds > 0.0) animations["turntable"] = turntable(scene["cameras"]["view"], view.turn_seconds);
+  if (view.turn_seconds > 0.0) animations["turntable"] = turntable(scene["cameras"][kFittedCamera], view.turn_seconds);
   if (!animations.empty()) scene["animations"] = animations;
   if (view.floor && !view.inside) {
     const glm::dvec3 below = b.center - glm::dvec3(0, b.half.y + 1e-4 * b.radius, 0);

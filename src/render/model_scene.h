@@ -15,6 +15,9 @@
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
 
+/// Name of the camera that model_scene() fits to the model.
+inline constexpr const char* kFittedCamera = "view";
+
 /// How a model is shown. The default is a three-quarter view from above, which shows the whole model.
 struct ModelView {
   double aspect = 16.0 / 9.0;              ///< width / height of the image
@@ -44,9 +47,9 @@ struct GeneratedScene {
 /// Returns true if the file has the extension of a model format.
 bool is_model_file(const std::filesystem::path& file);
 
-/// Reads the model and returns a scene with the object `model`, the camera `view`, the cameras of the file, and the lights of the file or,
-/// if it has none, a key light with a soft shadow. If `view` has times but no animation, the first animation of the file plays. Throws
-/// InputError.
+/// Reads the model and returns a scene with the object `model`, the camera kFittedCamera, the cameras of the file, and the lights of the
+/// file or, if it has none, a key light with a soft shadow. If `view` has times but no animation, the first animation of the file plays.
+/// Throws InputError.
 GeneratedScene model_scene(const std::filesystem::path& file, const ModelView& view);
 
 }  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -90,6 +90,8 @@ std::string read_text(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
+constexpr const char* kExpectedFormats = "expected a scene file (JSON), or a model file ending in .obj, .gltf, .glb, .ply or .stl";
+
 // Throws if the file does not begin like a scene file. Files that are not scenes at all, such as a model whose name has no extension, get a
 // message that lists the formats instead of one about JSON.
 void check_format(const std::filesystem::path& path) {
@@ -100,9 +102,8 @@ void check_format(const std::filesystem::path& path) {
   file.read(start.data(), static_cast<std::streamsize>(start.size()));
   start.resize(static_cast<std::size_t>(file.gcount()));
   const std::size_t mark = start.starts_with("\xef\xbb\xbf") ? 3 : 0, first = start.find_first_not_of(" \t\r\n", mark);
-  if (first == std::string::npos || start[first] == '{' || start[first] == '/') return;
-  fail(path.string(),
-       "the format is not recognized; expected a scene file (JSON), or a model file ending in .obj, .gltf, .glb, .ply or .stl");
+  if (first != std::string::npos && (start[first] == '{' || start[first] == '/')) return;
+  fail(path.string(), std::string("the format is not recognized; ") + kExpectedFormats);
 }
 
 // ---- JSON → description ----------------------------------------------------------------------------------------
@@ -273,6 +274,7 @@ SceneFile SceneFile::open(const std::string& name_or_file) {
   const std::filesystem::path path = name_or_file;
   std::error_code error;
   if (!std::filesystem::exists(path, error) && !name_or_file.ends_with(".json")) {
+    if (path.has_extension()) fail(name_or_file, std::string("does not exist; ") + kExpectedFormats);
     throw InputError("unknown scene '" + name_or_file + "'" + suggestion(name_or_file, names));
   }
   const std::filesystem::path directory = path.is_absolute() ? path.parent_path() : working_directory() / path.parent_path();

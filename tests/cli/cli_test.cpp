@@ -80,6 +80,16 @@ const Mistake kMistakes[] = {
     {"OutputFormat", {"render", "earth", "-o", "earth.gif"}, 2, "-o", {"'earth.gif'", ".png", ".exr"}},
     {"NearScene", {"render", "eart"}, 3, "unknown scene", {"'eart'", "'earth'"}},
     {"FarScene", {"render", "teapot"}, 3, "unknown scene", {"'teapot'", shipped_scenes()}},
+    {"NoModelFile", {"render", "a.fbx"}, 3, "a.fbx", {"does not exist", ".glb", ".obj", "JSON"}},
+    {"SizeTwice", {"render", "earth", "--size", "64x36", "--size", "32x18"}, 2, "--size", {"more than once", "render --help"}},
+    {"EmptyOutput", {"render", "earth", "-o", ""}, 2, "--output", {"empty"}},
+    {"EmptyCamera", {"render", "earth", "--camera", ""}, 2, "--camera", {"empty"}},
+    {"PitchTooHigh", {"render", "a.glb", "--pitch", "90"}, 2, "--pitch", {"'90'", "-89 to 89"}},
+    {"BackgroundWord", {"render", "a.glb", "--background", "red"}, 2, "--background", {"'red'", "#rrggbb", "transparent"}},
+    {"YawInside", {"render", "a.glb", "--inside", "--yaw", "90"}, 2, "--yaw", {"--inside", "--eye"}},
+    {"ZoomOfEye", {"render", "a.glb", "--eye", "1,2,3", "--zoom", "2"}, 2, "--zoom", {"--eye"}},
+    {"FovOfCamera", {"render", "a.glb", "--camera", "shot", "--fov", "20"}, 2, "--fov", {"fitted camera", "--camera shot"}},
+    {"YawOfCamera", {"render", "a.glb", "--camera", "shot", "--yaw", "20"}, 2, "--yaw", {"fitted camera", "--camera shot"}},
     {"NoSceneFile", {"render", "my.json"}, 3, "my.json", {"no such"}},
     {"NearKey", {"render", "earth", "--set", "earth.colour=a.png"}, 3, "--set: earth.colour", {"'colour'", "'color'"}},
     {"NearThing", {"render", "earth", "--set", "erath.color=a.png"}, 3, "--set: erath.color", {"'erath'", "'earth'"}},
@@ -438,7 +448,7 @@ TEST_F(Cli, WritesEveryFormat) {
 TEST_F(Cli, ReportsAFullStandardOutput) {
   const std::string command = std::string(HALFSPACE_PROGRAM) + " info > /dev/full 2> " + (root / "err").string();
   EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 4);
-  EXPECT_EQ(read_bytes(root / "err"), "halfspace: standard output: cannot write\n");
+  EXPECT_EQ(read_bytes(root / "err"), "halfspace: standard output: cannot write: No space left on device\n");
 }
 
 // ---- streams ---------------------------------------------------------------------------------------------------

@@ -67,6 +67,21 @@ TEST_F(Export, RenderOfTheExportMatches) {
   }
 }
 
+// The texture is minified anisotropically. The line has no material.
+TEST_F(Export, ModelsKeepTheirPicture) {
+  Image<glm::u8vec4> map(64, 64);
+  for (int y = 0; y < 64; ++y) {
+    for (int x = 0; x < 64; ++x) map.at(x, y) = {4 * x, 4 * y, (x + y) % 2 * 255, 255};
+  }
+  write_image(directory / "map.png", map);
+  write("a.mtl", "newmtl m\nKd 0.8 0.7 0.6\nmap_Kd map.png\n");
+  write("a.obj",
+        "mtllib a.mtl\nv -4 0 -4\nv 4 0 -4\nv 4 0 4\nv -4 0 4\nv 0 1 0\nvt 0 0\nvt 6 0\nvt 6 6\nvt 0 6\nl 1 5 3\n"
+        "usemtl m\nf 4/4 3/3 2/2 1/1\n");
+  export_to("a.obj", "b.glb");
+  EXPECT_EQ(render("a.obj"), render("b.glb"));
+}
+
 TEST_F(Export, KeepsCamerasAndLights) {
   write("scene.json", kHead + R"("ball": {"shape": "sphere"}}})");
   export_to("scene.json", "a.glb");
