@@ -12,6 +12,10 @@ from . import _check, _core
 from ._check import fail
 
 
+def _without_alpha(name: str, expected: str) -> Exception:
+    return fail("path", f"is {name!r}, a format without alpha, but the picture has alpha", expected)
+
+
 class Picture(np.ndarray):
     """A rendered image: an array that displays itself in a notebook and can be saved.
 
@@ -34,17 +38,22 @@ class Picture(np.ndarray):
     def save(self, path: Union[str, "os.PathLike[str]"]) -> None:
         """Writes the picture to a file. The extension selects the format.
 
-        8-bit pictures: .png, .jpg or .tif. Linear pictures: .exr or .hdr. Raises OutputError if the file cannot be written.
+        8-bit pictures: .png or .tif, or .jpg without alpha. Linear pictures: .exr, or .hdr if alpha is 1 everywhere. Raises InputError for
+        other extensions, and OutputError if the file cannot be written.
         """
         name = _check.path("path", path)
         extension = os.path.splitext(name)[1].lower()
         if self._is_codes():
             if extension not in (".png", ".jpg", ".jpeg", ".tif", ".tiff"):
                 raise fail("path", f"is {name!r}", "a file name ending in .png, .jpg or .tif for 8-bit pictures")
+            if self.shape[2] == 4 and extension in (".jpg", ".jpeg"):
+                raise _without_alpha(name, "a file name ending in .png or .tif")
             _core.save_codes(name, np.ascontiguousarray(self))
         elif self.dtype == np.float32 and self.ndim == 3 and self.shape[2] == 4 and self.size > 0:
             if extension not in (".exr", ".hdr"):
                 raise fail("path", f"is {name!r}", "a file name ending in .exr or .hdr for linear pictures")
+            if extension == ".hdr" and (self[..., 3] != 1.0).any():
+                raise _without_alpha(name, "a file name ending in .exr")
             _core.save_light(name, np.ascontiguousarray(self))
         else:
             raise fail("picture", f"is {self.dtype} of shape {self.shape}", "uint8 (H, W, 3 or 4) or float32 (H, W, 4)")

@@ -153,6 +153,19 @@ def test_pictures_can_be_displayed_and_saved(tmp_path):
     assert isinstance(error.value, OSError)
 
 
+def test_alpha_is_not_dropped_when_a_picture_is_saved(tmp_path):
+    cutout = halfspace.render("moon", size=SMALL, alpha=True)
+    light = halfspace.render("moon", size=SMALL, alpha=True, linear=True)
+    for picture, name, others in [(cutout, "a.jpg", ".png or .tif"), (cutout, "a.JPEG", ".png or .tif"), (light, "a.hdr", ".exr")]:
+        with pytest.raises(halfspace.InputError, match=f"{name}', a format without alpha, but .*; expected a file name ending in {others}$"):
+            picture.save(tmp_path / name)
+        assert not (tmp_path / name).exists()
+    cutout.save(tmp_path / "a.tif")
+    light.save(tmp_path / "a.exr")
+    cutout[..., :3].save(tmp_path / "a.jpg")
+    halfspace.render("moon", size=SMALL, linear=True).save(tmp_path / "a.hdr")
+
+
 @pytest.mark.parametrize("size", [(2048, 1), (1, 2048)])
 def test_any_aspect_ratio_matches_the_command_line(command_line, size):
     path = command_line("moon", "--size", f"{size[0]}x{size[1]}")
