@@ -48,7 +48,7 @@ void add_values(draco::Mesh& mesh, draco::GeometryAttribute::Type kind, draco::D
   const auto count = static_cast<uint32_t>(values.size());
   const auto components = sizeof(T) / static_cast<std::size_t>(draco::DataTypeLength(type));
   draco::GeometryAttribute attribute;
-  attribute.Init(kind, nullptr, static_cast<int8_t>(components), type, normalized, sizeof(T), 0);
+  attribute.Init(kind, nullptr, static_cast<uint8_t>(components), type, normalized, sizeof(T), 0);
   const int id = mesh.AddAttribute(attribute, true, count);
   for (uint32_t i = 0; i < count; ++i) mesh.attribute(id)->SetAttributeValue(draco::AttributeValueIndex(i), &values[i]);
 }
@@ -142,7 +142,7 @@ std::vector<std::array<uint32_t, 3>> triangles_of(const std::vector<uint32_t>& i
   for (std::size_t i = 0; i < indices.size(); i += 3) {
     std::array<uint32_t, 3> t{};
     for (std::size_t k = 0; k < 3; ++k) t[k] = numbers[indices[i + k]][0];
-    std::ranges::rotate(t, std::ranges::min_element(t));
+    std::rotate(t.begin(), std::ranges::min_element(t), t.end());
     list.push_back(t);
   }
   std::ranges::sort(list);
