@@ -22,15 +22,16 @@ def render(scene: Union[str, "os.PathLike[str]"], *, size: Size = (1920, 1080), 
     size: (width, height) in pixels.
     set: keys of the scene and their values, for example {"time.hours": 18}.
     camera: the name of a camera of the scene or the model, or a Camera.
-    time: time in the scene's animations, in seconds. The default is 0. The camera of a model file shows the pose at this time. If a time is
-        given and no animation is named, the first animation of the model file plays; there is a warning if it has several.
+    time: time in the scene's animations, in seconds. The default is 0. The camera of a model file is fitted to the pose at this time. If a
+        time is given and no animation is named, the first animation of the file plays; there is a warning if it has several.
     threads: number of threads. The default is one per core.
     alpha: omit the background. Alpha is straight, and 0 where nothing is drawn. background="transparent" has the same effect.
     view: arguments of Scene.load for model files, such as yaw, background and animation.
     Returns 8-bit sRGB values: uint8 of shape (height, width, 3), or (height, width, 4) with alpha=True. With linear=True, returns linear
     values before exposure and tone mapping: float32 of shape (height, width, 4).
 
-    Raises InputError with the message that the command line prints, in terms of Python's arguments. Warnings have the category RenderWarning.
+    Raises InputError with the message that the command line prints, in terms of Python's arguments, and TypeError for an unknown argument.
+    Warnings have the category RenderWarning.
     """
     check_names(view, ("size", "set", "camera", "time", "linear", "alpha", "threads"))
     width, height = _check.size(size)

@@ -111,8 +111,8 @@ def view_options(path: str, options: Mapping[str, Any]) -> Dict[str, Any]:
     for name in given:
         if not is_model_file(path) and name not in ("aspect", "allow_outside"):
             raise fail(name, "applies only to model files", "a file ending in .obj, .gltf, .glb, .ply or .stl")
-    limits = {"aspect": (1.0 / _check.MAX_SIDE, _check.MAX_SIDE), "yaw": (-360.0, 360.0), "pitch": (-89.0, 89.0), "zoom": (1e-3, 1e3), "fov": (1.0, 170.0),
-              "turn_seconds": (0.0, 1e9)}
+    limits = {"aspect": (1.0 / _check.MAX_SIDE, _check.MAX_SIDE), "yaw": (-360.0, 360.0), "pitch": (-89.0, 89.0), "zoom": (1e-3, 1e3),
+              "fov": (1.0, 170.0), "turn_seconds": (0.0, 1e9)}
     checks: Dict[str, Callable[[str, Any], Any]] = {
         **{name: lambda name, value: _check.number(name, value, *limits[name]) for name in limits},
         **dict.fromkeys(("eye", "look_at", "up"), _check.vector),
@@ -138,9 +138,8 @@ def pixel_kind(linear: bool, alpha: bool) -> Any:
     return _core.PixelKind.light if linear else _core.PixelKind.rgba if alpha else _core.PixelKind.rgb
 
 
-def emit(core: Any) -> None:
-    """Issues the warnings of a scene as Python warnings, which refer to the line that called this package."""
-    lines = core.take_warnings()
+def warn(lines: Sequence[str]) -> None:
+    """Issues Python warnings, which refer to the line that called this package."""
     if not lines:
         return
     level, frame = 1, sys._getframe()
@@ -148,3 +147,8 @@ def emit(core: Any) -> None:
         level, frame = level + 1, frame.f_back  # type: ignore[assignment]
     for line in lines:
         warnings.warn(line, RenderWarning, stacklevel=level)
+
+
+def emit(core: Any) -> None:
+    """Issues the warnings of a scene as Python warnings."""
+    warn(core.take_warnings())

@@ -38,12 +38,12 @@ class Camera:
         return _make, self._made_by
 
     @classmethod
-    def look_at(cls, position: Any, target: Any = (0.0, 0.0, 0.0), up: Any = (0.0, 1.0, 0.0), *, fov: float = 45.0,
+    def look_at(cls, position: Any, target: Any = (0.0, 0.0, 0.0), up: Any = (0.0, 1.0, 0.0), *, fov: Optional[float] = None,
                 height: Optional[float] = None, near: float = 0.1, far: float = 1000.0) -> "Camera":
         """Returns a camera at `position` that looks at `target`, both in world space.
 
-        fov: full vertical angle of view in degrees, 0.01 to 179.
-        height: if given, the camera is orthographic, and this is the height of the view volume in scene units.
+        fov: full vertical angle of view in degrees, 0.01 to 179. The default is 45.
+        height: if given, the camera is orthographic, and this is the height of the view volume in scene units. Excludes fov.
         near, far: distances of the clipping planes along the view axis in scene units; 0 < near < far.
         """
         eye, aim, top = _check.vector("position", position), _check.vector("target", target), _check.vector("up", up)
@@ -52,10 +52,12 @@ class Camera:
             raise fail("target", "is the position of the camera", "another point")
         if np.linalg.norm(np.cross(line / np.linalg.norm(line), top)) <= 1e-12 * max(1e-300, float(np.linalg.norm(top))):
             raise fail("up", "is parallel to the line from position to target, or zero", "another direction")
-        _check.number("fov", fov, 0.01, 179.0)
+        if fov is not None and height is not None:
+            raise fail("fov, height", "both are given", "fov for a perspective camera or height for an orthographic one")
+        angle = 45.0 if fov is None else _check.number("fov", fov, 0.01, 179.0)
         tall = 0.0 if height is None else _check.number("height", height, 1e-9, 1e9)
         _check_planes(near, far)
-        camera = _core.Camera.look_at(eye, aim, top, float(fov), tall, float(near), float(far))
+        camera = _core.Camera.look_at(eye, aim, top, angle, tall, float(near), float(far))
         made_by = {"position": eye, "target": aim, "up": top, "fov": fov, "height": height, "near": near, "far": far}
         return cls(lambda width, height: camera, f"Camera.look_at({eye}, {aim})", ("look_at", made_by))
 

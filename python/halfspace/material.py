@@ -38,8 +38,8 @@ class Texture:
         self._sampler = _core.Sampler(chosen, wraps[0], wraps[1], _check.integer("anisotropy", anisotropy, 1, 16))
 
 
-def _texture(name: str, value: Any) -> Optional[Texture]:
-    if value is None or isinstance(value, Texture):
+def _texture(name: str, value: Any) -> Texture:
+    if isinstance(value, Texture):
         return value
     try:
         return Texture(value)
@@ -57,7 +57,7 @@ class Material:
         base_color is less than 1, otherwise "opaque".
     unlit: draw the base color without lighting.   double_sided: draw both sides.
     *_texture: a Texture, or an array that Texture accepts. metallic_roughness_texture has roughness in the green and metallic in the blue
-        channel, as in glTF. normal_texture is in tangent space with green up; it needs texture coordinates.
+        channel, as in glTF. normal_texture is in tangent space with green up. Textures need a mesh with `uvs`.
     """
 
     __slots__ = ("_core", "_textures", "_text")
@@ -89,12 +89,12 @@ class Material:
         self._core = m
         shown = ", ".join(f"{x:g}" for x in rgba)
         self._text = f"Material(({shown}), metallic={metallic:g}, roughness={roughness:g}, alpha_mode={mode!r})"
-        self._textures = [(texture, uses) for texture, uses in (
-            (_texture("base_color_texture", base_color_texture), (("base_color", "red"),)),
-            (_texture("metallic_roughness_texture", metallic_roughness_texture), (("roughness", "green"), ("metallic", "blue"))),
-            (_texture("normal_texture", normal_texture), (("normal", "red"),)),
-            (_texture("occlusion_texture", occlusion_texture), (("occlusion", "red"),)),
-            (_texture("emissive_texture", emissive_texture), (("emissive", "red"),))) if texture is not None]
+        textures = {"base_color_texture": (base_color_texture, (("base_color", "red"),)),
+                    "metallic_roughness_texture": (metallic_roughness_texture, (("roughness", "green"), ("metallic", "blue"))),
+                    "normal_texture": (normal_texture, (("normal", "red"),)),
+                    "occlusion_texture": (occlusion_texture, (("occlusion", "red"),)),
+                    "emissive_texture": (emissive_texture, (("emissive", "red"),))}
+        self._textures = {name: (_texture(name, value), uses) for name, (value, uses) in textures.items() if value is not None}
 
     def __repr__(self) -> str:
         return self._text
@@ -102,7 +102,7 @@ class Material:
     def _materials(self) -> Any:
         """Returns the material with its textures for _core."""
         out = _core.Materials()
-        for texture, uses in self._textures:
+        for texture, uses in self._textures.values():
             number = out.add_texture(texture._texels, texture._sampler)
             for name, channel in uses:
                 self._core.set_texture(name, number, getattr(_core.Channel, channel))

@@ -10,23 +10,26 @@ import numpy as np
 
 from . import _check, _core
 from ._check import fail
+from ._options import warn
 from .material import Material, Texture, srgb
 
 _numbers = itertools.count(1)
 _WIDTHS = {"triangles": 3, "lines": 2, "points": None}
 _MAX_VERTICES = 2**31
+_MIN_COORDINATE, _MAX_COORDINATE = 1e-20, 1e18  # outside this range, float32 overflows, or normals become inexact
 _UNSET_DIFFUSE = (102, 102, 102, 255)  # of a trimesh.visual.material.SimpleMaterial that was made without one
 
 
 class Mesh:
     """Vertices of one material. All arrays are copied; a Mesh is immutable and can be added to any number of scenes.
 
-    vertices: (N, 3), in object space.
+    vertices: (N, 3), in object space. The largest magnitude of a coordinate is 1e-20 to 1e18, unless all are 0.
     faces: (M, 3) indices of triangles, counter-clockwise seen from the front; (M, 2) for lines, (M,) for points. The default is
         0, 1, 2, ...
     normals: (N, 3), any length except 0. By default, normals are computed, and vertices are split at edges sharper than `crease`.
     crease: angle in degrees. 0 gives flat shading, 180 smooth shading.
-    uvs: (N, 2).   uv_origin: "lower_left" (v increases upwards, as in OpenGL, OBJ and trimesh) or "upper_left" (as in glTF).
+    uvs: (N, 2). Without them, textures of the material have no effect, and there is a RenderWarning.
+    uv_origin: "lower_left" (v increases upwards, as in OpenGL, OBJ and trimesh) or "upper_left" (as in glTF).
     colors: (N, 3) or (N, 4); uint8 sRGB values, or linear floats in [0, 1]. They multiply the base color.
     material: the default is gray, or white if there are colors.
     topology: "triangles", "lines" or "points". Lines and points are not lit.
@@ -44,6 +47,10 @@ class Mesh:
             raise fail("vertices", f"has {count} rows", f"1 to {_MAX_VERTICES - 1}")
         if faces is None and topology != "points" and count % _WIDTHS[topology] != 0:
             raise fail("vertices", f"has {count} rows", f"a multiple of {_WIDTHS[topology]} if there are no faces")
+        largest = float(np.abs(positions).max())
+        if largest > _MAX_COORDINATE or 0.0 < largest < _MIN_COORDINATE:
+            raise fail("vertices", f"has coordinates of at most {largest:g} in magnitude",
+                       f"all 0, or a largest magnitude from {_MIN_COORDINATE:g} to {_MAX_COORDINATE:g}")
         index = None if faces is None else _check.indices("faces", faces, _WIDTHS[topology], count)
         if index is not None and index.size == 0:
             raise fail("faces", "is empty", "at least one row")
@@ -56,6 +63,9 @@ class Mesh:
                                 alpha_mode="blend" if rgba is not None and rgba[:, 3].min() < 1.0 else "opaque")
         if not isinstance(material, Material):
             raise fail("material", f"is of type {type(material).__name__}", "a halfspace.Material")
+        if uvs is None and material._textures:  # not an error, because meshes with and without uvs can share a material
+            names = ", ".join(material._textures)
+            warn([f"uvs: are missing, but the material has {names}; expected uvs, without which textures have no effect"])
         self._model = _core.Model(positions, unit, uv, rgba, None, None if index is None else index.ravel(),
                                   getattr(_core.Topology, topology), uv_origin == "lower_left", material._materials(),
                                   _check.number("crease", crease, 0.0, 180.0) or -1.0)

@@ -20,12 +20,26 @@ from .picture import Picture
 
 Size = Tuple[int, int]
 _MAX_COPIES = 65536
+_MIN_SPAN, _MAX_SPAN = 1e-9, 1e9  # units that a fitted view can show; also the limits of the near plane
 
 
 def _check_name(name: Any) -> None:
     """Raises InputError if this is not a valid name for an object of a scene file."""
     _check.string("name", name)
     _core.Scene.parse(json.dumps({"version": 1, "objects": {name: {}}}), "scene", 1)
+
+
+def _fits(span: float) -> bool:
+    """Returns whether a view can be fitted to objects that span this many units. 0: a single point."""
+    return span == 0.0 or _MIN_SPAN <= span <= _MAX_SPAN
+
+
+def _world_span(mesh: Mesh, places: np.ndarray) -> float:
+    """Returns the diagonal of the bounds of all copies of a mesh, in world space."""
+    x, y, z = mesh.bounds.T
+    corners = np.array([(a, b, c, 1.0) for a in x for b in y for c in z])
+    points = places[:, :3] @ corners.T
+    return float(np.linalg.norm(points.max(axis=(0, 2)) - points.min(axis=(0, 2))))
 
 
 class Scene:
@@ -197,7 +211,7 @@ class Scene:
         return self._core.bounds()
 
     def fit(self, *, yaw: float = 35.0, pitch: float = 18.0, fov: float = 35.0, aspect: float = 1.0) -> Camera:
-        """Returns a camera that shows all visible objects.
+        """Returns a camera that shows all visible objects. Together, they must span 1e-9 to 1e9 units.
 
         yaw, pitch: position of the eye around the objects in degrees, from the front (+z) to the right, and upwards.
         fov: vertical field of view in degrees.
@@ -206,14 +220,15 @@ class Scene:
         box = self.bounds
         if box is None:
             raise fail("fit", "the scene has no visible object", "at least one")
+        self._check_span(float(np.linalg.norm(box[1] - box[0])))
         center, radius = box.mean(axis=0), float(np.linalg.norm(box[1] - box[0])) / 2.0 or 1.0
         yaw, pitch = np.radians(_check.number("yaw", yaw)), np.radians(_check.number("pitch", pitch, -89.0, 89.0))
         towards = np.array([np.sin(yaw) * np.cos(pitch), np.sin(pitch), np.cos(yaw) * np.cos(pitch)])
         tan_y = np.tan(np.radians(_check.number("fov", fov, 1.0, 170.0)) / 2.0)
         narrow = np.arctan(tan_y * min(1.0, _check.number("aspect", aspect, 1e-5, 1e5)))  # half of the smaller angle of view
         distance = radius / float(np.sin(narrow))
-        return Camera.look_at(center + towards * distance, center, fov=fov, near=max(1e-3 * radius, 0.5 * (distance - 1.5 * radius)),
-                              far=distance + 20.0 * radius)
+        near = min(max(1e-3 * radius, 0.5 * (distance - 1.5 * radius), _MIN_SPAN), _MAX_SPAN)
+        return Camera.look_at(center + towards * distance, center, fov=fov, near=near, far=distance + 20.0 * radius)
 
     # ---- pictures ------------------------------------------------------------------------------------------------
 
@@ -414,6 +429,20 @@ class Scene:
         if _check.string("name", name) not in self._meshes:
             raise fail("name", f"no object '{name}' has been added", "one of " + ", ".join(self._meshes) if self._meshes else "add() first")
         return self._meshes[name]
+
+    def _check_span(self, span: float) -> None:
+        """Raises InputError if a view cannot be fitted to a scene that spans this many units. Names the largest mesh if it is the cause."""
+        if _fits(span):
+            return
+        with self._lock:
+            spans = {name: _world_span(mesh, places) for name, (mesh, places) in self._meshes.items() if len(places) > 0}
+        name = max(spans, key=lambda name: spans[name]) if spans else ""
+        if name and not _fits(spans[name]):
+            place, span = f"mesh '{name}'", spans[name]
+        else:
+            place = "scene"
+        raise fail(place, f"spans {span:.3g} units in world space",
+                   f"{_MIN_SPAN:g} to {_MAX_SPAN:g}; scale it with a transform, or pass a camera")
 
     @staticmethod
     def _transforms(transform: Any) -> np.ndarray:

@@ -25,6 +25,15 @@ def dark(*meshes, **more):
     return scene
 
 
+def fitted(vertices, scale=1.0, ball=None):
+    """Fits a camera to a scaled quad, and a ball if its position is given."""
+    scene = halfspace.Scene()
+    scene.add(halfspace.Mesh(vertices, QUAD[1]), np.diag([scale] * 3 + [1.0]), name="shape")
+    if ball is not None:
+        scene.merge({"objects": {"ball": {"shape": "sphere", "radius": 10, "position": ball}}})
+    return scene.fit()
+
+
 def shown(mesh, size=(20, 20)):
     scene = dark(mesh)
     scene["ambient"] = 1
@@ -88,6 +97,33 @@ def test_uvs_put_the_top_row_of_a_texture_at_v_1():
     assert np.array_equal(picture, texels)
     flipped = dark(halfspace.Mesh(*QUAD, uvs=uvs, material=material, uv_origin="upper_left")).render((2, 2), camera=CAMERA)
     assert np.array_equal(flipped, texels[::-1])
+
+
+def test_textures_without_uvs_are_reported():
+    material = flat(base_color_texture=np.full((4, 4), 200, np.uint8), emissive_texture=np.zeros((4, 4), np.uint8))
+    words = "^uvs: are missing, but the material has base_color_texture, emissive_texture; expected uvs"
+    with pytest.warns(halfspace.RenderWarning, match=words) as caught:
+        halfspace.Mesh(*QUAD, material=material)
+    assert len(caught) == 1 and caught[0].filename == __file__
+
+
+@pytest.mark.parametrize("scale", [2.0**-66, 2.0**-33, 2.0**59])
+def test_the_units_of_a_mesh_do_not_matter(scale):
+    def render(size):
+        scene = halfspace.Scene()
+        scene.add(halfspace.Mesh(size * vertices, faces), np.diag([1 / size] * 3 + [1.0]))
+        return scene.render((64, 64), camera=CAMERA)
+
+    vertices, faces, _, _ = sphere(8, 16)
+    assert np.array_equal(render(scale), render(1.0)) and render(1.0).std() > 10
+
+
+@pytest.mark.parametrize("scale", [1e-9, 1e-6, 1e6, 3e8])
+def test_a_fitted_view_shows_small_and_large_meshes(scale):
+    def render(size):
+        return dark(halfspace.Mesh(size * QUAD[0], QUAD[1], material=flat())).render((16, 16)) > 0
+
+    assert np.array_equal(render(scale), render(1.0)) and render(scale).any()
 
 
 def test_textures_may_be_gray_or_have_alpha():
@@ -330,7 +366,12 @@ def test_materials_of_trimesh_like_objects(of_trimesh, own):
     (lambda: halfspace.Mesh(*QUAD, colors=np.zeros((4, 2))), "colors: has the shape (4, 2); expected (N, 3) or (N, 4)"),
     (lambda: halfspace.Mesh(*QUAD, topology="quads"), "topology: is 'quads'; expected one of triangles, lines, points"),
     (lambda: halfspace.Mesh(*QUAD, material="red"), "material: is of type str; expected a halfspace.Material"),
-    (lambda: halfspace.Mesh(np.array(QUAD[0]) * 1e300, QUAD[1]), "coordinates from"),
+    (lambda: halfspace.Mesh(QUAD[0] * 1e300, QUAD[1]), "vertices: has coordinates of at most 1e+300 in magnitude; expected all 0, or"),
+    (lambda: halfspace.Mesh(QUAD[0] * 1e-40, QUAD[1]), "vertices: has coordinates of at most 1e-40 in magnitude; expected all 0, or"),
+    (lambda: fitted(QUAD[0] * 1e17), "mesh 'shape': spans 2.83e+17 units in world space; expected 1e-09 to 1e+09; scale"),
+    (lambda: fitted(QUAD[0] * 1e-20), "mesh 'shape': spans 2.83e-20 units in world space; expected 1e-09 to 1e+09; scale"),
+    (lambda: fitted(QUAD[0], 1e10), "mesh 'shape': spans 2.83e+10 units in world space; expected"),
+    (lambda: fitted(QUAD[0], ball=(1e9, 0, 0)), "scene: spans 1e+09 units in world space; expected"),
     (lambda: halfspace.Material("red"), "base_color: is 'red'; expected 3 or 4 numbers from 0 to 1"),
     (lambda: halfspace.Material((1, 2, 3)), "base_color: is [1, 2, 3]; expected 3 or 4 numbers from 0 to 1"),
     (lambda: halfspace.Material(roughness=-1), "roughness: is -1; expected a number from 0 to 1"),

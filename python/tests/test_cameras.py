@@ -167,6 +167,7 @@ def test_a_pickled_camera_shows_the_same(camera):
 
 
 @pytest.mark.parametrize("make, words", [
+    (lambda c: c.look_at((1, 2, 3), fov=30, height=2), "fov, height: both are given; expected fov for a perspective"),
     (lambda c: c.look_at((0, 0, 0)), "target: is the position of the camera; expected another point"),
     (lambda c: c.look_at((0, 1, 0)), "up: is parallel to the line from position to target, or zero; expected another direction"),
     (lambda c: c.look_at((0, 0, 1), up=(0, 0, 0)), "up: is parallel"),
