@@ -100,7 +100,7 @@ TEST_F(Export, KeepsCamerasAndLights) {
     if (node.contains("matrix")) matrices[node.at("name")] = node.at("matrix").get<std::vector<double>>();
   }
   // The z axes point backwards: toward the light, and from the target to the eye.
-  for (int k = 0; k < 3; ++k) {
+  for (std::size_t k = 0; k < 3; ++k) {
     const double to_light[] = {1.0, 2.0, 2.0}, to_eye[] = {2.0, 2.7, 6.0}, eye[] = {2.0, 3.0, 6.0};
     EXPECT_NEAR(matrices.at("sun")[8 + k], to_light[k] / 3.0, 1e-12);
     EXPECT_NEAR(matrices.at("c")[8 + k], to_eye[k] / std::sqrt(4.0 + 2.7 * 2.7 + 36.0), 1e-12);
