@@ -13,9 +13,14 @@ namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
+struct ToolFolder {
+  std::filesystem::path path;
+  const ToolFolder* previous;
+};
+
 // The folder that set_tool_folder() set, or null. Earlier folders are never deleted: another thread may still read them, and a lock
 // could be held by a thread that does not exist after fork().
-std::atomic<const std::filesystem::path*> tool_folder = nullptr;
+std::atomic<const ToolFolder*> tool_folder = nullptr;
 
 // Returns the file that contains this function: a shared library, or the program.
 std::filesystem::path this_binary() {
@@ -28,7 +33,7 @@ std::filesystem::path this_binary() {
 }
 
 std::vector<std::filesystem::path> tool_folders() {
-  if (const std::filesystem::path* set = tool_folder.load(); set != nullptr && !set->empty()) return {*set};
+  if (const ToolFolder* set = tool_folder.load(); set != nullptr && !set->path.empty()) return {set->path};
   std::filesystem::path folder = this_binary().parent_path();
   if (folder.empty()) return {};
   // For some processors, the loader selects a library in LIB/glibc-hwcaps/LEVEL.
@@ -43,7 +48,11 @@ std::vector<std::filesystem::path> tool_folders() {
 
 }  // namespace
 
-void set_tool_folder(const std::filesystem::path& folder) { tool_folder = new std::filesystem::path(folder); }
+void set_tool_folder(const std::filesystem::path& folder) {
+  auto* const next = new ToolFolder{folder, tool_folder.load()};
+  while (!tool_folder.compare_exchange_weak(next->previous, next)) {
+  }
+}
 
 std::filesystem::path find_tool(const char* name) {
   for (const std::filesystem::path& folder : tool_folders()) {
