@@ -109,11 +109,12 @@ class ContentsReader {
         element, [] {}, [](std::size_t) { return false; });
   }
 
-  /// Reads all rows. Single values are stored in row_. list(property) reads a list and returns true, or returns false if it is not needed.
+  /// Reads all rows from `first`. Single values are stored in row_. list(property) reads a list and returns true, or returns false if it is
+  /// not needed.
   template <class Row, class List>
-  void for_each_row(const PlyElement& element, Row&& row, List&& list) {
+  void for_each_row(const PlyElement& element, Row&& row, List&& list, uint64_t first = 0) {
     row_.resize(element.properties.size());
-    for (uint64_t i = 0; i < element.count; ++i) {
+    for (uint64_t i = first; i < element.count; ++i) {
       values_.set_row(element, i);
       for (std::size_t p = 0; p < row_.size(); ++p) {
         const PlyProperty& property = element.properties[p];
@@ -157,6 +158,26 @@ class ContentsReader {
     values_.fail(fmt::format("vertex index {}; expected an integer from 0 to {}", value, static_cast<int64_t>(vertex_count_) - 1));
   }
 
+  // Whether the element has nothing but a list of 32-bit integers with 8-bit lengths, as in nearly all binary files.
+  static bool is_list_of_indices(const PlyElement& element) {
+    if (element.properties.size() != 1) return false;
+    const PlyProperty& list = element.properties[0];
+    const bool has_short_length = list.count_type == PlyType::uint8 || list.count_type == PlyType::int8;
+    return has_short_length && (list.type == PlyType::int32 || list.type == PlyType::uint32);
+  }
+
+  // Returns whether the next row is a triangle; if so, reads it.
+  bool read_triangle(PlyType type) {
+    std::array<uint32_t, 3> triangle;
+    if (!values_.read_triangle(triangle)) return false;
+    for (const uint32_t index : triangle) {
+      if (index >= vertex_count_) vertex_index(type == PlyType::int32 ? static_cast<double>(static_cast<int32_t>(index)) : index);
+    }
+    contents_.corners.insert(contents_.corners.end(), triangle.begin(), triangle.end());
+    contents_.lengths.push_back(3);
+    return true;
+  }
+
   void read_faces(const PlyElement& element) {
     const int vertices = element.find_list({"vertex_indices", "vertex_index"}), uvs = element.find_list({"texcoord"});
     const ColorFields color(element);
@@ -188,7 +209,14 @@ class ContentsReader {
     if (vertices >= 0) {
       contents_.lengths.reserve(element.count);
       contents_.corners.reserve(3 * element.count);
-      for_each_row(element, row, list);
+      uint64_t first = 0;
+      if (is_list_of_indices(element)) {
+        for (; first < element.count; ++first) {
+          values_.set_row(element, first);
+          if (!read_triangle(element.properties[0].type)) break;
+        }
+      }
+      for_each_row(element, row, list, first);
     } else {
       for_each_row(
           element, [] {}, [](std::size_t) { return false; });

@@ -54,6 +54,15 @@ class PlyValues {
     return static_cast<std::size_t>(length);
   }
 
+  /// Reads a list of three 32-bit integers if the next list is one and the file is little-endian. Returns whether it was.
+  bool read_triangle(std::array<uint32_t, 3>& triangle) {
+    constexpr std::size_t kBytes = 1 + sizeof triangle;
+    if (encoding_ != PlyEncoding::little_endian || static_cast<std::size_t>(end_ - at_) < kBytes || *at_ != 3) return false;
+    std::memcpy(triangle.data(), at_ + 1, sizeof triangle);
+    at_ += kBytes;
+    return true;
+  }
+
   /// Skips a value or a list.
   void skip(const PlyProperty& property) {
     const std::size_t count = property.count_type ? list_length(property) : 1;

@@ -34,6 +34,12 @@ struct Faces {
 
 Faces triangles_of(const PlyContents& ply) {
   Faces faces;
+  const bool are_triangles = std::ranges::all_of(ply.lengths, [](uint32_t length) { return length == 3; });
+  if (are_triangles && std::ranges::all_of(ply.positions, [](const glm::dvec3& p) { return is_finite(p); })) {
+    faces.triangles.resize(ply.corners.size());
+    std::iota(faces.triangles.begin(), faces.triangles.end(), 0u);
+    return faces;
+  }
   faces.triangles.reserve(ply.corners.size());
   std::vector<glm::dvec3> polygon;
   std::vector<uint32_t> pieces;

@@ -226,6 +226,28 @@ TEST(Ply, RejectsInvalidData) {
   }
 }
 
+// Rows of three indices are read separately.
+TEST(Ply, ReadsTrianglesAndPolygonsInAnyOrder) {
+  const auto file = [](const std::string& encoding, const std::vector<std::vector<int32_t>>& faces) {
+    PlyData data{encoding, {}};
+    for (const double x : {0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 1.0, 0.0}) data.add(x);
+    for (const std::vector<int32_t>& face : faces) data.add_list(face);
+    return data.with_header(vertices(4) + fmt::format("element face {}\nproperty list uchar int vertex_indices\n", faces.size()));
+  };
+  for (const char* const encoding : kPlyEncodings) {
+    const Model model = ply_model(file(encoding, {{0, 1, 2}, {2, 3, 0}, {0, 1, 2, 3}, {}, {1, 2, 3}}));
+    EXPECT_EQ(model.meshes.at(0).indices.size(), 15u) << encoding;
+    EXPECT_EQ(model.warnings.size(), 1u) << encoding;  // the empty face
+    for (const int32_t index : {-1, 4}) {
+      EXPECT_TRUE(reports(input_error([&] {
+                            ply_model(file(encoding, {{0, 1, 2}, {0, 1, index}}));
+                          }),
+                          "a.ply: element 'face', row 1", {fmt::format("vertex index {}", index), "0 to 3"}))
+          << encoding;
+    }
+  }
+}
+
 TEST(Ply, RejectsFilesThatNeedTooMuchMemory) {
   ReadModelOptions options;
   options.max_memory = 1000;
