@@ -114,8 +114,14 @@ class ContentsReader {
   template <class Row, class List>
   void for_each_row(const PlyElement& element, Row&& row, List&& list, uint64_t first = 0) {
     row_.resize(element.properties.size());
+    const bool are_floats = std::ranges::all_of(
+        element.properties, [](const PlyProperty& property) { return !property.count_type && property.type == PlyType::float32; });
     for (uint64_t i = first; i < element.count; ++i) {
       values_.set_row(element, i);
+      if (are_floats && values_.read_floats(row_)) {
+        row();
+        continue;
+      }
       for (std::size_t p = 0; p < row_.size(); ++p) {
         const PlyProperty& property = element.properties[p];
         if (!property.count_type) {

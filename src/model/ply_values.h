@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -60,6 +61,18 @@ class PlyValues {
     if (encoding_ != PlyEncoding::little_endian || static_cast<std::size_t>(end_ - at_) < kBytes || *at_ != 3) return false;
     std::memcpy(triangle.data(), at_ + 1, sizeof triangle);
     at_ += kBytes;
+    return true;
+  }
+
+  /// Reads 32-bit floats if the file is little-endian and long enough. Returns whether it was.
+  bool read_floats(std::span<double> row) {
+    if (encoding_ != PlyEncoding::little_endian || static_cast<std::size_t>(end_ - at_) < row.size() * sizeof(float)) return false;
+    for (double& value : row) {
+      float number;
+      std::memcpy(&number, at_, sizeof number);
+      at_ += sizeof number;
+      value = static_cast<double>(number);
+    }
     return true;
   }
 

@@ -28,18 +28,16 @@ constexpr std::size_t kBytesPerVertex = 160, kBytesPerDataByte = 16;
 constexpr std::size_t kMaxCorners = 0xffffffffu;
 
 struct Faces {
+  bool are_triangles = false;       ///< all faces are triangles that can be drawn; the list is empty
   std::vector<uint32_t> triangles;  ///< indices of corners
   std::size_t short_faces = 0, infinite_faces = 0;
 };
 
 Faces triangles_of(const PlyContents& ply) {
   Faces faces;
-  const bool are_triangles = std::ranges::all_of(ply.lengths, [](uint32_t length) { return length == 3; });
-  if (are_triangles && std::ranges::all_of(ply.positions, [](const glm::dvec3& p) { return is_finite(p); })) {
-    faces.triangles.resize(ply.corners.size());
-    std::iota(faces.triangles.begin(), faces.triangles.end(), 0u);
-    return faces;
-  }
+  faces.are_triangles = !ply.lengths.empty() && std::ranges::all_of(ply.lengths, [](uint32_t length) { return length == 3; }) &&
+                        std::ranges::all_of(ply.positions, [](const glm::dvec3& p) { return is_finite(p); });
+  if (faces.are_triangles) return faces;
   faces.triangles.reserve(ply.corners.size());
   std::vector<glm::dvec3> polygon;
   std::vector<uint32_t> pieces;
@@ -86,10 +84,16 @@ void separate_corners(ModelMesh& mesh, const PlyContents& ply) {
   }
 }
 
-void add_triangles(ModelMesh& mesh, const PlyContents& ply, std::vector<uint32_t> corners, float crease_degrees) {
-  mesh.indices = std::move(corners);
+void add_triangles(ModelMesh& mesh, PlyContents& ply, Faces faces, float crease_degrees) {
+  mesh.indices = std::move(faces.triangles);
   if (!ply.corner_uvs.empty() || (!ply.face_colors.empty() && mesh.colors.empty())) {
+    if (faces.are_triangles) {
+      mesh.indices.resize(ply.corners.size());
+      std::iota(mesh.indices.begin(), mesh.indices.end(), 0u);
+    }
     separate_corners(mesh, ply);
+  } else if (faces.are_triangles) {
+    mesh.indices = std::move(ply.corners);
   } else {
     for (uint32_t& corner : mesh.indices) corner = ply.corners[corner];
   }
@@ -153,10 +157,10 @@ Model model_of(PlyContents ply, const std::filesystem::path& file, const ReadMod
   Faces faces = triangles_of(ply);
   warn(static_cast<std::ptrdiff_t>(faces.short_faces), "faces with fewer than 3 vertices");
   warn(static_cast<std::ptrdiff_t>(faces.infinite_faces), "faces that use skipped vertices");
-  if (faces.triangles.empty()) {
-    add_lines_or_points(mesh, ply);
+  if (faces.are_triangles || !faces.triangles.empty()) {
+    add_triangles(mesh, ply, std::move(faces), options.crease_degrees);
   } else {
-    add_triangles(mesh, ply, std::move(faces.triangles), options.crease_degrees);
+    add_lines_or_points(mesh, ply);
   }
   Model model = single_mesh_model("PLY", file, std::move(mesh));
   model.warnings = std::move(warnings);

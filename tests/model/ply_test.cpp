@@ -226,18 +226,22 @@ TEST(Ply, RejectsInvalidData) {
   }
 }
 
-// Rows of three indices are read separately.
+// Rows of floats and rows of three indices are read separately.
 TEST(Ply, ReadsTrianglesAndPolygonsInAnyOrder) {
   const auto file = [](const std::string& encoding, const std::vector<std::vector<int32_t>>& faces) {
     PlyData data{encoding, {}};
-    for (const double x : {0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 1.0, 0.0}) data.add(x);
+    for (const float x : {0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 1.0f, 1.0f, 0.0f, 0.0f, 1.0f, 0.25f}) data.add(x);
     for (const std::vector<int32_t>& face : faces) data.add_list(face);
-    return data.with_header(vertices(4) + fmt::format("element face {}\nproperty list uchar int vertex_indices\n", faces.size()));
+    return data.with_header("element vertex 4\nproperty float x\nproperty float y\nproperty float z\n" +
+                            fmt::format("element face {}\nproperty list uchar int vertex_indices\n", faces.size()));
   };
   for (const char* const encoding : kPlyEncodings) {
     const Model model = ply_model(file(encoding, {{0, 1, 2}, {2, 3, 0}, {0, 1, 2, 3}, {}, {1, 2, 3}}));
     EXPECT_EQ(model.meshes.at(0).indices.size(), 15u) << encoding;
     EXPECT_EQ(model.warnings.size(), 1u) << encoding;  // the empty face
+    const std::string points = file(encoding, {});
+    EXPECT_TRUE(
+        reports(input_error([&] { ply_model(points.substr(0, points.size() - 5)); }), "a.ply: element 'vertex'", {"4 rows", "at most 3"}));
     for (const int32_t index : {-1, 4}) {
       EXPECT_TRUE(reports(input_error([&] {
                             ply_model(file(encoding, {{0, 1, 2}, {0, 1, index}}));
