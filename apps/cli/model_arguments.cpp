@@ -14,7 +14,7 @@ namespace halfspace {
 namespace {
 
 constexpr double kFar = 1e9;
-constexpr const char* kVector = "three numbers from -1e9 to 1e9, for example 1,0.5,-2";
+constexpr const char* kExpectedVector = "three numbers from -1e9 to 1e9, for example 1,0.5,-2";
 
 // Returns the first option that applies only to model files, or an empty string. (--allow-outside also applies to scenes with models.)
 std::string first_given(const ModelArguments& a) {
@@ -49,8 +49,9 @@ glm::dvec3 parse_vector(const char* option, const std::string& text) {
   std::string_view rest = text;
   for (int k = 0; k < 3; ++k) {
     const std::size_t comma = rest.find(',');
-    if ((comma == std::string_view::npos) != (k == 2)) throw UsageError(fmt::format("{} is '{}'; expected {}", option, text, kVector));
-    v[k] = parse_real(option, rest.substr(0, comma), -kFar, kFar, kVector);
+    if ((comma == std::string_view::npos) != (k == 2))
+      throw UsageError(fmt::format("{} is '{}'; expected {}", option, text, kExpectedVector));
+    v[k] = parse_real(option, rest.substr(0, comma), -kFar, kFar, kExpectedVector);
     if (k < 2) rest.remove_prefix(comma + 1);
   }
   return v;

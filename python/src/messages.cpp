@@ -12,6 +12,7 @@ namespace {
 constexpr std::pair<std::string_view, std::string_view> kPhrases[] = {
     {"use --allow-outside to allow it", "pass allow_outside=True to allow it"},
     {"use --allow-outside", "pass allow_outside=True to allow it"},
+    {"or --allow-outside", "or allow_outside=True"},
     {"use --animation to select another", "pass animation= to select another"},
     {" (--max-memory)", ""},
     {" (--max-pixels)", ""},

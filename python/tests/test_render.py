@@ -99,6 +99,14 @@ def test_messages_name_no_options_of_the_command_line(tmp_path):
     with pytest.warns(halfspace.RenderWarning, match="pass allow_outside=True to allow it$") as caught:
         halfspace.render(model, size=SMALL)
     assert not any("--" in str(warning.message) for warning in caught)
+    model = tmp_path / "m.gltf"
+    model.write_text('{"asset": {"version": "2.0"}, "nodes": [{"mesh": 0}], "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],'
+                     '"accessors": [{"componentType": 5126, "count": 3, "type": "VEC3", "bufferView": 0}],'
+                     '"bufferViews": [{"buffer": 0, "byteLength": 36}], "buffers": [{"uri": "../a.bin", "byteLength": 36}]}')
+    (tmp_path.parent / "a.bin").write_bytes(bytes(36))
+    with pytest.raises(halfspace.InputError, match="outside the folder of the model.*allow_outside=True") as error:
+        halfspace.render(model, size=SMALL)
+    assert "--" not in str(error.value)
 
 
 @pytest.mark.parametrize("arguments, words", [
