@@ -64,6 +64,7 @@ void add_render_command(CLI::App& program) {
   add_output_options(command, args->output);
   add_model_options(command, args->model);
   add_limit_options(command, args->limits, false);
+  add_primitive_limit_option(command, args->limits, false);
   command->footer(
       "Examples:\n"
       "  halfspace render earth -o earth.png --size 1280x720\n"
@@ -88,6 +89,7 @@ void add_explain_command(CLI::App& program) {
   command->add_option("--threads", args->threads, "Threads (default: one per core)")->type_name("N");
   add_model_options(command, args->model);
   add_limit_options(command, args->limits, false);
+  add_primitive_limit_option(command, args->limits, false);
   command->footer(
       "Examples:\n"
       "  halfspace explain earth -o earth.html\n"
@@ -107,6 +109,7 @@ void add_export_command(CLI::App& program) {
   command->add_flag("--allow-outside", args->allow_outside, "Read files outside the folder of the model");
   command->add_option("--threads", args->threads, "Threads (default: one per core)")->type_name("N");
   add_limit_options(command, args->limits);
+  add_primitive_limit_option(command, args->limits);
   command->footer(
       "Examples:\n"
       "  halfspace export shapes -o shapes.glb\n"
@@ -148,6 +151,7 @@ void add_validate_command(CLI::App& program) {
   command->add_option("--rays", args->rays, "Rays per pixel for area lights (default 1024)")->type_name("N");
   command->add_option("--threads", args->threads, "Threads (default: one per core)")->type_name("N");
   add_limit_options(command, args->limits);
+  add_primitive_limit_option(command, args->limits);
   command->footer(
       "Examples:\n"
       "  halfspace validate moon --json\n"

@@ -51,6 +51,10 @@ void add_limit_options(CLI::App* command, LimitArguments& args, bool is_listed) 
   const char* group = is_listed ? "Options" : kUnlistedGroup;
   command->add_option("--max-memory", args.memory, "Maximum memory for files and images, e.g. 4G")->type_name("SIZE")->group(group);
   command->add_option("--max-pixels", args.pixels, "Maximum pixels of an image (default 268435456)")->type_name("N")->group(group);
+}
+
+void add_primitive_limit_option(CLI::App* command, LimitArguments& args, bool is_listed) {
+  const char* group = is_listed ? "Options" : kUnlistedGroup;
   command->add_option("--max-primitives", args.primitives, "Maximum primitives of a model (default 50000000)")
       ->type_name("N")
       ->group(group);

@@ -28,8 +28,11 @@ void add_view_options(CLI::App* command, std::string& camera, std::string& shadi
 /// Adds the options for model files. They are listed by --help-model, so that the help of the command fits on a screen.
 void add_model_options(CLI::App* command, ModelArguments& args);
 
-/// Adds --max-memory, --max-pixels and --max-primitives. If they are unlisted, --help-model lists them.
+/// Adds --max-memory and --max-pixels. If they are unlisted, --help-model lists them.
 void add_limit_options(CLI::App* command, LimitArguments& args, bool is_listed = true);
+
+/// Adds --max-primitives, for commands that draw or export models.
+void add_primitive_limit_option(CLI::App* command, LimitArguments& args, bool is_listed = true);
 
 /// Prints a group of options that the help of the command omits, and ends the program successfully.
 void print_group(const CLI::App* command, const char* group, const std::string& title);

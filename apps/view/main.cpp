@@ -40,6 +40,7 @@ void add_options(CLI::App& program, ViewArguments& args) {
   program.add_option("--record", args.record, "Write every frame to the folder; for tests")->type_name("DIR");
   add_model_options(&program, args.model);
   add_limit_options(&program, args.limits, false);
+  add_primitive_limit_option(&program, args.limits, false);
   program.footer(
       "Press h in the window for the list of keys.\n\n"
       "Examples:\n"

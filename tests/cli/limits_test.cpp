@@ -94,8 +94,9 @@ TEST_F(Limits, RejectsInvalidValues) {
   }
   for (const char* value : {"0", "268435457", "1M"}) EXPECT_EQ(run({"info", "--max-pixels", value}).exit_code, 2) << value;
   EXPECT_EQ(run({"info", "--max-memory", "3G", "--max-pixels", "268435456"}).exit_code, 0);
-  for (const char* value : {"0", "-1", "1e3", "2147483648"}) EXPECT_EQ(run({"info", "--max-primitives", value}).exit_code, 2) << value;
-  EXPECT_EQ(run({"info", "--max-primitives", "2147483647"}).exit_code, 0);
+  for (const char* value : {"0", "-1", "1e3", "2147483648"})
+    EXPECT_EQ(run({"render", "earth", "--max-primitives", value}).exit_code, 2) << value;
+  EXPECT_EQ(run({"render", "earth", "--size", "8x8", "--max-primitives", "2147483647"}).exit_code, 0);
 }
 
 // A material library that exceeds the memory limit is an error; all other problems of material libraries are warnings.
