@@ -699,24 +699,27 @@ float blend_factor(BlendFactor f, const glm::vec4& src, const glm::vec4& src1, c
 }
 
 float blend_channel(BlendEquation equation, float s, float s_factor, float d, float d_factor) {
-  const float from_source = s * s_factor, from_destination = d * d_factor;
+  const float from_source = s * s_factor;
   switch (equation) {
-    case BlendEquation::add: return from_source + from_destination;
-    case BlendEquation::subtract: return from_source - from_destination;
-    case BlendEquation::reverse_subtract: return from_destination - from_source;
+    case BlendEquation::add: return std::fma(d, d_factor, from_source);
+    case BlendEquation::subtract: return std::fma(-d, d_factor, from_source);
+    case BlendEquation::reverse_subtract: return std::fma(d, d_factor, -from_source);
     case BlendEquation::min: return s < d ? s : d;
     case BlendEquation::max: return s > d ? s : d;
   }
   return 0.0f;
 }
 
-glm::vec4 blend(const BlendState& b, const glm::vec4& src, const glm::vec4& src1, const glm::vec4& dst, const glm::vec4& constant) {
+// unit: number of steps from 0 to 1 in the result. An attachment of rgba8 is blended in units of its codes.
+glm::vec4 blend(const BlendState& b, const glm::vec4& src, const glm::vec4& src1, const glm::vec4& dst, const glm::vec4& constant,
+                float unit) {
   glm::vec4 out;
   for (int k = 0; k < 4; ++k) {
     const bool alpha = k == 3;
     const float s = blend_factor(alpha ? b.source_alpha : b.source_color, src, src1, dst, constant, k);
     const float d = blend_factor(alpha ? b.destination_alpha : b.destination_color, src, src1, dst, constant, k);
-    out[k] = blend_channel(alpha ? b.alpha_equation : b.color_equation, src[k], s, dst[k], d);
+    const float existing = unit == 1.0f ? dst[k] : std::round(dst[k] * unit);
+    out[k] = blend_channel(alpha ? b.alpha_equation : b.color_equation, src[k] * unit, s, existing, d);
   }
   return out;
 }
@@ -1294,7 +1297,10 @@ void Renderer::write_colors(const DrawState& state, const Sample& s, const std::
         for (int k = 0; fixed_point && k < 4; ++k) c[k] = clamped(c[k], 0.0f, 1.0f);
         return c;
       };
-      color = blend(*blending, in_range(color), in_range(colors.size() > 1 ? colors[1] : none), before, in_range(blending->constant));
+      const float unit = format == ColorFormat::rgba8 ? 255.0f : 1.0f;
+      color = blend(*blending, in_range(color), in_range(colors.size() > 1 ? colors[1] : none), before, in_range(blending->constant), unit);
+      // The float nearest to code/255 is encoded as this code.
+      for (int k = 0; unit != 1.0f && k < 4; ++k) color[k] = std::nearbyint(clamped(color[k], 0.0f, unit)) / unit;
     }
     const std::array<bool, 4> written{mask.r, mask.g, mask.b, mask.a};
     for (int k = 0; k < 4; ++k) {

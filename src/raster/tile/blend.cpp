@@ -9,29 +9,12 @@ namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
-PacketColor blend_colors(const BlendState& s, const BlendSources& from) {
-  PacketColor out;
-  for (std::size_t k = 0; k < 4; ++k) {
-    const bool alpha = k == 3;
-    const BlendFactor sf = alpha ? s.source_alpha : s.source_color;
-    const BlendFactor df = alpha ? s.destination_alpha : s.destination_color;
-    out[k] = blend_sum(alpha ? s.alpha_equation : s.color_equation, from.src[k], blend_factor(sf, from, k), from.dst[k],
-                       blend_factor(df, from, k));
-  }
-  return out;
-}
-
-void write_packed(ColorBuffer& buffer, std::size_t first, Mask mask, const PacketColor& c, const ColorMask& channels) {
-  Int packed = buffer.format == ColorFormat::srgb8a8 ? packed_codes<ColorFormat::srgb8a8>(c) : packed_codes<ColorFormat::rgba8>(c);
-  int32_t* pixels = plane<int32_t>(buffer, 0) + first;
-  const Int old = load<Int>(pixels);
-  if (!channels.all()) {
-    uint32_t kept = 0;
-    for (int k = 0; k < 4; ++k) kept |= channels[k] ? 0u : 0xffu << (8 * k);
-    const Int keep(static_cast<int32_t>(kept));
-    packed = (old & keep) | (packed & ~keep);
-  }
-  store(pixels, select(mask, packed, old));
+// Returns the codes in `codes` for the enabled channels, and those in `old` for the others.
+Int merged_codes(Int codes, Int old, const ColorMask& channels) {
+  uint32_t kept = 0;
+  for (int k = 0; k < 4; ++k) kept |= channels[k] ? 0u : 0xffu << (8 * k);
+  const Int keep(static_cast<int32_t>(kept));
+  return (old & keep) | (codes & ~keep);
 }
 
 // Writes a format with one to three 32-bit channels.
@@ -46,8 +29,8 @@ void write_narrow(ColorBuffer& buffer, std::size_t first, Mask mask, const Packe
 template <ColorFormat format>
 void replace_packed(ColorBuffer& buffer, std::span<const PacketMask> packets, const PacketColor* src) {
   for (std::size_t i = 0; i < packets.size(); ++i) {
-    int32_t* pixels = plane<int32_t>(buffer, 0) + static_cast<std::size_t>(packets[i].packet) * kLanes;
-    store(pixels, select(mask_from_bits<Mask>(packets[i].lanes), packed_codes<format>(src[i]), load<Int>(pixels)));
+    write_codes(buffer, static_cast<std::size_t>(packets[i].packet) * kLanes, mask_from_bits<Mask>(packets[i].lanes),
+                packed_codes<format>(src[i]));
   }
 }
 
@@ -86,27 +69,28 @@ void write_color(ColorBuffer& buffer, int packet, Mask mask, const PacketColor& 
                  const AttachmentState& state) {
   const std::size_t first = static_cast<std::size_t>(packet) * kLanes;
   const bool fixed_point = is_fixed_point(buffer.format);
-  const auto write = [&](const PacketColor& c) {
-    if (fixed_point) return write_packed(buffer, first, mask, c, state.mask);
-    if (narrow_channels(buffer.format) != 0) return write_narrow(buffer, first, mask, c, state.mask);
-    for (int k = 0; k < 4; ++k) {
-      if (!state.mask[k]) continue;
-      const Real value = c[static_cast<std::size_t>(k)];
-      if (buffer.format == ColorFormat::rgba16f) {
-        store_halves(plane<uint16_t>(buffer, k) + first, Int(float_to_finite_half(value)), mask);
-      } else {
-        float* to = plane<float>(buffer, k) + first;
-        store(to, select(mask, value, load<Real>(to)));
-      }
-    }
-  };
-  if (!state.blend) return write(src);
-  PacketColor c = src;
-  if (fixed_point) {  // OpenGL 4.6, section 17.3.6: clamped before blending
-    for (Real& x : c) x = clamp(x, Real(0.0f), Real(1.0f));
+  const std::optional<BlendState>& blend = state.blend;
+  if (blend && buffer.format == ColorFormat::rgba8) {
+    const Int codes = blended_codes(operation_of(*blend), buffer, first, src, src1, blend->constant);
+    return write_codes(buffer, first, mask, merged_codes(codes, read_codes(buffer, first), state.mask));
   }
-  const PacketColor dst = read_color(buffer, packet);
-  write(blend_colors(*state.blend, {c, dst, src1, state.blend->constant, fixed_point}));
+  const PacketColor c =
+      blend ? blended_color(operation_of(*blend), read_color(buffer, packet), fixed_point, src, src1, blend->constant) : src;
+  if (fixed_point) {
+    const Int codes = buffer.format == ColorFormat::srgb8a8 ? packed_codes<ColorFormat::srgb8a8>(c) : packed_codes<ColorFormat::rgba8>(c);
+    return write_codes(buffer, first, mask, merged_codes(codes, read_codes(buffer, first), state.mask));
+  }
+  if (narrow_channels(buffer.format) != 0) return write_narrow(buffer, first, mask, c, state.mask);
+  for (int k = 0; k < 4; ++k) {
+    if (!state.mask[k]) continue;
+    const Real value = c[static_cast<std::size_t>(k)];
+    if (buffer.format == ColorFormat::rgba16f) {
+      store_halves(plane<uint16_t>(buffer, k) + first, Int(float_to_finite_half(value)), mask);
+    } else {
+      float* to = plane<float>(buffer, k) + first;
+      store(to, select(mask, value, load<Real>(to)));
+    }
+  }
 }
 
 void write_batch(ColorBuffer& buffer, std::span<const PacketMask> packets, const PacketColor* src, const PacketColor* src1,

@@ -3,7 +3,7 @@
 // Blend factors and equations (OpenGL 4.6, section 17.3.6). If the state is a constant, they compile to a few instructions.
 #pragma once
 
-#include "halfspace/raster/tile/tile.h"
+#include "halfspace/raster/tile/tile_format.h"
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
 
@@ -44,16 +44,90 @@ HS_INLINE Real blend_factor(BlendFactor f, const BlendSources& s, std::size_t k)
   return one;
 }
 
-/// Returns one channel of the blended color, before it is clamped to the range of the format.
+/// Returns one channel of the blended color, before it is clamped to the range of the format. src and dst have the same unit.
 HS_INLINE Real blend_sum(BlendEquation e, Real src, Real src_factor, Real dst, Real dst_factor) {
   switch (e) {
-    case BlendEquation::add: return src * src_factor + dst * dst_factor;
-    case BlendEquation::subtract: return src * src_factor - dst * dst_factor;
-    case BlendEquation::reverse_subtract: return dst * dst_factor - src * src_factor;
+    case BlendEquation::add: return fma(dst, dst_factor, src * src_factor);
+    case BlendEquation::subtract: return fma(-dst, dst_factor, src * src_factor);
+    case BlendEquation::reverse_subtract: return fma(dst, dst_factor, -(src * src_factor));
     case BlendEquation::min: return min(src, dst);
     case BlendEquation::max: return max(src, dst);
   }
   return src;
+}
+
+/// The factors of a state.
+struct BlendFactors {
+  BlendFactor source_color, destination_color, source_alpha, destination_alpha;
+
+  bool operator==(const BlendFactors&) const = default;
+};
+/// The factors and equations of a state.
+struct BlendOperation {
+  BlendEquation color_equation, alpha_equation;
+  BlendFactors factors;
+
+  bool operator==(const BlendOperation&) const = default;
+};
+inline BlendOperation operation_of(const BlendState& s) {
+  return {s.color_equation, s.alpha_equation, {s.source_color, s.destination_color, s.source_alpha, s.destination_alpha}};
+}
+
+/// Returns the blended color, before it is clamped. src and dst can have any unit; the colors in `from` are linear.
+HS_INLINE PacketColor blend_sums(const BlendOperation& o, const PacketColor& src, const PacketColor& dst, const BlendSources& from) {
+  PacketColor out;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Real source = blend_factor(k == 3 ? o.factors.source_alpha : o.factors.source_color, from, k);
+    const Real destination = blend_factor(k == 3 ? o.factors.destination_alpha : o.factors.destination_color, from, k);
+    out[k] = blend_sum(k == 3 ? o.alpha_equation : o.color_equation, src[k], source, dst[k], destination);
+  }
+  return out;
+}
+
+/// Returns false if the sum of a channel with values in [0, 1] is known to stay below 1, apart from rounding.
+constexpr bool can_exceed_one(const BlendOperation& o, bool alpha) {
+  using enum BlendFactor;
+  const BlendFactor source = alpha ? o.factors.source_alpha : o.factors.source_color;
+  const BlendFactor destination = alpha ? o.factors.destination_alpha : o.factors.destination_color;
+  if ((alpha ? o.alpha_equation : o.color_equation) != BlendEquation::add) return false;
+  if (source == zero || destination == zero) return false;
+  if (destination == one_minus_src_alpha) return source != src_alpha && !(alpha && source == one);
+  return !(destination == one_minus_constant_color && source == constant_color);
+}
+constexpr bool can_be_negative(BlendEquation e) { return e == BlendEquation::subtract || e == BlendEquation::reverse_subtract; }
+
+HS_INLINE PacketColor clamped_color(PacketColor c) {
+  for (Real& x : c) x = clamp(x, Real(0.0f), Real(1.0f));
+  return c;
+}
+
+/// Returns the color that blending writes to a buffer that is not rgba8, before it is clamped. dst: the existing color.
+HS_INLINE PacketColor blended_color(const BlendOperation& o, const PacketColor& dst, bool fixed_point, const PacketColor& src,
+                                    const PacketColor& src1, const glm::vec4& constant) {
+  const PacketColor in_range = fixed_point ? clamped_color(src) : src;  // OpenGL 4.6, section 17.3.6: clamped before blending
+  return blend_sums(o, in_range, dst, {in_range, dst, src1, constant, fixed_point});
+}
+
+/// The same for a packet of an rgba8 buffer. Returns the packed codes. first: index of the packet's first pixel.
+/// Blends in units of codes: the existing codes are exact, and the sum only needs to be rounded to an integer. Before that, it differs from
+/// the exact sum by at most 1e-4: 2^-24 times 255 for the source in codes, for its product with the factor, and for each factor, and 2^-24
+/// times 510 for the sum.
+HS_INLINE Int blended_codes(const BlendOperation& o, const ColorBuffer& buffer, std::size_t first, const PacketColor& linear,
+                            const PacketColor& src1, const glm::vec4& constant) {
+  const Int codes = read_codes(buffer, first);
+  const PacketColor src = clamped_color(linear);
+  PacketColor src_codes, dst, dst_codes;
+  for (std::size_t k = 0; k < 4; ++k) {
+    src_codes[k] = src[k] * Real(255.0f);
+    dst_codes[k] = to_real<Real>(code_of(codes, static_cast<int>(k)));
+    dst[k] = unorm8_to_linear(dst_codes[k]);
+  }
+  PacketColor out = blend_sums(o, src_codes, dst_codes, {src, dst, src1, constant, true});
+  for (std::size_t k = 0; k < 4; ++k) {
+    if (can_exceed_one(o, k == 3)) out[k] = min(out[k], Real(255.0f));
+    if (can_be_negative(k == 3 ? o.alpha_equation : o.color_equation)) out[k] = max(out[k], Real(0.0f));
+  }
+  return pack_rounded(out);
 }
 
 }  // namespace halfspace::inline HS_LANES_NAMESPACE

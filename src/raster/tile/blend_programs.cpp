@@ -4,27 +4,14 @@
 #include <array>
 
 #include "halfspace/raster/tile/blend_formulas.h"
-#include "halfspace/raster/tile/tile_format.h"
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
-struct BlendFactors {
-  BlendFactor source_color, destination_color, source_alpha, destination_alpha;
-
-  bool operator==(const BlendFactors&) const = default;
-};
-// A state that is known at compile time. Color and alpha have the same equation.
-struct BlendOperation {
-  BlendEquation equation;
-  BlendFactors factors;
-
-  bool operator==(const BlendOperation&) const = default;
-};
-
 using enum BlendFactor;
-constexpr BlendOperation sum_of(const BlendFactors& factors) { return {BlendEquation::add, factors}; }
+constexpr BlendOperation operation(BlendEquation equation, const BlendFactors& factors) { return {equation, equation, factors}; }
+constexpr BlendOperation sum_of(const BlendFactors& factors) { return operation(BlendEquation::add, factors); }
 constexpr BlendOperation kOver = sum_of({src_alpha, one_minus_src_alpha, one, one_minus_src_alpha});
 constexpr BlendOperation kOverSameAlpha = sum_of({src_alpha, one_minus_src_alpha, src_alpha, one_minus_src_alpha});
 constexpr BlendOperation kPremultiplied = sum_of({one, one_minus_src_alpha, one, one_minus_src_alpha});
@@ -34,61 +21,46 @@ constexpr BlendOperation kAdd = sum_of({one, one, one, one});
 constexpr BlendOperation kMultiply = sum_of({dst_color, zero, dst_color, zero});
 constexpr BlendOperation kMultiplySource = sum_of({zero, src_color, zero, src_color});
 constexpr BlendOperation kConstant = sum_of({constant_color, one_minus_constant_color, constant_color, one_minus_constant_color});
-constexpr BlendOperation kSubtractAlpha{BlendEquation::reverse_subtract, {src_alpha, one, src_alpha, one}};
-constexpr BlendOperation kMin{BlendEquation::min, {one, one, one, one}};
-constexpr BlendOperation kMax{BlendEquation::max, {one, one, one, one}};
+constexpr BlendOperation kSubtractAlpha = operation(BlendEquation::reverse_subtract, {src_alpha, one, src_alpha, one});
+constexpr BlendOperation kMin = operation(BlendEquation::min, {one, one, one, one});
+constexpr BlendOperation kMax = operation(BlendEquation::max, {one, one, one, one});
 
+// Blends one packet. The compiler evaluates the switches in the formulas if the operation is a constant.
 template <ColorFormat format>
-HS_INLINE void write_packet(ColorBuffer& buffer, std::size_t first, Mask mask, const PacketColor& c) {
-  if constexpr (is_fixed_point(format)) {
-    int32_t* pixels = plane<int32_t>(buffer, 0) + first;
-    store(pixels, select(mask, packed_codes<format>(c), load<Int>(pixels)));
-  } else {
-    for (int k = 0; k < 4; ++k)
-      store_halves(plane<uint16_t>(buffer, k) + first, Int(float_to_finite_half(c[static_cast<std::size_t>(k)])), mask);
-  }
-}
-
-// Blends one packet. The compiler evaluates the switches in the formulas if the state is a constant.
-template <ColorFormat format>
-HS_INLINE void blend_packet(ColorBuffer& buffer, const PacketMask& packet, PacketColor src, const PacketColor& src1,
-                            const BlendEquation& color_equation, const BlendEquation& alpha_equation, const BlendFactors& factors,
-                            const glm::vec4& constant) {
+HS_INLINE void blend_packet(ColorBuffer& buffer, const PacketMask& packet, const PacketColor& src, const PacketColor& src1,
+                            const BlendOperation& o, const glm::vec4& constant) {
   const std::size_t first = static_cast<std::size_t>(packet.packet) * kLanes;
-  PacketColor dst, out;
-  for (int k = 0; k < 4; ++k) dst[static_cast<std::size_t>(k)] = read_channel<format>(buffer, first, k);
-  if constexpr (is_fixed_point(format)) {  // OpenGL 4.6, section 17.3.6: clamped before blending
-    for (Real& x : src) x = clamp(x, Real(0.0f), Real(1.0f));
+  const Mask mask = mask_from_bits<Mask>(packet.lanes);
+  if constexpr (format == ColorFormat::rgba8) {
+    write_codes(buffer, first, mask, blended_codes(o, buffer, first, src, src1, constant));
+  } else {
+    PacketColor dst;
+    for (int k = 0; k < 4; ++k) dst[static_cast<std::size_t>(k)] = read_channel<format>(buffer, first, k);
+    const PacketColor out = blended_color(o, dst, is_fixed_point(format), src, src1, constant);
+    if constexpr (is_fixed_point(format)) return write_codes(buffer, first, mask, packed_codes<format>(out));
+    for (int k = 0; k < 4; ++k)
+      store_halves(plane<uint16_t>(buffer, k) + first, Int(float_to_finite_half(out[static_cast<std::size_t>(k)])), mask);
   }
-  const BlendSources from{src, dst, src1, constant, is_fixed_point(format)};
-  for (std::size_t k = 0; k < 4; ++k) {
-    const Real source = blend_factor(k == 3 ? factors.source_alpha : factors.source_color, from, k);
-    const Real destination = blend_factor(k == 3 ? factors.destination_alpha : factors.destination_color, from, k);
-    out[k] = blend_sum(k == 3 ? alpha_equation : color_equation, src[k], source, dst[k], destination);
-  }
-  write_packet<format>(buffer, first, mask_from_bits<Mask>(packet.lanes), out);
 }
 
 template <ColorFormat format, BlendOperation operation>
 void blend_packets(ColorBuffer& buffer, std::span<const PacketMask> packets, const PacketColor* src, const PacketColor*,
                    const BlendState& s) {
-  for (std::size_t i = 0; i < packets.size(); ++i)
-    blend_packet<format>(buffer, packets[i], src[i], src[i], operation.equation, operation.equation, operation.factors, s.constant);
+  for (std::size_t i = 0; i < packets.size(); ++i) blend_packet<format>(buffer, packets[i], src[i], src[i], operation, s.constant);
 }
 
 template <ColorFormat format, BlendOperation operation>
 void blend_one(ColorBuffer& buffer, PacketMask packet, const BlendState& s, Real r, Real g, Real b, Real a) {
   const PacketColor src{r, g, b, a};
-  blend_packet<format>(buffer, packet, src, src, operation.equation, operation.equation, operation.factors, s.constant);
+  blend_packet<format>(buffer, packet, src, src, operation, s.constant);
 }
 
 // For all other states.
 template <ColorFormat format>
 void blend_by_state(ColorBuffer& buffer, std::span<const PacketMask> packets, const PacketColor* src, const PacketColor* src1,
                     const BlendState& s) {
-  const BlendFactors factors{s.source_color, s.destination_color, s.source_alpha, s.destination_alpha};
-  for (std::size_t i = 0; i < packets.size(); ++i)
-    blend_packet<format>(buffer, packets[i], src[i], src1[i], s.color_equation, s.alpha_equation, factors, s.constant);
+  const BlendOperation o = operation_of(s);
+  for (std::size_t i = 0; i < packets.size(); ++i) blend_packet<format>(buffer, packets[i], src[i], src1[i], o, s.constant);
 }
 
 template <ColorFormat format>
@@ -102,16 +74,17 @@ constexpr BlendPrograms kByState{blend_by_state<format>, blend_one_by_state<form
 template <ColorFormat format, BlendOperation operation>
 constexpr BlendPrograms kCompiled{blend_packets<format, operation>, blend_one<format, operation>};
 
-// Returns the factors of a state. They do not matter for the minimum and the maximum.
-BlendFactors factors_of(const BlendState& s) {
-  if (s.color_equation == BlendEquation::min || s.color_equation == BlendEquation::max) return {one, one, one, one};
-  return {s.source_color, s.destination_color, s.source_alpha, s.destination_alpha};
+// Returns the operation of a state. The factors do not matter for the minimum and the maximum.
+BlendOperation compiled_operation(const BlendState& s) {
+  BlendOperation o = operation_of(s);
+  const auto ignores_factors = [](BlendEquation e) { return e == BlendEquation::min || e == BlendEquation::max; };
+  if (ignores_factors(o.color_equation) && ignores_factors(o.alpha_equation)) o.factors = {one, one, one, one};
+  return o;
 }
 
 template <ColorFormat format>
 BlendPrograms programs_of(const BlendState& s) {
-  if (s.color_equation != s.alpha_equation) return kByState<format>;
-  const BlendOperation operation{s.color_equation, factors_of(s)};
+  const BlendOperation operation = compiled_operation(s);
   if (operation == kOver) return kCompiled<format, kOver>;
   if (operation == kOverSameAlpha) return kCompiled<format, kOverSameAlpha>;
   if (operation == kPremultiplied) return kCompiled<format, kPremultiplied>;

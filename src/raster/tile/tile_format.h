@@ -67,11 +67,28 @@ HS_INLINE void store_halves(uint16_t* p, I h, M mask) {
   }
 }
 
+/// Rounds four values in [0, 255] to integers and packs them into a word, with the first in the lowest byte. The ulp of a float is 1 in
+/// [2^23, 2^24), so the sums are integers, and the lowest byte of each has the code. The shifts move the other bits out of the word.
+HS_INLINE Int pack_rounded(const PacketColor& c) {
+  const Real bias(0x1p23f);
+  return (as_int(c[0] + bias) ^ as_int(bias)) | as_int(c[1] + bias) << 8 | as_int(c[2] + bias) << 16 | as_int(c[3] + bias) << 24;
+}
+
 /// Returns the 8-bit values of the four channels in one word, with red in the lowest byte.
 template <ColorFormat format>
 HS_INLINE Int packed_codes(const PacketColor& c) {
   return encode8(format, c[0], false) | encode8(format, c[1], false) << 8 | encode8(format, c[2], false) << 16 |
          encode8(format, c[3], true) << 24;
+}
+
+/// Returns the packed codes of the packet that starts with pixel `first` of an 8-bit format.
+HS_INLINE Int read_codes(const ColorBuffer& buffer, std::size_t first) { return load<Int>(plane<int32_t>(buffer, 0) + first); }
+/// Returns one channel of packed codes, from 0 to 255.
+HS_INLINE Int code_of(Int codes, int channel) { return (codes >> (8 * channel)) & Int(0xff); }
+/// Writes packed codes to the lanes in mask.
+HS_INLINE void write_codes(ColorBuffer& buffer, std::size_t first, Mask mask, Int codes) {
+  int32_t* to = plane<int32_t>(buffer, 0) + first;
+  store(to, select(mask, codes, load<Int>(to)));
 }
 
 /// Returns channel k of the packet that starts with pixel `first`, as linear floats.
@@ -84,7 +101,7 @@ HS_INLINE Real read_channel(const ColorBuffer& buffer, std::size_t first, int k)
   } else if constexpr (format == ColorFormat::rgba16f) {
     return decode_halves(load_halves<Int>(plane<uint16_t>(buffer, k) + first));
   } else {
-    return decode8(format, (load<Int>(plane<int32_t>(buffer, 0) + first) >> (8 * k)) & Int(0xff), k == 3);
+    return decode8(format, code_of(read_codes(buffer, first), k), k == 3);
   }
 }
 
