@@ -48,7 +48,7 @@ ModelCamera camera_of(const GltfDocument& document, const GltfValue& json) {
   return camera;
 }
 
-ModelLight light_of(GltfDocument& document, const GltfValue& json) {
+ModelLight light_of(const GltfDocument& document, const GltfValue& json) {
   ModelLight light;
   light.name = document.string(json, "name");
   const std::string type = document.string(json, "type");
@@ -65,8 +65,6 @@ ModelLight light_of(GltfDocument& document, const GltfValue& json) {
   for (int i = 0; i < 3; ++i) light.color[i] = std::max(static_cast<float>(color[static_cast<std::size_t>(i)]), 0.0f);
   light.intensity = document.number(json, "intensity", 1.0, 0.0);
   light.range = document.number(json, "range", 0.0, 0.0);
-  if (light.range > 0.0 && light.type != ModelLightType::directional)
-    document.warn_at(json, "range", "is not supported; the light has no limited range");
   const GltfValue& spot = document.object(json, "spot");
   light.outer = document.number(spot, "outerConeAngle", light.outer, 0.0, std::numbers::pi / 2.0 + 1e-6);
   light.inner = document.number(spot, "innerConeAngle", light.inner, 0.0, std::numbers::pi / 2.0 + 1e-6);

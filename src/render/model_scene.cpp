@@ -145,6 +145,7 @@ OrderedJson lights_of(const Model& model, const PosedModel& posed, const Frame& 
       light["position"] = json_of(frame.point(glm::dvec3(placed.world_from_light[3])));
       light["intensity"] = std::min(l.intensity / kPi * frame.scale * frame.scale, kMaxCount);
       light["falloff"] = "physical";
+      if (l.range > 0.0 && l.range * frame.scale < kMaxCount) light["range"] = l.range * frame.scale;
     }
     if (l.type == ModelLightType::spot) {
       light["direction"] = json_of(back);

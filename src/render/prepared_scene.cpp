@@ -14,7 +14,8 @@ namespace halfspace::inline HS_LANES_NAMESPACE {
 namespace {
 
 Light make_light(const LightDescription& d, const glm::dvec3& eye_ws) {
-  constexpr double kMinCone = 1e-6;  // difference of cosines; small enough for a hard edge
+  constexpr double kMinCone = 1e-6;    // difference of cosines; small enough for a hard edge
+  constexpr double kMinRange = 1e-30;  // its reciprocal is a finite float
   const glm::dvec3 towards = unit_or_zero(d.direction), color = d.color.linear * d.intensity;
   const double cos_inner = sincos_turns(d.inner / 360.0).cos, cos_outer = sincos_turns(d.outer / 360.0).cos;
   Light light;
@@ -26,6 +27,7 @@ Light make_light(const LightDescription& d, const glm::dvec3& eye_ws) {
   light.axis_ws = glm::vec3(towards);
   light.cos_outer = static_cast<float>(cos_outer);
   light.cone_scale = static_cast<float>(1.0 / std::max(cos_inner - cos_outer, kMinCone));
+  light.inverse_range = d.range > 0.0 ? static_cast<float>(1.0 / std::max(d.range, kMinRange)) : 0.0f;
   return light;
 }
 

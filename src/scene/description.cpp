@@ -129,6 +129,8 @@ Section section_of(LightDescription& l) {
       key<&T::falloff>("falloff", "Falloff with distance: by attenuation, or physical (1 / d^2)", {.only = lights_with("falloff")}),
       key<&T::attenuation>("attenuation", "Coefficients c, l, q of 1 / (c + l d + q d^2) at distance d",
                            {.low = 0, .only = lights_with("attenuation")}),
+      key<&T::range>("range", "Distance at which the light has faded to zero, by a factor of 1 - (d / range)^4; 0: unlimited",
+                     {.unit = "units", .low = 0, .only = lights_with("range")}),
       key<&T::inner>("inner", "Angle from the axis up to which the light has full intensity",
                      {.unit = "degrees", .low = 0, .high = 180, .only = lights_with("inner")}),
       key<&T::outer>("outer", "Angle from the axis beyond which there is no light",

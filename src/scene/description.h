@@ -53,6 +53,7 @@ struct LightDescription {
   double diffuse = 1.0, specular = 1.0;
   Falloff falloff = Falloff::attenuation;
   glm::dvec3 attenuation{1, 0, 0};
+  double range = 0.0;                 ///< distance at which the light has faded to zero; 0: unlimited
   double inner = 20.0, outer = 30.0;  ///< degrees from the axis
   bool shadow = true;
   double size = 0.0;  ///< radius in scene units; for directional lights, half the angle subtended, in degrees

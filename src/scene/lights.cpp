@@ -9,10 +9,10 @@ namespace {
 
 constexpr LightKind kKinds[]{
     {.type = LightType::directional, .name = "directional", .keys = "direction", .is_distant = true, .has_cone = false},
-    {.type = LightType::point, .name = "point", .keys = "position falloff attenuation", .is_distant = false, .has_cone = false},
+    {.type = LightType::point, .name = "point", .keys = "position falloff attenuation range", .is_distant = false, .has_cone = false},
     {.type = LightType::spot,
      .name = "spot",
-     .keys = "direction position falloff attenuation inner outer",
+     .keys = "direction position falloff attenuation range inner outer",
      .is_distant = false,
      .has_cone = true},
 };

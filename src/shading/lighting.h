@@ -35,6 +35,7 @@ struct Light {
   glm::vec3 axis_ws{0, 0, 1};      ///< spot: unit vector from the lit scene towards the light
   float cos_outer = 0.0f;          ///< spot: cosine of the angle to the axis at which the light fades to zero
   float cone_scale = 1.0f;         ///< spot: 1 / (cosine of the angle up to which the light has full strength − cos_outer)
+  float inverse_range = 0.0f;      ///< point, spot: 1 / distance at which the light has faded to zero; 0: unlimited
   const Shadow* shadow = nullptr;  ///< shadow of this light; null: none. Not owned
 };
 
@@ -81,6 +82,10 @@ HS_INLINE IncidentLight<R> light_at(const Light& light, const vec3<R>& position_
   const vec3<R> l_ws = normalize_or_zero(to_light);
   const R attenuation = fma(R(light.attenuation.z) * d + R(light.attenuation.y), d, R(light.attenuation.x));
   R strength = R(1) / max(attenuation, R(kMinAttenuation));
+  if (light.inverse_range > 0.0f) {  // the window that KHR_lights_punctual recommends: clamp(1 − (d / range)⁴, 0, 1)
+    const R t = min(d * R(light.inverse_range), R(1)), t2 = t * t;
+    strength *= R(1) - t2 * t2;
+  }
   if (light.type == LightType::spot) {
     const R t = clamp((dot(l_ws, light.axis_ws) - R(light.cos_outer)) * R(light.cone_scale), R(0), R(1));
     strength *= t * t * (R(3) - R(2) * t);

@@ -136,6 +136,23 @@ TEST_F(Export, WarnsAboutLossesOfModelObjects) {
   EXPECT_NE(o.err.find("model_time"), std::string::npos) << o.err;
 }
 
+// The picture of an exported point light with a range is that of the scene. It is exported with physical falloff, in candela.
+TEST_F(Export, KeepsTheRangeOfLights) {
+  const std::string head = R"({"version": 1, "cameras": {"c": {"position": [0, 4, 0.1]}}, "lights": {"lamp": {"type": "point",
+    "position": [0.3, 0.5, 0], "falloff": "physical", "range": 1.25}}, "objects": {)";
+  write("scene.json", head + R"("floor": {"shape": "plane", "size": 3}}})");
+  export_to("scene.json", "a.gltf");
+  const auto gltf = nlohmann::json::parse(read_bytes(directory / "a.gltf"));
+  EXPECT_EQ(gltf.at("extensions").at("KHR_lights_punctual").at("lights")[0].at("range"), 1.25);
+  const auto info = nlohmann::json::parse(run({"info", "a.gltf", "--json"}).out);
+  EXPECT_EQ(info.at("warnings"), nlohmann::json::array());
+  // The scene that draws the file converts lengths to its own units: the floor is 3 units wide there as well if its scale is 1.
+  const auto scene = nlohmann::json::parse(run({"render", "a.gltf", "--print"}).out);
+  const double scale =
+      scene.at("objects").at("model").contains("scale") ? scene.at("objects").at("model").at("scale")[0].get<double>() : 1.0;
+  EXPECT_DOUBLE_EQ(scene.at("lights").at("lamp").at("range").get<double>(), 1.25 * scale);
+}
+
 TEST_F(Export, NeverReplacesAFileThatItReads) {
   write("a.mtl", "newmtl m\nKd 1 0 0\n");
   write("a.obj", "mtllib a.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");

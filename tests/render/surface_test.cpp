@@ -84,6 +84,45 @@ TEST(Surface, FalloffMatchesOnAPlane) {
   }
 }
 
+TEST(Surface, RangeMatchesOnAPlaneAndKeepsTheShadowInside) {
+  // The lamp of the test above with a range of 1.5: it reaches a circle on the plane, and the plane is black outside. A small board between
+  // the lamp and the plane casts a shadow.
+  const std::string plane = R"("a": {"shape": "plane", "size": 4.4, "rotation": [90, 0, 0]})";
+  const std::string board = R"(, "b": {"shape": "plane", "size": 0.2, "rotation": [90, 0, 0], "position": [0.3, -0.2, 0.35]})";
+  const auto lamp = [](const std::string& more) {
+    return R"("lights": {"lamp": {"type": "point", "position": [0.3, -0.2, 0.7], "falloff": "physical")" + more + "}}, ";
+  };
+  const std::string hard = R"("shadow": {"method": "hard", "resolution": 512}, )";
+  const Image<glm::vec4> p = linear_picture(lamp(R"(, "range": 1.5)") + "\"objects\": {" + plane + "}");
+  const Image<glm::vec4> shadowed = linear_picture(hard + lamp(R"(, "range": 1.5)") + "\"objects\": {" + plane + board + "}");
+  const Image<glm::vec4> unlimited = linear_picture(hard + lamp("") + "\"objects\": {" + plane + board + "}");
+  int black = 0, dark = 0;
+  for_each_pixel([&](int x, int row) {
+    const Spot s = spot_of(x, row);
+    const double d2 = (s.x - 0.3) * (s.x - 0.3) + (s.y + 0.2) * (s.y + 0.2) + 0.49, d = std::sqrt(d2);
+    const double window = std::max(1 - d2 * d2 / (1.5 * 1.5 * 1.5 * 1.5), 0.0);
+    // The error of the falloff (test above), plus that of (d / range)⁴: at most 4 times the relative error of d, 1.5e-6.
+    EXPECT_NEAR(p.at(x, row).x, 0.7 / d / d2 * window, 6e-6 * 0.7 / d / d2 * (window + 1)) << x << " " << row;
+    if (d > 1.50001) {
+      EXPECT_EQ(p.at(x, row).x, 0.0f) << x << " " << row;
+      ++black;
+    }
+    // The board covers |x - 0.3|, |y + 0.2| < 0.1 and its shadow twice that, which is within the range. The shadow map with the shorter
+    // depth range has the same edges, up to a texel, which is less than a pixel.
+    const double from_edge = std::max(std::fabs(s.x - 0.3), std::fabs(s.y + 0.2)) - 0.2;
+    if (from_edge > -0.08 && from_edge < -0.03) {
+      EXPECT_EQ(shadowed.at(x, row).x, 0.0f) << x << " " << row;
+      EXPECT_EQ(unlimited.at(x, row).x, 0.0f) << x << " " << row;
+      ++dark;
+    }
+    if (from_edge > 0.03) {
+      EXPECT_EQ(shadowed.at(x, row).x, p.at(x, row).x) << x << " " << row;
+    }
+  });
+  EXPECT_GT(black, 3000);
+  EXPECT_GT(dark, 100);
+}
+
 TEST(Surface, SpotLightMatchesOnAPlane) {
   const Image<glm::vec4> p = linear_picture(R"("lights": {"lamp": {"type": "spot", "position": [0, 0, 1], "direction": [0, 0, 1],
     "inner": 20, "outer": 30}}, "objects": {"a": {"shape": "plane", "size": 4.4, "rotation": [90, 0, 0]}})");

@@ -48,6 +48,21 @@ TEST(Lighting, PointLightsAttenuateWithDistance) {
   EXPECT_EQ(at<double>(light, LightModel::lambert, 1, kUp, kUp).diffuse.x, 1.0 / 16) << "inverse square";
 }
 
+TEST(Lighting, ARangeFadesTheLightToZero) {
+  for (const LightType type : {LightType::point, LightType::spot}) {
+    Light light{.type = type, .position_rws = {0, 0, 0}, .attenuation = {0, 0, 1}, .cos_outer = -2.0f, .inverse_range = 0.5f};
+    for (const double d : {0.125, 0.5, 1.0, 1.5, 1.875}) {
+      const double window = 1 - std::pow(d / 2, 4);  // exact in double, like 1/d², except for the rounding of the quotient
+      EXPECT_NEAR(light_at<double>(light, {0, 0, -d}).strength, window / (d * d), 1e-15 * window / (d * d)) << d;
+    }
+    for (const double d : {2.0, 2.5, 1e9}) EXPECT_EQ(light_at<double>(light, {0, 0, -d}).strength, 0.0) << d;
+    light.inverse_range = 0.0f;
+    EXPECT_EQ(light_at<double>(light, {0, 0, -4}).strength, 1.0 / 16) << "unlimited";
+  }
+  Light sun{.inverse_range = 0.5f};
+  EXPECT_EQ(light_at<double>(sun, {0, 0, -9}).strength, 1.0) << "directional lights have no range";
+}
+
 TEST(Lighting, SpotIsFullInsideDarkOutsideAndSmoothInBetween) {
   Light spot{.type = LightType::spot, .position_rws = {0, 0, 2}};
   const double inner = std::cos(20 * kPi / 180), outer = std::cos(30 * kPi / 180);
@@ -119,6 +134,8 @@ void check_guards() {
       for (const glm::vec3& attenuation : {glm::vec3(1, 0, 0), glm::vec3(0, 0, 1), glm::vec3(0.2f, 0.1f, 0.1f)}) {
         Light light{.type = type, .position_rws = place};
         light.attenuation = attenuation;
+        lights.push_back(light);
+        light.inverse_range = 0.3f;
         lights.push_back(light);
       }
     }

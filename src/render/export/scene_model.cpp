@@ -220,6 +220,7 @@ class SceneExporter {
     }
     constexpr double kMinCone = 1e-4;
     light.outer = std::clamp(d.outer * kRadiansPerDegree, kMinCone, std::numbers::pi / 2.0);
+    if (!kind.is_distant) light.range = d.range;
     light.inner = std::clamp(d.inner * kRadiansPerDegree, 0.0, light.outer - 0.5 * kMinCone);
     if (!kind.is_distant && d.falloff != Falloff::physical) warn("all lights are exported with physical falloff");
     if (d.specular != d.diffuse) warn("lights have the same intensity for diffuse and specular light");

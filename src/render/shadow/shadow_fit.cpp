@@ -2,6 +2,7 @@
 #include "halfspace/render/shadow/shadow_fit.h"
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 
 #include "halfspace/core/units.h"
@@ -97,18 +98,20 @@ class ViewFinder {
     return views;
   }
 
-  std::vector<LightView> spot(const glm::dvec3& position, const glm::dvec3& forward, double angle) const {
+  // reach: distance beyond which there is no light; may be infinity.
+  std::vector<LightView> spot(const glm::dvec3& position, const glm::dvec3& forward, double angle, double reach) const {
     const glm::dvec3 axis = unit_or_zero(forward);
     double near = 1e300, far = 0.0;
     for (const Extent& e : casters_)
       for (const glm::dvec3& c : corners_of(e.box_ws)) near = std::min(near, glm::dot(c - position, axis));
     for (const Extent& e : receivers_)
       for (const glm::dvec3& c : corners_of(e.box_ws)) far = std::max(far, glm::dot(c - position, axis));
+    far = std::min(far, reach);
     if (far <= 0.0) return {};
     return {spot_view(position, axis, angle, near_end(near, far), far * 1.001, size_, margin_)};
   }
 
-  std::vector<LightView> cube(const glm::dvec3& position) const {
+  std::vector<LightView> cube(const glm::dvec3& position, double reach) const {
     double near = 1e300, far = 0.0;
     // The distance along the axis of the face that contains the point is the largest component.
     for (const Extent& e : casters_) {
@@ -116,9 +119,10 @@ class ViewFinder {
       near = std::min(near, std::max({gap.x, gap.y, gap.z}));
     }
     for (const Extent& e : receivers_) {
-      const glm::dvec3 reach = glm::max(glm::abs(e.box_ws.low - position), glm::abs(e.box_ws.high - position));
-      far = std::max({far, reach.x, reach.y, reach.z});
+      const glm::dvec3 distance = glm::max(glm::abs(e.box_ws.low - position), glm::abs(e.box_ws.high - position));
+      far = std::max({far, distance.x, distance.y, distance.z});
     }
+    far = std::min(far, reach);
     std::vector<LightView> views;
     for (const LightView& view : cube_views(position, near_end(near, far), far * 1.001, size_, margin_)) {
       const auto seen = frustum_corners(view.clip_from_world);
@@ -170,9 +174,10 @@ std::vector<LightView> fitted_views(const View& view, const std::vector<PlacedMe
   if (finder.nothing_received()) return {};
   const LightKind& kind = kind_of(light.type);
   if (kind.is_distant) return finder.directional(light.direction, shadow.cascades, shadow.cascade_growth);
+  const double reach = light.range > 0.0 ? light.range : std::numeric_limits<double>::infinity();
   if (kind.has_cone && light.outer <= kWidestSpot)
-    return finder.spot(light.position, -light.direction, 2.0 * light.outer * kRadiansPerDegree);
-  return finder.cube(light.position);
+    return finder.spot(light.position, -light.direction, 2.0 * light.outer * kRadiansPerDegree, reach);
+  return finder.cube(light.position, reach);
 }
 
 }  // namespace halfspace::inline HS_LANES_NAMESPACE
