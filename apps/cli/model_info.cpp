@@ -66,6 +66,17 @@ std::vector<std::string> names_of(const std::vector<T>& list) {
   return names;
 }
 
+// Marks an image, or the images that it is converted from.
+void mark_used(const Model& model, int image, std::vector<bool>& used) {
+  const std::optional<SpecularGlossiness>& converted = model.images[static_cast<std::size_t>(image)].converted;
+  used[static_cast<std::size_t>(image)] = true;
+  if (!converted) return;
+  for (const int texture : {converted->diffuse_texture, converted->specular_texture}) {
+    const int source = texture < 0 ? -1 : model.textures[static_cast<std::size_t>(texture)].image;
+    if (source >= 0) used[static_cast<std::size_t>(source)] = true;
+  }
+}
+
 // Returns, for each image, whether a material uses it.
 std::vector<bool> used_images(const Model& model) {
   std::vector<bool> used(model.images.size());
@@ -75,7 +86,7 @@ std::vector<bool> used_images(const Model& model) {
           &m.clearcoat_roughness_map, &m.clearcoat_normal_map, &m.normal_map, &m.bump_map, &m.occlusion_map, &m.emissive_map}) {
       if (use->texture < 0) continue;
       const int image = model.textures[static_cast<std::size_t>(use->texture)].image;
-      if (image >= 0) used[static_cast<std::size_t>(image)] = true;
+      if (image >= 0) mark_used(model, image, used);
     }
   }
   return used;
@@ -87,6 +98,7 @@ OrderedJson images_of(Model& model) {
   const std::vector<bool> used = used_images(model);
   for (std::size_t i = 0; i < model.images.size(); ++i) {
     const ModelImage& image = model.images[i];
+    if (image.converted) continue;  // not in the file
     OrderedJson json = {{"name", image.name},
                         {"width", nullptr},
                         {"height", nullptr},

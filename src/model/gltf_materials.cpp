@@ -10,6 +10,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "halfspace/model/specular_glossiness.h"
+
 namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
@@ -29,8 +31,6 @@ glm::vec4 color_and_opacity(const GltfDocument& document, const GltfValue& json,
   const auto c = document.numbers<4>(json, key, {1.0, 1.0, 1.0, 1.0});
   return {glm::max(color_of({c[0], c[1], c[2]}), glm::vec3(0.0f)), static_cast<float>(std::clamp(c[3], 0.0, 1.0))};
 }
-
-double brightness(const glm::dvec3& c) { return std::sqrt(0.299 * c.x * c.x + 0.587 * c.y * c.y + 0.114 * c.z * c.z); }
 
 void read_alpha(GltfDocument& document, const GltfValue& json, ModelMaterial& material) {
   const std::string mode = document.string(json, "alphaMode");
@@ -87,25 +87,52 @@ void read_transmission(GltfDocument& document, const GltfValue& json, ModelMater
   material.base_color.w *= std::max(1.0f - transmission, kMinGlassOpacity);
 }
 
+bool same_place(const TextureUse& a, const TextureUse& b) { return a.uv_set == b.uv_set && a.uv_transform == b.uv_transform; }
+
+// Converts a material whose maps, of which there is at least one, can be read with the same texture coordinates.
+void convert_maps(GltfTextures& textures, const TextureUse& diffuse_map, const TextureUse& specular_map, SpecularGlossiness source,
+                  ModelMaterial& material) {
+  source.diffuse_texture = diffuse_map.texture;
+  source.specular_texture = specular_map.texture;
+  const int texture = textures.add_converted(source, material.name);
+  TextureUse use = diffuse_map.texture >= 0 ? diffuse_map : specular_map;
+  use.texture = texture;
+  material.base_color_map = use;
+  material.base_color = glm::vec4(1.0f);
+  use.texture = texture + 1;
+  material.roughness_map = material.metallic_map = use;
+  material.roughness_map.channel = Channel::green;
+  material.metallic_map.channel = Channel::blue;
+  material.metallic = material.roughness = 1.0f;
+}
+
 void read_specular_glossiness(GltfDocument& document, GltfTextures& textures, const GltfValue& json, ModelMaterial& material) {
-  document.warn(
-      "KHR_materials_pbrSpecularGlossiness is converted to metallic-roughness; specularGlossinessTexture is approximated, and its "
-      "glossiness is ignored");
   const glm::vec4 diffuse = color_and_opacity(document, json, "diffuseFactor");
-  const glm::vec3 specular = color(document, json, "specularFactor", 1.0);
-  const float glossiness = document.factor(json, "glossinessFactor", 1.0f);
+  SpecularGlossiness source;
+  source.diffuse = glm::vec3(diffuse);
+  source.specular = color(document, json, "specularFactor", 1.0);
+  source.glossiness = document.factor(json, "glossinessFactor", 1.0f);
+  const TextureUse diffuse_map = textures.use(json, "diffuseTexture"), specular_map = textures.use(json, "specularGlossinessTexture");
+  const MetallicColor converted = metallic_color(glm::dvec3(source.diffuse), glm::dvec3(source.specular));
   material.metallic_map = material.roughness_map = {};
-  material.base_color_map = textures.use(json, "diffuseTexture");
-  material.specular_color_map = textures.use(json, "specularGlossinessTexture");
-  if (material.specular_color_map.texture < 0) {
-    convert_specular_glossiness(glm::dvec3(glm::vec3(diffuse)), glm::dvec3(specular), static_cast<double>(glossiness), material);
+  if (specular_map.texture < 0 && (diffuse_map.texture < 0 || converted.metallic == 0.0)) {
+    // The base color of a dielectric is proportional to the diffuse color.
+    material.base_color_map = diffuse_map;
+    material.base_color = glm::vec4(glm::vec3(converted.base), 1.0f);
+    material.metallic = static_cast<float>(converted.metallic);
+    material.roughness = 1.0f - source.glossiness;
+  } else if (diffuse_map.texture < 0 || specular_map.texture < 0 || same_place(diffuse_map, specular_map)) {
+    convert_maps(textures, diffuse_map, specular_map, source, material);
   } else {
-    // The result is a dielectric whose reflectance is the texture. The glossiness in the alpha channel is assumed to be 0.5.
-    constexpr float kDielectric = 0.04f, kMeanGlossiness = 0.5f;
+    document.warn_at(json, "specularGlossinessTexture",
+                     "has other texture coordinates than diffuseTexture; the material is approximated by a non-metal");
+    convert_maps(textures, {}, specular_map, source, material);
+    material.base_color_map = diffuse_map;
     material.base_color = diffuse;
     material.metallic = 0.0f;
-    material.roughness = 1.0f - glossiness * kMeanGlossiness;
-    material.specular_color = specular / kDielectric;
+    material.metallic_map = {};
+    material.specular_color_map = specular_map;
+    material.specular_color = source.specular / static_cast<float>(kDielectricReflectance);
   }
   material.base_color.w = diffuse.w;
 }
@@ -129,24 +156,6 @@ void read_extensions(GltfDocument& document, GltfTextures& textures, const GltfV
 }
 
 }  // namespace
-
-void convert_specular_glossiness(const glm::dvec3& diffuse, const glm::dvec3& specular, double glossiness, ModelMaterial& material) {
-  constexpr double kDielectric = 0.04, kEpsilon = 1e-6;
-  const double remaining = 1.0 - std::max({specular.x, specular.y, specular.z});
-  const double s = brightness(specular);
-  double metallic = 0.0;
-  if (s >= kDielectric) {  // the positive solution of kDielectric·m² + b·m + c = 0
-    const double b = brightness(diffuse) * remaining / (1.0 - kDielectric) + s - 2.0 * kDielectric, c = kDielectric - s;
-    const double root = std::sqrt(std::max(b * b - 4.0 * kDielectric * c, 0.0));
-    metallic = std::clamp((root - b) / (2.0 * kDielectric), 0.0, 1.0);
-  }
-  const glm::dvec3 from_diffuse = diffuse * (remaining / (1.0 - kDielectric) / std::max(1.0 - metallic, kEpsilon));
-  const glm::dvec3 from_specular = (specular - kDielectric * (1.0 - metallic)) / std::max(metallic, kEpsilon);
-  const glm::dvec3 base = glm::mix(from_diffuse, from_specular, metallic * metallic);
-  material.base_color = glm::vec4(glm::vec3(glm::clamp(base, 0.0, 1.0)), material.base_color.w);
-  material.metallic = static_cast<float>(metallic);
-  material.roughness = static_cast<float>(1.0 - glossiness);
-}
 
 ModelMaterial gltf_default_material() {
   ModelMaterial material;

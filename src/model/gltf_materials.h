@@ -14,8 +14,4 @@ std::vector<ModelMaterial> gltf_materials(GltfDocument& document, GltfTextures& 
 /// Returns the default material, which is used by primitives that do not name one. glTF defines it as a rough white metal.
 ModelMaterial gltf_default_material();
 
-/// Converts the factors of KHR_materials_pbrSpecularGlossiness to base color, metallic and roughness, as in the appendix of that extension:
-/// the metallic factor is chosen so that the mixture with a dielectric of reflectance 0.04 has the same specular color.
-void convert_specular_glossiness(const glm::dvec3& diffuse, const glm::dvec3& specular, double glossiness, ModelMaterial& material);
-
 }  // namespace halfspace::inline HS_LANES_NAMESPACE

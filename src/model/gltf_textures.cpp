@@ -129,7 +129,7 @@ TextureUse GltfTextures::use(const GltfValue& object, const char* key, Channel c
   TextureUse use;
   use.channel = channel;
   const GltfValue& info = document_.object(object, key);
-  const int texture = document_.required_index(info, "index", model_.textures.size());
+  const int texture = document_.required_index(info, "index", document_.list("textures").size());
   use.uv_set = uv_set_of(document_, info, 0);
   if (const GltfValue* transform = document_.extension(info, "KHR_texture_transform")) {
     use.uv_set = uv_set_of(document_, *transform, use.uv_set);
@@ -141,6 +141,34 @@ TextureUse GltfTextures::use(const GltfValue& object, const char* key, Channel c
   }
   if (locate_image(model_.textures[static_cast<std::size_t>(texture)].image)) use.texture = texture;
   return use;
+}
+
+int GltfTextures::add_converted(const SpecularGlossiness& source, const std::string& name) {
+  const std::array<float, 9> key{static_cast<float>(source.diffuse_texture),
+                                 static_cast<float>(source.specular_texture),
+                                 source.diffuse.x,
+                                 source.diffuse.y,
+                                 source.diffuse.z,
+                                 source.specular.x,
+                                 source.specular.y,
+                                 source.specular.z,
+                                 source.glossiness};
+  const auto [known, added] = converted_.try_emplace(key, static_cast<int>(model_.textures.size()));
+  if (!added) return known->second;
+  // Each result is sampled like the source that determines it most.
+  const std::array sources{source.diffuse_texture, source.specular_texture};
+  for (const auto result : {SpecularGlossiness::Result::base_color, SpecularGlossiness::Result::metallic_roughness}) {
+    const bool is_color = result == SpecularGlossiness::Result::base_color;
+    const int like = sources[is_color ? 0 : 1] >= 0 ? sources[is_color ? 0 : 1] : sources[is_color ? 1 : 0];
+    const Sampler sampler = model_.textures[static_cast<std::size_t>(like)].sampler;
+    model_.textures.push_back({static_cast<int>(model_.images.size()), sampler});
+    ModelImage image;
+    image.name = name + (is_color ? "_base_color" : "_metallic_roughness");
+    image.converted = source;
+    image.converted->result = result;
+    model_.images.push_back(std::move(image));
+  }
+  return known->second;
 }
 
 }  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -3,6 +3,9 @@
 // Images, samplers and textures of glTF files.
 #pragma once
 
+#include <array>
+#include <map>
+
 #include "halfspace/model/gltf_buffers.h"
 #include "halfspace/model/gltf_document.h"
 #include "halfspace/model/model.h"
@@ -21,6 +24,11 @@ class GltfTextures {
   /// member is missing or if its image does not exist.
   TextureUse use(const GltfValue& object, const char* key, Channel channel = Channel::red);
 
+  /// Adds the two images that result from a conversion of textures, and a texture for each, unless the same conversion was added before.
+  /// Returns the number of the texture with the base color; the next one is the texture with metalness and roughness. name: of the
+  /// material.
+  int add_converted(const SpecularGlossiness& source, const std::string& name);
+
  private:
   bool locate_image(int image);
 
@@ -28,7 +36,8 @@ class GltfTextures {
   GltfBuffers& buffers_;
   References& references_;
   Model& model_;
-  std::vector<bool> tried_;  // for each image, whether locate_image was called
+  std::vector<bool> tried_;                        // for each image of the file, whether locate_image was called
+  std::map<std::array<float, 9>, int> converted_;  // the results of add_converted
 };
 
 }  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -25,13 +25,35 @@ namespace halfspace::inline HS_LANES_NAMESPACE {
 
 // ---- textures --------------------------------------------------------------------------------------------------
 
-/// An image: a file, the bytes of a file (PNG, JPEG, ...) that were stored in the model file, or pixels that a program provides.
+/// Textures of a specular-glossiness material that are converted texel by texel (KHR_materials_pbrSpecularGlossiness).
+struct SpecularGlossiness {
+  enum class Result : uint8_t {
+    base_color,         ///< sRGB, with the alpha of the diffuse texture
+    metallic_roughness  ///< linear: roughness in green, metalness in blue
+  };
+
+  /// Diffuse color, and specular color (sRGB) with the glossiness in alpha. -1: the property has no texture.
+  int diffuse_texture = -1, specular_texture = -1;
+  glm::vec3 diffuse{1.0f}, specular{1.0f};  ///< linear; they multiply the textures
+  float glossiness = 1.0f;
+  Result result = Result::base_color;
+
+  /// Returns true if both images are results of the same conversion.
+  bool same_sources(const SpecularGlossiness& other) const {
+    return diffuse_texture == other.diffuse_texture && specular_texture == other.specular_texture && diffuse == other.diffuse &&
+           specular == other.specular && glossiness == other.glossiness;
+  }
+};
+
+/// An image: a file, the bytes of a file (PNG, JPEG, ...) that were stored in the model file, pixels that a program provides, or the result
+/// of a conversion.
 struct ModelImage {
   std::string name;                                     ///< for messages: the path or name in the model file
   std::filesystem::path file;                           ///< absolute; empty if `bytes` or `pixels` has the image or there is none
   std::shared_ptr<const std::vector<std::byte>> bytes;  ///< null if the image is a file
   std::shared_ptr<const Image<glm::u8vec4>> pixels{};   ///< replaces the other two; never set by readers. Straight alpha
   bool missing = false;                                 ///< a material uses the image, but the reader did not find it
+  std::optional<SpecularGlossiness> converted{};        ///< replaces file, bytes and pixels
 };
 
 /// An image and how it is sampled.

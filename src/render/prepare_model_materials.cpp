@@ -8,6 +8,7 @@
 
 #include "halfspace/core/resource_limits.h"
 #include "halfspace/image/image_io.h"
+#include "halfspace/render/converted_images.h"
 #include "halfspace/render/preparation.h"
 #include "halfspace/render/soft_mask.h"
 
@@ -39,13 +40,20 @@ std::string image_recipe(const std::filesystem::path& file, int image, bool colo
   return recipe("model image", file.string(), image, color ? "color" : "data");
 }
 
+Texture2D texture_of(const Image<glm::u8vec4>& picture, bool color, const Workers& workers) {
+  return Texture2D(picture, color ? TexelFormat::srgb8a8 : TexelFormat::rgba8, &workers);
+}
+
 // Decodes an image of a model.
 Texture2D decoded(const std::filesystem::path& file, const ModelImage& source, bool color, const Workers& workers) {
-  const TexelFormat format = color ? TexelFormat::srgb8a8 : TexelFormat::rgba8;
-  if (source.pixels != nullptr) return Texture2D(*source.pixels, format, &workers);
-  const Image<glm::u8vec4> picture =
-      source.bytes != nullptr ? read_image(*source.bytes, file.string() + ": " + source.name) : read_image(source.file);
-  return Texture2D(picture, format, &workers);
+  if (source.pixels != nullptr) return texture_of(*source.pixels, color, workers);
+  return texture_of(source.bytes != nullptr ? read_image(*source.bytes, file.string() + ": " + source.name) : read_image(source.file),
+                    color, workers);
+}
+
+// Returns true if two images are results of the same conversion.
+bool are_converted_together(const ModelImage& a, const ModelImage& b) {
+  return a.converted && b.converted && a.converted->same_sources(*b.converted);
 }
 
 }  // namespace
@@ -72,9 +80,21 @@ void ScenePreparation::load_images(const ObjectDescription& o, const Model& mode
   const auto start = std::chrono::steady_clock::now();
   std::vector<std::optional<Texture2D>> textures(list.size());
   std::vector<std::string> problems(list.size());
+  const auto image_at = [&](std::size_t i) -> const ModelImage& { return model.images[static_cast<std::size_t>(list[i].first)]; };
+  // Converts all consecutive images that are results of the same conversion.
+  const auto convert = [&](std::size_t first) {
+    if (first > 0 && are_converted_together(image_at(first - 1), image_at(first))) return;
+    const ConvertedImages images = converted_images(model, *image_at(first).converted, o.file.path.string(), assets_.workers_);
+    for (const std::string& problem : images.problems) problems[first] += (problems[first].empty() ? "" : "; ") + problem;
+    for (std::size_t i = first; i < list.size() && are_converted_together(image_at(first), image_at(i)); ++i) {
+      const bool is_color = image_at(i).converted->result == SpecularGlossiness::Result::base_color;
+      textures[i].emplace(texture_of(is_color ? images.base_color : images.metallic_roughness, list[i].second, assets_.workers_));
+    }
+  };
   const auto load = [&](std::size_t i) {
     const auto [image, color] = list[i];
-    const ModelImage& source = model.images[static_cast<std::size_t>(image)];
+    const ModelImage& source = image_at(i);
+    if (source.converted) return convert(i);
     if (source.file.empty() && source.bytes == nullptr && source.pixels == nullptr) return;  // the reader has already warned
     try {
       textures[i].emplace(decoded(o.file.path, source, color, assets_.workers_));

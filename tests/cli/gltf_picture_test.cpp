@@ -2,6 +2,7 @@
 //
 // Renders a small file for each glTF feature and compares the result with a known picture. The camera looks along -z at the square [-4,
 // 4]²; a unit is one pixel.
+#include <algorithm>
 #include <fstream>
 
 #include "cli/cli_run.h"
@@ -238,4 +239,49 @@ TEST_F(GltfPicture, SkinsWithMoreThanFourJoints) {
 }
 
 }  // namespace
+// Textures of different sizes: a metal above, a black dielectric below; the left half is matte, the right half is polished. The picture
+// equals that of a metallic-roughness file with the converted textures.
+TEST_F(GltfPicture, SpecularGlossinessIsConverted) {
+  const auto write = [&](const char* name, int width, int height, const std::vector<glm::u8vec4>& texels) {
+    Image<glm::u8vec4> image(width, height);
+    std::ranges::copy(texels, image.data());
+    write_png(directory / name, image);
+  };
+  const auto render = [&](const GltfJson& material) {
+    GltfBuilder file;
+    for (const char* name : {"diffuse.png", "specular.png", "base.png", "data.png"}) {
+      file.add("images", {{"uri", name}});
+      file.add("textures", {{"source", file.json["images"].size() - 1}, {"sampler", 0}});
+    }
+    file.add("samplers", {{"magFilter", 9728}, {"minFilter", 9728}});
+    file.mesh_node(square(file, file.add("materials", material)));
+    std::ofstream(directory / "a.gltf") << file.text();
+    std::ofstream(directory / "scene.json") << R"({"version": 1, "cameras": {"c": {"type": "orthographic", "height": 4}},
+      "lights": {"sun": {"direction": [0.2, 0.3, 1]}}, "environments": {"e": {"type": "studio", "size": 64}},
+      "reflections": {"environment": "e"}, "objects": {"model": {"shape": "file", "file": "a.gltf"}}})";
+    const Outcome o = run({"render", "scene.json", "--size", "32x32", "-o", "a.png"});
+    EXPECT_EQ(o.exit_code, 0) << o.err;
+    EXPECT_EQ(o.err, "");
+    const auto info = GltfJson::parse(run({"info", "a.gltf", "--json"}).out);
+    EXPECT_EQ(info.at("images").size(), 4u) << "images that the reader adds are not in the file";
+    EXPECT_EQ(info.at("warnings"), GltfJson::array());
+    return picture("a.png");
+  };
+  write("diffuse.png", 1, 1, {{0, 0, 0, 255}});
+  // sRGB 10 is a reflectance of 0.003, less than that of any dielectric.
+  write("specular.png", 2, 2, {{250, 180, 60, 51}, {250, 180, 60, 204}, {10, 10, 10, 51}, {10, 10, 10, 204}});
+  write("base.png", 2, 2, {{250, 180, 60, 255}, {250, 180, 60, 255}, {0, 0, 0, 255}, {0, 0, 0, 255}});
+  write("data.png", 2, 2, {{0, 204, 255, 255}, {0, 51, 255, 255}, {0, 204, 0, 255}, {0, 51, 0, 255}});
+  const GltfJson specular_glossiness = {{"diffuseTexture", {{"index", 0}}}, {"specularGlossinessTexture", {{"index", 1}}}};
+  const Image<glm::u8vec4> converted = render({{"extensions", {{"KHR_materials_pbrSpecularGlossiness", specular_glossiness}}}});
+  const Image<glm::u8vec4> expected =
+      render({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 2}}}, {"metallicRoughnessTexture", {{"index", 3}}}}}});
+  EXPECT_TRUE(converted == expected);
+  EXPECT_NE(expected.at(4, 4), expected.at(28, 4)) << "roughness is visible";
+  EXPECT_NE(expected.at(4, 4), expected.at(4, 28)) << "metalness is visible";
+  // The export contains the converted textures.
+  const Outcome o = run({"export", "a.gltf", "-o", "b.glb"});
+  EXPECT_EQ(o.exit_code, 0) << o.err;
+}
+
 }  // namespace halfspace

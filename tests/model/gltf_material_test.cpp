@@ -118,11 +118,77 @@ TEST(GltfMaterial, ConvertsSpecularGlossiness) {
   const ModelMaterial gold = converted({{"diffuseFactor", {0, 0, 0, 1}}, {"specularFactor", {1.0, 0.7, 0.3}}});
   EXPECT_EQ(gold.metallic, 1.0f);
   EXPECT_NEAR(gold.base_color.y, 0.7f, 1e-6f);
-  // The reflectance is the texture times the factor.
-  const ModelMaterial textured = converted({{"specularFactor", {0.08, 0.04, 0}}, {"specularGlossinessTexture", {{"index", 0}}}});
-  EXPECT_EQ(textured.metallic, 0.0f);
-  EXPECT_EQ(textured.specular_color_map.texture, 0);
-  EXPECT_NEAR(textured.specular_color.x, 2.0f, 1e-6f);
+  // Without specular reflection, the base color is proportional to the diffuse color, so the texture need not be converted.
+  const ModelMaterial cloth = converted({{"diffuseFactor", {0.5, 0.5, 0.5, 0.25}},
+                                         {"specularFactor", {0, 0, 0}},
+                                         {"glossinessFactor", 0},
+                                         {"diffuseTexture", {{"index", 0}}}});
+  EXPECT_EQ(cloth.base_color_map.texture, 0);
+  EXPECT_NEAR(cloth.base_color.x, 0.5f / 0.96f, 1e-6f);
+  EXPECT_EQ(cloth.base_color.w, 0.25f);
+  EXPECT_EQ(cloth.metallic, 0.0f);
+  EXPECT_EQ(cloth.roughness, 1.0f);
+}
+
+TEST(GltfMaterial, ConvertsSpecularGlossinessTextures) {
+  GltfBuilder file = file_with_texture();
+  file.add("samplers", {{"magFilter", 9728}, {"wrapS", 33071}});
+  file.add("textures", {{"source", 0}, {"sampler", 0}});
+  const GltfJson maps = {{"diffuseFactor", {0.5, 0.6, 0.7, 0.25}},
+                         {"specularFactor", {0.1, 0.2, 0.3}},
+                         {"glossinessFactor", 0.75},
+                         {"diffuseTexture", {{"index", 0}}},
+                         {"specularGlossinessTexture", {{"index", 1}}}};
+  const auto add = [&](const GltfJson& json) { file.add("materials", extension("KHR_materials_pbrSpecularGlossiness", json)); };
+  add(maps);
+  add(maps);
+  GltfJson only_specular = maps;
+  only_specular.erase("diffuseTexture");
+  add(only_specular);
+  GltfJson apart = maps;
+  apart["diffuseTexture"]["texCoord"] = 1;
+  add(apart);
+  const Model model = file.read();
+  const ModelMaterial& m = model.materials.at(0);
+  EXPECT_EQ(m.base_color, glm::vec4(1.0f, 1.0f, 1.0f, 0.25f));  // the other factors are applied to the texels
+  EXPECT_EQ(m.metallic, 1.0f);
+  EXPECT_EQ(m.roughness, 1.0f);
+  EXPECT_EQ(m.base_color_map.texture, 2);
+  EXPECT_EQ(m.metallic_map.texture, 3);
+  EXPECT_EQ(m.metallic_map.channel, Channel::blue);
+  EXPECT_EQ(m.roughness_map.texture, 3);
+  EXPECT_EQ(m.roughness_map.channel, Channel::green);
+  const ModelImage& color = model.images.at(static_cast<std::size_t>(model.textures.at(2).image));
+  const ModelImage& data = model.images.at(static_cast<std::size_t>(model.textures.at(3).image));
+  ASSERT_TRUE(color.converted && data.converted);
+  EXPECT_TRUE(color.converted->same_sources(*data.converted));
+  EXPECT_EQ(color.converted->result, SpecularGlossiness::Result::base_color);
+  EXPECT_EQ(data.converted->result, SpecularGlossiness::Result::metallic_roughness);
+  EXPECT_EQ(data.converted->diffuse_texture, 0);
+  EXPECT_EQ(data.converted->specular_texture, 1);
+  EXPECT_EQ(data.converted->diffuse, glm::vec3(0.5f, 0.6f, 0.7f));
+  EXPECT_EQ(data.converted->specular, glm::vec3(0.1f, 0.2f, 0.3f));
+  EXPECT_EQ(data.converted->glossiness, 0.75f);
+  EXPECT_EQ(model.textures[2].sampler.mag, Filter::bilinear) << "the sampler of the diffuse texture";
+  EXPECT_EQ(model.textures[3].sampler.mag, Filter::nearest) << "the sampler of the specular-glossiness texture";
+  EXPECT_EQ(model.materials.at(1).base_color_map.texture, 2) << "the same conversion is done once";
+  EXPECT_EQ(model.materials.at(2).base_color_map.texture, 4);
+  EXPECT_EQ(model.textures.at(4).sampler.mag, Filter::nearest);
+  // Textures with different coordinates cannot be combined. The result is a dielectric whose reflectance is the texture.
+  const ModelMaterial& dielectric = model.materials.at(3);
+  EXPECT_EQ(dielectric.base_color_map.texture, 0);
+  EXPECT_EQ(dielectric.base_color_map.uv_set, 1);
+  EXPECT_EQ(dielectric.metallic, 0.0f);
+  EXPECT_EQ(dielectric.metallic_map.texture, -1);
+  EXPECT_EQ(dielectric.specular_color_map.texture, 1);
+  EXPECT_NEAR(dielectric.specular_color.y, 0.2f / 0.04f, 1e-6f);
+  EXPECT_EQ(dielectric.roughness_map.texture, 5);
+  EXPECT_EQ(dielectric.roughness_map.uv_set, 0);
+  ASSERT_EQ(model.warnings.size(), 1u);
+  EXPECT_NE(model.warnings[0].find("texture coordinates"), std::string::npos) << model.warnings[0];
+  // The textures that the reader adds cannot be used by their numbers.
+  add({{"diffuseTexture", {{"index", 2}}}});
+  EXPECT_THROW(file.read(), InputError);
 }
 
 TEST(GltfMaterial, TransformsTextureCoordinates) {

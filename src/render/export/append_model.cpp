@@ -26,7 +26,13 @@ class ModelAppender {
   void add_contents(int variant) {
     const int images = count(to_.images), textures = count(to_.textures), materials = count(to_.materials);
     to_.files.insert(to_.files.end(), from_.files.begin(), from_.files.end());
-    to_.images.insert(to_.images.end(), from_.images.begin(), from_.images.end());
+    for (ModelImage image : from_.images) {
+      if (image.converted) {
+        shift(image.converted->diffuse_texture, textures);
+        shift(image.converted->specular_texture, textures);
+      }
+      to_.images.push_back(std::move(image));
+    }
     for (ModelTexture texture : from_.textures) {
       shift(texture.image, images);
       to_.textures.push_back(texture);

@@ -6,12 +6,24 @@
 #include "halfspace/image/png.h"
 #include "halfspace/model/file_bytes.h"
 #include "halfspace/model/write_model.h"
+#include "halfspace/render/converted_images.h"
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
-void embed(ModelImage& image) {
+void embed_converted(Model& model, ModelImage& image) {
+  const Workers workers(1);
+  const ConvertedImages images = converted_images(model, *image.converted, image.name, workers);
+  const bool is_color = image.converted->result == SpecularGlossiness::Result::base_color;
+  image.bytes = std::make_shared<const std::vector<std::byte>>(is_color ? encode_png(images.base_color)
+                                                                        : encode_png(images.metallic_roughness, PngCodes::numbers));
+  // Both results report the same problems.
+  if (is_color) model.warnings.insert(model.warnings.end(), images.problems.begin(), images.problems.end());
+}
+
+void embed(Model& model, ModelImage& image) {
+  if (image.converted) return embed_converted(model, image);
   if (image.pixels) {
     image.bytes = std::make_shared<const std::vector<std::byte>>(encode_png(*image.pixels));
     return;
@@ -28,7 +40,7 @@ void embed(ModelImage& image) {
 void embed_images(Model& model) {
   for (ModelImage& image : model.images) {
     try {
-      embed(image);
+      embed(model, image);
     } catch (const LimitError&) {
       throw;
     } catch (const InputError& e) {

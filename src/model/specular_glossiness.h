@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Conversion from specular-glossiness to metallic-roughness, as in the appendix of KHR_materials_pbrSpecularGlossiness.
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "halfspace/core/namespace.h"
+
+namespace halfspace::inline HS_LANES_NAMESPACE {
+
+/// Reflectance at normal incidence of the dielectrics of the metallic-roughness model.
+inline constexpr double kDielectricReflectance = 0.04;
+
+/// A base color and how metallic it is.
+struct MetallicColor {
+  glm::dvec3 base;
+  double metallic;
+};
+
+/// Converts linear colors from 0 to 1. The metallic factor is chosen so that the mixture of a metal with a dielectric of reflectance 0.04
+/// has the same brightness of the specular color. The roughness is 1 minus the glossiness.
+MetallicColor metallic_color(const glm::dvec3& diffuse, const glm::dvec3& specular);
+
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "halfspace/render/converted_images.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "halfspace/core/resource_limits.h"
+#include "halfspace/core/srgb.h"
+#include "halfspace/image/image_io.h"
+#include "halfspace/model/specular_glossiness.h"
+
+namespace halfspace::inline HS_LANES_NAMESPACE {
+
+namespace {
+
+using Picture = Image<glm::u8vec4>;
+
+// Returns the image of a texture, or one white texel if there is none or if it cannot be read.
+Picture source_picture(const Model& model, int texture, const std::string& place, std::vector<std::string>& problems) {
+  Picture white(1, 1);
+  white.at(0, 0) = glm::u8vec4(255);
+  if (texture < 0) return white;
+  const int image = model.textures[static_cast<std::size_t>(texture)].image;
+  if (image < 0) return white;
+  const ModelImage& source = model.images[static_cast<std::size_t>(image)];
+  try {
+    if (source.pixels != nullptr) return *source.pixels;
+    if (source.bytes != nullptr) return read_image(*source.bytes, place + ": " + source.name);
+    if (!source.file.empty()) return read_image(source.file);
+  } catch (const LimitError&) {
+    throw;
+  } catch (const InputError& e) {
+    problems.emplace_back(e.what());
+  }
+  return white;
+}
+
+int wrapped(int i, int size, Wrap wrap) {
+  const auto modulo = [](int a, int n) { return (a % n + n) % n; };
+  switch (wrap) {
+    case Wrap::repeat: return modulo(i, size);
+    case Wrap::mirrored: {
+      const int k = modulo(i, 2 * size);
+      return k < size ? k : 2 * size - 1 - k;
+    }
+    case Wrap::clamp:
+    case Wrap::border: break;
+  }
+  return std::clamp(i, 0, size - 1);
+}
+
+// One of the texels that an output texel is a weighted mean of, along one axis.
+struct Tap {
+  int texel;
+  float weight;
+};
+
+// Returns the taps of each of `to` output texels: linear interpolation, or, if there are fewer output texels than texels, a tent that
+// covers the distance between two output texels to both sides.
+std::vector<std::vector<Tap>> taps_of(int from, int to, Wrap wrap, bool nearest) {
+  std::vector<std::vector<Tap>> taps(static_cast<std::size_t>(to));
+  const double step = static_cast<double>(from) / to, reach = std::max(step, 1.0);
+  for (int i = 0; i < to; ++i) {
+    std::vector<Tap>& list = taps[static_cast<std::size_t>(i)];
+    const double center = (i + 0.5) * step - 0.5;
+    if (from == to || nearest) {
+      list.push_back({std::min(static_cast<int>((i + 0.5) * step), from - 1), 1.0f});
+      continue;
+    }
+    double sum = 0.0;
+    for (int k = static_cast<int>(std::floor(center - reach)) + 1; k < center + reach; ++k) sum += reach - std::fabs(k - center);
+    for (int k = static_cast<int>(std::floor(center - reach)) + 1; k < center + reach; ++k)
+      list.push_back({wrapped(k, from, wrap), static_cast<float>((reach - std::fabs(k - center)) / sum)});
+  }
+  return taps;
+}
+
+// A picture at another resolution.
+class Resampled {
+ public:
+  Resampled(const Picture& picture, const Sampler& sampler, int width, int height)
+      : picture_(picture),
+        across_(taps_of(picture.width(), width, sampler.wrap_s, sampler.mag == Filter::nearest)),
+        down_(taps_of(picture.height(), height, sampler.wrap_t, sampler.mag == Filter::nearest)) {}
+
+  // Returns linear color and alpha.
+  glm::vec4 at(int x, int y) const {
+    glm::vec4 sum(0.0f);
+    for (const Tap& row : down_[static_cast<std::size_t>(y)]) {
+      for (const Tap& column : across_[static_cast<std::size_t>(x)]) {
+        const glm::u8vec4 t = picture_.at(column.texel, row.texel);
+        sum += glm::vec4(kSrgbToLinear[t.x], kSrgbToLinear[t.y], kSrgbToLinear[t.z], static_cast<float>(t.w) / 255.0f) *
+               (row.weight * column.weight);
+      }
+    }
+    return sum;
+  }
+
+ private:
+  const Picture& picture_;
+  std::vector<std::vector<Tap>> across_, down_;
+};
+
+uint8_t code_of(double x) { return static_cast<uint8_t>(linear_to_unorm8(static_cast<float>(x))); }
+uint8_t srgb_code_of(double x) { return static_cast<uint8_t>(linear_to_srgb(static_cast<float>(x))); }
+
+const Sampler& sampler_of(const Model& model, int texture) {
+  static const Sampler standard;
+  return texture < 0 ? standard : model.textures[static_cast<std::size_t>(texture)].sampler;
+}
+
+}  // namespace
+
+ConvertedImages converted_images(const Model& model, const SpecularGlossiness& source, const std::string& place, const Workers& workers) {
+  ConvertedImages out;
+  const Picture diffuse = source_picture(model, source.diffuse_texture, place, out.problems);
+  const Picture specular = source_picture(model, source.specular_texture, place, out.problems);
+  const bool diffuse_is_larger = diffuse.texels().size() >= specular.texels().size();
+  const int width = (diffuse_is_larger ? diffuse : specular).width(), height = (diffuse_is_larger ? diffuse : specular).height();
+  const MemoryClaim claim(uint64_t{2} * sizeof(glm::u8vec4) * static_cast<uint64_t>(width) * static_cast<uint64_t>(height), place);
+  out.base_color = Picture(width, height);
+  out.metallic_roughness = Picture(width, height);
+  const Resampled diffuse_map(diffuse, sampler_of(model, source.diffuse_texture), width, height);
+  const Resampled specular_map(specular, sampler_of(model, source.specular_texture), width, height);
+  workers.for_each(height, [&](int y) {
+    for (int x = 0; x < width; ++x) {
+      const glm::vec4 d = diffuse_map.at(x, y), s = specular_map.at(x, y);
+      const MetallicColor c = metallic_color(glm::min(glm::dvec3(glm::vec3(d) * source.diffuse), 1.0),
+                                             glm::min(glm::dvec3(glm::vec3(s) * source.specular), 1.0));
+      out.base_color.at(x, y) = {srgb_code_of(c.base.x), srgb_code_of(c.base.y), srgb_code_of(c.base.z), code_of(d.w)};
+      out.metallic_roughness.at(x, y) = {0, code_of(1.0 - s.w * source.glossiness), code_of(c.metallic), 255};
+    }
+  });
+  return out;
+}
+
+}  // namespace halfspace::inline HS_LANES_NAMESPACE
