@@ -55,4 +55,58 @@ std::string suggestion(std::string_view wrong, std::span<const std::string_view>
   return text;
 }
 
+namespace {
+
+// Returns the length of the UTF-8 sequence at the beginning of a text, or 0 if it is invalid (RFC 3629, section 4).
+std::size_t utf8_length(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0; };
+  const int first = byte(0), second = byte(1);
+  if (first < 0x80) return 1;
+  const std::size_t length = first < 0xc2 ? 0 : first < 0xe0 ? 2 : first < 0xf0 ? 3 : first < 0xf5 ? 4 : 0;
+  // Excludes encodings that are longer than necessary, surrogates, and values above U+10FFFF.
+  const int low = first == 0xe0 ? 0xa0 : first == 0xf0 ? 0x90 : 0x80, high = first == 0xed ? 0x9f : first == 0xf4 ? 0x8f : 0xbf;
+  if (length == 0 || second < low || second > high) return 0;
+  for (std::size_t i = 2; i < length; ++i) {
+    if ((byte(i) & 0xc0) != 0x80) return 0;
+  }
+  return length;
+}
+
+}  // namespace
+
+std::string printable(std::string_view text) {
+  std::string out;
+  out.reserve(text.size());
+  while (!text.empty()) {
+    const auto first = static_cast<unsigned char>(text[0]);
+    const std::size_t length = utf8_length(text);
+    if (length == 0 || first < 32 || first == 127) {
+      constexpr std::string_view kDigits = "0123456789abcdef";
+      out += {'\\', 'x', kDigits[first >> 4], kDigits[first & 15]};
+    } else {
+      out += text.substr(0, length);
+    }
+    text.remove_prefix(std::max<std::size_t>(length, 1));
+  }
+  return out;
+}
+
+std::string line_and_column(std::string_view text, std::size_t byte) {
+  const std::string_view before = text.substr(0, std::min(byte == 0 ? 0 : byte - 1, text.size()));
+  const auto line = std::ranges::count(before, '\n') + 1;
+  const std::size_t start = before.rfind('\n');
+  const std::size_t column = before.size() - (start == std::string_view::npos ? 0 : start + 1) + 1;
+  return std::to_string(line) + ":" + std::to_string(column);
+}
+
+std::string json_problem(const std::exception& e) {
+  std::string what = e.what();
+  if (const std::size_t colon = what.find(": "); what.starts_with("[json") && colon != std::string::npos) what = what.substr(colon + 2);
+  if (what.starts_with("syntax error")) what = what.substr(0, what.find("; last read"));
+  for (char& c : what) {
+    if (static_cast<unsigned char>(c) < 32) c = ' ';
+  }
+  return what;
+}
+
 }  // namespace halfspace::inline HS_LANES_NAMESPACE

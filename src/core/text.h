@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <exception>
 #include <span>
 #include <string>
 #include <string_view>
@@ -21,5 +22,15 @@ std::string_view nearest_name(std::string_view wrong, std::span<const std::strin
 
 /// Returns "; did you mean 'NAME'?" or, if no name is close, "; expected one of A, B, C". Meant to be appended to an error line.
 std::string suggestion(std::string_view wrong, std::span<const std::string_view> names);
+
+/// Returns the text with every control character, and every byte that is not part of valid UTF-8, replaced by \xHH. Texts from files and
+/// file names can contain both.
+std::string printable(std::string_view text);
+
+/// Returns "LINE:COLUMN" of a 1-based byte position in a text.
+std::string line_and_column(std::string_view text, std::size_t byte);
+
+/// Returns the reason in the message of an exception of nlohmann_json, without error number and position, on one line.
+std::string json_problem(const std::exception& e);
 
 }  // namespace halfspace::inline HS_LANES_NAMESPACE

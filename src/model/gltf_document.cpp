@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "halfspace/core/check.h"
+#include "halfspace/core/text.h"
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
 
@@ -87,7 +88,7 @@ std::string gltf_quoted(std::string_view text) {
   return fmt::format("'{}{}'", std::string_view(shown).substr(1, shown.size() - 2), cut ? "..." : "");
 }
 
-GltfDocument::GltfDocument(const std::filesystem::path& file, std::string_view text, std::size_t max_memory,
+GltfDocument::GltfDocument(const std::filesystem::path& file, std::string_view text, std::size_t offset, std::size_t max_memory,
                            std::vector<std::string>& warnings)
     : file_(file.string()), max_memory_(max_memory), memory_left_(max_memory), warnings_(warnings) {
   const TextSize size = size_of(text);
@@ -97,9 +98,11 @@ GltfDocument::GltfDocument(const std::filesystem::path& file, std::string_view t
   try {
     root_ = std::make_unique<const GltfValue>(GltfValue::parse(text.begin(), text.end()));
   } catch (const GltfValue::parse_error& e) {
-    const std::string_view before = text.substr(0, std::min(e.byte, text.size()));
-    throw InputError(
-        fmt::format("{}: line {}: JSON syntax error; expected a glTF file", file_, 1 + std::count(before.begin(), before.end(), '\n')));
+    const std::size_t byte = offset + std::max<std::size_t>(e.byte, 1) - 1;
+    const std::string place = offset > 0 ? fmt::format("{}: byte {}", file_, byte) : file_ + ":" + line_and_column(text, e.byte);
+    const std::string problem = json_problem(e);  // it may already say what was expected
+    throw InputError(place + ": invalid JSON: " + problem +
+                     (problem.find("expected ") == std::string::npos ? "; expected a glTF file" : ""));
   } catch (const GltfValue::exception&) {
     throw InputError(fmt::format("{}: a number in the JSON text is out of range; expected finite numbers", file_));
   }

@@ -23,8 +23,10 @@ using GltfValue = nlohmann::json;
 
 class GltfDocument {
  public:
-  /// Parses the text. warnings: receives one line for each problem that is not an error; must outlive this object.
-  GltfDocument(const std::filesystem::path& file, std::string_view text, std::size_t max_memory, std::vector<std::string>& warnings);
+  /// Parses the text. offset: position of the text in a binary file, for messages; 0 if the file contains only the text. warnings: receives
+  /// one line for each problem that is not an error; must outlive this object.
+  GltfDocument(const std::filesystem::path& file, std::string_view text, std::size_t offset, std::size_t max_memory,
+               std::vector<std::string>& warnings);
   ~GltfDocument();
   GltfDocument(const GltfDocument&) = delete;
   GltfDocument& operator=(const GltfDocument&) = delete;

@@ -29,26 +29,6 @@ constexpr int kMaxLevels = 32;
 
 // ---- text → JSON -----------------------------------------------------------------------------------------------
 
-// Returns "LINE:COLUMN" of a 1-based byte position in the text.
-std::string place_of(std::string_view text, std::size_t byte) {
-  const std::string_view before = text.substr(0, std::min(byte == 0 ? 0 : byte - 1, text.size()));
-  const auto line = std::ranges::count(before, '\n') + 1;
-  const std::size_t start = before.rfind('\n');
-  const std::size_t column = before.size() - (start == std::string_view::npos ? 0 : start + 1) + 1;
-  return fmt::format("{}:{}", line, column);
-}
-
-// Returns the JSON library's message without its error number and position, on one line.
-std::string reason_of(const std::exception& e) {
-  std::string what = e.what();
-  if (const std::size_t colon = what.find(": "); what.starts_with("[json") && colon != std::string::npos) what = what.substr(colon + 2);
-  if (what.starts_with("syntax error")) what = what.substr(0, what.find("; last read"));
-  for (char& c : what) {
-    if (static_cast<unsigned char>(c) < 32) c = ' ';
-  }
-  return what;
-}
-
 // Parser callback that rejects duplicate names in an object, which JSON libraries silently drop, and deep nesting, which could exhaust the
 // stack.
 class OnceOnly {
@@ -74,9 +54,9 @@ Json parse_json(std::string_view text, const std::string& source) {
   try {
     return Json::parse(text.begin(), text.end(), OnceOnly(source), true, true);
   } catch (const Json::parse_error& e) {
-    fail(source + ":" + place_of(text, e.byte), "invalid JSON: " + reason_of(e));
+    fail(source + ":" + line_and_column(text, e.byte), "invalid JSON: " + json_problem(e));
   } catch (const Json::exception& e) {
-    fail(source, reason_of(e));
+    fail(source, json_problem(e));
   }
 }
 

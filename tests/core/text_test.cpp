@@ -34,5 +34,27 @@ TEST(NearestName, SuggestionCompletesAnErrorMessage) {
   EXPECT_EQ(suggestion("teapot", names), "; expected one of earth, moon");
 }
 
+TEST(Text, PrintableEscapesControlCharactersAndInvalidUtf8) {
+  EXPECT_EQ(printable("a b~"), "a b~");
+  EXPECT_EQ(printable("tab\t, line\n, escape\x1b, delete\x7f"), R"(tab\x09, line\x0a, escape\x1b, delete\x7f)");
+  EXPECT_EQ(printable("\xc3\xa9 \xe2\x82\xac \xf0\x9f\x98\x80"), "\xc3\xa9 \xe2\x82\xac \xf0\x9f\x98\x80");
+  EXPECT_EQ(printable("\xff"), R"(\xff)");
+  EXPECT_EQ(printable("\xe2\x82"), R"(\xe2\x82)") << "truncated";
+  EXPECT_EQ(printable("\xe2 a"), R"(\xe2 a)");
+  EXPECT_EQ(printable("\xc0\xaf"), R"(\xc0\xaf)") << "longer than necessary";
+  EXPECT_EQ(printable("\xe0\x9f\xbf"), R"(\xe0\x9f\xbf)") << "longer than necessary";
+  EXPECT_EQ(printable("\xed\xa0\x80"), R"(\xed\xa0\x80)") << "a surrogate";
+  EXPECT_EQ(printable("\xf4\x90\x80\x80"), R"(\xf4\x90\x80\x80)") << "above U+10FFFF";
+  EXPECT_EQ(printable(std::string_view("\0", 1)), R"(\x00)");
+}
+
+TEST(Text, LinesAndColumnsBeginAtOne) {
+  EXPECT_EQ(line_and_column("abc", 1), "1:1");
+  EXPECT_EQ(line_and_column("abc", 3), "1:3");
+  EXPECT_EQ(line_and_column("a\nbc\n", 4), "2:2");
+  EXPECT_EQ(line_and_column("a\nbc\n", 99), "3:1") << "the end of the text";
+  EXPECT_EQ(line_and_column("", 0), "1:1");
+}
+
 }  // namespace
 }  // namespace halfspace

@@ -13,6 +13,7 @@
 #include "halfspace/model/file_bytes.h"
 #include "halfspace/model/pose.h"
 #include "model/gltf_builder.h"
+#include "support/errors.h"
 #include "support/files.h"
 
 namespace halfspace {
@@ -205,7 +206,11 @@ TEST(GltfHostile, RejectsTextThatIsNotJson) {
                                   std::string("{\"a\":\"\xff\"}"), deep, deep + std::string(1'000'000, ']') + "}"}) {
     EXPECT_NE(error_of(text), "") << text.substr(0, 40);
   }
-  EXPECT_NE(error_of("{\n\n  \"asset\": x}").find("line 3"), std::string::npos);
+  EXPECT_TRUE(reports(error_of("{\n\n  \"asset\": x}"), "/none/a.gltf:3:12: ", {"invalid JSON", "expected a glTF file"}));
+  // In a binary file, the text begins after 20 bytes, and this one has its error after 10 more.
+  std::string glb = GltfBuilder().glb();
+  glb[30] = 'x';
+  EXPECT_TRUE(reports(error_of(glb), "/none/a.gltf: byte 30: ", {"invalid JSON"})) << glb.substr(20);
 }
 
 TEST(GltfHostile, RejectsTruncatedAndDamagedGlb) {
