@@ -94,18 +94,9 @@ std::string mismatch(const CLI::ArgumentMismatch& e) {
   return end == std::string::npos ? text : text.substr(0, end) + " is given more than once; expected it once";
 }
 
-// Prints an error as a single line. Control characters, which can come from files or arguments, are escaped.
+// Prints an error as a single line. Control characters and invalid UTF-8, which can come from files or arguments, are escaped.
 int report(const CLI::App& program, ExitCode code, std::string_view what) {
-  std::string line = program.get_name() + ": ";
-  for (const char c : what) {
-    if (static_cast<unsigned char>(c) < 32 || c == 127) {
-      constexpr const char* digits = "0123456789abcdef";
-      line += {'\\', 'x', digits[static_cast<unsigned char>(c) >> 4], digits[c & 15]};
-    } else {
-      line += c;
-    }
-  }
-  std::fputs((line + "\n").c_str(), stderr);
+  std::fputs((program.get_name() + ": " + printable(what) + "\n").c_str(), stderr);
   return code;
 }
 
@@ -148,6 +139,11 @@ void set_common_options(CLI::App& program) {
   program.set_version_flag("--version", program.get_name() + " " HALFSPACE_VERSION, "Print the version and exit");
   program.formatter(std::make_shared<HelpFormatter>());
   program.get_formatter()->column_width(28);
+}
+
+void print_warning(const std::string& problem) {
+  clear_progress();
+  std::fputs(("halfspace: warning: " + printable(problem) + "\n").c_str(), stderr);
 }
 
 int run_program(CLI::App& program, const std::function<void()>& parse_and_run) {

@@ -8,9 +8,9 @@
 #include <iostream>
 
 #include "cli/arguments.h"
+#include "cli/command_line.h"
 #include "cli/commands.h"
 #include "cli/errors.h"
-#include "cli/frames.h"
 #include "cli/input_files.h"
 #include "cli/scene_arguments.h"
 #include "cli/stage_display.h"
@@ -50,11 +50,6 @@ PreparedScene prepare_explained(const SceneDescription& scene, const std::string
   } catch (const InputError& e) {
     throw InputError(source + ": " + e.what());
   }
-}
-
-void print_warning(const std::string& problem) {
-  clear_progress();
-  std::cerr << "halfspace: warning: " << problem << '\n';
 }
 
 }  // namespace

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // `halfspace export SCENE -o FILE`: writes a scene or a model as glTF, OBJ, PLY or STL.
-#include <iostream>
 #include <span>
 
 #include "cli/arguments.h"
+#include "cli/command_line.h"
 #include "cli/commands.h"
 #include "cli/errors.h"
-#include "cli/frames.h"
 #include "cli/input_files.h"
 #include "cli/scene_arguments.h"
 #include "cli/stage_display.h"
@@ -64,9 +63,8 @@ void export_command(const ExportArguments& args) {
   if (*format == ModelFormat::glb || *format == ModelFormat::gltf) pack_maps(source.model);
   const WrittenModel written = written_model(source.model, out, *format);
   for (const ModelFile& file : written.files) reject_overwriting(out.parent_path() / file.name, source.inputs);
-  clear_progress();
   for (const std::span<const std::string> warnings : {std::span<const std::string>(source.model.warnings), {written.warnings}}) {
-    for (const std::string& warning : warnings) std::cerr << "halfspace: warning: " << warning << '\n';
+    for (const std::string& warning : warnings) print_warning(warning);
   }
   // The main file is written last, so that it never refers to missing files.
   for (std::size_t i = written.files.size(); i-- > 0;) write_file(out.parent_path() / written.files[i].name, written.files[i].bytes);

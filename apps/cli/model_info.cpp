@@ -10,6 +10,7 @@
 
 #include "cli/errors.h"
 #include "halfspace/core/resource_limits.h"
+#include "halfspace/core/text.h"
 #include "halfspace/image/image_size.h"
 #include "halfspace/model/model.h"
 #include "halfspace/model/pose.h"
@@ -198,12 +199,12 @@ std::string model_info(const InfoArguments& args) {
   std::string text;
   for (const auto& [key, value] : facts.items()) {
     if (key == "warnings") {
-      for (const OrderedJson& warning : value) text += "warning: " + warning.get<std::string>() + "\n";
+      for (const OrderedJson& warning : value) text += "warning: " + printable(warning.get<std::string>()) + "\n";
       continue;
     }
     std::string label = key;
     std::ranges::replace(label, '_', ' ');
-    text += fmt::format("{:<24}{}\n", label, value_text(key, value));
+    text += fmt::format("{:<24}{}\n", label, printable(value_text(key, value)));
   }
   return text;
 }

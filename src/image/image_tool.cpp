@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "halfspace/core/check.h"
+#include "halfspace/core/text.h"
 #include "halfspace/core/tool_folder.h"
 #include "halfspace/image/image_errors.h"
 #include "halfspace/image/image_io.h"
@@ -66,7 +67,7 @@ ToolRequest request_of(ToolTask task, std::string_view format) {
 std::optional<std::string> receive_message(ToolProcess& tool, uint32_t bytes) {
   std::string message(std::min<std::size_t>(bytes, 1000), '\0');
   if (!tool.receive(message.data(), message.size())) return std::nullopt;
-  return message;
+  return printable(message);  // it may quote names from the file
 }
 
 template <class Picture, std::size_t kSample>

@@ -11,6 +11,7 @@
 
 #include "halfspace/core/check.h"
 #include "halfspace/core/float_mode.h"
+#include "halfspace/core/text.h"
 #include "halfspace/core/units.h"
 #include "halfspace/model/pose.h"
 #include "halfspace/render/model_fit.h"
@@ -212,6 +213,8 @@ UpAxis up_axis_of(const Model& model, const std::string& name) { return name == 
 GeneratedScene model_scene(const std::filesystem::path& file, const ModelView& view) {
   const FloatMode float_mode;
   Model contents = read_model(file, {.allow_outside = view.allow_outside});
+  if (const std::string path = std::filesystem::absolute(file).string(); printable(path) != path)
+    throw InputError(file.string() + ": the path has a control character or invalid UTF-8; expected a path that a scene file can contain");
   contents.up = up_axis_of(contents, view.up_axis);
   const std::string animation = animation_of(contents, view);
   const auto asset = std::make_shared<const ModelAsset>(std::move(contents), view.allow_outside);
@@ -265,7 +268,7 @@ GeneratedScene model_scene(const std::filesystem::path& file, const ModelView& v
   try {
     return {scene.dump(1), asset, std::move(camera_names)};
   } catch (const OrderedJson::type_error&) {
-    throw InputError(file.string() + ": its path or a name is not valid UTF-8; expected a path that a scene file can contain");
+    throw InputError(file.string() + ": a name or option is not valid UTF-8; expected text that a scene file can contain");
   }
 }
 

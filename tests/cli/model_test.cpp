@@ -325,6 +325,26 @@ TEST_F(Models, MistakesAreReportedInOneLine) {
   }
 }
 
+TEST_F(Models, PathsAndWarningsArePrintable) {
+  write("bad\nname.obj", cube(0.0, 1.0));
+  const Outcome line = run({"render", "bad\nname.obj", "--size", "32x18", "-o", "a.png"});
+  EXPECT_EQ(line.exit_code, 3);
+  EXPECT_TRUE(line.err.starts_with("halfspace: bad\\x0aname.obj: the path has a control character")) << line.err;
+  EXPECT_EQ(lines_of(line.err), 1);
+  write("bad\xffname.obj", cube(0.0, 1.0));
+  const Outcome byte = run({"render", "bad\xffname.obj", "--size", "32x18", "-o", "a.png"});
+  EXPECT_EQ(byte.exit_code, 3);
+  EXPECT_TRUE(byte.err.starts_with("halfspace: bad\\xffname.obj: ")) << byte.err;
+  EXPECT_EQ(run({"export", "bad\nname.obj", "-o", "b.stl"}).exit_code, 0);
+  EXPECT_NE(run({"info", "bad\nname.obj"}).out.find("bad\\x0aname.obj\n"), std::string::npos);
+  // A warning that quotes a name from the file.
+  write("a.obj", "mtllib x\x1b\xff.mtl\n" + cube(0.0, 1.0));
+  const Outcome o = run({"render", "a.obj", "--size", "32x18", "-o", "a.png"});
+  EXPECT_EQ(o.exit_code, 0);
+  EXPECT_NE(o.err.find("\\xff.mtl"), std::string::npos) << o.err;
+  EXPECT_EQ(o.err.find('\x1b'), std::string::npos);
+}
+
 // Only normal maps need the tangents that this model does not have.
 TEST_F(Models, ReplacedMaterialsKeepTheirBumpMaps) {
   Image<glm::u8vec4> bumps(16, 16);

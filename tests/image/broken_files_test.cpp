@@ -13,11 +13,15 @@
 #include <cstdio>
 #include <filesystem>
 #include <iterator>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "halfspace/core/check.h"
+#include "halfspace/core/text.h"
 #include "halfspace/image/image_io.h"
+#include "image/image_fixture.h"
+#include "support/errors.h"
 #include "support/files.h"
 #include "support/sanitized.h"
 
@@ -138,6 +142,32 @@ INSTANTIATE_TEST_SUITE_P(Folders, BrokenFiles,
                            std::ranges::replace(name, '/', '_');
                            return name;
                          });
+
+// Returns an OpenEXR file of 64x64 pixels, which are missing, whose only channel has this name and a sampling rate that is not supported.
+std::string exr_with_channel(const std::string& name) {
+  const auto word = [](uint32_t x) { return std::string(reinterpret_cast<const char*>(&x), 4); };
+  const auto attribute = [&](const std::string& key, const std::string& type, const std::string& value) {
+    return key + '\0' + type + '\0' + word(static_cast<uint32_t>(value.size())) + value;
+  };
+  constexpr uint32_t kHalf = 1, kOne = 0x3f800000;
+  const std::string window = word(0) + word(0) + word(63) + word(63);
+  return word(20000630) + word(2) +
+         attribute("channels", "chlist", name + '\0' + word(kHalf) + std::string(4, '\0') + word(32) + word(1) + '\0') +
+         attribute("compression", "compression", std::string(1, '\0')) + attribute("dataWindow", "box2i", window) +
+         attribute("displayWindow", "box2i", window) + attribute("lineOrder", "lineOrder", std::string(1, '\0')) +
+         attribute("pixelAspectRatio", "float", word(kOne)) + attribute("screenWindowCenter", "v2f", word(0) + word(0)) +
+         attribute("screenWindowWidth", "float", word(kOne)) + '\0' + std::string(std::size_t{64} * 8, '\1');  // offsets of the rows
+}
+
+// Decoders quote names from the file.
+TEST(BrokenFile, MessagesArePrintable) {
+  if (find_image_tool().empty()) GTEST_SKIP() << kNoImageTool;
+  const std::string file = exr_with_channel("a\xff\x1b");
+  const std::string message = input_error([&] { read_linear(std::as_bytes(std::span(file)), "a.exr"); });
+  EXPECT_TRUE(message.starts_with("a.exr: ")) << message;
+  EXPECT_EQ(printable(message), message);
+  EXPECT_NE(message.find("a\\xff"), std::string::npos) << message;
+}
 
 }  // namespace
 }  // namespace halfspace
