@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "halfspace/render/model_fit.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -21,6 +23,18 @@ std::vector<double> some_of(const std::vector<double>& times) {
   std::vector<double> some;
   for (std::size_t i = 0; i < kMaxPoses; ++i) some.push_back(times[i * (times.size() - 1) / (kMaxPoses - 1)]);
   return some;
+}
+
+// Returns the reason why a scene of a model has nothing to draw.
+std::string why_empty(const Model& model, int index) {
+  const auto is_about_mesh = [](const std::string& warning) { return warning.starts_with("meshes[") || warning.starts_with("nodes["); };
+  if (const auto skipped = std::ranges::find_if(model.warnings, is_about_mesh); skipped != model.warnings.end())
+    return "has nothing to draw: " + *skipped;
+  if (model.meshes.empty()) return "has no meshes; expected at least one";
+  if (model.nodes.empty()) return "has meshes, but no nodes; expected a node that draws a mesh";
+  const std::size_t scene = static_cast<std::size_t>(index < 0 ? model.scene : index);
+  return fmt::format("scenes[{}] {}; expected a scene with a node that draws a mesh", scene,
+                     model.scenes[scene].roots.empty() ? "has no nodes" : "draws no mesh");
 }
 
 }  // namespace
@@ -44,7 +58,7 @@ ModelBounds bounds_of(const ModelPoses& poses, const std::filesystem::path& file
     low = glm::min(low, posed.low);
     high = glm::max(high, posed.high);
   });
-  if (!(low.x <= high.x)) throw InputError(file.string() + ": has nothing to draw; expected a scene with at least one mesh");
+  if (!(low.x <= high.x)) throw InputError(fmt::format("{}: {}", file.string(), why_empty(poses.model(), poses.scene())));
   ModelBounds b{0.5 * (low + high), 0.5 * (high - low), 0.0};
   b.radius = glm::length(b.half);
   if (b.radius == 0.0) b.radius = 1.0;

@@ -26,6 +26,7 @@ class ModelPoses {
   ModelPoses(const Model& model, const PoseOptions& options, const std::vector<double>& times);
 
   const Model& model() const { return model_; }
+  int scene() const { return options_.scene; }  ///< as in PoseOptions
   const PosedModel& first() const { return first_; }
 
   /// Calls f(pose) for each time. Only one pose is in memory at a time, in addition to the first.
@@ -44,7 +45,7 @@ class ModelPoses {
   PosedModel first_;
 };
 
-/// Returns the bounds of all poses. Throws InputError if the model has no vertices.
+/// Returns the bounds of all poses. Throws InputError with the reason if the scene has no vertices.
 ModelBounds bounds_of(const ModelPoses& poses, const std::filesystem::path& file);
 
 /// Returns the unit vector from the model to the eye for the yaw and pitch of a view.

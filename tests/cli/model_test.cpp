@@ -345,6 +345,30 @@ TEST_F(Models, PathsAndWarningsArePrintable) {
   EXPECT_EQ(o.err.find('\x1b'), std::string::npos);
 }
 
+// Model files that have nothing to draw, with what is missing.
+TEST_F(Models, TheReasonForAnEmptyModelIsReported) {
+  const std::string asset = R"({"asset": {"version": "2.0"})";
+  const std::string mesh = R"(, "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+    "accessors": [{"componentType": 5126, "count": 3, "type": "VEC3"}])";
+  const auto message = [&](const std::string& rest) {
+    write("a.gltf", asset + rest + "}");
+    const Outcome o = run({"render", "a.gltf", "--size", "32x18"});
+    EXPECT_EQ(o.exit_code, 3);
+    EXPECT_EQ(lines_of(o.err), 1) << o.err;
+    return o.err;
+  };
+  EXPECT_NE(message("").find("a.gltf: has no meshes"), std::string::npos);
+  EXPECT_NE(message(R"(, "nodes": [{}])").find("has no meshes"), std::string::npos);
+  EXPECT_NE(message(mesh).find("has meshes, but no nodes"), std::string::npos);
+  EXPECT_NE(message(mesh + R"(, "nodes": [{"mesh": 0}], "scenes": [{}, {"nodes": [0]}])").find("scenes[0] has no nodes"),
+            std::string::npos);
+  EXPECT_NE(message(mesh + R"(, "nodes": [{"mesh": 0}, {}], "scenes": [{"nodes": [1]}])").find("scenes[0] draws no mesh"),
+            std::string::npos);
+  EXPECT_NE(message(R"(, "nodes": [{"mesh": 0}], "meshes": [{"primitives": [{"attributes": {}}]}])")
+                .find("meshes[0].primitives[0]: has no positions"),
+            std::string::npos);
+}
+
 // Only normal maps need the tangents that this model does not have.
 TEST_F(Models, ReplacedMaterialsKeepTheirBumpMaps) {
   Image<glm::u8vec4> bumps(16, 16);
