@@ -46,7 +46,11 @@ void render_files(const PreparedScene& scene, const PictureFiles& files, const W
   FrameImages images{.crop = files.choice.crop};
   bind(color, files, images);
   values.bind(images);
-  report.counts += files.naive != nullptr ? draw_naive_picture(scene, images, workers, *files.naive) : render_frame(scene, images, workers);
+  const PassStatistics counts =
+      files.naive != nullptr ? draw_naive_picture(scene, images, workers, *files.naive) : render_frame(scene, images, workers);
+  report.counts += counts;
+  ++report.pictures;
+  report.empty_pictures += counts.samples_passed == 0 ? 1 : 0;
   const double render_ms = milliseconds();
   values.write(files.picture, files.text);
   write(color, values, files);

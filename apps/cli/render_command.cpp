@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "cli/arguments.h"
+#include "cli/command_line.h"
 #include "cli/commands.h"
 #include "cli/errors.h"
 #include "cli/frames.h"
@@ -228,14 +229,25 @@ SceneFile chosen(const RenderJob& job) {
 
 double time_of(const RenderJob& job, int frame) { return job.time + frame / job.fps; }
 
-void warn(const std::string& problem) {
-  clear_progress();
-  std::cerr << "halfspace: warning: " << problem << '\n';
+// Returns true if the scene has an object or particles, so that an empty picture is probably a mistake.
+bool is_meant_to_show(const SceneDescription& scene) {
+  const auto is_visible = [](const auto& object) { return object.second.visible; };
+  return std::ranges::any_of(scene.objects, is_visible) || scene.particles.count > 0 || !scene.particles.file.path.empty() ||
+         !scene.particle_systems.empty();
+}
+
+// Returns what to change if a picture is empty.
+std::string advice_for_empty(const RenderArguments& args) {
+  if (!args.output.crop.empty()) return "the picture without --crop";
+  if (!is_model_file(args.scene)) return "another camera, or another position or target of the camera";
+  if (args.model.inside) return "--eye X,Y,Z and --look-at X,Y,Z, or leave out --inside: surfaces are visible only from their fronts";
+  if (!args.model.eye.empty() || !args.camera.empty()) return "another view, or leave out --eye and --camera to show the whole model";
+  return "another --yaw, --pitch or --zoom";
 }
 
 RenderReport run(const RenderJob& job) {
   const Workers workers(job.threads);
-  SceneAssets assets(workers, warn);
+  SceneAssets assets(workers, print_warning);
   add_models(assets, job.models);
   RenderReport report;
   if (!job.frames) {
@@ -291,7 +303,10 @@ void render_command(const RenderArguments& args) {
   protect_frame_inputs(job);
   RenderReport report = run(job);
   report.read_ms = read_ms;
-  if (report.spheres_without_wireframe) warn("spheres that are not meshes have no wireframe; they are drawn as surfaces");
+  // A single frame of an animation may be empty on purpose.
+  if (report.pictures > 0 && report.empty_pictures == report.pictures && is_meant_to_show(job.scene.description()))
+    print_warning("nothing is visible in the picture; try " + advice_for_empty(args));
+  if (report.spheres_without_wireframe) print_warning("spheres that are not meshes have no wireframe; they are drawn as surfaces");
   // If the image goes to standard output, print the reports to standard error.
   std::ostream& out = is_standard_output(job.out) ? std::cerr : std::cout;
   if (args.naive && report.naive.pixels > 0) out << naive_line(report.naive, job.threads);

@@ -325,24 +325,55 @@ TEST_F(Models, MistakesAreReportedInOneLine) {
   }
 }
 
-TEST_F(Models, PathsAndWarningsArePrintable) {
-  write("bad\nname.obj", cube(0.0, 1.0));
-  const Outcome line = run({"render", "bad\nname.obj", "--size", "32x18", "-o", "a.png"});
-  EXPECT_EQ(line.exit_code, 3);
-  EXPECT_TRUE(line.err.starts_with("halfspace: bad\\x0aname.obj: the path has a control character")) << line.err;
-  EXPECT_EQ(lines_of(line.err), 1);
-  write("bad\xffname.obj", cube(0.0, 1.0));
-  const Outcome byte = run({"render", "bad\xffname.obj", "--size", "32x18", "-o", "a.png"});
-  EXPECT_EQ(byte.exit_code, 3);
-  EXPECT_TRUE(byte.err.starts_with("halfspace: bad\\xffname.obj: ")) << byte.err;
-  EXPECT_EQ(run({"export", "bad\nname.obj", "-o", "b.stl"}).exit_code, 0);
-  EXPECT_NE(run({"info", "bad\nname.obj"}).out.find("bad\\x0aname.obj\n"), std::string::npos);
-  // A warning that quotes a name from the file.
-  write("a.obj", "mtllib x\x1b\xff.mtl\n" + cube(0.0, 1.0));
-  const Outcome o = run({"render", "a.obj", "--size", "32x18", "-o", "a.png"});
-  EXPECT_EQ(o.exit_code, 0);
-  EXPECT_NE(o.err.find("\\xff.mtl"), std::string::npos) << o.err;
-  EXPECT_EQ(o.err.find('\x1b'), std::string::npos);
+// One line says so if nothing is visible, and what to try. Whatever shows something is not reported.
+TEST_F(Models, EmptyPicturesAreReported) {
+  write("cube.obj", cube(0.0, 1.0));
+  const auto message = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), "render");
+    words.insert(words.end(), {"--size", "32x18", "-o", "a.png"});
+    const Outcome o = run(words);
+    EXPECT_EQ(o.exit_code, 0) << o.err;
+    EXPECT_LE(lines_of(o.err), 1) << o.err;
+    return o.err;
+  };
+  const std::string start = "halfspace: warning: nothing is visible in the picture; try ";
+  const auto suggests = [&](const std::vector<std::string>& words, const std::string& keyword) {
+    const std::string text = message(words);
+    EXPECT_TRUE(text.starts_with(start) && text.find(keyword, start.size()) != std::string::npos) << text;
+  };
+  write("flat.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  suggests({"flat.obj", "--inside"}, "--inside");  // the camera sees its edge
+  suggests({"cube.obj", "--eye", "0,0,5", "--look-at", "0,0,9"}, "--eye");
+  suggests({"cube.obj", "--no-floor", "--crop", "0,0,2,2"}, "--crop");
+  EXPECT_EQ(message({"flat.obj", "--inside", "--background", "environment"}), "") << "the environment is visible";
+  EXPECT_EQ(message({"cube.obj"}), "");
+  write("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\np 1 2 3\n");
+  EXPECT_EQ(message({"points.obj", "--no-floor"}), "");
+  write("lines.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nl 1 2 3\n");
+  EXPECT_EQ(message({"lines.obj", "--no-floor"}), "");
+  write("glass.mtl", "newmtl m\nd 0.1\n");
+  write("glass.obj", "mtllib glass.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  EXPECT_EQ(message({"glass.obj", "--no-floor", "--yaw", "0", "--pitch", "0"}), "");
+  const auto scene = [](const std::string& target, const std::string& more) {
+    return R"({"version": 1, "lights": {"l": {}}, "cameras": {"c": {"position": [0, 0, 5], "target": )" + target + "}}" + more + "}";
+  };
+  const std::string object = R"(, "objects": {"a": {"shape": "cube"}})", away = "[0, 0, 9]", ahead = "[0, 0, 0]";
+  write("away.json", scene(away, object));
+  suggests({"away.json"}, "target");
+  suggests({"away.json", "--set", "background.type=transparent"}, "target");
+  suggests({"away.json", "--set", "post.hdr=true"}, "target");
+  EXPECT_EQ(message({"away.json", "--set", "background.type=stars"}), "");
+  write("ahead.json", scene(ahead, object));
+  EXPECT_EQ(message({"ahead.json"}), "");
+  write("particles.json", scene(ahead, R"(, "particles": {"count": 100})"));
+  EXPECT_EQ(message({"particles.json"}), "");
+  write("none.json", scene(away, ""));
+  EXPECT_EQ(message({"none.json"}), "") << "a scene without objects";
+  // Some frames of an animation may be empty.
+  write("moving.json",
+        scene(ahead, object + R"(, "animations": {"m": {"type": "rate", "target": "objects.a.position", "rate": [9000, 0, 0]}})"));
+  EXPECT_EQ(message({"moving.json", "--frames", "0..1"}), "");
+  suggests({"moving.json", "--frames", "1..2"}, "camera");
 }
 
 // Model files that have nothing to draw, with what is missing.
@@ -367,6 +398,26 @@ TEST_F(Models, TheReasonForAnEmptyModelIsReported) {
   EXPECT_NE(message(R"(, "nodes": [{"mesh": 0}], "meshes": [{"primitives": [{"attributes": {}}]}])")
                 .find("meshes[0].primitives[0]: has no positions"),
             std::string::npos);
+}
+
+TEST_F(Models, PathsAndWarningsArePrintable) {
+  write("bad\nname.obj", cube(0.0, 1.0));
+  const Outcome line = run({"render", "bad\nname.obj", "--size", "32x18", "-o", "a.png"});
+  EXPECT_EQ(line.exit_code, 3);
+  EXPECT_TRUE(line.err.starts_with("halfspace: bad\\x0aname.obj: the path has a control character")) << line.err;
+  EXPECT_EQ(lines_of(line.err), 1);
+  write("bad\xffname.obj", cube(0.0, 1.0));
+  const Outcome byte = run({"render", "bad\xffname.obj", "--size", "32x18", "-o", "a.png"});
+  EXPECT_EQ(byte.exit_code, 3);
+  EXPECT_TRUE(byte.err.starts_with("halfspace: bad\\xffname.obj: ")) << byte.err;
+  EXPECT_EQ(run({"export", "bad\nname.obj", "-o", "b.stl"}).exit_code, 0);
+  EXPECT_NE(run({"info", "bad\nname.obj"}).out.find("bad\\x0aname.obj\n"), std::string::npos);
+  // A warning that quotes a name from the file.
+  write("a.obj", "mtllib x\x1b\xff.mtl\n" + cube(0.0, 1.0));
+  const Outcome o = run({"render", "a.obj", "--size", "32x18", "-o", "a.png"});
+  EXPECT_EQ(o.exit_code, 0);
+  EXPECT_NE(o.err.find("\\xff.mtl"), std::string::npos) << o.err;
+  EXPECT_EQ(o.err.find('\x1b'), std::string::npos);
 }
 
 // Only normal maps need the tangents that this model does not have.
