@@ -75,30 +75,48 @@ std::vector<std::vector<Tap>> taps_of(int from, int to, Wrap wrap, bool nearest)
   return taps;
 }
 
-// A picture at another resolution.
+// A picture at another resolution with at least as many texels.
 class Resampled {
  public:
-  Resampled(const Picture& picture, const Sampler& sampler, int width, int height)
+  Resampled(const Picture& picture, const Sampler& sampler, int width, int height, const std::string& place)
       : picture_(picture),
         across_(taps_of(picture.width(), width, sampler.wrap_s, sampler.mag == Filter::nearest)),
-        down_(taps_of(picture.height(), height, sampler.wrap_t, sampler.mag == Filter::nearest)) {}
+        down_(taps_of(picture.height(), height, sampler.wrap_t, sampler.mag == Filter::nearest)) {
+    // At most one axis has fewer texels than before. Its means are computed first, because they can have thousands of taps.
+    const bool narrower = width < picture.width(), lower = height < picture.height();
+    if (!narrower && !lower) return;
+    const int columns = narrower ? width : picture.width(), rows = lower ? height : picture.height();
+    const MemoryClaim claim(sizeof(glm::vec4) * static_cast<uint64_t>(columns) * static_cast<uint64_t>(rows), place);
+    Image<glm::vec4> reduced(columns, rows);
+    for (int y = 0; y < rows; ++y) {
+      for (int x = 0; x < columns; ++x) {
+        for (const Tap& tap : narrower ? across_[static_cast<std::size_t>(x)] : down_[static_cast<std::size_t>(y)])
+          reduced.at(x, y) += (narrower ? texel(tap.texel, y) : texel(x, tap.texel)) * tap.weight;
+      }
+    }
+    reduced_ = std::move(reduced);
+    (narrower ? across_ : down_) = taps_of(narrower ? width : height, narrower ? width : height, Wrap::clamp, true);
+  }
 
   // Returns linear color and alpha.
   glm::vec4 at(int x, int y) const {
     glm::vec4 sum(0.0f);
     for (const Tap& row : down_[static_cast<std::size_t>(y)]) {
-      for (const Tap& column : across_[static_cast<std::size_t>(x)]) {
-        const glm::u8vec4 t = picture_.at(column.texel, row.texel);
-        sum += glm::vec4(kSrgbToLinear[t.x], kSrgbToLinear[t.y], kSrgbToLinear[t.z], static_cast<float>(t.w) / 255.0f) *
-               (row.weight * column.weight);
-      }
+      for (const Tap& column : across_[static_cast<std::size_t>(x)]) sum += texel(column.texel, row.texel) * (row.weight * column.weight);
     }
     return sum;
   }
 
  private:
+  glm::vec4 texel(int x, int y) const {
+    if (!reduced_.empty()) return reduced_.at(x, y);
+    const glm::u8vec4 t = picture_.at(x, y);
+    return {kSrgbToLinear[t.x], kSrgbToLinear[t.y], kSrgbToLinear[t.z], static_cast<float>(t.w) / 255.0f};
+  }
+
   const Picture& picture_;
   std::vector<std::vector<Tap>> across_, down_;
+  Image<glm::vec4> reduced_;
 };
 
 uint8_t code_of(double x) { return static_cast<uint8_t>(linear_to_unorm8(static_cast<float>(x))); }
@@ -120,8 +138,8 @@ ConvertedImages converted_images(const Model& model, const SpecularGlossiness& s
   const MemoryClaim claim(uint64_t{2} * sizeof(glm::u8vec4) * static_cast<uint64_t>(width) * static_cast<uint64_t>(height), place);
   out.base_color = Picture(width, height);
   out.metallic_roughness = Picture(width, height);
-  const Resampled diffuse_map(diffuse, sampler_of(model, source.diffuse_texture), width, height);
-  const Resampled specular_map(specular, sampler_of(model, source.specular_texture), width, height);
+  const Resampled diffuse_map(diffuse, sampler_of(model, source.diffuse_texture), width, height, place);
+  const Resampled specular_map(specular, sampler_of(model, source.specular_texture), width, height, place);
   workers.for_each(height, [&](int y) {
     for (int x = 0; x < width; ++x) {
       const glm::vec4 d = diffuse_map.at(x, y), s = specular_map.at(x, y);
