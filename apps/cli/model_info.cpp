@@ -15,6 +15,7 @@
 #include "halfspace/model/model.h"
 #include "halfspace/model/pose.h"
 #include "halfspace/model/position_ids.h"
+#include "halfspace/model/write_model.h"
 
 namespace halfspace {
 
@@ -67,36 +68,24 @@ std::vector<std::string> names_of(const std::vector<T>& list) {
   return names;
 }
 
-// Marks an image, or the images that it is converted from.
-void mark_used(const Model& model, int image, std::vector<bool>& used) {
-  const std::optional<SpecularGlossiness>& converted = model.images[static_cast<std::size_t>(image)].converted;
-  used[static_cast<std::size_t>(image)] = true;
-  if (!converted) return;
-  for (const int texture : {converted->diffuse_texture, converted->specular_texture}) {
-    const int source = texture < 0 ? -1 : model.textures[static_cast<std::size_t>(texture)].image;
-    if (source >= 0) used[static_cast<std::size_t>(source)] = true;
-  }
-}
-
-// Returns, for each image, whether a material uses it.
-std::vector<bool> used_images(const Model& model) {
-  std::vector<bool> used(model.images.size());
-  for (const ModelMaterial& m : model.materials) {
-    for (const TextureUse* use :
-         {&m.base_color_map, &m.opacity_map, &m.metallic_map, &m.roughness_map, &m.specular_map, &m.specular_color_map, &m.clearcoat_map,
-          &m.clearcoat_roughness_map, &m.clearcoat_normal_map, &m.normal_map, &m.bump_map, &m.occlusion_map, &m.emissive_map}) {
-      if (use->texture < 0) continue;
-      const int image = model.textures[static_cast<std::size_t>(use->texture)].image;
-      if (image >= 0) mark_used(model, image, used);
+// Returns, for each image, whether a material uses it or an image that it is converted to.
+std::vector<bool> needed_images(const Model& model) {
+  std::vector<bool> needed = used_images(model);
+  for (std::size_t i = 0; i < model.images.size(); ++i) {
+    const std::optional<SpecularGlossiness>& converted = model.images[i].converted;
+    if (!converted || !needed[i]) continue;
+    for (const int texture : {converted->diffuse_texture, converted->specular_texture}) {
+      const int source = texture < 0 ? -1 : model.textures[static_cast<std::size_t>(texture)].image;
+      if (source >= 0) needed[static_cast<std::size_t>(source)] = true;
     }
   }
-  return used;
+  return needed;
 }
 
 // Describes the images. The size is null if an image cannot be read, or if its reader did not read it because no material uses it.
 OrderedJson images_of(Model& model) {
   OrderedJson list = OrderedJson::array();
-  const std::vector<bool> used = used_images(model);
+  const std::vector<bool> used = needed_images(model);
   for (std::size_t i = 0; i < model.images.size(); ++i) {
     const ModelImage& image = model.images[i];
     if (image.converted) continue;  // not in the file

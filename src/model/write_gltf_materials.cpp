@@ -185,14 +185,29 @@ class MaterialWriter {
 
 }  // namespace
 
+std::vector<bool> used_images(const Model& model) {
+  std::vector<bool> used(model.images.size());
+  for (const ModelMaterial& m : model.materials) {
+    for (const TextureUse* use :
+         {&m.base_color_map, &m.opacity_map, &m.metallic_map, &m.roughness_map, &m.specular_map, &m.specular_color_map, &m.clearcoat_map,
+          &m.clearcoat_roughness_map, &m.clearcoat_normal_map, &m.normal_map, &m.bump_map, &m.occlusion_map, &m.emissive_map}) {
+      if (use->texture < 0) continue;
+      const int image = model.textures[static_cast<std::size_t>(use->texture)].image;
+      if (image >= 0) used[static_cast<std::size_t>(image)] = true;
+    }
+  }
+  return used;
+}
+
 std::vector<GltfImageFile> write_gltf_textures(const Model& model, const std::string& stem, bool embed, GltfOutput& out) {
   std::vector<GltfImageFile> files;
   std::vector<int> indices(model.images.size(), -1);  // in the document
+  const std::vector<bool> used = used_images(model);
   for (std::size_t i = 0; i < model.images.size(); ++i) {
     const ModelImage& image = model.images[i];
     const std::string extension = image.bytes ? image_extension(*image.bytes) : "";
     if (extension.empty()) {
-      out.warn(fmt::format("image '{}' is omitted; expected PNG or JPEG", image.name));
+      if (used[i]) out.warn(fmt::format("image '{}' is omitted; expected PNG or JPEG", image.name));
       continue;
     }
     OutputJson json;

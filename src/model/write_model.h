@@ -32,7 +32,7 @@ struct WrittenModel {
 };
 
 /// Converts a model to files of the format. `file` gives their names. Images must be in memory (ModelImage::bytes) as PNG or JPEG; others
-/// are omitted with a warning.
+/// are omitted, with a warning if a material uses them.
 ///
 /// glb, gltf: everything in Model. Positions are stored relative to ModelMesh::origin, which becomes the translation of a node. A model
 ///   with z up gets a node that rotates it. Texture channels that glTF does not permit are omitted with a warning.
@@ -45,6 +45,9 @@ struct WrittenModel {
 /// obj, ply and stl contain the default scene without animation. Throws OutputError if the model contains nothing that the format can
 /// store, or more than it can address.
 WrittenModel written_model(const Model& model, const std::filesystem::path& file, ModelFormat format);
+
+/// Returns, for each image of a model, whether a texture of a material shows it. Images that are only converted to others are not included.
+std::vector<bool> used_images(const Model& model);
 
 /// Returns ".png" or ".jpg" for an image in a format that all glTF readers support, otherwise an empty string.
 std::string image_extension(std::span<const std::byte> image);

@@ -279,9 +279,30 @@ TEST_F(GltfPicture, SpecularGlossinessIsConverted) {
   EXPECT_TRUE(converted == expected);
   EXPECT_NE(expected.at(4, 4), expected.at(28, 4)) << "roughness is visible";
   EXPECT_NE(expected.at(4, 4), expected.at(4, 28)) << "metalness is visible";
-  // The export contains the converted textures.
-  const Outcome o = run({"export", "a.gltf", "-o", "b.glb"});
-  EXPECT_EQ(o.exit_code, 0) << o.err;
+}
+
+// An exported file contains the converted textures, not their sources, and shows the same picture.
+TEST_F(GltfPicture, ExportContainsConvertedTextures) {
+  Image<glm::u8vec4> diffuse(4, 4), specular(2, 2);
+  for (int i = 0; i < 16; ++i) diffuse.data()[i] = {16 * i, 200 - 8 * i, 90, 255};
+  for (int i = 0; i < 4; ++i) specular.data()[i] = {80 * i, 60 * i, 50 * i, 60 * i};
+  write_png(directory / "diffuse.png", diffuse);
+  write_png(directory / "specular.png", specular);
+  GltfBuilder file;
+  for (const char* name : {"diffuse.png", "specular.png"}) {
+    file.add("images", {{"uri", name}});
+    file.add("textures", {{"source", file.json["images"].size() - 1}});
+  }
+  const GltfJson maps = {{"diffuseTexture", {{"index", 0}}}, {"specularGlossinessTexture", {{"index", 1}}}};
+  file.mesh_node(square(file, file.add("materials", {{"extensions", {{"KHR_materials_pbrSpecularGlossiness", maps}}}})));
+  std::ofstream(directory / "a.gltf") << file.text();
+  const Outcome exported = run({"export", "a.gltf", "-o", "b.glb"});
+  EXPECT_EQ(exported.exit_code, 0);
+  EXPECT_EQ(exported.err, "");
+  EXPECT_EQ(GltfJson::parse(run({"info", "b.glb", "--json"}).out).at("images").size(), 2u);
+  for (const char* name : {"a.gltf", "b.glb"})
+    EXPECT_EQ(run({"render", name, "--size", "64x36", "-o", std::string(1, name[0]) + ".png"}).err, "");
+  EXPECT_TRUE(picture("a.png") == picture("b.png"));
 }
 
 }  // namespace

@@ -35,6 +35,22 @@ void embed(Model& model, ModelImage& image) {
   image.bytes = std::move(bytes);
 }
 
+// Removes the images that were only needed to compute others.
+void remove_sources(Model& model) {
+  const std::vector<bool> used = used_images(model);
+  for (const ModelImage& image : model.images) {
+    if (!image.converted) continue;
+    for (const int texture : {image.converted->diffuse_texture, image.converted->specular_texture}) {
+      const int source = texture < 0 ? -1 : model.textures[static_cast<std::size_t>(texture)].image;
+      if (source < 0 || used[static_cast<std::size_t>(source)]) continue;
+      ModelImage& unneeded = model.images[static_cast<std::size_t>(source)];
+      unneeded.file.clear();
+      unneeded.bytes = nullptr;
+      unneeded.pixels = nullptr;
+    }
+  }
+}
+
 }  // namespace
 
 void embed_images(Model& model) {
@@ -47,6 +63,7 @@ void embed_images(Model& model) {
       model.warnings.emplace_back(e.what());
     }
   }
+  remove_sources(model);
 }
 
 }  // namespace halfspace::inline HS_LANES_NAMESPACE
