@@ -21,6 +21,8 @@ constexpr BlendOperation kAdd = sum_of({one, one, one, one});
 constexpr BlendOperation kMultiply = sum_of({dst_color, zero, dst_color, zero});
 constexpr BlendOperation kMultiplySource = sum_of({zero, src_color, zero, src_color});
 constexpr BlendOperation kConstant = sum_of({constant_color, one_minus_constant_color, constant_color, one_minus_constant_color});
+constexpr BlendOperation kDualSource = sum_of({one, src1_color, one, src1_color});
+constexpr BlendOperation kDualSourceCoverage = sum_of({one, one_minus_src1_color, one, one_minus_src1_alpha});
 constexpr BlendOperation kSubtractAlpha = operation(BlendEquation::reverse_subtract, {src_alpha, one, src_alpha, one});
 constexpr BlendOperation kMin = operation(BlendEquation::min, {one, one, one, one});
 constexpr BlendOperation kMax = operation(BlendEquation::max, {one, one, one, one});
@@ -44,9 +46,9 @@ HS_INLINE void blend_packet(ColorBuffer& buffer, const PacketMask& packet, const
 }
 
 template <ColorFormat format, BlendOperation operation>
-void blend_packets(ColorBuffer& buffer, std::span<const PacketMask> packets, const PacketColor* src, const PacketColor*,
+void blend_packets(ColorBuffer& buffer, std::span<const PacketMask> packets, const PacketColor* src, const PacketColor* src1,
                    const BlendState& s) {
-  for (std::size_t i = 0; i < packets.size(); ++i) blend_packet<format>(buffer, packets[i], src[i], src[i], operation, s.constant);
+  for (std::size_t i = 0; i < packets.size(); ++i) blend_packet<format>(buffer, packets[i], src[i], src1[i], operation, s.constant);
 }
 
 template <ColorFormat format, BlendOperation operation>
@@ -94,6 +96,8 @@ BlendPrograms programs_of(const BlendState& s) {
   if (operation == kMultiply) return kCompiled<format, kMultiply>;
   if (operation == kMultiplySource) return kCompiled<format, kMultiplySource>;
   if (operation == kConstant) return kCompiled<format, kConstant>;
+  if (operation == kDualSource) return kCompiled<format, kDualSource>;
+  if (operation == kDualSourceCoverage) return kCompiled<format, kDualSourceCoverage>;
   if (operation == kSubtractAlpha) return kCompiled<format, kSubtractAlpha>;
   if (operation == kMin) return kCompiled<format, kMin>;
   if (operation == kMax) return kCompiled<format, kMax>;

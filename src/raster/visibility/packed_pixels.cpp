@@ -89,6 +89,4 @@ uint16_t unpack_keep(const uint16_t* packed, std::size_t first, uint32_t lanes) 
   return static_cast<uint16_t>(unpack_bits(bits >> first % kLanes, lanes));
 }
 
-Real unpack_values(const float* packed, std::size_t first, uint32_t lanes) { return unpack_lanes(load<Real>(packed + first), lanes); }
-
 }  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -7,6 +7,7 @@
 
 #include <span>
 
+#include "halfspace/core/lane_packing.h"
 #include "halfspace/raster/visibility/packet_batch.h"
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
@@ -50,6 +51,8 @@ std::size_t pack_visible(std::span<const PacketMask> packets, const TriangleId* 
 uint16_t unpack_keep(const uint16_t* packed, std::size_t first, uint32_t lanes);
 
 /// The same for floats, such as depths. Reads W of them.
-Real unpack_values(const float* packed, std::size_t first, uint32_t lanes);
+HS_INLINE Real unpack_values(const float* packed, std::size_t first, uint32_t lanes) {
+  return unpack_lanes(load<Real>(packed + first), lanes);
+}
 
 }  // namespace halfspace::inline HS_LANES_NAMESPACE
