@@ -35,6 +35,25 @@ builtins.open = open_without_avx512bw
 """
 
 
+# Reads a table with gathers that use different registers, and prints how many of them return wrong values.
+GATHERS = """
+#include <cstdio>
+alignas(32) static const int table[8] = {1, 2, 3, 4, 5, 6, 7, 8}, index[8] = {7, 6, 5, 4, 3, 2, 1, 0};
+int main() {
+  int wrong = 0;
+  alignas(32) int out[8];
+  %s
+  std::printf("%%d\\n", wrong);
+}
+"""
+GATHER = """
+  asm volatile("vmovdqa (%%1), %%%%ymm{x}\\n vpcmpeqd %%%%ymm{m}, %%%%ymm{m}, %%%%ymm{m}\\n vpxor %%%%ymm{d}, %%%%ymm{d}, %%%%ymm{d}\\n"
+               "vgatherdps %%%%ymm{m}, (%%2, %%%%ymm{x}, 4), %%%%ymm{d}\\n vmovdqa %%%%ymm{d}, (%%0)"
+               :: "r"(out), "r"(index), "r"(table) : "memory", "xmm{x}", "xmm{m}", "xmm{d}");
+  wrong += out[0] != 8 || out[7] != 1;
+""".replace("%%", "%")
+
+
 def run(*command):
     return subprocess.run([str(c) for c in command], capture_output=True, text=True, timeout=600)
 
@@ -125,6 +144,17 @@ class PythonModule(unittest.TestCase):
         self.assertEqual(self.python(code), "(8, 8, 3)")
 
 
+def emulates_gathers():
+    """Returns False for qemu-user 7.2.22 (Debian 12), in which some gathers return zeros, depending on their registers."""
+    registers = [(m, x, (m + 3 * x + 1) % 16) for m in range(16) for x in range(16)]
+    gathers = [GATHER.format(m=m, x=x, d=d) for m, x, d in registers if len({m, x, d}) == 3]
+    source, program = PREFIX / "gathers.cpp", PREFIX / "gathers"
+    source.write_text(GATHERS % "".join(gathers))
+    subprocess.run(["c++", source, "-o", program], check=True)
+    assert run(program).stdout == "0\n"
+    return run(QEMU, "-cpu", "Haswell", program).stdout == "0\n"
+
+
 @unittest.skipUnless(QEMU, "qemu-user is not installed")
 class Emulation(unittest.TestCase):
     def test_a_processor_below_v3_is_rejected_in_one_line(self):
@@ -140,6 +170,8 @@ class Emulation(unittest.TestCase):
         self.assertEqual(arch_of(QEMU, "-cpu", "Haswell", PREFIX / "bin" / "halfspace"), "x86-64-v3")
 
     def test_a_v3_processor_renders_the_same_picture(self):
+        if not emulates_gathers():
+            self.skipTest("this version of qemu-user executes some gathers incorrectly")
         pictures = []
         for emulator in ((), (QEMU, "-cpu", "Haswell")):
             picture = PREFIX / "emulated.png"
