@@ -41,6 +41,9 @@ inline std::string model_recipe(const std::filesystem::path& file, bool allow_ou
   return recipe("model", file.string(), allow_outside ? "with outside files" : "");
 }
 
+// Reports the warnings of the reader of a model file.
+void warn_of(const std::filesystem::path& file, const Model& model, const Warnings& warnings);
+
 /// Returns how a map continues beyond its edges on a shape.
 MapEdges edges_of(Shape shape);
 
@@ -56,9 +59,10 @@ PreparedDraw surface_draw(const LitSurface& s, ShadingRate rate, NormalDetail de
 
 class ScenePreparation {
  public:
-  ScenePreparation(SceneAssets& assets, const SceneDescription& scene, int width, int height);
+  // Keeps references to all arguments.
+  ScenePreparation(const SceneDescription& scene, int width, int height, const MinimumSizes& minimum, AssetCache& cache, Warnings& warnings,
+                   const Workers& workers);
   PreparedScene prepare();
-  void expect();
   FittedScene fit(const AllowedError& allowed);
 
  private:
@@ -132,8 +136,9 @@ class ScenePreparation {
   StarSky star_sky(double density, double brightness) const;
   EnvironmentSky environment_sky();
 
-  SceneAssets& assets_;
   const SceneDescription& scene_;
+  Warnings& warnings_;
+  const Workers& workers_;
   View view_;
   std::span<Shadow> shadows_;  // parallel to out_.lights
   std::span<const Light> lights_;
@@ -142,8 +147,8 @@ class ScenePreparation {
   std::vector<PreparedDraw> blended_;
   bool needs_light_ = false;  // whether a surface has been added that is black without light
   PreparedScene out_;
-  // These refer to the members above.
   UsedAssets used_;
+  // These refer to the members above.
   SceneMaps maps_;
   SceneEnvironments environments_;
 };

@@ -61,9 +61,9 @@ std::shared_ptr<const MeshAsset> ScenePreparation::sphere_of(const ObjectDescrip
   const ReliefNormals normals = o.normals == NormalSource::undisplaced ? ReliefNormals::undisplaced : ReliefNormals::displaced;
   const std::string words = recipe("displaced sphere", o.radius, o.latitudes, o.longitudes, relief.recipe, static_cast<int>(normals));
   return used_.asset<MeshAsset>(words, [&] {
-    const HeightField filtered = relief.field->filtered(o.longitudes, assets_.workers_);
+    const HeightField filtered = relief.field->filtered(o.longitudes, workers_);
     return MeshAsset(displaced_uv_sphere(o.latitudes, o.longitudes, static_cast<float>(o.radius), filtered, o.height_scale, o.height_zero,
-                                         assets_.workers_, normals));
+                                         workers_, normals));
   });
 }
 
@@ -75,7 +75,7 @@ std::shared_ptr<const MeshAsset> ScenePreparation::mesh_of(const ObjectDescripti
   return used_.asset<MeshAsset>(words, [&] {
     Mesh mesh;
     if (relief.field != nullptr) {
-      const HeightField filtered = relief.field->filtered(kind_of(o).columns(o), assets_.workers_);
+      const HeightField filtered = relief.field->filtered(kind_of(o).columns(o), workers_);
       const Displacement displacement{&filtered, o.height_scale, o.height_zero};
       mesh = make(o, &displacement);
     } else {

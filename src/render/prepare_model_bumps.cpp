@@ -84,7 +84,7 @@ void ScenePreparation::add_bumps(MetallicMaterial& surface, const ObjectDescript
   } catch (const LimitError&) {
     throw;
   } catch (const InputError& e) {  // drawn without it
-    assets_.warn_once(file + ": " + e.what());
+    warnings_.warn_once(file + ": " + e.what());
   }
 }
 

@@ -155,11 +155,15 @@ ModelAsset::ModelAsset(Model m, bool outside_allowed) : model(std::move(m)), all
   }
 }
 
+void warn_of(const std::filesystem::path& file, const Model& model, const Warnings& warnings) {
+  for (const std::string& warning : model.warnings) warnings.warn(file.string() + ": " + warning);
+}
+
 std::shared_ptr<const ModelAsset> ScenePreparation::model_asset(const ObjectDescription& o, const std::string& where) {
   return used_.asset<ModelAsset>(model_recipe(o.file.path, o.allow_outside), [&] {
     ModelAsset model =
         read_for(where + ".file", [&] { return ModelAsset(read_model(o.file.path, {.allow_outside = o.allow_outside}), o.allow_outside); });
-    assets_.warn_of(o.file.path, model);
+    warn_of(o.file.path, model.model, warnings_);
     return model;
   });
 }
@@ -203,7 +207,7 @@ void ScenePreparation::add_model(int object, const std::string& path, const Obje
   PoseOptions options = pose_options(model->model, o, path);
   options.bounds = false;
   const auto posed = std::make_shared<const PosedModel>(pose(model->model, options));
-  out_.assets.push_back(posed);
+  used_.keep(posed);
   const auto places = places_of(scene_, o);
   check_primitive_limit(primitive_count(*model, *posed) * std::size(places), o.file.path.string());
   const glm::dmat4 turn = turn_of(o, model->model);
@@ -289,7 +293,7 @@ void ScenePreparation::add_replaced_part(int object, const ObjectDescription& o,
   LitSurface surface = surface_of(o, path);
   NormalDetail detail = add_detail(surface, o, {}, path);
   if (detail == NormalDetail::map && streams.tangents.empty()) {
-    assets_.warn_once(path + ": the model has no tangents, so its replaced materials are drawn without normal maps");
+    warnings_.warn_once(path + ": the model has no tangents, so its replaced materials are drawn without normal maps");
     detail = NormalDetail::none;
   }
   place(surface, world);

@@ -67,7 +67,7 @@ std::vector<std::pair<int, bool>> ScenePreparation::wanted_images(const ObjectDe
     for (std::size_t i = 0; i < uses.size(); ++i) {
       if (uses[i]->texture < 0) continue;
       const int image = model.textures[static_cast<std::size_t>(uses[i]->texture)].image;
-      if (image >= 0 && !assets_.cache_.contains(image_recipe(o.file.path, image, is_color(i)))) wanted.emplace(image, is_color(i));
+      if (image >= 0 && !used_.contains(image_recipe(o.file.path, image, is_color(i)))) wanted.emplace(image, is_color(i));
     }
   }
   return {wanted.begin(), wanted.end()};
@@ -84,11 +84,11 @@ void ScenePreparation::load_images(const ObjectDescription& o, const Model& mode
   // Converts all consecutive images that are results of the same conversion.
   const auto convert = [&](std::size_t first) {
     if (first > 0 && are_converted_together(image_at(first - 1), image_at(first))) return;
-    const ConvertedImages images = converted_images(model, *image_at(first).converted, o.file.path.string(), assets_.workers_);
+    const ConvertedImages images = converted_images(model, *image_at(first).converted, o.file.path.string(), workers_);
     for (const std::string& problem : images.problems) problems[first] += (problems[first].empty() ? "" : "; ") + problem;
     for (std::size_t i = first; i < list.size() && are_converted_together(image_at(first), image_at(i)); ++i) {
       const bool is_color = image_at(i).converted->result == SpecularGlossiness::Result::base_color;
-      textures[i].emplace(texture_of(is_color ? images.base_color : images.metallic_roughness, list[i].second, assets_.workers_));
+      textures[i].emplace(texture_of(is_color ? images.base_color : images.metallic_roughness, list[i].second, workers_));
     }
   };
   const auto load = [&](std::size_t i) {
@@ -97,14 +97,14 @@ void ScenePreparation::load_images(const ObjectDescription& o, const Model& mode
     if (source.converted) return convert(i);
     if (source.file.empty() && source.bytes == nullptr && source.pixels == nullptr) return;  // the reader has already warned
     try {
-      textures[i].emplace(decoded(o.file.path, source, color, assets_.workers_));
+      textures[i].emplace(decoded(o.file.path, source, color, workers_));
     } catch (const LimitError&) {
       throw;
     } catch (const InputError& e) {  // the material is drawn without it
       problems[i] = e.what();
     }
   };
-  assets_.workers_.for_each(static_cast<int>(list.size()) + 1, [&](int i) {
+  workers_.for_each(static_cast<int>(list.size()) + 1, [&](int i) {
     if (i > 0) {
       load(static_cast<std::size_t>(i - 1));
     } else if (lit) {
@@ -112,7 +112,7 @@ void ScenePreparation::load_images(const ObjectDescription& o, const Model& mode
     }
   });
   for (std::size_t i = 0; i < list.size(); ++i) {
-    if (!problems[i].empty()) assets_.warn_once(problems[i]);
+    if (!problems[i].empty()) warnings_.warn_once(problems[i]);
     if (textures[i])
       used_.asset<Texture2D>(image_recipe(o.file.path, list[i].first, list[i].second), [&] { return std::move(*textures[i]); });
   }

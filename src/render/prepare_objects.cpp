@@ -51,9 +51,9 @@ DetailMap ScenePreparation::slopes_of(const Relief& relief, const ObjectDescript
   if (relief.field == nullptr || o.shape != Shape::uv_sphere || o.normals != NormalSource::pixel) return d;
   const int width = std::min(maps_.width_for(o), relief.field->width());
   const auto map = used_.asset<Texture2D>(recipe("slopes", relief.recipe, width, o.radius), [&] {
-    const HeightField filtered = relief.field->filtered(width, assets_.workers_);
-    return Texture2D(slope_map(filtered, width, std::max(1, width / 2), o.radius, o.height_scale, o.height_zero, assets_.workers_),
-                     TexelFormat::rgba16f, &assets_.workers_);
+    const HeightField filtered = relief.field->filtered(width, workers_);
+    return Texture2D(slope_map(filtered, width, std::max(1, width / 2), o.radius, o.height_scale, o.height_zero, workers_),
+                     TexelFormat::rgba16f, &workers_);
   });
   d.map = map.get();
   d.sampler = make_sampler(maps_.use_of(o.height, o).texture);

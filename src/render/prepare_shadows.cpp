@@ -164,7 +164,7 @@ std::vector<LightView> ScenePreparation::shadow_views(const LightDescription& li
 
 int ScenePreparation::shadow_resolution(const LightDescription& light, const ShadowSettings& settings) const {
   if (scene_.shadow.resolution != 0) return scene_.shadow.resolution;
-  const std::vector<VisiblePoint> places = visible_points(view_, {out_.meshes, out_.spheres}, assets_.workers_);
+  const std::vector<VisiblePoint> places = visible_points(view_, {out_.meshes, out_.spheres}, workers_);
   int size = 256;
   for (; size < kMaxShadowTexels; size *= 2) {
     std::vector<ShadowView> views;
@@ -192,13 +192,13 @@ void ScenePreparation::add_shadows() {
       ShadowView& s = maps->views.back();
       Image<float>& depth = maps->depths.emplace_back(size, size);
       out_.shadow_statistics +=
-          draw_depth(view.clip_from_world, view.near, view.far, {out_.meshes, out_.spheres}, true, d.faces, depth, assets_.workers_);
+          draw_depth(view.clip_from_world, view.near, view.far, {out_.meshes, out_.spheres}, true, d.faces, depth, workers_);
       s.depth = depth.data();
       if (!is_moment_filter(shadow.settings.filter)) continue;
-      s.moments = maps->moments.emplace_back(filtered_moments(s, depth, static_cast<int>(std::lround(d.radius)), assets_.workers_)).data();
+      s.moments = maps->moments.emplace_back(filtered_moments(s, depth, static_cast<int>(std::lround(d.radius)), workers_)).data();
     }
     shadow.views = maps->views;
-    out_.assets.push_back(maps);
+    used_.keep(maps);
     out_.lights[i].map_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   }
 }

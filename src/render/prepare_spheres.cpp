@@ -50,7 +50,7 @@ SphereImpostors ScenePreparation::sphere_impostors(bool receives_shadow) const {
 
 void ScenePreparation::draw_spheres(int object, const Particles& spheres, const glm::dvec3& color, const SceneShader& shader) {
   const auto rows = std::make_shared<const SphereRows>(rows_of(spheres, view_, color));
-  out_.assets.push_back(rows);
+  used_.keep(rows);
   out_.draws.push_back({shader,
                         make_vertex_view(stream(rows->centers_cs), stream(rows->radii), stream(rows->colors)),
                         std::make_shared<const Indices>(Indices::sequential(rows->radii.size())),

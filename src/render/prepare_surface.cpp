@@ -67,7 +67,7 @@ DetailMap ScenePreparation::bump_map(const ObjectDescription& o, const std::stri
   };
   const auto codes = [&] { return Texture2D(codes16(*maps_.heights(use, where))); };
   const Wrap s = d.sampler.wrap_s, t = d.sampler.wrap_t;
-  const auto slopes = [&] { return Texture2D(height_slopes(*maps_.heights(use, where), s, t), TexelFormat::rgba16f, &assets_.workers_); };
+  const auto slopes = [&] { return Texture2D(height_slopes(*maps_.heights(use, where), s, t), TexelFormat::rgba16f, &workers_); };
   const auto map = d.difference ? used_.asset<Texture2D>(words("bumps"), codes)
                                 : used_.asset<Texture2D>(words("bump_slopes", static_cast<int>(s), static_cast<int>(t)), slopes);
   d.map = map.get();

@@ -72,14 +72,16 @@ DrawState sprite_state() {
   return state;
 }
 
-ScenePreparation::ScenePreparation(SceneAssets& assets, const SceneDescription& scene, int width, int height)
-    : assets_(assets),
-      scene_(scene),
+ScenePreparation::ScenePreparation(const SceneDescription& scene, int width, int height, const MinimumSizes& minimum, AssetCache& cache,
+                                   Warnings& warnings, const Workers& workers)
+    : scene_(scene),
+      warnings_(warnings),
+      workers_(workers),
       view_(make_view(camera_of(scene), width, height)),
       ambient_(ambient_of(scene)),
-      used_(assets.cache_, out_.assets),
-      maps_(scene, view_, assets.widths_, used_, assets.workers_),
-      environments_(scene, view_, {assets.panorama_width_, assets.face_size_}, maps_, used_, assets.workers_) {
+      used_(cache),
+      maps_(scene, view_, minimum.map_widths, used_, workers),
+      environments_(scene, view_, minimum.environments, maps_, used_, workers) {
   out_.view = view_;
   out_.lights = shining_lights(scene, view_.eye_ws);
   const auto shadows = std::make_shared<std::vector<Shadow>>(out_.lights.size());
@@ -93,7 +95,9 @@ ScenePreparation::ScenePreparation(SceneAssets& assets, const SceneDescription& 
   shadows_ = *shadows;
   lights_ = *lights;
   shadowless_lights_ = *shadowless;
-  out_.assets.insert(out_.assets.end(), {shadows, lights, shadowless});
+  used_.keep(shadows);
+  used_.keep(lights);
+  used_.keep(shadowless);
 }
 
 namespace {
@@ -120,40 +124,36 @@ PreparedScene ScenePreparation::prepare() {
     needs_light_ = needs_light_ || needs_light(object);
     if (object.visible) add_object(static_cast<int>(i));
   }
-  if (needs_light_ && is_dark(scene_)) assets_.warn_once("nothing lights the scene; expected a light, ambient light or an environment");
+  if (needs_light_ && is_dark(scene_)) warnings_.warn_once("nothing lights the scene; expected a light, ambient light or an environment");
   auto particles = static_cast<int>(scene_.objects.size());
   add_particles(particles, scene_.particles, "particles");
   for (const auto& [name, p] : scene_.particle_systems) add_particles(++particles, p, "particle_systems." + name);
   add_background();
   add_blended();
   add_shadows();
+  out_.assets = used_.take();
   return std::move(out_);
 }
 
-void ScenePreparation::expect() {
-  for (const auto& [name, object] : scene_.objects) {
-    if (object.visible) assets_.widths_[name] = maps_.width_for(object);
+void SceneAssets::expect(const SceneDescription& scene, int width, int height) {
+  const View view = make_view(camera_of(scene), width, height);
+  UsedAssets used(cache_);
+  SceneMaps maps(scene, view, minimum_.map_widths, used, workers_);
+  for (const auto& [name, object] : scene.objects) {
+    if (object.visible) minimum_.map_widths[name] = maps.width_for(object);
   }
-  const EnvironmentSizes sizes = environments_.sizes();
-  assets_.panorama_width_ = sizes.panorama_width;
-  assets_.face_size_ = sizes.face;
+  minimum_.environments = SceneEnvironments(scene, view, minimum_.environments, maps, used, workers_).sizes();
 }
 
-void SceneAssets::expect(const SceneDescription& scene, int width, int height) { ScenePreparation(*this, scene, width, height).expect(); }
-
 void SceneAssets::add_model(const std::filesystem::path& file, std::shared_ptr<const ModelAsset> model) {
-  warn_of(file, *model);
+  warn_of(file, model->model, warnings_);
   const std::string key = model_recipe(file, model->allow_outside);
   cache_.add(key, std::move(model));
 }
 
-void SceneAssets::warn_of(const std::filesystem::path& file, const ModelAsset& model) const {
-  for (const std::string& warning : model.model.warnings) warn(file.string() + ": " + warning);
-}
-
 PreparedScene SceneAssets::prepare(const SceneDescription& scene, int width, int height) {
   const FloatMode float_mode;
-  PreparedScene prepared = ScenePreparation(*this, scene, width, height).prepare();
+  PreparedScene prepared = ScenePreparation(scene, width, height, minimum_, cache_, warnings_, workers_).prepare();
   cache_.remove_unwanted();
   return prepared;
 }

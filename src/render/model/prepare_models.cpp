@@ -124,7 +124,7 @@ std::shared_ptr<const ReliefDetail> ScenePreparation::relief_detail(const Object
   const MapUse use = maps_.use_of(o.height, o);
   return used_.asset<ReliefDetail>(
       recipe("detail", static_cast<int>(use.texture.source), use.texture.file.path.string(), use.width, o.height_smoothing),
-      [&] { return ReliefDetail(*maps_.heights(use, path + ".height"), o.height_smoothing, assets_.workers_); });
+      [&] { return ReliefDetail(*maps_.heights(use, path + ".height"), o.height_smoothing, workers_); });
 }
 
 // `authored` must be an element of the scene's objects, because width_for finds it by its address.
@@ -284,7 +284,7 @@ FittedScene ScenePreparation::fit(const AllowedError& allowed) {
 
 FittedScene SceneAssets::fit(const SceneDescription& scene, int width, int height, const AllowedError& allowed) {
   const FloatMode float_mode;
-  return ScenePreparation(*this, scene, width, height).fit(allowed);
+  return ScenePreparation(scene, width, height, minimum_, cache_, warnings_, workers_).fit(allowed);
 }
 
 }  // namespace halfspace::inline HS_LANES_NAMESPACE
