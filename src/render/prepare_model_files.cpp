@@ -256,7 +256,7 @@ void ScenePreparation::add_part(int object, const ObjectDescription& o, const st
   }
   MetallicMaterial surface = metallic_material(o, model->model, material, !streams.uvs.empty());
   if (material.bump_map.texture >= 0 && material.normal_map.texture < 0) add_bumps(surface, o, model->model, part.mesh, material);
-  place(surface, world);
+  place_surface(surface, view_, world);
   needs_light_ = needs_light_ || (!surface.unlit && surface.emissive == glm::vec3(0.0f));
   const bool masked = material.alpha_mode == AlphaMode::mask && !surface.blends;
   MetallicStreams variant = variant_of(surface, streams);
@@ -290,13 +290,13 @@ void ScenePreparation::add_part(int object, const ObjectDescription& o, const st
 void ScenePreparation::add_replaced_part(int object, const ObjectDescription& o, const std::string& path, const SurfaceStreams& streams,
                                          const std::shared_ptr<const Indices>& indices, const glm::dmat4& world) {
   needs_light_ = needs_light_ || (o.surface.shading != ShadingRate::none && o.surface.emissive.linear == glm::dvec3(0.0));
-  LitSurface surface = surface_of(o, path);
-  NormalDetail detail = add_detail(surface, o, {}, path);
+  LitSurface surface = surfaces_.surface_of(o, path);
+  NormalDetail detail = details_.add_detail(surface, o, {}, path);
   if (detail == NormalDetail::map && streams.tangents.empty()) {
     warnings_.warn_once(path + ": the model has no tangents, so its replaced materials are drawn without normal maps");
     detail = NormalDetail::none;
   }
-  place(surface, world);
+  place_surface(surface, view_, world);
   out_.draws.push_back(surface_draw(surface, o.surface.shading, detail, streams, indices));
   out_.draws.back().source = {object, 0, {streams.positions, streams.normals, streams.tangents, {}, streams.uvs, {}}, world};
   out_.meshes.push_back({streams.positions, streams.normals, indices, world, surface.two_sided, o.casts_shadow, o.receives_shadow, object});
@@ -306,11 +306,11 @@ void ScenePreparation::add_shadow_catcher(const ObjectDescription& o, const Mesh
                                           int object) {
   ShadowCatcher catcher;
   catcher.to_eye_ws = glm::vec3(view_.to_eye_ws);
-  catcher.lights = lights_;
+  catcher.lights = lights_.of_surface(true);
   catcher.inverse_radius = static_cast<float>(2.0 / o.size);
   int copy = 0;
   for (const glm::dmat4& world : places_of(scene_, o)) {
-    place(catcher, world);
+    place_surface(catcher, view_, world);
     DrawState state = opaque_state(CullMode::none, false);
     state.order_independent = true;
     state.depth.write = false;

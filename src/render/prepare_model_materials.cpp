@@ -143,8 +143,8 @@ bool ScenePreparation::is_soft_mask(const ObjectDescription& o, const Model& mod
 MetallicMaterial ScenePreparation::metallic_material(const ObjectDescription& o, const Model& model, const ModelMaterial& m, bool has_uvs) {
   MetallicMaterial out;
   out.to_eye_ws = glm::vec3(view_.to_eye_ws);
-  out.lights = o.receives_shadow ? lights_ : shadowless_lights_;
-  out.shadowed = o.receives_shadow && std::ranges::any_of(lights_, [](const Light& l) { return l.shadow != nullptr; });
+  out.lights = lights_.of_surface(o.receives_shadow);
+  out.shadowed = lights_.have_shadow(o.receives_shadow);
   out.two_sided = m.double_sided;
   out.base_color = m.base_color;
   out.metallic = m.metallic;
@@ -159,7 +159,7 @@ MetallicMaterial ScenePreparation::metallic_material(const ObjectDescription& o,
   out.clearcoat_normal_scale = m.clearcoat_normal_scale;
   out.occlusion_strength = m.occlusion_strength;
   out.emissive = m.emissive;
-  out.ambient = glm::vec3(ambient_);
+  out.ambient = glm::vec3(lights_.ambient());
   out.alpha_cutoff = m.alpha_cutoff;
   out.unlit = m.unlit;
   out.blends = m.alpha_mode == AlphaMode::blend || (has_uvs && is_soft_mask(o, model, m));

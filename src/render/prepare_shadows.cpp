@@ -181,7 +181,7 @@ void ScenePreparation::add_shadows() {
     const LightDescription& l = out_.lights[i].description;
     if (!l.shadow) continue;
     const auto start = std::chrono::steady_clock::now();
-    Shadow& shadow = shadows_[i];
+    Shadow& shadow = lights_.shadows()[i];
     shadow.settings = settings_of(d, l);
     const int size = shadow_resolution(l, shadow.settings);
     const std::vector<LightView> views = shadow_views(l, shadow.settings, size);

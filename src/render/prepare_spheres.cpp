@@ -44,7 +44,7 @@ SphereImpostors ScenePreparation::sphere_impostors(bool receives_shadow) const {
   s.lens = intersection_of(camera_of(scene_), view_);
   s.world_from_camera = glm::mat3(glm::dmat3(view_.right_ws, view_.up_ws, view_.forward_ws));
   s.to_eye_ws = glm::vec3(view_.to_eye_ws);
-  s.lights = receives_shadow ? lights_ : shadowless_lights_;
+  s.lights = lights_.of_surface(receives_shadow);
   return s;
 }
 
@@ -65,7 +65,7 @@ void ScenePreparation::add_exact_spheres(int object, const std::string& path, co
     spheres->radii.push_back(static_cast<float>(o.radius * glm::length(glm::dvec3(world[0]))));
     spheres->colors.emplace_back(1.0f);
   }
-  const LitSurface surface = surface_of(o, path);
+  const LitSurface surface = surfaces_.surface_of(o, path);
   SphereImpostors s = sphere_impostors(o.receives_shadow);
   s.ambient = surface.factors[kAmbient].constant;
   s.diffuse = surface.factors[kDiffuse].constant;

@@ -1,61 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "halfspace/render/prepared_scene.h"
 
-#include <algorithm>
-
 #include "halfspace/core/float_mode.h"
-#include "halfspace/core/trig_double.h"
-#include "halfspace/geometry/camera.h"
 #include "halfspace/render/preparation.h"
-#include "halfspace/scene/lights.h"
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
-
-namespace {
-
-Light make_light(const LightDescription& d, const glm::dvec3& eye_ws) {
-  constexpr double kMinCone = 1e-6;    // difference of cosines; small enough for a hard edge
-  constexpr double kMinRange = 1e-30;  // its reciprocal is a finite float
-  const glm::dvec3 towards = unit_or_zero(d.direction), color = d.color.linear * d.intensity;
-  const double cos_inner = sincos_turns(d.inner / 360.0).cos, cos_outer = sincos_turns(d.outer / 360.0).cos;
-  Light light;
-  light.type = d.type;
-  light.position_rws = glm::vec3(kind_of(d.type).is_distant ? towards : d.position - eye_ws);
-  light.diffuse = glm::vec3(color * d.diffuse);
-  light.specular = glm::vec3(color * d.specular);
-  light.attenuation = d.falloff == Falloff::physical ? glm::vec3(0, 0, 1) : glm::vec3(d.attenuation);
-  light.axis_ws = glm::vec3(towards);
-  light.cos_outer = static_cast<float>(cos_outer);
-  light.cone_scale = static_cast<float>(1.0 / std::max(cos_inner - cos_outer, kMinCone));
-  light.inverse_range = d.range > 0.0 ? static_cast<float>(1.0 / std::max(d.range, kMinRange)) : 0.0f;
-  return light;
-}
-
-// Returns the lights that emit diffuse or specular light.
-std::vector<PreparedLight> shining_lights(const SceneDescription& scene, const glm::dvec3& eye_ws) {
-  std::vector<PreparedLight> lights;
-  for (const auto& [name, d] : scene.lights) {
-    const Light light = make_light(d, eye_ws);
-    if (light.diffuse != glm::vec3(0.0f) || light.specular != glm::vec3(0.0f)) lights.push_back({name, light, d});
-  }
-  return lights;
-}
-
-// Ambient light reaches every point regardless of the light that it belongs to, so it is summed here.
-glm::dvec3 ambient_of(const SceneDescription& scene) {
-  glm::dvec3 sum = scene.head.ambient.linear;
-  for (const auto& [name, light] : scene.lights) sum += light.color.linear * light.intensity * light.ambient;
-  return sum;
-}
-
-}  // namespace
-
-const CameraDescription& camera_of(const SceneDescription& scene) {
-  for (const auto& [name, camera] : scene.cameras) {
-    if (name == scene.head.camera) return camera;
-  }
-  return scene.cameras.front().second;
-}
 
 DrawState opaque_state(CullMode cull, bool mirrored) {
   DrawState state;
@@ -78,26 +27,15 @@ ScenePreparation::ScenePreparation(const SceneDescription& scene, int width, int
       warnings_(warnings),
       workers_(workers),
       view_(make_view(camera_of(scene), width, height)),
-      ambient_(ambient_of(scene)),
       used_(cache),
+      lights_(scene, view_.eye_ws, used_),
       maps_(scene, view_, minimum.map_widths, used_, workers),
-      environments_(scene, view_, minimum.environments, maps_, used_, workers) {
+      environments_(scene, view_, minimum.environments, maps_, used_, workers),
+      surfaces_(view_, lights_, maps_, environments_),
+      meshes_(maps_, used_, workers),
+      details_(maps_, used_, workers) {
   out_.view = view_;
-  out_.lights = shining_lights(scene, view_.eye_ws);
-  const auto shadows = std::make_shared<std::vector<Shadow>>(out_.lights.size());
-  const auto lights = std::make_shared<std::vector<Light>>(), shadowless = std::make_shared<std::vector<Light>>();
-  for (std::size_t i = 0; i < out_.lights.size(); ++i) {
-    PreparedLight& light = out_.lights[i];
-    shadowless->push_back(light.light);
-    if (scene.shadow.method != ShadowMethod::none && light.description.shadow) light.light.shadow = &(*shadows)[i];
-    lights->push_back(light.light);
-  }
-  shadows_ = *shadows;
-  lights_ = *lights;
-  shadowless_lights_ = *shadowless;
-  used_.keep(shadows);
-  used_.keep(lights);
-  used_.keep(shadowless);
+  out_.lights = lights_.prepared();
 }
 
 namespace {
