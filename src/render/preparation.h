@@ -8,18 +8,18 @@
 #include <string>
 #include <vector>
 
-#include "halfspace/geometry/relief_detail.h"
 #include "halfspace/model/pose.h"
 #include "halfspace/render/detail_maps.h"
 #include "halfspace/render/model_asset.h"
 #include "halfspace/render/prepared_scene.h"
+#include "halfspace/render/scene_background.h"
 #include "halfspace/render/scene_environments.h"
 #include "halfspace/render/scene_lights.h"
 #include "halfspace/render/scene_maps.h"
 #include "halfspace/render/scene_meshes.h"
 #include "halfspace/render/scene_places.h"
 #include "halfspace/render/scene_surfaces.h"
-#include "halfspace/render/shadow/shadow_views.h"
+#include "halfspace/render/shadow/shadow_renderer.h"
 #include "halfspace/render/surface_draw.h"
 #include "halfspace/render/used_assets.h"
 #include "halfspace/render/view.h"
@@ -40,11 +40,12 @@ class ScenePreparation {
   ScenePreparation(const SceneDescription& scene, int width, int height, const MinimumSizes& minimum, AssetCache& cache, Warnings& warnings,
                    const Workers& workers);
   PreparedScene prepare();
-  FittedScene fit(const AllowedError& allowed);
 
  private:
   // object: index in the scene's objects.
   void add_object(int object);
+  // Renders the shadow maps, after all objects have been placed.
+  void add_shadows();
 
   // prepare_model_files.cpp
   void add_model(int object, const std::string& path, const ObjectDescription& o);
@@ -66,16 +67,6 @@ class ScenePreparation {
   bool is_soft_mask(const ObjectDescription& o, const Model& model, const ModelMaterial& m);
   MetallicMaterial metallic_material(const ObjectDescription& o, const Model& model, const ModelMaterial& m, bool has_uvs);
 
-  // prepare_shadows.cpp: renders the shadow maps, after all objects have been placed
-  void add_shadows();
-  std::vector<LightView> shadow_views(const LightDescription& light, const ShadowSettings& settings, int size) const;
-  int shadow_resolution(const LightDescription& light, const ShadowSettings& settings) const;
-
-  // prepare_models.cpp
-  ObjectDescription fitted(const ObjectDescription& authored, const std::string& path, double edge_px, std::optional<double> color,
-                           std::vector<ModelChoice>& choices);
-  std::shared_ptr<const ReliefDetail> relief_detail(const ObjectDescription& o, const std::string& path);
-
   // prepare_spheres.cpp
   SphereImpostors sphere_impostors(bool receives_shadow) const;
   void draw_spheres(int object, const Particles& spheres, const glm::dvec3& color, const SceneShader& shader);
@@ -84,12 +75,6 @@ class ScenePreparation {
   // prepare_particles.cpp
   // object: index for DrawSource::object.
   void add_particles(int object, const ParticlesDescription& p, const std::string& path);
-  std::shared_ptr<const Particles> particles(const ParticlesDescription& p, const std::string& path);  // null: none
-
-  // prepare_background.cpp
-  void add_background();
-  StarSky star_sky(double density, double brightness) const;
-  EnvironmentSky environment_sky();
 
   const SceneDescription& scene_;
   Warnings& warnings_;

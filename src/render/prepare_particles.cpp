@@ -3,19 +3,12 @@
 // The particle systems of a scene, each drawn with a single draw call of points.
 #include "halfspace/render/particles.h"
 #include "halfspace/render/preparation.h"
+#include "halfspace/render/scene_particles.h"
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
 
-std::shared_ptr<const Particles> ScenePreparation::particles(const ParticlesDescription& p, const std::string& path) {
-  if (!p.file.path.empty()) {
-    return used_.asset<Particles>(recipe("particles", p.file.path.string(), p.radius, p.orbit_radius),
-                                  [&] { return read_for(path + ".file", [&] { return read_particles(p.file.path, p); }); });
-  }
-  return p.count == 0 ? nullptr : std::make_shared<const Particles>(make_particles(p));
-}
-
 void ScenePreparation::add_particles(int object, const ParticlesDescription& p, const std::string& path) {
-  const std::shared_ptr<const Particles> particles = this->particles(p, path);
+  const std::shared_ptr<const Particles> particles = scene_particles(p, path, used_);
   if (particles == nullptr) return;
   const bool exact = p.sprite == ParticleSprite::exact;
   SphereImpostors s = sphere_impostors(exact && p.receives_shadow);

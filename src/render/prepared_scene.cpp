@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "halfspace/render/prepared_scene.h"
 
+#include <chrono>
+
 #include "halfspace/core/float_mode.h"
+#include "halfspace/render/model/model_chooser.h"
 #include "halfspace/render/preparation.h"
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
@@ -66,11 +69,30 @@ PreparedScene ScenePreparation::prepare() {
   auto particles = static_cast<int>(scene_.objects.size());
   add_particles(particles, scene_.particles, "particles");
   for (const auto& [name, p] : scene_.particle_systems) add_particles(++particles, p, "particle_systems." + name);
-  add_background();
+  if (auto background = background_draw(scene_.background, view_, environments_)) out_.draws.push_back(std::move(*background));
+  if (scene_.background.type == BackgroundType::transparent) {
+    out_.transparent = true;
+    out_.clear_color = glm::vec4(0.0f);
+  }
   add_blended();
   add_shadows();
   out_.assets = used_.take();
   return std::move(out_);
+}
+
+void ScenePreparation::add_shadows() {
+  if (scene_.shadow.method == ShadowMethod::none) return;
+  const ShadowRenderer renderer(scene_.shadow, view_, out_.meshes, out_.spheres, workers_);
+  for (std::size_t i = 0; i < out_.lights.size(); ++i) {
+    PreparedLight& light = out_.lights[i];
+    if (!light.description.shadow) continue;
+    const auto start = std::chrono::steady_clock::now();
+    const RenderedShadow rendered = renderer.render(light.name, light.description);
+    lights_.shadows()[i] = rendered.shadow;
+    used_.keep(rendered.maps);
+    out_.shadow_statistics += rendered.statistics;
+    light.map_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  }
 }
 
 void SceneAssets::expect(const SceneDescription& scene, int width, int height) {
@@ -87,6 +109,14 @@ void SceneAssets::add_model(const std::filesystem::path& file, std::shared_ptr<c
   warn_of(file, model->model, warnings_);
   const std::string key = model_recipe(file, model->allow_outside);
   cache_.add(key, std::move(model));
+}
+
+FittedScene SceneAssets::fit(const SceneDescription& scene, int width, int height, const AllowedError& allowed) {
+  const FloatMode float_mode;
+  const View view = make_view(camera_of(scene), width, height);
+  UsedAssets used(cache_);
+  SceneMaps maps(scene, view, minimum_.map_widths, used, workers_);
+  return ModelChooser(scene, view, maps, used, workers_).fit(allowed);
 }
 
 PreparedScene SceneAssets::prepare(const SceneDescription& scene, int width, int height) {

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The background behind all objects.
+#pragma once
+
+#include <optional>
+
+#include "halfspace/render/prepared_scene.h"
+#include "halfspace/render/scene_environments.h"
+#include "halfspace/render/view.h"
+
+namespace halfspace::inline HS_LANES_NAMESPACE {
+
+/// Returns the draw of the background: one triangle behind everything. There is none if the background is the clear color.
+std::optional<PreparedDraw> background_draw(const BackgroundDescription& background, const View& view, SceneEnvironments& environments);
+
+}  // namespace halfspace::inline HS_LANES_NAMESPACE
