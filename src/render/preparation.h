@@ -11,6 +11,7 @@
 #include "halfspace/model/pose.h"
 #include "halfspace/render/detail_maps.h"
 #include "halfspace/render/model_asset.h"
+#include "halfspace/render/model_materials.h"
 #include "halfspace/render/prepared_scene.h"
 #include "halfspace/render/scene_background.h"
 #include "halfspace/render/scene_environments.h"
@@ -57,16 +58,6 @@ class ScenePreparation {
   void add_blended();
   std::shared_ptr<const ModelAsset> model_asset(const ObjectDescription& o, const std::string& where);
 
-  // prepare_model_bumps.cpp
-  void add_bumps(MetallicMaterial& surface, const ObjectDescription& o, const Model& model, int mesh, const ModelMaterial& material);
-
-  // prepare_model_materials.cpp
-  std::vector<std::pair<int, bool>> wanted_images(const ObjectDescription& o, const Model& model, const PosedModel& posed);
-  void load_images(const ObjectDescription& o, const Model& model, const std::vector<std::pair<int, bool>>& list, bool lit);
-  const Texture2D* model_texture(const std::filesystem::path& file, int image, bool color);
-  bool is_soft_mask(const ObjectDescription& o, const Model& model, const ModelMaterial& m);
-  MetallicMaterial metallic_material(const ObjectDescription& o, const Model& model, const ModelMaterial& m, bool has_uvs);
-
   // prepare_spheres.cpp
   SphereImpostors sphere_impostors(bool receives_shadow) const;
   void draw_spheres(int object, const Particles& spheres, const glm::dvec3& color, const SceneShader& shader);
@@ -91,6 +82,7 @@ class ScenePreparation {
   SceneSurfaces surfaces_;
   SceneMeshes meshes_;
   DetailMaps details_;
+  ModelMaterials materials_;
 };
 
 }  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Objects of shape `file`: model files with their own meshes and materials.
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <span>
 
 #include "halfspace/core/resource_limits.h"
-#include "halfspace/core/text.h"
 #include "halfspace/model/pose.h"
-#include "halfspace/model/tangents.h"
 #include "halfspace/render/model_asset.h"
 #include "halfspace/render/preparation.h"
 #include "halfspace/render/wireframe.h"
@@ -20,14 +15,6 @@
 namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
-
-// Returns a use of a map that needs tangents, or null.
-const TextureUse* tangent_map(const ModelMaterial& m) {
-  for (const TextureUse* use : {&m.normal_map, &m.bump_map, &m.clearcoat_normal_map}) {
-    if (use->texture >= 0) return use;
-  }
-  return nullptr;
-}
 
 // Neutral values for the streams that a mesh lacks.
 struct NeutralStreams {
@@ -96,26 +83,6 @@ PreparedDraw draw_of(const MetallicMaterial& m, MetallicStreams variant, bool ma
   return (masked ? draw_of<MetallicStreams::full, true> : draw_of<MetallicStreams::full, false>)(m, s, indices, state);
 }
 
-// Returns the index of the item with that name or, if none has it, at that index. Returns −1 if the name is empty. `what`: the plural of
-// the item.
-template <class T, class Name>
-int index_of(const std::vector<T>& list, const std::string& name, const Name& name_of, const std::string& where, const char* what) {
-  if (name.empty()) return -1;
-  std::vector<std::string_view> names;
-  for (std::size_t i = 0; i < list.size(); ++i) {
-    if (name_of(list[i]) == name) return static_cast<int>(i);
-    if (!name_of(list[i]).empty()) names.push_back(name_of(list[i]));
-  }
-  if (list.empty()) throw InputError(fmt::format("{} is '{}', but the file has no {}; expected none", where, name, what));
-  int index = -1;
-  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), index);
-  if (error == std::errc() && end == name.data() + name.size() && index >= 0 && index < static_cast<int>(list.size())) return index;
-  const std::string expected = names.empty()
-                                   ? fmt::format("; expected an index from 0 to {}, because its {} have no names", list.size() - 1, what)
-                                   : suggestion(name, names);
-  throw InputError(fmt::format("{}: the file has no '{}'{}", where, name, expected));
-}
-
 // Returns the additional rotation for an object whose up_axis differs from the up axis of the model, which pose() already applies.
 glm::dmat4 turn_of(const ObjectDescription& o, const Model& model) {
   glm::dmat4 turn(1.0);
@@ -128,32 +95,6 @@ glm::dmat4 turn_of(const ObjectDescription& o, const Model& model) {
 }
 
 }  // namespace
-
-PoseOptions pose_options(const Model& model, const ObjectDescription& o, const std::string& path) {
-  const auto own_name = [](const auto& item) -> const std::string& { return item.name; };
-  PoseOptions options;
-  options.scene = index_of(model.scenes, o.model_scene, own_name, path + ".model_scene", "scenes");
-  options.animation = index_of(model.animations, o.model_animation, own_name, path + ".model_animation", "animations");
-  options.variant = index_of(
-      model.variants, o.model_variant, [](const std::string& name) -> const std::string& { return name; }, path + ".model_variant",
-      "variants");
-  options.time = o.model_time;
-  return options;
-}
-
-ModelAsset::ModelAsset(Model m, bool outside_allowed) : model(std::move(m)), allow_outside(outside_allowed) {
-  for (ModelMesh& mesh : model.meshes) {
-    if (mesh.material >= 0 && mesh.tangents.empty() && mesh.topology == MeshTopology::triangles) {
-      const TextureUse* use = tangent_map(model.materials[static_cast<std::size_t>(mesh.material)]);
-      if (use != nullptr && !mesh.uvs[static_cast<std::size_t>(use->uv_set)].empty()) add_tangents(mesh, use->uv_set);
-    }
-    if (mesh.indices.empty()) {
-      indices.push_back(Indices::sequential(mesh.positions.size()));
-    } else {
-      indices.emplace_back(mesh.indices, mesh.positions.size());
-    }
-  }
-}
 
 void warn_of(const std::filesystem::path& file, const Model& model, const Warnings& warnings) {
   for (const std::string& warning : model.warnings) warnings.warn(file.string() + ": " + warning);
@@ -212,7 +153,7 @@ void ScenePreparation::add_model(int object, const std::string& path, const Obje
   check_primitive_limit(primitive_count(*model, *posed) * std::size(places), o.file.path.string());
   const glm::dmat4 turn = turn_of(o, model->model);
   const bool lit = std::ranges::any_of(posed->meshes, [&](const PosedMesh& part) { return is_lit(scene_, o, model->model, part); });
-  load_images(o, model->model, wanted_images(o, model->model, *posed), lit);
+  materials_.load_images(o, model->model, *posed, lit);
   int instance = 0;
   for (const glm::dmat4& place : places) {
     for (const PosedMesh& part : posed->meshes) {
@@ -254,8 +195,7 @@ void ScenePreparation::add_part(int object, const ObjectDescription& o, const st
     if (streams.uvs.empty()) streams.uvs = neutral()->uvs;
     return add_replaced_part(object, replaced, path, {streams.positions, streams.normals, streams.tangents, streams.uvs}, indices, world);
   }
-  MetallicMaterial surface = metallic_material(o, model->model, material, !streams.uvs.empty());
-  if (material.bump_map.texture >= 0 && material.normal_map.texture < 0) add_bumps(surface, o, model->model, part.mesh, material);
+  MetallicMaterial surface = materials_.surface_of(o, model->model, part.mesh, material, !streams.uvs.empty());
   place_surface(surface, view_, world);
   needs_light_ = needs_light_ || (!surface.unlit && surface.emissive == glm::vec3(0.0f));
   const bool masked = material.alpha_mode == AlphaMode::mask && !surface.blends;

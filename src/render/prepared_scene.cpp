@@ -36,7 +36,8 @@ ScenePreparation::ScenePreparation(const SceneDescription& scene, int width, int
       environments_(scene, view_, minimum.environments, maps_, used_, workers),
       surfaces_(view_, lights_, maps_, environments_),
       meshes_(maps_, used_, workers),
-      details_(maps_, used_, workers) {
+      details_(maps_, used_, workers),
+      materials_(view_, lights_, environments_, used_, warnings, workers) {
   out_.view = view_;
   out_.lights = lights_.prepared();
 }
@@ -76,6 +77,7 @@ PreparedScene ScenePreparation::prepare() {
   }
   add_blended();
   add_shadows();
+  out_.images_ms = materials_.images_ms();
   out_.assets = used_.take();
   return std::move(out_);
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-//
-// Materials of model files: their images, and the uniforms of the shader.
-#include <algorithm>
+#include "halfspace/render/model_materials.h"
+
 #include <chrono>
 #include <optional>
 #include <set>
@@ -9,7 +8,7 @@
 #include "halfspace/core/resource_limits.h"
 #include "halfspace/image/image_io.h"
 #include "halfspace/render/converted_images.h"
-#include "halfspace/render/preparation.h"
+#include "halfspace/render/model_bumps.h"
 #include "halfspace/render/soft_mask.h"
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
@@ -56,10 +55,9 @@ bool are_converted_together(const ModelImage& a, const ModelImage& b) {
   return a.converted && b.converted && a.converted->same_sources(*b.converted);
 }
 
-}  // namespace
-
 // Returns the images that the materials of a posed model use and that are not yet loaded, and for each, whether it is a color map.
-std::vector<std::pair<int, bool>> ScenePreparation::wanted_images(const ObjectDescription& o, const Model& model, const PosedModel& posed) {
+std::vector<std::pair<int, bool>> wanted_images(const ObjectDescription& o, const Model& model, const PosedModel& posed,
+                                                const UsedAssets& used) {
   std::set<std::pair<int, bool>> wanted;
   for (const PosedMesh& part : posed.meshes) {
     if (part.material < 0) continue;
@@ -67,15 +65,17 @@ std::vector<std::pair<int, bool>> ScenePreparation::wanted_images(const ObjectDe
     for (std::size_t i = 0; i < uses.size(); ++i) {
       if (uses[i]->texture < 0) continue;
       const int image = model.textures[static_cast<std::size_t>(uses[i]->texture)].image;
-      if (image >= 0 && !used_.contains(image_recipe(o.file.path, image, is_color(i)))) wanted.emplace(image, is_color(i));
+      if (image >= 0 && !used.contains(image_recipe(o.file.path, image, is_color(i)))) wanted.emplace(image, is_color(i));
     }
   }
   return {wanted.begin(), wanted.end()};
 }
 
-// Decodes these images in parallel. If `lit`, filters the environment at the same time, because a few images do not keep all threads busy.
-void ScenePreparation::load_images(const ObjectDescription& o, const Model& model, const std::vector<std::pair<int, bool>>& list,
-                                   bool lit) {
+}  // namespace
+
+// If `lit`, filters the environment at the same time, because a few images do not keep all threads busy.
+void ModelMaterials::load_images(const ObjectDescription& o, const Model& model, const PosedModel& posed, bool lit) {
+  const std::vector<std::pair<int, bool>> list = wanted_images(o, model, posed, used_);
   if (list.empty()) return;
   const auto start = std::chrono::steady_clock::now();
   std::vector<std::optional<Texture2D>> textures(list.size());
@@ -116,16 +116,16 @@ void ScenePreparation::load_images(const ObjectDescription& o, const Model& mode
     if (textures[i])
       used_.asset<Texture2D>(image_recipe(o.file.path, list[i].first, list[i].second), [&] { return std::move(*textures[i]); });
   }
-  out_.images_ms += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  images_ms_ += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
 // Returns a texture that load_images has loaded, or null if there is no such image.
-const Texture2D* ScenePreparation::model_texture(const std::filesystem::path& file, int image, bool color) {
+const Texture2D* ModelMaterials::model_texture(const std::filesystem::path& file, int image, bool color) {
   return used_.existing<Texture2D>(image_recipe(file, image, color)).get();
 }
 
 // Returns true if a mask is only a guess and its map has so many values between 0 and 1 that the surface must be blended.
-bool ScenePreparation::is_soft_mask(const ObjectDescription& o, const Model& model, const ModelMaterial& m) {
+bool ModelMaterials::is_soft_mask(const ObjectDescription& o, const Model& model, const ModelMaterial& m) {
   if (!m.mask_unless_soft || m.alpha_mode != AlphaMode::mask) return false;
   const bool separate = m.opacity_map.texture >= 0;
   const int texture = separate ? m.opacity_map.texture : m.base_color_map.texture;
@@ -140,7 +140,7 @@ bool ScenePreparation::is_soft_mask(const ObjectDescription& o, const Model& mod
   });
 }
 
-MetallicMaterial ScenePreparation::metallic_material(const ObjectDescription& o, const Model& model, const ModelMaterial& m, bool has_uvs) {
+MetallicMaterial ModelMaterials::metallic_material(const ObjectDescription& o, const Model& model, const ModelMaterial& m, bool has_uvs) {
   MetallicMaterial out;
   out.to_eye_ws = glm::vec3(view_.to_eye_ws);
   out.lights = lights_.of_surface(o.receives_shadow);
@@ -186,6 +186,13 @@ MetallicMaterial ScenePreparation::metallic_material(const ObjectDescription& o,
     previous_texture = use.texture;
   }
   return out;
+}
+
+MetallicMaterial ModelMaterials::surface_of(const ObjectDescription& o, const Model& model, int mesh, const ModelMaterial& m,
+                                            bool has_uvs) {
+  MetallicMaterial surface = metallic_material(o, model, m, has_uvs);
+  if (m.bump_map.texture >= 0 && m.normal_map.texture < 0) add_bumps(surface, o, model, mesh, m, used_, warnings_);
+  return surface;
 }
 
 }  // namespace halfspace::inline HS_LANES_NAMESPACE
