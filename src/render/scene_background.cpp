@@ -37,6 +37,8 @@ EnvironmentSky environment_sky(const BackgroundDescription& b, const View& view,
 
 }  // namespace
 
+glm::vec4 background_color(const BackgroundDescription& background) { return {glm::vec3(background.color.linear), 1.0f}; }
+
 std::optional<PreparedDraw> background_draw(const BackgroundDescription& background, const View& view, SceneEnvironments& environments) {
   DrawState state;
   state.depth.clip = ClipDepth::zero_to_one;

@@ -8,7 +8,7 @@
 
 #include "halfspace/geometry/height_field.h"
 #include "halfspace/geometry/mesh.h"
-#include "halfspace/raster/pass.h"
+#include "halfspace/raster/vertex_input.h"
 #include "halfspace/render/scene_maps.h"
 #include "halfspace/render/used_assets.h"
 

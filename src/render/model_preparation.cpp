@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-//
-// Objects of shape `file`: model files with their own meshes and materials.
+#include "halfspace/render/model_preparation.h"
+
 #include <algorithm>
 #include <cmath>
 #include <span>
 
 #include "halfspace/core/resource_limits.h"
-#include "halfspace/model/pose.h"
-#include "halfspace/render/model_asset.h"
-#include "halfspace/render/preparation.h"
+#include "halfspace/render/scene_background.h"
+#include "halfspace/render/scene_places.h"
 #include "halfspace/render/wireframe.h"
 #include "halfspace/scene/material_overrides.h"
 
@@ -96,11 +95,15 @@ glm::dmat4 turn_of(const ObjectDescription& o, const Model& model) {
 
 }  // namespace
 
+std::string model_recipe(const std::filesystem::path& file, bool allow_outside) {
+  return recipe("model", file.string(), allow_outside ? "with outside files" : "");
+}
+
 void warn_of(const std::filesystem::path& file, const Model& model, const Warnings& warnings) {
   for (const std::string& warning : model.warnings) warnings.warn(file.string() + ": " + warning);
 }
 
-std::shared_ptr<const ModelAsset> ScenePreparation::model_asset(const ObjectDescription& o, const std::string& where) {
+std::shared_ptr<const ModelAsset> ModelPreparation::model_asset(const ObjectDescription& o, const std::string& where) {
   return used_.asset<ModelAsset>(model_recipe(o.file.path, o.allow_outside), [&] {
     ModelAsset model =
         read_for(where + ".file", [&] { return ModelAsset(read_model(o.file.path, {.allow_outside = o.allow_outside}), o.allow_outside); });
@@ -143,7 +146,7 @@ uint64_t primitive_count(const ModelAsset& asset, const PosedModel& posed) {
 
 }  // namespace
 
-void ScenePreparation::add_model(int object, const std::string& path, const ObjectDescription& o) {
+void ModelPreparation::add(int object, const std::string& path, const ObjectDescription& o) {
   const std::shared_ptr<const ModelAsset> model = model_asset(o, path);
   PoseOptions options = pose_options(model->model, o, path);
   options.bounds = false;
@@ -157,16 +160,16 @@ void ScenePreparation::add_model(int object, const std::string& path, const Obje
   int instance = 0;
   for (const glm::dmat4& place : places) {
     for (const PosedMesh& part : posed->meshes) {
-      const std::size_t opaque = out_.draws.size(), blended = blended_.size();
+      const std::size_t opaque = draws_.opaque.size(), blended = draws_.blended.size();
       add_part(object, o, path, model, part, place * turn * part.world_from_mesh);
-      for (PreparedDraw& draw : std::span(out_.draws).subspan(opaque)) draw.source.instance = instance;
-      for (PreparedDraw& draw : std::span(blended_).subspan(blended)) draw.source.instance = instance;
+      for (PreparedDraw& draw : std::span(draws_.opaque).subspan(opaque)) draw.source.instance = instance;
+      for (PreparedDraw& draw : std::span(draws_.blended).subspan(blended)) draw.source.instance = instance;
       ++instance;
     }
   }
 }
 
-void ScenePreparation::add_part(int object, const ObjectDescription& o, const std::string& path,
+void ModelPreparation::add_part(int object, const ObjectDescription& o, const std::string& path,
                                 const std::shared_ptr<const ModelAsset>& model, const PosedMesh& part, const glm::dmat4& world) {
   const auto mesh_index = static_cast<std::size_t>(part.mesh);
   const ModelMesh& mesh = part.deformed != nullptr ? *part.deformed : model->model.meshes[mesh_index];
@@ -181,12 +184,13 @@ void ScenePreparation::add_part(int object, const ObjectDescription& o, const st
   if (mesh.topology != MeshTopology::triangles) {
     const bool colored = !streams.colors.empty() || !material.is_default;
     if (streams.colors.empty()) streams.colors = neutral()->colors;
-    const ColoredPrimitives shader{glm::mat4(view_.clip_from_world * world), colored ? material.base_color : line_color(out_.clear_color)};
+    const ColoredPrimitives shader{glm::mat4(view_.clip_from_world * world),
+                                   colored ? material.base_color : line_color(background_color(scene_.background))};
     DrawState state = opaque_state(CullMode::none, false);
     state.point_size = point_size(model->indices[mesh_index].size(), view_.height_px);
     state.topology = mesh.topology == MeshTopology::points ? Topology::points : Topology::lines;
-    out_.draws.push_back({shader, make_vertex_view(stream(streams.positions), stream(streams.colors)), indices, state});
-    out_.draws.back().source = {object, 0, streams, world};
+    draws_.opaque.push_back({shader, make_vertex_view(stream(streams.positions), stream(streams.colors)), indices, state});
+    draws_.opaque.back().source = {object, 0, streams, world};
     return;
   }
   if (const SurfaceDescription* replacement = override_of(scene_, o, material.name); replacement != nullptr) {
@@ -197,7 +201,7 @@ void ScenePreparation::add_part(int object, const ObjectDescription& o, const st
   }
   MetallicMaterial surface = materials_.surface_of(o, model->model, part.mesh, material, !streams.uvs.empty());
   place_surface(surface, view_, world);
-  needs_light_ = needs_light_ || (!surface.unlit && surface.emissive == glm::vec3(0.0f));
+  draws_.needs_light = draws_.needs_light || (!surface.unlit && surface.emissive == glm::vec3(0.0f));
   const bool masked = material.alpha_mode == AlphaMode::mask && !surface.blends;
   MetallicStreams variant = variant_of(surface, streams);
   if (masked && !(variant >= MetallicStreams::mapped)) variant = MetallicStreams::full;
@@ -207,11 +211,11 @@ void ScenePreparation::add_part(int object, const ObjectDescription& o, const st
   if (surface.blends) {
     state.order_independent = true;
     state.depth.write = false;
-    blended_.push_back(draw_of(surface, variant, false, streams, indices, state));
-    blended_.back().source = {object, 0, streams, world};
+    draws_.blended.push_back(draw_of(surface, variant, false, streams, indices, state));
+    draws_.blended.back().source = {object, 0, streams, world};
   } else {
-    out_.draws.push_back(draw_of(surface, variant, masked, streams, indices, state));
-    out_.draws.back().source = {object, 0, streams, world};
+    draws_.opaque.push_back(draw_of(surface, variant, masked, streams, indices, state));
+    draws_.opaque.back().source = {object, 0, streams, world};
   }
   PlacedMesh placed{streams.positions, streams.normals, indices, world, material.double_sided, o.casts_shadow, o.receives_shadow, object};
   if (masked || surface.blends) {
@@ -223,13 +227,13 @@ void ScenePreparation::add_part(int object, const ObjectDescription& o, const st
     placed.uvs = uvs.empty() ? std::span<const glm::vec2>(neutral()->uvs) : uvs;
     placed.colors = mesh.colors;
   }
-  out_.meshes.push_back(placed);
+  draws_.meshes.push_back(placed);
 }
 
 // Draws a part of a model with the surface of a material of the scene.
-void ScenePreparation::add_replaced_part(int object, const ObjectDescription& o, const std::string& path, const SurfaceStreams& streams,
+void ModelPreparation::add_replaced_part(int object, const ObjectDescription& o, const std::string& path, const SurfaceStreams& streams,
                                          const std::shared_ptr<const Indices>& indices, const glm::dmat4& world) {
-  needs_light_ = needs_light_ || (o.surface.shading != ShadingRate::none && o.surface.emissive.linear == glm::dvec3(0.0));
+  draws_.needs_light = draws_.needs_light || (o.surface.shading != ShadingRate::none && o.surface.emissive.linear == glm::dvec3(0.0));
   LitSurface surface = surfaces_.surface_of(o, path);
   NormalDetail detail = details_.add_detail(surface, o, {}, path);
   if (detail == NormalDetail::map && streams.tangents.empty()) {
@@ -237,33 +241,10 @@ void ScenePreparation::add_replaced_part(int object, const ObjectDescription& o,
     detail = NormalDetail::none;
   }
   place_surface(surface, view_, world);
-  out_.draws.push_back(surface_draw(surface, o.surface.shading, detail, streams, indices));
-  out_.draws.back().source = {object, 0, {streams.positions, streams.normals, streams.tangents, {}, streams.uvs, {}}, world};
-  out_.meshes.push_back({streams.positions, streams.normals, indices, world, surface.two_sided, o.casts_shadow, o.receives_shadow, object});
-}
-
-void ScenePreparation::add_shadow_catcher(const ObjectDescription& o, const MeshAsset& mesh, const std::shared_ptr<const Indices>& indices,
-                                          int object) {
-  ShadowCatcher catcher;
-  catcher.to_eye_ws = glm::vec3(view_.to_eye_ws);
-  catcher.lights = lights_.of_surface(true);
-  catcher.inverse_radius = static_cast<float>(2.0 / o.size);
-  int copy = 0;
-  for (const glm::dmat4& world : places_of(scene_, o)) {
-    place_surface(catcher, view_, world);
-    DrawState state = opaque_state(CullMode::none, false);
-    state.order_independent = true;
-    state.depth.write = false;
-    blended_.push_back({catcher, make_vertex_view(stream(mesh.mesh.positions)), indices, state});
-    blended_.back().source = {object, copy++, {mesh.mesh.positions, mesh.mesh.normals, {}, {}, {}, {}}, world};
-    out_.meshes.push_back({mesh.mesh.positions, mesh.mesh.normals, indices, world, true, false, true, object});
-  }
-}
-
-// Blended surfaces are drawn after everything opaque.
-void ScenePreparation::add_blended() {
-  for (PreparedDraw& draw : blended_) out_.draws.push_back(std::move(draw));
-  blended_.clear();
+  draws_.opaque.push_back(surface_draw(surface, o.surface.shading, detail, streams, indices));
+  draws_.opaque.back().source = {object, 0, {streams.positions, streams.normals, streams.tangents, {}, streams.uvs, {}}, world};
+  draws_.meshes.push_back(
+      {streams.positions, streams.normals, indices, world, surface.two_sided, o.casts_shadow, o.receives_shadow, object});
 }
 
 }  // namespace halfspace::inline HS_LANES_NAMESPACE
