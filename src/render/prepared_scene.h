@@ -5,10 +5,8 @@
 #pragma once
 
 #include <functional>
-#include <map>
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
 #include <variant>
 #include <vector>
@@ -18,9 +16,11 @@
 #include "halfspace/geometry/mesh.h"
 #include "halfspace/raster/pass.h"
 #include "halfspace/render/asset_cache.h"
+#include "halfspace/render/minimum_sizes.h"
 #include "halfspace/render/model/model_choice.h"
 #include "halfspace/render/particles.h"
 #include "halfspace/render/view.h"
+#include "halfspace/render/warnings.h"
 #include "halfspace/scene/description.h"
 #include "halfspace/shading/colored_primitives.h"
 #include "halfspace/shading/environment_sky.h"
@@ -139,11 +139,11 @@ class SceneAssets {
  public:
   /// warn: called with one line for each problem that does not prevent rendering, such as a missing texture of a model.
   explicit SceneAssets(const Workers& workers, std::function<void(const std::string&)> warn = {})
-      : workers_(workers), warn_(std::move(warn)) {}
+      : workers_(workers), warnings_(std::move(warn)) {}
 
   /// Shares the assets of `other`. Both can then be used by different threads. Frames that were announced to `other` are ignored.
   SceneAssets(const SceneAssets& other, const Workers& workers, std::function<void(const std::string&)> warn)
-      : workers_(workers), warn_(std::move(warn)), cache_(other.cache_) {}
+      : workers_(workers), warnings_(std::move(warn)), cache_(other.cache_) {}
 
   /// Provides the contents of a model file that has already been read, so that `prepare` does not read it again.
   void add_model(const std::filesystem::path& file, std::shared_ptr<const ModelAsset> model);
@@ -161,21 +161,10 @@ class SceneAssets {
   PreparedScene prepare(const SceneDescription& scene, int width, int height);
 
  private:
-  friend class ScenePreparation;
-  void warn(const std::string& problem) const {
-    if (warn_) warn_(problem);
-  }
-  void warn_once(const std::string& problem) {
-    if (warned_.insert(problem).second) warn(problem);
-  }
-  void warn_of(const std::filesystem::path& file, const ModelAsset& model) const;
-
   const Workers& workers_;
-  std::function<void(const std::string&)> warn_;
-  std::set<std::string> warned_;
+  Warnings warnings_;
   AssetCache cache_;
-  std::map<std::string, int> widths_;       ///< minimum widths of generated maps, by object name
-  int panorama_width_ = 0, face_size_ = 0;  ///< minimum sizes of generated environments
+  MinimumSizes minimum_;
 };
 
 /// Renders only the color of a frame. See render_frame() in render/frame.h for the meaning of the images and for other values.

@@ -7,15 +7,11 @@
 #include <string>
 #include <utility>
 
+#include "halfspace/render/minimum_sizes.h"
 #include "halfspace/render/scene_maps.h"
 #include "halfspace/shading/environment_light.h"
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
-
-// Minimum sizes of generated environments, in texels.
-struct EnvironmentSizes {
-  int panorama_width = 0, face = 0;
-};
 
 class SceneEnvironments {
  public:

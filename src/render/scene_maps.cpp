@@ -12,8 +12,9 @@
 #include "halfspace/geometry/displaced_sphere.h"
 #include "halfspace/image/image_io.h"
 #include "halfspace/procedural/earth.h"
-#include "halfspace/render/preparation.h"
+#include "halfspace/render/scene_places.h"
 #include "halfspace/render/shadow/shadow_views.h"
+#include "halfspace/render/shape_mesh.h"
 #include "halfspace/scene/shapes.h"
 
 namespace halfspace::inline HS_LANES_NAMESPACE {

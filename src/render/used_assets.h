@@ -5,6 +5,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "halfspace/core/resource_limits.h"
@@ -43,8 +44,9 @@ auto read_for(const std::string& key, F read) {
 // The assets that a prepared scene uses. They are kept alive with it.
 class UsedAssets {
  public:
-  UsedAssets(AssetCache& cache, std::vector<std::shared_ptr<const void>>& used) : cache_(cache), used_(used) {}
+  explicit UsedAssets(AssetCache& cache) : cache_(cache) {}
 
+  bool contains(const std::string& recipe) const { return cache_.contains(recipe); }
   // Returns the asset with this recipe, or null if it does not exist yet.
   template <class T>
   std::shared_ptr<const T> existing(const std::string& recipe) {
@@ -60,10 +62,12 @@ class UsedAssets {
   }
   // Adds an asset that is not in the cache.
   void keep(std::shared_ptr<const void> asset) { used_.push_back(std::move(asset)); }
+  // Returns everything that was used, and forgets it.
+  std::vector<std::shared_ptr<const void>> take() { return std::exchange(used_, {}); }
 
  private:
   AssetCache& cache_;
-  std::vector<std::shared_ptr<const void>>& used_;
+  std::vector<std::shared_ptr<const void>> used_;
 };
 
 }  // namespace halfspace::inline HS_LANES_NAMESPACE

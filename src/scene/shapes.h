@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The properties of each shape that do not require its mesh, as a table with one row per shape. prepare_meshes.cpp creates the meshes.
+// The properties of each shape that do not require its mesh, as a table with one row per shape. render/shape_mesh.cpp creates the meshes.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Choice of the cheapest sufficiently accurate model (SceneAssets::fit, render/model/prepare_models.cpp).
+// Choice of the cheapest sufficiently accurate model (SceneAssets::fit, render/model/model_chooser.h).
 #pragma once
 
 #include <optional>

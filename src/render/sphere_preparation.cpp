@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-//
-// Spheres drawn as points, many per draw call: the scene's particles and objects of shape `sphere`.
-#include "halfspace/render/particles.h"
-#include "halfspace/render/preparation.h"
+#include "halfspace/render/sphere_preparation.h"
+
+#include "halfspace/render/scene_particles.h"
+#include "halfspace/render/scene_places.h"
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
 
@@ -37,44 +37,63 @@ SphereIntersection intersection_of(const CameraDescription& c, const View& view)
 
 }  // namespace
 
-SphereImpostors ScenePreparation::sphere_impostors(bool receives_shadow) const {
+SphereImpostors SpherePreparation::impostors(bool receives_shadow) const {
   if (!view_.symmetric)
     throw InputError("camera: exact spheres need a symmetric view; expected a camera without skew and with a centered view axis");
   SphereImpostors s;
   s.lens = intersection_of(camera_of(scene_), view_);
   s.world_from_camera = glm::mat3(glm::dmat3(view_.right_ws, view_.up_ws, view_.forward_ws));
   s.to_eye_ws = glm::vec3(view_.to_eye_ws);
-  s.lights = receives_shadow ? lights_ : shadowless_lights_;
+  s.lights = lights_.of_surface(receives_shadow);
   return s;
 }
 
-void ScenePreparation::draw_spheres(int object, const Particles& spheres, const glm::dvec3& color, const SceneShader& shader) {
+void SpherePreparation::draw(int object, const Particles& spheres, const glm::dvec3& color, const SceneShader& shader) {
   const auto rows = std::make_shared<const SphereRows>(rows_of(spheres, view_, color));
-  out_.assets.push_back(rows);
-  out_.draws.push_back({shader,
-                        make_vertex_view(stream(rows->centers_cs), stream(rows->radii), stream(rows->colors)),
-                        std::make_shared<const Indices>(Indices::sequential(rows->radii.size())),
-                        sprite_state(),
-                        {.object = object}});
+  used_.keep(rows);
+  draws_.opaque.push_back({shader,
+                           make_vertex_view(stream(rows->centers_cs), stream(rows->radii), stream(rows->colors)),
+                           std::make_shared<const Indices>(Indices::sequential(rows->radii.size())),
+                           sprite_state(),
+                           {.object = object}});
 }
 
-void ScenePreparation::add_exact_spheres(int object, const std::string& path, const ObjectDescription& o) {
+void SpherePreparation::add(int object, const std::string& path, const ObjectDescription& o) {
   const auto spheres = std::make_shared<Particles>();
   for (const glm::dmat4& world : places_of(scene_, o)) {
     spheres->centers_ws.emplace_back(world[3]);
     spheres->radii.push_back(static_cast<float>(o.radius * glm::length(glm::dvec3(world[0]))));
     spheres->colors.emplace_back(1.0f);
   }
-  const LitSurface surface = surface_of(o, path);
-  SphereImpostors s = sphere_impostors(o.receives_shadow);
+  const LitSurface surface = surfaces_.surface_of(o, path);
+  SphereImpostors s = impostors(o.receives_shadow);
   s.ambient = surface.factors[kAmbient].constant;
   s.diffuse = surface.factors[kDiffuse].constant;
   s.specular = surface.factors[kSpecular].constant;
   s.emissive = surface.factors[kEmissive].constant;
   s.shininess = surface.factors[kShininess].constant.x;
   s.model = surface.model;
-  draw_spheres(object, *spheres, glm::dvec3(surface.factors[kColor].constant), SphereImpostor<true>{s});
-  out_.spheres.push_back({spheres, o.casts_shadow, o.receives_shadow, object});
+  draw(object, *spheres, glm::dvec3(surface.factors[kColor].constant), SphereImpostor<true>{s});
+  draws_.spheres.push_back({spheres, o.casts_shadow, o.receives_shadow, object});
+}
+
+void SpherePreparation::add_particles(int object, const std::string& path, const ParticlesDescription& p) {
+  const std::shared_ptr<const Particles> particles = scene_particles(p, path, used_);
+  if (particles == nullptr) return;
+  const bool exact = p.sprite == ParticleSprite::exact;
+  SphereImpostors s = impostors(exact && p.receives_shadow);
+  s.point_scale = p.point_scale > 0.0 ? static_cast<float>(p.point_scale) : static_cast<float>(view_.width_px);
+  s.ambient = glm::vec3(p.ambient.linear * lights_.ambient());
+  s.diffuse = glm::vec3(p.diffuse.linear);
+  s.specular = glm::vec3(p.specular.linear);
+  s.shininess = static_cast<float>(p.shininess);
+  if (s.specular == glm::vec3(0.0f)) s.model = LightModel::lambert;
+  if (exact) {
+    draws_.spheres.push_back({particles, p.casts_shadow, p.receives_shadow});
+    draw(object, *particles, p.color.linear, SphereImpostor<true>{s});
+  } else {
+    draw(object, *particles, p.color.linear, SphereImpostor<false>{s});
+  }
 }
 
 }  // namespace halfspace::inline HS_LANES_NAMESPACE

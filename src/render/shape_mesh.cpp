@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-//
-// Meshes of the scene's objects.
-#include "halfspace/geometry/displaced_sphere.h"
+#include "halfspace/render/shape_mesh.h"
+
 #include "halfspace/geometry/shapes.h"
-#include "halfspace/render/preparation.h"
-#include "halfspace/scene/shapes.h"
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
 
@@ -55,35 +52,6 @@ MeshMaker maker_of(Shape shape) {
 
 MapEdges edges_of(Shape shape) { return maker_of(shape).edges; }
 
-// Returns a displaced uv_sphere. It does not use SurfaceMesh: rows are displaced in parallel, and per-pixel slopes match the
-// vertices.
-std::shared_ptr<const MeshAsset> ScenePreparation::sphere_of(const ObjectDescription& o, const Relief& relief) {
-  const ReliefNormals normals = o.normals == NormalSource::undisplaced ? ReliefNormals::undisplaced : ReliefNormals::displaced;
-  const std::string words = recipe("displaced sphere", o.radius, o.latitudes, o.longitudes, relief.recipe, static_cast<int>(normals));
-  return used_.asset<MeshAsset>(words, [&] {
-    const HeightField filtered = relief.field->filtered(o.longitudes, assets_.workers_);
-    return MeshAsset(displaced_uv_sphere(o.latitudes, o.longitudes, static_cast<float>(o.radius), filtered, o.height_scale, o.height_zero,
-                                         assets_.workers_, normals));
-  });
-}
-
-std::shared_ptr<const MeshAsset> ScenePreparation::mesh_of(const ObjectDescription& o, const Relief& relief) {
-  if (o.shape == Shape::uv_sphere && relief.field != nullptr) return sphere_of(o, relief);
-  const std::string words = recipe("mesh", static_cast<int>(o.shape), o.radius, o.tube, o.length, o.size, o.latitudes, o.longitudes,
-                                   o.level, o.segments, o.tiles_u, o.tiles_v, relief.recipe);
-  const auto make = maker_of(o.shape).make;
-  return used_.asset<MeshAsset>(words, [&] {
-    Mesh mesh;
-    if (relief.field != nullptr) {
-      const HeightField filtered = relief.field->filtered(kind_of(o).columns(o), assets_.workers_);
-      const Displacement displacement{&filtered, o.height_scale, o.height_zero};
-      mesh = make(o, &displacement);
-    } else {
-      mesh = make(o, nullptr);
-    }
-    for (glm::vec2& uv : mesh.uvs) uv *= glm::vec2(o.tiles_u, o.tiles_v);
-    return MeshAsset(std::move(mesh));
-  });
-}
+Mesh shape_mesh(const ObjectDescription& o, const Displacement* displacement) { return maker_of(o.shape).make(o, displacement); }
 
 }  // namespace halfspace::inline HS_LANES_NAMESPACE

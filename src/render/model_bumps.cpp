@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-//
-// Bump maps of models, drawn as normal maps.
+#include "halfspace/render/model_bumps.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include "halfspace/core/resource_limits.h"
 #include "halfspace/geometry/height_slopes.h"
 #include "halfspace/image/image_io.h"
-#include "halfspace/render/preparation.h"
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
 
@@ -57,8 +56,8 @@ double uv_size(const ModelMesh& mesh, int set) {
 }  // namespace
 
 // The slopes depend on the size of the texture on the surface, which can differ at every point. The mean over the mesh is used instead.
-void ScenePreparation::add_bumps(MetallicMaterial& surface, const ObjectDescription& o, const Model& model, int mesh,
-                                 const ModelMaterial& material) {
+void add_bumps(MetallicMaterial& surface, const ObjectDescription& o, const Model& model, int mesh, const ModelMaterial& material,
+               UsedAssets& used, Warnings& warnings) {
   const TextureUse& use = material.bump_map;
   const ModelMesh& m = model.meshes[static_cast<std::size_t>(mesh)];
   const ModelTexture& texture = model.textures[static_cast<std::size_t>(use.texture)];
@@ -66,13 +65,13 @@ void ScenePreparation::add_bumps(MetallicMaterial& surface, const ObjectDescript
   const ModelImage& image = model.images[static_cast<std::size_t>(texture.image)];
   if (image.file.empty() && image.bytes == nullptr && image.pixels == nullptr) return;
   const std::string file = o.file.path.string();
-  const double size = *used_.asset<double>(recipe("model uv size", file, mesh, use.uv_set), [&] { return uv_size(m, use.uv_set); });
+  const double size = *used.asset<double>(recipe("model uv size", file, mesh, use.uv_set), [&] { return uv_size(m, use.uv_set); });
   const glm::vec2 u = use.uv_transform[0], v = use.uv_transform[1];
   const double map_scale = std::sqrt(std::fabs(double{u.x} * v.y - double{u.y} * v.x));
   if (size == 0.0) return;
   try {
     const Sampler& sampler = texture.sampler;
-    const auto bumps = used_.asset<ModelBumps>(
+    const auto bumps = used.asset<ModelBumps>(
         recipe("model bumps", file, texture.image, static_cast<int>(sampler.wrap_s), static_cast<int>(sampler.wrap_t)),
         [&] { return bumps_of(heights_of(image), sampler); });
     PlacedMap& map = surface.maps[kNormalMap];
@@ -84,7 +83,7 @@ void ScenePreparation::add_bumps(MetallicMaterial& surface, const ObjectDescript
   } catch (const LimitError&) {
     throw;
   } catch (const InputError& e) {  // drawn without it
-    assets_.warn_once(file + ": " + e.what());
+    warnings.warn_once(file + ": " + e.what());
   }
 }
 

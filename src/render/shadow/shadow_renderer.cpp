@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-//
-// Shadow maps. For each light that casts shadows, finds views that cover the visible receivers, renders the depth of the casters
-// into each view, and stores the result in Light::shadow.
+#include "halfspace/render/shadow/shadow_renderer.h"
+
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <deque>
 
 #include "halfspace/core/resource_limits.h"
 #include "halfspace/core/trig_double.h"
 #include "halfspace/core/units.h"
-#include "halfspace/render/preparation.h"
 #include "halfspace/render/shadow/moment_map.h"
 #include "halfspace/render/shadow/shadow_fit.h"
 #include "halfspace/render/sphere_camera.h"
@@ -156,51 +153,43 @@ double footprint_of(const std::vector<ShadowView>& views, const std::vector<Visi
 
 }  // namespace
 
-std::vector<LightView> ScenePreparation::shadow_views(const LightDescription& light, const ShadowSettings& settings, int size) const {
+std::vector<LightView> ShadowRenderer::views(const LightDescription& light, const ShadowSettings& settings, int size) const {
   // Half a texel is added to the reach of the filter, so that rounding cannot push a point on the edge between two faces out of
   // both.
-  return fitted_views(view_, out_.meshes, out_.spheres, light, scene_.shadow, size, static_cast<double>(filter_reach(settings)) + 0.5);
+  return fitted_views(view_, meshes_, spheres_, light, shadow_, size, static_cast<double>(filter_reach(settings)) + 0.5);
 }
 
-int ScenePreparation::shadow_resolution(const LightDescription& light, const ShadowSettings& settings) const {
-  if (scene_.shadow.resolution != 0) return scene_.shadow.resolution;
-  const std::vector<VisiblePoint> places = visible_points(view_, {out_.meshes, out_.spheres}, assets_.workers_);
+int ShadowRenderer::resolution(const LightDescription& light, const ShadowSettings& settings) const {
+  if (shadow_.resolution != 0) return shadow_.resolution;
+  const std::vector<VisiblePoint> places = visible_points(view_, {meshes_, spheres_}, workers_);
   int size = 256;
   for (; size < kMaxShadowTexels; size *= 2) {
-    std::vector<ShadowView> views;
-    for (const LightView& view : shadow_views(light, settings, size)) views.push_back(to_shading(view, size, view_.eye_ws));
-    if (footprint_of(views, places, filter_reach(settings)) <= scene_.shadow.footprint) break;
+    std::vector<ShadowView> seen;
+    for (const LightView& view : views(light, settings, size)) seen.push_back(to_shading(view, size, view_.eye_ws));
+    if (footprint_of(seen, places, filter_reach(settings)) <= shadow_.footprint) break;
   }
   return size;
 }
 
-void ScenePreparation::add_shadows() {
-  const ShadowDescription& d = scene_.shadow;
-  if (d.method == ShadowMethod::none) return;
-  for (std::size_t i = 0; i < out_.lights.size(); ++i) {
-    const LightDescription& l = out_.lights[i].description;
-    if (!l.shadow) continue;
-    const auto start = std::chrono::steady_clock::now();
-    Shadow& shadow = shadows_[i];
-    shadow.settings = settings_of(d, l);
-    const int size = shadow_resolution(l, shadow.settings);
-    const std::vector<LightView> views = shadow_views(l, shadow.settings, size);
-    const MemoryClaim claim(map_bytes(views.size(), size, shadow.settings.filter), "lights." + out_.lights[i].name + " (shadow maps)");
-    const auto maps = std::make_shared<ShadowMaps>();
-    for (const LightView& view : views) {
-      maps->views.push_back(to_shading(view, size, view_.eye_ws));
-      ShadowView& s = maps->views.back();
-      Image<float>& depth = maps->depths.emplace_back(size, size);
-      out_.shadow_statistics +=
-          draw_depth(view.clip_from_world, view.near, view.far, {out_.meshes, out_.spheres}, true, d.faces, depth, assets_.workers_);
-      s.depth = depth.data();
-      if (!is_moment_filter(shadow.settings.filter)) continue;
-      s.moments = maps->moments.emplace_back(filtered_moments(s, depth, static_cast<int>(std::lround(d.radius)), assets_.workers_)).data();
-    }
-    shadow.views = maps->views;
-    out_.assets.push_back(maps);
-    out_.lights[i].map_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+RenderedShadow ShadowRenderer::render(const std::string& name, const LightDescription& light) const {
+  RenderedShadow out;
+  const ShadowSettings settings = settings_of(shadow_, light);
+  const int size = resolution(light, settings);
+  const std::vector<LightView> light_views = views(light, settings, size);
+  const MemoryClaim claim(map_bytes(light_views.size(), size, settings.filter), "lights." + name + " (shadow maps)");
+  const auto maps = std::make_shared<ShadowMaps>();
+  for (const LightView& view : light_views) {
+    maps->views.push_back(to_shading(view, size, view_.eye_ws));
+    ShadowView& s = maps->views.back();
+    Image<float>& depth = maps->depths.emplace_back(size, size);
+    out.statistics += draw_depth(view.clip_from_world, view.near, view.far, {meshes_, spheres_}, true, shadow_.faces, depth, workers_);
+    s.depth = depth.data();
+    if (!is_moment_filter(settings.filter)) continue;
+    s.moments = maps->moments.emplace_back(filtered_moments(s, depth, static_cast<int>(std::lround(shadow_.radius)), workers_)).data();
   }
+  out.shadow = {maps->views, settings};
+  out.maps = maps;
+  return out;
 }
 
 }  // namespace halfspace::inline HS_LANES_NAMESPACE

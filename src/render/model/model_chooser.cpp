@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Chooses the cheapest models whose image differs from the image of the finest models by at most the allowed error. The result is the scene
-// with adjusted mesh resolutions, maps, filters and sample counts, and the reasons for the changes. Constants are fitted to the
-// measurements in docs/results/accuracy.md; nothing is timed.
+// Constants are fitted to the measurements in docs/results/accuracy.md; nothing is timed.
+#include "halfspace/render/model/model_chooser.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,9 +10,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "halfspace/core/float_mode.h"
-#include "halfspace/render/particles.h"
-#include "halfspace/render/preparation.h"
+#include "halfspace/render/scene_particles.h"
+#include "halfspace/render/scene_places.h"
 #include "halfspace/scene/lights.h"
 #include "halfspace/scene/scene_check.h"
 #include "halfspace/scene/shapes.h"
@@ -119,17 +118,17 @@ Presence presence_of(const SceneDescription& scene, const ObjectDescription& o, 
 
 }  // namespace
 
-std::shared_ptr<const ReliefDetail> ScenePreparation::relief_detail(const ObjectDescription& o, const std::string& path) {
+std::shared_ptr<const ReliefDetail> ModelChooser::relief_detail(const ObjectDescription& o, const std::string& path) {
   if (!is_map(o.height)) return nullptr;
   const MapUse use = maps_.use_of(o.height, o);
   return used_.asset<ReliefDetail>(
       recipe("detail", static_cast<int>(use.texture.source), use.texture.file.path.string(), use.width, o.height_smoothing),
-      [&] { return ReliefDetail(*maps_.heights(use, path + ".height"), o.height_smoothing, assets_.workers_); });
+      [&] { return ReliefDetail(*maps_.heights(use, path + ".height"), o.height_smoothing, workers_); });
 }
 
 // `authored` must be an element of the scene's objects, because width_for finds it by its address.
-ObjectDescription ScenePreparation::fitted(const ObjectDescription& authored, const std::string& path, double edge_px,
-                                           std::optional<double> color, std::vector<ModelChoice>& choices) {
+ObjectDescription ModelChooser::fitted(const ObjectDescription& authored, const std::string& path, double edge_px,
+                                       std::optional<double> color, std::vector<ModelChoice>& choices) {
   if (authored.shape == Shape::file) {
     choices.push_back({path + ".file", authored.file.path.filename().string(), "the meshes of a file are left unchanged", false});
     return authored;
@@ -259,7 +258,7 @@ void fit_post(PostDescription& post, double color, std::vector<ModelChoice>& cho
 
 }  // namespace
 
-FittedScene ScenePreparation::fit(const AllowedError& allowed) {
+FittedScene ModelChooser::fit(const AllowedError& allowed) {
   FittedScene out{scene_, {}};
   SceneDescription& scene = out.scene;
   if (allowed.edge_px) fit_samples(scene.head, *allowed.edge_px, out.choices);
@@ -270,7 +269,8 @@ FittedScene ScenePreparation::fit(const AllowedError& allowed) {
   }
   fit_shadow(scene.shadow, edge_px, out.choices);
   const auto fit_system = [&](ParticlesDescription& p, const std::string& path) {
-    if (const auto spheres = particles(p, path)) fit_particles(p, path, original_error_px(view_, *spheres), edge_px, out.choices);
+    if (const auto spheres = scene_particles(p, path, used_))
+      fit_particles(p, path, original_error_px(view_, *spheres), edge_px, out.choices);
   };
   fit_system(scene.particles, "particles");
   for (auto& [name, p] : scene.particle_systems) fit_system(p, "particle_systems." + name);
@@ -280,11 +280,6 @@ FittedScene ScenePreparation::fit(const AllowedError& allowed) {
   }
   check_mesh_limits(scene.objects, "the cheapest model");  // thousands of copies of a fine mesh may exceed the limit
   return out;
-}
-
-FittedScene SceneAssets::fit(const SceneDescription& scene, int width, int height, const AllowedError& allowed) {
-  const FloatMode float_mode;
-  return ScenePreparation(*this, scene, width, height).fit(allowed);
 }
 
 }  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-//
-// Materials of model files: their images, and the uniforms of the shader.
-#include <algorithm>
+#include "halfspace/render/model_materials.h"
+
 #include <chrono>
 #include <optional>
 #include <set>
@@ -9,7 +8,7 @@
 #include "halfspace/core/resource_limits.h"
 #include "halfspace/image/image_io.h"
 #include "halfspace/render/converted_images.h"
-#include "halfspace/render/preparation.h"
+#include "halfspace/render/model_bumps.h"
 #include "halfspace/render/soft_mask.h"
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
@@ -56,10 +55,9 @@ bool are_converted_together(const ModelImage& a, const ModelImage& b) {
   return a.converted && b.converted && a.converted->same_sources(*b.converted);
 }
 
-}  // namespace
-
 // Returns the images that the materials of a posed model use and that are not yet loaded, and for each, whether it is a color map.
-std::vector<std::pair<int, bool>> ScenePreparation::wanted_images(const ObjectDescription& o, const Model& model, const PosedModel& posed) {
+std::vector<std::pair<int, bool>> wanted_images(const ObjectDescription& o, const Model& model, const PosedModel& posed,
+                                                const UsedAssets& used) {
   std::set<std::pair<int, bool>> wanted;
   for (const PosedMesh& part : posed.meshes) {
     if (part.material < 0) continue;
@@ -67,15 +65,17 @@ std::vector<std::pair<int, bool>> ScenePreparation::wanted_images(const ObjectDe
     for (std::size_t i = 0; i < uses.size(); ++i) {
       if (uses[i]->texture < 0) continue;
       const int image = model.textures[static_cast<std::size_t>(uses[i]->texture)].image;
-      if (image >= 0 && !assets_.cache_.contains(image_recipe(o.file.path, image, is_color(i)))) wanted.emplace(image, is_color(i));
+      if (image >= 0 && !used.contains(image_recipe(o.file.path, image, is_color(i)))) wanted.emplace(image, is_color(i));
     }
   }
   return {wanted.begin(), wanted.end()};
 }
 
-// Decodes these images in parallel. If `lit`, filters the environment at the same time, because a few images do not keep all threads busy.
-void ScenePreparation::load_images(const ObjectDescription& o, const Model& model, const std::vector<std::pair<int, bool>>& list,
-                                   bool lit) {
+}  // namespace
+
+// If `lit`, filters the environment at the same time, because a few images do not keep all threads busy.
+void ModelMaterials::load_images(const ObjectDescription& o, const Model& model, const PosedModel& posed, bool lit) {
+  const std::vector<std::pair<int, bool>> list = wanted_images(o, model, posed, used_);
   if (list.empty()) return;
   const auto start = std::chrono::steady_clock::now();
   std::vector<std::optional<Texture2D>> textures(list.size());
@@ -84,11 +84,11 @@ void ScenePreparation::load_images(const ObjectDescription& o, const Model& mode
   // Converts all consecutive images that are results of the same conversion.
   const auto convert = [&](std::size_t first) {
     if (first > 0 && are_converted_together(image_at(first - 1), image_at(first))) return;
-    const ConvertedImages images = converted_images(model, *image_at(first).converted, o.file.path.string(), assets_.workers_);
+    const ConvertedImages images = converted_images(model, *image_at(first).converted, o.file.path.string(), workers_);
     for (const std::string& problem : images.problems) problems[first] += (problems[first].empty() ? "" : "; ") + problem;
     for (std::size_t i = first; i < list.size() && are_converted_together(image_at(first), image_at(i)); ++i) {
       const bool is_color = image_at(i).converted->result == SpecularGlossiness::Result::base_color;
-      textures[i].emplace(texture_of(is_color ? images.base_color : images.metallic_roughness, list[i].second, assets_.workers_));
+      textures[i].emplace(texture_of(is_color ? images.base_color : images.metallic_roughness, list[i].second, workers_));
     }
   };
   const auto load = [&](std::size_t i) {
@@ -97,14 +97,14 @@ void ScenePreparation::load_images(const ObjectDescription& o, const Model& mode
     if (source.converted) return convert(i);
     if (source.file.empty() && source.bytes == nullptr && source.pixels == nullptr) return;  // the reader has already warned
     try {
-      textures[i].emplace(decoded(o.file.path, source, color, assets_.workers_));
+      textures[i].emplace(decoded(o.file.path, source, color, workers_));
     } catch (const LimitError&) {
       throw;
     } catch (const InputError& e) {  // the material is drawn without it
       problems[i] = e.what();
     }
   };
-  assets_.workers_.for_each(static_cast<int>(list.size()) + 1, [&](int i) {
+  workers_.for_each(static_cast<int>(list.size()) + 1, [&](int i) {
     if (i > 0) {
       load(static_cast<std::size_t>(i - 1));
     } else if (lit) {
@@ -112,20 +112,20 @@ void ScenePreparation::load_images(const ObjectDescription& o, const Model& mode
     }
   });
   for (std::size_t i = 0; i < list.size(); ++i) {
-    if (!problems[i].empty()) assets_.warn_once(problems[i]);
+    if (!problems[i].empty()) warnings_.warn_once(problems[i]);
     if (textures[i])
       used_.asset<Texture2D>(image_recipe(o.file.path, list[i].first, list[i].second), [&] { return std::move(*textures[i]); });
   }
-  out_.images_ms += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  images_ms_ += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
 // Returns a texture that load_images has loaded, or null if there is no such image.
-const Texture2D* ScenePreparation::model_texture(const std::filesystem::path& file, int image, bool color) {
+const Texture2D* ModelMaterials::model_texture(const std::filesystem::path& file, int image, bool color) {
   return used_.existing<Texture2D>(image_recipe(file, image, color)).get();
 }
 
 // Returns true if a mask is only a guess and its map has so many values between 0 and 1 that the surface must be blended.
-bool ScenePreparation::is_soft_mask(const ObjectDescription& o, const Model& model, const ModelMaterial& m) {
+bool ModelMaterials::is_soft_mask(const ObjectDescription& o, const Model& model, const ModelMaterial& m) {
   if (!m.mask_unless_soft || m.alpha_mode != AlphaMode::mask) return false;
   const bool separate = m.opacity_map.texture >= 0;
   const int texture = separate ? m.opacity_map.texture : m.base_color_map.texture;
@@ -140,11 +140,11 @@ bool ScenePreparation::is_soft_mask(const ObjectDescription& o, const Model& mod
   });
 }
 
-MetallicMaterial ScenePreparation::metallic_material(const ObjectDescription& o, const Model& model, const ModelMaterial& m, bool has_uvs) {
+MetallicMaterial ModelMaterials::metallic_material(const ObjectDescription& o, const Model& model, const ModelMaterial& m, bool has_uvs) {
   MetallicMaterial out;
   out.to_eye_ws = glm::vec3(view_.to_eye_ws);
-  out.lights = o.receives_shadow ? lights_ : shadowless_lights_;
-  out.shadowed = o.receives_shadow && std::ranges::any_of(lights_, [](const Light& l) { return l.shadow != nullptr; });
+  out.lights = lights_.of_surface(o.receives_shadow);
+  out.shadowed = lights_.have_shadow(o.receives_shadow);
   out.two_sided = m.double_sided;
   out.base_color = m.base_color;
   out.metallic = m.metallic;
@@ -159,7 +159,7 @@ MetallicMaterial ScenePreparation::metallic_material(const ObjectDescription& o,
   out.clearcoat_normal_scale = m.clearcoat_normal_scale;
   out.occlusion_strength = m.occlusion_strength;
   out.emissive = m.emissive;
-  out.ambient = glm::vec3(ambient_);
+  out.ambient = glm::vec3(lights_.ambient());
   out.alpha_cutoff = m.alpha_cutoff;
   out.unlit = m.unlit;
   out.blends = m.alpha_mode == AlphaMode::blend || (has_uvs && is_soft_mask(o, model, m));
@@ -186,6 +186,13 @@ MetallicMaterial ScenePreparation::metallic_material(const ObjectDescription& o,
     previous_texture = use.texture;
   }
   return out;
+}
+
+MetallicMaterial ModelMaterials::surface_of(const ObjectDescription& o, const Model& model, int mesh, const ModelMaterial& m,
+                                            bool has_uvs) {
+  MetallicMaterial surface = metallic_material(o, model, m, has_uvs);
+  if (m.bump_map.texture >= 0 && m.normal_map.texture < 0) add_bumps(surface, o, model, mesh, m, used_, warnings_);
+  return surface;
 }
 
 }  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -1,33 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-//
-// Objects of shape `file`: model files with their own meshes and materials.
-#include <fmt/format.h>
+#include "halfspace/render/model_preparation.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <span>
 
 #include "halfspace/core/resource_limits.h"
-#include "halfspace/core/text.h"
-#include "halfspace/model/pose.h"
-#include "halfspace/model/tangents.h"
-#include "halfspace/render/model_asset.h"
-#include "halfspace/render/preparation.h"
+#include "halfspace/render/scene_background.h"
+#include "halfspace/render/scene_places.h"
 #include "halfspace/render/wireframe.h"
 #include "halfspace/scene/material_overrides.h"
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
-
-// Returns a use of a map that needs tangents, or null.
-const TextureUse* tangent_map(const ModelMaterial& m) {
-  for (const TextureUse* use : {&m.normal_map, &m.bump_map, &m.clearcoat_normal_map}) {
-    if (use->texture >= 0) return use;
-  }
-  return nullptr;
-}
 
 // Neutral values for the streams that a mesh lacks.
 struct NeutralStreams {
@@ -96,26 +82,6 @@ PreparedDraw draw_of(const MetallicMaterial& m, MetallicStreams variant, bool ma
   return (masked ? draw_of<MetallicStreams::full, true> : draw_of<MetallicStreams::full, false>)(m, s, indices, state);
 }
 
-// Returns the index of the item with that name or, if none has it, at that index. Returns −1 if the name is empty. `what`: the plural of
-// the item.
-template <class T, class Name>
-int index_of(const std::vector<T>& list, const std::string& name, const Name& name_of, const std::string& where, const char* what) {
-  if (name.empty()) return -1;
-  std::vector<std::string_view> names;
-  for (std::size_t i = 0; i < list.size(); ++i) {
-    if (name_of(list[i]) == name) return static_cast<int>(i);
-    if (!name_of(list[i]).empty()) names.push_back(name_of(list[i]));
-  }
-  if (list.empty()) throw InputError(fmt::format("{} is '{}', but the file has no {}; expected none", where, name, what));
-  int index = -1;
-  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), index);
-  if (error == std::errc() && end == name.data() + name.size() && index >= 0 && index < static_cast<int>(list.size())) return index;
-  const std::string expected = names.empty()
-                                   ? fmt::format("; expected an index from 0 to {}, because its {} have no names", list.size() - 1, what)
-                                   : suggestion(name, names);
-  throw InputError(fmt::format("{}: the file has no '{}'{}", where, name, expected));
-}
-
 // Returns the additional rotation for an object whose up_axis differs from the up axis of the model, which pose() already applies.
 glm::dmat4 turn_of(const ObjectDescription& o, const Model& model) {
   glm::dmat4 turn(1.0);
@@ -129,37 +95,19 @@ glm::dmat4 turn_of(const ObjectDescription& o, const Model& model) {
 
 }  // namespace
 
-PoseOptions pose_options(const Model& model, const ObjectDescription& o, const std::string& path) {
-  const auto own_name = [](const auto& item) -> const std::string& { return item.name; };
-  PoseOptions options;
-  options.scene = index_of(model.scenes, o.model_scene, own_name, path + ".model_scene", "scenes");
-  options.animation = index_of(model.animations, o.model_animation, own_name, path + ".model_animation", "animations");
-  options.variant = index_of(
-      model.variants, o.model_variant, [](const std::string& name) -> const std::string& { return name; }, path + ".model_variant",
-      "variants");
-  options.time = o.model_time;
-  return options;
+std::string model_recipe(const std::filesystem::path& file, bool allow_outside) {
+  return recipe("model", file.string(), allow_outside ? "with outside files" : "");
 }
 
-ModelAsset::ModelAsset(Model m, bool outside_allowed) : model(std::move(m)), allow_outside(outside_allowed) {
-  for (ModelMesh& mesh : model.meshes) {
-    if (mesh.material >= 0 && mesh.tangents.empty() && mesh.topology == MeshTopology::triangles) {
-      const TextureUse* use = tangent_map(model.materials[static_cast<std::size_t>(mesh.material)]);
-      if (use != nullptr && !mesh.uvs[static_cast<std::size_t>(use->uv_set)].empty()) add_tangents(mesh, use->uv_set);
-    }
-    if (mesh.indices.empty()) {
-      indices.push_back(Indices::sequential(mesh.positions.size()));
-    } else {
-      indices.emplace_back(mesh.indices, mesh.positions.size());
-    }
-  }
+void warn_of(const std::filesystem::path& file, const Model& model, const Warnings& warnings) {
+  for (const std::string& warning : model.warnings) warnings.warn(file.string() + ": " + warning);
 }
 
-std::shared_ptr<const ModelAsset> ScenePreparation::model_asset(const ObjectDescription& o, const std::string& where) {
+std::shared_ptr<const ModelAsset> ModelPreparation::model_asset(const ObjectDescription& o, const std::string& where) {
   return used_.asset<ModelAsset>(model_recipe(o.file.path, o.allow_outside), [&] {
     ModelAsset model =
         read_for(where + ".file", [&] { return ModelAsset(read_model(o.file.path, {.allow_outside = o.allow_outside}), o.allow_outside); });
-    assets_.warn_of(o.file.path, model);
+    warn_of(o.file.path, model.model, warnings_);
     return model;
   });
 }
@@ -198,30 +146,30 @@ uint64_t primitive_count(const ModelAsset& asset, const PosedModel& posed) {
 
 }  // namespace
 
-void ScenePreparation::add_model(int object, const std::string& path, const ObjectDescription& o) {
+void ModelPreparation::add(int object, const std::string& path, const ObjectDescription& o) {
   const std::shared_ptr<const ModelAsset> model = model_asset(o, path);
   PoseOptions options = pose_options(model->model, o, path);
   options.bounds = false;
   const auto posed = std::make_shared<const PosedModel>(pose(model->model, options));
-  out_.assets.push_back(posed);
+  used_.keep(posed);
   const auto places = places_of(scene_, o);
   check_primitive_limit(primitive_count(*model, *posed) * std::size(places), o.file.path.string());
   const glm::dmat4 turn = turn_of(o, model->model);
   const bool lit = std::ranges::any_of(posed->meshes, [&](const PosedMesh& part) { return is_lit(scene_, o, model->model, part); });
-  load_images(o, model->model, wanted_images(o, model->model, *posed), lit);
+  materials_.load_images(o, model->model, *posed, lit);
   int instance = 0;
   for (const glm::dmat4& place : places) {
     for (const PosedMesh& part : posed->meshes) {
-      const std::size_t opaque = out_.draws.size(), blended = blended_.size();
+      const std::size_t opaque = draws_.opaque.size(), blended = draws_.blended.size();
       add_part(object, o, path, model, part, place * turn * part.world_from_mesh);
-      for (PreparedDraw& draw : std::span(out_.draws).subspan(opaque)) draw.source.instance = instance;
-      for (PreparedDraw& draw : std::span(blended_).subspan(blended)) draw.source.instance = instance;
+      for (PreparedDraw& draw : std::span(draws_.opaque).subspan(opaque)) draw.source.instance = instance;
+      for (PreparedDraw& draw : std::span(draws_.blended).subspan(blended)) draw.source.instance = instance;
       ++instance;
     }
   }
 }
 
-void ScenePreparation::add_part(int object, const ObjectDescription& o, const std::string& path,
+void ModelPreparation::add_part(int object, const ObjectDescription& o, const std::string& path,
                                 const std::shared_ptr<const ModelAsset>& model, const PosedMesh& part, const glm::dmat4& world) {
   const auto mesh_index = static_cast<std::size_t>(part.mesh);
   const ModelMesh& mesh = part.deformed != nullptr ? *part.deformed : model->model.meshes[mesh_index];
@@ -236,12 +184,13 @@ void ScenePreparation::add_part(int object, const ObjectDescription& o, const st
   if (mesh.topology != MeshTopology::triangles) {
     const bool colored = !streams.colors.empty() || !material.is_default;
     if (streams.colors.empty()) streams.colors = neutral()->colors;
-    const ColoredPrimitives shader{glm::mat4(view_.clip_from_world * world), colored ? material.base_color : line_color(out_.clear_color)};
+    const ColoredPrimitives shader{glm::mat4(view_.clip_from_world * world),
+                                   colored ? material.base_color : line_color(background_color(scene_.background))};
     DrawState state = opaque_state(CullMode::none, false);
     state.point_size = point_size(model->indices[mesh_index].size(), view_.height_px);
     state.topology = mesh.topology == MeshTopology::points ? Topology::points : Topology::lines;
-    out_.draws.push_back({shader, make_vertex_view(stream(streams.positions), stream(streams.colors)), indices, state});
-    out_.draws.back().source = {object, 0, streams, world};
+    draws_.opaque.push_back({shader, make_vertex_view(stream(streams.positions), stream(streams.colors)), indices, state});
+    draws_.opaque.back().source = {object, 0, streams, world};
     return;
   }
   if (const SurfaceDescription* replacement = override_of(scene_, o, material.name); replacement != nullptr) {
@@ -250,10 +199,9 @@ void ScenePreparation::add_part(int object, const ObjectDescription& o, const st
     if (streams.uvs.empty()) streams.uvs = neutral()->uvs;
     return add_replaced_part(object, replaced, path, {streams.positions, streams.normals, streams.tangents, streams.uvs}, indices, world);
   }
-  MetallicMaterial surface = metallic_material(o, model->model, material, !streams.uvs.empty());
-  if (material.bump_map.texture >= 0 && material.normal_map.texture < 0) add_bumps(surface, o, model->model, part.mesh, material);
-  place(surface, world);
-  needs_light_ = needs_light_ || (!surface.unlit && surface.emissive == glm::vec3(0.0f));
+  MetallicMaterial surface = materials_.surface_of(o, model->model, part.mesh, material, !streams.uvs.empty());
+  place_surface(surface, view_, world);
+  draws_.needs_light = draws_.needs_light || (!surface.unlit && surface.emissive == glm::vec3(0.0f));
   const bool masked = material.alpha_mode == AlphaMode::mask && !surface.blends;
   MetallicStreams variant = variant_of(surface, streams);
   if (masked && !(variant >= MetallicStreams::mapped)) variant = MetallicStreams::full;
@@ -263,11 +211,11 @@ void ScenePreparation::add_part(int object, const ObjectDescription& o, const st
   if (surface.blends) {
     state.order_independent = true;
     state.depth.write = false;
-    blended_.push_back(draw_of(surface, variant, false, streams, indices, state));
-    blended_.back().source = {object, 0, streams, world};
+    draws_.blended.push_back(draw_of(surface, variant, false, streams, indices, state));
+    draws_.blended.back().source = {object, 0, streams, world};
   } else {
-    out_.draws.push_back(draw_of(surface, variant, masked, streams, indices, state));
-    out_.draws.back().source = {object, 0, streams, world};
+    draws_.opaque.push_back(draw_of(surface, variant, masked, streams, indices, state));
+    draws_.opaque.back().source = {object, 0, streams, world};
   }
   PlacedMesh placed{streams.positions, streams.normals, indices, world, material.double_sided, o.casts_shadow, o.receives_shadow, object};
   if (masked || surface.blends) {
@@ -279,47 +227,24 @@ void ScenePreparation::add_part(int object, const ObjectDescription& o, const st
     placed.uvs = uvs.empty() ? std::span<const glm::vec2>(neutral()->uvs) : uvs;
     placed.colors = mesh.colors;
   }
-  out_.meshes.push_back(placed);
+  draws_.meshes.push_back(placed);
 }
 
 // Draws a part of a model with the surface of a material of the scene.
-void ScenePreparation::add_replaced_part(int object, const ObjectDescription& o, const std::string& path, const SurfaceStreams& streams,
+void ModelPreparation::add_replaced_part(int object, const ObjectDescription& o, const std::string& path, const SurfaceStreams& streams,
                                          const std::shared_ptr<const Indices>& indices, const glm::dmat4& world) {
-  needs_light_ = needs_light_ || (o.surface.shading != ShadingRate::none && o.surface.emissive.linear == glm::dvec3(0.0));
-  LitSurface surface = surface_of(o, path);
-  NormalDetail detail = add_detail(surface, o, {}, path);
+  draws_.needs_light = draws_.needs_light || (o.surface.shading != ShadingRate::none && o.surface.emissive.linear == glm::dvec3(0.0));
+  LitSurface surface = surfaces_.surface_of(o, path);
+  NormalDetail detail = details_.add_detail(surface, o, {}, path);
   if (detail == NormalDetail::map && streams.tangents.empty()) {
-    assets_.warn_once(path + ": the model has no tangents, so its replaced materials are drawn without normal maps");
+    warnings_.warn_once(path + ": the model has no tangents, so its replaced materials are drawn without normal maps");
     detail = NormalDetail::none;
   }
-  place(surface, world);
-  out_.draws.push_back(surface_draw(surface, o.surface.shading, detail, streams, indices));
-  out_.draws.back().source = {object, 0, {streams.positions, streams.normals, streams.tangents, {}, streams.uvs, {}}, world};
-  out_.meshes.push_back({streams.positions, streams.normals, indices, world, surface.two_sided, o.casts_shadow, o.receives_shadow, object});
-}
-
-void ScenePreparation::add_shadow_catcher(const ObjectDescription& o, const MeshAsset& mesh, const std::shared_ptr<const Indices>& indices,
-                                          int object) {
-  ShadowCatcher catcher;
-  catcher.to_eye_ws = glm::vec3(view_.to_eye_ws);
-  catcher.lights = lights_;
-  catcher.inverse_radius = static_cast<float>(2.0 / o.size);
-  int copy = 0;
-  for (const glm::dmat4& world : places_of(scene_, o)) {
-    place(catcher, world);
-    DrawState state = opaque_state(CullMode::none, false);
-    state.order_independent = true;
-    state.depth.write = false;
-    blended_.push_back({catcher, make_vertex_view(stream(mesh.mesh.positions)), indices, state});
-    blended_.back().source = {object, copy++, {mesh.mesh.positions, mesh.mesh.normals, {}, {}, {}, {}}, world};
-    out_.meshes.push_back({mesh.mesh.positions, mesh.mesh.normals, indices, world, true, false, true, object});
-  }
-}
-
-// Blended surfaces are drawn after everything opaque.
-void ScenePreparation::add_blended() {
-  for (PreparedDraw& draw : blended_) out_.draws.push_back(std::move(draw));
-  blended_.clear();
+  place_surface(surface, view_, world);
+  draws_.opaque.push_back(surface_draw(surface, o.surface.shading, detail, streams, indices));
+  draws_.opaque.back().source = {object, 0, {streams.positions, streams.normals, streams.tangents, {}, streams.uvs, {}}, world};
+  draws_.meshes.push_back(
+      {streams.positions, streams.normals, indices, world, surface.two_sided, o.casts_shadow, o.receives_shadow, object});
 }
 
 }  // namespace halfspace::inline HS_LANES_NAMESPACE

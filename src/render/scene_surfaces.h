@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The appearance of objects that have a surface in the scene description.
+#pragma once
+
+#include <string>
+
+#include "halfspace/render/scene_environments.h"
+#include "halfspace/render/scene_lights.h"
+#include "halfspace/render/scene_maps.h"
+#include "halfspace/render/view.h"
+#include "halfspace/shading/lit_surface.h"
+
+namespace halfspace::inline HS_LANES_NAMESPACE {
+
+class SceneSurfaces {
+ public:
+  // Keeps references to all arguments.
+  SceneSurfaces(const View& view, const SceneLights& lights, SceneMaps& maps, SceneEnvironments& environments)
+      : view_(view), lights_(lights), maps_(maps), environments_(environments) {}
+
+  // Returns the surface of an object without its transforms and without a map for per-pixel normals. path: the path of the object, for
+  // error messages.
+  LitSurface surface_of(const ObjectDescription& o, const std::string& path);
+
+ private:
+  void add_factor(LitSurface& s, MaterialFactor factor, const glm::dvec3& constant, const MapValue& map, const ObjectDescription& o,
+                  const std::string& where);
+
+  const View& view_;
+  const SceneLights& lights_;
+  SceneMaps& maps_;
+  SceneEnvironments& environments_;
+};
+
+}  // namespace halfspace::inline HS_LANES_NAMESPACE
