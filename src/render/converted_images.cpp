@@ -13,11 +13,11 @@ namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
-using Picture = Image<glm::u8vec4>;
+using TexelImage = Image<glm::u8vec4>;
 
 // Returns the image of a texture, or one white texel if there is none or if it cannot be read.
-Picture source_picture(const Model& model, int texture, const std::string& place, std::vector<std::string>& problems) {
-  Picture white(1, 1);
+TexelImage source_picture(const Model& model, int texture, const std::string& place, std::vector<std::string>& problems) {
+  TexelImage white(1, 1);
   white.at(0, 0) = glm::u8vec4(255);
   if (texture < 0) return white;
   const int image = model.textures[static_cast<std::size_t>(texture)].image;
@@ -78,7 +78,7 @@ std::vector<std::vector<Tap>> taps_of(int from, int to, Wrap wrap, bool nearest)
 // A picture at another resolution with at least as many texels.
 class Resampled {
  public:
-  Resampled(const Picture& picture, const Sampler& sampler, int width, int height, const std::string& place)
+  Resampled(const TexelImage& picture, const Sampler& sampler, int width, int height, const std::string& place)
       : picture_(picture),
         across_(taps_of(picture.width(), width, sampler.wrap_s, sampler.mag == Filter::nearest)),
         down_(taps_of(picture.height(), height, sampler.wrap_t, sampler.mag == Filter::nearest)) {
@@ -114,7 +114,7 @@ class Resampled {
     return {kSrgbToLinear[t.x], kSrgbToLinear[t.y], kSrgbToLinear[t.z], static_cast<float>(t.w) / 255.0f};
   }
 
-  const Picture& picture_;
+  const TexelImage& picture_;
   std::vector<std::vector<Tap>> across_, down_;
   Image<glm::vec4> reduced_;
 };
@@ -131,13 +131,13 @@ const Sampler& sampler_of(const Model& model, int texture) {
 
 ConvertedImages converted_images(const Model& model, const SpecularGlossiness& source, const std::string& place, const Workers& workers) {
   ConvertedImages out;
-  const Picture diffuse = source_picture(model, source.diffuse_texture, place, out.problems);
-  const Picture specular = source_picture(model, source.specular_texture, place, out.problems);
+  const TexelImage diffuse = source_picture(model, source.diffuse_texture, place, out.problems);
+  const TexelImage specular = source_picture(model, source.specular_texture, place, out.problems);
   const bool diffuse_is_larger = diffuse.texels().size() >= specular.texels().size();
   const int width = (diffuse_is_larger ? diffuse : specular).width(), height = (diffuse_is_larger ? diffuse : specular).height();
   const MemoryClaim claim(uint64_t{2} * sizeof(glm::u8vec4) * static_cast<uint64_t>(width) * static_cast<uint64_t>(height), place);
-  out.base_color = Picture(width, height);
-  out.metallic_roughness = Picture(width, height);
+  out.base_color = TexelImage(width, height);
+  out.metallic_roughness = TexelImage(width, height);
   const Resampled diffuse_map(diffuse, sampler_of(model, source.diffuse_texture), width, height, place);
   const Resampled specular_map(specular, sampler_of(model, source.specular_texture), width, height, place);
   workers.for_each(height, [&](int y) {
