@@ -15,7 +15,7 @@
 #include "halfspace/model/model.h"
 #include "halfspace/model/pose.h"
 #include "halfspace/model/position_ids.h"
-#include "halfspace/model/write_model.h"
+#include "halfspace/model/used_images.h"
 
 namespace halfspace {
 

@@ -9,6 +9,7 @@
 
 #include "halfspace/core/trig_double.h"
 #include "halfspace/model/gltf_output.h"
+#include "halfspace/model/used_images.h"
 #include "halfspace/model/write_model.h"
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
@@ -184,20 +185,6 @@ class MaterialWriter {
 };
 
 }  // namespace
-
-std::vector<bool> used_images(const Model& model) {
-  std::vector<bool> used(model.images.size());
-  for (const ModelMaterial& m : model.materials) {
-    for (const TextureUse* use :
-         {&m.base_color_map, &m.opacity_map, &m.metallic_map, &m.roughness_map, &m.specular_map, &m.specular_color_map, &m.clearcoat_map,
-          &m.clearcoat_roughness_map, &m.clearcoat_normal_map, &m.normal_map, &m.bump_map, &m.occlusion_map, &m.emissive_map}) {
-      if (use->texture < 0) continue;
-      const int image = model.textures[static_cast<std::size_t>(use->texture)].image;
-      if (image >= 0) used[static_cast<std::size_t>(image)] = true;
-    }
-  }
-  return used;
-}
 
 std::vector<GltfImageFile> write_gltf_textures(const Model& model, const std::string& stem, bool embed, GltfOutput& out) {
   std::vector<GltfImageFile> files;

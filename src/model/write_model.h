@@ -46,9 +46,6 @@ struct WrittenModel {
 /// store, or more than it can address.
 WrittenModel written_model(const Model& model, const std::filesystem::path& file, ModelFormat format);
 
-/// Returns, for each image of a model, whether a texture of a material shows it. Images that are only converted to others are not included.
-std::vector<bool> used_images(const Model& model);
-
 /// Returns ".png" or ".jpg" for an image in a format that all glTF readers support, otherwise an empty string.
 std::string image_extension(std::span<const std::byte> image);
 

@@ -5,6 +5,7 @@
 #include "halfspace/image/image_io.h"
 #include "halfspace/image/png.h"
 #include "halfspace/model/file_bytes.h"
+#include "halfspace/model/used_images.h"
 #include "halfspace/model/write_model.h"
 #include "halfspace/render/converted_images.h"
 
