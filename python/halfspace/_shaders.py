@@ -16,11 +16,12 @@ from .material import Texture
 
 def light(type: str = "directional", *, place: Sequence[float] = (0.0, 0.0, 1.0), diffuse: Sequence[float] = (1.0, 1.0, 1.0),
           specular: Sequence[float] = (1.0, 1.0, 1.0), attenuation: Sequence[float] = (1.0, 0.0, 0.0), axis: Sequence[float] = (0.0, 0.0, 1.0),
-          inner: float = 20.0, outer: float = 30.0) -> Any:
+          inner: float = 20.0, outer: float = 30.0, range: Optional[float] = None) -> Any:
     """Returns a light for phong() and metallic().
 
     type: "directional" (place: direction towards the light), or "point" or "spot" (place: position in world space).
     attenuation: (a, b, c) of 1 / (a + b d + c d^2).   spot: axis, towards the light; inner, outer: degrees from the axis.
+    range: distance at which a point or spot light has faded to zero, as in KHR_lights_punctual; None: unlimited.
     """
     kind = word("LightType", "type", type)
     where = np.array(_check.vector("place", place))
@@ -29,7 +30,8 @@ def light(type: str = "directional", *, place: Sequence[float] = (0.0, 0.0, 1.0)
     towards = np.array(_check.vector("axis", axis))
     cosines = np.cos(np.radians([_check.number("inner", inner, 0.0, 90.0), _check.number("outer", outer, inner, 90.0)]))
     return _core.Light(kind, where.tolist(), _check.vector("diffuse", diffuse), _check.vector("specular", specular),
-                       _check.vector("attenuation", attenuation), (towards / (np.linalg.norm(towards) or 1.0)).tolist(), *cosines.tolist())
+                       _check.vector("attenuation", attenuation), (towards / (np.linalg.norm(towards) or 1.0)).tolist(), *cosines.tolist(),
+                       0.0 if range is None else 1.0 / _check.number("range", range, 1e-30, 1e30))
 
 
 def colored(clip_from_object: Any, color: Sequence[float] = (1.0, 1.0, 1.0, 1.0)) -> Any:

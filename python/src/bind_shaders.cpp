@@ -186,7 +186,7 @@ Shader sky(const Lens& lens, const py::array& panorama, float brightness) {
 }
 
 Light light_of(LightType type, const Vector& place, const Vector& diffuse, const Vector& specular, const Vector& attenuation,
-               const Vector& axis, float cos_inner, float cos_outer) {
+               const Vector& axis, float cos_inner, float cos_outer, float inverse_range) {
   Light light;
   light.type = type;
   light.position_rws = vec_of(place);
@@ -196,6 +196,7 @@ Light light_of(LightType type, const Vector& place, const Vector& diffuse, const
   light.axis_ws = vec_of(axis);
   light.cos_outer = cos_outer;
   light.cone_scale = 1.0f / std::max(cos_inner - cos_outer, 1e-6f);
+  light.inverse_range = inverse_range;
   return light;
 }
 

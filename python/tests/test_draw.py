@@ -147,6 +147,22 @@ def test_lit_shaders():
     assert np.allclose(image[0, 0, :2], dim[:2], atol=1e-6)
 
 
+def test_the_range_of_a_light():
+    def brightness(**keys):
+        image = np.zeros((1, 1, 4), np.float32)
+        p = draw.Pass(image)
+        lamp = draw.light("point", place=(0, 0, 2), **keys)  # 2 from the pixel, along its normal
+        p.draw(draw.phong(np.eye(4), eye=(0, 0, 5), lights=[lamp]), positions=plane(), normals=np.tile(np.array([[0, 0, 1]], np.float32), (6, 1)))
+        p.run()
+        return float(image[0, 0, 0])
+
+    assert np.isclose(brightness(), 1, atol=1e-6)
+    assert np.isclose(brightness(range=4), 1 - 0.5 ** 4, atol=1e-6)  # the window of KHR_lights_punctual
+    assert brightness(range=2) == 0
+    with pytest.raises(ValueError, match="range"):
+        draw.light("point", range=0)
+
+
 def test_textures():
     texels = np.array([[[255, 0, 0], [0, 255, 0]], [[0, 0, 255], [255, 255, 255]]], np.uint8)
     texture = halfspace.Texture(texels, filter="nearest", wrap="clamp")
