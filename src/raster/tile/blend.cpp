@@ -68,18 +68,17 @@ PacketColor read_color(const ColorBuffer& buffer, int packet) {
 void write_color(ColorBuffer& buffer, int packet, Mask mask, const PacketColor& src, const PacketColor& src1,
                  const AttachmentState& state) {
   const std::size_t first = static_cast<std::size_t>(packet) * kLanes;
-  const bool fixed_point = is_fixed_point(buffer.format);
+  const auto write_enabled = [&](Int codes) {
+    write_codes(buffer, first, mask, state.mask.all() ? codes : merged_codes(codes, read_codes(buffer, first), state.mask));
+  };
   const std::optional<BlendState>& blend = state.blend;
-  if (blend && buffer.format == ColorFormat::rgba8) {
-    const Int codes = blended_codes(operation_of(*blend), buffer, first, src, src1, blend->constant);
-    return write_codes(buffer, first, mask, merged_codes(codes, read_codes(buffer, first), state.mask));
-  }
+  if (blend && buffer.format == ColorFormat::rgba8)
+    return write_enabled(blended_codes(operation_of(*blend), buffer, first, src, src1, blend->constant));
   const PacketColor c =
-      blend ? blended_color(operation_of(*blend), read_color(buffer, packet), fixed_point, src, src1, blend->constant) : src;
-  if (fixed_point) {
-    const Int codes = buffer.format == ColorFormat::srgb8a8 ? packed_codes<ColorFormat::srgb8a8>(c) : packed_codes<ColorFormat::rgba8>(c);
-    return write_codes(buffer, first, mask, merged_codes(codes, read_codes(buffer, first), state.mask));
-  }
+      blend ? blended_color(operation_of(*blend), read_color(buffer, packet), is_fixed_point(buffer.format), src, src1, blend->constant)
+            : src;
+  if (buffer.format == ColorFormat::rgba8) return write_enabled(packed_codes<ColorFormat::rgba8>(c));
+  if (buffer.format == ColorFormat::srgb8a8) return write_enabled(packed_codes<ColorFormat::srgb8a8>(c));
   if (narrow_channels(buffer.format) != 0) return write_narrow(buffer, first, mask, c, state.mask);
   for (int k = 0; k < 4; ++k) {
     if (!state.mask[k]) continue;

@@ -69,6 +69,7 @@ struct BlendOperation {
 
   bool operator==(const BlendOperation&) const = default;
 };
+/// Returns the operation of a state.
 inline BlendOperation operation_of(const BlendState& s) {
   return {s.color_equation, s.alpha_equation, {s.source_color, s.destination_color, s.source_alpha, s.destination_alpha}};
 }
@@ -84,7 +85,7 @@ HS_INLINE PacketColor blend_sums(const BlendOperation& o, const PacketColor& src
   return out;
 }
 
-/// Returns false if the sum of a channel with values in [0, 1] is known to stay below 1, apart from rounding.
+/// Returns false if the blended value of a channel with values in [0, 1] is known not to exceed 1, apart from rounding.
 constexpr bool can_exceed_one(const BlendOperation& o, bool alpha) {
   using enum BlendFactor;
   const BlendFactor source = alpha ? o.factors.source_alpha : o.factors.source_color;
@@ -94,8 +95,10 @@ constexpr bool can_exceed_one(const BlendOperation& o, bool alpha) {
   if (destination == one_minus_src_alpha) return source != src_alpha && !(alpha && source == one);
   return !(destination == one_minus_constant_color && source == constant_color);
 }
+/// Returns true if the blended value of a channel with values in [0, 1] can be negative.
 constexpr bool can_be_negative(BlendEquation e) { return e == BlendEquation::subtract || e == BlendEquation::reverse_subtract; }
 
+/// Clamps the source color of a fixed-point format, which must precede blending (OpenGL 4.6, section 17.3.6).
 HS_INLINE PacketColor clamped_color(PacketColor c) {
   for (Real& x : c) x = clamp(x, Real(0.0f), Real(1.0f));
   return c;
@@ -104,7 +107,7 @@ HS_INLINE PacketColor clamped_color(PacketColor c) {
 /// Returns the color that blending writes to a buffer that is not rgba8, before it is clamped. dst: the existing color.
 HS_INLINE PacketColor blended_color(const BlendOperation& o, const PacketColor& dst, bool fixed_point, const PacketColor& src,
                                     const PacketColor& src1, const glm::vec4& constant) {
-  const PacketColor in_range = fixed_point ? clamped_color(src) : src;  // OpenGL 4.6, section 17.3.6: clamped before blending
+  const PacketColor in_range = fixed_point ? clamped_color(src) : src;
   return blend_sums(o, in_range, dst, {in_range, dst, src1, constant, fixed_point});
 }
 
