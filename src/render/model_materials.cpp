@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "halfspace/render/model_materials.h"
 
+#include <algorithm>
+#include <atomic>
 #include <chrono>
+#include <functional>
+#include <limits>
+#include <numeric>
 #include <optional>
 #include <set>
 
@@ -55,6 +60,15 @@ bool are_converted_together(const ModelImage& a, const ModelImage& b) {
   return a.converted && b.converted && a.converted->same_sources(*b.converted);
 }
 
+// Estimates the work of decoding an image by the size of its file. The result of a conversion needs two images.
+std::uintmax_t decoding_work(const ModelImage& image) {
+  if (image.converted) return std::numeric_limits<std::uintmax_t>::max();
+  if (image.bytes != nullptr) return image.bytes->size();
+  std::error_code error;
+  const std::uintmax_t bytes = std::filesystem::file_size(image.file, error);
+  return error ? 0 : bytes;
+}
+
 // Returns the images that the materials of a posed model use and that are not yet loaded, and for each, whether it is a color map.
 std::vector<std::pair<int, bool>> wanted_images(const ObjectDescription& o, const Model& model, const PosedModel& posed,
                                                 const UsedAssets& used) {
@@ -104,11 +118,18 @@ void ModelMaterials::load_images(const ObjectDescription& o, const Model& model,
       problems[i] = e.what();
     }
   };
-  workers_.for_each(static_cast<int>(list.size()) + 1, [&](int i) {
-    if (i > 0) {
-      load(static_cast<std::size_t>(i - 1));
-    } else if (lit) {
-      environments_.light();
+  // The largest image is first, because one thread decodes it. The environment is last, because all threads can share its work.
+  std::vector<std::size_t> order(list.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, std::ranges::greater(), [&](std::size_t i) { return decoding_work(image_at(i)); });
+  std::atomic<std::size_t> next = 0;
+  workers_.for_each(workers_.threads(), [&](int) {
+    for (std::size_t i = next++; i <= order.size(); i = next++) {
+      if (i < order.size()) {
+        load(order[i]);
+      } else if (lit) {
+        environments_.light();
+      }
     }
   });
   for (std::size_t i = 0; i < list.size(); ++i) {
