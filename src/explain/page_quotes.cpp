@@ -40,7 +40,7 @@ constexpr std::array kRanges{
     QuoteRange{"samples", "raster/tile/resolve.cpp", "// Returns the mean of `samples` colors.", "for (Real& x : mean)"},
     QuoteRange{"layers", "raster/tile/layers.cpp", "Mask TransparentLayers::add(", "return "},
     QuoteRange{"layers", "raster/tile/layers.cpp", "void TransparentLayers::write(", "write_color("},
-    QuoteRange{"final", "raster/loop/tile_worker.cpp", "load(tile);", "if (has_post_step) run_post_step("},
+    QuoteRange{"final", "raster/loop/tile_worker.cpp", "load(tile, replaces_color(tile_x, tile_y));", "if (has_post_step) run_post_step("},
     QuoteRange{"history", "raster/trace/tile_trace.cpp", "void TileTrace::add(", "f.is_tested = "},
     QuoteRange{"history", "raster/trace/tile_trace.cpp", "void TileTrace::set_shaded(", "f.color = color_of("},
     QuoteRange{"overdraw", "explain/pixel_history.cpp", "uint32_t FrameTrace::count(", "return first"},

@@ -16,6 +16,16 @@ PixelBounds tile_pixels(const PassContext& context, int tile_x0, int tile_x1, in
   return {tile_x0 * size, tile_y * size, std::min(tile_x1 * size, context.width), std::min(tile_y * size + size, context.height)};
 }
 
+namespace {
+
+// Returns true if a draw writes the same color to all of its pixels.
+bool has_one_color(const Draw& draw, const Attachments& attachments) {
+  return draw.deferred && draw.kernels.is_constant && draw.kernels.visibility == nullptr &&
+         draw.kernels.color_count >= static_cast<int>(attachments.colors.size());
+}
+
+}  // namespace
+
 std::optional<const Draw*> constant_tiles(const PassContext& context, const Attachments& attachments, int tile_x0, int tile_x1, int tile_y,
                                           PassStatistics& statistics) {
   std::array<const Triangle*, 2> triangles{};
@@ -27,16 +37,14 @@ std::optional<const Draw*> constant_tiles(const PassContext& context, const Atta
         const Triangle& t = c.triangles[index];
         if (&t == triangles[0] || &t == triangles[1]) continue;
         const Draw& of = context.draws[c.ranges[t.range()].draw];
-        if (count == triangles.size() || (draw != nullptr && draw != &of)) return std::nullopt;
+        if (count == triangles.size() || (draw != nullptr && draw != &of) || !has_one_color(of, attachments)) return std::nullopt;
         draw = &of;
         triangles[count++] = &t;
       }
     }
   }
   if (draw == nullptr) return nullptr;
-  const bool is_one_color = draw->deferred && draw->kernels.is_constant && draw->kernels.visibility == nullptr &&
-                            draw->kernels.color_count >= static_cast<int>(attachments.colors.size());
-  if (!is_one_color || attachments.depth.format != DepthFormat::none || context.samples != 1) return std::nullopt;
+  if (attachments.depth.format != DepthFormat::none || context.samples != 1) return std::nullopt;
   const PixelBounds area = tile_pixels(context, tile_x0, tile_x1, tile_y);
   const bool is_triangle =
       std::none_of(triangles.begin(), triangles.begin() + count, [](const Triangle* t) { return t->is(kPointSprite | kLine); });

@@ -55,7 +55,6 @@ class TileDraws {
   void run(int tile_x, int tile_y) {
     Tile& tile = memory_.tile;
     memory_.queue.count = 0;
-    tile.visibility.fill(kNoTriangle);
     std::optional<DrawInTile> here;
     FullTileOccluder occluder;
     for (uint32_t c = 0; c < context_.chunks.size(); ++c) {
@@ -112,10 +111,11 @@ class TileDraws {
   // Called before a triangle is drawn. Shades the pending pixels of the tile if the draw shades immediately. A draw that does not write
   // color does not affect them.
   void begin_triangle(const DrawInTile& d) {
-    if (shades_later(d.mode)) {
-      pending_ |= d.mode == VisibilityMode::deferred;
-      return;
+    if (d.mode == VisibilityMode::deferred && !pending_) {
+      d.tile.visibility.fill(kNoTriangle);
+      pending_ = true;
     }
+    if (shades_later(d.mode)) return;
     const bool shades = d.mode != VisibilityMode::early || d.draw.writes_color;
     if (shades && pending_ && has_color_) shade_deferred(context_, d.tile, memory_.shading, statistics_);
     if (shades) pending_ = false;
@@ -188,7 +188,7 @@ class TileDraws {
   bool has_color_;
   TileMemory& memory_;
   Statistics& statistics_;
-  bool pending_ = false;  // the tile has visible pixels that have not been shaded yet
+  bool pending_ = false;  // Tile::visibility is in use: pixels may have been drawn that are not shaded yet
 };
 
 }  // namespace

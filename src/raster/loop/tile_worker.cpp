@@ -8,10 +8,12 @@
 
 #include "halfspace/raster/loop/constant_tiles.h"
 #include "halfspace/raster/loop/tile_draws.h"
+#include "halfspace/raster/pipeline/pixel_box.h"
 #include "halfspace/raster/primitives/bin.h"
 #include "halfspace/raster/shade/tile_memory.h"
 #include "halfspace/raster/tile/resolve.h"
 #include "halfspace/raster/trace/tile_trace.h"
+#include "halfspace/raster/visibility/full_tile.h"
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
 
@@ -141,7 +143,7 @@ class TileWorker {
 
     Tile& tile = memory.tile;
     place_tile(tile, tile_x, tile_y);
-    load(tile);
+    load(tile, replaces_color(tile_x, tile_y));
     if (drawn) draw_tile(context_, attachments_.has_color, tile_x, tile_y, memory, statistics);
     if constexpr (kTraces<Statistics>) finish_trace(tile, tile_x, tile_y, *statistics.trace);
     store(tile, changes_color, changes_depth);
@@ -164,11 +166,31 @@ class TileWorker {
 
   ImageSamples spilled_samples() const { return context_.samples > 1 ? ImageSamples::all : ImageSamples::one; }
 
-  void load(Tile& tile) const {
+  // Returns true if the only triangle of a tile replaces the colors of all its pixels.
+  bool replaces_color(int tile_x, int tile_y) const {
+    if (attachments_.depth.format != DepthFormat::none || context_.samples != 1) return false;
+    const Triangle* only = nullptr;
+    const Draw* draw = nullptr;
+    for (const Chunk& c : context_.chunks) {
+      const std::span<const uint16_t> bin = bin_of(c, tile_x, tile_y);
+      if (bin.empty()) continue;
+      if (bin.size() > 1 || only != nullptr) return false;
+      only = &c.triangles[bin[0]];
+      draw = &context_.draws[c.ranges[only->range()].draw];
+    }
+    if (only == nullptr || !draw->deferred || draw->kernels.visibility != nullptr || only->is(kPointSprite | kLine)) return false;
+    const PixelBounds pixels = tile_pixels(context_, tile_x, tile_x + 1, tile_y);
+    return intersect(pixels, draw->bounds) == pixels && covers(*only, pixels);
+  }
+
+  // Loads the attachments of a tile, or only the format of its colors if they are replaced.
+  void load(Tile& tile, bool replaces_color) const {
     const int width = context_.width, height = context_.height;
     for (std::size_t i = 0; i < attachments_.colors.size(); ++i) {
       const ColorTarget& c = attachments_.colors[i];
-      if (round_.first) {
+      if (replaces_color) {
+        tile.color[i].format = c.format;
+      } else if (round_.first) {
         load_color(c, width, height, ImageSamples::one, tile, tile.color[i]);
       } else {
         load_color(between_flushes(c, attachments_.color_spills[i]), width, height, spilled_samples(), tile, tile.color[i]);

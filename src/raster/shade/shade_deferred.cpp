@@ -247,7 +247,6 @@ void shade_deferred(const PassContext& context, Tile& tile, DeferredShading& mem
   } else {
     shade_deferred_samples(context, tile, memory, statistics);
   }
-  tile.visibility.fill(kNoTriangle);
 }
 template void shade_deferred(const PassContext&, Tile&, DeferredShading&, PassStatistics&);
 template void shade_deferred(const PassContext&, Tile&, DeferredShading&, TracedStatistics&);

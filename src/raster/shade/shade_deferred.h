@@ -19,7 +19,7 @@ struct DeferredShading {
   alignas(64) std::array<int32_t, kMaxTilePixels> codes;  ///< shaded colors of multisampled pixels, indexed like `layers`
 };
 
-/// Shades all pixels of the tile that have a visible triangle but no color yet, and writes their colors. Statistics: see
+/// Shades all pixels of the tile that have a triangle in Tile::visibility, which is not changed, and writes their colors. Statistics: see
 /// visibility/visibility.h.
 template <class Statistics>
 void shade_deferred(const PassContext& context, Tile& tile, DeferredShading& memory, Statistics& statistics);

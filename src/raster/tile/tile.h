@@ -106,7 +106,7 @@ struct Tile {
 
   /// Depth as represented by the format: the depth itself for d32f, the integer value for d16 and d24 (exact in float).
   alignas(64) std::array<float, kMaxTilePixels> depth;
-  /// For pixels that are not shaded yet: the visible triangle. Otherwise kNoTriangle.
+  /// For pixels that are not shaded yet: the visible triangle. Otherwise kNoTriangle. Undefined while all pixels are shaded.
   alignas(64) std::array<TriangleId, kMaxTilePixels> visibility;
   alignas(64) std::array<uint8_t, kMaxTilePixels> stencil;
   std::array<ColorBuffer, kMaxColorTargets> color;
