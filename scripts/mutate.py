@@ -54,7 +54,7 @@ TESTS = {
     "src/explain/": ["explain"],
     "src/geometry/": ["geometry", "render"],
     "src/image/": ["image", "cli"],
-    "src/model/": ["model"],
+    "src/model/": ["model", "render"],
     "src/procedural/": ["procedural", "render"],
     "src/raster/trace/": ["explain"],
     "src/raster/": ["raster", "property", "conformance", "shading"],

@@ -164,18 +164,18 @@ std::shared_ptr<const EnvironmentMap> SceneEnvironments::generated_sky(const Env
   if (e.type == EnvironmentType::night_sky) {
     return used_.asset<EnvironmentMap>(recipe("night_sky", size, e.milky_way), [&] {
       const NightSky sky{static_cast<float>(e.milky_way)};
-      return EnvironmentMap(procedural_night_sky(size, sky, workers_), TexelFormat::rgba16f);
+      return EnvironmentMap(procedural_night_sky(size, sky, workers_), TexelFormat::rgba16f, &workers_);
     });
   }
   if (e.type == EnvironmentType::studio) {
     return used_.asset<EnvironmentMap>(recipe("studio", size),
-                                       [&] { return EnvironmentMap(procedural_studio(size, workers_), TexelFormat::rgba16f); });
+                                       [&] { return EnvironmentMap(procedural_studio(size, workers_), TexelFormat::rgba16f, &workers_); });
   }
   // The sun direction is given in world space, so rotating the sky moves the clouds but not the sun.
   const glm::dvec3 sun = unit_or_zero(glm::transpose(glm::dmat3(world_from_object({.rotation = e.rotation}))) * e.sun);
   return used_.asset<EnvironmentMap>(recipe("day_sky", size, sun.x, sun.y, sun.z, e.clouds), [&] {
     const DaySky sky{kMapFromWorld * glm::vec3(sun), static_cast<float>(e.clouds)};
-    return EnvironmentMap(procedural_day_sky(size, sky, workers_), TexelFormat::rgba16f);
+    return EnvironmentMap(procedural_day_sky(size, sky, workers_), TexelFormat::rgba16f, &workers_);
   });
 }
 

@@ -40,13 +40,14 @@ class EnvironmentMap {
   /// vec4 (linear; rgba16f or rgba32f). Alpha is ignored. The image must have at least 1 x 1 texels.
   template <class Texel>
   EnvironmentMap(const Image<Texel>& panorama, TexelFormat format);
-  /// Creates a cube map from six square faces of equal size, in the order given at the top of this file.
+  /// Creates a cube map from six square faces of equal size, in the order given at the top of this file. If workers are given they share
+  /// the work; the result is bit-identical.
   template <class Texel>
-  EnvironmentMap(const std::array<Image<Texel>, 6>& faces, TexelFormat format);
+  EnvironmentMap(const std::array<Image<Texel>, 6>& faces, TexelFormat format, const Workers* workers = nullptr);
 
   /// Creates a cube map from one or more given levels. The faces of each level are half the size of those of the previous level. Texels are
   /// linear; format is rgba16f or rgba32f.
-  EnvironmentMap(std::span<const std::array<Image<glm::vec4>, 6>> levels, TexelFormat format);
+  EnvironmentMap(std::span<const std::array<Image<glm::vec4>, 6>> levels, TexelFormat format, const Workers* workers = nullptr);
 
   EnvironmentLayout layout() const { return layout_; }
   TexelFormat format() const { return images_.front().format(); }
@@ -77,6 +78,9 @@ class EnvironmentMap {
     vec2<R> st;
     R lod;
   };
+
+  template <class Texel>
+  void add_levels(std::span<const std::array<Image<Texel>, 6>> levels, TexelFormat format, const Workers* workers);
 
   template <class R>
   Coordinates<R> coordinates(const vec3<R>& d, const vec3<R>& dx, const vec3<R>& dy) const;

@@ -8,6 +8,7 @@
 #include "halfspace/core/float_mode.h"
 #include "halfspace/core/trig_double.h"
 #include "halfspace/shading/environment.h"
+#include "halfspace/shading/texels.h"
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
 
@@ -84,6 +85,12 @@ Image<Texel> bordered(const Image<Texel>& level) {
 template <class Texel>
 using Faces = std::array<Image<Texel>, 6>;
 
+// Calls f(face) for every face, using the workers if there are any.
+template <class F>
+void for_each_face(const Workers* workers, const F& f) {
+  detail::for_each_row(workers, 6, [&](int face) { f(static_cast<std::size_t>(face)); });
+}
+
 // Returns the texel of the adjacent face next to texel (x, y), which is one step beyond an edge of this face.
 template <class Texel>
 const Texel& beyond_edge(const Faces<Texel>& faces, int face, int x, int y) {
@@ -135,38 +142,49 @@ EnvironmentMap::EnvironmentMap(const Image<Texel>& panorama, TexelFormat format)
 }
 
 template <class Texel>
-EnvironmentMap::EnvironmentMap(const std::array<Image<Texel>, 6>& faces, TexelFormat format) : layout_(EnvironmentLayout::cube) {
-  const FloatMode float_mode;
+EnvironmentMap::EnvironmentMap(const std::array<Image<Texel>, 6>& faces, TexelFormat format, const Workers* workers)
+    : layout_(EnvironmentLayout::cube) {
+  for (const Image<Texel>& face : faces) {
+    HS_CHECK_OP(face.width(), ==, faces[0].width());
+    HS_CHECK_OP(face.height(), ==, faces[0].width());
+  }
   std::array<std::vector<Image<Texel>>, 6> chains;
-  for (std::size_t f = 0; f < 6; ++f) {
-    HS_CHECK_OP(faces[f].width(), ==, faces[0].width());
-    HS_CHECK_OP(faces[f].height(), ==, faces[0].width());
-    chains[f] = levels_of(faces[f], format);
+  for_each_face(workers, [&](std::size_t f) { chains[f] = levels_of(faces[f], format); });
+  std::vector<Faces<Texel>> levels(chains[0].size());
+  for (std::size_t level = 0; level < levels.size(); ++level) {
+    for (std::size_t f = 0; f < 6; ++f) levels[level][f] = std::move(chains[f][level]);
   }
-  for (std::size_t level = 0; level < chains[0].size(); ++level) {
-    Faces<Texel> whole;
-    for (std::size_t f = 0; f < 6; ++f) whole[f] = std::move(chains[f][level]);
-    for (int f = 0; f < 6; ++f) images_.push_back(one_level(bordered(whole, f), format));
-    ++levels_;
-  }
+  add_levels<Texel>(levels, format, workers);
 }
 
-EnvironmentMap::EnvironmentMap(std::span<const std::array<Image<glm::vec4>, 6>> levels, TexelFormat format)
+EnvironmentMap::EnvironmentMap(std::span<const std::array<Image<glm::vec4>, 6>> levels, TexelFormat format, const Workers* workers)
     : layout_(EnvironmentLayout::cube) {
   HS_CHECK_OP(levels.size(), >=, 1u);
-  for (const Faces<glm::vec4>& faces : levels) {
-    for (const Image<glm::vec4>& face : faces) {
-      HS_CHECK_OP(face.width(), ==, levels[0][0].width() >> levels_);
+  for (std::size_t level = 0; level < levels.size(); ++level) {
+    for (const Image<glm::vec4>& face : levels[level]) {
+      HS_CHECK_OP(face.width(), ==, levels[0][0].width() >> level);
       HS_CHECK_OP(face.height(), ==, face.width());
     }
-    for (int f = 0; f < 6; ++f) images_.push_back(one_level(bordered(faces, f), format));
-    ++levels_;
   }
+  add_levels(levels, format, workers);
+}
+
+template <class Texel>
+void EnvironmentMap::add_levels(std::span<const std::array<Image<Texel>, 6>> levels, TexelFormat format, const Workers* workers) {
+  std::array<std::vector<Texture2D>, 6> by_face;
+  for_each_face(workers, [&](std::size_t f) {
+    const FloatMode float_mode;
+    for (const Faces<Texel>& faces : levels) by_face[f].push_back(one_level(bordered(faces, static_cast<int>(f)), format));
+  });
+  for (std::size_t level = 0; level < levels.size(); ++level) {
+    for (std::vector<Texture2D>& textures : by_face) images_.push_back(std::move(textures[level]));
+  }
+  levels_ = static_cast<int>(levels.size());
 }
 
 template EnvironmentMap::EnvironmentMap(const Image<glm::u8vec4>&, TexelFormat);
 template EnvironmentMap::EnvironmentMap(const Image<glm::vec4>&, TexelFormat);
-template EnvironmentMap::EnvironmentMap(const std::array<Image<glm::u8vec4>, 6>&, TexelFormat);
-template EnvironmentMap::EnvironmentMap(const std::array<Image<glm::vec4>, 6>&, TexelFormat);
+template EnvironmentMap::EnvironmentMap(const std::array<Image<glm::u8vec4>, 6>&, TexelFormat, const Workers*);
+template EnvironmentMap::EnvironmentMap(const std::array<Image<glm::vec4>, 6>&, TexelFormat, const Workers*);
 
 }  // namespace halfspace::inline HS_LANES_NAMESPACE

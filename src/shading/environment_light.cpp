@@ -116,45 +116,59 @@ std::vector<Faces> filtered_levels(const EnvironmentMap& map, int size, const Wo
   levels.push_back(filled_faces(size, workers, [&](const vec3<Real>& d, const glm::vec3& right, const glm::vec3& down) {
     return map.sample<Real>(d, vec3<Real>(right), vec3<Real>(down));
   }));
-  const EnvironmentMap base(levels[0], TexelFormat::rgba32f);
+  const EnvironmentMap base(levels[0], TexelFormat::rgba32f, &workers);
   for (int i = 1; i < FilteredEnvironment::kLevels; ++i)
     levels.push_back(filtered_faces(base, size >> i, static_cast<double>(i) / (FilteredEnvironment::kLevels - 1), workers));
   return levels;
 }
 
+// Sums of the light of a face times the first nine spherical harmonics, and of the weights of its texels.
+struct HarmonicSums {
+  std::array<glm::dvec3, 9> light{};
+  double weight = 0.0;
+};
+
+HarmonicSums harmonic_sums(const Faces& faces, int face) {
+  HarmonicSums sums;
+  const int size = faces[0].width();
+  for (int y = 0; y < size; ++y) {
+    for (int x = 0; x < size; ++x) {
+      const glm::dvec3 d = cube_direction(face, (2.0 * x + 1.0) / size - 1.0, (2.0 * y + 1.0) / size - 1.0);
+      const double squared = glm::dot(d, d), weight = 1.0 / (squared * std::sqrt(squared));
+      const glm::dvec3 n = d / std::sqrt(squared), light(faces[static_cast<std::size_t>(face)].at(x, y));
+      const double basis[] = {1.0, n.y, n.z, n.x, n.x * n.y, n.y * n.z, 3.0 * n.z * n.z - 1.0, n.x * n.z, n.x * n.x - n.y * n.y};
+      for (std::size_t i = 0; i < 9; ++i) sums.light[i] += light * (weight * basis[i]);
+      sums.weight += weight;
+    }
+  }
+  return sums;
+}
+
 // Projects the light onto the first nine spherical harmonics and convolves it with the clamped cosine, whose factors relative to π are 1,
 // 2/3 and 1/4. Returns the coefficients times the squared constants of the basis, since each constant occurs in both projection and
 // evaluation.
-std::array<glm::vec3, 9> harmonics_of(const Faces& faces) {
-  std::array<glm::dvec3, 9> sums{};
-  double whole = 0.0;
-  const int size = faces[0].width();
-  for (int face = 0; face < 6; ++face) {
-    for (int y = 0; y < size; ++y) {
-      for (int x = 0; x < size; ++x) {
-        const glm::dvec3 d = cube_direction(face, (2.0 * x + 1.0) / size - 1.0, (2.0 * y + 1.0) / size - 1.0);
-        const double squared = glm::dot(d, d), weight = 1.0 / (squared * std::sqrt(squared));
-        const glm::dvec3 n = d / std::sqrt(squared), light(faces[static_cast<std::size_t>(face)].at(x, y));
-        const double basis[] = {1.0, n.y, n.z, n.x, n.x * n.y, n.y * n.z, 3.0 * n.z * n.z - 1.0, n.x * n.z, n.x * n.x - n.y * n.y};
-        for (std::size_t i = 0; i < 9; ++i) sums[i] += light * (weight * basis[i]);
-        whole += weight;
-      }
-    }
+std::array<glm::vec3, 9> harmonics_of(const Faces& faces, const Workers& workers) {
+  std::array<HarmonicSums, 6> by_face;
+  workers.for_each(6, [&](int face) { by_face[static_cast<std::size_t>(face)] = harmonic_sums(faces, face); });
+  HarmonicSums whole;
+  for (const HarmonicSums& sums : by_face) {
+    for (std::size_t i = 0; i < 9; ++i) whole.light[i] += sums.light[i];
+    whole.weight += sums.weight;
   }
   // Squared constants of the basis times 4π times the factor of the cosine: 1/4π, 3/4π, 15/4π, 5/16π, 15/16π.
   constexpr double kFactors[] = {1.0, 2.0, 2.0, 2.0, 3.75, 3.75, 0.3125, 3.75, 0.9375};
   std::array<glm::vec3, 9> harmonics;
-  for (std::size_t i = 0; i < 9; ++i) harmonics[i] = glm::vec3(sums[i] * (kFactors[i] / whole));
+  for (std::size_t i = 0; i < 9; ++i) harmonics[i] = glm::vec3(whole.light[i] * (kFactors[i] / whole.weight));
   return harmonics;
 }
 
 }  // namespace
 
 FilteredEnvironment::FilteredEnvironment(const EnvironmentMap& map, int size, const Workers& workers)
-    : FilteredEnvironment(filtered_levels(map, size, workers)) {}
+    : FilteredEnvironment(filtered_levels(map, size, workers), workers) {}
 
-FilteredEnvironment::FilteredEnvironment(const std::vector<std::array<Image<glm::vec4>, 6>>& levels)
-    : radiance(levels, TexelFormat::rgba32f), harmonics(harmonics_of(levels[0])) {}
+FilteredEnvironment::FilteredEnvironment(const std::vector<std::array<Image<glm::vec4>, 6>>& levels, const Workers& workers)
+    : radiance(levels, TexelFormat::rgba32f, &workers), harmonics(harmonics_of(levels[0], workers)) {}
 
 // ---- directional reflectance -------------------------------------------------------------------------------------
 

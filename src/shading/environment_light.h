@@ -42,7 +42,7 @@ struct FilteredEnvironment {
   }
 
  private:
-  explicit FilteredEnvironment(const std::vector<std::array<Image<glm::vec4>, 6>>& levels);
+  FilteredEnvironment(const std::vector<std::array<Image<glm::vec4>, 6>>& levels, const Workers& workers);
 };
 
 /// A prefiltered environment with its orientation and brightness.

@@ -2,8 +2,8 @@
 //
 // Bilinear filtering of 2x2 texels, for formats with four channels.
 //
-// Where the build has the instructions, rgba8 and rgba16f are filtered texel by texel, with all four channels in one register, and the
-// result is transposed. Otherwise each channel is filtered for all lanes. Both methods give bit-identical results: the sum along a row of
+// Where the build has the instructions, rgba8, rgba16f and rgba32f are filtered texel by texel, with all four channels in one register,
+// and the result is transposed. Otherwise each channel is filtered for all lanes. Both methods give bit-identical results: the sum along a row of
 // rgba8 is an integer below 2^23, which is exact, and everything else is computed with the same operations.
 #pragma once
 
@@ -55,12 +55,21 @@ HS_INLINE RealN<8> weighted_sum(IntN<8> texels, IntN<8> weights) {
   const __m256i channels = _mm256_shuffle_epi8((__m256i)texels.v, order);
   return RealN<8>((RealN<8>::V)_mm256_cvtepi32_ps(_mm256_madd_epi16(channels, (__m256i)weights.v)));
 }
+/// Separates the left from the right texels of two pairs.
+HS_INLINE TexelPair<RealN<8>> split_texels(__m256 a, __m256 b) {
+  const auto real = [](__m256 v) { return RealN<8>((RealN<8>::V)v); };
+  return {real(_mm256_permute2f128_ps(a, b, 0x20)), real(_mm256_permute2f128_ps(a, b, 0x31))};
+}
 /// Loads the two rgba16f texels at place(k), place(k + 4), …
 template <class Place>
 HS_INLINE TexelPair<RealN<8>> load_half_texels(RealN<8>, const Place& place, int k) {
   const __m256 a = _mm256_cvtph_ps(load_at<__m128i>(place(k))), b = _mm256_cvtph_ps(load_at<__m128i>(place(k + 4)));
-  const auto real = [](__m256 v) { return RealN<8>((RealN<8>::V)v); };
-  return {real(_mm256_permute2f128_ps(a, b, 0x20)), real(_mm256_permute2f128_ps(a, b, 0x31))};
+  return split_texels(a, b);
+}
+/// Loads the two rgba32f texels at place(k), place(k + 4), …
+template <class Place>
+HS_INLINE TexelPair<RealN<8>> load_float_texels(RealN<8>, const Place& place, int k) {
+  return split_texels(load_at<__m256>(place(k)), load_at<__m256>(place(k + 4)));
 }
 #endif
 
@@ -76,6 +85,10 @@ HS_INLINE RealN<16> weighted_sum(IntN<16> texels, IntN<16> weights) {
   const __m512i channels = _mm512_maskz_shuffle_epi8(~__mmask64{}, (__m512i)texels.v, order);
   return RealN<16>((RealN<16>::V)_mm512_maskz_cvtepi32_ps(kAll16, _mm512_maskz_madd_epi16(kAll16, channels, (__m512i)weights.v)));
 }
+HS_INLINE TexelPair<RealN<16>> split_texels(__m512 a, __m512 b) {
+  const auto real = [](__m512 v) { return RealN<16>((RealN<16>::V)v); };
+  return {real(_mm512_maskz_shuffle_f32x4(kAll16, a, b, 0x88)), real(_mm512_maskz_shuffle_f32x4(kAll16, a, b, 0xdd))};
+}
 template <class Place>
 HS_INLINE TexelPair<RealN<16>> load_half_texels(RealN<16>, const Place& place, int k) {
   const auto two = [&](int first) {
@@ -83,9 +96,15 @@ HS_INLINE TexelPair<RealN<16>> load_half_texels(RealN<16>, const Place& place, i
         _mm256_inserti128_si256(_mm256_castsi128_si256(load_at<__m128i>(place(first))), load_at<__m128i>(place(first + 4)), 1);
     return _mm512_maskz_cvtph_ps(kAll16, halfs);
   };
-  const __m512 a = two(k), b = two(k + 8);
-  const auto real = [](__m512 v) { return RealN<16>((RealN<16>::V)v); };
-  return {real(_mm512_maskz_shuffle_f32x4(kAll16, a, b, 0x88)), real(_mm512_maskz_shuffle_f32x4(kAll16, a, b, 0xdd))};
+  return split_texels(two(k), two(k + 8));
+}
+template <class Place>
+HS_INLINE TexelPair<RealN<16>> load_float_texels(RealN<16>, const Place& place, int k) {
+  const auto two = [&](int first) {
+    const __m512 low = _mm512_castps256_ps512(load_at<__m256>(place(first)));
+    return _mm512_castpd_ps(_mm512_maskz_insertf64x4(0xff, _mm512_castps_pd(low), load_at<__m256d>(place(first + 4)), 1));
+  };
+  return split_texels(two(k), two(k + 8));
 }
 #endif
 
@@ -100,13 +119,14 @@ HS_INLINE RealN<W> filtered_along(const TexelSquare<RealN<W>>& s, const IntN<W>&
         IntN<W>{}, [&](int lane) { return s.words + at[lane]; }, k);
     return weighted_sum(texels, as_int(spread_word<k>(RealN<W>(as_real(weights)))));
   } else {
-    const auto texels = load_half_texels(
-        RealN<W>{}, [&](int lane) { return s.words + 2 * at[lane]; }, k);
+    const auto place = [&](int lane) { return s.words + (format == TexelFormat::rgba16f ? 2 : 4) * at[lane]; };
+    const TexelPair<RealN<W>> texels =
+        format == TexelFormat::rgba16f ? load_half_texels(RealN<W>{}, place, k) : load_float_texels(RealN<W>{}, place, k);
     return lerp(texels.left, texels.right, spread_word<k>(s.along));
   }
 }
 
-/// Filters rgba8 or rgba16f texels. The result of rgba8 is in the units of decode_rgba8.
+/// Filters rgba8, rgba16f or rgba32f texels. The result of rgba8 is in the units of decode_rgba8.
 template <TexelFormat format, int W>
 HS_INLINE vec4<RealN<W>> filtered_by_texel(const TexelSquare<RealN<W>>& s) {
   using R = RealN<W>;
@@ -119,7 +139,7 @@ HS_INLINE vec4<RealN<W>> filtered_by_texel(const TexelSquare<RealN<W>>& s) {
                                             texels(std::integral_constant<int, 2>{}), texels(std::integral_constant<int, 3>{})});
   const auto channel = [&](std::size_t i) {
     const R value(as_real(channels[i]));
-    if constexpr (format == TexelFormat::rgba16f)
+    if constexpr (format == TexelFormat::rgba16f || format == TexelFormat::rgba32f)
       return value;
     else
       return fma(value, R(-1.0f / (1 << kFractionBits)), R(0.0f));  // adds 0, because the product is −0 for a sum of 0
@@ -190,6 +210,17 @@ HS_INLINE vec4<R> filtered_halfs(const TexelSquare<R>& s) {
   return lerp(row(s.lower), row(s.upper), s.across);
 }
 
+/// Filters rgba32f texels.
+template <class R>
+HS_INLINE vec4<R> filtered_floats(const TexelSquare<R>& s) {
+  const auto texel = [&](IntOf<R> word) {
+    const auto words = gather_row<4>(s.words, word);
+    return vec4<R>(as_real(words[0]), as_real(words[1]), as_real(words[2]), as_real(words[3]));
+  };
+  const auto row = [&](IntOf<R> left) { return lerp(texel(left << 2), texel((left << 2) + 4), s.along); };
+  return lerp(row(s.lower), row(s.upper), s.across);
+}
+
 // ---- only alpha ---------------------------------------------------------------------------------------------------------
 
 /// Loads base[i] and base[i + 1] into the low and the high half of each lane.
@@ -233,7 +264,7 @@ HS_INLINE R filtered_alpha(const AlphaSquare<R>& s) {
 
 // ---- all lanes and formats ----------------------------------------------------------------------------------------------
 
-/// Filters 2x2 texels and returns linear values (rgba16f) or the units of decode_rgba8. Value selects the channels: vec4, and for 8-bit
+/// Filters 2x2 texels and returns linear values (rgba16f, rgba32f) or the units of decode_rgba8. Value selects the channels: vec4, and for 8-bit
 /// formats also vec3 (no alpha).
 template <class Value, TexelFormat format, class R>
 HS_INLINE Value filtered(const TexelSquare<R>& s) {
@@ -241,6 +272,8 @@ HS_INLINE Value filtered(const TexelSquare<R>& s) {
     return Value(filtered_by_texel<format>(s));
   else if constexpr (format == TexelFormat::rgba16f)
     return filtered_halfs(s);
+  else if constexpr (format == TexelFormat::rgba32f)
+    return filtered_floats(s);
   else
     return filtered_by_channel<Value, format>(s);
 }

@@ -118,8 +118,9 @@ class Texture2D {
   /// Returns whether CommonLookup supports this sampler.
   bool is_common(const Sampler& sampler) const {
     const auto common = [](Wrap w) { return w == Wrap::repeat || w == Wrap::clamp; };
-    return (format_ <= TexelFormat::srgb8a8 || format_ == TexelFormat::rgba16f) && common(sampler.wrap_s) && common(sampler.wrap_t) &&
-           sampler.mag != Filter::nearest && sampler.min != Filter::nearest;
+    const bool has_four_channels = format_ != TexelFormat::r8 && format_ != TexelFormat::r16;
+    return has_four_channels && common(sampler.wrap_s) && common(sampler.wrap_t) && sampler.mag != Filter::nearest &&
+           sampler.min != Filter::nearest;
   }
   // Implementations of sample and sample_level for every format and sampler, in texture_lookup.cpp, for all Number types. They are pure, so
   // that a call does not keep the compiler from dropping unused values of the shader.
@@ -130,7 +131,7 @@ class Texture2D {
   // A lookup for any sampler, for one format (texels.h).
   template <class R, class Texels>
   struct AnyLookup;
-  // A lookup in rgba8, srgb8a8 or rgba16f, for common samplers. Value selects the channels: vec4, vec3 (no alpha) or, if alphas_ is not
+  // A lookup in a format with four channels, for common samplers. Value selects the channels: vec4, vec3 (no alpha) or, if alphas_ is not
   // empty, R (only alpha).
   template <class Value, TexelFormat texel_format, class R>
   struct CommonLookup;
@@ -251,7 +252,7 @@ struct Texture2D::CommonLookup {
   }
 
   HS_INLINE Value finish(const Value& v) const {
-    if constexpr (texel_format == TexelFormat::rgba16f)
+    if constexpr (texel_format == TexelFormat::rgba16f || texel_format == TexelFormat::rgba32f)
       return v;
     else
       return detail::rgba8_to_linear<texel_format>(v);

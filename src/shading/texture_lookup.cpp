@@ -140,9 +140,12 @@ HS_INLINE vec4<R> Texture2D::with_texels(const Function& function) const {
 template <class R, class Function>
 HS_INLINE vec4<R> Texture2D::with_lookup(const Sampler& sampler, const Function& function) const {
   if (is_common(sampler)) {
-    if (format_ == TexelFormat::rgba8) return function(CommonLookup<vec4<R>, TexelFormat::rgba8, R>{*this, sampler});
-    if (format_ == TexelFormat::rgba16f) return function(CommonLookup<vec4<R>, TexelFormat::rgba16f, R>{*this, sampler});
-    return function(CommonLookup<vec4<R>, TexelFormat::srgb8a8, R>{*this, sampler});
+    switch (format_) {
+      case TexelFormat::rgba8: return function(CommonLookup<vec4<R>, TexelFormat::rgba8, R>{*this, sampler});
+      case TexelFormat::rgba16f: return function(CommonLookup<vec4<R>, TexelFormat::rgba16f, R>{*this, sampler});
+      case TexelFormat::rgba32f: return function(CommonLookup<vec4<R>, TexelFormat::rgba32f, R>{*this, sampler});
+      default: return function(CommonLookup<vec4<R>, TexelFormat::srgb8a8, R>{*this, sampler});
+    }
   }
   return with_texels<R>([&](const auto& texels) {
     return function(AnyLookup<R, std::remove_cvref_t<decltype(texels)>>{*this, sampler, texels});

@@ -4,14 +4,12 @@
 // InputError with a one-line message. The model is then posed at several times and shown by a fitted camera, as `halfspace render` does.
 #pragma once
 
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <span>
 
 #include "fuzz/model_checks.h"
-#include "halfspace/render/model_fit.h"
 #include "support/files.h"
 #include "support/temporary_folder.h"
 
@@ -33,17 +31,6 @@ inline const std::filesystem::path& fuzz_folder() {
   return folder.path();
 }
 
-/// Fits the camera to a posed model, also for a camera that goes around it.
-inline void check_fitted_view(const Model& model, const PosedModel& posed) {
-  const ModelBounds bounds = bounds_of(posed, "a");
-  for (const double seconds : {0.0, 1.0}) {
-    ModelView view;
-    view.turn_seconds = seconds;
-    const FittedView fitted = fitted_view(model, posed, bounds, view);
-    for (int i = 0; i < 3; ++i) HS_CHECK(std::isfinite(fitted.eye[i]) && std::isfinite(fitted.target[i]));
-  }
-}
-
 /// Reads one input and uses the model. Only an InputError is accepted; other exceptions end the process.
 template <class Reader>
 int fuzz_model(Reader&& reader, const char* name, const uint8_t* data, std::size_t size) {
@@ -53,7 +40,7 @@ int fuzz_model(Reader&& reader, const char* name, const uint8_t* data, std::size
   accept_input_error([&] {
     const Model model = reader(fuzz_folder() / name, std::as_bytes(std::span(data, size)), options);
     check_model(model);
-    for_each_pose(model, [&](const PosedModel& posed) { check_fitted_view(model, posed); });
+    check_poses(model);
   });
   return 0;
 }

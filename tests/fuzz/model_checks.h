@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Invariants of every model that a reader returns, whatever its file contains.
+// Invariants of every model that a reader returns, whatever its file contains, and of the views of it.
 #pragma once
 
 #include <algorithm>
@@ -12,6 +12,7 @@
 #include "halfspace/core/check.h"
 #include "halfspace/model/model.h"
 #include "halfspace/model/pose.h"
+#include "halfspace/render/model_fit.h"
 
 namespace halfspace {
 
@@ -62,22 +63,32 @@ inline std::size_t placed_vertices(const Model& model, const PosedModel& posed) 
   return count;
 }
 
-/// Poses the model without animation, in every scene and with every variant and animation, but with at most four of each. Calls f(posed)
-/// for poses with few vertices.
-template <class F>
-void for_each_pose(const Model& model, F&& f) {
+/// Fits the camera to a posed model, also for a camera that goes around it.
+inline void check_fitted_view(const ModelPoses& poses) {
+  const ModelBounds bounds = bounds_of(poses, "a");
+  for (const double seconds : {0.0, 1.0}) {
+    ModelView view;
+    view.turn_seconds = seconds;
+    const FittedView fitted = fitted_view(poses, bounds, view);
+    for (int i = 0; i < 3; ++i) HS_CHECK(std::isfinite(fitted.eye[i]) && std::isfinite(fitted.target[i]));
+  }
+}
+
+/// Poses the model without animation, in every scene and with every variant and animation, but with at most four of each. Shows poses with
+/// few vertices by a fitted camera, as `halfspace render` does.
+inline void check_poses(const Model& model) {
   const auto last = [](std::size_t count) { return static_cast<int>(std::min<std::size_t>(count, 4)); };
   const auto use = [&](PoseOptions options) {
     options.bounds = false;
-    PosedModel posed = pose(model, options);
+    const PosedModel posed = pose(model, options);
     for (const PosedMesh& mesh : posed.meshes) {
       if (mesh.deformed != nullptr) check_mesh(*mesh.deformed);
     }
     if (placed_vertices(model, posed) > kMaxVisitedVertices) return;
     options.bounds = true;
-    posed = pose(model, options);
-    for (int i = 0; i < 3; ++i) HS_CHECK(!std::isnan(posed.low[i]) && !std::isnan(posed.high[i]));
-    f(posed);
+    const ModelPoses poses(model, options, {options.time});
+    for (int i = 0; i < 3; ++i) HS_CHECK(!std::isnan(poses.first().low[i]) && !std::isnan(poses.first().high[i]));
+    check_fitted_view(poses);
   };
   use({});
   for (int i = 0; i < last(model.scenes.size()); ++i) use({.scene = i});
