@@ -263,7 +263,11 @@ RenderReport run(const RenderJob& job) {
   for (int frame = job.frames->first; frame <= job.frames->last; ++frame) {
     const std::filesystem::path path = frame_path(job.out, frame, *job.frames);
     const bool skip = job.resume && are_complete(files_of(job, time_of(job, frame), path));
-    if (!skip) render_picture(job, time_of(job, frame), path, assets, workers, report);
+    if (skip) {
+      ++report.pictures;  // not known to be empty
+    } else {
+      render_picture(job, time_of(job, frame), path, assets, workers, report);
+    }
     progress.advance(skip);
   }
   return report;

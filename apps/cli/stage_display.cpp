@@ -4,18 +4,15 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <chrono>
 
 #include "cli/frames.h"
+#include "halfspace/core/text.h"
 
 namespace halfspace {
 
 StageDisplay::StageDisplay(std::string text) {
-  // File names can contain control characters.
-  std::ranges::replace_if(
-      text, [](char c) { return static_cast<unsigned char>(c) < 32 || c == 127; }, '?');
-  if (::isatty(STDERR_FILENO) == 1) thread_ = std::thread([this, text = std::move(text)] { show_until_ended(text); });
+  if (::isatty(STDERR_FILENO) == 1) thread_ = std::thread([this, text = printable(text)] { show_until_ended(text); });
 }
 
 StageDisplay::~StageDisplay() {

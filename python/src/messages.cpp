@@ -4,6 +4,8 @@
 #include <string_view>
 #include <utility>
 
+#include "halfspace/core/text.h"
+
 namespace halfspace::python {
 
 namespace {
@@ -27,7 +29,7 @@ std::string in_python_terms(std::string message) {
   for (const auto& [phrase, replacement] : kPhrases) {
     if (const std::size_t at = message.rfind(phrase); at != std::string::npos) message.replace(at, phrase.size(), replacement);
   }
-  return message;
+  return printable(message);  // Python decodes messages as UTF-8, and names from files may not be valid
 }
 
 }  // namespace halfspace::python

@@ -72,6 +72,11 @@ std::size_t utf8_length(std::string_view text) {
   return length;
 }
 
+void append_escaped(unsigned char byte, std::string& out) {
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  out += {'\\', 'x', kDigits[byte >> 4], kDigits[byte & 15]};
+}
+
 }  // namespace
 
 std::string printable(std::string_view text) {
@@ -80,13 +85,14 @@ std::string printable(std::string_view text) {
   while (!text.empty()) {
     const auto first = static_cast<unsigned char>(text[0]);
     const std::size_t length = utf8_length(text);
-    if (length == 0 || first < 32 || first == 127) {
-      constexpr std::string_view kDigits = "0123456789abcdef";
-      out += {'\\', 'x', kDigits[first >> 4], kDigits[first & 15]};
+    const std::string_view sequence = text.substr(0, std::max<std::size_t>(length, 1));
+    const bool is_c1 = length == 2 && first == 0xc2 && static_cast<unsigned char>(text[1]) < 0xa0;  // U+0080 to U+009F
+    if (length == 0 || first < 32 || first == 127 || is_c1) {
+      for (const char byte : sequence) append_escaped(static_cast<unsigned char>(byte), out);
     } else {
-      out += text.substr(0, length);
+      out += sequence;
     }
-    text.remove_prefix(std::max<std::size_t>(length, 1));
+    text.remove_prefix(sequence.size());
   }
   return out;
 }
@@ -99,9 +105,18 @@ std::string line_and_column(std::string_view text, std::size_t byte) {
   return std::to_string(line) + ":" + std::to_string(column);
 }
 
+std::size_t position_of_quoted(std::string_view text, std::string_view message) {
+  const std::size_t end = message.rfind('\''), before = end == 0 || end == std::string_view::npos ? end : message.rfind('\'', end - 1);
+  if (before == std::string_view::npos || before >= end) return 0;
+  const std::size_t found = text.find(message.substr(before + 1, end - before - 1));
+  return found == std::string_view::npos ? 0 : found + 1;
+}
+
 std::string json_problem(const std::exception& e) {
   std::string what = e.what();
-  if (const std::size_t colon = what.find(": "); what.starts_with("[json") && colon != std::string::npos) what = what.substr(colon + 2);
+  if (const std::size_t end = what.find("] "); what.starts_with("[json") && end != std::string::npos) what = what.substr(end + 2);
+  if (const std::size_t colon = what.find(": "); what.starts_with("parse error") && colon != std::string::npos)
+    what = what.substr(colon + 2);
   if (what.starts_with("syntax error")) what = what.substr(0, what.find("; last read"));
   for (char& c : what) {
     if (static_cast<unsigned char>(c) < 32) c = ' ';

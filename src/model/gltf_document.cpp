@@ -95,16 +95,19 @@ GltfDocument::GltfDocument(const std::filesystem::path& file, std::string_view t
   if (size.depth > kMaxDepth) throw InputError(fmt::format("{}: JSON is nested too deeply; expected at most {} levels", file_, kMaxDepth));
   take_memory(empty_object(), size.values, kBytesPerValue);
   take_memory(empty_object(), text.size(), 1);
+  const auto place_at = [&](std::size_t byte) {  // 1-based, in the text
+    if (offset == 0) return file_ + ":" + line_and_column(text, byte);
+    return fmt::format("{}: byte {}", file_, offset + std::max<std::size_t>(byte, 1) - 1);
+  };
   try {
     root_ = std::make_unique<const GltfValue>(GltfValue::parse(text.begin(), text.end()));
   } catch (const GltfValue::parse_error& e) {
-    const std::size_t byte = offset + std::max<std::size_t>(e.byte, 1) - 1;
-    const std::string place = offset > 0 ? fmt::format("{}: byte {}", file_, byte) : file_ + ":" + line_and_column(text, e.byte);
     const std::string problem = json_problem(e);  // it may already say what was expected
-    throw InputError(place + ": invalid JSON: " + problem +
+    throw InputError(place_at(e.byte) + ": invalid JSON: " + problem +
                      (problem.find("expected ") == std::string::npos ? "; expected a glTF file" : ""));
-  } catch (const GltfValue::exception&) {
-    throw InputError(fmt::format("{}: a number in the JSON text is out of range; expected finite numbers", file_));
+  } catch (const GltfValue::out_of_range& e) {
+    const std::string problem = json_problem(e);
+    throw InputError(place_at(position_of_quoted(text, problem)) + ": " + problem + "; expected a finite number");
   }
   if (!root_->is_object()) throw InputError(file_ + ": the JSON text is not an object; expected a glTF file");
 }

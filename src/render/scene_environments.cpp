@@ -65,7 +65,7 @@ std::array<fs::path, 6> face_files(const EnvironmentDescription& e) {
 }
 
 template <class Texel>
-EnvironmentMap cube_of(const std::array<fs::path, 6>& files, std::array<Picture, 6>& pictures) {
+EnvironmentMap cube_of(const std::array<fs::path, 6>& files, std::array<Picture, 6>& pictures, const Workers& workers) {
   std::array<Image<Texel>, 6> faces;
   TexelFormat format = std::is_same_v<Texel, glm::u8vec4> ? TexelFormat::srgb8a8 : TexelFormat::rgba16f;
   for (std::size_t f = 0; f < 6; ++f) {
@@ -80,14 +80,14 @@ EnvironmentMap cube_of(const std::array<fs::path, 6>& files, std::array<Picture,
     }
     format = std::max(format, format_for(faces[f]));
   }
-  return EnvironmentMap(faces, format);
+  return EnvironmentMap(faces, format, &workers);
 }
 
-EnvironmentMap read_cube(const std::array<fs::path, 6>& files) {
+EnvironmentMap read_cube(const std::array<fs::path, 6>& files, const Workers& workers) {
   std::array<Picture, 6> pictures;
   std::ranges::transform(files, pictures.begin(), read_picture);
-  return std::holds_alternative<Image<glm::u8vec4>>(pictures[0]) ? cube_of<glm::u8vec4>(files, pictures)
-                                                                 : cube_of<glm::vec4>(files, pictures);
+  return std::holds_alternative<Image<glm::u8vec4>>(pictures[0]) ? cube_of<glm::u8vec4>(files, pictures, workers)
+                                                                 : cube_of<glm::vec4>(files, pictures, workers);
 }
 
 EnvironmentMap read_panorama(const fs::path& path, const std::string& where) {
@@ -126,7 +126,7 @@ std::shared_ptr<const EnvironmentMap> SceneEnvironments::environment_map(const s
       const std::array<fs::path, 6> files = read_for(path, [&] { return face_files(e); });
       std::string words = "cube ";
       for (const fs::path& file : files) words += recipe(file.string());
-      return used_.asset<EnvironmentMap>(words, [&] { return read_for(path, [&] { return read_cube(files); }); });
+      return used_.asset<EnvironmentMap>(words, [&] { return read_for(path, [&] { return read_cube(files, workers_); }); });
     }
     default: return generated_sky(e);
   }

@@ -55,8 +55,9 @@ Json parse_json(std::string_view text, const std::string& source) {
     return Json::parse(text.begin(), text.end(), OnceOnly(source), true, true);
   } catch (const Json::parse_error& e) {
     fail(source + ":" + line_and_column(text, e.byte), "invalid JSON: " + json_problem(e));
-  } catch (const Json::exception& e) {
-    fail(source, json_problem(e));
+  } catch (const Json::out_of_range& e) {
+    const std::string problem = json_problem(e);
+    fail(source + ":" + line_and_column(text, position_of_quoted(text, problem)), problem + "; expected a finite number");
   }
 }
 

@@ -88,7 +88,10 @@ using Faces = std::array<Image<Texel>, 6>;
 // Calls f(face) for every face, using the workers if there are any.
 template <class F>
 void for_each_face(const Workers* workers, const F& f) {
-  detail::for_each_row(workers, 6, [&](int face) { f(static_cast<std::size_t>(face)); });
+  detail::for_each_row(workers, 6, [&](int face) {
+    const FloatMode float_mode;
+    f(static_cast<std::size_t>(face));
+  });
 }
 
 // Returns the texel of the adjacent face next to texel (x, y), which is one step beyond an edge of this face.
@@ -173,7 +176,6 @@ template <class Texel>
 void EnvironmentMap::add_levels(std::span<const std::array<Image<Texel>, 6>> levels, TexelFormat format, const Workers* workers) {
   std::array<std::vector<Texture2D>, 6> by_face;
   for_each_face(workers, [&](std::size_t f) {
-    const FloatMode float_mode;
     for (const Faces<Texel>& faces : levels) by_face[f].push_back(one_level(bordered(faces, static_cast<int>(f)), format));
   });
   for (std::size_t level = 0; level < levels.size(); ++level) {

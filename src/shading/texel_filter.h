@@ -3,8 +3,8 @@
 // Bilinear filtering of 2x2 texels, for formats with four channels.
 //
 // Where the build has the instructions, rgba8, rgba16f and rgba32f are filtered texel by texel, with all four channels in one register,
-// and the result is transposed. Otherwise each channel is filtered for all lanes. Both methods give bit-identical results: the sum along a row of
-// rgba8 is an integer below 2^23, which is exact, and everything else is computed with the same operations.
+// and the result is transposed. Otherwise each channel is filtered for all lanes. Both methods give bit-identical results: the sum along a
+// row of rgba8 is an integer below 2^23, which is exact, and everything else is computed with the same operations.
 #pragma once
 
 #include "halfspace/core/half.h"
@@ -264,8 +264,8 @@ HS_INLINE R filtered_alpha(const AlphaSquare<R>& s) {
 
 // ---- all lanes and formats ----------------------------------------------------------------------------------------------
 
-/// Filters 2x2 texels and returns linear values (rgba16f, rgba32f) or the units of decode_rgba8. Value selects the channels: vec4, and for 8-bit
-/// formats also vec3 (no alpha).
+/// Filters 2x2 texels and returns linear values (rgba16f, rgba32f) or the units of decode_rgba8. Value selects the channels: vec4, and for
+/// 8-bit formats also vec3 (no alpha).
 template <class Value, TexelFormat format, class R>
 HS_INLINE Value filtered(const TexelSquare<R>& s) {
   if constexpr (kFiltersByTexel<R> && format != TexelFormat::srgb8a8)

@@ -46,6 +46,7 @@ TEST(Text, PrintableEscapesControlCharactersAndInvalidUtf8) {
   EXPECT_EQ(printable("\xed\xa0\x80"), R"(\xed\xa0\x80)") << "a surrogate";
   EXPECT_EQ(printable("\xf4\x90\x80\x80"), R"(\xf4\x90\x80\x80)") << "above U+10FFFF";
   EXPECT_EQ(printable(std::string_view("\0", 1)), R"(\x00)");
+  EXPECT_EQ(printable("\xc2\x9b\xc2\xa0"), "\\xc2\\x9b\xc2\xa0") << "U+009B starts an escape sequence, U+00A0 is a space";
 }
 
 TEST(Text, LinesAndColumnsBeginAtOne) {
@@ -54,6 +55,13 @@ TEST(Text, LinesAndColumnsBeginAtOne) {
   EXPECT_EQ(line_and_column("a\nbc\n", 4), "2:2");
   EXPECT_EQ(line_and_column("a\nbc\n", 99), "3:1") << "the end of the text";
   EXPECT_EQ(line_and_column("", 0), "1:1");
+}
+
+TEST(Text, FindsTheQuotedPartOfAMessage) {
+  EXPECT_EQ(position_of_quoted("[1, 1e999]", "number overflow parsing '1e999'"), 5u);
+  EXPECT_EQ(position_of_quoted("a b", "first 'a', last 'b'"), 3u);
+  EXPECT_EQ(position_of_quoted("[1]", "parsing '2'"), 0u);
+  for (const char* message : {"", "'", "no quotes", "one ' only"}) EXPECT_EQ(position_of_quoted("'", message), 0u) << message;
 }
 
 }  // namespace

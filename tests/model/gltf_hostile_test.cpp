@@ -207,6 +207,7 @@ TEST(GltfHostile, RejectsTextThatIsNotJson) {
     EXPECT_NE(error_of(text), "") << text.substr(0, 40);
   }
   EXPECT_TRUE(reports(error_of("{\n\n  \"asset\": x}"), "/none/a.gltf:3:12: ", {"invalid JSON", "expected a glTF file"}));
+  EXPECT_EQ(error_of("{\n\"a\": -1e999}"), "/none/a.gltf:2:6: number overflow parsing '-1e999'; expected a finite number");
   // In a binary file, the text begins after 20 bytes, and this one has its error after 10 more.
   std::string glb = GltfBuilder().glb();
   glb[30] = 'x';

@@ -364,6 +364,7 @@ TEST(SceneFile, ErrorMessagesAreExact) {
   const auto error = [](const char* text) { return input_error([&] { scene_of(text); }); };
   EXPECT_EQ(error("{\n \"version\": 1,\n}"),
             "test.json:3:1: invalid JSON: syntax error while parsing object key - unexpected '}'; expected string literal");
+  EXPECT_EQ(error("{\n  \"version\": 1e999}"), "test.json:2:14: number overflow parsing '1e999'; expected a finite number");
   EXPECT_EQ(error(R"({"version": 1, "objects": {"a": {"raduis": 1}}})"),
             "test.json: objects.a.raduis: unknown key; did you mean 'radius'?");
   EXPECT_EQ(error(R"({"version": 1, "objects": {"a": {"radius": "big"}}})"),

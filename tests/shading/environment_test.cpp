@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cfenv>
 #include <cmath>
 #include <random>
 
@@ -351,6 +352,23 @@ TEST(EnvironmentMap, LanesMatchScalarBits) {
     expect_lanes_are_float<4>(map);
     expect_lanes_are_float<8>(map);
     if constexpr (kLanes == 16) expect_lanes_are_float<16>(map);
+  }
+}
+
+// The texels must depend neither on the number of threads nor on the rounding mode of the caller.
+TEST(EnvironmentMap, WorkersAndRoundingModeDoNotChangeIt) {
+  const Workers workers(3);
+  const Faces faces = random_faces(32, 5);
+  const EnvironmentMap shared(faces, TexelFormat::rgba32f, &workers);
+  ASSERT_EQ(std::fesetround(FE_UPWARD), 0);
+  const EnvironmentMap alone(faces, TexelFormat::rgba32f);
+  ASSERT_EQ(std::fesetround(FE_TONEAREST), 0);
+  ASSERT_EQ(shared.levels(), alone.levels());
+  std::mt19937 random(23);
+  for (int i = 0; i < 2000; ++i) {
+    const glm::vec3 d(random_vector(random));
+    const float level = static_cast<float>(i % shared.levels());
+    ASSERT_EQ(shared.sample_level<float>(d, level), alone.sample_level<float>(d, level)) << "level " << level;
   }
 }
 
