@@ -27,4 +27,34 @@ MetallicColor metallic_color(const glm::dvec3& diffuse, const glm::dvec3& specul
   return {glm::clamp(glm::mix(from_diffuse, from_specular, metallic * metallic), 0.0, 1.0), metallic};
 }
 
+namespace {
+
+// Returns the conversion that the image of a map results from, or null.
+const SpecularGlossiness* conversion_of(const Model& model, const TextureUse& map) {
+  if (map.texture < 0) return nullptr;
+  const int image = model.textures[static_cast<std::size_t>(map.texture)].image;
+  if (image < 0 || !model.images[static_cast<std::size_t>(image)].converted) return nullptr;
+  return &*model.images[static_cast<std::size_t>(image)].converted;
+}
+
+glm::dvec3 unit_color(const glm::vec3& c) { return glm::min(glm::dvec3(c), 1.0); }
+
+}  // namespace
+
+ModelMaterial without_converted_maps(const Model& model, ModelMaterial material) {
+  const SpecularGlossiness* color = conversion_of(model, material.base_color_map);
+  const SpecularGlossiness* roughness = conversion_of(model, material.roughness_map);
+  if (color != nullptr) {
+    const MetallicColor converted = metallic_color(unit_color(color->diffuse), unit_color(color->specular));
+    material.base_color = glm::vec4(glm::vec3(converted.base), material.base_color.w);
+    material.metallic = static_cast<float>(converted.metallic);
+    material.base_color_map = material.metallic_map = {};
+  }
+  if (roughness != nullptr) {
+    material.roughness = 1.0f - roughness->glossiness;
+    material.roughness_map = {};
+  }
+  return material;
+}
+
 }  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -6,6 +6,7 @@
 #include <glm/glm.hpp>
 
 #include "halfspace/core/namespace.h"
+#include "halfspace/model/model.h"
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
 
@@ -19,7 +20,11 @@ struct MetallicColor {
 };
 
 /// Converts linear colors from 0 to 1. The metallic factor is chosen so that the mixture of a metal with a dielectric of reflectance 0.04
-/// has the same brightness of the specular color. The roughness is 1 minus the glossiness.
+/// has the same brightness as the specular color. The roughness is 1 minus the glossiness.
 MetallicColor metallic_color(const glm::dvec3& diffuse, const glm::dvec3& specular);
+
+/// Returns the material for meshes that cannot be textured: maps whose images are converted are replaced by the conversion of their
+/// factors. These are part of the images, so the factors of the material itself are 1.
+ModelMaterial without_converted_maps(const Model& model, ModelMaterial material);
 
 }  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -12,6 +12,7 @@
 
 #include "halfspace/core/resource_limits.h"
 #include "halfspace/image/image_io.h"
+#include "halfspace/model/specular_glossiness.h"
 #include "halfspace/render/converted_images.h"
 #include "halfspace/render/model_bumps.h"
 #include "halfspace/render/soft_mask.h"
@@ -211,7 +212,8 @@ MetallicMaterial ModelMaterials::metallic_material(const ObjectDescription& o, c
 
 MetallicMaterial ModelMaterials::surface_of(const ObjectDescription& o, const Model& model, int mesh, const ModelMaterial& m,
                                             bool has_uvs) {
-  MetallicMaterial surface = metallic_material(o, model, m, has_uvs);
+  MetallicMaterial surface =
+      has_uvs ? metallic_material(o, model, m, true) : metallic_material(o, model, without_converted_maps(model, m), false);
   if (m.bump_map.texture >= 0 && m.normal_map.texture < 0) add_bumps(surface, o, model, mesh, m, used_, warnings_);
   return surface;
 }

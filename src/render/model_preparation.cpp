@@ -6,6 +6,7 @@
 #include <span>
 
 #include "halfspace/core/resource_limits.h"
+#include "halfspace/model/specular_glossiness.h"
 #include "halfspace/render/scene_background.h"
 #include "halfspace/render/scene_places.h"
 #include "halfspace/render/wireframe.h"
@@ -185,7 +186,8 @@ void ModelPreparation::add_part(int object, const ObjectDescription& o, const st
     const bool colored = !streams.colors.empty() || !material.is_default;
     if (streams.colors.empty()) streams.colors = neutral()->colors;
     const ColoredPrimitives shader{glm::mat4(view_.clip_from_world * world),
-                                   colored ? material.base_color : line_color(background_color(scene_.background))};
+                                   colored ? without_converted_maps(model->model, material).base_color
+                                           : line_color(background_color(scene_.background))};
     DrawState state = opaque_state(CullMode::none, false);
     state.point_size = point_size(model->indices[mesh_index].size(), view_.height_px);
     state.topology = mesh.topology == MeshTopology::points ? Topology::points : Topology::lines;

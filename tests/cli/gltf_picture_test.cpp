@@ -281,6 +281,28 @@ TEST_F(GltfPicture, SpecularGlossinessIsConverted) {
   EXPECT_NE(expected.at(4, 4), expected.at(4, 28)) << "metalness is visible";
 }
 
+// Meshes without texture coordinates, lines and points have the color that the factors have without the textures.
+TEST_F(GltfPicture, ConvertedFactorsApplyWithoutTextures) {
+  write_png(directory / "map.png", Image<glm::u8vec4>(1, 1));
+  const auto render = [&](int mode, bool textured) {
+    GltfBuilder file;
+    file.add("images", {{"uri", "map.png"}});
+    file.add("textures", {{"source", 0}});
+    GltfJson properties = {{"diffuseFactor", {0.1, 0.5, 0.02, 1}}, {"specularFactor", {0.3, 0.2, 0.1}}, {"glossinessFactor", 0.4}};
+    if (textured) properties["diffuseTexture"] = properties["specularGlossinessTexture"] = {{"index", 0}};
+    GltfJson mesh = square(file, file.add("materials", {{"extensions", {{"KHR_materials_pbrSpecularGlossiness", properties}}}}));
+    mesh["mode"] = mode;
+    if (mode == 4) mesh["attributes"].erase("TEXCOORD_0");
+    file.mesh_node(mesh);
+    std::ofstream(directory / "a.gltf") << file.text();
+    EXPECT_EQ(run({"render", "a.gltf", "--size", "64x36", "-o", "a.png"}).err, "");
+    return picture("a.png");
+  };
+  for (const int mode : {0, 1, 4}) EXPECT_TRUE(render(mode, true) == render(mode, false)) << "mode " << mode;
+  const glm::u8vec4 center = render(4, true).at(32, 18);
+  EXPECT_GT(center.y, center.z + 40) << "the square is green";
+}
+
 // An exported file contains the converted textures, not their sources, and shows the same picture.
 TEST_F(GltfPicture, ExportContainsConvertedTextures) {
   Image<glm::u8vec4> diffuse(4, 4), specular(2, 2);

@@ -5,6 +5,7 @@
 
 #include <numbers>
 
+#include "halfspace/model/specular_glossiness.h"
 #include "model/gltf_builder.h"
 #include "support/files.h"
 #include "support/temporary_folder.h"
@@ -186,6 +187,17 @@ TEST(GltfMaterial, ConvertsSpecularGlossinessTextures) {
   EXPECT_EQ(dielectric.roughness_map.uv_set, 0);
   ASSERT_EQ(model.warnings.size(), 1u);
   EXPECT_NE(model.warnings[0].find("texture coordinates"), std::string::npos) << model.warnings[0];
+  // Meshes that cannot be textured have the material that the factors describe.
+  const ModelMaterial plain = without_converted_maps(model, m);
+  const MetallicColor color_of_factors = metallic_color(glm::dvec3(data.converted->diffuse), glm::dvec3(data.converted->specular));
+  EXPECT_EQ(plain.base_color, glm::vec4(glm::vec3(color_of_factors.base), 0.25f));
+  EXPECT_EQ(plain.metallic, static_cast<float>(color_of_factors.metallic));
+  EXPECT_EQ(plain.roughness, 0.25f);
+  for (const TextureUse* map : {&plain.base_color_map, &plain.metallic_map, &plain.roughness_map}) EXPECT_EQ(map->texture, -1);
+  const ModelMaterial plain_dielectric = without_converted_maps(model, dielectric);
+  EXPECT_EQ(plain_dielectric.base_color, dielectric.base_color);
+  EXPECT_EQ(plain_dielectric.base_color_map.texture, 0) << "this image is not converted";
+  EXPECT_EQ(plain_dielectric.roughness, 0.25f);
   // The textures that the reader adds cannot be used by their numbers.
   add({{"diffuseTexture", {{"index", 2}}}});
   EXPECT_THROW(file.read(), InputError);
