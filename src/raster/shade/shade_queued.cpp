@@ -107,13 +107,27 @@ std::size_t shade_batch(const Shading& c, PacketQueue& queue, std::size_t begin)
   return n;
 }
 
-// The same, but packs the pixels first.
+// Blends the colors of packed pixels into the packets to which they belong.
+void blend_packed(const FragmentOutput& packed, std::span<const PacketMask> packets, const BlendTarget& to) {
+  std::size_t pixel = 0;
+  for (const PacketMask& p : packets) {
+    const auto channel = [&](std::size_t c) { return unpack_values(packed.color_plane(0, c), pixel, p.lanes); };
+    to.program(*to.buffer, p, *to.state, channel(0), channel(1), channel(2), channel(3));
+    pixel += static_cast<std::size_t>(std::popcount(p.lanes));
+  }
+}
+
+// The same as shade_batch(), but packs the pixels first.
 template <class Shading>
 std::size_t shade_packed(const Shading& c, PacketQueue& queue, std::size_t begin, PackedFragments& packed) {
   const std::span<const PacketMask> packets(&queue.packets[begin], static_cast<std::size_t>(queue.count) - begin);
   const std::size_t count = pack(packets, &queue.ids[begin], packed.pixels);
   c.draw.kernels.fragment(c.draw.shader.get(), {packed.pixels.batch(c.context, c.tile), &packed.output});
   c.statistics.fragments_shaded += packed.pixels.count;
+  if (const BlendTarget blend = direct_blend(c); blend.program != nullptr) {
+    blend_packed(packed.output, packets.first(count), blend);
+    return count;
+  }
   for (std::size_t done = 0, pixel = 0; done < count;) {
     const std::size_t n = std::min(std::size_t{kPacketBatch}, count - done);
     pixel = unpack(c.draw.kernels, packed.output, pixel, packets.subspan(done, n), c.output);
