@@ -59,8 +59,8 @@ void export_command(const ExportArguments& args) {
   const StageDisplay display("exporting " + args.scene);
   const Workers workers(parse_threads(args.threads));
   ExportSource source = is_model_file(args.scene) ? model_source(args) : scene_source(args, workers);
-  embed_images(source.model);
-  if (*format == ModelFormat::glb || *format == ModelFormat::gltf) pack_maps(source.model);
+  embed_images(source.model, args.scene);
+  if (*format == ModelFormat::glb || *format == ModelFormat::gltf) pack_maps(source.model, args.scene);
   const WrittenModel written = written_model(source.model, out, *format);
   for (const ModelFile& file : written.files) reject_overwriting(out.parent_path() / file.name, source.inputs);
   for (const std::span<const std::string> warnings : {std::span<const std::string>(source.model.warnings), {written.warnings}}) {

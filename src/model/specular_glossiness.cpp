@@ -41,6 +41,14 @@ glm::dvec3 unit_color(const glm::vec3& c) { return glm::min(glm::dvec3(c), 1.0);
 
 }  // namespace
 
+bool are_converted_together(const ModelImage& a, const ModelImage& b) {
+  return a.converted && b.converted && a.converted->same_sources(*b.converted);
+}
+
+bool has_converted_maps(const Model& model, const ModelMaterial& material) {
+  return conversion_of(model, material.base_color_map) != nullptr || conversion_of(model, material.roughness_map) != nullptr;
+}
+
 ModelMaterial without_converted_maps(const Model& model, ModelMaterial material) {
   const SpecularGlossiness* color = conversion_of(model, material.base_color_map);
   const SpecularGlossiness* roughness = conversion_of(model, material.roughness_map);

@@ -23,6 +23,12 @@ struct MetallicColor {
 /// has the same brightness as the specular color. The roughness is 1 minus the glossiness.
 MetallicColor metallic_color(const glm::dvec3& diffuse, const glm::dvec3& specular);
 
+/// Returns true if both images are results of the same conversion.
+bool are_converted_together(const ModelImage& a, const ModelImage& b);
+
+/// Returns true if the base color or the roughness of a material has a map whose image is converted.
+bool has_converted_maps(const Model& model, const ModelMaterial& material);
+
 /// Returns the material for meshes that cannot be textured: maps whose images are converted are replaced by the conversion of their
 /// factors. These are part of the images, so the factors of the material itself are 1.
 ModelMaterial without_converted_maps(const Model& model, ModelMaterial material);

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "halfspace/core/check.h"
+#include "halfspace/model/used_images.h"
 #include "halfspace/model/write_formats.h"
 #include "halfspace/model/write_mtl.h"
 
@@ -120,14 +121,15 @@ ModelFile text_file(const std::string& name, const std::string& text) {
 WrittenModel write_obj(const Model& model, const std::string& stem) {
   WrittenModel written;
   std::vector<std::string> material_names, image_names;
-  std::set<std::string> used;
+  std::set<std::string> names;
   std::vector<ModelFile> images;
-  for (const ModelMaterial& m : model.materials) material_names.push_back(obj_name(m.name, "material", used));
-  material_names.push_back(obj_name("default", "", used));
+  for (const ModelMaterial& m : model.materials) material_names.push_back(obj_name(m.name, "material", names));
+  material_names.push_back(obj_name("default", "", names));
+  const std::vector<bool> used = used_images(model);
   for (std::size_t i = 0; i < model.images.size(); ++i) {
     const ModelImage& image = model.images[i];
     const std::string extension = image.bytes ? image_extension(*image.bytes) : "";
-    if (extension.empty()) written.warnings.push_back(fmt::format("image '{}' is omitted; expected PNG or JPEG", image.name));
+    if (extension.empty() && used[i]) written.warnings.push_back(fmt::format("image '{}' is omitted; expected PNG or JPEG", image.name));
     image_names.push_back(extension.empty() ? "" : fmt::format("{}_image{}{}", stem, i, extension));
     if (!extension.empty()) images.push_back({image_names.back(), *image.bytes});
   }

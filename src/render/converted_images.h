@@ -17,6 +17,11 @@ struct ConvertedImages {
   Image<glm::u8vec4> base_color;          ///< sRGB; alpha is that of the diffuse texture
   Image<glm::u8vec4> metallic_roughness;  ///< linear: roughness in green, metalness in blue
   std::vector<std::string> problems;      ///< sources that cannot be read; they are replaced by white
+
+  /// Returns the one that an image of the model stands for.
+  const Image<glm::u8vec4>& result(const ModelImage& image) const {
+    return image.converted->result == SpecularGlossiness::Result::base_color ? base_color : metallic_roughness;
+  }
 };
 
 /// Converts textures of a model. The results have the size of the source with more texels; the other one is resampled with its wrap modes,

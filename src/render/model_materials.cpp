@@ -56,11 +56,6 @@ Texture2D decoded(const std::filesystem::path& file, const ModelImage& source, b
                     color, workers);
 }
 
-// Returns true if two images are results of the same conversion.
-bool are_converted_together(const ModelImage& a, const ModelImage& b) {
-  return a.converted && b.converted && a.converted->same_sources(*b.converted);
-}
-
 // Estimates the work of decoding an image by the size of its file. The result of a conversion needs two images.
 std::uintmax_t decoding_work(const ModelImage& image) {
   if (image.converted) return std::numeric_limits<std::uintmax_t>::max();
@@ -102,8 +97,7 @@ void ModelMaterials::load_images(const ObjectDescription& o, const Model& model,
     const ConvertedImages images = converted_images(model, *image_at(first).converted, o.file.path.string(), workers_);
     for (const std::string& problem : images.problems) problems[first] += (problems[first].empty() ? "" : "; ") + problem;
     for (std::size_t i = first; i < list.size() && are_converted_together(image_at(first), image_at(i)); ++i) {
-      const bool is_color = image_at(i).converted->result == SpecularGlossiness::Result::base_color;
-      textures[i].emplace(texture_of(is_color ? images.base_color : images.metallic_roughness, list[i].second, workers_));
+      textures[i].emplace(texture_of(images.result(image_at(i)), list[i].second, workers_));
     }
   };
   const auto load = [&](std::size_t i) {

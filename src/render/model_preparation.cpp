@@ -185,9 +185,9 @@ void ModelPreparation::add_part(int object, const ObjectDescription& o, const st
   if (mesh.topology != MeshTopology::triangles) {
     const bool colored = !streams.colors.empty() || !material.is_default;
     if (streams.colors.empty()) streams.colors = neutral()->colors;
-    const ColoredPrimitives shader{glm::mat4(view_.clip_from_world * world),
-                                   colored ? without_converted_maps(model->model, material).base_color
-                                           : line_color(background_color(scene_.background))};
+    const glm::vec4 color =
+        colored ? without_converted_maps(model->model, material).base_color : line_color(background_color(scene_.background));
+    const ColoredPrimitives shader{glm::mat4(view_.clip_from_world * world), color};
     DrawState state = opaque_state(CullMode::none, false);
     state.point_size = point_size(model->indices[mesh_index].size(), view_.height_px);
     state.topology = mesh.topology == MeshTopology::points ? Topology::points : Topology::lines;

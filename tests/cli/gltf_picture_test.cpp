@@ -303,28 +303,103 @@ TEST_F(GltfPicture, ConvertedFactorsApplyWithoutTextures) {
   EXPECT_GT(center.y, center.z + 40) << "the square is green";
 }
 
-// An exported file contains the converted textures, not their sources, and shows the same picture.
-TEST_F(GltfPicture, ExportContainsConvertedTextures) {
-  Image<glm::u8vec4> diffuse(4, 4), specular(2, 2);
-  for (int i = 0; i < 16; ++i) diffuse.data()[i] = {16 * i, 200 - 8 * i, 90, 255};
-  for (int i = 0; i < 4; ++i) specular.data()[i] = {80 * i, 60 * i, 50 * i, 60 * i};
-  write_png(directory / "diffuse.png", diffuse);
-  write_png(directory / "specular.png", specular);
-  GltfBuilder file;
-  for (const char* name : {"diffuse.png", "specular.png"}) {
-    file.add("images", {{"uri", name}});
-    file.add("textures", {{"source", file.json["images"].size() - 1}});
+// Files whose material has a diffuse and a specular-glossiness texture of different sizes.
+class ExportOfConversions : public GltfPicture {
+ protected:
+  void SetUp() override {
+    GltfPicture::SetUp();
+    Image<glm::u8vec4> diffuse(4, 4), specular(2, 2);
+    for (int i = 0; i < 16; ++i) diffuse.data()[i] = {16 * i, 200 - 8 * i, 90, 255};
+    for (int i = 0; i < 4; ++i) specular.data()[i] = {80 * i, 60 * i, 50 * i, 60 * i};
+    write_png(directory / "diffuse.png", diffuse);
+    write_png(directory / "specular.png", specular);
+    for (const char* name : {"diffuse.png", "specular.png"}) {
+      file.add("images", {{"uri", name}});
+      file.add("textures", {{"source", file.json["images"].size() - 1}});
+    }
   }
-  const GltfJson maps = {{"diffuseTexture", {{"index", 0}}}, {"specularGlossinessTexture", {{"index", 1}}}};
-  file.mesh_node(square(file, file.add("materials", {{"extensions", {{"KHR_materials_pbrSpecularGlossiness", maps}}}})));
-  std::ofstream(directory / "a.gltf") << file.text();
-  const Outcome exported = run({"export", "a.gltf", "-o", "b.glb"});
-  EXPECT_EQ(exported.exit_code, 0);
-  EXPECT_EQ(exported.err, "");
-  EXPECT_EQ(GltfJson::parse(run({"info", "b.glb", "--json"}).out).at("images").size(), 2u);
-  for (const char* name : {"a.gltf", "b.glb"})
-    EXPECT_EQ(run({"render", name, "--size", "64x36", "-o", std::string(1, name[0]) + ".png"}).err, "");
-  EXPECT_TRUE(picture("a.png") == picture("b.png"));
+  int material(double glossiness) {
+    GltfJson textured = maps;
+    textured["glossinessFactor"] = glossiness;
+    return file.add("materials", {{"extensions", {{"KHR_materials_pbrSpecularGlossiness", textured}}}});
+  }
+  Outcome export_to(const std::string& name, const std::vector<std::string>& more = {}) const {
+    std::ofstream(directory / "a.gltf") << file.text();
+    std::vector<std::string> arguments{"export", "a.gltf", "-o", name};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run(arguments);
+  }
+  GltfJson images_of(const std::string& name) const { return GltfJson::parse(run({"info", name, "--json"}).out).at("images"); }
+  // Exports the file to b.glb and checks that it shows the same picture.
+  void expect_same_picture() const {
+    const Outcome exported = export_to("b.glb");
+    EXPECT_EQ(exported.exit_code, 0);
+    EXPECT_EQ(exported.err, "");
+    for (const char* name : {"a.gltf", "b.glb"})
+      EXPECT_EQ(run({"render", name, "--size", "64x36", "-o", std::string(1, name[0]) + ".png"}).err, "");
+    EXPECT_TRUE(picture("a.png") == picture("b.png"));
+  }
+
+  GltfBuilder file;
+  GltfJson maps = {{"diffuseTexture", {{"index", 0}}}, {"specularGlossinessTexture", {{"index", 1}}}};
+};
+
+// An exported file contains the converted textures, not their sources, and shows the same picture.
+TEST_F(ExportOfConversions, ContainsTheResults) {
+  file.mesh_node(square(file, material(1.0)));
+  expect_same_picture();
+  EXPECT_EQ(images_of("b.glb").size(), 2u);
+  const Outcome obj = export_to("b.obj");
+  EXPECT_EQ(obj.exit_code, 0);
+  EXPECT_EQ(obj.err, "") << "the sources are not reported as omitted";
+}
+
+// Textures with different coordinates: only the roughness is converted, and both sources are used.
+TEST_F(ExportOfConversions, OmitsResultsThatNoMaterialUses) {
+  maps["specularGlossinessTexture"]["texCoord"] = 1;
+  GltfJson mesh = square(file, material(1.0));
+  mesh["attributes"]["TEXCOORD_1"] = mesh["attributes"]["TEXCOORD_0"];
+  file.mesh_node(mesh);
+  EXPECT_EQ(export_to("b.glb").exit_code, 0);
+  const GltfJson images = images_of("b.glb");
+  EXPECT_EQ(images.size(), 3u);
+  for (const GltfJson& image : images) EXPECT_TRUE(image.at("used").get<bool>()) << image;
+}
+
+// Meshes that cannot be textured have a copy of the material, with the factors of the conversion.
+TEST_F(ExportOfConversions, KeepsTheFactorsOfMeshesWithoutTextures) {
+  maps["diffuseFactor"] = {0.1, 0.5, 0.02, 1};
+  const int shared = material(0.5);
+  GltfJson mesh = square(file, shared);
+  file.mesh_node(mesh);
+  mesh["attributes"].erase("TEXCOORD_0");
+  file.json["nodes"][static_cast<std::size_t>(file.mesh_node(mesh))]["translation"] = {4, 0, 0};
+  expect_same_picture();
+  EXPECT_EQ(GltfJson::parse(run({"info", "b.glb", "--json"}).out).at("materials").size(), 2u);
+}
+
+TEST_F(ExportOfConversions, ReportsEachUnreadableSourceOnce) {
+  file.add("images", {{"uri", "data:image/png;base64," + GltfBuilder::base64(std::as_bytes(std::span("no image", 8)))}});
+  file.json["textures"][0]["source"] = 2;
+  file.mesh_node(square(file, material(1.0)));
+  const Outcome o = export_to("b.glb");
+  EXPECT_EQ(o.exit_code, 0);
+  EXPECT_EQ(lines_of(o.err), 1) << o.err;
+  EXPECT_NE(o.err.find("a.gltf: images[2]: "), std::string::npos) << o.err;
+}
+
+// Each conversion counts towards the memory limit with the size of its results, 2 MiB here. Materials that no mesh uses are not converted.
+TEST_F(ExportOfConversions, AreLimitedByMemory) {
+  write_png(directory / "diffuse.png", Image<glm::u8vec4>(512, 512));
+  for (int i = 0; i < 110; ++i) material(i / 110.0);
+  file.mesh_node(square(file, 0));
+  EXPECT_EQ(export_to("b.glb", {"--max-memory", "200M"}).err, "");
+  EXPECT_EQ(images_of("b.glb").size(), 2u);
+  for (int i = 1; i < 110; ++i) file.mesh_node(square(file, i));
+  const Outcome o = export_to("b.glb", {"--max-memory", "200M"});
+  EXPECT_EQ(o.exit_code, 3);
+  EXPECT_EQ(lines_of(o.err), 1) << o.err;
+  EXPECT_NE(o.err.find("200 MiB (--max-memory)"), std::string::npos) << o.err;
 }
 
 }  // namespace

@@ -1,70 +1,116 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "halfspace/render/export/embed_images.h"
 
+#include <deque>
+#include <map>
+
 #include "halfspace/core/resource_limits.h"
 #include "halfspace/image/image_io.h"
 #include "halfspace/image/png.h"
 #include "halfspace/model/file_bytes.h"
+#include "halfspace/model/specular_glossiness.h"
 #include "halfspace/model/used_images.h"
 #include "halfspace/model/write_model.h"
 #include "halfspace/render/converted_images.h"
+#include "halfspace/render/export/scene_materials.h"
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
-void embed_converted(Model& model, ModelImage& image) {
-  const Workers workers(1);
-  const ConvertedImages images = converted_images(model, *image.converted, image.name, workers);
-  const bool is_color = image.converted->result == SpecularGlossiness::Result::base_color;
-  image.bytes = std::make_shared<const std::vector<std::byte>>(is_color ? encode_png(images.base_color)
-                                                                        : encode_png(images.metallic_roughness, PngCodes::numbers));
-  // Both results report the same problems.
-  if (is_color) model.warnings.insert(model.warnings.end(), images.problems.begin(), images.problems.end());
+std::shared_ptr<const std::vector<std::byte>> shared(std::vector<std::byte> bytes) {
+  return std::make_shared<const std::vector<std::byte>>(std::move(bytes));
 }
 
-void embed(Model& model, ModelImage& image) {
-  if (image.converted) return embed_converted(model, image);
+bool can_be_textured(const ModelMesh& mesh) { return mesh.topology == MeshTopology::triangles && !mesh.uvs[0].empty(); }
+
+// Returns all references of a mesh to materials.
+std::vector<int*> materials_of(ModelMesh& mesh) {
+  std::vector<int*> materials{&mesh.material};
+  for (int& material : mesh.variant_materials) materials.push_back(&material);
+  std::erase_if(materials, [](const int* material) { return *material < 0; });
+  return materials;
+}
+
+// Replaces converted maps by their factors in materials that no mesh can be textured with. If other meshes share a material with such
+// meshes, they get a copy.
+void remove_unusable_conversions(Model& model) {
+  std::vector<bool> usable(model.materials.size());
+  for (ModelMesh& mesh : model.meshes) {
+    for (const int* material : materials_of(mesh)) {
+      if (can_be_textured(mesh)) usable[static_cast<std::size_t>(*material)] = true;
+    }
+  }
+  for (std::size_t i = 0; i < usable.size(); ++i) {
+    if (!usable[i]) model.materials[i] = without_converted_maps(model, model.materials[i]);
+  }
+  std::map<int, int> copies;
+  for (ModelMesh& mesh : model.meshes) {
+    if (can_be_textured(mesh)) continue;
+    for (int* material : materials_of(mesh)) {
+      const ModelMaterial& shared_material = model.materials[static_cast<std::size_t>(*material)];
+      if (!has_converted_maps(model, shared_material)) continue;
+      const auto [copy, added] = copies.try_emplace(*material, static_cast<int>(model.materials.size()));
+      if (added) model.materials.push_back(without_converted_maps(model, shared_material));
+      *material = copy->second;
+    }
+  }
+}
+
+// Runs each conversion once, for all images that result from it. The results count towards the memory limit with their size before
+// compression, so that the limit also bounds the time.
+void embed_conversions(Model& model, const std::vector<bool>& used, const std::string& file) {
+  const Workers workers(1);
+  std::deque<MemoryClaim> claims;
+  for (std::size_t i = 0; i < model.images.size(); ++i) {
+    if (!used[i] || !model.images[i].converted) continue;
+    const ModelImage first = model.images[i];
+    const ConvertedImages results = converted_images(model, *first.converted, file, workers);
+    claims.emplace_back(2 * sizeof(glm::u8vec4) * results.base_color.texels().size(), file);
+    for (const std::string& problem : results.problems) warn_once(model, problem);
+    for (std::size_t k = i; k < model.images.size() && are_converted_together(first, model.images[k]); ++k) {
+      ModelImage& image = model.images[k];
+      const bool is_color = image.converted->result == SpecularGlossiness::Result::base_color;
+      if (used[k]) image.bytes = shared(encode_png(results.result(image), is_color ? PngCodes::srgb : PngCodes::numbers));
+      image.converted.reset();
+    }
+  }
+}
+
+void embed(ModelImage& image, const std::string& file) {
   if (image.pixels) {
-    image.bytes = std::make_shared<const std::vector<std::byte>>(encode_png(*image.pixels));
+    image.bytes = shared(encode_png(*image.pixels));
     return;
   }
   if (image.bytes == nullptr && image.file.empty()) return;  // the reader has already warned
-  const auto own = [](std::vector<std::byte> bytes) { return std::make_shared<const std::vector<std::byte>>(std::move(bytes)); };
-  auto bytes = image.bytes != nullptr ? image.bytes : own(file_bytes(image.file, memory_left()));
-  if (image_extension(*bytes).empty()) bytes = own(encode_png(read_image(*bytes, image.name)));
+  auto bytes = image.bytes != nullptr ? image.bytes : shared(file_bytes(image.file, memory_left()));
+  if (image_extension(*bytes).empty()) bytes = shared(encode_png(read_image(*bytes, file + ": " + image.name)));
   image.bytes = std::move(bytes);
 }
 
-// Removes the images that were only needed to compute others.
-void remove_sources(Model& model) {
-  const std::vector<bool> used = used_images(model);
-  for (const ModelImage& image : model.images) {
-    if (!image.converted) continue;
-    for (const int texture : {image.converted->diffuse_texture, image.converted->specular_texture}) {
-      const int source = texture < 0 ? -1 : model.textures[static_cast<std::size_t>(texture)].image;
-      if (source < 0 || used[static_cast<std::size_t>(source)]) continue;
-      ModelImage& unneeded = model.images[static_cast<std::size_t>(source)];
-      unneeded.file.clear();
-      unneeded.bytes = nullptr;
-      unneeded.pixels = nullptr;
+void embed_used(Model& model, const std::vector<bool>& used, const std::string& file) {
+  for (std::size_t i = 0; i < model.images.size(); ++i) {
+    if (!used[i]) {
+      model.images[i] = {.name = std::move(model.images[i].name), .file = {}, .bytes = nullptr};
+      continue;
+    }
+    try {
+      embed(model.images[i], file);
+    } catch (const LimitError&) {
+      throw;
+    } catch (const InputError& e) {
+      warn_once(model, e.what());
     }
   }
 }
 
 }  // namespace
 
-void embed_images(Model& model) {
-  for (ModelImage& image : model.images) {
-    try {
-      embed(model, image);
-    } catch (const LimitError&) {
-      throw;
-    } catch (const InputError& e) {
-      model.warnings.emplace_back(e.what());
-    }
-  }
-  remove_sources(model);
+void embed_images(Model& model, const std::string& file) {
+  remove_unusable_conversions(model);
+  const std::vector<bool> used = used_images(model);
+  embed_conversions(model, used, file);
+  embed_used(model, used, file);
 }
 
 }  // namespace halfspace::inline HS_LANES_NAMESPACE

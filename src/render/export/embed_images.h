@@ -1,12 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
+
 #include "halfspace/model/model.h"
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
 
-/// Loads all images that are files into memory. Images that are neither PNG nor JPEG are converted to PNG with 8 bits per channel. An image
-/// that cannot be read stays a file, and the model gets a warning.
-void embed_images(Model& model);
+/// Loads the images that materials use into memory, and removes the contents of all others. Images that are neither PNG nor JPEG are
+/// encoded as PNG with 8 bits per channel, and so are the results of conversions (ModelImage::converted). An image that cannot be read
+/// stays a file, and the model gets a warning.
+///
+/// Only materials of meshes that can be textured keep their converted images. All others get the factors of the conversion instead; a
+/// material of both kinds of meshes is copied. file: the name of the model or scene file, which begins messages about embedded images.
+/// Throws LimitError.
+void embed_images(Model& model, const std::string& file);
 
 }  // namespace halfspace::inline HS_LANES_NAMESPACE

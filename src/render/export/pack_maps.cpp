@@ -34,7 +34,7 @@ struct Source {
 
 class MapPacker {
  public:
-  explicit MapPacker(Model& model) : model_(model) {}
+  MapPacker(Model& model, const std::string& file) : model_(model), file_(file) {}
 
   void pack(ModelMaterial& m) {
     pack_metallic_roughness(m);
@@ -52,7 +52,7 @@ class MapPacker {
     if (added) {
       const ModelImage& source = model_.images[static_cast<std::size_t>(image)];
       try {
-        known->second = read_image(*source.bytes, source.name);
+        known->second = read_image(*source.bytes, file_ + ": " + source.name);
       } catch (const LimitError&) {
         throw;
       } catch (const InputError& e) {
@@ -141,13 +141,14 @@ class MapPacker {
   }
 
   Model& model_;
+  const std::string& file_;
   std::map<int, std::optional<Picture>> pictures_;  // decoded images
 };
 
 }  // namespace
 
-void pack_maps(Model& model) {
-  MapPacker packer(model);
+void pack_maps(Model& model, const std::string& file) {
+  MapPacker packer(model, file);
   for (ModelMaterial& material : model.materials) packer.pack(material);
 }
 
