@@ -12,6 +12,7 @@
 
 #include "halfspace/core/resource_limits.h"
 #include "halfspace/image/image_io.h"
+#include "halfspace/image/image_limits.h"
 #include "halfspace/model/specular_glossiness.h"
 #include "halfspace/render/converted_images.h"
 #include "halfspace/render/model_bumps.h"
@@ -43,6 +44,10 @@ glm::vec4 weights_of(Channel channel) {
 
 std::string image_recipe(const std::filesystem::path& file, int image, bool color) {
   return recipe("model image", file.string(), image, color ? "color" : "data");
+}
+
+uint64_t texture_memory_of(const Image<glm::u8vec4>& picture) {
+  return texture_memory(static_cast<uint64_t>(picture.width()), static_cast<uint64_t>(picture.height()), sizeof(glm::u8vec4));
 }
 
 Texture2D texture_of(const Image<glm::u8vec4>& picture, bool color, const Workers& workers) {
@@ -89,16 +94,19 @@ void ModelMaterials::load_images(const ObjectDescription& o, const Model& model,
   if (list.empty()) return;
   const auto start = std::chrono::steady_clock::now();
   std::vector<std::optional<Texture2D>> textures(list.size());
-  std::vector<std::string> problems(list.size());
+  std::vector<std::vector<std::string>> problems(list.size());
   const auto image_at = [&](std::size_t i) -> const ModelImage& { return model.images[static_cast<std::size_t>(list[i].first)]; };
   // Converts all consecutive images that are results of the same conversion.
   const auto convert = [&](std::size_t first) {
     if (first > 0 && are_converted_together(image_at(first - 1), image_at(first))) return;
-    const ConvertedImages images = converted_images(model, *image_at(first).converted, o.file.path.string(), workers_);
-    for (const std::string& problem : images.problems) problems[first] += (problems[first].empty() ? "" : "; ") + problem;
+    const std::string file = o.file.path.string();
+    ConvertedImages images = converted_images(model, *image_at(first).converted, file, workers_);
     for (std::size_t i = first; i < list.size() && are_converted_together(image_at(first), image_at(i)); ++i) {
-      textures[i].emplace(texture_of(images.result(image_at(i)), list[i].second, workers_));
+      const Image<glm::u8vec4>& result = images.result(image_at(i));
+      const MemoryClaim claim(texture_memory_of(result), file + ": " + image_at(i).name);
+      textures[i].emplace(texture_of(result, list[i].second, workers_));
     }
+    problems[first] = std::move(images.problems);
   };
   const auto load = [&](std::size_t i) {
     const auto [image, color] = list[i];
@@ -110,7 +118,7 @@ void ModelMaterials::load_images(const ObjectDescription& o, const Model& model,
     } catch (const LimitError&) {
       throw;
     } catch (const InputError& e) {  // the material is drawn without it
-      problems[i] = e.what();
+      problems[i] = {e.what()};
     }
   };
   // The largest image is first, because one thread decodes it. The environment is last, because all threads can share its work.
@@ -128,7 +136,7 @@ void ModelMaterials::load_images(const ObjectDescription& o, const Model& model,
     }
   });
   for (std::size_t i = 0; i < list.size(); ++i) {
-    if (!problems[i].empty()) warnings_.warn_once(problems[i]);
+    for (const std::string& problem : problems[i]) warnings_.warn_once(problem);
     if (textures[i])
       used_.asset<Texture2D>(image_recipe(o.file.path, list[i].first, list[i].second), [&] { return std::move(*textures[i]); });
   }

@@ -43,6 +43,19 @@ TEST_F(Limits, TextureThatIsValidButExceedsTheLimits) {
   EXPECT_EQ(run({"render", "a.obj", "--size", "64x36", "--max-pixels", "16777216"}).exit_code, 0);
 }
 
+// Two images of 64 MiB and the results of their conversion fit, but not the textures that are made of them.
+TEST_F(Limits, ConvertedTextures) {
+  write_png(directory / "large.png", Image<glm::u8vec4>(4096, 4096));
+  write("a.gltf", R"({"asset": {"version": "2.0"}, "images": [{"uri": "large.png"}], "textures": [{"source": 0}],
+    "materials": [{"name": "m", "extensions": {"KHR_materials_pbrSpecularGlossiness": {"diffuseTexture": {"index": 0},
+                                                                        "specularGlossinessTexture": {"index": 0}}}}],
+    "accessors": [{"componentType": 5126, "count": 3, "type": "VEC3", "bufferView": 0}, {"componentType": 5126, "count": 3, "type": "VEC2"}],
+    "bufferViews": [{"buffer": 0, "byteLength": 36}],
+    "buffers": [{"byteLength": 36, "uri": "data:;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "TEXCOORD_0": 1}, "material": 0}]}], "nodes": [{"mesh": 0}]})");
+  expect_rejected({"render", "a.gltf", "--size", "64x36", "--max-memory", "350M"}, {"a.gltf", "350 MiB (--max-memory)"});
+}
+
 TEST_F(Limits, PlyThatDeclaresABillionVertices) {
   write("a.ply", "ply\nformat binary_little_endian 1.0\nelement vertex 1000000000\nproperty uchar x\nend_header\n");
   expect_rejected({"render", "a.ply"}, {"a.ply", "1000000000"});
