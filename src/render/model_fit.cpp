@@ -27,14 +27,18 @@ std::vector<double> some_of(const std::vector<double>& times) {
 
 // Returns the reason why a scene of a model has nothing to draw.
 std::string why_empty(const Model& model, int index) {
-  const auto is_about_mesh = [](const std::string& warning) { return warning.starts_with("meshes[") || warning.starts_with("nodes["); };
-  if (const auto skipped = std::ranges::find_if(model.warnings, is_about_mesh); skipped != model.warnings.end())
-    return "has nothing to draw: " + *skipped;
-  if (model.meshes.empty()) return "has no meshes; expected at least one";
+  if (model.meshes.empty()) {
+    const auto is_skipped = [](const std::string& warning) { return warning.starts_with("meshes[") && warning.ends_with("it is skipped"); };
+    const auto skipped = std::ranges::find_if(model.warnings, is_skipped);
+    if (skipped == model.warnings.end()) return "has no meshes; expected at least one";
+    return "has nothing to draw: " + *skipped + "; expected a mesh that can be drawn";
+  }
   if (model.nodes.empty()) return "has meshes, but no nodes; expected a node that draws a mesh";
   const std::size_t scene = static_cast<std::size_t>(index < 0 ? model.scene : index);
-  return fmt::format("scenes[{}] {}; expected a scene with a node that draws a mesh", scene,
-                     model.scenes[scene].roots.empty() ? "has no nodes" : "draws no mesh");
+  if (model.scenes[scene].roots.empty()) return fmt::format("scenes[{}] has no nodes; expected a node that draws a mesh", scene);
+  // The reader adds a scene to files without one.
+  const std::string place = model.scenes.size() > 1 ? fmt::format("scenes[{}] ", scene) : "";
+  return place + "draws no mesh; expected a node that draws one";
 }
 
 }  // namespace

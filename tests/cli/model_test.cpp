@@ -389,6 +389,7 @@ TEST_F(Models, TheReasonForAnEmptyModelIsReported) {
     const Outcome o = run({"render", "a.gltf", "--size", "32x18"});
     EXPECT_EQ(o.exit_code, 3);
     EXPECT_EQ(lines_of(o.err), 1) << o.err;
+    EXPECT_NE(o.err.find("; expected "), std::string::npos) << o.err;
     return o.err;
   };
   EXPECT_NE(message("").find("a.gltf: has no meshes"), std::string::npos);
@@ -396,8 +397,13 @@ TEST_F(Models, TheReasonForAnEmptyModelIsReported) {
   EXPECT_NE(message(mesh).find("has meshes, but no nodes"), std::string::npos);
   EXPECT_NE(message(mesh + R"(, "nodes": [{"mesh": 0}], "scenes": [{}, {"nodes": [0]}])").find("scenes[0] has no nodes"),
             std::string::npos);
-  EXPECT_NE(message(mesh + R"(, "nodes": [{"mesh": 0}, {}], "scenes": [{"nodes": [1]}])").find("scenes[0] draws no mesh"),
+  EXPECT_NE(message(mesh + R"(, "nodes": [{"mesh": 0}, {}], "scenes": [{"nodes": [1]}, {}])").find("scenes[0] draws no mesh"),
             std::string::npos);
+  EXPECT_NE(message(mesh + R"(, "nodes": [{}])").find("a.gltf: draws no mesh"), std::string::npos) << "the file has no scenes";
+  // The warning about the node of the other scene is not the reason.
+  const std::string other =
+      message(mesh + R"(, "nodes": [{"mesh": 0, "scale": [1, 0, 1]}, {}], "scenes": [{"nodes": [1]}, {"nodes": [0]}])");
+  EXPECT_NE(other.find("scenes[0] draws no mesh"), std::string::npos) << other;
   EXPECT_NE(message(R"(, "nodes": [{"mesh": 0}], "meshes": [{"primitives": [{"attributes": {}}]}])")
                 .find("meshes[0].primitives[0]: has no positions"),
             std::string::npos);
