@@ -82,6 +82,13 @@ std::vector<bool> needed_images(const Model& model) {
   return needed;
 }
 
+// Returns the number of textures in the file. The reader adds one for each image that it converts.
+std::size_t texture_count(const Model& model) {
+  return static_cast<std::size_t>(std::ranges::count_if(model.textures, [&](const ModelTexture& texture) {
+    return texture.image < 0 || !model.images[static_cast<std::size_t>(texture.image)].converted;
+  }));
+}
+
 // Describes the images. The size is null if an image cannot be read, or if its reader did not read it because no material uses it.
 OrderedJson images_of(Model& model) {
   OrderedJson list = OrderedJson::array();
@@ -137,7 +144,7 @@ OrderedJson describe(const InfoArguments& args) {
   json["bounds"] =
       posed.low.x <= posed.high.x ? OrderedJson{{"low", vector(posed.low)}, {"high", vector(posed.high)}} : OrderedJson(nullptr);
   json["materials"] = names_of(model.materials);
-  json["textures"] = model.textures.size();
+  json["textures"] = texture_count(model);
   json["images"] = images_of(model);
   json["cameras"] = names_of(model.cameras);
   json["lights"] = names_of(model.lights);

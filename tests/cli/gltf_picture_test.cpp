@@ -264,7 +264,8 @@ TEST_F(GltfPicture, SpecularGlossinessIsConverted) {
     EXPECT_EQ(o.exit_code, 0) << o.err;
     EXPECT_EQ(o.err, "");
     const auto info = GltfJson::parse(run({"info", "a.gltf", "--json"}).out);
-    EXPECT_EQ(info.at("images").size(), 4u) << "images that the reader adds are not in the file";
+    EXPECT_EQ(info.at("textures"), 4);
+    EXPECT_EQ(info.at("images").size(), 4u) << "images and textures that the reader adds are not in the file";
     EXPECT_EQ(info.at("warnings"), GltfJson::array());
     return picture("a.png");
   };
