@@ -136,7 +136,17 @@ TEST_F(Export, WarnsAboutLossesOfModelObjects) {
   EXPECT_NE(o.err.find("model_time"), std::string::npos) << o.err;
 }
 
-// The picture of an exported point light with a range is that of the scene. It is exported with physical falloff, in candela.
+// Scenes are not lit by the lights of the models that they draw.
+TEST_F(Export, OmitsTheLightsOfModelObjects) {
+  write("scene.json", kHead + R"("floor": {"shape": "plane", "size": 3}}})");
+  export_to("scene.json", "a.gltf");
+  write("again.json", shown("a.gltf", R"(, "instances": [{}, {"position": [3, 0, 0]}])"));
+  export_to("again.json", "b.gltf");
+  for (const std::string file : {"a.gltf", "b.gltf"})
+    EXPECT_EQ(nlohmann::json::parse(run({"info", file, "--json"}).out).at("lights"), std::vector<std::string>{"sun"}) << file;
+}
+
+// An exported point light with a range lights the same part of the floor. It is exported with physical falloff, in candela.
 TEST_F(Export, KeepsTheRangeOfLights) {
   const std::string head = R"({"version": 1, "cameras": {"c": {"position": [0, 4, 0.1]}}, "lights": {"lamp": {"type": "point",
     "position": [0.3, 0.5, 0], "falloff": "physical", "range": 1.25}}, "objects": {)";

@@ -49,7 +49,6 @@ class ModelAppender {
       to_.meshes.push_back(std::move(mesh));
     }
     to_.cameras.insert(to_.cameras.end(), from_.cameras.begin(), from_.cameras.end());
-    to_.lights.insert(to_.lights.end(), from_.lights.begin(), from_.lights.end());
   }
 
   // Adds all nodes and their skins, and returns the index of the first node.
@@ -60,8 +59,8 @@ class ModelAppender {
       for (int& mesh : node.meshes) mesh += first_mesh_;
       shift(node.skin, skins);
       shift(node.camera, first_camera_);
-      shift(node.light, first_light_);
-      if (!first_copy) node.camera = node.light = -1;
+      node.light = -1;
+      if (!first_copy) node.camera = -1;
       to_.nodes.push_back(std::move(node));
     }
     for (ModelSkin skin : from_.skins) {
@@ -86,7 +85,7 @@ class ModelAppender {
 
   Model& to_;
   const Model& from_;
-  const int first_mesh_ = count(to_.meshes), first_camera_ = count(to_.cameras), first_light_ = count(to_.lights);
+  const int first_mesh_ = count(to_.meshes), first_camera_ = count(to_.cameras);
 };
 
 }  // namespace
