@@ -2,6 +2,7 @@
 #include "halfspace/model/gltf_materials.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -30,6 +31,21 @@ glm::vec3 color(const GltfDocument& document, const GltfValue& json, const char*
 glm::vec4 color_and_opacity(const GltfDocument& document, const GltfValue& json, const char* key) {
   const auto c = document.numbers<4>(json, key, {1.0, 1.0, 1.0, 1.0});
   return {glm::max(color_of({c[0], c[1], c[2]}), glm::vec3(0.0f)), static_cast<float>(std::clamp(c[3], 0.0, 1.0))};
+}
+
+// Returns a color, with or without opacity, whose elements must be from 0 to 1. Others are clamped, with a warning.
+template <std::size_t n>
+glm::vec<int{n}, float> unit_color(GltfDocument& document, const GltfValue& json, const char* key) {
+  std::array<double, n> white;
+  white.fill(1.0);
+  const std::array<double, n> read = document.numbers<n>(json, key, white);
+  std::array<double, n> clamped = read;
+  for (double& x : clamped) x = std::clamp(x, 0.0, 1.0);
+  if (clamped != read)
+    document.warn_at(json, key, fmt::format("({:.6g}) is out of range; using ({:.6g})", fmt::join(read, ", "), fmt::join(clamped, ", ")));
+  glm::vec<int{n}, float> color;
+  for (int k = 0; k < int{n}; ++k) color[k] = static_cast<float>(clamped[static_cast<std::size_t>(k)]);
+  return color;
 }
 
 void read_alpha(GltfDocument& document, const GltfValue& json, ModelMaterial& material) {
@@ -107,10 +123,10 @@ void convert_maps(GltfTextures& textures, const TextureUse& diffuse_map, const T
 }
 
 void read_specular_glossiness(GltfDocument& document, GltfTextures& textures, const GltfValue& json, ModelMaterial& material) {
-  const glm::vec4 diffuse = color_and_opacity(document, json, "diffuseFactor");
+  const glm::vec4 diffuse = unit_color<4>(document, json, "diffuseFactor");
   SpecularGlossiness source;
   source.diffuse = glm::vec3(diffuse);
-  source.specular = color(document, json, "specularFactor", 1.0);
+  source.specular = unit_color<3>(document, json, "specularFactor");
   source.glossiness = document.factor(json, "glossinessFactor", 1.0f);
   const TextureUse diffuse_map = textures.use(json, "diffuseTexture"), specular_map = textures.use(json, "specularGlossinessTexture");
   const MetallicColor converted = metallic_color(glm::dvec3(source.diffuse), glm::dvec3(source.specular));

@@ -131,6 +131,19 @@ TEST(GltfMaterial, ConvertsSpecularGlossiness) {
   EXPECT_EQ(cloth.roughness, 1.0f);
 }
 
+// Also without textures, which would be multiplied and clamped texel by texel.
+TEST(GltfMaterial, ClampsSpecularGlossinessFactors) {
+  const Model model = read_material(file_with_texture(), extension("KHR_materials_pbrSpecularGlossiness",
+                                                                   {{"diffuseFactor", {0.5, 3, -1, 2}}, {"specularFactor", {0.5, 9, 0}}}));
+  const MetallicColor expected = metallic_color({0.5, 1, 0}, {0.5, 1, 0});
+  EXPECT_EQ(model.materials[0].base_color, glm::vec4(glm::vec3(expected.base), 1.0f));
+  EXPECT_EQ(model.materials[0].metallic, static_cast<float>(expected.metallic));
+  ASSERT_EQ(model.warnings.size(), 2u);
+  EXPECT_NE(model.warnings[0].find("diffuseFactor: (0.5, 3, -1, 2) is out of range; using (0.5, 1, 0, 1)"), std::string::npos)
+      << model.warnings[0];
+  EXPECT_NE(model.warnings[1].find("specularFactor: (0.5, 9, 0) is out of range"), std::string::npos) << model.warnings[1];
+}
+
 TEST(GltfMaterial, ConvertsSpecularGlossinessTextures) {
   GltfBuilder file = file_with_texture();
   file.add("samplers", {{"magFilter", 9728}, {"wrapS", 33071}});
