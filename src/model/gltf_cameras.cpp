@@ -48,7 +48,14 @@ ModelCamera camera_of(const GltfDocument& document, const GltfValue& json) {
   return camera;
 }
 
-ModelLight light_of(const GltfDocument& document, const GltfValue& json) {
+// Returns 0 for a light without a limit.
+double range_of(GltfDocument& document, const GltfValue& json) {
+  const double range = document.number(json, "range", 0.0, 0.0);
+  if (range == 0.0 && document.find(json, "range") != nullptr) document.warn_at(json, "range", "0 is out of range; the light has no limit");
+  return range;
+}
+
+ModelLight light_of(GltfDocument& document, const GltfValue& json) {
   ModelLight light;
   light.name = document.string(json, "name");
   const std::string type = document.string(json, "type");
@@ -64,7 +71,7 @@ ModelLight light_of(const GltfDocument& document, const GltfValue& json) {
   const auto color = document.numbers<3>(json, "color", {1.0, 1.0, 1.0});
   for (int i = 0; i < 3; ++i) light.color[i] = std::max(static_cast<float>(color[static_cast<std::size_t>(i)]), 0.0f);
   light.intensity = document.number(json, "intensity", 1.0, 0.0);
-  light.range = document.number(json, "range", 0.0, 0.0);
+  light.range = range_of(document, json);
   const GltfValue& spot = document.object(json, "spot");
   light.outer = document.number(spot, "outerConeAngle", light.outer, 0.0, std::numbers::pi / 2.0 + 1e-6);
   light.inner = document.number(spot, "innerConeAngle", light.inner, 0.0, std::numbers::pi / 2.0 + 1e-6);

@@ -33,7 +33,7 @@ OutputJson light_json(const ModelLight& l) {
   json["type"] = l.type == ModelLightType::directional ? "directional" : l.type == ModelLightType::point ? "point" : "spot";
   if (l.color != glm::vec3(1.0f)) json["color"] = json_array(l.color);
   json["intensity"] = l.intensity;
-  if (l.range > 0.0) json["range"] = l.range;
+  if (l.range > 0.0 && l.type != ModelLightType::directional) json["range"] = l.range;
   if (l.type == ModelLightType::spot) json["spot"] = {{"innerConeAngle", l.inner}, {"outerConeAngle", l.outer}};
   return json;
 }

@@ -40,7 +40,6 @@ TEST(Gltf, ReadsATriangle) {
   EXPECT_EQ(mesh.indices, (Indices{0, 1, 2}));
   ASSERT_EQ(model.scenes.size(), 1u);
   EXPECT_EQ(model.scenes[0].roots, std::vector<int>{0});
-  for (const std::string& warning : model.warnings) EXPECT_EQ(warning.find("range"), std::string::npos) << warning;
   // The default material of glTF is a rough metal.
   const ModelMaterial& material = model.materials.at(static_cast<std::size_t>(mesh.material));
   EXPECT_EQ(material.metallic, 1.0f);
@@ -231,6 +230,22 @@ TEST(Gltf, ReadsNodesScenesCamerasAndLights) {
   EXPECT_EQ(model.scene, 1);
   EXPECT_EQ(model.scenes.at(1).name, "second");
   EXPECT_EQ(model.scenes[0].roots, std::vector<int>{0});
+}
+
+TEST(Gltf, ChecksTheRangeOfLights) {
+  const auto read = [](const GltfJson& light) {
+    GltfBuilder file;
+    file.json["extensions"]["KHR_lights_punctual"]["lights"] = {light};
+    return file.read();
+  };
+  EXPECT_TRUE(read({{"type", "point"}}).warnings.empty());
+  EXPECT_TRUE(read({{"type", "point"}, {"range", 1e-9}}).warnings.empty());
+  const Model zero = read({{"type", "point"}, {"range", 0}});
+  EXPECT_EQ(zero.lights.at(0).range, 0.0) << "unlimited";
+  ASSERT_EQ(zero.warnings.size(), 1u);
+  EXPECT_NE(zero.warnings[0].find("lights[0].range: 0 is out of range"), std::string::npos) << zero.warnings[0];
+  for (const GltfJson& range : {GltfJson(-1), GltfJson("1"), GltfJson(1e39), GltfJson(nullptr)})
+    EXPECT_THROW(read({{"type", "spot"}, {"range", range}}), InputError) << range;
 }
 
 TEST(Gltf, ReadsAnimations) {

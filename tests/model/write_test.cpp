@@ -355,6 +355,17 @@ TEST(WriteModel, WarnsAboutWhatGltfCannotStore) {
   expect_no_warnings(read_gltf("/none/a.glb", written.files[0].bytes, {}));
 }
 
+// In glTF, only point and spot lights have one.
+TEST(WriteModel, DirectionalLightsHaveNoRange) {
+  Model model = rich_model();
+  model.lights = {{.name = "sun", .range = 5.0}, {.name = "lamp", .type = ModelLightType::point, .range = 5.0}};
+  for (ModelNode& node : model.nodes) node.light = std::min(node.light, 1);
+  const Model read = read_gltf("/none/a.glb", written_model(model, "a.glb", ModelFormat::glb).files[0].bytes, {});
+  ASSERT_EQ(read.lights.size(), 2u);
+  EXPECT_EQ(read.lights[0].range, 0.0);
+  EXPECT_EQ(read.lights[1].range, 5.0);
+}
+
 Model written_and_read(const Model& model, ModelFormat format) {
   const WrittenModel written = written_model(model, "a.x", format);
   const std::span<const std::byte> bytes = written.files[0].bytes;
