@@ -146,7 +146,7 @@ TEST_F(Export, OmitsTheLightsOfModelObjects) {
     EXPECT_EQ(nlohmann::json::parse(run({"info", file, "--json"}).out).at("lights"), std::vector<std::string>{"sun"}) << file;
 }
 
-// An exported point light with a range lights the same part of the floor. It is exported with physical falloff, in candela.
+// A point light with physical falloff has the same range in the exported file and in a scene that is made of the file.
 TEST_F(Export, KeepsTheRangeOfLights) {
   const std::string head = R"({"version": 1, "cameras": {"c": {"position": [0, 4, 0.1]}}, "lights": {"lamp": {"type": "point",
     "position": [0.3, 0.5, 0], "falloff": "physical", "range": 1.25}}, "objects": {)";
