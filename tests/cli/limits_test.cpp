@@ -49,7 +49,8 @@ TEST_F(Limits, ConvertedTextures) {
   write("a.gltf", R"({"asset": {"version": "2.0"}, "images": [{"uri": "large.png"}], "textures": [{"source": 0}],
     "materials": [{"name": "m", "extensions": {"KHR_materials_pbrSpecularGlossiness": {"diffuseTexture": {"index": 0},
                                                                         "specularGlossinessTexture": {"index": 0}}}}],
-    "accessors": [{"componentType": 5126, "count": 3, "type": "VEC3", "bufferView": 0}, {"componentType": 5126, "count": 3, "type": "VEC2"}],
+    "accessors": [{"componentType": 5126, "count": 3, "type": "VEC3", "bufferView": 0},
+                  {"componentType": 5126, "count": 3, "type": "VEC2"}],
     "bufferViews": [{"buffer": 0, "byteLength": 36}],
     "buffers": [{"byteLength": 36, "uri": "data:;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}],
     "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "TEXCOORD_0": 1}, "material": 0}]}], "nodes": [{"mesh": 0}]})");
