@@ -122,9 +122,11 @@ void ModelMaterials::load_images(const ObjectDescription& o, const Model& model,
     }
   };
   // The largest image is first, because one thread decodes it. The environment is last, because all threads can share its work.
+  std::vector<std::uintmax_t> work(list.size());
   std::vector<std::size_t> order(list.size());
+  for (std::size_t i = 0; i < list.size(); ++i) work[i] = decoding_work(image_at(i));
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::stable_sort(order, std::ranges::greater(), [&](std::size_t i) { return decoding_work(image_at(i)); });
+  std::ranges::stable_sort(order, std::ranges::greater(), [&](std::size_t i) { return work[i]; });
   std::atomic<std::size_t> next = 0;
   workers_.for_each(workers_.threads(), [&](int) {
     for (std::size_t i = next++; i <= order.size(); i = next++) {
