@@ -140,5 +140,36 @@ TEST(FullTileOccluder, ShadesOnlyVisibleFragments) {
   EXPECT_EQ(d.depth.at(100, 10), 0.25f);
 }
 
+// The colors of a tile are not loaded if its only triangle replaces all of them. Elsewhere, the previous colors or the clear value remain,
+// and never those of the tile that was in the same memory before.
+TEST(FullTile, KeepsTheColorsAroundTheOnlyTriangle) {
+  const glm::vec4 stale(1, 1, 1, 1), stored(0, 0, 1, 1), cleared(1, 0, 0, 1), green(0, 1, 0, 1);
+  const Indices triangle = Indices::sequential(3);
+  for (const LoadOp load : {LoadOp::clear, LoadOp::load}) {
+    for (const float edge : {-0.9f, -0.1f, 0.55f, 2.5f}) {  // x + y on the long edge, in NDC; no pixel center is on it
+      drawn({{{{-4, -4, 0, 1}, {8, -4, 0, 1}, {-4, 8, 0, 1}}, stale, {}, false}}, 64, false);
+      Image<glm::vec4> color(kStepsWidth, kStepsHeight);
+      for (int y = 0; y < kStepsHeight; ++y) std::ranges::fill(color.row(y), stored);
+      ColorTarget target = rgba32f_target(color);
+      target.load = load;
+      target.clear_value = cleared;
+      const std::vector<glm::vec4> positions{{-4, -4, 0, 1}, {edge + 4, -4, 0, 1}, {-4, edge + 4, 0, 1}}, colors(3, green);
+      Pass pass(kStepsWidth, kStepsHeight, target, {});
+      pass.draw(FlatColorShader{}, make_vertex_view(stream(positions), stream(colors)), triangle, {});
+      pass.run(one_worker());
+      for (int y = 0; y < kStepsHeight; ++y) {
+        for (int x = 0; x < kStepsWidth; ++x) {
+          const float x_ndc = (2.0f * static_cast<float>(x) + 1.0f) / kStepsWidth - 1.0f;
+          const float y_ndc = 1.0f - (2.0f * static_cast<float>(y) + 1.0f) / kStepsHeight;
+          ASSERT_EQ(color.at(x, y), x_ndc + y_ndc < edge   ? green
+                                    : load == LoadOp::load ? stored
+                                                           : cleared)
+              << x << " " << y << ", edge " << edge;
+        }
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace halfspace::raster_test
