@@ -235,7 +235,7 @@ TEST(Gltf, ReadsNodesScenesCamerasAndLights) {
 TEST(Gltf, ChecksTheRangeOfLights) {
   const auto read = [](const GltfJson& light) {
     GltfBuilder file;
-    file.json["extensions"]["KHR_lights_punctual"]["lights"] = {light};
+    file.json["extensions"]["KHR_lights_punctual"]["lights"] = GltfJson::array({light});
     return file.read();
   };
   EXPECT_TRUE(read({{"type", "point"}}).warnings.empty());
