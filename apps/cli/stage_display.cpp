@@ -11,7 +11,7 @@
 
 namespace halfspace {
 
-StageDisplay::StageDisplay(std::string text) {
+StageDisplay::StageDisplay(const std::string& text) {
   if (::isatty(STDERR_FILENO) == 1) thread_ = std::thread([this, text = printable(text)] { show_until_ended(text); });
 }
 

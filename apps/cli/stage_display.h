@@ -12,7 +12,7 @@ namespace halfspace {
 /// removed at the end.
 class StageDisplay {
  public:
-  explicit StageDisplay(std::string text);
+  explicit StageDisplay(const std::string& text);
   ~StageDisplay();
   StageDisplay(const StageDisplay&) = delete;
   StageDisplay& operator=(const StageDisplay&) = delete;

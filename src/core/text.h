@@ -30,7 +30,8 @@ std::string printable(std::string_view text);
 /// Returns "LINE:COLUMN" of a 1-based byte position in a text.
 std::string line_and_column(std::string_view text, std::size_t byte);
 
-/// Returns the 1-based byte position of the last part of a message in single quotes in a text, or 0 if the text does not contain it.
+/// Searches a text for the part of a message that is in single quotes, or for the last such part. Returns its 1-based byte position, or 0
+/// if there is none.
 std::size_t position_of_quoted(std::string_view text, std::string_view message);
 
 /// Returns the reason in the message of an exception of nlohmann_json, without error number and position, on one line.

@@ -37,8 +37,6 @@ const SpecularGlossiness* conversion_of(const Model& model, const TextureUse& ma
   return &*model.images[static_cast<std::size_t>(image)].converted;
 }
 
-glm::dvec3 unit_color(const glm::vec3& c) { return glm::min(glm::dvec3(c), 1.0); }
-
 }  // namespace
 
 bool are_converted_together(const ModelImage& a, const ModelImage& b) {
@@ -53,7 +51,7 @@ ModelMaterial without_converted_maps(const Model& model, ModelMaterial material)
   const SpecularGlossiness* color = conversion_of(model, material.base_color_map);
   const SpecularGlossiness* roughness = conversion_of(model, material.roughness_map);
   if (color != nullptr) {
-    const MetallicColor converted = metallic_color(unit_color(color->diffuse), unit_color(color->specular));
+    const MetallicColor converted = metallic_color(glm::dvec3(color->diffuse), glm::dvec3(color->specular));
     material.base_color = glm::vec4(glm::vec3(converted.base), material.base_color.w);
     material.metallic = static_cast<float>(converted.metallic);
     material.base_color_map = material.metallic_map = {};
