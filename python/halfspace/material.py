@@ -53,6 +53,7 @@ class Material:
     base_color: linear (r, g, b) or (r, g, b, a), in [0, 1]. Convert sRGB values with srgb().
     metallic, roughness: 0 to 1.   specular: scales the reflectance of non-metals.   ior: index of refraction, at least 1.
     emissive: linear (r, g, b); may exceed 1.   clearcoat, clearcoat_roughness: 0 to 1.
+    sheen, sheen_roughness: reflection by the fibers of cloth, 0 to 1.
     alpha_mode: "opaque", "mask" (the surface exists where alpha >= alpha_cutoff) or "blend". The default is "blend" if the alpha of
         base_color is less than 1, otherwise "opaque".
     unlit: draw the base color without lighting.   double_sided: draw both sides.
@@ -64,6 +65,7 @@ class Material:
 
     def __init__(self, base_color: Sequence[float] = (0.8, 0.8, 0.8), *, metallic: float = 0.0, roughness: float = 0.6, specular: float = 1.0,
                  ior: float = 1.5, emissive: Sequence[float] = (0.0, 0.0, 0.0), clearcoat: float = 0.0, clearcoat_roughness: float = 0.0,
+                 sheen: float = 0.0, sheen_roughness: float = 0.5,
                  alpha_mode: Optional[str] = None, alpha_cutoff: float = 0.5, unlit: bool = False, double_sided: bool = True,
                  normal_scale: float = 1.0, occlusion_strength: float = 1.0, base_color_texture: Any = None,
                  metallic_roughness_texture: Any = None, normal_texture: Any = None, occlusion_texture: Any = None,
@@ -78,7 +80,8 @@ class Material:
         m.set_base_color(list(rgba))
         m.set_emissive([_check.number("emissive", x, 0.0, 1e9) for x in _check.vector("emissive", emissive)])
         limits = {"metallic": (metallic, 1.0), "roughness": (roughness, 1.0), "specular": (specular, 1.0), "clearcoat": (clearcoat, 1.0),
-                  "clearcoat_roughness": (clearcoat_roughness, 1.0), "alpha_cutoff": (alpha_cutoff, 1.0),
+                  "clearcoat_roughness": (clearcoat_roughness, 1.0), "sheen": (sheen, 1.0),
+                  "sheen_roughness": (sheen_roughness, 1.0), "alpha_cutoff": (alpha_cutoff, 1.0),
                   "normal_scale": (normal_scale, 1e3), "occlusion_strength": (occlusion_strength, 1.0)}
         for name, (value, high) in limits.items():
             setattr(m, name, _check.number(name, value, 0.0, high))

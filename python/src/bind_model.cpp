@@ -122,6 +122,8 @@ void bind_material(py::module_& m) {
       .def_readwrite("ior", &ModelMaterial::ior)
       .def_readwrite("clearcoat", &ModelMaterial::clearcoat)
       .def_readwrite("clearcoat_roughness", &ModelMaterial::clearcoat_roughness)
+      .def_readwrite("sheen", &ModelMaterial::sheen)
+      .def_readwrite("sheen_roughness", &ModelMaterial::sheen_roughness)
       .def_readwrite("normal_scale", &ModelMaterial::normal_scale)
       .def_readwrite("occlusion_strength", &ModelMaterial::occlusion_strength)
       .def_readwrite("unlit", &ModelMaterial::unlit)

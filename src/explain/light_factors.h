@@ -103,7 +103,7 @@ class LightFactorFinder {
     black.ambient = black.emissive = glm::vec3(0.0f);
     black.environment = nullptr;
     S matte = black;
-    matte.metallic = matte.specular = matte.clearcoat = 0.0f;
+    matte.metallic = matte.specular = matte.clearcoat = matte.sheen = 0.0f;
     const auto with_ambient = [&](const S& from) { return color(from, [](S& s) { s.ambient = glm::vec3(1.0f); }); };
     LightingDetail out;
     out.model = "metallic";

@@ -13,11 +13,11 @@ namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
-constexpr std::array<std::string_view, 15> kSupported = {
-    "EXT_mesh_gpu_instancing", "EXT_meshopt_compression",         "EXT_texture_webp",    "KHR_lights_punctual",
-    "KHR_materials_clearcoat", "KHR_materials_emissive_strength", "KHR_materials_ior",   "KHR_materials_pbrSpecularGlossiness",
-    "KHR_materials_specular",  "KHR_materials_transmission",      "KHR_materials_unlit", "KHR_materials_variants",
-    "KHR_mesh_quantization",   "KHR_texture_transform",
+constexpr std::array<std::string_view, 16> kSupported = {
+    "EXT_mesh_gpu_instancing", "EXT_meshopt_compression",         "EXT_texture_webp",           "KHR_lights_punctual",
+    "KHR_materials_clearcoat", "KHR_materials_emissive_strength", "KHR_materials_ior",          "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_sheen",     "KHR_materials_specular",          "KHR_materials_transmission", "KHR_materials_unlit",
+    "KHR_materials_variants",  "KHR_mesh_quantization",           "KHR_texture_transform",
     "KHR_xmp_json_ld",  // metadata, which has no effect
 };
 

@@ -33,12 +33,13 @@ glm::vec4 color_and_opacity(const GltfDocument& document, const GltfValue& json,
   return {glm::max(color_of({c[0], c[1], c[2]}), glm::vec3(0.0f)), static_cast<float>(std::clamp(c[3], 0.0, 1.0))};
 }
 
-// Returns a color, with or without opacity, whose elements must be from 0 to 1. Others are clamped, with a warning.
+// Returns a color, with or without opacity, whose elements must be from 0 to 1. Others are clamped, with a warning. fallback: all elements
+// if the key is missing.
 template <std::size_t n>
-glm::vec<int{n}, float> unit_color(GltfDocument& document, const GltfValue& json, const char* key) {
-  std::array<double, n> white;
-  white.fill(1.0);
-  const std::array<double, n> read = document.numbers<n>(json, key, white);
+glm::vec<int{n}, float> unit_color(GltfDocument& document, const GltfValue& json, const char* key, double fallback = 1.0) {
+  std::array<double, n> missing;
+  missing.fill(fallback);
+  const std::array<double, n> read = document.numbers<n>(json, key, missing);
   std::array<double, n> clamped = read;
   for (double& x : clamped) x = std::clamp(x, 0.0, 1.0);
   if (clamped != read)
@@ -93,6 +94,14 @@ void read_clearcoat(GltfDocument& document, GltfTextures& textures, const GltfVa
   material.clearcoat_roughness_map = textures.use(json, "clearcoatRoughnessTexture", Channel::green);
   material.clearcoat_normal_map = textures.use(json, "clearcoatNormalTexture");
   material.clearcoat_normal_scale = document.factor(document.object(json, "clearcoatNormalTexture"), "scale", 1.0f, -1e6, 1e6);
+}
+
+void read_sheen(GltfDocument& document, GltfTextures& textures, const GltfValue& json, ModelMaterial& material) {
+  material.sheen_color = unit_color<3>(document, json, "sheenColorFactor", 0.0);
+  material.sheen_color_map = textures.use(json, "sheenColorTexture");
+  material.sheen = material.sheen_color == glm::vec3(0.0f) ? 0.0f : 1.0f;
+  material.sheen_roughness = document.factor(json, "sheenRoughnessFactor", 0.0f);
+  material.sheen_roughness_map = textures.use(json, "sheenRoughnessTexture", Channel::alpha);
 }
 
 void read_transmission(GltfDocument& document, const GltfValue& json, ModelMaterial& material) {
@@ -159,6 +168,7 @@ void read_extensions(GltfDocument& document, GltfTextures& textures, const GltfV
   }
   if (const GltfValue* e = document.extension(json, "KHR_materials_specular")) read_specular(document, textures, *e, material);
   if (const GltfValue* e = document.extension(json, "KHR_materials_clearcoat")) read_clearcoat(document, textures, *e, material);
+  if (const GltfValue* e = document.extension(json, "KHR_materials_sheen")) read_sheen(document, textures, *e, material);
   if (const GltfValue* e = document.extension(json, "KHR_materials_ior")) {
     // The extension defines 0 as infinity, for materials converted from specular-glossiness.
     const float ior = document.factor(*e, "ior", 1.5f, 0.0, 1e6);
@@ -186,12 +196,9 @@ namespace {
 // Meshes store two sets of texture coordinates. Chooses the two of the file's sets that a material uses, and makes each of its maps refer
 // to one of them. If a material uses more than two sets, those with the two lowest numbers are chosen.
 void choose_uv_sets(GltfDocument& document, const GltfValue& json, ModelMaterial& m) {
-  const std::array maps{
-      &m.base_color_map,          &m.metallic_map,         &m.roughness_map, &m.specular_map,  &m.specular_color_map, &m.clearcoat_map,
-      &m.clearcoat_roughness_map, &m.clearcoat_normal_map, &m.normal_map,    &m.occlusion_map, &m.emissive_map,       &m.opacity_map};
   std::set<int> used;
-  for (const TextureUse* map : maps) {
-    if (map->texture >= 0) used.insert(map->uv_set);
+  for (const auto map : kTextureUses) {
+    if ((m.*map).texture >= 0) used.insert((m.*map).uv_set);
   }
   if (used.empty() || *used.rbegin() <= 1) return;
   m.uv_sets = {*used.begin(), used.size() > 1 ? *std::next(used.begin()) : -1};
@@ -200,7 +207,7 @@ void choose_uv_sets(GltfDocument& document, const GltfValue& json, ModelMaterial
                      fmt::format("uses {} sets of texture coordinates; all but {} and {} are replaced by {}", used.size(), m.uv_sets[0],
                                  m.uv_sets[1], m.uv_sets[0]));
   }
-  for (TextureUse* map : maps) map->uv_set = map->uv_set == m.uv_sets[1] ? 1 : 0;
+  for (const auto map : kTextureUses) (m.*map).uv_set = (m.*map).uv_set == m.uv_sets[1] ? 1 : 0;
 }
 
 }  // namespace

@@ -69,15 +69,20 @@ class GltfOutput {
   std::set<std::string> extensions_;
 };
 
-/// Writes samplers, images and textures. Images become views of the buffer if `embed` is set, otherwise files named "STEM_imageN".
+/// An image file that belongs to a document.
 struct GltfImageFile {
   std::string name;
   int image;  ///< index in Model::images
 };
-/// Returns the image files that belong to the document.
-std::vector<GltfImageFile> write_gltf_textures(const Model& model, const std::string& stem, bool embed, GltfOutput& out);
+struct GltfTextureOutput {
+  std::vector<GltfImageFile> files;
+  std::vector<int> textures;  ///< for each of Model::textures, its index in the document, or -1 if glTF cannot store its image
+};
+/// Writes samplers, images and textures. Images become views of the buffer if `embed` is set, otherwise files named "STEM_imageN".
+GltfTextureOutput write_gltf_textures(const Model& model, const std::string& stem, bool embed, GltfOutput& out);
 
-void write_gltf_materials(const Model& model, GltfOutput& out);
+/// textures: indices of textures in the document, as above.
+void write_gltf_materials(const Model& model, const std::vector<int>& textures, GltfOutput& out);
 void write_gltf_meshes_and_nodes(const Model& model, GltfOutput& out);
 void write_gltf_cameras_and_lights(const Model& model, GltfOutput& out);
 void write_gltf_skins_and_animations(const Model& model, GltfOutput& out);

@@ -83,8 +83,8 @@ struct TextureUse {
 enum class AlphaMode : uint8_t { opaque, mask, blend };
 
 /// A metallic-roughness material (glTF 2.0, section 3.9 and appendix B). Every property is its factor times its texture. Color factors are
-/// linear; base color, emissive and specular color textures are encoded in sRGB; all others are linear. Readers convert other kinds of
-/// materials.
+/// linear; base color, emissive, specular color and sheen color textures are encoded in sRGB; all others are linear. Readers convert other
+/// kinds of materials.
 struct ModelMaterial {
   std::string name;
   bool is_default = false;           ///< replaces the missing material of a mesh
@@ -106,6 +106,10 @@ struct ModelMaterial {
   float clearcoat = 0.0f, clearcoat_roughness = 0.0f;
   TextureUse clearcoat_map, clearcoat_roughness_map, clearcoat_normal_map;
   float clearcoat_normal_scale = 1.0f;
+  float sheen = 0.0f;           ///< scales sheen_color; 0: none
+  glm::vec3 sheen_color{1.0f};  ///< linear (KHR_materials_sheen)
+  float sheen_roughness = 0.0f;
+  TextureUse sheen_map, sheen_color_map, sheen_roughness_map;
   TextureUse normal_map;      ///< tangent space, green up
   float normal_scale = 1.0f;  ///< scales x and y of the normal map
   TextureUse bump_map;        ///< heights, used where there is no normal map; only the first channel counts
@@ -117,6 +121,16 @@ struct ModelMaterial {
   bool unlit = false;  ///< the base color is the result, without lighting
   bool double_sided = false;
 };
+
+/// All texture uses of a material.
+inline constexpr std::array kTextureUses{&ModelMaterial::base_color_map,       &ModelMaterial::opacity_map,
+                                         &ModelMaterial::metallic_map,         &ModelMaterial::roughness_map,
+                                         &ModelMaterial::specular_map,         &ModelMaterial::specular_color_map,
+                                         &ModelMaterial::clearcoat_map,        &ModelMaterial::clearcoat_roughness_map,
+                                         &ModelMaterial::clearcoat_normal_map, &ModelMaterial::sheen_map,
+                                         &ModelMaterial::sheen_color_map,      &ModelMaterial::sheen_roughness_map,
+                                         &ModelMaterial::normal_map,           &ModelMaterial::bump_map,
+                                         &ModelMaterial::occlusion_map,        &ModelMaterial::emissive_map};
 
 // ---- meshes ----------------------------------------------------------------------------------------------------
 

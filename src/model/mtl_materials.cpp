@@ -18,7 +18,7 @@ constexpr float kDefaultGray = 0.8f, kDefaultRoughness = 0.6f;
 constexpr float kMinIor = 1.1f, kMaxIor = 4.0f;
 
 constexpr std::string_view kMapNames[kMtlMaps] = {"map_Kd",     "map_Ks", "map_Ns", "map_Ke", "map_d",  "bump map",
-                                                  "normal map", "map_Pr", "map_Pm", "map_Pc", "map_Pcr"};
+                                                  "normal map", "map_Pr", "map_Pm", "map_Ps", "map_Pc", "map_Pcr"};
 
 float max_component(const glm::vec3& color) { return std::max({color.x, color.y, color.z}); }
 float unit(float value) { return std::clamp(value, 0.0f, 1.0f); }
@@ -118,6 +118,9 @@ void MtlConverter::convert_reflection(const MtlMaterial& mtl, ModelMaterial& mat
   material.roughness_map = texture(mtl, mtl.map(MtlMap::Pr).file.empty() ? MtlMap::Ns : MtlMap::Pr);
   const float ns = mtl.Ns ? std::sqrt(std::sqrt(2.0f / (std::max(*mtl.Ns, 0.0f) + 2.0f))) : kDefaultRoughness;
   material.roughness = mtl.Pr || material.roughness_map.texture >= 0 ? factor(mtl.Pr, material.roughness_map, ns) : ns;
+  material.sheen_map = texture(mtl, MtlMap::Ps);
+  material.sheen = factor(mtl.Ps, material.sheen_map, 0.0f);
+  material.sheen_roughness = kMtlSheenRoughness;
   material.clearcoat_map = texture(mtl, MtlMap::Pc);
   material.clearcoat = factor(mtl.Pc, material.clearcoat_map, 0.0f);
   material.clearcoat_roughness_map = texture(mtl, MtlMap::Pcr);

@@ -38,6 +38,9 @@ struct TextureUse;
 /// Height of the value 1 in a bump map without the option -bm, as a fraction of the diagonal of the model's bounds.
 inline constexpr double kMtlBumpHeight = 0.01;
 
+/// Roughness of sheen, for which MTL has no statement.
+inline constexpr float kMtlSheenRoughness = 0.5f;
+
 /// The material of elements without a defined material: roughness 0.6 and a gray of 0.8, or white if there are vertex colors.
 ModelMaterial default_mtl_material(bool vertex_colors);
 

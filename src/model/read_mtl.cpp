@@ -23,8 +23,9 @@ struct NumberKey {
   std::string_view name;
   std::optional<float> MtlMaterial::*member;
 };
-constexpr NumberKey kNumbers[] = {{"ns", &MtlMaterial::Ns}, {"d", &MtlMaterial::d},   {"tr", &MtlMaterial::Tr}, {"ni", &MtlMaterial::Ni},
-                                  {"pr", &MtlMaterial::Pr}, {"pm", &MtlMaterial::Pm}, {"pc", &MtlMaterial::Pc}, {"pcr", &MtlMaterial::Pcr}};
+constexpr NumberKey kNumbers[] = {{"ns", &MtlMaterial::Ns}, {"d", &MtlMaterial::d},   {"tr", &MtlMaterial::Tr},
+                                  {"ni", &MtlMaterial::Ni}, {"pr", &MtlMaterial::Pr}, {"pm", &MtlMaterial::Pm},
+                                  {"ps", &MtlMaterial::Ps}, {"pc", &MtlMaterial::Pc}, {"pcr", &MtlMaterial::Pcr}};
 
 struct MapKey {
   std::string_view name;
@@ -33,11 +34,11 @@ struct MapKey {
 constexpr MapKey kMaps[] = {{"map_kd", MtlMap::Kd},     {"map_ks", MtlMap::Ks},   {"map_ns", MtlMap::Ns},     {"map_ke", MtlMap::Ke},
                             {"map_d", MtlMap::d},       {"bump", MtlMap::bump},   {"map_bump", MtlMap::bump}, {"norm", MtlMap::norm},
                             {"map_norm", MtlMap::norm}, {"map_kn", MtlMap::norm}, {"map_pr", MtlMap::Pr},     {"map_pm", MtlMap::Pm},
-                            {"map_pc", MtlMap::Pc},     {"map_pcr", MtlMap::Pcr}};
+                            {"map_ps", MtlMap::Ps},     {"map_pc", MtlMap::Pc},   {"map_pcr", MtlMap::Pcr}};
 
 // Statements that are ignored: the environment replaces ambient light, and the others do not affect the appearance of a surface.
 constexpr std::string_view kIgnored[] = {"ka", "map_ka", "tf", "km", "kt", "sharpness", "map_aat"};
-constexpr std::string_view kNotDrawn[] = {"disp", "map_disp", "refl", "map_refl", "decal", "ps", "map_ps", "aniso", "anisor"};
+constexpr std::string_view kNotDrawn[] = {"disp", "map_disp", "refl", "map_refl", "decal", "aniso", "anisor"};
 
 // Texture options, with their maximum number of arguments and whether the arguments are numbers.
 struct Option {

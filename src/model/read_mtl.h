@@ -15,8 +15,8 @@
 namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// The textures of a material, named after their statements. `bump` is a height map and `norm` a normal map.
-enum class MtlMap : uint8_t { Kd, Ks, Ns, Ke, d, bump, norm, Pr, Pm, Pc, Pcr };
-inline constexpr std::size_t kMtlMaps = 11;
+enum class MtlMap : uint8_t { Kd, Ks, Ns, Ke, d, bump, norm, Pr, Pm, Ps, Pc, Pcr };
+inline constexpr std::size_t kMtlMaps = 12;
 
 /// The arguments of a texture statement.
 struct MtlTexture {
@@ -32,7 +32,7 @@ struct MtlMaterial {
   std::string name;
   std::string folder;  ///< folder of the library, relative to the folder of the model; empty if they are the same. Set by the caller.
   std::optional<glm::vec3> Kd, Ks, Ke;
-  std::optional<float> Ns, d, Tr, Ni, Pr, Pm, Pc, Pcr;
+  std::optional<float> Ns, d, Tr, Ni, Pr, Pm, Ps, Pc, Pcr;
   std::optional<int> illum;
   std::array<MtlTexture, kMtlMaps> maps;
 

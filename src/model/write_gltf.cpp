@@ -130,8 +130,8 @@ WrittenModel write_gltf(const Model& model, const std::string& stem, bool binary
   constexpr std::size_t kMaxGlb = 0xffffffffu;
   GltfOutput out;
   write_gltf_cameras_and_lights(model, out);
-  const std::vector<GltfImageFile> images = write_gltf_textures(model, stem, binary, out);
-  write_gltf_materials(model, out);
+  const GltfTextureOutput textures = write_gltf_textures(model, stem, binary, out);
+  write_gltf_materials(model, textures.textures, out);
   write_gltf_meshes_and_nodes(model, out);
   write_gltf_skins_and_animations(model, out);
   WrittenModel written;
@@ -150,7 +150,7 @@ WrittenModel write_gltf(const Model& model, const std::string& stem, bool binary
     written.files.push_back({stem + ".gltf", {}});
     append_text(written.files[0].bytes, json);
     if (!out.buffer.empty()) written.files.push_back({buffer_name, std::move(out.buffer)});
-    for (const GltfImageFile& image : images)
+    for (const GltfImageFile& image : textures.files)
       written.files.push_back({image.name, *model.images[static_cast<std::size_t>(image.image)].bytes});
   }
   written.warnings = std::move(out.warnings);

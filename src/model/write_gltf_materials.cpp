@@ -62,7 +62,7 @@ double angle_of(double cosine, double sine) {
 
 class MaterialWriter {
  public:
-  MaterialWriter(const Model& model, GltfOutput& out) : model_(model), out_(out) {}
+  MaterialWriter(const std::vector<int>& textures, GltfOutput& out) : textures_(textures), out_(out) {}
 
   void write(const ModelMaterial& m) {
     material_ = &m;
@@ -79,6 +79,7 @@ class MaterialWriter {
     if (m.double_sided) json["doubleSided"] = true;
     add_specular(json);
     add_clearcoat(json);
+    add_sheen(json);
     if (m.ior != 1.5f) out_.extend(json, "KHR_materials_ior", {{"ior", m.ior}});
     if (m.unlit) out_.extend(json, "KHR_materials_unlit", OutputJson::object());
     if (m.opacity_map.texture >= 0) omit("opacity map", "glTF stores opacity in the alpha channel of the base color");
@@ -91,12 +92,9 @@ class MaterialWriter {
     out_.warn(fmt::format("the {} of material '{}' is omitted: {}", map, material_->name, reason));
   }
 
-  bool has_image(const TextureUse& use) const {
-    if (use.texture < 0) return false;
-    const int image = model_.textures[static_cast<std::size_t>(use.texture)].image;
-    const ModelImage* source = image < 0 ? nullptr : &model_.images[static_cast<std::size_t>(image)];
-    return source != nullptr && source->bytes != nullptr && !image_extension(*source->bytes).empty();
-  }
+  // Returns the index of a texture in the document, or -1.
+  int index_of(const TextureUse& use) const { return use.texture < 0 ? -1 : textures_[static_cast<std::size_t>(use.texture)]; }
+  bool has_image(const TextureUse& use) const { return index_of(use) >= 0; }
 
   // uv' = T · R · S · uv, with the rotation direction that the reader uses (gltf_textures.cpp).
   OutputJson transform_json(const glm::mat3x2& m) const {
@@ -115,7 +113,7 @@ class MaterialWriter {
   void add_texture(OutputJson& object, const char* key, const TextureUse& use, std::optional<Channel> channel = std::nullopt) {
     if (!has_image(use)) return;
     if (channel && use.channel != *channel) return omit(key, "glTF does not permit its channel");
-    OutputJson json = {{"index", use.texture}};
+    OutputJson json = {{"index", index_of(use)}};
     if (use.uv_set != 0) json["texCoord"] = use.uv_set;
     if (use.uv_transform != glm::mat3x2(1.0f)) out_.extend(json, "KHR_texture_transform", transform_json(use.uv_transform));
     object[key] = std::move(json);
@@ -179,15 +177,26 @@ class MaterialWriter {
     out_.extend(json, "KHR_materials_clearcoat", std::move(coat));
   }
 
-  const Model& model_;
+  void add_sheen(OutputJson& json) {
+    const ModelMaterial& m = *material_;
+    if (m.sheen == 0.0f) return;
+    OutputJson sheen = {{"sheenColorFactor", json_array(m.sheen * m.sheen_color)}};
+    if (has_image(m.sheen_map)) omit("sheen map", "glTF stores sheen as a color");
+    add_texture(sheen, "sheenColorTexture", m.sheen_color_map);
+    if (m.sheen_roughness != 0.0f) sheen["sheenRoughnessFactor"] = m.sheen_roughness;
+    add_texture(sheen, "sheenRoughnessTexture", m.sheen_roughness_map, Channel::alpha);
+    out_.extend(json, "KHR_materials_sheen", std::move(sheen));
+  }
+
+  const std::vector<int>& textures_;
   GltfOutput& out_;
   const ModelMaterial* material_ = nullptr;
 };
 
 }  // namespace
 
-std::vector<GltfImageFile> write_gltf_textures(const Model& model, const std::string& stem, bool embed, GltfOutput& out) {
-  std::vector<GltfImageFile> files;
+GltfTextureOutput write_gltf_textures(const Model& model, const std::string& stem, bool embed, GltfOutput& out) {
+  GltfTextureOutput written;
   std::vector<int> indices(model.images.size(), -1);  // in the document
   const std::vector<bool> used = used_images(model);
   for (std::size_t i = 0; i < model.images.size(); ++i) {
@@ -203,22 +212,20 @@ std::vector<GltfImageFile> write_gltf_textures(const Model& model, const std::st
       json["mimeType"] = extension == ".png" ? "image/png" : "image/jpeg";
       json["bufferView"] = out.view(*image.bytes);
     } else {
-      files.push_back({fmt::format("{}_image{}{}", stem, i, extension), static_cast<int>(i)});
-      json["uri"] = percent_encoded(files.back().name);
+      written.files.push_back({fmt::format("{}_image{}{}", stem, i, extension), static_cast<int>(i)});
+      json["uri"] = percent_encoded(written.files.back().name);
     }
     indices[i] = out.add("images", std::move(json));
   }
   for (const ModelTexture& texture : model.textures) {
-    OutputJson json = {{"sampler", sampler_index(texture.sampler, out)}};
-    if (texture.image >= 0 && indices[static_cast<std::size_t>(texture.image)] >= 0)
-      json["source"] = indices[static_cast<std::size_t>(texture.image)];
-    out.add("textures", std::move(json));
+    const int image = texture.image < 0 ? -1 : indices[static_cast<std::size_t>(texture.image)];
+    written.textures.push_back(image < 0 ? -1 : out.add("textures", {{"sampler", sampler_index(texture.sampler, out)}, {"source", image}}));
   }
-  return files;
+  return written;
 }
 
-void write_gltf_materials(const Model& model, GltfOutput& out) {
-  MaterialWriter writer(model, out);
+void write_gltf_materials(const Model& model, const std::vector<int>& textures, GltfOutput& out) {
+  MaterialWriter writer(textures, out);
   for (const ModelMaterial& material : model.materials) writer.write(material);
 }
 

@@ -41,6 +41,7 @@ class MtlWriter {
     add_bump_map(m);
     warn_about_omissions(m);
     if (m.ior != 1.5f) add("Ni", fmt::format("{}", m.ior));
+    add_sheen(m);
     if (m.clearcoat > 0.0f) {
       add("Pc", fmt::format("{}", m.clearcoat));
       add("Pcr", fmt::format("{}", m.clearcoat_roughness));
@@ -86,8 +87,8 @@ class MtlWriter {
   void warn_about_omissions(const ModelMaterial& m) {
     if (has_image(m.normal_map) && m.normal_scale != 1.0f) warn("OBJ cannot store the strength of normal maps");
     for (const TextureUse* use : {&m.occlusion_map, &m.specular_map, &m.specular_color_map, &m.clearcoat_map, &m.clearcoat_roughness_map,
-                                  &m.clearcoat_normal_map}) {
-      if (has_image(*use)) warn("occlusion, specular and clearcoat maps are omitted");
+                                  &m.clearcoat_normal_map, &m.sheen_color_map, &m.sheen_roughness_map}) {
+      if (has_image(*use)) warn("occlusion, specular, clearcoat, sheen color and sheen roughness maps are omitted");
     }
   }
 
@@ -121,6 +122,15 @@ class MtlWriter {
     add("Ns", fmt::format("{}", exponent_of(m.roughness)));
     add("Ks", numbers_text(0.5f * m.specular * m.specular_color));
     add("illum", m.unlit ? "0" : m.specular > 0.0f ? "2" : "1");
+  }
+
+  void add_sheen(const ModelMaterial& m) {
+    const float sheen = m.sheen * std::max({m.sheen_color.x, m.sheen_color.y, m.sheen_color.z});
+    if (sheen <= 0.0f) return;
+    if (m.sheen_color != glm::vec3(m.sheen_color.x) || m.sheen_roughness != kMtlSheenRoughness)
+      warn(fmt::format("OBJ stores sheen as one number; it is written as white sheen of roughness {}", kMtlSheenRoughness));
+    add("Ps", fmt::format("{}", sheen));
+    add_map("map_Ps", m.sheen_map, true);
   }
 
   const Model& model_;

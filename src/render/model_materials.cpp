@@ -24,12 +24,28 @@ namespace {
 
 // Returns the texture uses of a material, in the order of MetallicMap.
 std::array<const TextureUse*, kMetallicMaps> uses_of(const ModelMaterial& m) {
-  return {&m.base_color_map, &m.opacity_map,          &m.metallic_map,  &m.roughness_map,
-          &m.specular_map,   &m.specular_color_map,   &m.clearcoat_map, &m.clearcoat_roughness_map,
-          &m.normal_map,     &m.clearcoat_normal_map, &m.occlusion_map, &m.emissive_map};
+  return {&m.base_color_map, &m.opacity_map,          &m.metallic_map,       &m.roughness_map,
+          &m.specular_map,   &m.specular_color_map,   &m.clearcoat_map,      &m.clearcoat_roughness_map,
+          &m.normal_map,     &m.clearcoat_normal_map, &m.occlusion_map,      &m.emissive_map,
+          &m.sheen_map,      &m.sheen_color_map,      &m.sheen_roughness_map};
 }
 
-bool is_color(std::size_t map) { return map == kBaseColorMap || map == kSpecularColorMap || map == kEmissiveMap; }
+bool is_color(std::size_t map) { return map == kBaseColorMap || map == kSpecularColorMap || map == kEmissiveMap || map == kSheenColorMap; }
+
+// Returns whether a map affects the picture. Maps of a coat or sheen that the material does not have are not sampled.
+bool matters(std::size_t map, const ModelMaterial& m) {
+  switch (map) {
+    case kBaseColorMap:
+    case kOpacityMap: return true;
+    case kClearcoatMap:
+    case kClearcoatRoughnessMap:
+    case kClearcoatNormalMap: return !m.unlit && m.clearcoat > 0.0f;
+    case kSheenMap:
+    case kSheenColorMap:
+    case kSheenRoughnessMap: return !m.unlit && m.sheen > 0.0f;
+    default: return !m.unlit;
+  }
+}
 
 glm::vec4 weights_of(Channel channel) {
   switch (channel) {
@@ -181,6 +197,9 @@ MetallicMaterial ModelMaterials::metallic_material(const ObjectDescription& o, c
   out.normal_reflectance = reflection * reflection;
   out.clearcoat = m.clearcoat;
   out.clearcoat_roughness = m.clearcoat_roughness;
+  out.sheen = m.sheen;
+  out.sheen_color = m.sheen_color;
+  out.sheen_roughness = m.sheen_roughness;
   out.normal_scale = m.normal_scale;
   out.clearcoat_normal_scale = m.clearcoat_normal_scale;
   out.occlusion_strength = m.occlusion_strength;
@@ -196,7 +215,7 @@ MetallicMaterial ModelMaterials::metallic_material(const ObjectDescription& o, c
   int previous_texture = -1;
   for (std::size_t i = 0; i < kMetallicMaps; ++i) {
     const TextureUse& use = *uses[i];
-    if (use.texture < 0 || (m.unlit && i != kBaseColorMap && i != kOpacityMap)) continue;
+    if (use.texture < 0 || !matters(i, m)) continue;
     const ModelTexture& texture = model.textures[static_cast<std::size_t>(use.texture)];
     if (texture.image < 0) continue;
     PlacedMap& map = out.maps[i];

@@ -4,7 +4,8 @@
 //
 //   color = Σ lights · (diffuse + specular) + occlusion · environment · (diffuse + specular) + emissive
 //
-// with an optional clearcoat on top (KHR_materials_clearcoat). The reflection model is that of shading/ggx.h.
+// with optional sheen (KHR_materials_sheen, shading/sheen.h) and, on top of it, an optional clearcoat (KHR_materials_clearcoat). The
+// reflection model is that of shading/ggx.h.
 #pragma once
 
 #include <array>
@@ -13,6 +14,7 @@
 #include "halfspace/shading/environment_light.h"
 #include "halfspace/shading/ggx.h"
 #include "halfspace/shading/placed_surface.h"
+#include "halfspace/shading/sheen.h"
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
 
@@ -29,9 +31,12 @@ enum MetallicMap : uint8_t {
   kNormalMap,
   kClearcoatNormalMap,
   kOcclusionMap,
-  kEmissiveMap
+  kEmissiveMap,
+  kSheenMap,
+  kSheenColorMap,
+  kSheenRoughnessMap
 };
-inline constexpr std::size_t kMetallicMaps = 12;
+inline constexpr std::size_t kMetallicMaps = 15;
 
 /// A texture, its placement, and the channel that a scalar property reads.
 struct PlacedMap {
@@ -61,6 +66,8 @@ struct MetallicMaterial : PlacedSurface {
   glm::vec3 specular_color{1.0f};
   float normal_reflectance = 0.04f;  ///< of a dielectric at normal incidence: ((ior − 1) / (ior + 1))²
   float clearcoat = 0.0f, clearcoat_roughness = 0.0f;
+  float sheen = 0.0f, sheen_roughness = 0.0f;
+  glm::vec3 sheen_color{1.0f};
   float normal_scale = 1.0f, clearcoat_normal_scale = 1.0f;
   float occlusion_strength = 1.0f;
   glm::vec3 emissive{0.0f};
@@ -149,7 +156,7 @@ struct MetallicSurface : MetallicMaterial {
     vec3<R> base_color{R(1)};
     R opacity{1};
     std::array<R, kMetallicMaps> number;  ///< of scalar properties
-    vec3<R> specular_color{R(1)}, emissive{R(1)};
+    vec3<R> specular_color{R(1)}, emissive{R(1)}, sheen_color{R(1)};
     vec3<R> normal{R(0), R(0), R(1)}, clearcoat_normal{R(0), R(0), R(1)};  ///< tangent space
   };
 
@@ -190,6 +197,7 @@ struct MetallicSurface : MetallicMaterial {
           case kOpacityMap: out.opacity *= dot(texel, vec4<R>(m.channel)); break;
           case kSpecularColorMap: out.specular_color = vec3<R>(texel); break;
           case kEmissiveMap: out.emissive = vec3<R>(texel); break;
+          case kSheenColorMap: out.sheen_color = vec3<R>(texel); break;
           case kNormalMap: out.normal = tilted(texel, normal_scale); break;
           case kClearcoatNormalMap: out.clearcoat_normal = tilted(texel, clearcoat_normal_scale); break;
           default: out.number[i] = dot(texel, vec4<R>(m.channel));
@@ -259,10 +267,21 @@ struct MetallicSurface : MetallicMaterial {
       through = R(1) - coverage * fma(R(0.96f), schlick_weight(coat.n_v), R(0.04f));
     }
 
+    // Sheen lies between the coat and the surface, and does the same. sheen_total is the part of all light that white sheen reflects.
+    const bool has_sheen = sheen > 0.0f;
+    vec3<R> sheen_tint(R(0));
+    R sheen_rough(0), sheen_total(0), below_sheen(1);
+    if (has_sheen) {
+      sheen_tint = sheen_color * texels.sheen_color * (R(sheen) * texels.number[kSheenMap]);
+      sheen_rough = R(sheen_roughness) * texels.number[kSheenRoughnessMap];
+      sheen_total = directional_sheen(sheen_rough, layer.n_v);
+      below_sheen = R(1) - min(largest(sheen_tint) * sheen_total, R(1));
+    }
+
     SurfacePoint<R> p{in.position_rws, n_ws, v_ws, n_ws, px.x, px.y};
     if (shadowed) p.face_ws = face_towards(cross(px.ddx(&V::position_rws), px.ddy(&V::position_rws)), v_ws);
     vec3<R> sum = emissive * texels.emissive;
-    vec3<R> coat_sum(R(0));
+    vec3<R> coat_sum(R(0)), sheen_sum(R(0));
     for (const Light& light : lights) {
       const IncidentLight<R> arriving = light_at(light, p.position_rws);
       const R n_l = dot(n_ws, arriving.l_ws), coat_n_l = has_coat ? dot(coat.n_ws, arriving.l_ws) : R(0);
@@ -275,6 +294,11 @@ struct MetallicSurface : MetallicMaterial {
       const vec3<R> f = layer.f0 + (layer.f90 - layer.f0) * fresnel;
       const R lobe = ggx_reflection(layer.roughness * layer.roughness, n_ws, h, max(n_l, R(1e-6f)), layer.n_v);
       sum += light.diffuse * share * (diffuse * (max(n_l, R(0)) * (R(1) - largest(f)))) + light.specular * share * (f * lobe);
+      if (has_sheen) {
+        const vec3<R> sine = cross(n_ws, h);
+        const R sheen_lobe = sheen_reflection(sheen_rough, sqrt(dot(sine, sine)), max(n_l, R(1e-6f)), layer.n_v);
+        sheen_sum += light.specular * (sheen_tint * (share * sheen_lobe));
+      }
       if (has_coat) {
         const R coat_lobe = ggx_reflection(coat.roughness * coat.roughness, coat.n_ws, h, max(coat_n_l, R(1e-6f)), coat.n_v);
         coat_sum += light.specular * select(coat_n_l > R(0), received * coat_lobe * fma(R(0.96f), fresnel, R(0.04f)), R(0));
@@ -293,15 +317,18 @@ struct MetallicSurface : MetallicMaterial {
     vec3<R> around = ambient * (transmitted + single + multiple);
     const R coat_fresnel = has_coat ? fma(R(0.96f), schlick_weight(coat.n_v), R(0.04f)) : R(0);
     coat_sum += ambient * (occlusion * coat_fresnel);
+    vec3<R> sheen_light(ambient);
     if (environment != nullptr) {
       const AmbientLight<R> light = environment->at<R>(n_ws, v_ws, layer.roughness);
       around += light.diffuse * (transmitted + multiple) + light.specular * single;
+      sheen_light += light.diffuse;
       if (has_coat) {
         const vec3<R> mirrored = environment->at<R>(coat.n_ws, v_ws, coat.roughness).specular;
         coat_sum += mirrored * (occlusion * coat_fresnel);
       }
     }
     sum += around * occlusion;
+    if (has_sheen) sum = sum * below_sheen + sheen_sum + sheen_tint * sheen_light * (sheen_total * occlusion);
     return has_coat ? sum * through + coat_sum * coverage : sum;
   }
 };

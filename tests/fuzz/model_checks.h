@@ -30,19 +30,19 @@ inline void check_mesh(const ModelMesh& mesh) {
 
 /// Checks that the factors of a material are finite and that its textures exist.
 inline void check_material(const ModelMaterial& m, const Model& model) {
-  for (const float x : {m.base_color.x,     m.base_color.y, m.base_color.z,       m.base_color.w,        m.alpha_cutoff,
-                        m.metallic,         m.roughness,    m.specular,           m.specular_color.x,    m.specular_color.y,
-                        m.specular_color.z, m.ior,          m.clearcoat,          m.clearcoat_roughness, m.clearcoat_normal_scale,
-                        m.normal_scale,     m.bump_scale,   m.occlusion_strength, m.emissive.x,          m.emissive.y,
-                        m.emissive.z}) {
+  for (const float x : {m.base_color.x,     m.base_color.y,  m.base_color.z,       m.base_color.w,        m.alpha_cutoff,
+                        m.metallic,         m.roughness,     m.specular,           m.specular_color.x,    m.specular_color.y,
+                        m.specular_color.z, m.ior,           m.clearcoat,          m.clearcoat_roughness, m.clearcoat_normal_scale,
+                        m.normal_scale,     m.bump_scale,    m.occlusion_strength, m.emissive.x,          m.emissive.y,
+                        m.emissive.z,       m.sheen_color.x, m.sheen_color.y,      m.sheen_color.z}) {
     HS_CHECK(std::isfinite(x));
   }
-  for (const float x : {m.base_color.w, m.metallic, m.roughness, m.clearcoat, m.clearcoat_roughness}) HS_CHECK(x >= 0.0f && x <= 1.0f);
-  for (const TextureUse* use :
-       {&m.base_color_map, &m.opacity_map, &m.metallic_map, &m.roughness_map, &m.specular_map, &m.specular_color_map, &m.clearcoat_map,
-        &m.clearcoat_roughness_map, &m.clearcoat_normal_map, &m.normal_map, &m.bump_map, &m.occlusion_map, &m.emissive_map}) {
-    HS_CHECK(use->texture >= -1 && use->texture < static_cast<int>(model.textures.size()));
-    HS_CHECK(use->uv_set == 0 || use->uv_set == 1);
+  for (const float x : {m.base_color.w, m.metallic, m.roughness, m.clearcoat, m.clearcoat_roughness, m.sheen, m.sheen_roughness})
+    HS_CHECK(x >= 0.0f && x <= 1.0f);
+  for (const auto map : kTextureUses) {
+    const TextureUse& use = m.*map;
+    HS_CHECK(use.texture >= -1 && use.texture < static_cast<int>(model.textures.size()));
+    HS_CHECK(use.uv_set == 0 || use.uv_set == 1);
   }
 }
 

@@ -30,6 +30,7 @@ void add_materials(Model& model) {
   rich.roughness = 0.25f;
   rich.specular = 0.5f;
   rich.clearcoat = 1.0f;
+  rich.sheen = 0.5f;
   rich.emissive = {0.0f, 4.0f, 0.0f};
   rich.double_sided = true;
   ModelMaterial& masked = model.materials.emplace_back();

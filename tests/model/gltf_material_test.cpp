@@ -93,6 +93,14 @@ TEST(GltfMaterial, ReadsExtensions) {
   EXPECT_EQ(coat.clearcoat, 1.0f);
   EXPECT_EQ(coat.clearcoat_roughness, 0.5f);
   EXPECT_EQ(coat.clearcoat_roughness_map.channel, Channel::green);
+  const ModelMaterial cloth = material_of(
+      extension("KHR_materials_sheen",
+                {{"sheenColorFactor", {1, 0.5, 0}}, {"sheenRoughnessFactor", 0.25}, {"sheenRoughnessTexture", {{"index", 0}}}}));
+  EXPECT_EQ(cloth.sheen, 1.0f);
+  EXPECT_EQ(cloth.sheen_color, glm::vec3(1, 0.5f, 0));
+  EXPECT_EQ(cloth.sheen_roughness, 0.25f);
+  EXPECT_EQ(cloth.sheen_roughness_map.channel, Channel::alpha);
+  EXPECT_EQ(material_of(extension("KHR_materials_sheen", GltfJson::object())).sheen, 0.0f);
 }
 
 TEST(GltfMaterial, ApproximatesTransmissionByBlending) {

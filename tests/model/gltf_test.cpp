@@ -360,12 +360,12 @@ TEST(Gltf, ReplacesBadNormalsAndTextureCoordinates) {
 
 TEST(Gltf, ReportsUnsupportedExtensions) {
   GltfBuilder file;
-  file.json["extensionsUsed"] = {"KHR_texture_transform", "KHR_materials_sheen", "KHR_implicit_shapes"};
-  file.json["extensionsRequired"] = {"KHR_materials_sheen"};  // changes only appearance
+  file.json["extensionsUsed"] = {"KHR_texture_transform", "KHR_materials_iridescence", "KHR_implicit_shapes"};
+  file.json["extensionsRequired"] = {"KHR_materials_iridescence"};  // changes only appearance
   const Model model = file.read();
   EXPECT_EQ(model.extensions.size(), 3u);
   ASSERT_EQ(model.warnings.size(), 2u);
-  EXPECT_NE(model.warnings[0].find("KHR_materials_sheen"), std::string::npos);
+  EXPECT_NE(model.warnings[0].find("KHR_materials_iridescence"), std::string::npos);
   EXPECT_NE(model.warnings[1].find("KHR_implicit_shapes"), std::string::npos);
   file.json["extensionsRequired"] = {"KHR_implicit_shapes"};
   EXPECT_THROW(file.read(), InputError);

@@ -110,18 +110,21 @@ TEST_F(Mtl, ConvertsSpecularReflection) {
 }
 
 TEST_F(Mtl, ReadsTheMetallicRoughnessExtension) {
-  ModelMaterial m = material("Kd 1 1 1\nKs 0 0 0\nNs 10\nillum 1\nPr 0.25\nPm 0.5\nPc 0.75\nPcr 0.125\n");
+  ModelMaterial m = material("Kd 1 1 1\nKs 0 0 0\nNs 10\nillum 1\nPr 0.25\nPm 0.5\nPs 0.375\nPc 0.75\nPcr 0.125\n");
   EXPECT_EQ(m.roughness, 0.25f);
   EXPECT_EQ(m.metallic, 0.5f);
   EXPECT_EQ(m.clearcoat, 0.75f);
   EXPECT_EQ(m.clearcoat_roughness, 0.125f);
+  EXPECT_EQ(m.sheen, 0.375f);
   EXPECT_EQ(m.specular, 1.0f);
-  m = material("map_Pr -imfchan g a.png\nmap_Pm -imfchan b a.png\nmap_Pc b.png\nmap_Pcr b.png\nPm 0.5\n");
+  m = material("map_Pr -imfchan g a.png\nmap_Pm -imfchan b a.png\nmap_Ps b.png\nmap_Pc b.png\nmap_Pcr b.png\nPm 0.5\n");
   EXPECT_EQ(m.roughness, 1.0f);
   EXPECT_EQ(m.roughness_map.channel, Channel::green);
   EXPECT_EQ(m.metallic, 0.5f);
   EXPECT_EQ(m.metallic_map.channel, Channel::blue);
   EXPECT_EQ(m.clearcoat, 1.0f);
+  EXPECT_EQ(m.sheen, 1.0f);
+  EXPECT_EQ(file_of(m.sheen_map), "b.png");
   EXPECT_EQ(file_of(m.clearcoat_map), "b.png");
   EXPECT_EQ(file_of(m.clearcoat_roughness_map), "b.png");
   EXPECT_EQ(model_.images.size(), 2u) << "an image is listed once";

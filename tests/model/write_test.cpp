@@ -40,6 +40,9 @@ void expect_same(const ModelMaterial& a, const ModelMaterial& b) {
   EXPECT_EQ(a.clearcoat, b.clearcoat);
   EXPECT_EQ(a.clearcoat_roughness, b.clearcoat_roughness);
   EXPECT_EQ(a.clearcoat_normal_scale, b.clearcoat_normal_scale);
+  EXPECT_EQ(a.sheen, b.sheen);
+  EXPECT_EQ(a.sheen_color, b.sheen_color);
+  EXPECT_EQ(a.sheen_roughness, b.sheen_roughness);
   EXPECT_EQ(a.normal_scale, b.normal_scale);
   EXPECT_EQ(a.occlusion_strength, b.occlusion_strength);
   EXPECT_EQ(a.emissive, b.emissive);
@@ -53,6 +56,8 @@ void expect_same(const ModelMaterial& a, const ModelMaterial& b) {
   expect_same(a.clearcoat_map, b.clearcoat_map, "clearcoat");
   expect_same(a.clearcoat_roughness_map, b.clearcoat_roughness_map, "clearcoat roughness");
   expect_same(a.clearcoat_normal_map, b.clearcoat_normal_map, "clearcoat normal");
+  expect_same(a.sheen_color_map, b.sheen_color_map, "sheen color");
+  expect_same(a.sheen_roughness_map, b.sheen_roughness_map, "sheen roughness");
   expect_same(a.normal_map, b.normal_map, "normal");
   expect_same(a.occlusion_map, b.occlusion_map, "occlusion");
   expect_same(a.emissive_map, b.emissive_map, "emissive");
@@ -222,6 +227,11 @@ ModelMaterial rich_material() {
   m.clearcoat_roughness_map = use_of(0, Channel::green);
   m.clearcoat_normal_map = use_of(1);
   m.clearcoat_normal_scale = 0.3f;
+  m.sheen = 1.0f;
+  m.sheen_color = {0.9f, 0.4f, 0.2f};
+  m.sheen_roughness = 0.55f;
+  m.sheen_color_map = use_of(0);
+  m.sheen_roughness_map = use_of(1, Channel::alpha);
   m.normal_map = use_of(1);
   m.normal_scale = 0.6f;
   m.occlusion_map = use_of(1, Channel::red);
@@ -355,6 +365,19 @@ TEST(WriteModel, WarnsAboutWhatGltfCannotStore) {
   expect_no_warnings(read_gltf("/none/a.glb", written.files[0].bytes, {}));
 }
 
+// Textures whose image is omitted are omitted too, and the materials refer to the remaining ones.
+TEST(WriteModel, GltfHasNoTexturesWithoutImages) {
+  Model model = rich_model();
+  model.images[0].bytes = bytes_of("GIF89a");
+  const Model read = read_gltf("/none/a.glb", written_model(model, "a.glb", ModelFormat::glb).files[0].bytes, {});
+  EXPECT_EQ(model.textures.size(), 2u);
+  ASSERT_EQ(read.textures.size(), 1u);
+  EXPECT_EQ(read.textures[0].image, 0);
+  EXPECT_EQ(read.images.at(0).name, "stone");
+  EXPECT_EQ(read.materials.at(0).base_color_map.texture, -1);
+  EXPECT_EQ(read.materials.at(0).normal_map.texture, 0);
+}
+
 // In glTF, only point and spot lights have one.
 TEST(WriteModel, DirectionalLightsHaveNoRange) {
   Model model = rich_model();
@@ -447,6 +470,7 @@ TEST(WriteModel, ObjMaterialsReadBack) {
     EXPECT_EQ(a.ior, b.ior);
     EXPECT_EQ(a.clearcoat, b.clearcoat);
     EXPECT_EQ(a.clearcoat_roughness, b.clearcoat_roughness);
+    EXPECT_EQ(a.sheen, b.sheen);
   }
 }
 

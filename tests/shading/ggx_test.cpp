@@ -79,25 +79,27 @@ double lamp(const glm::dvec3& d) {
   return 0.3 + 0.4 * d.y + 6.0 * t * t * (3.0 - 2.0 * t);
 }
 
-// A surface without absorption reflects a uniform environment unchanged.
+// A surface without absorption reflects a uniform environment unchanged, with and without white sheen.
 TEST(Ggx, WhiteFurnace) {
   const EnvironmentMap map(faces_of(64, uniform), TexelFormat::rgba32f);
   const Workers workers(2);
   const FilteredEnvironment filtered(map, 64, workers);
   const EnvironmentLightBlend environment{{&filtered, glm::mat3(1.0f), 1.0f}, {}, 0.0f};
   for (const float roughness : {0.05f, 0.2f, 0.4f, 0.6f, 0.8f, 1.0f}) {
-    for (const float metallic : {0.0f, 1.0f}) {
+    for (const auto& [metallic, sheen] : {std::pair(0.0f, 0.0f), std::pair(1.0f, 0.0f), std::pair(0.0f, 1.0f)}) {
       MetallicSurface<MetallicStreams::basic> surface{};
       surface.base_color = glm::vec4(1.0f);
       surface.metallic = metallic;
       surface.roughness = roughness;
+      surface.sheen = sheen;
+      surface.sheen_roughness = 0.5f;
       surface.environment = &environment;
       surface.to_eye_ws = glm::normalize(glm::vec3(0.6f, 0.8f, 0.0f));
       const Pixel<float> px{};
       MetallicSurface<MetallicStreams::basic>::Varyings<float> in{};
       in.normal_ws = vec3<float>(0, 1, 0);
       const Fragment<float> out = surface.fragment(in, px);
-      EXPECT_NEAR(out.color.x, 1.0f, 0.01f) << "roughness " << roughness << ", metallic " << metallic;
+      EXPECT_NEAR(out.color.x, 1.0f, 0.01f) << "roughness " << roughness << ", metallic " << metallic << ", sheen " << sheen;
     }
   }
 }
@@ -135,6 +137,42 @@ TEST(Ggx, EnvironmentLightIsCloseToTheIntegralOnSpheres) {
     const double relative = std::sqrt(squared / count) / (mean / count);
     std::printf("roughness %.1f: root mean square error %.3f of the mean\n", roughness, relative);
     EXPECT_LT(relative, 0.2);
+  }
+}
+
+// The same for sheen, whose environment light is that of a diffuse surface times the integral of its reflection. Sheen receives most light
+// from near the horizon, so the error is that of replacing this light by the mean of the hemisphere. It is given relative to the mean light
+// that a white diffuse surface reflects.
+TEST(Ggx, SheenInAnEnvironmentIsCloseToTheIntegralOnSpheres) {
+  const EnvironmentMap map(faces_of(128, lamp), TexelFormat::rgba32f);
+  const FilteredEnvironment filtered(map, 128, Workers(2));
+  const EnvironmentLightBlend environment{{&filtered, glm::mat3(1.0f), 1.0f}, {}, 0.0f};
+  const glm::dvec3 v(0, 0, 1);
+  for (const double roughness : {0.2, 0.4, 0.6, 0.8, 1.0}) {
+    double squared = 0.0, diffuse = 0.0;
+    int count = 0;
+    for (int iy = -4; iy <= 4; ++iy) {
+      for (int ix = -4; ix <= 4; ++ix) {
+        const double x = ix / 4.5, y = iy / 4.5;
+        if (x * x + y * y > 0.97) continue;
+        const glm::dvec3 n(x, y, std::sqrt(1.0 - x * x - y * y));
+        double expected = 0.0;
+        over_sphere(240, [&](const glm::dvec3& l, double solid) {
+          const double n_l = glm::dot(n, l);
+          if (n_l <= 0.0) return;
+          const double sine = glm::length(glm::cross(n, glm::normalize(l + v)));
+          expected += lamp(l) * solid * sheen_reflection(roughness, sine, n_l, n.z) / kPi;
+        });
+        const double light = environment.at<double>(vec3<double>(n), vec3<double>(v), roughness).diffuse.x;
+        const double error = light * directional_sheen(roughness, n.z) - expected;
+        squared += error * error;
+        diffuse += light;
+        ++count;
+      }
+    }
+    const double relative = std::sqrt(squared / count) / (diffuse / count);
+    std::printf("roughness %.1f: root mean square error %.3f of the diffuse light\n", roughness, relative);
+    EXPECT_LT(relative, 0.12);
   }
 }
 

@@ -1,19 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "halfspace/render/export/append_model.h"
 
-#include <array>
-
 namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
-
-// Returns the texture uses of a material.
-std::array<TextureUse*, 13> texture_uses(ModelMaterial& m) {
-  return {&m.base_color_map, &m.opacity_map,        &m.metallic_map,         &m.roughness_map,
-          &m.specular_map,   &m.specular_color_map, &m.clearcoat_map,        &m.clearcoat_roughness_map,
-          &m.normal_map,     &m.bump_map,           &m.clearcoat_normal_map, &m.occlusion_map,
-          &m.emissive_map};
-}
 
 void shift(int& index, int by) {
   if (index >= 0) index += by;
@@ -38,7 +28,7 @@ class ModelAppender {
       to_.textures.push_back(texture);
     }
     for (ModelMaterial material : from_.materials) {
-      for (TextureUse* use : texture_uses(material)) shift(use->texture, textures);
+      for (const auto use : kTextureUses) shift((material.*use).texture, textures);
       to_.materials.push_back(std::move(material));
     }
     for (ModelMesh mesh : from_.meshes) {

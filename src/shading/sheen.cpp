@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "halfspace/shading/sheen.h"
+
+#include <cmath>
+
+#include "halfspace/core/float_mode.h"
+#include "halfspace/core/lane_math.h"
+#include "halfspace/core/trig_double.h"
+#include "halfspace/shading/ggx.h"
+#include "halfspace/shading/texture.h"
+
+namespace halfspace::inline HS_LANES_NAMESPACE {
+
+namespace {
+
+constexpr int kTableSize = 32;
+constexpr int kDirections = 32;  // of the integral of a table entry, in elevation and in azimuth
+
+// The fit of log Λ for cosines up to 0.5 (Conty Estevez and Kulla 2017, section 4), for one α.
+template <class R>
+struct MaskingFit {
+  R a, b, c, d, e;
+
+  explicit MaskingFit(R alpha) {
+    const R rest = R(1) - alpha, t = rest * rest;
+    const auto between = [&](float rough, float smooth) { return fma(R(smooth - rough), t, R(rough)); };
+    a = between(21.5473f, 25.3245f);
+    b = between(3.82987f, 3.32435f);
+    c = between(0.19823f, 0.16801f);
+    d = between(-1.97760f, -1.27393f);
+    e = between(-4.32054f, -4.85967f);
+  }
+  R log_of(R cosine) const { return a / (R(1) + b * pow(cosine, c)) + d * cosine + e; }
+  // Λ. The fit is continued to cosines above 0.5 by symmetry.
+  R of(R cosine) const {
+    const R near = log_of(min(cosine, R(1) - cosine));
+    return exp(select(cosine < R(0.5f), near, R(2) * log_of(R(0.5f)) - near));
+  }
+};
+
+// The reflection for one α.
+template <class R>
+struct SheenLobe {
+  MaskingFit<R> masking;
+  R exponent;
+
+  explicit SheenLobe(R alpha) : masking(alpha), exponent(R(1) / alpha) {}
+  // Returns π·D·V·n·l. masking_v, masking_l: Λ of the view and light directions.
+  R reflection(R sine_h, R masking_v, R masking_l, R n_v) const {
+    const R distribution = R(0.5f) * (R(2) + exponent) * unit_pow(min(sine_h, R(1)), exponent);
+    return distribution / ((R(1) + masking_v + masking_l) * (R(4) * n_v));
+  }
+};
+
+template <class R>
+R alpha_of(R roughness) {
+  const R r = clamp(roughness, R(kMinRoughness), R(1));
+  return r * r;
+}
+
+// Integrates over the part of the hemisphere on one side of the plane of view and normal; the other part reflects the same. For lanes of
+// n·v.
+Real integrated_sheen(float roughness, Real n_v) {
+  const SheenLobe<Real> lobe(alpha_of(Real(roughness)));
+  const Real v_x = sqrt(max(fma(-n_v, n_v, Real(1.0f)), Real(0.0f))), masking_v = lobe.masking.of(n_v);
+  Real sum(0.0f);
+  for (int i = 0; i < kDirections; ++i) {
+    const float n_l = (static_cast<float>(i) + 0.5f) / kDirections, radius = std::sqrt(1.0f - n_l * n_l);
+    const Real masking_l = lobe.masking.of(Real(n_l));
+    for (int j = 0; j < kDirections; ++j) {
+      const SinCosDouble azimuth = sincos_turns((j + 0.5) / (2.0 * kDirections));
+      const Real x = v_x + Real(radius * static_cast<float>(azimuth.cos)), y(radius * static_cast<float>(azimuth.sin));
+      const Real side = fma(x, x, y * y), up = n_v + Real(n_l);
+      sum += lobe.reflection(sqrt(side / fma(up, up, side)), masking_v, masking_l, n_v);
+    }
+  }
+  return sum * Real(2.0f / (kDirections * kDirections));
+}
+
+const Texture2D& sheen_table() {
+  const FloatMode float_mode;
+  static const Texture2D table = [] {
+    Image<glm::vec4> image(kTableSize, kTableSize);
+    for (int y = 0; y < kTableSize; ++y) {
+      for (int x = 0; x < kTableSize; x += kLanes) {
+        const Real n_v = (to_real<Real>(iota<IntOf<Real>>() + IntOf<Real>(x)) + Real(0.5f)) * Real(1.0f / kTableSize);
+        const Real sheen = min(integrated_sheen((static_cast<float>(y) + 0.5f) / kTableSize, n_v), Real(1.0f));
+        for (int k = 0; k < kLanes; ++k) image.at(x + k, y) = glm::vec4(lane(sheen, k));
+      }
+    }
+    return Texture2D(std::span<const Image<glm::vec4>>(&image, 1), TexelFormat::rgba32f);
+  }();
+  return table;
+}
+
+}  // namespace
+
+template <class R>
+R sheen_reflection(R roughness, R sine_h, R n_l, R n_v) {
+  const SheenLobe<R> lobe(alpha_of(roughness));
+  return lobe.reflection(sine_h, lobe.masking.of(n_v), lobe.masking.of(n_l), n_v);
+}
+
+template <class R>
+R directional_sheen(R roughness, R n_v) {
+  constexpr Sampler kSampler{.mag = Filter::bilinear, .min = Filter::bilinear, .wrap_s = Wrap::clamp, .wrap_t = Wrap::clamp};
+  return sheen_table().sample_level<R>(kSampler, vec2<R>(n_v, roughness), R(0.0f)).x;
+}
+
+template float sheen_reflection(float, float, float, float);
+template double sheen_reflection(double, double, double, double);
+template RealN<4> sheen_reflection(RealN<4>, RealN<4>, RealN<4>, RealN<4>);
+template RealN<8> sheen_reflection(RealN<8>, RealN<8>, RealN<8>, RealN<8>);
+#if HALFSPACE_LANES == 16  // as in texture_lookup.cpp
+template RealN<16> sheen_reflection(RealN<16>, RealN<16>, RealN<16>, RealN<16>);
+#endif
+template FragmentReal sheen_reflection(FragmentReal, FragmentReal, FragmentReal, FragmentReal);
+
+template float directional_sheen(float, float);
+template double directional_sheen(double, double);
+template RealN<4> directional_sheen(RealN<4>, RealN<4>);
+template RealN<8> directional_sheen(RealN<8>, RealN<8>);
+#if HALFSPACE_LANES == 16
+template RealN<16> directional_sheen(RealN<16>, RealN<16>);
+#endif
+template FragmentReal directional_sheen(FragmentReal, FragmentReal);
+
+}  // namespace halfspace::inline HS_LANES_NAMESPACE
