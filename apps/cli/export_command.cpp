@@ -33,6 +33,7 @@ struct ExportSource {
 ExportSource model_source(const ExportArguments& args) {
   if (!args.set.empty()) throw UsageError("--set applies only to scenes; expected a model without it");
   Model model = read_model(args.scene, {.allow_outside = args.allow_outside});
+  for (std::string& warning : model.warnings) warning.insert(0, args.scene + ": ");
   std::vector<std::filesystem::path> inputs = files_of(model);
   inputs.emplace_back(args.scene);
   return {std::move(model), std::move(inputs)};

@@ -124,6 +124,17 @@ TEST_F(Export, WarnsAboutOmissions) {
   EXPECT_NE(o.err.find("environments and backgrounds are omitted"), std::string::npos) << o.err;
 }
 
+TEST_F(Export, WarningsOfReadersNameTheModelFile) {
+  write("a.obj", "mtllib a.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  write("a.mtl", "newmtl m\nKd x\n");
+  write("scene.json", R"({"version": 1, "objects": {"a": {"shape": "file", "file": "a.obj"}}})");
+  for (const std::string input : {"a.obj", "scene.json"}) {
+    const Outcome o = run({"export", input, "-o", "b.glb"});
+    EXPECT_EQ(o.exit_code, 0) << o.err;
+    EXPECT_NE(o.err.find("a.obj: a.mtl:2: "), std::string::npos) << o.err;
+  }
+}
+
 TEST_F(Export, WarnsAboutLossesOfModelObjects) {
   write("a.gltf", R"({"asset": {"version": "2.0"}, "nodes": [{"mesh": 0}], "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
     "accessors": [{"componentType": 5126, "count": 3, "type": "VEC3"}, {"componentType": 5126, "count": 1, "type": "SCALAR"}],

@@ -110,7 +110,7 @@ class SceneExporter {
     siblings.insert(siblings.end(), children.begin(), children.end());
     if (!o.model_animation.empty()) warn("animations of models are written, but the pose at model_time is not");
     if (!o.material.empty() || !o.model_materials.empty()) warn("materials that replace those of model files are omitted");
-    for (const std::string& warning : file.warnings) warn(warning);
+    for (const std::string& warning : file.warnings) warn(o.file.path.string() + ": " + warning);
   }
 
  private:
