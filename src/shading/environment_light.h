@@ -78,6 +78,15 @@ struct EnvironmentLightBlend {
     }
     return sum;
   }
+  /// Returns only the diffuse light.
+  template <class R>
+  HS_INLINE vec3<R> diffuse_at(const vec3<R>& n_ws) const {
+    vec3<R> sum(R(0));
+    for (const auto& [light, share] : {std::pair(&first, 1.0f - weight), std::pair(&second, weight)}) {
+      if (share > 0.0f) sum += light->map->template diffuse<R>(light->map_from_world * n_ws) * R(share * light->brightness);
+    }
+    return sum;
+  }
 };
 
 /// The integral of the GGX reflection over all directions of incident light, as two parts: the factor of F0 and the factor of F90.

@@ -267,21 +267,10 @@ struct MetallicSurface : MetallicMaterial {
       through = R(1) - coverage * fma(R(0.96f), schlick_weight(coat.n_v), R(0.04f));
     }
 
-    // Sheen lies between the coat and the surface, and does the same. sheen_total is the part of all light that white sheen reflects.
-    const bool has_sheen = sheen > 0.0f;
-    vec3<R> sheen_tint(R(0));
-    R sheen_rough(0), sheen_total(0), below_sheen(1);
-    if (has_sheen) {
-      sheen_tint = sheen_color * texels.sheen_color * (R(sheen) * texels.number[kSheenMap]);
-      sheen_rough = R(sheen_roughness) * texels.number[kSheenRoughnessMap];
-      sheen_total = directional_sheen(sheen_rough, layer.n_v);
-      below_sheen = R(1) - min(largest(sheen_tint) * sheen_total, R(1));
-    }
-
     SurfacePoint<R> p{in.position_rws, n_ws, v_ws, n_ws, px.x, px.y};
     if (shadowed) p.face_ws = face_towards(cross(px.ddx(&V::position_rws), px.ddy(&V::position_rws)), v_ws);
     vec3<R> sum = emissive * texels.emissive;
-    vec3<R> coat_sum(R(0)), sheen_sum(R(0));
+    vec3<R> coat_sum(R(0));
     for (const Light& light : lights) {
       const IncidentLight<R> arriving = light_at(light, p.position_rws);
       const R n_l = dot(n_ws, arriving.l_ws), coat_n_l = has_coat ? dot(coat.n_ws, arriving.l_ws) : R(0);
@@ -294,11 +283,6 @@ struct MetallicSurface : MetallicMaterial {
       const vec3<R> f = layer.f0 + (layer.f90 - layer.f0) * fresnel;
       const R lobe = ggx_reflection(layer.roughness * layer.roughness, n_ws, h, max(n_l, R(1e-6f)), layer.n_v);
       sum += light.diffuse * share * (diffuse * (max(n_l, R(0)) * (R(1) - largest(f)))) + light.specular * share * (f * lobe);
-      if (has_sheen) {
-        const vec3<R> sine = cross(n_ws, h);
-        const R sheen_lobe = sheen_reflection(sheen_rough, sqrt(dot(sine, sine)), max(n_l, R(1e-6f)), layer.n_v);
-        sheen_sum += light.specular * (sheen_tint * (share * sheen_lobe));
-      }
       if (has_coat) {
         const R coat_lobe = ggx_reflection(coat.roughness * coat.roughness, coat.n_ws, h, max(coat_n_l, R(1e-6f)), coat.n_v);
         coat_sum += light.specular * select(coat_n_l > R(0), received * coat_lobe * fma(R(0.96f), fresnel, R(0.04f)), R(0));
@@ -317,18 +301,21 @@ struct MetallicSurface : MetallicMaterial {
     vec3<R> around = ambient * (transmitted + single + multiple);
     const R coat_fresnel = has_coat ? fma(R(0.96f), schlick_weight(coat.n_v), R(0.04f)) : R(0);
     coat_sum += ambient * (occlusion * coat_fresnel);
-    vec3<R> sheen_light(ambient);
     if (environment != nullptr) {
       const AmbientLight<R> light = environment->at<R>(n_ws, v_ws, layer.roughness);
       around += light.diffuse * (transmitted + multiple) + light.specular * single;
-      sheen_light += light.diffuse;
       if (has_coat) {
         const vec3<R> mirrored = environment->at<R>(coat.n_ws, v_ws, coat.roughness).specular;
         coat_sum += mirrored * (occlusion * coat_fresnel);
       }
     }
     sum += around * occlusion;
-    if (has_sheen) sum = sum * below_sheen + sheen_sum + sheen_tint * sheen_light * (sheen_total * occlusion);
+    if (sheen > 0.0f) {  // between the coat and the surface
+      const SheenLayer<R> fibers{sheen_color * texels.sheen_color * (R(sheen) * texels.number[kSheenMap]),
+                                 R(sheen_roughness) * texels.number[kSheenRoughnessMap]};
+      const vec3<R> around_n = environment != nullptr ? vec3<R>(ambient) + environment->diffuse_at<R>(n_ws) : vec3<R>(ambient);
+      sum = with_sheen(sum, fibers, p, lights, around_n * occlusion);
+    }
     return has_coat ? sum * through + coat_sum * coverage : sum;
   }
 };

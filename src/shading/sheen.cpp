@@ -107,22 +107,44 @@ R directional_sheen(R roughness, R n_v) {
   return sheen_table().sample_level<R>(kSampler, vec2<R>(n_v, roughness), R(0.0f)).x;
 }
 
+template <class R>
+vec3<R> with_sheen(const vec3<R>& below, const SheenLayer<R>& sheen, const SurfacePoint<R>& p, std::span<const Light> lights,
+                   const vec3<R>& around) {
+  const R n_v = max(dot(p.n_ws, p.v_ws), R(1e-4f)), total = directional_sheen(sheen.roughness, n_v);
+  const SheenLobe<R> lobe(alpha_of(sheen.roughness));
+  const R masking_v = lobe.masking.of(n_v);
+  vec3<R> reflected = around * total;
+  for (const Light& light : lights) {
+    const IncidentLight<R> arriving = light_at(light, p.position_rws);
+    const R n_l = dot(p.n_ws, arriving.l_ws);
+    if (!any(n_l > R(0))) continue;
+    R received = arriving.strength;
+    if (light.shadow != nullptr)
+      received *= shadow_factor(*light.shadow, ShadowReceiver<R>{p.position_rws, p.face_ws, p.n_ws, arriving.l_ws, p.x_px, p.y_px});
+    const vec3<R> sine = cross(p.n_ws, normalize_or_zero(arriving.l_ws + p.v_ws));
+    const R share = lobe.reflection(sqrt(dot(sine, sine)), masking_v, lobe.masking.of(max(n_l, R(1e-6f))), n_v);
+    reflected += light.specular * select(n_l > R(0), received * share, R(0));
+  }
+  const R largest = max(sheen.color.x, max(sheen.color.y, sheen.color.z));
+  return below * (R(1) - min(largest * total, R(1))) + sheen.color * reflected;
+}
+
+template vec3<float> with_sheen(const vec3<float>&, const SheenLayer<float>&, const SurfacePoint<float>&, std::span<const Light>,
+                                const vec3<float>&);
+template vec3<double> with_sheen(const vec3<double>&, const SheenLayer<double>&, const SurfacePoint<double>&, std::span<const Light>,
+                                 const vec3<double>&);
+template vec3<FragmentReal> with_sheen(const vec3<FragmentReal>&, const SheenLayer<FragmentReal>&, const SurfacePoint<FragmentReal>&,
+                                       std::span<const Light>, const vec3<FragmentReal>&);
+
 template float sheen_reflection(float, float, float, float);
 template double sheen_reflection(double, double, double, double);
-template RealN<4> sheen_reflection(RealN<4>, RealN<4>, RealN<4>, RealN<4>);
-template RealN<8> sheen_reflection(RealN<8>, RealN<8>, RealN<8>, RealN<8>);
-#if HALFSPACE_LANES == 16  // as in texture_lookup.cpp
-template RealN<16> sheen_reflection(RealN<16>, RealN<16>, RealN<16>, RealN<16>);
-#endif
-template FragmentReal sheen_reflection(FragmentReal, FragmentReal, FragmentReal, FragmentReal);
-
 template float directional_sheen(float, float);
 template double directional_sheen(double, double);
-template RealN<4> directional_sheen(RealN<4>, RealN<4>);
-template RealN<8> directional_sheen(RealN<8>, RealN<8>);
-#if HALFSPACE_LANES == 16
-template RealN<16> directional_sheen(RealN<16>, RealN<16>);
+#if HALFSPACE_LANES > 1
+template Real sheen_reflection(Real, Real, Real, Real);
+template Real directional_sheen(Real, Real);
+template vec3<Real> with_sheen(const vec3<Real>&, const SheenLayer<Real>&, const SurfacePoint<Real>&, std::span<const Light>,
+                               const vec3<Real>&);
 #endif
-template FragmentReal directional_sheen(FragmentReal, FragmentReal);
 
 }  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -10,7 +10,9 @@
 // The functions are instantiated in sheen.cpp. Few materials have sheen, so it is not compiled into every kernel.
 #pragma once
 
-#include "halfspace/core/vec.h"
+#include <span>
+
+#include "halfspace/shading/lighting.h"
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
 
@@ -24,5 +26,19 @@ R sheen_reflection(R roughness, R sine_h, R n_l, R n_v);
 /// the result is 1. roughness and n_v are clamped to [0, 1].
 template <class R>
 R directional_sheen(R roughness, R n_v);
+
+/// Sheen at a pixel.
+template <class R>
+struct SheenLayer {
+  vec3<R> color;
+  R roughness;
+};
+
+/// Returns the light that a surface with sheen reflects. below: the light that the surface would reflect without it; sheen reflects part of
+/// it in turn. around: light from all directions, as a white diffuse surface would reflect it. Available for R = float,
+/// double, Real and FragmentReal.
+template <class R>
+vec3<R> with_sheen(const vec3<R>& below, const SheenLayer<R>& sheen, const SurfacePoint<R>& p, std::span<const Light> lights,
+                   const vec3<R>& around);
 
 }  // namespace halfspace::inline HS_LANES_NAMESPACE
