@@ -5,6 +5,7 @@
 
 #include <array>
 
+#include "halfspace/shading/shadow_blocks.h"
 #include "halfspace/shading/shadow_moments.h"
 #include "halfspace/shading/shadow_view.h"
 
@@ -54,6 +55,15 @@ HS_INLINE R hard_shadow(const ShadowView& view, const ShadowCoordinates<R>& p) {
   return lit_by_texel(view, p, truncate_to_int(floor(p.x)), truncate_to_int(floor(p.y)));
 }
 
+/// Returns what box_pcf returns if all texels are lit, with the same rounding.
+template <int width, class R>
+HS_INLINE R box_of_lit_texels(R fx, R fy) {
+  R row(0), sum(0);
+  for (int i = 0; i <= width; ++i) row = fma(i == 0 ? R(1) - fx : i == width ? fx : R(1), R(1), row);
+  for (int j = 0; j <= width; ++j) sum = fma(j == 0 ? R(1) - fy : j == width ? fy : R(1), row, sum);
+  return sum * R(1.0f / (width * width));
+}
+
 /// Returns the mean over a square of width x width texels centered at the point. Texels that the square covers partially are weighted
 /// by their covered area. width must be odd; 1 is bilinear comparison.
 template <int width, class R>
@@ -62,6 +72,10 @@ HS_INLINE R box_pcf(const ShadowView& view, const ShadowCoordinates<R>& p) {
   const R left_texel = floor(left), low_texel = floor(low);
   const R fx = left - left_texel, fy = low - low_texel;
   const IntOf<R> i0 = truncate_to_int(left_texel), j0 = truncate_to_int(low_texel);
+  if constexpr (width >= 5) {
+    if (view.block_depths != nullptr && all(is_lit_by_blocks(view, p, i0, j0, 0.5f * width + 0.5f)))
+      return box_of_lit_texels<width>(fx, fy);
+  }
   constexpr int at_once = width % 4 == 3 ? 4 : 2;
   R sum(0);
   for (int j = 0; j <= width; ++j) {

@@ -34,6 +34,9 @@ struct ShadowView {
   float near = 0.0f, far = 1.0f;        ///< distances along the axis from the light, in world units
   int size = 0;                         ///< texels per side
   const float* depth = nullptr;         ///< size² reversed window depths, top row first; not owned
+  /// For each block of 8x8 texels, bottom row first, the largest depth in it and in the blocks to its right, above it, and above to the
+  /// right; see shadow_blocks.h. Not owned. null: none, which changes only the speed.
+  const float* block_depths = nullptr;
   const glm::vec4* moments = nullptr;   ///< size² filtered powers 1 to 4 of the linear depth (0 near, 1 far); used by vsm and moments
 };
 

@@ -14,6 +14,7 @@
 #include "halfspace/scene/lights.h"
 #include "halfspace/shading/depth_only.h"
 #include "halfspace/shading/shadow_bias.h"
+#include "halfspace/shading/shadow_blocks.h"
 #include "halfspace/shading/sphere_depth.h"
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
@@ -22,10 +23,13 @@ namespace {
 
 // The maps that the Shadow of a light points to.
 struct ShadowMaps {
-  std::vector<Image<float>> depths;
+  std::vector<Image<float>> depths, block_depths;
   std::vector<Image<glm::vec4>> moments;
   std::vector<ShadowView> views;
 };
+
+// The filters that use block depths.
+bool is_wide_box(ShadowFilter f) { return f == ShadowFilter::pcf5 || f == ShadowFilter::pcf7; }
 
 bool is_moment_filter(ShadowFilter f) { return f == ShadowFilter::vsm || f == ShadowFilter::moments; }
 
@@ -184,6 +188,7 @@ RenderedShadow ShadowRenderer::render(const std::string& name, const LightDescri
     Image<float>& depth = maps->depths.emplace_back(size, size);
     out.statistics += draw_depth(view.clip_from_world, view.near, view.far, {meshes_, spheres_}, true, shadow_.faces, depth, workers_);
     s.depth = depth.data();
+    if (is_wide_box(settings.filter)) s.block_depths = maps->block_depths.emplace_back(shadow_block_depths(depth, workers_)).data();
     if (!is_moment_filter(settings.filter)) continue;
     s.moments = maps->moments.emplace_back(filtered_moments(s, depth, static_cast<int>(std::lround(shadow_.radius)), workers_)).data();
   }
