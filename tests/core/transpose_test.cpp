@@ -82,7 +82,7 @@ TYPED_TEST(Fours, ThreesAreReadInOrder) {
 // read.
 template <int N, class I, class Word>
 void expect_rows(const std::vector<Word>& memory, const std::vector<std::size_t>& at) {
-  I i{};
+  I i(0);  // GCC 12 warns wrongly about I i{} for 4 lanes
   for (int k = 0; k < kWidth<I>; ++k) set_lane(i, k, static_cast<int32_t>(at[static_cast<std::size_t>(k)]));
   const auto row = gather_row<N>(memory.data(), i);
   static_assert(std::tuple_size_v<decltype(row)> == N);
