@@ -33,7 +33,7 @@ std::array<const TextureUse*, kMetallicMaps> uses_of(const ModelMaterial& m) {
 bool is_color(std::size_t map) { return map == kBaseColorMap || map == kSpecularColorMap || map == kEmissiveMap || map == kSheenColorMap; }
 
 // Returns whether a map affects the picture. Maps of a coat or sheen that the material does not have are not sampled.
-bool matters(std::size_t map, const ModelMaterial& m) {
+bool has_effect(std::size_t map, const ModelMaterial& m) {
   switch (map) {
     case kBaseColorMap:
     case kOpacityMap: return true;
@@ -215,7 +215,7 @@ MetallicMaterial ModelMaterials::metallic_material(const ObjectDescription& o, c
   int previous_texture = -1;
   for (std::size_t i = 0; i < kMetallicMaps; ++i) {
     const TextureUse& use = *uses[i];
-    if (use.texture < 0 || !matters(i, m)) continue;
+    if (use.texture < 0 || !has_effect(i, m)) continue;
     const ModelTexture& texture = model.textures[static_cast<std::size_t>(use.texture)];
     if (texture.image < 0) continue;
     PlacedMap& map = out.maps[i];

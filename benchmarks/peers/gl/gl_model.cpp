@@ -25,13 +25,14 @@ using Surface = MetallicSurface<MetallicStreams::basic>;
 
 [[noreturn]] void refuse(const std::string& file, const std::string& problem) {
   throw InputError(file + ": " + problem +
-                   "; expected opaque materials without textures, vertex colors or clearcoat, and only directional lights");
+                   "; expected opaque materials without textures, vertex colors, clearcoat or sheen, and only directional lights");
 }
 
 const Surface& surface_of(const PreparedDraw& draw, const std::string& file) {
   const auto* surface = std::get_if<Surface>(&draw.shader);
   if (surface == nullptr) refuse(file, "has a material with textures or vertex colors, or is not a triangle mesh");
-  if (surface->clearcoat > 0.0f || surface->blends || surface->unlit) refuse(file, "has a material that is blended, unlit or coated");
+  if (surface->clearcoat > 0.0f || surface->sheen > 0.0f || surface->blends || surface->unlit)
+    refuse(file, "has a material that is blended, unlit or coated, or has sheen");
   if (surface->environment == nullptr || surface->environment->weight != 0.0f) refuse(file, "has no environment, or more than one");
   for (const Light& light : surface->lights) {
     if (light.type != LightType::directional) refuse(file, "has a point or spot light");
