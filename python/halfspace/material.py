@@ -53,7 +53,7 @@ class Material:
     base_color: linear (r, g, b) or (r, g, b, a), in [0, 1]. Convert sRGB values with srgb().
     metallic, roughness: 0 to 1.   specular: scales the reflectance of non-metals.   ior: index of refraction, at least 1.
     emissive: linear (r, g, b); may exceed 1.   clearcoat, clearcoat_roughness: 0 to 1.
-    sheen, sheen_roughness: reflection by the fibers of cloth, 0 to 1.
+    sheen, sheen_roughness: white reflection by the fibers of cloth, 0 to 1.
     alpha_mode: "opaque", "mask" (the surface exists where alpha >= alpha_cutoff) or "blend". The default is "blend" if the alpha of
         base_color is less than 1, otherwise "opaque".
     unlit: draw the base color without lighting.   double_sided: draw both sides.

@@ -53,6 +53,16 @@ def read_ply(path):
     return vertices[:, :3], vertices[:, 3:6], np.frombuffer(data, face, counts["face"], end + vertices.nbytes)["i"]
 
 
+def test_sheen_reflects_ambient_light():
+    """White sheen on a black surface is gray, and the brighter the more of it there is."""
+    def seen(sheen):
+        material = halfspace.Material((0, 0, 0), specular=0, sheen=sheen, sheen_roughness=1)
+        return shown(halfspace.Mesh(*QUAD, material=material))[10, 10]
+    none, half, full = seen(0), seen(0.5), seen(1)
+    assert none[0] == 0 and full[0] == full[1] == full[2]
+    assert full[0] > 0.1 and half[0] == pytest.approx(full[0] / 2, rel=1e-5)
+
+
 def test_a_quad_fills_the_picture():
     color = np.array([0.25, 0.5, 0.75, 1], np.float32)
     assert (shown(halfspace.Mesh(*QUAD, material=flat(color[:3]))) == color).all()
@@ -375,6 +385,7 @@ def test_materials_of_trimesh_like_objects(of_trimesh, own):
     (lambda: halfspace.Material("red"), "base_color: is 'red'; expected 3 or 4 numbers from 0 to 1"),
     (lambda: halfspace.Material((1, 2, 3)), "base_color: is [1, 2, 3]; expected 3 or 4 numbers from 0 to 1"),
     (lambda: halfspace.Material(roughness=-1), "roughness: is -1; expected a number from 0 to 1"),
+    (lambda: halfspace.Material(sheen=1.5), "sheen: is 1.5; expected a number from 0 to 1"),
     (lambda: halfspace.Material(base_color_texture=np.zeros((2, 2))), "base_color_texture: texels: has the dtype float64; expected uint8"),
     (lambda: halfspace.Texture(np.zeros((2, 2, 2), np.uint8)), "texels: has the shape (2, 2, 2); expected (H, W), (H, W, 3) or (H, W, 4)"),
     (lambda: halfspace.Texture(np.zeros((2, 2), np.uint8), wrap="tile"), "wrap: is 'tile'; expected one of repeat, mirrored, clamp"),

@@ -7,8 +7,8 @@
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
 
-/// Returns the materials of a glTF file, with the extensions KHR_materials_unlit, emissive_strength, specular, ior, clearcoat, transmission
-/// (approximated by blending) and pbrSpecularGlossiness (converted).
+/// Returns the materials of a glTF file, with the extensions KHR_materials_unlit, emissive_strength, specular, ior, clearcoat, sheen,
+/// transmission (approximated by blending) and pbrSpecularGlossiness (converted).
 std::vector<ModelMaterial> gltf_materials(GltfDocument& document, GltfTextures& textures);
 
 /// Returns the default material, which is used by primitives that do not name one. glTF defines it as a rough white metal.

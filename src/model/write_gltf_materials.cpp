@@ -166,7 +166,7 @@ class MaterialWriter {
 
   void add_clearcoat(OutputJson& json) {
     const ModelMaterial& m = *material_;
-    if (m.clearcoat == 0.0f) return;
+    if (m.clearcoat == 0.0f || m.unlit) return;
     OutputJson coat = {{"clearcoatFactor", m.clearcoat}};
     add_texture(coat, "clearcoatTexture", m.clearcoat_map, Channel::red);
     if (m.clearcoat_roughness != 0.0f) coat["clearcoatRoughnessFactor"] = m.clearcoat_roughness;
@@ -179,7 +179,7 @@ class MaterialWriter {
 
   void add_sheen(OutputJson& json) {
     const ModelMaterial& m = *material_;
-    if (m.sheen == 0.0f) return;
+    if (m.sheen == 0.0f || m.unlit) return;
     OutputJson sheen = {{"sheenColorFactor", json_array(m.sheen * m.sheen_color)}};
     if (has_image(m.sheen_map)) omit("sheen map", "glTF stores sheen as a color");
     add_texture(sheen, "sheenColorTexture", m.sheen_color_map);

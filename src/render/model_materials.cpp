@@ -92,9 +92,10 @@ std::vector<std::pair<int, bool>> wanted_images(const ObjectDescription& o, cons
   std::set<std::pair<int, bool>> wanted;
   for (const PosedMesh& part : posed.meshes) {
     if (part.material < 0) continue;
-    const auto uses = uses_of(model.materials[static_cast<std::size_t>(part.material)]);
+    const ModelMaterial& material = model.materials[static_cast<std::size_t>(part.material)];
+    const auto uses = uses_of(material);
     for (std::size_t i = 0; i < uses.size(); ++i) {
-      if (uses[i]->texture < 0) continue;
+      if (uses[i]->texture < 0 || !has_effect(i, material)) continue;
       const int image = model.textures[static_cast<std::size_t>(uses[i]->texture)].image;
       if (image >= 0 && !used.contains(image_recipe(o.file.path, image, is_color(i)))) wanted.emplace(image, is_color(i));
     }

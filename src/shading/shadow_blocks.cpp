@@ -14,7 +14,7 @@ Image<float> shadow_block_depths(const Image<float>& depth, const Workers& worke
     std::vector<float> column(static_cast<std::size_t>(size));  // the largest depth of each column of texels
     const int first = block_row * kShadowBlock;
     for (int j = first; j < std::min(first + kShadowBlock, size); ++j)  // the top row of texels is stored first
-      std::ranges::transform(column, depth.row(size - 1 - j), column.begin(), [](float a, float b) { return a < b ? b : a; });
+      std::ranges::transform(column, depth.row(size - 1 - j), column.begin(), [](float a, float b) { return std::max(a, b); });
     for (int x = 0; x < size; ++x) {
       float& block = largest.at(x / kShadowBlock, block_row);
       block = std::max(block, column[static_cast<std::size_t>(x)]);

@@ -18,8 +18,9 @@ inline int shadow_blocks_per_side(int size) { return (size + kShadowBlock - 1) /
 /// Returns the values of ShadowView::block_depths for a depth map, which must be square.
 Image<float> shadow_block_depths(const Image<float>& depth, const Workers& workers);
 
-/// Returns whether all texels (i, j) to (i + 7, j + 7), which must be within `reach` texels of p in x and y, leave the point lit. May
-/// return false although they do. The view must have block_depths. Texels outside the map need not be handled: `holds` excludes them.
+/// Returns whether all texels from (i, j) to (i + 7, j + 7) whose centers are within `reach` texels of p in x and y leave the point lit.
+/// May return false although they do. The view must have block_depths. Any i and j are allowed, also those of NaN positions, but the result
+/// has no meaning where `holds` is false.
 template <class R>
 HS_INLINE MaskOf<R> is_lit_by_blocks(const ShadowView& view, const ShadowCoordinates<R>& p, IntOf<R> i, IntOf<R> j, float reach) {
   const int side = shadow_blocks_per_side(view.size);

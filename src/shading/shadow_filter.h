@@ -73,6 +73,7 @@ HS_INLINE R box_pcf(const ShadowView& view, const ShadowCoordinates<R>& p) {
   const R fx = left - left_texel, fy = low - low_texel;
   const IntOf<R> i0 = truncate_to_int(left_texel), j0 = truncate_to_int(low_texel);
   if constexpr (width >= 5) {
+    static_assert(width < kShadowBlock);
     if (view.block_depths != nullptr && all(is_lit_by_blocks(view, p, i0, j0, 0.5f * width + 0.5f)))
       return box_of_lit_texels<width>(fx, fy);
   }

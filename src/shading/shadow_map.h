@@ -37,7 +37,7 @@ struct ShadowView {
   /// For each block of 8x8 texels, bottom row first, the largest depth in it and in the blocks to its right, above it, and above to the
   /// right; see shadow_blocks.h. Not owned. null: none, which changes only the speed.
   const float* block_depths = nullptr;
-  const glm::vec4* moments = nullptr;   ///< size² filtered powers 1 to 4 of the linear depth (0 near, 1 far); used by vsm and moments
+  const glm::vec4* moments = nullptr;  ///< size² filtered powers 1 to 4 of the linear depth (0 near, 1 far); used by vsm and moments
 };
 
 /// The shadow of one light: a single view, up to four cascades (finest first), or the six views of a point light. Points outside

@@ -2,6 +2,8 @@
 #include "halfspace/shading/sheen.h"
 
 #include <cmath>
+#include <span>
+#include <vector>
 
 #include "halfspace/core/float_mode.h"
 #include "halfspace/core/lane_math.h"
@@ -13,8 +15,8 @@ namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
-constexpr int kTableSize = 32;
-constexpr int kDirections = 32;  // of the integral of a table entry, in elevation and in azimuth
+constexpr int kColumns = 64, kRows = 32;         // of the table: n·v and roughness
+constexpr int kElevations = 64, kAzimuths = 32;  // of the directions in the integral of an entry
 
 // The fit of log Λ for cosines up to 0.5 (Conty Estevez and Kulla 2017, section 4), for one α.
 template <class R>
@@ -33,7 +35,7 @@ struct MaskingFit {
   R log_of(R cosine) const { return a / (R(1) + b * pow(cosine, c)) + d * cosine + e; }
   // Λ. The fit is continued to cosines above 0.5 by symmetry.
   R of(R cosine) const {
-    const R near = log_of(min(cosine, R(1) - cosine));
+    const R near = log_of(min(cosine, max(R(1) - cosine, R(0))));  // cosines of unit vectors may exceed 1 by rounding
     return exp(select(cosine < R(0.5f), near, R(2) * log_of(R(0.5f)) - near));
   }
 };
@@ -59,32 +61,35 @@ R alpha_of(R roughness) {
 }
 
 // Integrates over the part of the hemisphere on one side of the plane of view and normal; the other part reflects the same. For lanes of
-// n·v.
-Real integrated_sheen(float roughness, Real n_v) {
+// n·v. azimuths: cosines and sines.
+Real integrated_sheen(float roughness, Real n_v, std::span<const glm::vec2> azimuths) {
   const SheenLobe<Real> lobe(alpha_of(Real(roughness)));
   const Real v_x = sqrt(max(fma(-n_v, n_v, Real(1.0f)), Real(0.0f))), masking_v = lobe.masking.of(n_v);
   Real sum(0.0f);
-  for (int i = 0; i < kDirections; ++i) {
-    const float n_l = (static_cast<float>(i) + 0.5f) / kDirections, radius = std::sqrt(1.0f - n_l * n_l);
-    const Real masking_l = lobe.masking.of(Real(n_l));
-    for (int j = 0; j < kDirections; ++j) {
-      const SinCosDouble azimuth = sincos_turns((j + 0.5) / (2.0 * kDirections));
-      const Real x = v_x + Real(radius * static_cast<float>(azimuth.cos)), y(radius * static_cast<float>(azimuth.sin));
-      const Real side = fma(x, x, y * y), up = n_v + Real(n_l);
+  for (int i = 0; i < kElevations; ++i) {
+    const float n_l = (static_cast<float>(i) + 0.5f) / kElevations, radius = std::sqrt(1.0f - n_l * n_l);
+    const Real masking_l = lobe.masking.of(Real(n_l)), up = n_v + Real(n_l);
+    for (const glm::vec2& azimuth : azimuths) {
+      const Real x = v_x + Real(radius * azimuth.x), y(radius * azimuth.y), side = fma(x, x, y * y);
       sum += lobe.reflection(sqrt(side / fma(up, up, side)), masking_v, masking_l, n_v);
     }
   }
-  return sum * Real(2.0f / (kDirections * kDirections));
+  return sum * Real(2.0f / (kElevations * kAzimuths));
 }
 
 const Texture2D& sheen_table() {
   const FloatMode float_mode;
   static const Texture2D table = [] {
-    Image<glm::vec4> image(kTableSize, kTableSize);
-    for (int y = 0; y < kTableSize; ++y) {
-      for (int x = 0; x < kTableSize; x += kLanes) {
-        const Real n_v = (to_real<Real>(iota<IntOf<Real>>() + IntOf<Real>(x)) + Real(0.5f)) * Real(1.0f / kTableSize);
-        const Real sheen = min(integrated_sheen((static_cast<float>(y) + 0.5f) / kTableSize, n_v), Real(1.0f));
+    std::vector<glm::vec2> azimuths;
+    for (int j = 0; j < kAzimuths; ++j) {
+      const SinCosDouble a = sincos_turns((j + 0.5) / (2.0 * kAzimuths));
+      azimuths.emplace_back(static_cast<float>(a.cos), static_cast<float>(a.sin));
+    }
+    Image<glm::vec4> image(kColumns, kRows);
+    for (int y = 0; y < kRows; ++y) {
+      for (int x = 0; x < kColumns; x += kLanes) {
+        const Real n_v = (to_real<Real>(iota<IntOf<Real>>() + IntOf<Real>(x)) + Real(0.5f)) * Real(1.0f / kColumns);
+        const Real sheen = min(integrated_sheen((static_cast<float>(y) + 0.5f) / kRows, n_v, azimuths), Real(1.0f));
         for (int k = 0; k < kLanes; ++k) image.at(x + k, y) = glm::vec4(lane(sheen, k));
       }
     }

@@ -34,9 +34,9 @@ struct SheenLayer {
   R roughness;
 };
 
-/// Returns the light that a surface with sheen reflects. below: the light that the surface would reflect without it; sheen reflects part of
-/// it in turn. around: light from all directions, as a white diffuse surface would reflect it. Available for R = float,
-/// double, Real and FragmentReal.
+/// Returns the light that leaves a surface with sheen. below: the light that the surface would reflect and emit without it. Sheen transmits
+/// the part 1 − E(n·v) of it, where E is the integral of its own reflection; the extension permits this simplification. around: light from
+/// all directions, as a white diffuse surface would reflect it. Available for R = float, double, Real and FragmentReal.
 template <class R>
 vec3<R> with_sheen(const vec3<R>& below, const SheenLayer<R>& sheen, const SurfacePoint<R>& p, std::span<const Light> lights,
                    const vec3<R>& around);

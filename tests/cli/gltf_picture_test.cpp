@@ -422,5 +422,69 @@ TEST_F(ExportOfConversions, AreLimitedByMemory) {
   EXPECT_NE(o.err.find("200 MiB (--max-memory)"), std::string::npos) << o.err;
 }
 
+// Renders a file with the default light and environment, and returns the mean color of the 8x8 pixels in the middle.
+class SheenPicture : public GltfPicture {
+ protected:
+  glm::dvec3 color(const std::string& file) const {
+    const Outcome o = run({"render", file, "--size", "32x32", "--no-floor", "--yaw", "60", "-o", "a.png"});
+    EXPECT_EQ(o.exit_code, 0) << o.err;
+    const Image<glm::u8vec4> image = read_image(directory / "a.png");
+    glm::dvec3 sum(0.0);
+    for (int y = 12; y < 20; ++y) {
+      for (int x = 12; x < 20; ++x) sum += glm::dvec3(image.at(x, y)) / 64.0;
+    }
+    return sum;
+  }
+  void write_texel(const glm::u8vec4& code) const {
+    Image<glm::u8vec4> image(1, 1);
+    image.at(0, 0) = code;
+    write_png(directory / "texel.png", image);
+  }
+  // The color of a square with this sheen, whose textures have index 0.
+  glm::dvec3 color_with(const GltfJson& sheen) const {
+    GltfBuilder file;
+    file.add("images", {{"uri", "texel.png"}});
+    file.add("textures", {{"source", 0}});
+    const int material = file.add("materials", {{"pbrMetallicRoughness", {{"baseColorFactor", {0.1, 0.1, 0.1, 1}}, {"metallicFactor", 0}}},
+                                                {"doubleSided", true},
+                                                {"extensions", {{"KHR_materials_sheen", sheen}}}});
+    file.mesh_node(square(file, material));
+    std::ofstream(directory / "a.gltf") << file.text();
+    return color("a.gltf");
+  }
+};
+
+TEST_F(SheenPicture, TexturesMultiplyTheFactors) {
+  write_texel({255, 0, 188, 128});
+  const GltfJson white = {1, 1, 1}, texture = {{"index", 0}};
+  const auto expect_same = [&](const GltfJson& mapped, const GltfJson& factors) {
+    const glm::dvec3 a = color_with(mapped), b = color_with(factors);
+    for (int k = 0; k < 3; ++k) EXPECT_NEAR(a[k], b[k], 1.0) << mapped.dump();  // one code, because factors are not rounded to texels
+    return b;
+  };
+  const glm::dvec3 tinted = expect_same({{"sheenColorFactor", white}, {"sheenColorTexture", texture}, {"sheenRoughnessFactor", 0.8}},
+                                        {{"sheenColorFactor", {1, 0, 0.503}}, {"sheenRoughnessFactor", 0.8}});
+  EXPECT_GT(tinted.x, tinted.y + 10.0);
+  const glm::dvec3 rough = expect_same({{"sheenColorFactor", white}, {"sheenRoughnessFactor", 1}, {"sheenRoughnessTexture", texture}},
+                                       {{"sheenColorFactor", white}, {"sheenRoughnessFactor", 0.502}});
+  EXPECT_GT(glm::length(rough - color_with({{"sheenColorFactor", white}, {"sheenRoughnessFactor", 1}})), 5.0);
+}
+
+// In MTL, Ps is the strength of white sheen, and map_Ps a channel that multiplies it.
+TEST_F(SheenPicture, MapOfMtlMultipliesTheFactor) {
+  write_texel({0, 51, 255, 255});
+  const auto color_of = [&](const std::string& statements) {
+    std::ofstream(directory / "a.obj") << "mtllib a.mtl\nusemtl m\nv -2 -2 0\nv 2 -2 0\nv 2 2 0\nv -2 2 0\n"
+                                          "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n";
+    std::ofstream(directory / "a.mtl") << "newmtl m\nKd 0.3 0.3 0.3\nPr 0.9\n" << statements;
+    return color("a.obj");
+  };
+  const glm::dvec3 none = color_of(""), weak = color_of("Ps 0.2\n"), mapped = color_of("Ps 1\nmap_Ps -imfchan g texel.png\n"),
+                   full = color_of("Ps 1\n");
+  for (int k = 0; k < 3; ++k) EXPECT_NEAR(mapped[k], weak[k], 1.0);
+  EXPECT_GT(weak.x, none.x + 2.0);
+  EXPECT_GT(full.x, weak.x + 5.0);
+}
+
 }  // namespace
 }  // namespace halfspace

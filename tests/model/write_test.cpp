@@ -227,7 +227,7 @@ ModelMaterial rich_material() {
   m.clearcoat_roughness_map = use_of(0, Channel::green);
   m.clearcoat_normal_map = use_of(1);
   m.clearcoat_normal_scale = 0.3f;
-  m.sheen = 1.0f;
+  m.sheen = 1.0f;  // the reader of glTF returns 1 or 0
   m.sheen_color = {0.9f, 0.4f, 0.2f};
   m.sheen_roughness = 0.55f;
   m.sheen_color_map = use_of(0);
@@ -356,11 +356,13 @@ TEST(WriteModel, WarnsAboutWhatGltfCannotStore) {
   Model model = rich_model();
   model.materials[0].opacity_map = use_of(0);
   model.materials[0].roughness_map.channel = Channel::red;
+  model.materials[0].sheen_map = use_of(0);
   model.images[1].bytes = bytes_of("GIF89a");
   const WrittenModel written = written_model(model, "a.glb", ModelFormat::glb);
   std::string all;
   for (const std::string& warning : written.warnings) all += warning + "\n";
   EXPECT_NE(all.find("opacity map"), std::string::npos) << all;
+  EXPECT_NE(all.find("sheen map"), std::string::npos) << all;
   EXPECT_NE(all.find("'stone' is omitted"), std::string::npos) << all;
   expect_no_warnings(read_gltf("/none/a.glb", written.files[0].bytes, {}));
 }
@@ -439,12 +441,15 @@ TEST(WriteModel, ObjReadsBackBitForBit) {
 
 TEST(WriteModel, ObjMaterialsReadBack) {
   const TemporaryFolder folder;
-  Model model = read_mtl_text(folder, "newmtl m\nKd 0.2 0.4 0.6\nNs 100\nKs 0.3 0.2 0.1\nd 0.5\nKe 0.1 0.2 3\nNi 1.4\nPc 0.7\nPcr 0.2\n");
+  Model model =
+      read_mtl_text(folder, "newmtl m\nKd 0.2 0.4 0.6\nNs 100\nKs 0.3 0.2 0.1\nd 0.5\nKe 0.1 0.2 3\nNi 1.4\nPs 0.375\nPc 0.7\nPcr 0.2\n");
   ModelMaterial metal;
   metal.name = "m 2";
   metal.metallic = 0.75f;
   metal.roughness = 0.3f;
   metal.double_sided = true;
+  metal.sheen = 0.5f;
+  metal.sheen_color = {0.25f, 0.75f, 0.5f};  // MTL stores only the largest component
   model.materials.push_back(metal);
   ModelMesh second = model.meshes[0];
   second.material = 1;
@@ -470,8 +475,11 @@ TEST(WriteModel, ObjMaterialsReadBack) {
     EXPECT_EQ(a.ior, b.ior);
     EXPECT_EQ(a.clearcoat, b.clearcoat);
     EXPECT_EQ(a.clearcoat_roughness, b.clearcoat_roughness);
-    EXPECT_EQ(a.sheen, b.sheen);
   }
+  EXPECT_EQ(read.materials[0].sheen, 0.375f);
+  EXPECT_EQ(read.materials[1].sheen, 0.375f);
+  ASSERT_EQ(written.warnings.size(), 1u);
+  EXPECT_NE(written.warnings[0].find("white sheen of roughness 0.5"), std::string::npos) << written.warnings[0];
 }
 
 TEST(WriteModel, RejectsModelsThatTheFormatCannotStore) {

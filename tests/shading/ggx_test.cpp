@@ -140,8 +140,8 @@ TEST(Ggx, EnvironmentLightIsCloseToTheIntegralOnSpheres) {
   }
 }
 
-// The same for sheen, whose environment light is that of a diffuse surface times the integral of its reflection. Sheen receives most light
-// from near the horizon, so the error is that of replacing this light by the mean of the hemisphere. It is given relative to the mean light
+// The same for sheen, whose environment light is that of a diffuse surface times the integral of its reflection. Sheen receives more
+// light from near the horizon than a diffuse surface does; the error is that difference. It is given relative to the mean light
 // that a white diffuse surface reflects.
 TEST(Ggx, SheenInAnEnvironmentIsCloseToTheIntegralOnSpheres) {
   const EnvironmentMap map(faces_of(128, lamp), TexelFormat::rgba32f);

@@ -2,9 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 
-#include "halfspace/core/lanes.h"
+#include "halfspace/core/lane_pairs.h"
 #include "halfspace/shading/shadow_blocks.h"
 #include "halfspace/shading/shadow_filter.h"
 
@@ -24,6 +25,20 @@ Image<float> occluders(int size, std::mt19937& random) {
     }
   }
   return depth;
+}
+
+ShadowView view_of(const Image<float>& depths, const Image<float>* blocks) {
+  ShadowView view;
+  view.size = depths.width();
+  view.depth = depths.data();
+  view.block_depths = blocks == nullptr ? nullptr : blocks->data();
+  return view;
+}
+
+// Whether box_pcf<7> reads no texels.
+template <class R>
+bool decided_by_blocks(const ShadowView& view, const ShadowCoordinates<R>& p) {
+  return all(is_lit_by_blocks(view, p, truncate_to_int(floor(p.x - R(3.5f))), truncate_to_int(floor(p.y - R(3.5f))), 4.0f));
 }
 
 TEST(ShadowBlocks, HoldTheLargestDepthOfFourBlocks) {
@@ -46,26 +61,26 @@ TEST(ShadowBlocks, HoldTheLargestDepthOfFourBlocks) {
 
 // Filters give the same bits with and without block depths, for points on planes of all slopes.
 TEST(ShadowBlocks, DoNotChangeFilters) {
-  constexpr int kSize = 64;
   std::mt19937 random(2);
-  std::uniform_real_distribution<float> at(4.0f, kSize - 4.0f), depth(0.0f, 1.0f), slope(-0.05f, 0.05f);
+  std::uniform_real_distribution<float> unit(0.0f, 1.0f), slope(-0.05f, 0.05f);
   const Workers workers(1);
   int decided = 0, lit = 0, count = 0;
-  for (int map = 0; map < 20; ++map) {
-    const Image<float> depths = occluders(kSize, random), blocks = shadow_block_depths(depths, workers);
-    ShadowView plain, with_blocks;
-    plain.size = with_blocks.size = kSize;
-    plain.depth = with_blocks.depth = depths.data();
-    with_blocks.block_depths = blocks.data();
-    for (int i = 0; i < 1000; ++i) {
-      const bool flat = i % 2 == 0;
-      const ShadowCoordinates<float> p{
-          at(random), at(random), depth(random), 1.0f, flat ? 0.0f : slope(random), flat ? 0.0f : slope(random)};
+  for (int map = 0; map < 40; ++map) {
+    const int size = 40 + map;
+    const Image<float> depths = occluders(size, random), blocks = shadow_block_depths(depths, workers);
+    const ShadowView plain = view_of(depths, nullptr), with_blocks = view_of(depths, &blocks);
+    // Points that are at least `margin` texels from the border of the map, as `holds` ensures.
+    const auto point = [&](float margin, bool flat) {
+      const float range = static_cast<float>(size) - 2.0f * margin;
+      return ShadowCoordinates<float>{margin + range * unit(random), margin + range * unit(random), unit(random), 1.0f,
+                                      flat ? 0.0f : slope(random),   flat ? 0.0f : slope(random)};
+    };
+    for (int i = 0; i < 500; ++i) {
+      const ShadowCoordinates<float> p = point(4.0f, i % 2 == 0), q = point(3.0f, i % 2 == 0);
       const float expected = box_pcf<7>(plain, p);
       EXPECT_EQ(box_pcf<7>(with_blocks, p), expected);
-      EXPECT_EQ(box_pcf<5>(with_blocks, p), box_pcf<5>(plain, p));
-      const int x = static_cast<int>(p.x - 3.5f), y = static_cast<int>(p.y - 3.5f);
-      const bool by_blocks = is_lit_by_blocks(with_blocks, p, x, y, 4.0f);
+      EXPECT_EQ(box_pcf<5>(with_blocks, q), box_pcf<5>(plain, q));
+      const bool by_blocks = decided_by_blocks(with_blocks, p);
       EXPECT_TRUE(!by_blocks || expected > 0.999f);
       decided += by_blocks;
       lit += expected > 0.999f;
@@ -73,52 +88,64 @@ TEST(ShadowBlocks, DoNotChangeFilters) {
     }
   }
   std::printf("%d points: %d are lit, %d of them are decided by blocks\n", count, lit, decided);
-  EXPECT_GT(decided, lit / 3) << "the bounds are so wide that they are useless";
+  EXPECT_GT(decided, lit / 4) << "the bounds are so wide that they are useless";
   EXPECT_LT(lit, count) << "no point is in shadow";
 }
 
-// The comparison of every texel of the kernel agrees with the bound when the plane passes just in front of an occluder.
+// The plane of the point passes close to an occluder, in front of it or behind it at the outermost texels. Some points are almost 4 texels
+// away from the center of the outermost texel.
 TEST(ShadowBlocks, BoundsAreConservativeForPlanesThatTouchAnOccluder) {
   constexpr int kSize = 32;
   std::mt19937 random(3);
-  std::uniform_real_distribution<float> slope(-0.01f, 0.01f), offset(-1e-6f, 1e-6f), at(12.0f, 20.0f);
-  int decided = 0;
+  std::uniform_real_distribution<float> slope(-0.01f, 0.01f), reach(2.5f, 4.5f), offset(-1e-6f, 1e-6f), at(12.0f, 20.0f);
+  Image<float> depths(kSize, kSize);
+  for (int y = 0; y < kSize; ++y) std::ranges::fill(depths.row(y), 0.5f);
+  const Image<float> blocks = shadow_block_depths(depths, Workers(1));
+  const ShadowView plain = view_of(depths, nullptr), with_blocks = view_of(depths, &blocks);
+  int decided = 0, shadowed = 0;
   for (int i = 0; i < 20000; ++i) {
     ShadowCoordinates<float> p{at(random), at(random), 0.0f, 1.0f, slope(random), slope(random)};
-    p.depth = 0.5f + 4.0f * (std::fabs(p.depth_dx) + std::fabs(p.depth_dy)) + offset(random);
-    Image<float> depths(kSize, kSize);
-    for (int y = 0; y < kSize; ++y) std::ranges::fill(depths.row(y), 0.5f);
-    const Image<float> blocks = shadow_block_depths(depths, Workers(1));
-    ShadowView plain, with_blocks;
-    plain.size = with_blocks.size = kSize;
-    plain.depth = with_blocks.depth = depths.data();
-    with_blocks.block_depths = blocks.data();
-    const int x = static_cast<int>(p.x - 3.5f), y = static_cast<int>(p.y - 3.5f);
-    decided += static_cast<int>(is_lit_by_blocks(with_blocks, p, x, y, 4.0f));
-    ASSERT_EQ(box_pcf<7>(with_blocks, p), box_pcf<7>(plain, p));
+    if (i % 2 == 0) p.x = std::floor(p.x) + 0.5f + 0x1p-10f;
+    if (i % 4 == 0) p.y = std::floor(p.y) + 0.5f + 0x1p-10f;
+    p.depth = 0.5f + (i % 3 == 0 ? 4.0f : reach(random)) * (std::fabs(p.depth_dx) + std::fabs(p.depth_dy)) + offset(random);
+    decided += static_cast<int>(decided_by_blocks(with_blocks, p));
+    const float expected = box_pcf<7>(plain, p);
+    shadowed += static_cast<int>(expected < 0.9999f);
+    ASSERT_EQ(box_pcf<7>(with_blocks, p), expected);
   }
-  EXPECT_GT(decided, 0);
+  std::printf("%d of 20000 points are decided by blocks, %d are partly in shadow\n", decided, shadowed);
+  EXPECT_GT(decided, 1000);
+  EXPECT_GT(shadowed, 1000);
 }
 
-TEST(ShadowBlocks, LanesMatchScalarBits) {
+// Compares packets of neighboring points with single points. Many packets are decided by blocks.
+template <class R>
+void expect_scalar_bits() {
   constexpr int kSize = 64;
   std::mt19937 random(4);
   const Image<float> depths = occluders(kSize, random), blocks = shadow_block_depths(depths, Workers(1));
-  ShadowView view;
-  view.size = kSize;
-  view.depth = depths.data();
-  view.block_depths = blocks.data();
-  std::uniform_real_distribution<float> at(4.0f, kSize - 4.0f);
+  const ShadowView view = view_of(depths, &blocks);
+  std::uniform_real_distribution<float> at(4.0f, kSize - 8.0f);
+  int decided = 0;
   for (int i = 0; i < 200; ++i) {
-    Real x{}, y{};
-    for (int k = 0; k < kLanes; ++k) {
-      set_lane(x, k, at(random));
-      set_lane(y, k, at(random));
+    R x{0}, y{0};
+    const float left = at(random), low = at(random);
+    for (int k = 0; k < kWidthOf<R>; ++k) {
+      set_lane(x, k, left + 0.3f * static_cast<float>(k % 4));
+      set_lane(y, k, low + 0.3f * static_cast<float>(k / 4));
     }
-    const Real lanes = box_pcf<7>(view, ShadowCoordinates<Real>{x, y, Real(0.4f), Real(1.0f), Real(0.001f), Real(0.0f)});
-    for (int k = 0; k < kLanes; ++k)
+    const ShadowCoordinates<R> p{x, y, R(0.4f), R(1.0f), R(0.001f), R(0.0f)};
+    const R lanes = box_pcf<7>(view, p);
+    for (int k = 0; k < kWidthOf<R>; ++k)
       EXPECT_EQ(lane(lanes, k), box_pcf<7>(view, ShadowCoordinates<float>{lane(x, k), lane(y, k), 0.4f, 1.0f, 0.001f, 0.0f}));
+    decided += static_cast<int>(decided_by_blocks(view, p));
   }
+  EXPECT_GT(decided, 20);
+}
+
+TEST(ShadowBlocks, LanesMatchScalarBits) {
+  expect_scalar_bits<Real>();
+  expect_scalar_bits<FragmentReal>();
 }
 
 }  // namespace

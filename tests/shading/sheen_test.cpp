@@ -4,10 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
-#include "halfspace/core/lanes.h"
+#include "halfspace/core/lane_pairs.h"
+#include "halfspace/shading/ggx.h"
+#include "halfspace/shading/metallic_surface.h"
 #include "halfspace/shading/sheen.h"
 
 namespace halfspace {
@@ -35,7 +38,7 @@ double sheen(double roughness, double sine_h, double n_l, double n_v) {
 TEST(Sheen, MatchesTheFormulasOfThePaper) {
   for (const double roughness : {0.05, 0.2, 0.5, 1.0}) {
     for (const double n_v : {0.01, 0.3, 0.5, 0.51, 1.0}) {
-      for (const double n_l : {0.02, 0.4, 0.97}) {
+      for (const double n_l : {0.02, 0.4, 0.97, 1.0}) {
         for (const double sine_h : {0.2, 0.9, 1.0}) {
           const double expected = sheen(roughness, sine_h, n_l, n_v);
           EXPECT_NEAR(sheen_reflection(roughness, sine_h, n_l, n_v), expected, 1e-5 * expected) << roughness << ' ' << n_v << ' ' << n_l;
@@ -50,12 +53,19 @@ TEST(Sheen, MatchesTheFormulasOfThePaper) {
   }
 }
 
-// The reference integrates over 300 × 300 directions; the table has 32 × 32 entries.
+// The dot product of two unit vectors can exceed 1 by rounding.
+TEST(Sheen, AcceptsCosinesAboveOne) {
+  const float above = std::nextafter(1.0f, 2.0f);
+  EXPECT_NEAR(sheen_reflection(0.5f, 0.5f, above, above), sheen_reflection(0.5f, 0.5f, 1.0f, 1.0f), 1e-6f);
+  EXPECT_NEAR(sheen_reflection(0.5, 0.5, 1.0 + 1e-15, 1.0 + 1e-15), sheen_reflection(0.5, 0.5, 1.0, 1.0), 1e-14);
+}
+
+// The reference integrates over 300 × 300 directions; the table has 64 × 32 entries.
 TEST(Sheen, DirectionalSheenMatchesTheIntegral) {
   constexpr int kSteps = 300;
   double largest = 0.0;
-  for (const double roughness : {0.1, 0.25, 0.5, 0.75, 1.0}) {
-    for (const double n_v : {0.1, 0.15, 0.3, 0.6, 0.99}) {
+  for (const double roughness : {0.0, 0.06, 0.1, 0.25, 0.5, 0.75, 1.0}) {
+    for (const double n_v : {0.1, 0.125, 0.15, 0.3, 0.6, 0.99}) {
       const glm::dvec3 v(std::sqrt(1.0 - n_v * n_v), 0.0, n_v);
       double sum = 0.0;
       for (int i = 0; i < kSteps; ++i) {
@@ -63,7 +73,7 @@ TEST(Sheen, DirectionalSheenMatchesTheIntegral) {
         for (int j = 0; j < kSteps; ++j) {
           const double azimuth = std::numbers::pi * (j + 0.5) / kSteps;
           const glm::dvec3 h = glm::normalize(v + glm::dvec3(radius * std::cos(azimuth), radius * std::sin(azimuth), n_l));
-          sum += sheen(roughness, std::hypot(h.x, h.y), n_l, n_v);
+          sum += sheen(std::max(roughness, double{kMinRoughness}), std::hypot(h.x, h.y), n_l, n_v);
         }
       }
       const double expected = std::min(2.0 * sum / (kSteps * kSteps), 1.0);
@@ -73,6 +83,62 @@ TEST(Sheen, DirectionalSheenMatchesTheIntegral) {
     }
   }
   std::printf("largest error of the table %.4f\n", largest);
+}
+
+// A surface with sheen under a light that casts no shadow reflects part of what the surface without sheen reflects, and the light itself.
+TEST(Sheen, ReflectsALight) {
+  using Surface = MetallicSurface<MetallicStreams::basic>;
+  const glm::vec3 l = glm::normalize(glm::vec3(-0.8f, 0.3f, 0.4f)), v = glm::normalize(glm::vec3(-0.7f, 0.3f, 0.2f));
+  const std::array<Light, 1> lights{{{.position_rws = l, .diffuse = {0.9f, 0.8f, 0.7f}, .specular = {0.3f, 0.6f, 0.9f}}}};
+  Surface cloth{};
+  cloth.base_color = {0.2f, 0.1f, 0.4f, 1.0f};
+  cloth.roughness = 0.8f;
+  cloth.emissive = {0.05f, 0.0f, 0.0f};
+  cloth.sheen = 0.8f;
+  cloth.sheen_color = {1.0f, 0.5f, 0.25f};
+  cloth.sheen_roughness = 0.4f;
+  cloth.lights = lights;
+  cloth.to_eye_ws = v;
+  Surface bare = cloth;
+  bare.sheen = 0.0f;
+  Surface::Varyings<float> in{};
+  in.normal_ws = vec3<float>(0, 1, 0);
+  const Pixel<float> px{};
+  const glm::vec4 with(cloth.fragment(in, px).color), without(bare.fragment(in, px).color);
+  const glm::vec3 h = glm::normalize(l + v);
+  const float lobe = sheen_reflection(0.4f, std::sqrt(1.0f - h.y * h.y), l.y, v.y), through = 1.0f - 0.8f * directional_sheen(0.4f, v.y);
+  for (int k = 0; k < 3; ++k) {
+    const float reflected = 0.8f * cloth.sheen_color[k] * lights[0].specular[k] * lobe;
+    EXPECT_NEAR(with[k], without[k] * through + reflected, 1e-6f);  // a few roundings of values below 1
+    EXPECT_GT(reflected, 0.01f);
+  }
+}
+
+// Checks with_sheen for points with different normals, one per lane, against its result for each point.
+template <class R>
+void expect_scalar_bits() {
+  const std::array<Light, 1> lights{{{.type = LightType::point, .position_rws = {1.0f, 3.0f, 0.5f}}}};
+  const auto normal = [](int k) { return glm::normalize(glm::vec3(0.1f * static_cast<float>(k) - 0.7f, 1.0f, 0.3f)); };
+  SurfacePoint<R> p{};
+  p.v_ws = vec3<R>(R(0.6f), R(0.8f), R(0));
+  for (int k = 0; k < kWidthOf<R>; ++k) {
+    set_lane(p.n_ws.x, k, normal(k).x);
+    set_lane(p.n_ws.y, k, normal(k).y);
+    set_lane(p.n_ws.z, k, normal(k).z);
+  }
+  const vec3<R> lanes = with_sheen(vec3<R>(R(0.5f)), SheenLayer<R>{vec3<R>(R(0.7f)), R(0.5f)}, p, lights, vec3<R>(R(0.25f)));
+  for (int k = 0; k < kWidthOf<R>; ++k) {
+    SurfacePoint<float> one{};
+    one.v_ws = vec3<float>(0.6f, 0.8f, 0.0f);
+    one.n_ws = vec3<float>(normal(k));
+    const SheenLayer<float> layer{vec3<float>(0.7f), 0.5f};
+    EXPECT_EQ(lane(lanes.x, k), with_sheen(vec3<float>(0.5f), layer, one, lights, vec3<float>(0.25f)).x);
+  }
+}
+
+TEST(Sheen, SurfacesInLanesMatchScalarBits) {
+  expect_scalar_bits<Real>();
+  expect_scalar_bits<FragmentReal>();
 }
 
 TEST(Sheen, LanesMatchScalarBits) {

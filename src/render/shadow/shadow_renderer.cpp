@@ -35,7 +35,9 @@ bool is_moment_filter(ShadowFilter f) { return f == ShadowFilter::vsm || f == Sh
 
 uint64_t map_bytes(std::size_t views, int size, ShadowFilter filter) {
   const std::size_t texel = sizeof(float) + (is_moment_filter(filter) ? sizeof(glm::vec4) : 0);
-  return uint64_t{views} * static_cast<uint64_t>(size) * static_cast<uint64_t>(size) * texel;
+  const auto squared = [](int side) { return static_cast<uint64_t>(side) * static_cast<uint64_t>(side); };
+  const uint64_t blocks = is_wide_box(filter) ? squared(shadow_blocks_per_side(size)) * sizeof(float) : 0;
+  return uint64_t{views} * (squared(size) * texel + blocks);
 }
 
 ShadowSettings settings_of(const ShadowDescription& d, const LightDescription& light) {
