@@ -312,7 +312,7 @@ struct MetallicSurface : MetallicMaterial {
     sum += around * occlusion;
     if (sheen > 0.0f) {  // between the coat and the surface
       const SheenLayer<R> sheen_layer{sheen_color * texels.sheen_color * (R(sheen) * texels.number[kSheenMap]),
-                                 R(sheen_roughness) * texels.number[kSheenRoughnessMap]};
+                                      R(sheen_roughness) * texels.number[kSheenRoughnessMap]};
       const vec3<R> around_n = environment != nullptr ? vec3<R>(ambient) + environment->diffuse_at<R>(n_ws) : vec3<R>(ambient);
       sum = with_sheen(sum, sheen_layer, p, lights, around_n * occlusion);
     }

@@ -120,7 +120,7 @@ TEST(ShadowBlocks, BoundsAreConservativeForPlanesThatTouchAnOccluder) {
 
 // Compares packets of neighboring points with single points. Many packets are decided by blocks.
 template <class R>
-void expect_scalar_bits() {
+void expect_scalar_filter() {
   constexpr int kSize = 64;
   std::mt19937 random(4);
   const Image<float> depths = occluders(kSize, random), blocks = shadow_block_depths(depths, Workers(1));
@@ -144,8 +144,8 @@ void expect_scalar_bits() {
 }
 
 TEST(ShadowBlocks, LanesMatchScalarBits) {
-  expect_scalar_bits<Real>();
-  expect_scalar_bits<FragmentReal>();
+  expect_scalar_filter<Real>();
+  expect_scalar_filter<FragmentReal>();
 }
 
 }  // namespace
