@@ -206,7 +206,7 @@ TEST(PassTrace, StencilFailuresComeBeforeDepthFailures) {
   t.draw(ConstantShader(kRed), part(0.5f), {.stencil = StencilState{always, always}});
   t.run();
   // The stencil is kept, so blocks may be rejected as a whole, but not this block at the edge.
-  EXPECT_EQ(t.outcomes(30, 30), (Outcomes{stencil_failed, shaded, depth_failed}));
+  EXPECT_EQ(t.outcomes(40, 20), (Outcomes{stencil_failed, shaded, depth_failed}));
 }
 
 TEST(PassTrace, LayersTakeTheValueAfterAllWereBlended) {

@@ -117,6 +117,52 @@ TEST(SmallTriangles, WithStencilUpdateTheDepthBoundsOfTheirBlock) {
   EXPECT_EQ(out.statistics.samples_passed, 6u);
 }
 
+// Draws a layer of small triangles that covers the whole target, and behind it the same layer.
+PassStatistics draw_hidden_layer(int samples, const DrawState& state) {
+  constexpr int kCell = 12;  // px; so triangles and blocks have different corners
+  const auto layer = [](float z) {
+    std::vector<glm::vec4> positions;
+    for (int y = 0; y < kSmallSize; y += kCell) {
+      for (int x = 0; x < kSmallSize; x += kCell) {
+        const auto corner = [&](int dx, int dy) {
+          return clip_position({(x + dx) * kSubPixels, (y + dy) * kSubPixels}, kSmallSize, kSmallSize, z);
+        };
+        const glm::vec4 a = corner(0, 0), b = corner(kCell, 0), c = corner(kCell, kCell), d = corner(0, kCell);
+        positions.insert(positions.end(), {a, b, c, a, c, d});
+      }
+    }
+    return positions;
+  };
+  Image<glm::vec4> image(kSmallSize, kSmallSize);
+  Pass pass(kSmallSize, kSmallSize, rgba32f_target(image), {.format = DepthFormat::d32fs8}, {.samples = samples});
+  const std::vector<glm::vec4> near = layer(-0.5f), far = layer(0.5f), colors(near.size(), glm::vec4(1));
+  for (const std::vector<glm::vec4>& positions : {std::cref(near), std::cref(far)})
+    pass.draw(FlatColorShader{}, make_vertex_view(stream(positions), stream(colors)), state);
+  return pass.run(one_worker());
+}
+
+TEST(SmallTriangles, HiddenOnesAreRejectedBeforeTheirSamplesAreTested) {
+  for (const int samples : {1, 2, 4, 8}) {
+    const PassStatistics s = draw_hidden_layer(samples, {});
+    const auto covered = static_cast<uint64_t>(samples) * kSmallSize * kSmallSize;
+    EXPECT_EQ(s.samples_passed, covered);
+    // A triangle with a bounding box of fewer than 24 pixels in a tile is always tested. Such triangles are at the edges of tiles.
+    EXPECT_LT(s.samples_tested, covered + covered / 4) << samples << " samples";
+  }
+}
+
+TEST(SmallTriangles, HiddenOnesAreTestedIfTheyChangeTheStencil) {
+  const uint64_t covered = uint64_t{kSmallSize} * kSmallSize;
+  for (const auto& [fail, depth_fail, rejects] : {std::tuple(StencilOp::keep, StencilOp::keep, true),
+                                                  std::tuple(StencilOp::invert, StencilOp::keep, false),
+                                                  std::tuple(StencilOp::keep, StencilOp::increment_clamp, false)}) {
+    const StencilFace face{.fail = fail, .depth_fail = depth_fail, .pass = StencilOp::increment_clamp};
+    const PassStatistics s = draw_hidden_layer(1, {.stencil = StencilState{face, face}});
+    EXPECT_EQ(s.samples_passed, covered);
+    EXPECT_EQ(s.samples_tested == 2 * covered, !rejects);
+  }
+}
+
 TEST(SmallTriangles, PixelIndicesMatchPacketPositions) {
   for (int p = 0; p < kPackets; ++p) {
     const Int together = pixel_at(lane_x() + packet_x(p), lane_y() + packet_y(p));

@@ -1,30 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "halfspace/raster/tile/tile.h"
 
+#include "halfspace/core/lane_reduce.h"
+
 namespace halfspace::inline HS_LANES_NAMESPACE {
 
 void refresh_hiz(Tile& tile, int block) {
   const float* depth = &tile.depth[static_cast<std::size_t>(block) * kPixelsPerBlock];
-  Real low = load<Real>(depth), high = low;
-  for (int p = 1; p < kPacketsPerBlock; ++p) {
-    const Real z = load<Real>(depth + p * kLanes);
-    low = min(low, z);
-    high = max(high, z);
-  }
-  // Reduce by halves: minimum and maximum do not depend on the order.
-  alignas(64) std::array<float, kLanes> lows, highs;
-  store(lows.data(), low);
-  store(highs.data(), high);
-  for (std::size_t half = kLanes / 2; half != 0; half /= 2) {
+  std::array<Real, kPacketsPerBlock> low, high;
+  for (std::size_t p = 0; p < kPacketsPerBlock; ++p) low[p] = high[p] = load<Real>(depth + p * kLanes);
+  // In pairs, because a chain of dependent operations would take several times as long.
+  for (std::size_t half = kPacketsPerBlock / 2; half != 0; half /= 2) {
     for (std::size_t i = 0; i < half; ++i) {
-      lows[i] = min(lows[i], lows[i + half]);
-      highs[i] = max(highs[i], highs[i + half]);
+      low[i] = min(low[i], low[i + half]);
+      high[i] = max(high[i], high[i + half]);
     }
   }
   const auto b = static_cast<std::size_t>(block);
-  tile.hiz_min[b] = lows[0];
-  tile.hiz_max[b] = highs[0];
-  tile.hiz_writes[b] = 0;
+  tile.hiz_min[b] = min_lane(low[0]);
+  tile.hiz_max[b] = max_lane(high[0]);
+  tile.hiz_is_stale[b] = false;
 }
 
 }  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -114,8 +114,8 @@ struct Tile {
 
   /// Bounds of the depth in each block (hierarchical Z). They may be wider than necessary, but never too narrow.
   std::array<float, kBlocks> hiz_min, hiz_max;
-  /// Number of writes since the bounds were last set for the whole block.
-  std::array<uint8_t, kBlocks> hiz_writes;
+  /// Depth was written since the bounds were last computed from all of it.
+  std::array<bool, kBlocks> hiz_is_stale;
 };
 
 /// How an image stores multisampled pixels.

@@ -91,7 +91,7 @@ void load_depth(const DepthTarget& target, int width, int height, ImageSamples s
     tile.depth.fill(clear);
     tile.hiz_min.fill(clear);
     tile.hiz_max.fill(clear);
-    tile.hiz_writes.fill(0);
+    tile.hiz_is_stale.fill(false);
     if (tile.has_stencil) tile.stencil.fill(target.stencil_clear_value);
     return;
   }

@@ -68,6 +68,7 @@ inline BlockCoverage block_coverage(const BlockEdges& edges, int x, int y) {
 /// Half-open rectangle of pixels in the tile's storage.
 struct TileRect {
   int x0, y0, x1, y1;
+  bool empty() const { return x0 >= x1 || y0 >= y1; }
 };
 HS_INLINE Mask inside(const TileRect& r, int packet_x, int packet_y) {
   const Int x = lane_x() + packet_x, y = lane_y() + packet_y;

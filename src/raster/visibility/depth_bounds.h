@@ -5,12 +5,10 @@
 
 #include <algorithm>
 
+#include "halfspace/core/lane_reduce.h"
 #include "halfspace/raster/tile/tile.h"
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
-
-/// Number of writes after which the bounds of a block are recomputed before the next test. This costs about as much as one packet.
-inline constexpr uint8_t kRefreshAfter = 8;
 
 enum class BlockTest : uint8_t { none_passes, some_may, all_pass };
 
@@ -38,13 +36,19 @@ HS_INLINE void widen_hiz(CompareOp op, Tile& tile, int block, float low, float h
   const auto b = static_cast<std::size_t>(block);
   if (!raises) tile.hiz_min[b] = std::min(tile.hiz_min[b], low);
   if (!lowers) tile.hiz_max[b] = std::max(tile.hiz_max[b], high);
-  if (tile.hiz_writes[b] < kRefreshAfter) ++tile.hiz_writes[b];
+  tile.hiz_is_stale[b] = true;
 }
 
-/// Compares depths in [low, high] with the depth of a block. Recomputes its bounds if necessary.
-inline BlockTest test_block(CompareOp op, Tile& tile, int block, float low, float high) {
+/// Returns true if recomputing the bounds of a block takes less time than testing so many pixels (measured on Zen 3).
+inline bool is_worth_refresh(int width, int height) { return width * height >= 24; }
+
+/// Compares depths in [low, high] with the depth of a block. If its bounds do not decide the test, are stale and may be refreshed, they
+/// are recomputed.
+inline BlockTest test_block(CompareOp op, Tile& tile, int block, float low, float high, bool may_refresh = true) {
   const auto b = static_cast<std::size_t>(block);
-  if (tile.hiz_writes[b] >= kRefreshAfter) refresh_hiz(tile, block);
+  const BlockTest test = test_bounds(op, low, high, tile.hiz_min[b], tile.hiz_max[b]);
+  if (test != BlockTest::some_may || !tile.hiz_is_stale[b] || !may_refresh) return test;
+  refresh_hiz(tile, block);
   return test_bounds(op, low, high, tile.hiz_min[b], tile.hiz_max[b]);
 }
 
@@ -55,12 +59,7 @@ inline BlockTest test_tile(CompareOp op, const Tile& tile, float low, float high
     low_lanes = min(low_lanes, load<Real>(&tile.hiz_min[static_cast<std::size_t>(b)]));
     high_lanes = max(high_lanes, load<Real>(&tile.hiz_max[static_cast<std::size_t>(b)]));
   }
-  float tile_min = lane(low_lanes, 0), tile_max = lane(high_lanes, 0);
-  for (int i = 1; i < kLanes; ++i) {
-    tile_min = std::min(tile_min, lane(low_lanes, i));
-    tile_max = std::max(tile_max, lane(high_lanes, i));
-  }
-  return test_bounds(op, low, high, tile_min, tile_max);
+  return test_bounds(op, low, high, min_lane(low_lanes), max_lane(high_lanes));
 }
 
 }  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -25,6 +25,8 @@ class StencilWriter {
         writes_depth_(d.tests && d.draw.state.depth.write),
         writes_id_(d.mode == VisibilityMode::deferred) {}
 
+  // Returns true if fragments that fail the depth test have no effect.
+  bool tests() const { return tests_ && face_->fail == StencilOp::keep && face_->depth_fail == StencilOp::keep; }
   bool writes_depth() const { return writes_depth_; }
   CompareOp compare_op() const { return draw_.state.depth.compare; }
 

@@ -75,7 +75,7 @@ void write_depth(const DepthState& state, Tile& tile, int packet, Real z, Mask m
   // The shader may have written any depth. The bounds are recomputed before the next test.
   tile.hiz_min[block] = std::numeric_limits<float>::lowest();
   tile.hiz_max[block] = std::numeric_limits<float>::max();
-  tile.hiz_writes[block] = kRefreshAfter;
+  tile.hiz_is_stale[block] = true;
 }
 
 }  // namespace halfspace::inline HS_LANES_NAMESPACE

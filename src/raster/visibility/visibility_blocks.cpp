@@ -19,7 +19,7 @@ void set_hiz(Tile& tile, int block, const DepthBounds& depth) {
   const auto b = static_cast<std::size_t>(block);
   tile.hiz_min[b] = depth.low;
   tile.hiz_max[b] = depth.high;
-  tile.hiz_writes[b] = 0;
+  tile.hiz_is_stale[b] = false;
 }
 
 // Returns true if the rectangle contains the block with corner (x, y).
@@ -125,14 +125,16 @@ void rasterize_point(const DrawInTile& d, const Triangle& t, const SampleGrid& g
   for (int by = rect.y0 & ~(kBlockSize - 1); by < rect.y1; by += kBlockSize) {
     for (int bx = rect.x0 & ~(kBlockSize - 1); bx < rect.x1; bx += kBlockSize) {
       const int block = by / kBlockSize * kBlocksPerRow + bx / kBlockSize;
-      if (writer.tests() && test_block(writer.compare_op(), d.tile, block, low, high) == BlockTest::none_passes) {
+      const int x0 = std::max(bx, rect.x0), y0 = std::max(by, rect.y0);
+      const int x1 = std::min(bx + kBlockSize, rect.x1), y1 = std::min(by + kBlockSize, rect.y1);
+      const bool refreshes = is_worth_refresh(x1 - x0, y1 - y0);
+      if (writer.tests() && test_block(writer.compare_op(), d.tile, block, low, high, refreshes) == BlockTest::none_passes) {
         if constexpr (kTraces<typename Writer::Statistics>)
           trace_rejected_block({d, t, id, grid, low, high}, block, *writer.statistics().trace);
         continue;
       }
-      const int x1 = std::min(bx + kBlockSize, rect.x1), y1 = std::min(by + kBlockSize, rect.y1);
-      for (int y = std::max(by, rect.y0 & ~(kPacketHeight - 1)); y < y1; y += kPacketHeight) {
-        for (int x = std::max(bx, rect.x0 & ~(kPacketWidth - 1)); x < x1; x += kPacketWidth)
+      for (int y = y0 & ~(kPacketHeight - 1); y < y1; y += kPacketHeight) {
+        for (int x = x0 & ~(kPacketWidth - 1); x < x1; x += kPacketWidth)
           writer.write(id, packet_at(x, y), bits(inside(rect, x, y)), [&] { return z; });
       }
       if (writer.writes_depth()) widen_hiz(writer.compare_op(), d.tile, block, low, high);

@@ -6,6 +6,7 @@
 
 #include "halfspace/raster/pipeline/pixel_box.h"
 #include "halfspace/raster/pipeline/triangle_lanes.h"
+#include "halfspace/raster/visibility/hidden_triangle.h"
 #include "halfspace/raster/visibility/list_writer.h"
 #include "halfspace/raster/visibility/opaque_writer.h"
 #include "halfspace/raster/visibility/small_triangle.h"
@@ -19,13 +20,15 @@ struct SampleSet {
   explicit SampleSet(const DrawInTile& d) {
     for (int s = 0; s < d.tile.samples; ++s) {
       if ((d.draw.sample_mask >> s & 1) == 0) continue;
-      shift[count] = packet_shift(sample_plane(d.tile.samples, s, d.tile.size));
+      plane[count] = sample_plane(d.tile.samples, s, d.tile.size);
+      shift[count] = packet_shift(plane[count]);
       index[count++] = s;
     }
   }
 
   std::size_t count = 0;
   std::array<int, kMaxSamples> index, shift;
+  std::array<SamplePlane, kMaxSamples> plane;
 };
 
 // Edge functions of up to W small triangles, computed for all of them at once.
@@ -74,6 +77,22 @@ class SampledTriangles {
   uint32_t wide_;
 };
 
+// Returns true if hierarchical Z shows that no fragment of a triangle can pass. rect: the pixels of the tile that may be covered.
+template <class Writer>
+bool is_hidden(const DrawInTile& d, const SampleSet& samples, const Triangle& t, TriangleId id, const TileRect& rect,
+               const Writer& writer) {
+  const auto in_plane = [&](std::size_t s) {
+    const SamplePlane p = samples.plane[s];
+    return TileRect{rect.x0 + p.x, rect.y0 + p.y, rect.x1 + p.x, rect.y1 + p.y};
+  };
+  // Alpha to coverage covers the last samples of a pixel least often, so they are most likely to show that the triangle is not hidden.
+  for (std::size_t s = samples.count; s-- > 0;) {
+    if (!is_hidden(d, t, in_plane(s), writer)) return false;
+  }
+  for (std::size_t s = 0; s < samples.count; ++s) trace_hidden(d, t, id, in_plane(s), samples.index[s], writer);
+  return true;
+}
+
 // Finds and writes the packets of one of the triangles.
 template <class Writer>
 class SampledPackets {
@@ -102,7 +121,7 @@ class SampledPackets {
   }
 
   void visit() {
-    if (rect_.x0 >= rect_.x1 || rect_.y0 >= rect_.y1) return;
+    if (rect_.empty()) return;
     const int column0 = rect_.x0 / kPacketWidth, column1 = (rect_.x1 - 1) / kPacketWidth;
     const int row0 = rect_.y0 / kPacketHeight, row1 = (rect_.y1 - 1) / kPacketHeight;
     const bool has_many = (column1 - column0 + 1) * (row1 - row0 + 1) > kFewPackets;
@@ -190,7 +209,7 @@ void rasterize_small_samples(const DrawInTile& d, uint32_t chunk, std::span<cons
     const TriangleId id = triangle_id(chunk, indices[k]);
     if (triangles.is_wide(k)) {
       rasterize_opaque(d, t, id, statistics);
-    } else {
+    } else if (!is_hidden(d, samples, t, id, triangles.rect(k), writer)) {
       SampledPackets(d, samples, triangles, k, t, id, writer).visit();
     }
   }
@@ -211,7 +230,7 @@ std::size_t rasterize_small_samples_queued(const DrawInTile& d, uint32_t chunk, 
     const TriangleId id = triangle_id(chunk, indices[k]);
     if (triangles.is_wide(k)) {
       rasterize_queued(d, t, id, queue, statistics);
-    } else {
+    } else if (!is_hidden(d, samples, t, id, triangles.rect(k), writer)) {
       writer.begin();
       SampledPackets(d, samples, triangles, k, t, id, writer).visit();
     }

@@ -8,6 +8,7 @@
 #include "halfspace/raster/pipeline/pixel_box.h"
 #include "halfspace/raster/pipeline/triangle_lanes.h"
 #include "halfspace/raster/primitives/small_coverage.h"
+#include "halfspace/raster/visibility/hidden_triangle.h"
 #include "halfspace/raster/visibility/list_writer.h"
 #include "halfspace/raster/visibility/opaque_writer.h"
 #include "halfspace/raster/visibility/small_triangle.h"
@@ -125,7 +126,7 @@ class TrianglePackets {
   }
 
   void visit() {
-    if (rect_.x0 >= rect_.x1 || rect_.y0 >= rect_.y1) return;
+    if (rect_.empty()) return;
     const int column0 = rect_.x0 / kPacketWidth, column1 = (rect_.x1 - 1) / kPacketWidth;
     const int row0 = rect_.y0 / kPacketHeight, row1 = (rect_.y1 - 1) / kPacketHeight;
     if ((column1 - column0 + 1) * (row1 - row0 + 1) <= kFewPackets || kLanes == 1) {
@@ -229,6 +230,8 @@ HS_INLINE void write_triangle(const DrawInTile& d, const SmallTriangles& triangl
     triangles.for_each_pixel(k, [&](std::size_t pixel, float z) { writer.write_pixel(id, pixel, z); });
   } else if (triangles.is_wide(k)) {
     rasterize_large(t, id);
+  } else if (is_hidden(d, t, triangles.rect(k), writer)) {
+    trace_hidden(d, t, id, triangles.rect(k), 0, writer);
   } else {
     TrianglePackets<Writer>(d, triangles, k, t, id, writer).visit();
   }

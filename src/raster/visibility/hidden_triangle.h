@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Rejects small triangles with hierarchical Z.
+#pragma once
+
+#include "halfspace/raster/trace/tile_trace.h"
+#include "halfspace/raster/visibility/depth_plane.h"
+#include "halfspace/raster/visibility/trace_rejected.h"
+
+namespace halfspace::inline HS_LANES_NAMESPACE {
+
+/// Calls f(block) for each block of the tile that overlaps a rectangle, until it returns false. Returns false if it did.
+template <class F>
+HS_INLINE bool all_blocks(const TileRect& rect, const F& f) {
+  for (int y = rect.y0 / kBlockSize; y <= (rect.y1 - 1) / kBlockSize; ++y) {
+    for (int x = rect.x0 / kBlockSize; x <= (rect.x1 - 1) / kBlockSize; ++x) {
+      if (!f(y * kBlocksPerRow + x)) return false;
+    }
+  }
+  return true;
+}
+
+/// Returns true if the depth bounds of the blocks show that no fragment of a triangle can pass. rect: the pixels that may be covered, in
+/// one sample plane of the tile.
+template <class Writer>
+bool is_hidden(const DrawInTile& d, const Triangle& t, const TileRect& rect, const Writer& writer) {
+  if (!writer.tests() || !is_worth_refresh(rect.x1 - rect.x0, rect.y1 - rect.y0)) return false;
+  const DepthBounds z = depth_bounds(t, d.draw, d.tile.depth_format);
+  const CompareOp op = writer.compare_op();
+  return all_blocks(rect, [&](int block) { return test_block(op, d.tile, block, z.low, z.high) == BlockTest::none_passes; });
+}
+
+/// Records the fragments of a hidden triangle if the pass is traced.
+template <class Writer>
+void trace_hidden(const DrawInTile& d, const Triangle& t, TriangleId id, const TileRect& rect, int sample, const Writer& writer) {
+  if constexpr (kTraces<typename Writer::Statistics>) {
+    const DepthBounds z = depth_bounds(t, d.draw, d.tile.depth_format);
+    const SampleGrid grid(d.tile, sample);
+    all_blocks(rect, [&](int block) {
+      trace_rejected_block({d, t, id, grid, z.low, z.high}, block, *writer.statistics().trace);
+      return true;
+    });
+  }
+}
+
+}  // namespace halfspace::inline HS_LANES_NAMESPACE
