@@ -102,6 +102,8 @@ class PassState {
   // next chunk are discarded.
   void shade_more_vertices(Plan& plan, std::size_t next_chunk, const Workers& workers);
   void add_draw_ranges(uint32_t draw);
+  // Extends context_.triangle_ids by the triangles of a chunk, which follow those of the chunks before it.
+  void add_triangle_ids(uint32_t chunk);
   // Sets up chunks of the plan starting at `next`, until the budget is reached, all chunk ids are in use or no chunks with shaded vertices
   // are left. Returns the next chunk.
   std::size_t set_up_chunks(Plan& plan, std::size_t next, PassMemory& memory, const Workers& workers, PassStatistics& statistics);
@@ -295,6 +297,15 @@ void PassState::add_draw_ranges(uint32_t draw) {
   }
 }
 
+void PassState::add_triangle_ids(uint32_t chunk) {
+  const Chunk& c = context_.chunks[chunk];
+  for (std::size_t range = 0; range < c.ranges.size(); ++range) {
+    TriangleIds& ids = context_.triangle_ids[c.ranges[range].draw];
+    if (ids.count == 0) ids.first = triangle_id(chunk, c.ranges[range].first_triangle);
+    ids.count = triangle_id(chunk, c.end_triangle(range)) - ids.first;
+  }
+}
+
 std::size_t PassState::set_up_chunks(Plan& plan, std::size_t next, PassMemory& memory, const Workers& workers, PassStatistics& statistics) {
   std::size_t bytes = 0;
   const auto is_shaded = [&plan](std::size_t chunk) {
@@ -317,6 +328,7 @@ std::size_t PassState::set_up_chunks(Plan& plan, std::size_t next, PassMemory& m
     for (std::size_t c = begin; c < context_.chunks.size(); ++c) {
       bytes += context_.chunks[c].bytes();
       statistics += context_.chunks[c].statistics;
+      add_triangle_ids(static_cast<uint32_t>(c));
     }
   }
   return next;
@@ -333,6 +345,7 @@ PassStatistics PassState::run(TileRunner& tiles, const Workers& workers) {
   std::size_t next = 0;
   do {
     recycle_chunks(context_.chunks, memory.chunks);
+    context_.triangle_ids.assign(context_.draws.size(), {});
     shade_more_vertices(plan, next, workers);
     next = set_up_chunks(plan, next, memory, workers, statistics);
     round.last = next == plan.chunks.size();

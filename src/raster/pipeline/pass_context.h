@@ -93,6 +93,7 @@ struct PassContext {
   std::vector<Draw> draws;
   std::vector<ShadedVertices> shaded;  ///< one per draw
   std::vector<Chunk> chunks;
+  std::vector<TriangleIds> triangle_ids;  ///< of each draw, among `chunks`
   int width = 0, height = 0;  ///< size of the target in pixels
   int tile_size = 64;
   int tiles_x = 0, tiles_y = 0;
@@ -108,8 +109,7 @@ inline const Triangle& triangle_of(const PassContext& context, TriangleId id) {
 /// Returns the draw that a triangle belongs to.
 inline const Draw& draw_of(const PassContext& context, TriangleId id) {
   const Chunk& chunk = context.chunks[chunk_of(id)];
-  const std::size_t range = chunk.ranges.size() == 1 ? 0 : chunk.triangles[index_in_chunk(id)].range();
-  return context.draws[chunk.ranges[range].draw];
+  return context.draws[chunk.ranges[chunk.range_of(index_in_chunk(id))].draw];
 }
 
 }  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -230,6 +230,13 @@ struct Chunk {
 
   PassStatistics statistics;
 
+  /// Returns the end of the triangles of ranges[range], which start at its first_triangle.
+  uint32_t end_triangle(std::size_t range) const {
+    return range + 1 < ranges.size() ? ranges[range + 1].first_triangle : static_cast<uint32_t>(triangles.size());
+  }
+  /// Returns the index in `ranges` of the range that a triangle belongs to.
+  std::size_t range_of(uint32_t triangle) const { return ranges.size() == 1 ? 0 : triangles[triangle].range(); }
+
   /// Clears all contents but keeps the memory.
   void clear();
   /// Returns the size of the larger arrays in bytes.
@@ -238,6 +245,11 @@ struct Chunk {
 
 /// Identifies a triangle: index of the chunk and index in the chunk. Stored for each pixel.
 using TriangleId = uint32_t;
+/// Consecutive ids.
+struct TriangleIds {
+  TriangleId first = 0;
+  uint32_t count = 0;
+};
 inline constexpr TriangleId kNoTriangle = 0xffffffffu;
 inline constexpr uint32_t kMaxChunks = 0xffff;
 inline constexpr uint32_t kMaxTrianglesPerChunk = 0xffff;

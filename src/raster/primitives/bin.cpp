@@ -108,7 +108,7 @@ void bin_chunk(const PassContext& context, Chunk& chunk) {
   int x0 = context.tiles_x, y0 = context.tiles_y, x1 = 0, y1 = 0;
   for (std::size_t s = 0; s < chunk.ranges.size(); ++s) {
     const Draw& draw = context.draws[chunk.ranges[s].draw];
-    const std::size_t end = s + 1 < chunk.ranges.size() ? chunk.ranges[s + 1].first_triangle : chunk.triangles.size();
+    const std::size_t end = chunk.end_triangle(s);
     for (std::size_t first = chunk.ranges[s].first_triangle; first < end; first += kLanes) {
       const std::size_t count = std::min<std::size_t>(kLanes, end - first);
       const TileRows rows = tile_rows(context, draw, &chunk.triangles[first], count);

@@ -94,10 +94,6 @@ void write_ids(const PassContext& context, const Chunk& chunk, const DrawRange& 
   });
 }
 
-uint32_t end_triangle(const Chunk& chunk, std::size_t range) {
-  return range + 1 < chunk.ranges.size() ? chunk.ranges[range + 1].first_triangle : static_cast<uint32_t>(chunk.triangles.size());
-}
-
 }  // namespace
 
 void run_primitive_stage(const PassContext& context, Chunk& chunk) {
@@ -105,7 +101,7 @@ void run_primitive_stage(const PassContext& context, Chunk& chunk) {
   for (std::size_t s = 0; s < chunk.ranges.size(); ++s) {
     DrawRange& range = chunk.ranges[s];
     const Draw& draw = context.draws[range.draw];
-    const uint32_t end = end_triangle(chunk, s);
+    const uint32_t end = chunk.end_triangle(s);
     if (draw.kernels.primitive_count == 0 || range.first_triangle == end) continue;
     const DrawRangePrimitives range_rows(context, chunk, range);
     range.first_primitive = static_cast<uint32_t>(chunk.primitives.size());
@@ -126,7 +122,7 @@ std::vector<SubmittedPrimitive> submitted_primitives(const PassContext& context,
   std::vector<SubmittedPrimitive> out;
   out.reserve(chunk.triangles.size());
   for (std::size_t s = 0; s < chunk.ranges.size(); ++s) {
-    for_each_triangle(context, chunk, chunk.ranges[s], end_triangle(chunk, s),
+    for_each_triangle(context, chunk, chunk.ranges[s], chunk.end_triangle(s),
                       [&](uint32_t primitive, const std::array<uint32_t, 3>& vertex) {
                         out.push_back({primitive, vertex});
                       });

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <limits>
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
 
@@ -12,46 +13,66 @@ constexpr int32_t kNoneInLane = std::bit_cast<int32_t>(kNoTriangle);
 
 bool is_in_cell(const Tile& tile, int packet) { return packet_x(packet) < tile.size && packet_y(packet) < tile.size; }
 
+// A draw and the ids of its triangles.
+struct FoundDraw {
+  HS_INLINE uint32_t lanes(Int packet_ids) const {
+    constexpr int32_t sign_bit = std::numeric_limits<int32_t>::min();
+    // Comparing unsigned integers: flipping the sign bits of both keeps their order as signed integers.
+    const Int offset = (packet_ids - Int(std::bit_cast<int32_t>(ids.first))) ^ sign_bit;
+    return bits(offset < Int(std::bit_cast<int32_t>(ids.count) ^ sign_bit));
+  }
+
+  const Draw* draw = nullptr;
+  TriangleIds ids{};
+  bool is_listed = false;
+};
+
 // Adds entries to a work list.
 class WorkWriter {
  public:
-  WorkWriter(const PassContext& context, Share share, ShadingWorkList& work)
-      : context_(context),
-        share_(share),
-        work_(work),
-        only_draw_(context.draws.size() == 1 && !context.draws[0].shades_samples && share == Share::per_pixel ? context.draws.data()
-                                                                                                              : nullptr) {}
+  WorkWriter(const PassContext& context, Share share, ShadingWorkList& work) : context_(context), share_(share), work_(work) {}
 
   // Lists the pixels of a packet by draw. ids: the triangle of each pixel.
   HS_INLINE void add(int packet, const TriangleId* ids) {
     const Int packet_ids = load<Int>(ids);
     uint32_t rest = bits(packet_ids != Int(kNoneInLane));
-    if (rest != 0 && only_draw_ != nullptr) {
-      work_[count_++] = {only_draw_, {static_cast<uint16_t>(packet), static_cast<uint16_t>(rest)}};
-      return;
-    }
-    const std::size_t first = count_;
-    while (rest != 0) {
-      const TriangleId id = ids[std::countr_zero(rest)];
-      const uint32_t same = bits(packet_ids == Int(std::bit_cast<int32_t>(id)));
+    if (rest == 0) return;
+    for (const FoundDraw& found : found_) {
+      const uint32_t same = found.lanes(packet_ids) & rest;
+      if (same == 0) continue;
+      add(packet, found, same);
       rest &= ~same;
-      const Draw* draw = &draw_of(context_, id);
-      if (draw->shades_samples != (share_ == Share::per_sample)) continue;
-      std::size_t i = first;
-      while (i < count_ && work_[i].draw != draw) ++i;
-      if (i == count_) work_[count_++] = {draw, {static_cast<uint16_t>(packet), 0}};
-      ShadingWork& w = work_[i];
-      w.packet.lanes = static_cast<uint16_t>(w.packet.lanes | same);
+      if (rest == 0) return;
+    }
+    while (rest != 0) {
+      FoundDraw& found = found_[next_++ % kFound];
+      found = find(ids[std::countr_zero(rest)]);
+      const uint32_t same = found.lanes(packet_ids);
+      add(packet, found, same);
+      rest &= ~same;
     }
   }
 
   std::span<ShadingWork> entries() const { return std::span(work_).first(count_); }
 
  private:
+  HS_INLINE void add(int packet, const FoundDraw& found, uint32_t lanes) {
+    work_[count_] = {found.draw, {static_cast<uint16_t>(packet), static_cast<uint16_t>(lanes)}};
+    count_ += found.is_listed ? 1 : 0;
+  }
+
+  FoundDraw find(TriangleId id) const {
+    const Draw& draw = draw_of(context_, id);
+    const auto index = static_cast<std::size_t>(&draw - context_.draws.data());
+    return {&draw, context_.triangle_ids[index], draw.shades_samples == (share_ == Share::per_sample)};
+  }
+
   const PassContext& context_;
   Share share_;
   ShadingWorkList& work_;
-  const Draw* only_draw_;  // null if there may be several
+  static constexpr std::size_t kFound = 4;
+  std::array<FoundDraw, kFound> found_{};  // the last lookups
+  std::size_t next_ = 0;                   // where to store the next one
   std::size_t count_ = 0;
 };
 
