@@ -330,25 +330,26 @@ TEST(PassTrace, EverySampleOfAHiddenPointHasAFragment) {
 
 TEST(PassTrace, EveryCoveredSampleHasAFragment) {
   // Without a depth test, nothing is rejected and all covered samples are listed.
-  Traced tested, untested;
-  draw_random(tested, 9);
-  draw_random(untested, 9);
-  tested.run();
-  uint64_t all = 0;
-  for (const TileFragments& tile : tested.trace.rounds[0]) all += tile.fragments.size();
-  Random random(9);
-  Traced open;
-  for (int i = 0; i < 60; ++i) {
-    const float size = random.real(0.02f, 1.5f);
-    const glm::vec2 at(random.real(-1, 1), random.real(-1, 1));
-    Corners corners;
-    for (int k = 0; k < 9; ++k)
-      corners.emplace_back(at.x + size * random.real(-1, 1), at.y + size * random.real(-1, 1), random.real(-0.9f, 1.2f), 1.0f);
-    for (int k = 0; k < 4; ++k) (void)random.real(0, 1);
-    open.draw(ConstantShader(kRed), corners, {.depth = {.test = false}});
+  for (const int samples : {1, 4}) {
+    Traced tested(samples);
+    draw_random(tested, 9);
+    tested.run();
+    uint64_t all = 0;
+    for (const TileFragments& tile : tested.trace.rounds[0]) all += tile.fragments.size();
+    Random random(9);
+    Traced open(samples);
+    for (int i = 0; i < 60; ++i) {
+      const float size = random.real(0.02f, 1.5f);
+      const glm::vec2 at(random.real(-1, 1), random.real(-1, 1));
+      Corners corners;
+      for (int k = 0; k < 9; ++k)
+        corners.emplace_back(at.x + size * random.real(-1, 1), at.y + size * random.real(-1, 1), random.real(-0.9f, 1.2f), 1.0f);
+      for (int k = 0; k < 4; ++k) (void)random.real(0, 1);
+      open.draw(ConstantShader(kRed), corners, {.depth = {.test = false}});
+    }
+    open.run();
+    EXPECT_EQ(all, open.statistics.samples_tested) << samples << " samples";
   }
-  open.run();
-  EXPECT_EQ(all, open.statistics.samples_tested);
 }
 
 }  // namespace

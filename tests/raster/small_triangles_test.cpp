@@ -4,6 +4,8 @@
 // were drawn in a separate pass. The test mixes draws with and without a stencil test, uses equal depths, and varies the extents from one
 // pixel to beyond the limit for small triangles.
 #include <algorithm>
+#include <functional>
+#include <tuple>
 
 #include "halfspace/raster/tile/tile.h"
 #include "raster/raster_test.h"
@@ -153,13 +155,17 @@ TEST(SmallTriangles, HiddenOnesAreRejectedBeforeTheirSamplesAreTested) {
 
 TEST(SmallTriangles, HiddenOnesAreTestedIfTheyChangeTheStencil) {
   const uint64_t covered = uint64_t{kSmallSize} * kSmallSize;
-  for (const auto& [fail, depth_fail, rejects] : {std::tuple(StencilOp::keep, StencilOp::keep, true),
-                                                  std::tuple(StencilOp::invert, StencilOp::keep, false),
-                                                  std::tuple(StencilOp::keep, StencilOp::increment_clamp, false)}) {
+  for (const auto& [fail, depth_fail, rejects] :
+       {std::tuple(StencilOp::keep, StencilOp::keep, true), std::tuple(StencilOp::invert, StencilOp::keep, false),
+        std::tuple(StencilOp::keep, StencilOp::increment_clamp, false)}) {
     const StencilFace face{.fail = fail, .depth_fail = depth_fail, .pass = StencilOp::increment_clamp};
     const PassStatistics s = draw_hidden_layer(1, {.stencil = StencilState{face, face}});
     EXPECT_EQ(s.samples_passed, covered);
-    EXPECT_EQ(s.samples_tested == 2 * covered, !rejects);
+    if (rejects) {
+      EXPECT_LT(s.samples_tested, covered + covered / 4);
+    } else {
+      EXPECT_EQ(s.samples_tested, 2 * covered);
+    }
   }
 }
 

@@ -93,8 +93,8 @@ struct PassContext {
   std::vector<Draw> draws;
   std::vector<ShadedVertices> shaded;  ///< one per draw
   std::vector<Chunk> chunks;
-  std::vector<TriangleIds> triangle_ids;  ///< of each draw, among `chunks`
-  int width = 0, height = 0;  ///< size of the target in pixels
+  std::vector<TriangleIds> triangle_ids;  ///< of each draw, in `chunks`
+  int width = 0, height = 0;              ///< size of the target in pixels
   int tile_size = 64;
   int tiles_x = 0, tiles_y = 0;
   DepthFormat depth_format = DepthFormat::none;  ///< without stencil

@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <bit>
+#include <functional>
 #include <limits>
+
+#include "halfspace/core/lane_pairs.h"
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
 
@@ -13,12 +16,13 @@ constexpr int32_t kNoneInLane = std::bit_cast<int32_t>(kNoTriangle);
 
 bool is_in_cell(const Tile& tile, int packet) { return packet_x(packet) < tile.size && packet_y(packet) < tile.size; }
 
-// A draw and the ids of its triangles.
+// A draw and the ids of its triangles. No other draw has ids in between.
 struct FoundDraw {
+  // Returns the lanes that show the draw.
   HS_INLINE uint32_t lanes(Int packet_ids) const {
     constexpr int32_t sign_bit = std::numeric_limits<int32_t>::min();
     // Comparing unsigned integers: flipping the sign bits of both keeps their order as signed integers.
-    const Int offset = (packet_ids - Int(std::bit_cast<int32_t>(ids.first))) ^ sign_bit;
+    const Int offset = detail::wrapping(packet_ids, Int(std::bit_cast<int32_t>(ids.first)), std::minus<>()) ^ sign_bit;
     return bits(offset < Int(std::bit_cast<int32_t>(ids.count) ^ sign_bit));
   }
 

@@ -114,7 +114,7 @@ struct Tile {
 
   /// Bounds of the depth in each block (hierarchical Z). They may be wider than necessary, but never too narrow.
   std::array<float, kBlocks> hiz_min, hiz_max;
-  /// Depth was written since the bounds were last computed from all of it.
+  /// Depth was written to the block since its bounds were last exact.
   std::array<bool, kBlocks> hiz_is_stale;
 };
 

@@ -68,8 +68,8 @@ HS_INLINE void store_halves(uint16_t* p, I h, M mask) {
 }
 
 inline constexpr float kRoundingBias = 0x1p23f;
-/// Packs four integers from 0 to 255 into a word, with the first in the lowest byte. c: the integers plus kRoundingBias. In [2^23, 2^24), the
-/// ulp of a float is 1, so the lowest byte of each has the integer. The shifts move the other bits out of the word.
+/// Packs four integers from 0 to 255 into a word, with the first in the lowest byte. c: the integers plus kRoundingBias. In [2^23, 2^24),
+/// the ulp of a float is 1, so the lowest byte of each has the integer. The shifts move the other bits out of the word.
 HS_INLINE Int pack_biased(const PacketColor& c) {
   return (as_int(c[0]) ^ as_int(Real(kRoundingBias))) | as_int(c[1]) << 8 | as_int(c[2]) << 16 | as_int(c[3]) << 24;
 }
@@ -85,9 +85,10 @@ HS_INLINE Int packed_codes(const PacketColor& c) {
   if constexpr (format == ColorFormat::rgba8) {  // as linear_to_unorm8(), with fewer operations
     const auto biased = [](Real x) { return fma(clamp(x, 0.0f, 1.0f), Real(255.0f), Real(kRoundingBias)); };
     return pack_biased({biased(c[0]), biased(c[1]), biased(c[2]), biased(c[3])});
+  } else {
+    return encode8(format, c[0], false) | encode8(format, c[1], false) << 8 | encode8(format, c[2], false) << 16 |
+           encode8(format, c[3], true) << 24;
   }
-  return encode8(format, c[0], false) | encode8(format, c[1], false) << 8 | encode8(format, c[2], false) << 16 |
-         encode8(format, c[3], true) << 24;
 }
 
 /// Returns the packed codes of the packet that starts with pixel `first` of an 8-bit format.

@@ -39,11 +39,11 @@ HS_INLINE void widen_hiz(CompareOp op, Tile& tile, int block, float low, float h
   tile.hiz_is_stale[b] = true;
 }
 
-/// Returns true if recomputing the bounds of a block takes less time than testing so many pixels (measured on Zen 3).
-inline bool is_worth_refresh(int width, int height) { return width * height >= 24; }
+/// Testing fewer pixels than this takes no longer than recomputing the bounds of a block (measured on Zen 3).
+inline constexpr int kManyPixels = 24;
 
-/// Compares depths in [low, high] with the depth of a block. If its bounds do not decide the test, are stale and may be refreshed, they
-/// are recomputed.
+/// Compares depths in [low, high] with the depth of a block. Recomputes its bounds if they are stale and do not decide the test,
+/// unless may_refresh is false.
 inline BlockTest test_block(CompareOp op, Tile& tile, int block, float low, float high, bool may_refresh = true) {
   const auto b = static_cast<std::size_t>(block);
   const BlockTest test = test_bounds(op, low, high, tile.hiz_min[b], tile.hiz_max[b]);

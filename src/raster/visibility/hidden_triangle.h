@@ -4,12 +4,15 @@
 #pragma once
 
 #include "halfspace/raster/trace/tile_trace.h"
+#include "halfspace/raster/visibility/block_edges.h"
+#include "halfspace/raster/visibility/depth_bounds.h"
 #include "halfspace/raster/visibility/depth_plane.h"
 #include "halfspace/raster/visibility/trace_rejected.h"
+#include "halfspace/raster/visibility/visibility.h"
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
 
-/// Calls f(block) for each block of the tile that overlaps a rectangle, until it returns false. Returns false if it did.
+/// Returns true if f(block) returns true for all blocks of the tile that overlap a rectangle. Stops at the first that does not.
 template <class F>
 HS_INLINE bool all_blocks(const TileRect& rect, const F& f) {
   for (int y = rect.y0 / kBlockSize; y <= (rect.y1 - 1) / kBlockSize; ++y) {
@@ -20,17 +23,17 @@ HS_INLINE bool all_blocks(const TileRect& rect, const F& f) {
   return true;
 }
 
-/// Returns true if the depth bounds of the blocks show that no fragment of a triangle can pass. rect: the pixels that may be covered, in
-/// one sample plane of the tile.
+/// Returns true if the depth bounds of the blocks show that no fragment of a triangle can pass. Triangles that may cover only a few pixels
+/// are not tested. rect: the pixels that may be covered, in one sample plane of the tile.
 template <class Writer>
 bool is_hidden(const DrawInTile& d, const Triangle& t, const TileRect& rect, const Writer& writer) {
-  if (!writer.tests() || !is_worth_refresh(rect.x1 - rect.x0, rect.y1 - rect.y0)) return false;
+  if (!writer.tests() || rect.empty() || (rect.x1 - rect.x0) * (rect.y1 - rect.y0) < kManyPixels) return false;
   const DepthBounds z = depth_bounds(t, d.draw, d.tile.depth_format);
   const CompareOp op = writer.compare_op();
   return all_blocks(rect, [&](int block) { return test_block(op, d.tile, block, z.low, z.high) == BlockTest::none_passes; });
 }
 
-/// Records the fragments of a hidden triangle if the pass is traced.
+/// Records the fragments of a hidden triangle in one sample plane if the pass is traced.
 template <class Writer>
 void trace_hidden(const DrawInTile& d, const Triangle& t, TriangleId id, const TileRect& rect, int sample, const Writer& writer) {
   if constexpr (kTraces<typename Writer::Statistics>) {

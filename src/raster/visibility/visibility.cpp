@@ -72,7 +72,7 @@ void write_depth(const DepthState& state, Tile& tile, int packet, Real z, Mask m
   float* stored = &tile.depth[static_cast<std::size_t>(packet) * kLanes];
   store(stored, select(mask, z, load<Real>(stored)));
   const auto block = static_cast<std::size_t>(packet / kPacketsPerBlock);
-  // The shader may have written any depth. The bounds are recomputed before the next test.
+  // The shader may have written any depth. The bounds decide nothing until they are recomputed.
   tile.hiz_min[block] = std::numeric_limits<float>::lowest();
   tile.hiz_max[block] = std::numeric_limits<float>::max();
   tile.hiz_is_stale[block] = true;

@@ -127,8 +127,8 @@ void rasterize_point(const DrawInTile& d, const Triangle& t, const SampleGrid& g
       const int block = by / kBlockSize * kBlocksPerRow + bx / kBlockSize;
       const int x0 = std::max(bx, rect.x0), y0 = std::max(by, rect.y0);
       const int x1 = std::min(bx + kBlockSize, rect.x1), y1 = std::min(by + kBlockSize, rect.y1);
-      const bool refreshes = is_worth_refresh(x1 - x0, y1 - y0);
-      if (writer.tests() && test_block(writer.compare_op(), d.tile, block, low, high, refreshes) == BlockTest::none_passes) {
+      const bool may_refresh = (x1 - x0) * (y1 - y0) >= kManyPixels;
+      if (writer.tests() && test_block(writer.compare_op(), d.tile, block, low, high, may_refresh) == BlockTest::none_passes) {
         if constexpr (kTraces<typename Writer::Statistics>)
           trace_rejected_block({d, t, id, grid, low, high}, block, *writer.statistics().trace);
         continue;

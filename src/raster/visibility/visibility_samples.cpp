@@ -77,10 +77,11 @@ class SampledTriangles {
   uint32_t wide_;
 };
 
-// Returns true if hierarchical Z shows that no fragment of a triangle can pass. rect: the pixels of the tile that may be covered.
+// Rejects a triangle if hierarchical Z shows that no fragment can pass, and returns whether it did. rect: the pixels of the tile that may
+// be covered.
 template <class Writer>
-bool is_hidden(const DrawInTile& d, const SampleSet& samples, const Triangle& t, TriangleId id, const TileRect& rect,
-               const Writer& writer) {
+bool reject_hidden(const DrawInTile& d, const SampleSet& samples, const Triangle& t, TriangleId id, const TileRect& rect,
+                   const Writer& writer) {
   const auto in_plane = [&](std::size_t s) {
     const SamplePlane p = samples.plane[s];
     return TileRect{rect.x0 + p.x, rect.y0 + p.y, rect.x1 + p.x, rect.y1 + p.y};
@@ -209,7 +210,7 @@ void rasterize_small_samples(const DrawInTile& d, uint32_t chunk, std::span<cons
     const TriangleId id = triangle_id(chunk, indices[k]);
     if (triangles.is_wide(k)) {
       rasterize_opaque(d, t, id, statistics);
-    } else if (!is_hidden(d, samples, t, id, triangles.rect(k), writer)) {
+    } else if (!reject_hidden(d, samples, t, id, triangles.rect(k), writer)) {
       SampledPackets(d, samples, triangles, k, t, id, writer).visit();
     }
   }
@@ -230,7 +231,7 @@ std::size_t rasterize_small_samples_queued(const DrawInTile& d, uint32_t chunk, 
     const TriangleId id = triangle_id(chunk, indices[k]);
     if (triangles.is_wide(k)) {
       rasterize_queued(d, t, id, queue, statistics);
-    } else if (!is_hidden(d, samples, t, id, triangles.rect(k), writer)) {
+    } else if (!reject_hidden(d, samples, t, id, triangles.rect(k), writer)) {
       writer.begin();
       SampledPackets(d, samples, triangles, k, t, id, writer).visit();
     }
