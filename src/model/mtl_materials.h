@@ -16,7 +16,7 @@
 // * illum 0 is unlit and illum 1 has no specular reflection. With illum 3, 5 or 8 (mirrors), a Ks brighter than Kd makes a metal of color
 //   Ks.
 // * Pr, Pm, Pc and Pcr are used directly. Ps scales white sheen of roughness 0.5. Pr overrides Ns. With Pr or Pm, F0 is computed from Ni,
-// and Ks and illum are ignored.
+//   and Ks and illum are ignored.
 // * bump and map_bump: the value 1 is a height of 1% of the diagonal of the model's bounds, multiplied by the option -bm.
 // * Materials are double-sided, because the winding of OBJ files is unreliable.
 #pragma once

@@ -257,15 +257,21 @@ TEST(PassTrace, DepthOnlyDrawsLeaveColorUnchanged) {
   EXPECT_EQ(t.outcomes(10, 10), Outcomes{depth_only});
 }
 
+// Returns three triangles near a random point, all of a similar random size.
+Corners random_corners(Random& random) {
+  const float size = random.real(0.02f, 1.5f);
+  const glm::vec2 at(random.real(-1, 1), random.real(-1, 1));
+  Corners corners;
+  for (int k = 0; k < 9; ++k)
+    corners.emplace_back(at.x + size * random.real(-1, 1), at.y + size * random.real(-1, 1), random.real(-0.9f, 1.2f), 1.0f);
+  return corners;
+}
+
 // Random triangles of all sizes, with several kinds of draws.
 void draw_random(Traced& t, uint32_t seed) {
   Random random(seed);
   for (int i = 0; i < 60; ++i) {
-    const float size = random.real(0.02f, 1.5f);
-    const glm::vec2 at(random.real(-1, 1), random.real(-1, 1));
-    Corners corners;
-    for (int k = 0; k < 9; ++k)
-      corners.emplace_back(at.x + size * random.real(-1, 1), at.y + size * random.real(-1, 1), random.real(-0.9f, 1.2f), 1.0f);
+    const Corners corners = random_corners(random);
     const glm::vec4 color(random.real(0, 1), random.real(0, 1), random.real(0, 1), random.real(0.2f, 1));
     t.draw(ConstantShader(color), corners,
            i % 5 == 3   ? kAlphaBlendState
@@ -339,12 +345,8 @@ TEST(PassTrace, EveryCoveredSampleHasAFragment) {
     Random random(9);
     Traced open(samples);
     for (int i = 0; i < 60; ++i) {
-      const float size = random.real(0.02f, 1.5f);
-      const glm::vec2 at(random.real(-1, 1), random.real(-1, 1));
-      Corners corners;
-      for (int k = 0; k < 9; ++k)
-        corners.emplace_back(at.x + size * random.real(-1, 1), at.y + size * random.real(-1, 1), random.real(-0.9f, 1.2f), 1.0f);
-      for (int k = 0; k < 4; ++k) (void)random.real(0, 1);
+      const Corners corners = random_corners(random);
+      for (int k = 0; k < 4; ++k) (void)random.real(0, 1);  // skips the color of draw_random()
       open.draw(ConstantShader(kRed), corners, {.depth = {.test = false}});
     }
     open.run();
