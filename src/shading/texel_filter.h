@@ -131,7 +131,7 @@ template <TexelFormat format, int W>
 HS_INLINE vec4<RealN<W>> filtered_by_texel(const TexelSquare<RealN<W>>& s) {
   using R = RealN<W>;
   const IntN<W> lower(s.lower), upper(s.upper);  // copies, because g++ would write members of s to memory
-  const auto texels = [&]<int k>(std::integral_constant<int, k>) {
+  const auto texels = [&]<int k>(std::integral_constant<int, k>) __attribute__((always_inline)) {  // as in Texture2D::sample
     return as_int(lerp(filtered_along<format, k>(s, lower), filtered_along<format, k>(s, upper), spread_word<k>(s.across)));
   };
   const std::array<IntN<W>, 4> channels =

@@ -320,16 +320,17 @@ HS_INLINE Value Texture2D::sample_channels(const Sampler& sampler, const vec2<R>
   return lookup.finish(lookup(uv, levels_of(sampler, duv_dx, duv_dy)));
 }
 
+// These functions are inlined, because g++ would call them in some shaders, depending on their size, and pass all lanes through memory.
 template <Number R>
-vec4<R> Texture2D::sample(const Sampler& sampler, const vec2<R>& uv, const vec2<R>& duv_dx, const vec2<R>& duv_dy) const {
+HS_INLINE vec4<R> Texture2D::sample(const Sampler& sampler, const vec2<R>& uv, const vec2<R>& duv_dx, const vec2<R>& duv_dy) const {
   return sample_channels<vec4<R>, R>(sampler, uv, duv_dx, duv_dy);
 }
 template <Number R>
-vec3<R> Texture2D::sample_rgb(const Sampler& sampler, const vec2<R>& uv, const vec2<R>& duv_dx, const vec2<R>& duv_dy) const {
+HS_INLINE vec3<R> Texture2D::sample_rgb(const Sampler& sampler, const vec2<R>& uv, const vec2<R>& duv_dx, const vec2<R>& duv_dy) const {
   return sample_channels<vec3<R>, R>(sampler, uv, duv_dx, duv_dy);
 }
 template <Number R>
-R Texture2D::sample_alpha(const Sampler& sampler, const vec2<R>& uv, const vec2<R>& duv_dx, const vec2<R>& duv_dy) const {
+HS_INLINE R Texture2D::sample_alpha(const Sampler& sampler, const vec2<R>& uv, const vec2<R>& duv_dx, const vec2<R>& duv_dy) const {
   if constexpr (!std::is_same_v<R, double>) {
     if (format_ <= TexelFormat::srgb8a8) {
       const CommonLookup<R, TexelFormat::rgba8, R> lookup{*this, sampler};
