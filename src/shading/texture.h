@@ -320,7 +320,7 @@ HS_INLINE Value Texture2D::sample_channels(const Sampler& sampler, const vec2<R>
   return lookup.finish(lookup(uv, levels_of(sampler, duv_dx, duv_dy)));
 }
 
-// These functions are inlined, because g++ would call them in some shaders, depending on their size, and pass all lanes through memory.
+// These functions are always inlined. Otherwise, g++ calls them in large shaders and passes all lanes through memory.
 template <Number R>
 HS_INLINE vec4<R> Texture2D::sample(const Sampler& sampler, const vec2<R>& uv, const vec2<R>& duv_dx, const vec2<R>& duv_dy) const {
   return sample_channels<vec4<R>, R>(sampler, uv, duv_dx, duv_dy);
