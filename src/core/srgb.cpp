@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The two tables of srgb.h, computed at compile time. The tables need decode(v) rounded to 24 bits, and double arithmetic has a relative
+// The tables of srgb.h, computed at compile time. The tables need decode(v) rounded to 24 bits, and double arithmetic has a relative
 // error of about 2^-50. This is sufficient unless an exact value is very close to a rounding boundary. A test with long double checks that:
 // the closest value is at a relative distance of 2^-35.
 #include "halfspace/core/srgb.h"
@@ -32,6 +32,16 @@ constexpr std::array<float, 256> make_decode_table() {
   std::array<float, 256> table{};
   for (int c = 0; c < 256; ++c) table[static_cast<std::size_t>(c)] = static_cast<float>(decode(c / 255.0));
   return table;
+}
+
+constexpr detail::SrgbPairs make_pairs() {
+  const std::array<float, 256> linear = make_decode_table();
+  detail::SrgbPairs pairs{};
+  for (std::size_t c = 0; c < linear.size(); ++c) {
+    pairs.first[c][0] = pairs.second[c][1] = linear[c];
+    pairs.alpha[c][1] = static_cast<float>(c);
+  }
+  return pairs;
 }
 
 /// Returns the bits of the first float that encodes to the 8-bit value c, i.e. that is nearer to c than to c − 1.
@@ -66,6 +76,7 @@ static_assert(kTable.one_threshold_a_bucket);
 }  // namespace
 
 alignas(64) constexpr std::array<float, 256> kSrgbToLinear = make_decode_table();
+alignas(64) constexpr detail::SrgbPairs detail::kSrgbPairs = make_pairs();
 constexpr std::array<int32_t, detail::kSrgbBuckets> detail::kSrgbEncode = kTable.entries;
 
 }  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -28,6 +28,18 @@ extern const std::array<int32_t, kSrgbBuckets> kSrgbEncode;
 /// kSrgbToLinear[c] is the float nearest to decode(c/255).
 alignas(64) extern const std::array<float, 256> kSrgbToLinear;
 
+namespace detail {
+
+/// Pairs of floats that make up a decoded texel when they are put side by side: (red, 0, blue, 0) + (0, green, 0, alpha).
+struct SrgbPairs {
+  using Table = std::array<std::array<float, 2>, 256>;
+  Table first, second;  ///< entry c is {kSrgbToLinear[c], 0}, or {0, kSrgbToLinear[c]}
+  Table alpha;          ///< entry c is {0, c}
+};
+alignas(64) extern const SrgbPairs kSrgbPairs;
+
+}  // namespace detail
+
 #ifdef __AVX512F__
 namespace detail {
 

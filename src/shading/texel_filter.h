@@ -2,8 +2,8 @@
 //
 // Bilinear filtering of 2x2 texels, for formats with four channels.
 //
-// Where the build has the instructions, rgba8, rgba16f and rgba32f are filtered texel by texel, with all four channels in one register,
-// and the result is transposed. Otherwise each channel is filtered for all lanes. Both methods give bit-identical results: the sum along a
+// Where the build has the instructions, textures are filtered texel by texel, with all four channels in one register, and the result is
+// transposed. Otherwise each channel is filtered for all lanes. Both methods give bit-identical results: the sum along a
 // row of rgba8 is an integer below 2^23, which is exact, and everything else is computed with the same operations.
 #pragma once
 
@@ -40,10 +40,17 @@ template <class R>
 inline constexpr bool kFiltersByTexel = false;
 template <class H>
 inline constexpr bool kFiltersByTexel<RealPair<H>> = kFiltersByTexel<H>;
+/// Whether it also does so for srgb8a8. With 16 lanes, srgb_to_linear decodes a channel of all lanes faster than one texel at a time.
+template <class R>
+inline constexpr bool kDecodesSrgbByTexel = false;
+template <class H>
+inline constexpr bool kDecodesSrgbByTexel<RealPair<H>> = kDecodesSrgbByTexel<H>;
 
 #if defined(__AVX2__) && defined(__F16C__)
 template <>
 inline constexpr bool kFiltersByTexel<RealN<8>> = true;
+template <>
+inline constexpr bool kDecodesSrgbByTexel<RealN<8>> = true;
 /// Broadcasts element k of each 128-bit part to all four elements of that part.
 template <int k>
 HS_INLINE RealN<8> spread_word(RealN<8> r) {
@@ -59,6 +66,22 @@ HS_INLINE RealN<8> weighted_sum(IntN<8> texels, IntN<8> weights) {
 HS_INLINE TexelPair<RealN<8>> split_texels(__m256 a, __m256 b) {
   const auto real = [](__m256 v) { return RealN<8>((RealN<8>::V)v); };
   return {real(_mm256_permute2f128_ps(a, b, 0x20)), real(_mm256_permute2f128_ps(a, b, 0x31))};
+}
+/// Decodes an srgb8a8 texel, in the units of decode_rgba8.
+HS_INLINE __m128 srgb_texel(uint32_t texel) {
+  const auto pair = [](const SrgbPairs::Table& table, uint32_t code) { return load_at<double>(table[code & 255].data()); };
+  const __m128d red_blue = _mm_set_pd(pair(kSrgbPairs.first, texel >> 16), pair(kSrgbPairs.first, texel));
+  const __m128d green_alpha = _mm_set_pd(pair(kSrgbPairs.alpha, texel >> 24), pair(kSrgbPairs.second, texel >> 8));
+  return _mm_castpd_ps(_mm_or_pd(red_blue, green_alpha));
+}
+/// Loads the two srgb8a8 texels at place(k), place(k + 4), …
+template <class Place>
+HS_INLINE TexelPair<RealN<8>> load_srgb_texels(RealN<8>, const Place& place, int k) {
+  const auto a = load_at<uint64_t>(place(k)), b = load_at<uint64_t>(place(k + 4));
+  const auto both = [](uint64_t x, uint64_t y) {
+    return RealN<8>((RealN<8>::V)_mm256_set_m128(srgb_texel(static_cast<uint32_t>(y)), srgb_texel(static_cast<uint32_t>(x))));
+  };
+  return {both(a, b), both(a >> 32, b >> 32)};
 }
 /// Loads the two rgba16f texels at place(k), place(k + 4), …
 template <class Place>
@@ -108,6 +131,14 @@ HS_INLINE TexelPair<RealN<16>> load_float_texels(RealN<16>, const Place& place, 
 }
 #endif
 
+/// Loads the two texels at place(k), place(k + 4), … place(i) is the address of texel i.
+template <TexelFormat format, int W, class Place>
+HS_INLINE TexelPair<RealN<W>> load_texels(const Place& place, int k) {
+  if constexpr (format == TexelFormat::rgba16f) return load_half_texels(RealN<W>{}, place, k);
+  if constexpr (format == TexelFormat::rgba32f) return load_float_texels(RealN<W>{}, place, k);
+  if constexpr (format == TexelFormat::srgb8a8) return load_srgb_texels(RealN<W>{}, place, k);
+}
+
 /// Returns the four channels of the texels k, k + 4, … of a row, filtered along the row. For rgba8 they are multiplied by −2^kFractionBits:
 /// the negated weights fit into 16 bits.
 template <TexelFormat format, int k, int W>
@@ -119,14 +150,13 @@ HS_INLINE RealN<W> filtered_along(const TexelSquare<RealN<W>>& s, const IntN<W>&
         IntN<W>{}, [&](int lane) { return s.words + at[lane]; }, k);
     return weighted_sum(texels, as_int(spread_word<k>(RealN<W>(as_real(weights)))));
   } else {
-    const auto place = [&](int lane) { return s.words + (format == TexelFormat::rgba16f ? 2 : 4) * at[lane]; };
-    const TexelPair<RealN<W>> texels =
-        format == TexelFormat::rgba16f ? load_half_texels(RealN<W>{}, place, k) : load_float_texels(RealN<W>{}, place, k);
+    constexpr int words = format == TexelFormat::srgb8a8 ? 1 : format == TexelFormat::rgba16f ? 2 : 4;
+    const TexelPair<RealN<W>> texels = load_texels<format, W>([&](int lane) { return s.words + words * at[lane]; }, k);
     return lerp(texels.left, texels.right, spread_word<k>(s.along));
   }
 }
 
-/// Filters rgba8, rgba16f or rgba32f texels. The result of rgba8 is in the units of decode_rgba8.
+/// Filters texels, in linear values or, for 8-bit formats, in the units of decode_rgba8.
 template <TexelFormat format, int W>
 HS_INLINE vec4<RealN<W>> filtered_by_texel(const TexelSquare<RealN<W>>& s) {
   using R = RealN<W>;
@@ -139,7 +169,7 @@ HS_INLINE vec4<RealN<W>> filtered_by_texel(const TexelSquare<RealN<W>>& s) {
                                             texels(std::integral_constant<int, 2>{}), texels(std::integral_constant<int, 3>{})});
   const auto channel = [&](std::size_t i) {
     const R value(as_real(channels[i]));
-    if constexpr (format == TexelFormat::rgba16f || format == TexelFormat::rgba32f)
+    if constexpr (format != TexelFormat::rgba8)
       return value;
     else
       return fma(value, R(-1.0f / (1 << kFractionBits)), R(0.0f));  // adds 0, because the product is −0 for a sum of 0
@@ -268,7 +298,7 @@ HS_INLINE R filtered_alpha(const AlphaSquare<R>& s) {
 /// 8-bit formats also vec3 (no alpha).
 template <class Value, TexelFormat format, class R>
 HS_INLINE Value filtered(const TexelSquare<R>& s) {
-  if constexpr (kFiltersByTexel<R> && format != TexelFormat::srgb8a8)
+  if constexpr (kFiltersByTexel<R> && (format != TexelFormat::srgb8a8 || kDecodesSrgbByTexel<R>))
     return Value(filtered_by_texel<format>(s));
   else if constexpr (format == TexelFormat::rgba16f)
     return filtered_halfs(s);

@@ -12,7 +12,7 @@
 // texture gives exactly its constant, a fraction of zero gives exactly the texel, and no result is outside the range of the texels that it
 // blends.
 //
-// Common lookups (rgba8, repeat or clamp, bilinear or trilinear) are inlined into shaders from this header. All others call
+// Common lookups (rgba8, any wrap mode but the border, bilinear or trilinear) are inlined into shaders from this header. All others call
 // texture_lookup.cpp.
 // R = double filters in double with unrounded fractions, on the same decoded texels. It is the accuracy reference.
 #pragma once
@@ -117,20 +117,21 @@ class Texture2D {
 
   /// Returns whether CommonLookup supports this sampler.
   bool is_common(const Sampler& sampler) const {
-    const auto common = [](Wrap w) { return w == Wrap::repeat || w == Wrap::clamp; };
     const bool has_four_channels = format_ != TexelFormat::r8 && format_ != TexelFormat::r16;
-    return has_four_channels && common(sampler.wrap_s) && common(sampler.wrap_t) && sampler.mag != Filter::nearest &&
-           sampler.min != Filter::nearest;
+    return has_four_channels && !has_border(sampler) && sampler.mag != Filter::nearest && sampler.min != Filter::nearest;
   }
+  static bool has_border(const Sampler& sampler) { return sampler.wrap_s == Wrap::border || sampler.wrap_t == Wrap::border; }
   // Implementations of sample and sample_level for every format and sampler, in texture_lookup.cpp, for all Number types. They are pure, so
   // that a call does not keep the compiler from dropping unused values of the shader.
   template <class R>
   __attribute__((pure)) vec4<R> sample_any(const Sampler& sampler, const vec2<R>& uv, const vec2<R>& duv_dx, const vec2<R>& duv_dy) const;
   template <class R>
   __attribute__((pure)) vec4<R> sample_levels_any(const Sampler& sampler, const vec2<R>& uv, const LevelChoice<R>& levels) const;
-  // A lookup for any sampler, for one format (texels.h).
+  // A lookup for any sampler, for one format (texels.h), and one for samplers that only use the nearest texel, without border.
   template <class R, class Texels>
   struct AnyLookup;
+  template <class R, class Texels>
+  struct NearestLookup;
   // A lookup in a format with four channels, for common samplers. Value selects the channels: vec4, vec3 (no alpha) or, if alphas_ is not
   // empty, R (only alpha).
   template <class Value, TexelFormat texel_format, class R>
@@ -198,10 +199,28 @@ HS_INLINE Texture2D::Level<R> Texture2D::level(IntOf<R> index) const {
           R(as_real(look_up(rows_, index)))};
 }
 
+namespace detail {
+
+/// Reduces a coordinate to [0, 2), the period of Wrap::mirrored, for both signs: |coordinate| mod 2, exact for every float.
+template <class R>
+HS_INLINE R mirror_phase(R coordinate) {
+  const R a = abs(coordinate);
+  return a - R(2.0f) * floor(a * R(0.5f));
+}
+/// Mirrors the phase at 1: the result is the distance to the nearest even number. NaN and infinities become 0.
+template <class R>
+HS_INLINE R mirrored_at(R phase) {
+  return clamp(min(phase, R(2.0f) - phase), R(0.0f), R(1.0f));
+}
+
+}  // namespace detail
+
 /// Wraps a coordinate to [0, 1], so that all later computations are in range. NaN becomes 0.
 template <class R>
 HS_INLINE R Texture2D::wrapped(R coordinate, Wrap wrap) {
-  return wrap == Wrap::repeat ? max(coordinate - floor(coordinate), R(0.0f)) : clamp(coordinate, R(0.0f), R(1.0f));
+  if (wrap == Wrap::repeat) return max(coordinate - floor(coordinate), R(0.0f));
+  if (wrap == Wrap::mirrored) return detail::mirrored_at(detail::mirror_phase(coordinate));
+  return clamp(coordinate, R(0.0f), R(1.0f));
 }
 
 /// Converts a coordinate in [0, 1] to a position between texel centers, which are at i + 1/2.
@@ -223,7 +242,7 @@ struct Texture2D::CommonLookup {
   const Texture2D& texture;
   const Sampler& sampler;
 
-  /// With clamping, positions beyond the center of the outermost texel use only that texel.
+  /// With clamping and mirroring, positions beyond the center of the outermost texel use only that texel.
   HS_INLINE static Axis<R> clamped(const Axis<R>& a, IntOf<R> size, Wrap wrap) {
     if (wrap == Wrap::repeat) return a;
     const MaskOf<R> between = a.i >= 0 && a.i < size - 1;
@@ -334,8 +353,7 @@ HS_INLINE R Texture2D::sample_alpha(const Sampler& sampler, const vec2<R>& uv, c
   if constexpr (!std::is_same_v<R, double>) {
     if (format_ <= TexelFormat::srgb8a8) {
       const CommonLookup<R, TexelFormat::rgba8, R> lookup{*this, sampler};
-      const bool has_border = sampler.wrap_s == Wrap::border || sampler.wrap_t == Wrap::border;
-      if (alphas_.empty() && !has_border) return lookup.finish(R(static_cast<float>(static_cast<uint32_t>(texels_[0]) >> 24)));
+      if (alphas_.empty() && !has_border(sampler)) return lookup.finish(R(static_cast<float>(static_cast<uint32_t>(texels_[0]) >> 24)));
       if (is_common(sampler) && sampler.anisotropy <= 1) return lookup.finish(lookup(uv, levels_of(sampler, duv_dx, duv_dy)));
     }
   }

@@ -25,14 +25,12 @@ struct Taps {
   MaskOf<R> first_inside, second_inside;
 };
 
-/// Mirrors a coordinate with period 2: the result is the distance to the nearest even number, exact for every float. At the edges
-/// texel −1 is texel 0 and texel n is texel n − 1, as with clamp. NaN and infinities become 0.
+/// Mirrors a coordinate with period 2. At the edges texel −1 is texel 0 and texel n is texel n − 1, as with clamp.
 template <class R>
 HS_INLINE Wrapped<R> wrapped_mirrored(R coordinate) {
-  const R a = abs(coordinate);
-  const R m = a - R(2.0f) * floor(a * R(0.5f));
-  const MaskOf<R> back = m > R(1.0f);
-  return {clamp(min(m, R(2.0f) - m), 0.0f, 1.0f), select(coordinate < R(0.0f), !back, back)};
+  const R phase = detail::mirror_phase(coordinate);
+  const MaskOf<R> back = phase > R(1.0f);
+  return {detail::mirrored_at(phase), select(coordinate < R(0.0f), !back, back)};
 }
 
 /// Clamps the border color to the range of the format (OpenGL 4.6, section 8.14.2).
@@ -54,7 +52,7 @@ struct Texture2D::AnyLookup {
   const Texture2D& texture;
   const Sampler& sampler;
   Texels texels;
-  bool has_border = sampler.wrap_s == Wrap::border || sampler.wrap_t == Wrap::border;
+  bool has_border = Texture2D::has_border(sampler);
   Value border = detail::uniform_value<Value>(clamped_border(sampler.border_color, texture.format_));
 
   HS_INLINE static Wrapped<R> wrap(R coordinate, Wrap wrap) {
@@ -103,6 +101,8 @@ struct Texture2D::AnyLookup {
     const Level<R> l = texture.level<R>(level_index);
     if (all(nearest)) return nearest_texel(s, t, l);
     const Taps<R> x = taps(s, l.width, sampler.wrap_s, nearest), y = taps(t, l.height, sampler.wrap_t, nearest);
+    // Large areas outside the image are common, for example around a decal.
+    if (has_border && !any((x.first_inside || x.second_inside) && (y.first_inside || y.second_inside))) return border;
     const IntOf<R> row0 = l.offset + y.first * l.pitch, row1 = l.offset + y.second * l.pitch;
     const Value first = texel(row0 + x.first, x.first_inside && y.first_inside);
     const Value upper = detail::lerp(first, texel(row0 + x.second, x.second_inside && y.first_inside), x.fraction);
@@ -120,6 +120,27 @@ struct Texture2D::AnyLookup {
   }
 
   HS_INLINE vec4<R> finish(const Value& v) const { return detail::to_rgba(has_border ? v : texels.to_linear(v)); }
+};
+
+/// A lookup that reads one texel of level 0. No axis may wrap to the border.
+template <class R, class Texels>
+struct Texture2D::NearestLookup {
+  using Any = AnyLookup<R, Texels>;
+  using Value = typename Texels::Value;
+
+  const Texture2D& texture;
+  const Sampler& sampler;
+  Texels texels;
+
+  HS_INLINE Value operator()(const vec2<R>& uv, const LevelChoice<R>&) const {
+    const auto at = [](R coordinate, IntOf<R> size, Wrap wrap) {
+      return Any::clamped(Any::texel_at(Any::wrap(coordinate, wrap), size, wrap), size);
+    };
+    const IntOf<R> x = at(uv.x, texture.width(), sampler.wrap_s), y = at(uv.y, texture.height(), sampler.wrap_t);
+    return texels(y * texture.pitch_[0] + x + texture.offset_[0]);
+  }
+
+  HS_INLINE vec4<R> finish(const Value& v) const { return detail::to_rgba(texels.to_linear(v)); }
 };
 
 /// Calls function with a reader for the texel format of this texture.
@@ -146,6 +167,11 @@ HS_INLINE vec4<R> Texture2D::with_lookup(const Sampler& sampler, const Function&
       case TexelFormat::rgba32f: return function(CommonLookup<vec4<R>, TexelFormat::rgba32f, R>{*this, sampler});
       default: return function(CommonLookup<vec4<R>, TexelFormat::srgb8a8, R>{*this, sampler});
     }
+  }
+  if (sampler.mag == Filter::nearest && sampler.min == Filter::nearest && !has_border(sampler)) {
+    return with_texels<R>([&](const auto& texels) {
+      return function(NearestLookup<R, std::remove_cvref_t<decltype(texels)>>{*this, sampler, texels});
+    });
   }
   return with_texels<R>([&](const auto& texels) {
     return function(AnyLookup<R, std::remove_cvref_t<decltype(texels)>>{*this, sampler, texels});
