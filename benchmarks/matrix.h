@@ -28,6 +28,7 @@ enum class MatrixOrder : uint8_t { ordered, shuffled_triangles, shuffled_vertice
 enum class MatrixTexture : uint8_t {
   square,     ///< 1024 x 1024, rgba8
   odd,        ///< 1000 x 602, rgba8
+  srgb,       ///< 1024 x 1024, srgb8a8
   half_float  ///< 1024 x 1024, rgba16f
 };
 /// Fragment functions. Those with the suffix `visible` also have a visibility function.

@@ -159,6 +159,7 @@ void add_textures(std::vector<MatrixRow>& rows) {
   row({.name = "textures_4", .what = "4 textures", .textures = 4});
   row({.name = "textures_8", .what = "8 textures", .textures = 8});
   row({.name = "texture_odd", .what = "textures of 1000 x 602 texels", .texels = MatrixTexture::odd});
+  row({.name = "texture_srgb", .what = "sRGB textures", .texels = MatrixTexture::srgb});
   row({.name = "texture_half", .what = "half-float textures", .texels = MatrixTexture::half_float});
   row({.name = "nearest", .what = "nearest filtering", .sampler = filter(Filter::nearest)});
   row({.name = "bilinear", .what = "bilinear filtering, without mip levels", .sampler = filter(Filter::bilinear)});

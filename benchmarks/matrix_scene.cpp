@@ -158,7 +158,7 @@ std::shared_ptr<const Texture2D> make_texture(MatrixTexture kind, int index) {
   if (kind == MatrixTexture::half_float) return std::make_shared<Texture2D>(image, TexelFormat::rgba16f);
   Image<glm::u8vec4> codes(image.width(), image.height());
   for (std::size_t i = 0; i < codes.texels().size(); ++i) codes.data()[i] = glm::u8vec4(glm::round(image.data()[i] * 255.0f));
-  return std::make_shared<Texture2D>(codes, TexelFormat::rgba8);
+  return std::make_shared<Texture2D>(codes, kind == MatrixTexture::srgb ? TexelFormat::srgb8a8 : TexelFormat::rgba8);
 }
 
 }  // namespace

@@ -117,12 +117,13 @@ void GlTexture::upload(const Texture2D& texels) {
     }
     glTexImage2D(GL_TEXTURE_2D, level, GL_RGBA16F, image.width(), image.height(), 0, GL_RGBA, GL_FLOAT, image.data());
   }
-  for (int level = 0; level < texels.levels() && texels.format() == TexelFormat::rgba8; ++level) {
+  const GLint codes = texels.format() == TexelFormat::srgb8a8 ? GL_SRGB8_ALPHA8 : GL_RGBA8;
+  for (int level = 0; level < texels.levels() && texels.format() <= TexelFormat::srgb8a8; ++level) {
     Image<glm::u8vec4> image(texels.width(level), texels.height(level));
     for (int row = 0; row < image.height(); ++row) {
       for (int x = 0; x < image.width(); ++x) image.at(x, row) = texels.texel(level, x, row);
     }
-    glTexImage2D(GL_TEXTURE_2D, level, GL_RGBA8, image.width(), image.height(), 0, GL_RGBA, GL_UNSIGNED_BYTE, image.data());
+    glTexImage2D(GL_TEXTURE_2D, level, codes, image.width(), image.height(), 0, GL_RGBA, GL_UNSIGNED_BYTE, image.data());
   }
 }
 

@@ -68,7 +68,7 @@ std::span<const float> floats_of(std::span<const T> structs) {
   return {reinterpret_cast<const float*>(structs.data()), structs.size() * (sizeof(T) / sizeof(float))};
 }
 
-/// An rgba8 or rgba16f texture with all its mip levels.
+/// An rgba8, srgb8a8 or rgba16f texture with all its mip levels.
 class GlTexture {
  public:
   GlTexture(const Texture2D& texels, const Sampler& sampler);
