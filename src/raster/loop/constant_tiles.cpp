@@ -26,8 +26,9 @@ bool has_one_color(const Draw& draw, const Attachments& attachments) {
 
 }  // namespace
 
-std::optional<const Draw*> constant_tiles(const PassContext& context, const Attachments& attachments, int tile_x0, int tile_x1, int tile_y,
-                                          PassStatistics& statistics) {
+ConstantTiles constant_tiles(const PassContext& context, const Attachments& attachments, int tile_x0, int tile_x1, int tile_y,
+                             PassStatistics& statistics) {
+  constexpr ConstantTiles no{};
   std::array<const Triangle*, 2> triangles{};
   std::size_t count = 0;
   const Draw* draw = nullptr;
@@ -37,20 +38,20 @@ std::optional<const Draw*> constant_tiles(const PassContext& context, const Atta
         const Triangle& t = c.triangles[index];
         if (&t == triangles[0] || &t == triangles[1]) continue;
         const Draw& of = context.draws[c.ranges[t.range()].draw];
-        if (count == triangles.size() || (draw != nullptr && draw != &of) || !has_one_color(of, attachments)) return std::nullopt;
+        if (count == triangles.size() || (draw != nullptr && draw != &of) || !has_one_color(of, attachments)) return no;
         draw = &of;
         triangles[count++] = &t;
       }
     }
   }
-  if (draw == nullptr) return nullptr;
-  if (attachments.depth.format != DepthFormat::none || context.samples != 1) return std::nullopt;
+  if (draw == nullptr) return {true, nullptr};
+  if (attachments.depth.format != DepthFormat::none || context.samples != 1) return no;
   const PixelBounds area = tile_pixels(context, tile_x0, tile_x1, tile_y);
   const bool is_triangle =
       std::none_of(triangles.begin(), triangles.begin() + count, [](const Triangle* t) { return t->is(kPointSprite | kLine); });
   if (intersect(area, draw->bounds) != area || !is_triangle ||
       !(count == 1 ? covers(*triangles[0], area) : cover_together(*triangles[0], *triangles[1], area))) {
-    return std::nullopt;
+    return no;
   }
   const auto samples = static_cast<uint64_t>(area.x1 - area.x0) * static_cast<uint64_t>(area.y1 - area.y0);
   statistics.tiles_touched += static_cast<uint64_t>(tile_x1 - tile_x0);
@@ -58,7 +59,7 @@ std::optional<const Draw*> constant_tiles(const PassContext& context, const Atta
   statistics.samples_passed += samples;
   statistics.fragments_shaded += samples;
   if (draw->state.query) statistics.add_to_query(*draw->state.query, samples);
-  return draw;
+  return {true, draw};
 }
 
 void fill_images(const PassContext& context, const Attachments& attachments, const ConstantArea& area) {

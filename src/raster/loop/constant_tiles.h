@@ -4,8 +4,6 @@
 // written directly to the images, many tiles at a time, without going through tile memory.
 #pragma once
 
-#include <optional>
-
 #include "halfspace/raster/pipeline/pass_context.h"
 #include "halfspace/raster/tile/attachments.h"
 
@@ -14,11 +12,16 @@ namespace halfspace::inline HS_LANES_NAMESPACE {
 /// Returns the pixels of tiles [tile_x0, tile_x1) in a row of tiles, clipped to the render target.
 PixelBounds tile_pixels(const PassContext& context, int tile_x0, int tile_x1, int tile_y);
 
-/// Checks whether tiles [tile_x0, tile_x1) of a row have a single color. Returns the draw that provides the color, null if the tiles only
-/// contain the clear color and clear depth, or nullopt if they have to be rasterized. If a draw is returned, its samples and fragments are
-/// added to statistics. The pass must have a single round and no post step.
-std::optional<const Draw*> constant_tiles(const PassContext& context, const Attachments& attachments, int tile_x0, int tile_x1, int tile_y,
-                                          PassStatistics& statistics);
+/// Whether tiles have a single color, and the draw that provides it. The draw is null for the clear color and clear depth. This is not a
+/// std::optional, which g++ returns through memory: the load then waits until the preceding tile is stored.
+struct ConstantTiles {
+  bool are_constant;
+  const Draw* draw;
+};
+/// Checks whether tiles [tile_x0, tile_x1) of a row have a single color; otherwise, they have to be rasterized. If a draw is returned, its
+/// samples and fragments are added to statistics. The pass must have a single round and no post step.
+ConstantTiles constant_tiles(const PassContext& context, const Attachments& attachments, int tile_x0, int tile_x1, int tile_y,
+                             PassStatistics& statistics);
 
 /// Area with a single color. It is covered by a draw with a constant shader or, if draw is null, has the clear values.
 struct ConstantArea {

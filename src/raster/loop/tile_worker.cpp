@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <chrono>
 #include <numeric>
-#include <optional>
 
 #include "halfspace/raster/loop/constant_tiles.h"
 #include "halfspace/raster/loop/tile_draws.h"
@@ -66,9 +65,10 @@ class TileWorker {
     std::vector<uint8_t> filled(by_row.size());
     workers.for_each(context_.tiles_y, [&](int y) {
       const auto row = static_cast<std::size_t>(y);
-      const std::optional<const Draw*> draw = constant_tiles(context_, attachments_, 0, context_.tiles_x, y, by_row[row]);
-      filled[row] = draw.has_value();
-      if (draw) fill_images(context_, attachments_, {tile_pixels(context_, 0, context_.tiles_x, y), *draw});
+      const ConstantTiles tiles = constant_tiles(context_, attachments_, 0, context_.tiles_x, y, by_row[row]);
+      filled[row] = tiles.are_constant;
+      if (tiles.are_constant) fill_images(context_, attachments_, {tile_pixels(context_, 0, context_.tiles_x, y), tiles.draw});
+      finish_stores();
     });
     std::vector<int> rest;
     for (int y = 0; y < context_.tiles_y; ++y) {
@@ -89,20 +89,19 @@ class TileWorker {
     const bool alone = is_alone();
     ConstantArea area{};  // area of the preceding tiles that is not filled yet
     for (int x = tile_x0; x < tile_x1; ++x) {
-      const std::optional<const Draw*> constant =
-          alone ? constant_tiles(context_, attachments_, x, x + 1, tile_y, statistics) : std::nullopt;
-      const Draw* const draw = constant.value_or(nullptr);
+      const auto [is_constant, draw] = alone ? constant_tiles(context_, attachments_, x, x + 1, tile_y, statistics) : ConstantTiles{};
       const PixelBounds pixels = tile_pixels(context_, x, x + 1, tile_y);
-      if (constant && !area.pixels.empty() && area.draw == draw) {
+      if (is_constant && !area.pixels.empty() && area.draw == draw) {
         area.pixels.x1 = pixels.x1;
         continue;
       }
       fill_images(context_, attachments_, area);
-      area = constant ? ConstantArea{pixels, draw} : ConstantArea{};
+      area = is_constant ? ConstantArea{pixels, draw} : ConstantArea{};
       // If this is the only round, a tile without geometry has a constant color and does not get here.
-      if (!constant) run_measured_tile(x, tile_y, alone || is_drawn(x, tile_y), *memory, statistics);
+      if (!is_constant) run_measured_tile(x, tile_y, alone || is_drawn(x, tile_y), *memory, statistics);
     }
     fill_images(context_, attachments_, area);
+    finish_stores();
     if constexpr (kTraces<Statistics>) statistics.trace.reset();
   }
 

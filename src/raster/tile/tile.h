@@ -124,7 +124,8 @@ enum class ImageSamples : uint8_t {
   all   ///< one image per sample, one after the other
 };
 
-// Copies between a tile and an image. Images store the top row first and tiles the bottom row first, so these functions flip rows.
+// Copies between a tile and an image. Images store the top row first and tiles the bottom row first, so these functions flip rows. They
+// and the fill functions may write with streaming stores; see finish_stores().
 void load_color(const ColorTarget& target, int target_width, int target_height, ImageSamples stored, const Tile& tile, ColorBuffer& color);
 void load_depth(const DepthTarget& target, int target_width, int target_height, ImageSamples stored, Tile& tile);
 void store_color(const ColorTarget& target, int target_width, int target_height, ImageSamples stored, const Tile& tile,
@@ -134,6 +135,10 @@ void store_depth(const DepthTarget& target, int target_width, int target_height,
 /// Fills pixels of an image with a color, or with the clear depth and stencil of the target.
 void fill_color(const ColorTarget& target, int target_width, int target_height, const PixelBounds& pixels, const PacketColor& color);
 void fill_depth(const DepthTarget& target, int target_width, int target_height, const PixelBounds& pixels);
+
+/// Makes all preceding streaming stores of this thread visible to other threads. A task must call it before it ends. It does not follow
+/// each store, because it delays the next tile until the stores have reached the memory.
+inline void finish_stores() { _mm_sfence(); }
 
 /// Recomputes the exact depth bounds of a block.
 void refresh_hiz(Tile& tile, int block);

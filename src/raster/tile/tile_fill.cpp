@@ -57,7 +57,6 @@ void fill_rows(T value, std::byte* data, int width, int height, const PixelBound
       std::fill_n(reinterpret_cast<T*>(at(y)), bytes / sizeof(T), value);
     }
   }
-  if (stream) _mm_sfence();
 }
 
 }  // namespace

@@ -26,7 +26,6 @@ void stream_words(const Tile& tile, int target_width, int target_height, const s
       _mm256_stream_si256(reinterpret_cast<__m256i*>(out - pitch), _mm256_permute2x128_si256(left, right, 0x31));
     }
   }
-  _mm_sfence();  // otherwise streaming stores may not be visible at the end of the task
 }
 #endif
 
