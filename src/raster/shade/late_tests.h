@@ -88,9 +88,4 @@ void add_to_layers(const Shading& c, const FragmentOutput& out, std::size_t i, i
   if constexpr (kTracesShading<Shading>) c.statistics.trace->add_layers(id, packet, bits(mask), bits(merged));
 }
 
-template <class Shading>
-void count_fragments(const Shading& c, const PacketMask* packets, int count) {
-  for (int i = 0; i < count; ++i) c.statistics.fragments_shaded += static_cast<uint64_t>(std::popcount(packets[i].lanes));
-}
-
 }  // namespace halfspace::inline HS_LANES_NAMESPACE

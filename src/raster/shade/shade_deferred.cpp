@@ -194,7 +194,7 @@ void run_job(const PassContext& context, Tile& tile, const Job& job, std::span<S
     const Draw& draw = *work.front().draw;
     const std::size_t count = is_sorted ? take_sorted_draw(work, memory.packets) : take_draw(work, memory.packets);
     const std::span<const PacketMask> packets = std::span(memory.packets).first(count);
-    for (const PacketMask& p : packets) statistics.fragments_shaded += static_cast<uint64_t>(std::popcount(p.lanes));
+    statistics.fragments_shaded += pixel_count(packets);
     DrawShading(context, tile, job, draw, memory, statistics).shade(packets);
   }
 }

@@ -51,7 +51,7 @@ void shade_packets(const Shading& c, const PacketMask* packets, int count, const
                       .count = n};
     if (needs_centroids(c.draw, c.tile.samples)) batch.centroids = find_centroids(batch, centroids);
     c.draw.kernels.fragment(c.draw.shader.get(), {batch, &out});
-    count_fragments(c, packets + begin, n);
+    c.statistics.fragments_shaded += pixel_count({packets + begin, static_cast<std::size_t>(n)});
     for (int i = 0; i < n; ++i) finish(out, static_cast<std::size_t>(i), packets[begin + i]);
   }
 }

@@ -91,7 +91,6 @@ std::size_t shade_batch(const Shading& c, PacketQueue& queue, std::size_t begin)
   if (const BlendTarget blend = direct_blend(c); blend.program != nullptr) {
     const std::size_t rest = static_cast<std::size_t>(queue.count) - begin;
     c.draw.kernels.fragment(c.draw.shader.get(), {queue.batch(c.context, c.tile, begin, rest), &c.output, nullptr, blend});
-    count_fragments(c, &queue.packets[begin], static_cast<int>(rest));
     return rest;
   }
   const std::size_t n = std::min(std::size_t{kPacketBatch}, static_cast<std::size_t>(queue.count) - begin);
@@ -99,7 +98,6 @@ std::size_t shade_batch(const Shading& c, PacketQueue& queue, std::size_t begin)
   std::array<SamplePosition, kPacketBatch * kLanes> centroids;
   if (needs_centroids(c.draw, c.tile.samples)) batch.centroids = find_centroids(batch, centroids);
   c.draw.kernels.fragment(c.draw.shader.get(), batch);
-  count_fragments(c, &queue.packets[begin], static_cast<int>(n));
   if constexpr (kTracesShading<Shading>) {
     for (std::size_t i = 0; i < n; ++i) trace_queued(c, queue, begin + i, i);
   }
@@ -123,7 +121,6 @@ std::size_t shade_packed(const Shading& c, PacketQueue& queue, std::size_t begin
   const std::span<const PacketMask> packets(&queue.packets[begin], static_cast<std::size_t>(queue.count) - begin);
   const std::size_t count = pack(packets, &queue.ids[begin], packed.pixels);
   c.draw.kernels.fragment(c.draw.shader.get(), {packed.pixels.batch(c.context, c.tile), &packed.output});
-  c.statistics.fragments_shaded += packed.pixels.count;
   if (const BlendTarget blend = direct_blend(c); blend.program != nullptr) {
     blend_packed(packed.output, packets.first(count), blend);
     return count;
@@ -144,7 +141,9 @@ void shade_queued(const DrawInTile& d, PacketQueue& queue, TransparentLayers& la
                   Statistics& statistics) {
   const ImmediateShading<Statistics> c{d.context, d.draw, d.mode, d.tile, layers, output, nullptr, true, statistics};
   const auto count = static_cast<std::size_t>(queue.count);
-  const bool packs = !kTraces<Statistics> && packs_queue(d.draw, d.tile, std::span(queue.packets).first(count));
+  const std::span<const PacketMask> packets = std::span(queue.packets).first(count);
+  statistics.fragments_shaded += pixel_count(packets);
+  const bool packs = !kTraces<Statistics> && packs_queue(d.draw, d.tile, packets);
   for (std::size_t begin = 0; begin < count;) begin += packs ? shade_packed(c, queue, begin, packed) : shade_batch(c, queue, begin);
   queue.count = 0;
 }

@@ -41,15 +41,17 @@ class WorkWriter {
     const Int packet_ids = load<Int>(ids);
     uint32_t rest = bits(packet_ids != Int(kNoneInLane));
     if (rest == 0) return;
-    for (const FoundDraw& found : found_) {
-      const uint32_t same = found.lanes(packet_ids) & rest;
-      if (same == 0) continue;
-      add(packet, found, same);
+    // Most tiles show a single draw.
+    if (found_count_ == 1 && (found_[0].lanes(packet_ids) & rest) == rest) return add(packet, found_[0], rest);
+    // Which draws a packet shows is nearly random and branches would often be mispredicted, so the loop has none.
+    for (std::size_t i = 0; i < found_count_; ++i) {
+      const uint32_t same = found_[i].lanes(packet_ids) & rest;
+      add(packet, found_[i], same);
       rest &= ~same;
-      if (rest == 0) return;
     }
     while (rest != 0) {
       FoundDraw& found = found_[next_++ % kFound];
+      found_count_ = std::min(next_, kFound);
       found = find(ids[std::countr_zero(rest)]);
       const uint32_t same = found.lanes(packet_ids);
       add(packet, found, same);
@@ -62,7 +64,7 @@ class WorkWriter {
  private:
   HS_INLINE void add(int packet, const FoundDraw& found, uint32_t lanes) {
     work_[count_] = {found.draw, {static_cast<uint16_t>(packet), static_cast<uint16_t>(lanes)}};
-    count_ += found.is_listed ? 1 : 0;
+    count_ += found.is_listed && lanes != 0 ? 1 : 0;
   }
 
   FoundDraw find(TriangleId id) const {
@@ -76,6 +78,7 @@ class WorkWriter {
   ShadingWorkList& work_;
   static constexpr std::size_t kFound = 4;
   std::array<FoundDraw, kFound> found_{};  // the last lookups
+  std::size_t found_count_ = 0;            // at most kFound
   std::size_t next_ = 0;                   // where to store the next one
   std::size_t count_ = 0;
 };

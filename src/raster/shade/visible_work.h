@@ -15,7 +15,8 @@ struct ShadingWork {
   PacketMask packet;
 };
 
-using ShadingWorkList = std::array<ShadingWork, kMaxTilePixels>;
+/// At most one entry per pixel. The element after the last one may be written.
+using ShadingWorkList = std::array<ShadingWork, kMaxTilePixels + 1>;
 
 /// Selects which pending pixels to list: those whose draw is shaded per pixel, or those whose draw is shaded per sample.
 enum class Share : uint8_t { per_pixel, per_sample };

@@ -24,15 +24,22 @@ std::size_t packets_that_fit(std::span<const PacketMask> packets, std::size_t& p
 
 }  // namespace
 
+std::size_t pixel_count(std::span<const PacketMask> packets) {
+  using Two = std::array<PacketMask, 2>;
+  constexpr auto lanes = std::bit_cast<uint64_t>(Two{{{0, 0xffff}, {0, 0xffff}}});
+  std::size_t pixels = 0;
+  std::size_t i = 0;
+  for (; i + 2 <= packets.size(); i += 2)
+    pixels += static_cast<std::size_t>(std::popcount(std::bit_cast<uint64_t>(Two{packets[i], packets[i + 1]}) & lanes));
+  if (i < packets.size()) pixels += static_cast<std::size_t>(std::popcount(packets[i].lanes));
+  return pixels;
+}
+
 bool can_pack(const Draw& draw, const Tile& tile) {
   return !draw.kernels.is_constant && (tile.samples == 1 || !draw.kernels.uses_centroid);
 }
 
-bool pays_to_pack(std::span<const PacketMask> packets) {
-  std::size_t pixels = 0;
-  for (const PacketMask& p : packets) pixels += static_cast<std::size_t>(std::popcount(p.lanes));
-  return pixels * 4 <= packets.size() * kLanes * 3;
-}
+bool pays_to_pack(std::span<const PacketMask> packets) { return pixel_count(packets) * 4 <= packets.size() * kLanes * 3; }
 
 bool packs_queue(const Draw& draw, const Tile& tile, std::span<const PacketMask> packets) {
   return can_pack(draw, tile) && !draws_points(draw.state) && pays_to_pack(packets);

@@ -28,6 +28,9 @@ struct PackedPixels {
   PacketBatch batch(const PassContext& context, const Tile& tile) const;
 };
 
+/// Returns the number of pixels in packets.
+std::size_t pixel_count(std::span<const PacketMask> packets);
+
 /// Returns true if the pixels of a draw can be packed. Returns false for draws with a constant shader, and if the kernels need the
 /// positions of centroid varyings.
 bool can_pack(const Draw& draw, const Tile& tile);
