@@ -16,8 +16,8 @@ namespace {
 
 // Results of the visibility function. Each array has one element more than a batch can fill, because unpacking reads past the last pixel.
 struct Decisions {
-  std::array<uint16_t, kPacketBatch + 1> keep;
-  alignas(64) std::array<Real, kPacketBatch + 1> depth;  ///< if the shader writes depth
+  std::array<uint16_t, PacketQueue::kCapacity + 1> keep;
+  alignas(64) std::array<Real, PacketQueue::kCapacity + 1> depth;  ///< if the shader writes depth
 };
 
 // Tests and writes packets in which the shader keeps some lanes.
@@ -88,6 +88,7 @@ void decide_queued(const DrawInTile& d, PacketQueue& queue, Statistics& statisti
   Decisions decisions;
   const auto end = static_cast<std::size_t>(queue.count);
   const bool packs = packs_queue(d.draw, d.tile, std::span(queue.packets).first(end));
+  const bool uses_centroids = needs_centroids(d.draw, d.tile.samples);
   for (std::size_t begin = 0; begin < end;) {
     const std::span<const PacketMask> rest(&queue.packets[begin], end - begin);
     std::size_t n;
@@ -103,10 +104,11 @@ void decide_queued(const DrawInTile& d, PacketQueue& queue, Statistics& statisti
         return std::pair<uint32_t, Real>(unpack_keep(decisions.keep.data(), first, lanes), depth);
       });
     } else {
-      n = std::min(std::size_t{kPacketBatch}, rest.size());
+      // All packets at once if possible, because each call looks up its triangles again.
+      n = std::min(rest.size(), uses_centroids ? std::size_t{kPacketBatch} : PacketQueue::kCapacity);
       VisibilityBatch batch{queue.batch(d.context, d.tile, begin, n), decisions.keep.data(), decisions.depth.data()};
       std::array<SamplePosition, kPacketBatch * kLanes> centroids;
-      if (needs_centroids(d.draw, d.tile.samples)) batch.centroids = find_centroids(batch, centroids);
+      if (uses_centroids) batch.centroids = find_centroids(batch, centroids);
       d.draw.kernels.visibility(d.draw.shader.get(), batch);
       decided.finish_batch(begin, n, [&](std::size_t i, uint32_t) {
         return std::pair<uint32_t, Real>(decisions.keep[i], d.draw.kernels.writes_depth ? decisions.depth[i] : Real(0.0f));
