@@ -42,16 +42,10 @@ class WorkWriter {
     uint32_t rest = bits(packet_ids != Int(kNoneInLane));
     if (rest == 0) return;
     // Most tiles show a single draw.
-    if (found_count_ == 1 && (found_[0].lanes(packet_ids) & rest) == rest) return add(packet, found_[0], rest);
-    // Which draws a packet shows is nearly random and branches would often be mispredicted, so the loop has none.
-    for (std::size_t i = 0; i < found_count_; ++i) {
-      const uint32_t same = found_[i].lanes(packet_ids) & rest;
-      add(packet, found_[i], same);
-      rest &= ~same;
-    }
+    if (lookups_ == 1 && (found_[0].lanes(packet_ids) & rest) == rest) return add(packet, found_[0], rest);
+    rest = lookups_ <= kFound ? add_few(packet, packet_ids, rest) : add_many(packet, packet_ids, rest);
     while (rest != 0) {
-      FoundDraw& found = found_[next_++ % kFound];
-      found_count_ = std::min(next_, kFound);
+      FoundDraw& found = found_[lookups_++ % kFound];
       found = find(ids[std::countr_zero(rest)]);
       const uint32_t same = found.lanes(packet_ids);
       add(packet, found, same);
@@ -67,6 +61,28 @@ class WorkWriter {
     count_ += found.is_listed && lanes != 0 ? 1 : 0;
   }
 
+  // Adds the lanes of `rest` whose draw was found before, and returns the others. Which of a few draws a packet shows is nearly random. A
+  // branch would often be mispredicted, so there is none.
+  HS_INLINE uint32_t add_few(int packet, Int packet_ids, uint32_t rest) {
+    for (std::size_t i = 0; i < lookups_; ++i) {
+      const uint32_t same = found_[i].lanes(packet_ids) & rest;
+      add(packet, found_[i], same);
+      rest &= ~same;
+    }
+    return rest;
+  }
+  // The same in a tile with more than kFound draws.
+  HS_INLINE uint32_t add_many(int packet, Int packet_ids, uint32_t rest) {
+    for (const FoundDraw& found : found_) {
+      const uint32_t same = found.lanes(packet_ids) & rest;
+      if (same == 0) continue;
+      add(packet, found, same);
+      rest &= ~same;
+      if (rest == 0) break;
+    }
+    return rest;
+  }
+
   FoundDraw find(TriangleId id) const {
     const Draw& draw = draw_of(context_, id);
     const auto index = static_cast<std::size_t>(&draw - context_.draws.data());
@@ -78,8 +94,7 @@ class WorkWriter {
   ShadingWorkList& work_;
   static constexpr std::size_t kFound = 4;
   std::array<FoundDraw, kFound> found_{};  // the last lookups
-  std::size_t found_count_ = 0;            // at most kFound
-  std::size_t next_ = 0;                   // where to store the next one
+  std::size_t lookups_ = 0;                // number of lookups; the next one replaces entry lookups_ % kFound
   std::size_t count_ = 0;
 };
 

@@ -24,17 +24,6 @@ std::size_t packets_that_fit(std::span<const PacketMask> packets, std::size_t& p
 
 }  // namespace
 
-std::size_t pixel_count(std::span<const PacketMask> packets) {
-  using Two = std::array<PacketMask, 2>;
-  constexpr auto lanes = std::bit_cast<uint64_t>(Two{{{0, 0xffff}, {0, 0xffff}}});
-  std::size_t pixels = 0;
-  std::size_t i = 0;
-  for (; i + 2 <= packets.size(); i += 2)
-    pixels += static_cast<std::size_t>(std::popcount(std::bit_cast<uint64_t>(Two{packets[i], packets[i + 1]}) & lanes));
-  if (i < packets.size()) pixels += static_cast<std::size_t>(std::popcount(packets[i].lanes));
-  return pixels;
-}
-
 bool can_pack(const Draw& draw, const Tile& tile) {
   return !draw.kernels.is_constant && (tile.samples == 1 || !draw.kernels.uses_centroid);
 }
