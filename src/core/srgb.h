@@ -30,7 +30,7 @@ alignas(64) extern const std::array<float, 256> kSrgbToLinear;
 
 namespace detail {
 
-/// Pairs of floats that make up a decoded texel when they are put side by side: (red, 0, blue, 0) + (0, green, 0, alpha).
+/// Pairs of floats that make up a decoded texel: (red, 0, blue, 0) + (0, green, 0, alpha).
 struct SrgbPairs {
   using Table = std::array<std::array<float, 2>, 256>;
   Table first, second;  ///< entry c is {kSrgbToLinear[c], 0}, or {0, kSrgbToLinear[c]}

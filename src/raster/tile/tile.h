@@ -136,8 +136,8 @@ void store_depth(const DepthTarget& target, int target_width, int target_height,
 void fill_color(const ColorTarget& target, int target_width, int target_height, const PixelBounds& pixels, const PacketColor& color);
 void fill_depth(const DepthTarget& target, int target_width, int target_height, const PixelBounds& pixels);
 
-/// Makes all preceding streaming stores of this thread visible to other threads. A task must call it before it ends. It does not follow
-/// each store, because it delays the next tile until the stores have reached the memory.
+/// Makes all preceding streaming stores of this thread visible to other threads. A task must call it before it ends. Calling it after each
+/// tile would delay the next tile until the stores have reached the memory.
 inline void finish_stores() { _mm_sfence(); }
 
 /// Recomputes the exact depth bounds of a block.
