@@ -3,8 +3,8 @@
 // Bilinear filtering of 2x2 texels, for formats with four channels.
 //
 // Where the build has the instructions, textures are filtered texel by texel, with all four channels in one register, and the result is
-// transposed. Otherwise, and for srgb8a8 with 16 lanes, each channel is filtered for all lanes. Both methods give bit-identical results: the
-// sum along a row of rgba8 is an integer below 2^23, which is exact, and everything else is computed with the same operations.
+// transposed. Otherwise, and for srgb8a8 with 16 lanes, each channel is filtered for all lanes. Both methods give bit-identical results:
+// the sum along a row of rgba8 is an integer below 2^23, which is exact, and everything else is computed with the same operations.
 #pragma once
 
 #include "halfspace/core/half.h"
