@@ -127,11 +127,15 @@ class Texture2D {
   __attribute__((pure)) vec4<R> sample_any(const Sampler& sampler, const vec2<R>& uv, const vec2<R>& duv_dx, const vec2<R>& duv_dy) const;
   template <class R>
   __attribute__((pure)) vec4<R> sample_levels_any(const Sampler& sampler, const vec2<R>& uv, const LevelChoice<R>& levels) const;
-  // A lookup for any sampler, for one format (texels.h), and one for samplers that only use the nearest texel, without border.
+  /// Returns whether nearest_texel() supports this sampler.
+  static bool reads_nearest_texel(const Sampler& sampler) {
+    return sampler.mag == Filter::nearest && sampler.min == Filter::nearest && !has_border(sampler);
+  }
+  template <class R>
+  vec4<R> nearest_texel(const Sampler& sampler, const vec2<R>& uv) const;
+  // A lookup for any sampler, for one format (texels.h).
   template <class R, class Texels>
   struct AnyLookup;
-  template <class R, class Texels>
-  struct NearestLookup;
   // A lookup in a format with four channels, for common samplers. Value selects the channels: vec4, vec3 (no alpha) or, if alphas_ is not
   // empty, R (only alpha).
   template <class Value, TexelFormat texel_format, class R>

@@ -122,26 +122,19 @@ struct Texture2D::AnyLookup {
   HS_INLINE vec4<R> finish(const Value& v) const { return detail::to_rgba(has_border ? v : texels.to_linear(v)); }
 };
 
-/// A lookup that reads one texel of level 0. No axis may wrap to the border.
-template <class R, class Texels>
-struct Texture2D::NearestLookup {
-  using Any = AnyLookup<R, Texels>;
-  using Value = typename Texels::Value;
-
-  const Texture2D& texture;
-  const Sampler& sampler;
-  Texels texels;
-
-  HS_INLINE Value operator()(const vec2<R>& uv, const LevelChoice<R>&) const {
-    const auto at = [](R coordinate, IntOf<R> size, Wrap wrap) {
-      return Any::clamped(Any::texel_at(Any::wrap(coordinate, wrap), size, wrap), size);
+/// Reads one texel of level 0. No axis may wrap to the border.
+template <class R>
+HS_INLINE vec4<R> Texture2D::nearest_texel(const Sampler& sampler, const vec2<R>& uv) const {
+  return with_texels<R>([&](const auto& texels) {
+    using Any = AnyLookup<R, std::remove_cvref_t<decltype(texels)>>;
+    const auto at = [](R coordinate, int size, Wrap wrap) -> IntOf<R> {
+      if (wrap == Wrap::mirrored) return Any::clamped(Any::texel_at(Any::wrap(coordinate, wrap), size, wrap), size);
+      return min(truncate_to_int(wrapped(coordinate, wrap) * R(static_cast<float>(size))), IntOf<R>(size - 1));
     };
-    const IntOf<R> x = at(uv.x, texture.width(), sampler.wrap_s), y = at(uv.y, texture.height(), sampler.wrap_t);
-    return texels(y * texture.pitch_[0] + x + texture.offset_[0]);
-  }
-
-  HS_INLINE vec4<R> finish(const Value& v) const { return detail::to_rgba(texels.to_linear(v)); }
-};
+    const IntOf<R> x = at(uv.x, width(), sampler.wrap_s), y = at(uv.y, height(), sampler.wrap_t);
+    return detail::to_rgba(texels.to_linear(texels(y * pitch_[0] + x + offset_[0])));
+  });
+}
 
 /// Calls function with a reader for the texel format of this texture.
 template <class R, class Function>
@@ -168,11 +161,6 @@ HS_INLINE vec4<R> Texture2D::with_lookup(const Sampler& sampler, const Function&
       default: return function(CommonLookup<vec4<R>, TexelFormat::srgb8a8, R>{*this, sampler});
     }
   }
-  if (sampler.mag == Filter::nearest && sampler.min == Filter::nearest && !has_border(sampler)) {
-    return with_texels<R>([&](const auto& texels) {
-      return function(NearestLookup<R, std::remove_cvref_t<decltype(texels)>>{*this, sampler, texels});
-    });
-  }
   return with_texels<R>([&](const auto& texels) {
     return function(AnyLookup<R, std::remove_cvref_t<decltype(texels)>>{*this, sampler, texels});
   });
@@ -180,11 +168,13 @@ HS_INLINE vec4<R> Texture2D::with_lookup(const Sampler& sampler, const Function&
 
 template <class R>
 vec4<R> Texture2D::sample_levels_any(const Sampler& sampler, const vec2<R>& uv, const LevelChoice<R>& levels) const {
+  if (reads_nearest_texel(sampler)) return nearest_texel(sampler, uv);
   return with_lookup<R>(sampler, [&](const auto& lookup) { return lookup.finish(lookup(uv, levels)); });
 }
 
 template <class R>
 vec4<R> Texture2D::sample_any(const Sampler& sampler, const vec2<R>& uv, const vec2<R>& duv_dx, const vec2<R>& duv_dy) const {
+  if (sampler.anisotropy <= 1 && reads_nearest_texel(sampler)) return nearest_texel(sampler, uv);
   if (sampler.anisotropy <= 1) return sample_levels_any<R>(sampler, uv, levels_of(sampler, duv_dx, duv_dy));
 
   HS_DCHECK(sampler.anisotropy <= 16);
