@@ -101,12 +101,18 @@ HS_INLINE RealN<W> half_to_float(IntN<W> h) {
   return detail::half_to_float_by_bits<RealN<W>>(h);
 }
 
+/// Clamps to ±65504, the range of finite halves. NaN stays NaN, because min and max return their second argument for NaN.
+template <class R>
+HS_INLINE R finite_half_range(R x) {
+  return min(R(kMaxHalf), max(R(-kMaxHalf), x));
+}
+
 /// Converts to the nearest finite half, for storing colors. Values beyond ±65504, including infinities, become ±65504. NaN
 /// stays a quiet NaN.
-HS_INLINE uint16_t float_to_finite_half(float x) { return float_to_half(min(kMaxHalf, max(-kMaxHalf, x))); }
+HS_INLINE uint16_t float_to_finite_half(float x) { return float_to_half(finite_half_range(x)); }
 template <int W>
 HS_INLINE IntN<W> float_to_finite_half(RealN<W> x) {
-  return float_to_half(min(kMaxHalf, max(-kMaxHalf, x)));  // min and max return their second argument for NaN
+  return float_to_half(finite_half_range(x));
 }
 
 }  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Tests blending into rgba8 buffers against the formulas in double precision.
+// Tests blending into rgba8 buffers against the formulas in double precision, and the specialized functions against the general one.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,6 +8,7 @@
 
 #include "halfspace/raster/tile/blend.h"
 #include "halfspace/raster/tile/tile_format.h"
+#include "halfspace/raster/tile/write_programs.h"
 #include "raster/raster_test.h"
 
 namespace halfspace {
@@ -144,6 +145,50 @@ TEST(Blend, CodesAreWithinTheErrorBoundForEveryFactorAndEquation) {
               << "equation " << e << ", factors " << f % kFactors << ", " << f / kFactors << ", channel " << k;
         }
       }
+    }
+  }
+}
+
+TEST(Blend, ProgramsWriteTheSameBitsAsTheGeneralCode) {
+  Packet p;
+  Random& random = p.random;
+  const auto any_factor = [&] { return static_cast<BlendFactor>(random.below(kFactors)); };
+  const auto any_equation = [&] { return random.coin() ? BlendEquation::add : static_cast<BlendEquation>(random.below(kEquations)); };
+  const auto general = std::make_unique<ColorBuffer>();
+  for (const ColorFormat format : {ColorFormat::rgba8, ColorFormat::srgb8a8, ColorFormat::rgba16f}) {
+    // Each pair of factors occurs for color and alpha together, as in compiled states, and in random combinations.
+    for (int f = 0; f < 4 * kFactors * kFactors; ++f) {
+      const auto source = static_cast<BlendFactor>(f % kFactors), destination = static_cast<BlendFactor>(f / kFactors % kFactors);
+      const bool same = random.coin();
+      const BlendEquation equation = any_equation();
+      const BlendState blend{.color_equation = equation,
+                             .source_color = source,
+                             .destination_color = destination,
+                             .alpha_equation = same ? equation : any_equation(),
+                             .source_alpha = same ? source : any_factor(),
+                             .destination_alpha = same ? destination : any_factor(),
+                             .constant = {0.3f, 1.5f, -0.5f, 0.7f}};
+      AttachmentState state{.mask = {random.coin(), random.coin(), random.coin(), random.coin()}};
+      if (random.coin()) state.mask = {};
+      if (!random.once_in(10)) state.blend = blend;
+      const PacketMask packet{3, static_cast<uint16_t>(random.bits() & kAllBits<Mask>)};
+      p.fill();
+      p.buffer->format = format;
+      for (int i = 0; i < 4 * kLanes; ++i) {
+        const auto half = static_cast<uint16_t>(float_to_half(static_cast<float>(random.real(-2.0, 2.0))));
+        const auto pixel = static_cast<std::size_t>(packet.packet) * kLanes + static_cast<std::size_t>(i % kLanes);
+        if (format == ColorFormat::rgba16f) plane<uint16_t>(*p.buffer, i / kLanes)[pixel] = half;
+        if (format != ColorFormat::rgba16f) plane<uint32_t>(*p.buffer, 0)[pixel] = random.bits();
+      }
+      *general = *p.buffer;
+      const auto before = std::make_unique<ColorBuffer>(*p.buffer);
+      write_color(*general, packet.packet, mask_from_bits<Mask>(packet.lanes), p.src, p.src1, state);
+      write_batch(*p.buffer, std::span(&packet, 1), &p.src, &p.src1, state);
+      ASSERT_TRUE(p.buffer->bytes == general->bytes) << "format " << static_cast<int>(format) << ", factors " << f;
+      if (state.blend && uses_second_source(*state.blend)) continue;
+      *p.buffer = *before;
+      write_programs(format, state).packet(*p.buffer, packet, state, p.src[0], p.src[1], p.src[2], p.src[3]);
+      ASSERT_TRUE(p.buffer->bytes == general->bytes) << "format " << static_cast<int>(format) << ", factors " << f;
     }
   }
 }

@@ -8,7 +8,7 @@
 
 #include "halfspace/core/lanes.h"
 #include "halfspace/raster/tile/blend.h"
-#include "halfspace/raster/tile/blend_programs.h"
+#include "halfspace/raster/tile/write_programs.h"
 #include "halfspace/raster/tile/tile.h"
 #include "halfspace/raster/visibility/visibility.h"
 
@@ -38,9 +38,9 @@ struct FragmentBatch : PacketBatch {
   /// If not null, the kernel encodes the first color of each packet as rgba8 and writes it here; there is no other output. Indexed like the
   /// pixels of the tile's storage, or of a packed batch. Only for ShaderKernels::color.
   int32_t* codes = nullptr;
-  /// If it has a program, the kernel blends the color of each packet into the buffer, in the order of the packets; there is no other
-  /// output. Only for shaders that return one color, without keep mask and depth.
-  BlendTarget blend = {};
+  /// If it has a program, the kernel writes the color of each packet to the buffer, in the order of the packets; there is no other output.
+  /// Only for kernels that do not return keep masks and depths, and for the first color of a shader.
+  WriteTarget target = {};
 };
 
 /// Computes the colors of a draw with a constant shader and stores them as packet 0 of out.
@@ -48,5 +48,8 @@ void constant_colors(const Draw& draw, FragmentOutput& out);
 
 /// Writes the colors in out to the tile. packets[k] receives all colors of packet i + k of the batch.
 void write_colors(const Draw& draw, const FragmentOutput& out, std::size_t i, std::span<const PacketMask> packets, Tile& tile);
+
+/// Writes the colors of packed pixels to the packets to which they belong. packed: the output of a batch with `pixels`.
+void write_packed(const FragmentOutput& packed, std::span<const PacketMask> packets, const WriteTarget& to);
 
 }  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -164,10 +164,10 @@ HS_FLATTEN void fragment_kernel(const void* shader, const FragmentBatch& batch) 
         write_codes(batch.codes, b, {color.x.high, color.y.high, color.z.high, color.w.high});
         continue;
       }
-      if (const BlendTarget& to = batch.blend; to.program != nullptr) {
+      if (const WriteTarget& to = batch.target; to.program != nullptr) {
         const vec4<R>& color = nth_color(fragment.color, 0);
-        to.program(*to.buffer, a, *to.state, color.x.low, color.y.low, color.z.low, color.w.low);
-        if (second != first) to.program(*to.buffer, b, *to.state, color.x.high, color.y.high, color.z.high, color.w.high);
+        to.program(*to.buffer, a, to.state, color.x.low, color.y.low, color.z.low, color.w.low);
+        if (second != first) to.program(*to.buffer, b, to.state, color.x.high, color.y.high, color.z.high, color.w.high);
         continue;
       }
     }

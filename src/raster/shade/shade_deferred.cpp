@@ -35,6 +35,13 @@ int32_t* direct_codes(const Draw& draw, Tile& tile) {
   return is_single ? reinterpret_cast<int32_t*>(tile.color[0].bytes.data()) : nullptr;
 }
 
+// The same for other formats. Deferred draws replace all channels.
+template <class Statistics>
+WriteTarget direct_target(const Draw& draw, Tile& tile) {
+  if (kTraces<Statistics> || tile.color_count != 1 || draw.kernels.is_constant) return {};
+  return {write_programs(tile.color[0].format, {}).packet, &tile.color[0]};
+}
+
 // Shades the packets of one draw.
 template <class S>
 class DrawShading {
@@ -48,7 +55,9 @@ class DrawShading {
         draw_(draw),
         memory_(memory),
         statistics_(statistics),
-        codes_(direct_codes<Statistics>(draw, tile)) {}
+        codes_(direct_codes<Statistics>(draw, tile)) {
+    if (codes_ == nullptr && !job.spreads) target_ = direct_target<Statistics>(draw, tile);
+  }
 
   void shade(std::span<const PacketMask> packets) {
     const bool may_pack = !kTraces<Statistics> && !draw_.shades_samples && can_pack(draw_, tile_);
@@ -85,14 +94,16 @@ class DrawShading {
         {.context = &context_, .tile_x0 = tile_.x0 - plane.x, .tile_y0 = tile_.y0 - plane.y, .position = job_.position, .ids = job_.ids},
         &memory_.output};
     batch.codes = codes_ != nullptr && job_.spreads ? memory_.codes.data() : codes_;
-    const std::size_t max_count = batch.codes != nullptr && !needs_centroid ? packets.size() : static_cast<std::size_t>(kPacketBatch);
+    batch.target = target_;
+    const bool is_direct = batch.codes != nullptr || target_.program != nullptr;
+    const std::size_t max_count = is_direct && !needs_centroid ? packets.size() : static_cast<std::size_t>(kPacketBatch);
     for (; !packets.empty(); packets = packets.subspan(static_cast<std::size_t>(batch.count))) {
       batch.packets = packets.data();
       batch.count = static_cast<int>(std::min(packets.size(), max_count));
       if (needs_centroid) batch.centroids = find_centroids(batch, centroids);
       draw_.kernels.color(draw_.shader.get(), batch);
       const std::span<const PacketMask> shaded = packets.first(static_cast<std::size_t>(batch.count));
-      if (batch.codes == nullptr) {
+      if (!is_direct) {
         write(shaded);
       } else if (job_.spreads) {
         for (const PacketMask& p : shaded) spread_codes(p, load<Int>(&memory_.codes[static_cast<std::size_t>(p.packet) * kLanes]));
@@ -116,6 +127,8 @@ class DrawShading {
           job_.spreads ? spread_codes(p, code) : write_codes(p.packet, mask_from_bits<Mask>(p.lanes), code);
           pixel += static_cast<std::size_t>(std::popcount(p.lanes));
         }
+      } else if (target_.program != nullptr) {
+        write_packed(packed.output, packets.first(count), target_);
       } else {
         std::size_t pixel = 0;
         for (std::size_t done = 0; done < count; done += kPacketBatch) {
@@ -175,7 +188,8 @@ class DrawShading {
   const Draw& draw_;
   DeferredShading& memory_;
   Statistics& statistics_;
-  int32_t* codes_;  // colors of the tile, if the kernel can encode them
+  int32_t* codes_;      // colors of the tile, if the kernel can encode them
+  WriteTarget target_;  // the tile, if the kernel can write colors to it in another format
 };
 
 // Shades the work draw by draw, so that each shader runs on full batches. The order of the draws does not affect the result, because pixels
@@ -226,7 +240,8 @@ void shade_full_tile(const PassContext& context, TriangleId id, Tile& tile, Defe
                        .count = kPackets},
                       &memory.output,
                       direct_codes<Statistics>(draw, tile)};
-  if (batch.codes != nullptr) return draw.kernels.color(draw.shader.get(), batch);
+  if (batch.codes == nullptr) batch.target = direct_target<Statistics>(draw, tile);
+  if (batch.codes != nullptr || batch.target.program != nullptr) return draw.kernels.color(draw.shader.get(), batch);
   batch.count = kPacketBatch;
   for (std::size_t first = 0; first < kPackets; first += kPacketBatch) {
     batch.packets = &memory.packets[first];

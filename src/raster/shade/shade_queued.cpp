@@ -54,11 +54,38 @@ void finish_sample_batch(const Shading& c, PacketQueue& queue, std::size_t begin
   if (!c.draw.state.order_independent) write_queued(c, std::span(packets).first(n), &queue.ids[begin]);
 }
 
+// Returns the buffer to which the colors of the queue can be written directly, if no test follows the shader.
+template <class Shading>
+WriteTarget direct_target(const Shading& c) {
+  const bool is_single = c.tile.color_count == 1 && c.draw.kernels.color_count == 1;
+  const bool is_supported = !kTracesShading<Shading> && c.mode == VisibilityMode::early && !c.draw.kernels.is_constant;
+  if (!is_single || !is_supported) return {};
+  const AttachmentState state{blend_of(c.draw.state, 0), color_mask_of(c.draw.state, 0)};
+  return {write_programs(c.tile.color[0].format, state).packet, &c.tile.color[0], state};
+}
+
+// Writes the samples of n packets of the queue, which were shaded as packets 0, 1, ... of the output.
+void write_samples(const Tile& tile, const FragmentOutput& output, const PacketQueue& queue, std::size_t begin, std::size_t n,
+                   const WriteTarget& to) {
+  std::array<int, kMaxSamples> shift;
+  for (int s = 0; s < tile.samples; ++s) shift[static_cast<std::size_t>(s)] = packet_shift(sample_plane(tile.samples, s, tile.size));
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto [r, g, b, a] = output.packet_color(0, i);
+    for (std::size_t s = 0; s < static_cast<std::size_t>(tile.samples); ++s) {
+      const uint16_t lanes = queue.sample_lanes[begin + i][s];
+      const auto packet = static_cast<uint16_t>(queue.packets[begin + i].packet + shift[s]);
+      if (lanes != 0) to.program(*to.buffer, {packet, lanes}, to.state, r, g, b, a);
+    }
+  }
+}
+
 // Runs the late tests of packets that were shaded as packets 0, 1, ... of the output, and writes them. begin: position of the first packet
 // in the queue.
 template <class Shading>
 void finish_batch(const Shading& c, PacketQueue& queue, std::size_t begin, std::size_t n) {
   if (c.tile.samples > 1) {
+    if (const WriteTarget target = direct_target(c); target.program != nullptr)
+      return write_samples(c.tile, c.output, queue, begin, n, target);
     for (int s = 0; s < c.tile.samples; ++s) finish_sample_batch(c, queue, begin, n, s);
     return;
   }
@@ -75,22 +102,12 @@ void trace_queued(const Shading& c, const PacketQueue& queue, std::size_t k, std
   for (int s = 0; s < c.tile.samples; ++s) trace_shaded(c, c.output, i, queue.sample(c.tile, k, s), queue.ids[k]);
 }
 
-// Returns the buffer into which the kernel can blend the colors of the queue, if no test follows.
-template <class Shading>
-BlendTarget direct_blend(const Shading& c) {
-  const std::optional<BlendState>& blend = blend_of(c.draw.state, 0);
-  const bool is_single = c.tile.samples == 1 && c.tile.color_count == 1 && c.draw.kernels.color_count == 1;
-  const bool is_supported = !kTracesShading<Shading> && c.mode == VisibilityMode::early && !c.draw.kernels.is_constant;
-  if (!is_single || !is_supported || !blend || !color_mask_of(c.draw.state, 0).all()) return {};
-  return {blend_programs(c.tile.color[0].format, *blend).packet, &c.tile.color[0], &*blend};
-}
-
 // Shades packets of the queue as they are. Returns their number.
 template <class Shading>
 std::size_t shade_batch(const Shading& c, PacketQueue& queue, std::size_t begin) {
-  if (const BlendTarget blend = direct_blend(c); blend.program != nullptr) {
+  if (const WriteTarget target = direct_target(c); c.tile.samples == 1 && target.program != nullptr) {
     const std::size_t rest = static_cast<std::size_t>(queue.count) - begin;
-    c.draw.kernels.fragment(c.draw.shader.get(), {queue.batch(c.context, c.tile, begin, rest), &c.output, nullptr, blend});
+    c.draw.kernels.fragment(c.draw.shader.get(), {queue.batch(c.context, c.tile, begin, rest), &c.output, nullptr, target});
     return rest;
   }
   const std::size_t n = std::min(std::size_t{kPacketBatch}, static_cast<std::size_t>(queue.count) - begin);
@@ -105,24 +122,14 @@ std::size_t shade_batch(const Shading& c, PacketQueue& queue, std::size_t begin)
   return n;
 }
 
-// Blends the colors of packed pixels into the packets to which they belong.
-void blend_packed(const FragmentOutput& packed, std::span<const PacketMask> packets, const BlendTarget& to) {
-  std::size_t pixel = 0;
-  for (const PacketMask& p : packets) {
-    const auto channel = [&](std::size_t c) { return unpack_values(packed.color_plane(0, c), pixel, p.lanes); };
-    to.program(*to.buffer, p, *to.state, channel(0), channel(1), channel(2), channel(3));
-    pixel += static_cast<std::size_t>(std::popcount(p.lanes));
-  }
-}
-
 // The same as shade_batch(), but packs the pixels first.
 template <class Shading>
 std::size_t shade_packed(const Shading& c, PacketQueue& queue, std::size_t begin, PackedFragments& packed) {
   const std::span<const PacketMask> packets(&queue.packets[begin], static_cast<std::size_t>(queue.count) - begin);
   const std::size_t count = pack(packets, &queue.ids[begin], packed.pixels);
   c.draw.kernels.fragment(c.draw.shader.get(), {packed.pixels.batch(c.context, c.tile), &packed.output});
-  if (const BlendTarget blend = direct_blend(c); blend.program != nullptr) {
-    blend_packed(packed.output, packets.first(count), blend);
+  if (const WriteTarget target = direct_target(c); c.tile.samples == 1 && target.program != nullptr) {
+    write_packed(packed.output, packets.first(count), target);
     return count;
   }
   for (std::size_t done = 0, pixel = 0; done < count;) {

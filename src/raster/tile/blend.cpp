@@ -2,20 +2,12 @@
 #include "halfspace/raster/tile/blend.h"
 
 #include "halfspace/raster/tile/blend_formulas.h"
-#include "halfspace/raster/tile/blend_programs.h"
+#include "halfspace/raster/tile/write_programs.h"
 #include "halfspace/raster/tile/tile_format.h"
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
-
-// Returns the codes in `codes` for the enabled channels, and those in `old` for the others.
-Int merged_codes(Int codes, Int old, const ColorMask& channels) {
-  uint32_t kept = 0;
-  for (int k = 0; k < 4; ++k) kept |= channels[k] ? 0u : 0xffu << (8 * k);
-  const Int keep(static_cast<int32_t>(kept));
-  return (old & keep) | (codes & ~keep);
-}
 
 // Writes a format with one to three 32-bit channels.
 void write_narrow(ColorBuffer& buffer, std::size_t first, Mask mask, const PacketColor& c, const ColorMask& channels) {
@@ -23,14 +15,6 @@ void write_narrow(ColorBuffer& buffer, std::size_t first, Mask mask, const Packe
     if (!channels[k]) continue;
     float* to = plane<float>(buffer, k) + first;
     store(to, select(mask, c[static_cast<std::size_t>(k)], load<Real>(to)));
-  }
-}
-
-template <ColorFormat format>
-void replace_packed(ColorBuffer& buffer, std::span<const PacketMask> packets, const PacketColor* src) {
-  for (std::size_t i = 0; i < packets.size(); ++i) {
-    write_codes(buffer, static_cast<std::size_t>(packets[i].packet) * kLanes, mask_from_bits<Mask>(packets[i].lanes),
-                packed_codes<format>(src[i]));
   }
 }
 
@@ -84,7 +68,7 @@ void write_color(ColorBuffer& buffer, int packet, Mask mask, const PacketColor& 
     if (!state.mask[k]) continue;
     const Real value = c[static_cast<std::size_t>(k)];
     if (buffer.format == ColorFormat::rgba16f) {
-      store_halves(plane<uint16_t>(buffer, k) + first, Int(float_to_finite_half(value)), mask);
+      store_halves(plane<uint16_t>(buffer, k) + first, value, mask);
     } else {
       float* to = plane<float>(buffer, k) + first;
       store(to, select(mask, value, load<Real>(to)));
@@ -94,14 +78,7 @@ void write_color(ColorBuffer& buffer, int packet, Mask mask, const PacketColor& 
 
 void write_batch(ColorBuffer& buffer, std::span<const PacketMask> packets, const PacketColor* src, const PacketColor* src1,
                  const AttachmentState& state) {
-  if (!state.blend && state.mask.all()) {
-    if (buffer.format == ColorFormat::rgba8) return replace_packed<ColorFormat::rgba8>(buffer, packets, src);
-    if (buffer.format == ColorFormat::srgb8a8) return replace_packed<ColorFormat::srgb8a8>(buffer, packets, src);
-  }
-  if (state.blend && state.mask.all()) {
-    if (const BlendProgram program = blend_programs(buffer.format, *state.blend).batch)
-      return program(buffer, packets, src, src1, *state.blend);
-  }
+  if (const WriteProgram program = write_programs(buffer.format, state).batch) return program(buffer, packets, src, src1, state);
   for (std::size_t i = 0; i < packets.size(); ++i)
     write_color(buffer, packets[i].packet, mask_from_bits<Mask>(packets[i].lanes), src[i], src1[i], state);
 }

@@ -74,12 +74,90 @@ inline BlendOperation operation_of(const BlendState& s) {
   return {s.color_equation, s.alpha_equation, {s.source_color, s.destination_color, s.source_alpha, s.destination_alpha}};
 }
 
+/// An operation that is not known when the formulas are compiled. They have no branches that depend on its factors.
+struct AnyOperation : BlendOperation {};
+
 /// Returns the blended color, before it is clamped. src and dst can have any unit; the colors in `from` are linear.
 HS_INLINE PacketColor blend_sums(const BlendOperation& o, const PacketColor& src, const PacketColor& dst, const BlendSources& from) {
   PacketColor out;
   for (std::size_t k = 0; k < 4; ++k) {
     const Real source = blend_factor(k == 3 ? o.factors.source_alpha : o.factors.source_color, from, k);
     const Real destination = blend_factor(k == 3 ? o.factors.destination_alpha : o.factors.destination_color, from, k);
+    out[k] = blend_sum(k == 3 ? o.alpha_equation : o.color_equation, src[k], source, dst[k], destination);
+  }
+  return out;
+}
+
+namespace detail {
+
+/// A factor as operand · scale + offset. The result is exact: either the operand, or 1 minus the operand with a single rounding.
+struct FactorTerm {
+  std::size_t operand;  ///< index into FactorOperands
+  float scale, offset;  ///< 1 and −0, or −1 and 1
+};
+/// The operands of factors: 0, 1, min(source alpha, 1 − destination alpha), and the channels of src, dst, src1 and constant.
+using FactorOperands = std::array<Real, 19>;
+
+constexpr FactorTerm factor_term(BlendFactor f, std::size_t k) {
+  using enum BlendFactor;
+  constexpr std::size_t src = 3, dst = 7, src1 = 11, constant = 15, alpha = 3;
+  const auto plain = [](std::size_t operand) { return FactorTerm{operand, 1.0f, -0.0f}; };
+  const auto complement = [](std::size_t operand) { return FactorTerm{operand, -1.0f, 1.0f}; };
+  switch (f) {
+    case zero: return plain(0);
+    case one: return plain(1);
+    case src_color: return plain(src + k);
+    case one_minus_src_color: return complement(src + k);
+    case dst_color: return plain(dst + k);
+    case one_minus_dst_color: return complement(dst + k);
+    case src_alpha: return plain(src + alpha);
+    case one_minus_src_alpha: return complement(src + alpha);
+    case dst_alpha: return plain(dst + alpha);
+    case one_minus_dst_alpha: return complement(dst + alpha);
+    case constant_color: return plain(constant + k);
+    case one_minus_constant_color: return complement(constant + k);
+    case constant_alpha: return plain(constant + alpha);
+    case one_minus_constant_alpha: return complement(constant + alpha);
+    case src_alpha_saturate: return plain(k == alpha ? 1 : 2);
+    case src1_color: return plain(src1 + k);
+    case one_minus_src1_color: return complement(src1 + k);
+    case src1_alpha: return plain(src1 + alpha);
+    case one_minus_src1_alpha: return complement(src1 + alpha);
+  }
+  return plain(1);
+}
+inline constexpr std::size_t kFactorCount = static_cast<std::size_t>(BlendFactor::one_minus_src1_alpha) + 1;
+inline constexpr auto kFactorTerms = [] {
+  std::array<std::array<FactorTerm, 4>, kFactorCount> terms{};
+  for (std::size_t f = 0; f < kFactorCount; ++f) {
+    for (std::size_t k = 0; k < 4; ++k) terms[f][k] = factor_term(static_cast<BlendFactor>(f), k);
+  }
+  return terms;
+}();
+
+HS_INLINE FactorOperands factor_operands(const BlendSources& s) {
+  FactorOperands operands{Real(0.0f), Real(1.0f), min(s.src[3], Real(1.0f) - s.dst[3])};
+  for (std::size_t k = 0; k < 4; ++k) {
+    operands[3 + k] = s.src[k];
+    operands[7 + k] = s.dst[k];
+    operands[11 + k] = s.clamped(s.src1[k]);
+    operands[15 + k] = s.clamped(Real(s.constant[static_cast<int>(k)]));
+  }
+  return operands;
+}
+
+}  // namespace detail
+
+HS_INLINE PacketColor blend_sums(const AnyOperation& o, const PacketColor& src, const PacketColor& dst, const BlendSources& from) {
+  const detail::FactorOperands operands = detail::factor_operands(from);
+  const auto factor = [&](BlendFactor f, std::size_t k) {
+    const detail::FactorTerm& term = detail::kFactorTerms[static_cast<std::size_t>(f)][k];
+    return fma(operands[term.operand], Real(term.scale), Real(term.offset));
+  };
+  PacketColor out;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Real source = factor(k == 3 ? o.factors.source_alpha : o.factors.source_color, k);
+    const Real destination = factor(k == 3 ? o.factors.destination_alpha : o.factors.destination_color, k);
     out[k] = blend_sum(k == 3 ? o.alpha_equation : o.color_equation, src[k], source, dst[k], destination);
   }
   return out;
@@ -96,7 +174,12 @@ constexpr bool can_exceed_one(const BlendOperation& o, bool alpha) {
   return !(destination == one_minus_constant_color && source == constant_color);
 }
 /// Returns true if the blended value of a channel with values in [0, 1] can be negative.
-constexpr bool can_be_negative(BlendEquation e) { return e == BlendEquation::subtract || e == BlendEquation::reverse_subtract; }
+constexpr bool can_be_negative(const BlendOperation& o, bool alpha) {
+  const BlendEquation e = alpha ? o.alpha_equation : o.color_equation;
+  return e == BlendEquation::subtract || e == BlendEquation::reverse_subtract;
+}
+constexpr bool can_exceed_one(const AnyOperation&, bool) { return true; }
+constexpr bool can_be_negative(const AnyOperation&, bool) { return true; }
 
 /// Clamps the source color of a fixed-point format, which must precede blending (OpenGL 4.6, section 17.3.6).
 HS_INLINE PacketColor clamped_color(PacketColor c) {
@@ -105,7 +188,8 @@ HS_INLINE PacketColor clamped_color(PacketColor c) {
 }
 
 /// Returns the color that blending writes to a buffer that is not rgba8, before it is clamped. dst: the existing color.
-HS_INLINE PacketColor blended_color(const BlendOperation& o, const PacketColor& dst, bool fixed_point, const PacketColor& src,
+template <class Operation>
+HS_INLINE PacketColor blended_color(const Operation& o, const PacketColor& dst, bool fixed_point, const PacketColor& src,
                                     const PacketColor& src1, const glm::vec4& constant) {
   const PacketColor in_range = fixed_point ? clamped_color(src) : src;
   return blend_sums(o, in_range, dst, {in_range, dst, src1, constant, fixed_point});
@@ -115,7 +199,8 @@ HS_INLINE PacketColor blended_color(const BlendOperation& o, const PacketColor& 
 /// Blends in units of codes: the existing codes are exact, and the sum only needs to be rounded to an integer. Before that, it differs from
 /// the exact sum by at most 1e-4: 2^-24 times 255 for the source in codes, for its product with the factor, and for each factor, and 2^-24
 /// times 510 for the sum.
-HS_INLINE Int blended_codes(const BlendOperation& o, const ColorBuffer& buffer, std::size_t first, const PacketColor& linear,
+template <class Operation>
+HS_INLINE Int blended_codes(const Operation& o, const ColorBuffer& buffer, std::size_t first, const PacketColor& linear,
                             const PacketColor& src1, const glm::vec4& constant) {
   const Int codes = read_codes(buffer, first);
   const PacketColor src = clamped_color(linear);
@@ -128,7 +213,7 @@ HS_INLINE Int blended_codes(const BlendOperation& o, const ColorBuffer& buffer, 
   PacketColor out = blend_sums(o, src_codes, dst_codes, {src, dst, src1, constant, true});
   for (std::size_t k = 0; k < 4; ++k) {
     if (can_exceed_one(o, k == 3)) out[k] = min(out[k], Real(255.0f));
-    if (can_be_negative(k == 3 ? o.alpha_equation : o.color_equation)) out[k] = max(out[k], Real(0.0f));
+    if (can_be_negative(o, k == 3)) out[k] = max(out[k], Real(0.0f));
   }
   return pack_rounded(out);
 }

@@ -39,31 +39,37 @@ HS_INLINE Int encode8(ColorFormat format, Real value, bool alpha) {
   return format == ColorFormat::srgb8a8 && !alpha ? linear_to_srgb(value) : linear_to_unorm8(value);
 }
 
-template <class I>
-HS_INLINE I load_halves(const uint16_t* p) {
-  if constexpr (std::is_same_v<I, int32_t>) {
-    return *p;
+/// Loads the halves of a packet as floats. R: Real.
+template <class R>
+HS_INLINE R load_halves(const uint16_t* p) {
+  if constexpr (std::is_same_v<R, float>) {
+    return half_to_float(*p);
+#if defined(__F16C__) && defined(__AVX2__)
+  } else if constexpr (kLanes == 8) {
+    return R((typename R::V)_mm256_cvtph_ps(load<__m128i>(p)));  // without widening to 32-bit integers
+#endif
   } else {
     using Halves __attribute__((vector_size(2 * kLanes))) = uint16_t;
-    return I(__builtin_convertvector(load<Halves>(p), typename I::V));
+    return half_to_float(Int(__builtin_convertvector(load<Halves>(p), typename Int::V)));
   }
 }
-template <class I>
-HS_INLINE Real decode_halves(I h) {
-  if constexpr (std::is_same_v<I, int32_t>) {
-    return half_to_float(static_cast<uint16_t>(h));
-  } else {
-    return half_to_float(h);
-  }
-}
-template <class I, class M>
-HS_INLINE void store_halves(uint16_t* p, I h, M mask) {
-  if constexpr (std::is_same_v<I, int32_t>) {
-    if (any(mask)) *p = static_cast<uint16_t>(h);
+/// Stores the nearest finite halves of the lanes in mask. R: Real.
+template <class R>
+HS_INLINE void store_halves(uint16_t* p, R x, MaskOf<R> mask) {
+  if constexpr (std::is_same_v<R, float>) {
+    if (mask) *p = float_to_finite_half(x);
+#if defined(__F16C__) && defined(__AVX2__)
+  } else if constexpr (kLanes == 8) {
+    const __m128i halves = _mm256_cvtps_ph((__m256)finite_half_range(x).v, _MM_FROUND_TO_NEAREST_INT);
+    const __m256i lanes = (__m256i)mask.v;
+    const __m128i written = _mm_packs_epi32(_mm256_castsi256_si128(lanes), _mm256_extracti128_si256(lanes, 1));
+    store(p, _mm_blendv_epi8(load<__m128i>(p), halves, written));
+#endif
   } else {
     using Halves __attribute__((vector_size(2 * kLanes))) = uint16_t;
+    const Halves halves = __builtin_convertvector(float_to_finite_half(x).v, Halves);
     const Halves lanes = __builtin_convertvector(mask.v, Halves), old = load<Halves>(p);
-    store(p, (__builtin_convertvector(h.v, Halves) & lanes) | (old & ~lanes));
+    store(p, (halves & lanes) | (old & ~lanes));
   }
 }
 
@@ -95,6 +101,12 @@ HS_INLINE Int packed_codes(const PacketColor& c) {
 HS_INLINE Int read_codes(const ColorBuffer& buffer, std::size_t first) { return load<Int>(plane<int32_t>(buffer, 0) + first); }
 /// Returns one channel of packed codes, from 0 to 255.
 HS_INLINE Int code_of(Int codes, int channel) { return (codes >> (8 * channel)) & Int(0xff); }
+/// Returns the codes in `codes` for the enabled channels, and those in `old` for the others.
+HS_INLINE Int merged_codes(Int codes, Int old, const ColorMask& channels) {
+  const auto kept = [&](int k) { return channels[k] ? 0u : 0xffu << (8 * k); };
+  const Int keep(static_cast<int32_t>(kept(0) | kept(1) | kept(2) | kept(3)));
+  return (old & keep) | (codes & ~keep);
+}
 /// Writes packed codes to the lanes in mask.
 HS_INLINE void write_codes(ColorBuffer& buffer, std::size_t first, Mask mask, Int codes) {
   int32_t* to = plane<int32_t>(buffer, 0) + first;
@@ -109,7 +121,7 @@ HS_INLINE Real read_channel(const ColorBuffer& buffer, std::size_t first, int k)
   } else if constexpr (format == ColorFormat::rgba32f) {
     return load<Real>(plane<float>(buffer, k) + first);
   } else if constexpr (format == ColorFormat::rgba16f) {
-    return decode_halves(load_halves<Int>(plane<uint16_t>(buffer, k) + first));
+    return load_halves<Real>(plane<uint16_t>(buffer, k) + first);
   } else {
     return decode8(format, code_of(read_codes(buffer, first), k), k == 3);
   }
