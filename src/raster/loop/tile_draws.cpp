@@ -164,6 +164,9 @@ class TileDraws {
       if (is_small_triangle(t)) return rasterize_small(d, chunk, {&index, 1}, statistics_);
       return rasterize_opaque(d, t, triangle_id(chunk, index), statistics_);
     }
+    if constexpr (!kTraces<Statistics>) {
+      if (d.rasterizer == Rasterizer::stencil) return rasterize_with_stencil(d, t, triangle_id(chunk, index), statistics_);
+    }
     if (d.rasterizer == Rasterizer::queued) {
       rasterize_queued(d, t, triangle_id(chunk, index), memory_.queue, statistics_);
       if (memory_.queue.is_full()) finish_queue(d);

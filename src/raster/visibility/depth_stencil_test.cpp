@@ -41,4 +41,20 @@ void update_stencil(const StencilFace& face, Tile& tile, int packet, Mask failed
   store_u8(&tile.stencil[static_cast<std::size_t>(packet) * kLanes], value);
 }
 
+StencilDepthTest test_and_update_stencil(const StencilFace& face, Tile& tile, int packet, Mask mask, bool tests_depth, CompareOp op,
+                                         Real z) {
+  const Mask stencil_passed = stencil_test(face, tile, packet, mask);
+  Mask passed = stencil_passed;
+  if (tests_depth) passed = passed & compare(op, z, load<Real>(&tile.depth[static_cast<std::size_t>(packet) * kLanes]));
+  update_stencil(face, tile, packet, mask & !stencil_passed, stencil_passed & !passed, passed);
+  return {stencil_passed, passed};
+}
+
+bool updates_stencil(const DrawState& state) {
+  const auto updates = [](const StencilFace& f) {
+    return f.write_mask != 0 && (f.fail != StencilOp::keep || f.depth_fail != StencilOp::keep || f.pass != StencilOp::keep);
+  };
+  return updates(state.stencil->front) || updates(state.stencil->back);
+}
+
 }  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -31,9 +31,23 @@ Mask stencil_test(const StencilFace& face, const Tile& tile, int packet, Mask ma
 /// failed the depth test, and lanes that passed both tests.
 void update_stencil(const StencilFace& face, Tile& tile, int packet, Mask failed, Mask depth_failed, Mask passed);
 
+/// The lanes of a packet that pass the stencil test, and those of them that also pass the depth test.
+struct StencilDepthTest {
+  Mask stencil_passed, passed;
+};
+/// Runs the stencil test and, if tests_depth, the depth test for the lanes in mask, and updates the stencil values. z: depth of the
+/// fragments, represented as in Tile::depth.
+StencilDepthTest test_and_update_stencil(const StencilFace& face, Tile& tile, int packet, Mask mask, bool tests_depth, CompareOp op, Real z);
+
+/// Returns true if a draw has a stencil test in this tile.
+inline bool tests_stencil(const DrawState& state, const Tile& tile) { return state.stencil && tile.has_stencil; }
+
+/// Returns true if the stencil test of a draw may change stencil values. The state must have a stencil test.
+bool updates_stencil(const DrawState& state);
+
 /// Returns the stencil state of a face, or null if the draw has no stencil test in this tile.
 inline const StencilFace* stencil_face(const DrawState& state, const Tile& tile, bool front_facing) {
-  if (!state.stencil || !tile.has_stencil) return nullptr;
+  if (!tests_stencil(state, tile)) return nullptr;
   return front_facing ? &state.stencil->front : &state.stencil->back;
 }
 

@@ -22,12 +22,13 @@ inline bool lists_undecided(const DrawInTile& d) {
 }
 
 /// Queues the packets of a draw. In VisibilityMode::early, depth is tested and written before a packet is queued. In all other modes, depth
-/// is tested after the shader; lanes that already fail the test are dropped if they cannot pass it later. In a multisampled tile, begin()
-/// and begin_sample() must be called before the packets of each sample of a triangle. undecided: compiled for draws with lists_undecided().
+/// is tested after the shader; lanes that already fail the test are dropped if they cannot pass it later. begin() must be called
+/// before each triangle, and in a multisampled tile begin_sample() before the packets of each of its samples. undecided: compiled for draws with lists_undecided().
 template <class S, bool multisampled, bool undecided = false>
 class ListWriter {
  public:
   using Statistics = S;
+  static constexpr bool kTestsStencil = false;
 
   ListWriter(const DrawInTile& d, PacketQueue& queue, Statistics& statistics)
       : tile_(d.tile),
@@ -46,9 +47,11 @@ class ListWriter {
   CompareOp compare_op() const { return undecided ? CompareOp::less : compare_; }
 
   /// Starts a triangle.
-  void begin() { first_ = queue_.count; }
+  void begin(const Triangle&) { first_ = queue_.count; }
   /// Starts a sample of the triangle.
-  void begin_sample(int sample) {
+  void begin_sample(int sample)
+    requires multisampled
+  {
     sample_ = static_cast<std::size_t>(sample);
     shift_ = packet_shift(sample_plane(tile_.samples, sample, tile_.size));
   }
@@ -93,6 +96,20 @@ class ListWriter {
     add(id, packet, kAllBits<Mask>, z);
   }
 
+ protected:
+  // Adds lanes that passed all tests before the shader.
+  HS_INLINE void add(TriangleId id, int packet, uint32_t lanes, const Real& z) {
+    if (is_final()) statistics_.samples_passed += static_cast<uint64_t>(std::popcount(lanes));
+    if constexpr (multisampled) return add_sample(id, packet - shift_, lanes, z);
+    const auto i = static_cast<std::size_t>(queue_.count);
+    queue_.packets[i] = {static_cast<uint16_t>(packet), static_cast<uint16_t>(lanes)};
+    queue_.ids[i] = id;
+    if (lists_depth()) queue_.depth[i] = z;
+    queue_.count += lanes != 0 ? 1 : 0;
+  }
+
+  Tile& tile_;
+
  private:
   // Returns true if the depth test before the shader is the only one.
   bool is_final() const { return !undecided && tests_early_; }
@@ -109,15 +126,6 @@ class ListWriter {
   /// Returns true if a fragment that fails the test would also fail it after other fragments of the draw have been written.
   static bool fails_for_good(CompareOp op) { return op != CompareOp::not_equal && op != CompareOp::always; }
 
-  HS_INLINE void add(TriangleId id, int packet, uint32_t lanes, const Real& z) {
-    if (is_final()) statistics_.samples_passed += static_cast<uint64_t>(std::popcount(lanes));
-    if constexpr (multisampled) return add_sample(id, packet - shift_, lanes, z);
-    const auto i = static_cast<std::size_t>(queue_.count);
-    queue_.packets[i] = {static_cast<uint16_t>(packet), static_cast<uint16_t>(lanes)};
-    queue_.ids[i] = id;
-    if (lists_depth()) queue_.depth[i] = z;
-    queue_.count += lanes != 0 ? 1 : 0;
-  }
   /// Adds the current sample of the pixels of a packet, which the triangle may already have in the queue for other samples.
   HS_INLINE void add_sample(TriangleId id, int packet, uint32_t lanes, const Real& z) {
     if (lanes == 0) return;
@@ -151,7 +159,6 @@ class ListWriter {
     if (lists_depth()) set_lane(queue_.depth[i], lane, z);
   }
 
-  Tile& tile_;
   PacketQueue& queue_;
   Statistics& statistics_;
   CompareOp compare_;

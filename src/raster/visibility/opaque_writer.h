@@ -24,6 +24,7 @@ template <class S, bool nearest = false>
 class OpaqueWriter {
  public:
   using Statistics = S;
+  static constexpr bool kTestsStencil = false;
 
   OpaqueWriter(const DrawInTile& d, Statistics& statistics)
       : tile_(d.tile),

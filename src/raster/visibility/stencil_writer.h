@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Tests and writes the pixels of small triangles with a stencil test. Replaces OpaqueWriter in the loop
-// over small triangles.
+// Tests and writes triangles with a stencil test. Replaces OpaqueWriter in the loops over packets.
 #pragma once
 
 #include <bit>
@@ -12,10 +11,11 @@
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
 
-/// For draws with one sample per pixel whose visibility depends only on coverage, the depth test and the stencil test.
+/// For draws whose visibility depends only on coverage, the depth test and the stencil test (Rasterizer::stencil).
 class StencilWriter {
  public:
   using Statistics = PassStatistics;
+  static constexpr bool kTestsStencil = true;
 
   StencilWriter(const DrawInTile& d, PassStatistics& statistics)
       : draw_(d.draw),
@@ -25,7 +25,8 @@ class StencilWriter {
         writes_depth_(d.tests && d.draw.state.depth.write),
         writes_id_(d.mode == VisibilityMode::deferred) {}
 
-  // Returns true if fragments that fail the depth test have no effect.
+  PassStatistics& statistics() const { return statistics_; }
+  /// Returns true if fragments that fail the depth test have no effect.
   bool tests() const { return tests_ && face_->fail == StencilOp::keep && face_->depth_fail == StencilOp::keep; }
   bool writes_depth() const { return writes_depth_; }
   CompareOp compare_op() const { return draw_.state.depth.compare; }
@@ -35,16 +36,14 @@ class StencilWriter {
 
   /// See OpaqueWriter.
   template <class Z>
-  HS_INLINE bool write(TriangleId id, int packet, uint32_t covered, const Z& z_at) {
+  HS_INLINE bool write(TriangleId id, int packet, uint32_t covered, const Z& z_at, [[maybe_unused]] bool passes = false) {
     statistics_.samples_tested += static_cast<uint64_t>(std::popcount(covered));
     const std::size_t first = static_cast<std::size_t>(packet) * kLanes;
-    const Mask mask = mask_from_bits<Mask>(covered), stencil_passed = stencil_test(*face_, tile_, packet, mask);
-    const Real z = tests_ ? z_at() : Real(0.0f), stored = tests_ ? load<Real>(&tile_.depth[first]) : Real(0.0f);
-    const Mask passed = tests_ ? stencil_passed & compare(compare_op(), z, stored) : stencil_passed;
-    update_stencil(*face_, tile_, packet, mask & !stencil_passed, stencil_passed & !passed, passed);
+    const Real z = tests_ ? z_at() : Real(0.0f);
+    const Mask passed = test_and_update_stencil(*face_, tile_, packet, mask_from_bits<Mask>(covered), tests_, compare_op(), z).passed;
     const uint32_t lanes = bits(passed);
     statistics_.samples_passed += static_cast<uint64_t>(std::popcount(lanes));
-    if (writes_depth_) store(&tile_.depth[first], select(passed, z, stored));
+    if (writes_depth_) store(&tile_.depth[first], select(passed, z, load<Real>(&tile_.depth[first])));
     if (writes_id_) {
       TriangleId* ids = &tile_.visibility[first];
       store(ids, select(passed, Int(std::bit_cast<int32_t>(id)), load<Int>(ids)));

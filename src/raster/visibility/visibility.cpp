@@ -28,11 +28,12 @@ VisibilityMode visibility_mode(const Draw& draw) {
 
 namespace {
 
-// Returns true if a deferred draw benefits from prefetching its vertices. Triangles that share vertices do, because each vertex is used
-// several times. Points do, because the points of a tile are scattered in memory.
-bool fetches_vertices_ahead(const Draw& draw) {
-  if (draw.kernels.fragment == nullptr || draw.kernels.varying_count == 0) return false;
-  return draws_points(draw.state) || draw.indices->used_count() < draw.primitive_count;
+// Returns true if a draw benefits from prefetching its vertices. Triangles that are shaded immediately do, because the shader reads their
+// vertices soon. In deferred draws, triangles that share vertices do, because each vertex is used several times. Points do, because the
+// points of a tile are scattered in memory.
+bool fetches_vertices_ahead(const Draw& draw, VisibilityMode mode) {
+  if (mode == VisibilityMode::depth_only || draw.kernels.fragment == nullptr || draw.kernels.varying_count == 0) return false;
+  return mode != VisibilityMode::deferred || draws_points(draw.state) || draw.indices->used_count() < draw.primitive_count;
 }
 
 // Returns true if the shader's visibility function must be called before the fragment function.
@@ -44,9 +45,11 @@ bool must_run_visibility_function(const Draw& draw, VisibilityMode mode) {
 
 Rasterizer choose_rasterizer(const Draw& draw, VisibilityMode mode, const Tile& tile) {
   const bool shader_decides = !shades_later(mode) || must_run_visibility_function(draw, mode);
-  if (draw.state.stencil && tile.has_stencil) return !shader_decides && tile.samples == 1 ? Rasterizer::stencil : Rasterizer::general;
-  if (!shader_decides) return Rasterizer::opaque;
-  return tile.samples == 1 || !draw.shades_samples ? Rasterizer::queued : Rasterizer::general;
+  if (!shader_decides) return tests_stencil(draw.state, tile) ? Rasterizer::stencil : Rasterizer::opaque;
+  if (tile.samples > 1 && draw.shades_samples) return Rasterizer::general;
+  // If the shader decides which fragments update the stencil values, the stencil test must wait for the shader.
+  const bool postpones_stencil = tests_stencil(draw.state, tile) && mode != VisibilityMode::early && updates_stencil(draw.state);
+  return postpones_stencil ? Rasterizer::general : Rasterizer::queued;
 }
 
 DrawInTile::DrawInTile(const PassContext& f, const Draw& d, VisibilityMode m, Tile& t)
@@ -60,7 +63,7 @@ DrawInTile::DrawInTile(const PassContext& f, const Draw& d, VisibilityMode m, Ti
       needs_bounds_test(bounds != PixelBounds{t.x0, t.y0, t.x0 + t.size, t.y0 + t.size}),
       tests(tests_depth(d.state.depth, t)),
       runs_visibility_function(must_run_visibility_function(d, m)),
-      fetches_vertices(m == VisibilityMode::deferred && fetches_vertices_ahead(d)) {}
+      fetches_vertices(fetches_vertices_ahead(d, m)) {}
 
 Mask depth_test(const DepthState& state, const Tile& tile, int packet, Real z, Mask mask) {
   if (!tests_depth(state, tile)) return mask;

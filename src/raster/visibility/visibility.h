@@ -45,8 +45,8 @@ VisibilityMode visibility_mode(const Draw& draw);
 /// The functions that rasterize the triangles of a draw in a tile, by what determines visibility.
 enum class Rasterizer : uint8_t {
   opaque,   ///< only coverage and depth: rasterize_opaque()
-  stencil,  ///< coverage, depth and the stencil test, with one sample per pixel: rasterize_small_with_stencil() or rasterize()
-  queued,   ///< the shader, which runs per pixel, without a stencil test: rasterize_queued()
+  stencil,  ///< coverage, depth and the stencil test: rasterize_with_stencil(), or rasterize() if fragments are traced
+  queued,   ///< the shader, which runs per pixel, and a stencil test that can precede it: rasterize_queued()
   general   ///< all other draws: rasterize()
 };
 
@@ -66,19 +66,20 @@ struct DrawInTile {
   bool needs_bounds_test;         ///< covered pixels of the tile can be outside bounds
   bool tests;                     ///< depth is tested, before or after shading
   bool runs_visibility_function;  ///< the shader's visibility function must be called
-  bool fetches_vertices;          ///< prefetch vertices: they belong to points, or are shared by several triangles
+  bool fetches_vertices;          ///< prefetch vertices
 };
 
 // Statistics is PassStatistics, or TracedStatistics, which traces fragments (raster/trace/tile_trace.h).
 
-/// Rasterizes triangle `index` of chunk `chunk` in the tile (visibility_general.cpp). For Rasterizer::stencil and general. list may only be
-/// null if shades_later(d.mode).
+/// Rasterizes triangle `index` of chunk `chunk` in the tile (visibility_general.cpp). list may only be null if shades_later(d.mode).
 template <class Statistics>
 void rasterize(const DrawInTile& d, uint32_t chunk, uint32_t index, CoverageList* list, Statistics& statistics);
 
 /// The same for a triangle of an opaque draw (visibility_blocks.cpp).
 template <class Statistics>
 void rasterize_opaque(const DrawInTile& d, const Triangle& t, TriangleId id, Statistics& statistics);
+/// The same for a draw with Rasterizer::stencil.
+void rasterize_with_stencil(const DrawInTile& d, const Triangle& t, TriangleId id, PassStatistics& statistics);
 /// The same for a triangle of a queued draw. Its packets are listed in the queue until the shader runs.
 template <class Statistics>
 void rasterize_queued(const DrawInTile& d, const Triangle& t, TriangleId id, PacketQueue& queue, Statistics& statistics);
@@ -94,9 +95,11 @@ template <class Statistics>
 std::size_t rasterize_small_queued(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, PacketQueue& queue,
                                    Statistics& statistics);
 
-/// rasterize_small() and rasterize_small_queued() for a multisampled tile (visibility_samples.cpp).
+/// The same three functions for a multisampled tile (visibility_samples.cpp).
 template <class Statistics>
 void rasterize_small_samples(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, Statistics& statistics);
+void rasterize_small_samples_with_stencil(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices,
+                                          PassStatistics& statistics);
 template <class Statistics>
 std::size_t rasterize_small_samples_queued(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, PacketQueue& queue,
                                            Statistics& statistics);

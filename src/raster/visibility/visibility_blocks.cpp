@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Visibility of draws where only coverage and depth determine visibility, and of queued draws. The results are the same as those of
+// Visibility of draws where only coverage, depth and the stencil test determine visibility, and of queued draws. The results are the same as those of
 // visibility_general.cpp, which supports all draws. Most small triangles are drawn by visibility_small.cpp and visibility_samples.cpp.
 #include <algorithm>
 
 #include "halfspace/raster/pipeline/pixel_box.h"
 #include "halfspace/raster/visibility/list_writer.h"
 #include "halfspace/raster/visibility/opaque_writer.h"
+#include "halfspace/raster/visibility/stencil_list_writer.h"
+#include "halfspace/raster/visibility/stencil_writer.h"
 #include "halfspace/raster/visibility/thin_line.h"
 #include "halfspace/raster/visibility/trace_rejected.h"
 
@@ -106,13 +108,15 @@ void rasterize_blocks(const DrawInTile& d, const Triangle& t, const TileEdges& t
       }
       const bool is_cut = needs_bounds_test && !contains_block(rect, x, y);
       const bool passes = test == BlockTest::all_pass;
-      if (coverage == BlockCoverage::whole && passes && !is_cut) {
-        packets.write_whole(block, x, y);
-        if (writer.writes_depth()) set_hiz(tile, block, {low, high});
-      } else {
-        packets.write_some(block, x, y, is_cut, passes);
-        if (writer.writes_depth()) widen_hiz(writer.compare_op(), tile, block, low, high);
+      if constexpr (!Writer::kTestsStencil) {
+        if (coverage == BlockCoverage::whole && passes && !is_cut) {
+          packets.write_whole(block, x, y);
+          if (writer.writes_depth()) set_hiz(tile, block, {low, high});
+          continue;
+        }
       }
+      packets.write_some(block, x, y, is_cut, passes);
+      if (writer.writes_depth()) widen_hiz(writer.compare_op(), tile, block, low, high);
     }
   }
 }
@@ -160,6 +164,17 @@ void rasterize_triangle(const DrawInTile& d, const Triangle& t, TriangleId id, i
   }
 }
 
+// Rasterizes all samples that the draw can write.
+template <class Writer>
+void rasterize_samples(const DrawInTile& d, const Triangle& t, TriangleId id, Writer writer) {
+  if constexpr (requires { writer.begin(t); }) writer.begin(t);
+  for (int s = 0; s < d.tile.samples; ++s) {
+    if ((d.draw.sample_mask >> s & 1) == 0) continue;
+    if constexpr (requires { writer.begin_sample(s); }) writer.begin_sample(s);
+    rasterize_triangle(d, t, id, s, writer);
+  }
+}
+
 }  // namespace
 
 bool covers_tile(const DrawInTile& d, const Triangle& t) {
@@ -187,31 +202,26 @@ void write_full_tile(const DrawInTile& d, const Triangle& t, TriangleId id) {
 
 template <class Statistics>
 void rasterize_opaque(const DrawInTile& d, const Triangle& t, TriangleId id, Statistics& statistics) {
-  const auto rasterize_samples = [&](auto writer) {
-    for (int s = 0; s < d.tile.samples; ++s) {
-      if ((d.draw.sample_mask >> s & 1) != 0) rasterize_triangle(d, t, id, s, writer);
-    }
-  };
-  if (writes_nearest(d)) return rasterize_samples(OpaqueWriter<Statistics, true>(d, statistics));
-  rasterize_samples(OpaqueWriter<Statistics>(d, statistics));
+  if (writes_nearest(d)) return rasterize_samples(d, t, id, OpaqueWriter<Statistics, true>(d, statistics));
+  rasterize_samples(d, t, id, OpaqueWriter<Statistics>(d, statistics));
 }
 template void rasterize_opaque(const DrawInTile&, const Triangle&, TriangleId, PassStatistics&);
 template void rasterize_opaque(const DrawInTile&, const Triangle&, TriangleId, TracedStatistics&);
 
+void rasterize_with_stencil(const DrawInTile& d, const Triangle& t, TriangleId id, PassStatistics& statistics) {
+  rasterize_samples(d, t, id, StencilWriter(d, statistics));
+}
+
 template <class Statistics>
 void rasterize_queued(const DrawInTile& d, const Triangle& t, TriangleId id, PacketQueue& queue, Statistics& statistics) {
-  if (d.tile.samples == 1) {
-    const auto rasterize_sample = [&](auto writer) { rasterize_triangle(d, t, id, 0, writer); };
-    if (lists_undecided(d)) return rasterize_sample(ListWriter<Statistics, false, true>(d, queue, statistics));
-    return rasterize_sample(ListWriter<Statistics, false>(d, queue, statistics));
+  const auto rasterize_with = [&](auto writer) { rasterize_samples(d, t, id, writer); };
+  if (d.tile.samples > 1) {
+    if (tests_stencil(d.draw.state, d.tile)) return rasterize_with(StencilListWriter<Statistics, true>(d, queue, statistics));
+    return rasterize_with(ListWriter<Statistics, true>(d, queue, statistics));
   }
-  ListWriter<Statistics, true> writer(d, queue, statistics);
-  writer.begin();
-  for (int s = 0; s < d.tile.samples; ++s) {
-    if ((d.draw.sample_mask >> s & 1) == 0) continue;
-    writer.begin_sample(s);
-    rasterize_triangle(d, t, id, s, writer);
-  }
+  if (tests_stencil(d.draw.state, d.tile)) return rasterize_with(StencilListWriter<Statistics, false>(d, queue, statistics));
+  if (lists_undecided(d)) return rasterize_with(ListWriter<Statistics, false, true>(d, queue, statistics));
+  rasterize_with(ListWriter<Statistics, false>(d, queue, statistics));
 }
 template void rasterize_queued(const DrawInTile&, const Triangle&, TriangleId, PacketQueue&, PassStatistics&);
 template void rasterize_queued(const DrawInTile&, const Triangle&, TriangleId, PacketQueue&, TracedStatistics&);

@@ -32,16 +32,12 @@ void trace_packet(const Visit& c, int packet, Mask passed, Mask failed, Fragment
 // Runs the stencil test and the depth test, and updates the stencil values.
 template <class Visit>
 Mask test_with_stencil(const Visit& c, int packet, Real z, Mask mask) {
-  const Mask stencil_passed = stencil_test(*c.stencil, c.tile, packet, mask);
-  Mask passed = stencil_passed;
-  if (c.tests) {
-    passed = passed & compare(c.draw.state.depth.compare, z, load<Real>(&c.tile.depth[static_cast<std::size_t>(packet) * kLanes]));
-  }
+  const auto [stencil_passed, passed] =
+      test_and_update_stencil(*c.stencil, c.tile, packet, mask, c.tests, c.draw.state.depth.compare, z);
   if constexpr (kTraces<typename Visit::Statistics>) {
     trace_packet(c, packet, passed, stencil_passed & !passed, FragmentOutcome::depth_failed, z);
     trace_packet(c, packet, Mask(false), mask & !stencil_passed, FragmentOutcome::stencil_failed, z);
   }
-  update_stencil(*c.stencil, c.tile, packet, mask & !stencil_passed, stencil_passed & !passed, passed);
   return passed;
 }
 

@@ -10,6 +10,8 @@
 #include "halfspace/raster/visibility/list_writer.h"
 #include "halfspace/raster/visibility/opaque_writer.h"
 #include "halfspace/raster/visibility/small_triangle.h"
+#include "halfspace/raster/visibility/stencil_list_writer.h"
+#include "halfspace/raster/visibility/stencil_writer.h"
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
 
@@ -197,46 +199,52 @@ class SampledPackets {
   std::array<Covered, kMaxPackets + 1> list_;  // the element after the last one may be written
 };
 
-}  // namespace
-
-template <class Statistics>
-void rasterize_small_samples(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, Statistics& statistics) {
-  const SampleSet samples(d);
-  if (samples.count == 0) return;
-  const SampledTriangles triangles(d, samples, d.context.chunks[chunk], indices);
-  OpaqueWriter writer(d, statistics);
-  for (std::size_t k = 0; k < indices.size(); ++k) {
-    const Triangle& t = d.context.chunks[chunk].triangles[indices[k]];
-    const TriangleId id = triangle_id(chunk, indices[k]);
-    if (triangles.is_wide(k)) {
-      rasterize_opaque(d, t, id, statistics);
-    } else if (!reject_hidden(d, samples, t, id, triangles.rect(k), writer)) {
-      SampledPackets(d, samples, triangles, k, t, id, writer).visit();
-    }
-  }
-}
-template void rasterize_small_samples(const DrawInTile&, uint32_t, std::span<const uint16_t>, PassStatistics&);
-template void rasterize_small_samples(const DrawInTile&, uint32_t, std::span<const uint16_t>, TracedStatistics&);
-
-template <class Statistics>
-std::size_t rasterize_small_samples_queued(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, PacketQueue& queue,
-                                           Statistics& statistics) {
+// Draws triangles until may_continue() returns false. Returns their number.
+template <class Writer, class Large, class MayContinue>
+std::size_t write_triangles(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, Writer writer,
+                            const Large& rasterize_large, const MayContinue& may_continue) {
   const SampleSet samples(d);
   if (samples.count == 0) return indices.size();
   const SampledTriangles triangles(d, samples, d.context.chunks[chunk], indices);
-  ListWriter<Statistics, true> writer(d, queue, statistics);
   std::size_t k = 0;
   do {
     const Triangle& t = d.context.chunks[chunk].triangles[indices[k]];
     const TriangleId id = triangle_id(chunk, indices[k]);
+    if constexpr (requires { writer.begin(t); }) writer.begin(t);
     if (triangles.is_wide(k)) {
-      rasterize_queued(d, t, id, queue, statistics);
+      rasterize_large(t, id);
     } else if (!reject_hidden(d, samples, t, id, triangles.rect(k), writer)) {
-      writer.begin();
       SampledPackets(d, samples, triangles, k, t, id, writer).visit();
     }
-  } while (++k < indices.size() && !queue.is_full());
+  } while (++k < indices.size() && may_continue());
   return k;
+}
+
+}  // namespace
+
+template <class Statistics>
+void rasterize_small_samples(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, Statistics& statistics) {
+  const auto large = [&](const Triangle& t, TriangleId id) { rasterize_opaque(d, t, id, statistics); };
+  write_triangles(d, chunk, indices, OpaqueWriter<Statistics>(d, statistics), large, [] { return true; });
+}
+template void rasterize_small_samples(const DrawInTile&, uint32_t, std::span<const uint16_t>, PassStatistics&);
+template void rasterize_small_samples(const DrawInTile&, uint32_t, std::span<const uint16_t>, TracedStatistics&);
+
+void rasterize_small_samples_with_stencil(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices,
+                                          PassStatistics& statistics) {
+  const auto large = [&](const Triangle& t, TriangleId id) { rasterize_with_stencil(d, t, id, statistics); };
+  write_triangles(d, chunk, indices, StencilWriter(d, statistics), large, [] { return true; });
+}
+
+template <class Statistics>
+std::size_t rasterize_small_samples_queued(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, PacketQueue& queue,
+                                           Statistics& statistics) {
+  const auto large = [&](const Triangle& t, TriangleId id) { rasterize_queued(d, t, id, queue, statistics); };
+  const auto write_with = [&](auto writer) {
+    return write_triangles(d, chunk, indices, writer, large, [&] { return !queue.is_full(); });
+  };
+  if (tests_stencil(d.draw.state, d.tile)) return write_with(StencilListWriter<Statistics, true>(d, queue, statistics));
+  return write_with(ListWriter<Statistics, true>(d, queue, statistics));
 }
 template std::size_t rasterize_small_samples_queued(const DrawInTile&, uint32_t, std::span<const uint16_t>, PacketQueue&, PassStatistics&);
 template std::size_t rasterize_small_samples_queued(const DrawInTile&, uint32_t, std::span<const uint16_t>, PacketQueue&,

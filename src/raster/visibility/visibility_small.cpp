@@ -12,6 +12,7 @@
 #include "halfspace/raster/visibility/list_writer.h"
 #include "halfspace/raster/visibility/opaque_writer.h"
 #include "halfspace/raster/visibility/small_triangle.h"
+#include "halfspace/raster/visibility/stencil_list_writer.h"
 #include "halfspace/raster/visibility/stencil_writer.h"
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
@@ -252,12 +253,11 @@ void rasterize_small(const DrawInTile& d, uint32_t chunk, std::span<const uint16
 }
 
 void rasterize_small_with_stencil(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, PassStatistics& statistics) {
+  if (d.tile.samples > 1) return rasterize_small_samples_with_stencil(d, chunk, indices, statistics);
   const SmallTriangles triangles(d, d.context.chunks[chunk], indices);
   StencilWriter writer(d, statistics);
-  for (std::size_t k = 0; k < indices.size(); ++k) {
-    const auto large = [&](const Triangle&, TriangleId) { rasterize(d, chunk, indices[k], nullptr, statistics); };
-    write_triangle(d, triangles, k, chunk, indices[k], writer, large);
-  }
+  const auto large = [&](const Triangle& t, TriangleId id) { rasterize_with_stencil(d, t, id, statistics); };
+  for (std::size_t k = 0; k < indices.size(); ++k) write_triangle(d, triangles, k, chunk, indices[k], writer, large);
 }
 
 template void rasterize_small(const DrawInTile&, uint32_t, std::span<const uint16_t>, PassStatistics&);
@@ -276,6 +276,7 @@ std::size_t rasterize_small_queued(const DrawInTile& d, uint32_t chunk, std::spa
     } while (++k < indices.size() && !queue.is_full());
     return k;
   };
+  if (tests_stencil(d.draw.state, d.tile)) return write_all(StencilListWriter<Statistics, false>(d, queue, statistics));
   if (lists_undecided(d)) return write_all(ListWriter<Statistics, false, true>(d, queue, statistics));
   return write_all(ListWriter<Statistics, false>(d, queue, statistics));
 }

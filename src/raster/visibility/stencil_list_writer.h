@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Runs the stencil test for packets before they are added to a PacketQueue. Replaces ListWriter for draws with a stencil test that can
+// precede the shader: the draw does not update the stencil values, or coverage, depth and the stencil test alone decide (Rasterizer::queued).
+#pragma once
+
+#include "halfspace/raster/visibility/list_writer.h"
+
+namespace halfspace::inline HS_LANES_NAMESPACE {
+
+template <class S, bool multisampled>
+class StencilListWriter : public ListWriter<S, multisampled> {
+  using Base = ListWriter<S, multisampled>;
+
+ public:
+  static constexpr bool kTestsStencil = true;
+
+  StencilListWriter(const DrawInTile& d, PacketQueue& queue, S& statistics)
+      : Base(d, queue, statistics), state_(d.draw.state), tests_depth_(d.tests), updates_(updates_stencil(d.draw.state)) {}
+
+  /// Returns true if fragments that fail the depth test have no effect.
+  bool tests() const {
+    return Base::tests() && (!updates_ || (face_->fail == StencilOp::keep && face_->depth_fail == StencilOp::keep));
+  }
+
+  /// Starts a triangle and selects its stencil state.
+  void begin(const Triangle& t) {
+    Base::begin(t);
+    face_ = stencil_face(state_, tile_, t.is(kFrontFacing));
+  }
+
+  /// See OpaqueWriter.
+  template <class Z>
+  HS_INLINE bool write(TriangleId id, int packet, uint32_t covered, const Z& z_at, bool passes = false) {
+    return updates_ ? write_and_update(id, packet, covered, z_at) : write_passed(id, packet, covered, z_at, passes);
+  }
+  HS_INLINE void write_pixel(TriangleId id, std::size_t pixel, float z) {
+    const int packet = static_cast<int>(pixel) / kLanes;
+    const bool passed = write(id, packet, 1u << pixel % kLanes, [&] { return Real(z); });
+    if (passed && this->writes_depth()) widen_hiz(this->compare_op(), tile_, packet / kPacketsPerBlock, z, z);
+  }
+
+ private:
+  using Base::tile_;
+
+  // Passes on the lanes that pass the stencil test.
+  template <class Z>
+  HS_INLINE bool write_passed(TriangleId id, int packet, uint32_t covered, const Z& z_at, bool passes) {
+    const uint32_t lanes = bits(stencil_test(*face_, tile_, packet, mask_from_bits<Mask>(covered)));
+    this->statistics().samples_tested += static_cast<uint64_t>(std::popcount(covered & ~lanes));
+    if constexpr (kTraces<S>) trace(id, packet, covered & ~lanes, FragmentOutcome::stencil_failed, z_at());
+    return lanes != 0 && Base::write(id, packet, lanes, z_at, passes);
+  }
+
+  // Tests stencil and depth, and updates the stencil values.
+  template <class Z>
+  HS_INLINE bool write_and_update(TriangleId id, int packet, uint32_t covered, const Z& z_at) {
+    this->statistics().samples_tested += static_cast<uint64_t>(std::popcount(covered));
+    float* depth = &tile_.depth[static_cast<std::size_t>(packet) * kLanes];
+    const Real z = tests_depth_ ? z_at() : Real(0.0f);
+    const auto [stencil_passed, passed] =
+        test_and_update_stencil(*face_, tile_, packet, mask_from_bits<Mask>(covered), tests_depth_, this->compare_op(), z);
+    const uint32_t lanes = bits(passed);
+    if constexpr (kTraces<S>) {
+      trace(id, packet, lanes, FragmentOutcome::hidden_before_shading, z_at());
+      trace(id, packet, bits(stencil_passed & !passed), FragmentOutcome::depth_failed, z_at());
+      trace(id, packet, covered & ~bits(stencil_passed), FragmentOutcome::stencil_failed, z_at());
+    }
+    if (this->writes_depth()) store(depth, select(passed, z, load<Real>(depth)));
+    this->add(id, packet, lanes, z);
+    return lanes != 0;
+  }
+
+  void trace(TriangleId id, int packet, uint32_t lanes, FragmentOutcome outcome, Real z) {
+    const Real stored = load<Real>(&tile_.depth[static_cast<std::size_t>(packet) * kLanes]);
+    this->statistics().trace->add(id, packet, lanes, outcome, z, stored, tests_depth_);
+  }
+
+  const DrawState& state_;
+  const StencilFace* face_ = nullptr;
+  bool tests_depth_;
+  bool updates_;  // stencil values; only in VisibilityMode::early
+};
+
+}  // namespace halfspace::inline HS_LANES_NAMESPACE
