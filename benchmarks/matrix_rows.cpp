@@ -170,6 +170,57 @@ void add_textures(std::vector<MatrixRow>& rows) {
   row({.name = "anisotropy_16", .what = "16x anisotropic filtering", .sampler = {.anisotropy = 16}});
 }
 
+// Combinations of states, and states that are less common than those above.
+void add_combinations(std::vector<MatrixRow>& rows) {
+  using enum BlendFactor;
+  const DrawState over = blending(kAlphaBlend);
+  DrawState masked = over, stencilled = over;
+  masked.color_mask.a = false;
+  const DrawState stencil_not_one = stencil({.compare = CompareOp::not_equal, .reference = 1});
+  stencilled.stencil = stencil_not_one.stencil;
+  const auto row = [&](const MatrixRow& r) { rows.push_back(r); };
+  row({.name = "blend_screen",
+       .what = "inverse destination times source, plus destination",
+       .shader = Shader::alpha,
+       .state = blending(add(one_minus_dst_color, one))});
+  row({.name = "blend_masked", .what = "straight alpha; alpha is not written", .shader = Shader::alpha, .state = masked});
+  row({.name = "blend_srgb", .what = "straight alpha, an sRGB target", .shader = Shader::alpha, .color = ColorFormat::srgb8a8, .state = over});
+  row({.name = "blend_half",
+       .what = "straight alpha, a half-float target",
+       .shader = Shader::alpha,
+       .color = ColorFormat::rgba16f,
+       .state = over});
+  row({.name = "blend_stencil",
+       .what = "straight alpha and a stencil test",
+       .shader = Shader::alpha,
+       .depth = DepthFormat::d24s8,
+       .state = stencilled});
+  row({.name = "discard_stencil",
+       .what = "few holes and a stencil test; no visibility function",
+       .shader = Shader::holes,
+       .threshold = 0.3f,
+       .depth = DepthFormat::d24s8,
+       .state = stencil_not_one});
+  row({.name = "msaa4_blend", .what = "4 samples, straight alpha", .shader = Shader::alpha, .samples = 4, .state = over});
+  row({.name = "msaa4_stencil",
+       .what = "4 samples and a stencil test",
+       .depth = DepthFormat::d24s8,
+       .samples = 4,
+       .state = stencil_not_one});
+  row({.name = "pass_srgb",
+       .what = "pass_texture with an sRGB target",
+       .mesh = quad,
+       .shader = Shader::texture,
+       .draws = 1,
+       .color = ColorFormat::srgb8a8});
+  row({.name = "pass_half",
+       .what = "pass_texture with a half-float target",
+       .mesh = quad,
+       .shader = Shader::texture,
+       .draws = 1,
+       .color = ColorFormat::rgba16f});
+}
+
 }  // namespace
 
 std::span<const MatrixRow> matrix_rows() {
@@ -180,6 +231,7 @@ std::span<const MatrixRow> matrix_rows() {
     add_shaders(all);
     add_geometry(all);
     add_textures(all);
+    add_combinations(all);
     return all;
   }();
   return rows;
