@@ -115,24 +115,24 @@ TEST(Operations, EachAttachmentHasItsOwnFormatBlendingAndMask) {
 
 // Uses the stencil operations to mark samples. Samples that fail the stencil test, fail the depth test, or pass both get three different
 // values.
-TEST(Operations, StencilDistinguishesFailDepthFailAndPass) {
+void expect_stencil_operations(int samples, const std::optional<BlendState>& blend) {
   Image<uint32_t> depth(8, 8);
   Image<glm::vec4> image(8, 8);
   DepthTarget target = d24s8_target(depth);
   target.stencil_clear_value = 7;
-  Pass pass(8, 8, rgba32f_target(image), target);
+  Pass pass(8, 8, rgba32f_target(image), target, {.samples = samples});
   const std::vector<glm::vec4> near = whole(0.25f), far = whole(0.75f);
   const Rect left{0, 0, 4, 8}, top{0, 4, 8, 4};
-  pass.draw(ConstantShader{}, make_vertex_view(stream(near)), {.scissor = left});
+  pass.draw(ConstantShader{}, make_vertex_view(stream(near)), {.scissor = left, .blend = blend});
   const StencilFace marked{.compare = CompareOp::equal, .reference = 7};
   const StencilFace mark{.pass = StencilOp::replace, .reference = 5};
   pass.draw(ConstantShader{}, make_vertex_view(stream(far)),
-            {.scissor = top, .depth = {.test = false}, .stencil = StencilState{mark, mark}});
+            {.scissor = top, .depth = {.test = false}, .stencil = StencilState{mark, mark}, .blend = blend});
   StencilFace count = marked;
   count.fail = StencilOp::invert;                 // ~5 = 250
   count.depth_fail = StencilOp::increment_clamp;  // 8
   count.pass = StencilOp::decrement_wrap;         // 6
-  pass.draw(ConstantShader{}, make_vertex_view(stream(far)), {.stencil = StencilState{count, count}});
+  pass.draw(ConstantShader{}, make_vertex_view(stream(far)), {.stencil = StencilState{count, count}, .blend = blend});
   pass.run(one_worker());
   EXPECT_EQ(pixel(depth, 6, 6) & 0xff, 250u);
   EXPECT_EQ(pixel(depth, 1, 6) & 0xff, 250u);
@@ -140,6 +140,15 @@ TEST(Operations, StencilDistinguishesFailDepthFailAndPass) {
   EXPECT_EQ(pixel(depth, 6, 1) & 0xff, 6u);
   EXPECT_EQ(pixel(depth, 6, 1) >> 8, 12582911u);  // 0.75 · (2^24 − 1), rounded to the nearest even
   EXPECT_EQ(pixel(depth, 1, 1) >> 8, 4194304u);
+}
+
+TEST(Operations, StencilDistinguishesFailDepthFailAndPass) {
+  for (const int samples : {1, 4}) {
+    for (const std::optional<BlendState>& blend : {std::optional<BlendState>(), std::optional(kAlphaBlend)}) {
+      SCOPED_TRACE(std::to_string(samples) + " samples" + (blend ? ", blended" : ""));
+      expect_stencil_operations(samples, blend);
+    }
+  }
 }
 
 TEST(Operations, StencilFacesAndMasksAreSeparate) {

@@ -154,19 +154,26 @@ TEST(SmallTriangles, HiddenOnesAreRejectedBeforeTheirSamplesAreTested) {
   }
 }
 
-TEST(SmallTriangles, HiddenOnesAreTestedIfTheyChangeTheStencil) {
-  const uint64_t covered = uint64_t{kSmallSize} * kSmallSize;
-  for (const auto& [fail, depth_fail, rejects] :
-       {std::tuple(StencilOp::keep, StencilOp::keep, true), std::tuple(StencilOp::invert, StencilOp::keep, false),
-        std::tuple(StencilOp::keep, StencilOp::increment_clamp, false)}) {
-    const StencilFace face{.fail = fail, .depth_fail = depth_fail, .pass = StencilOp::increment_clamp};
-    const PassStatistics s = draw_hidden_layer(1, {.stencil = StencilState{face, face}});
+// Draws the layers with the given stencil operations for failed tests, as opaque and as blended triangles.
+void expect_hidden_layer_tested(int samples, StencilOp fail, StencilOp depth_fail) {
+  const uint64_t covered = uint64_t{kSmallSize} * kSmallSize * static_cast<uint64_t>(samples);
+  const StencilFace face{.fail = fail, .depth_fail = depth_fail, .pass = StencilOp::increment_clamp};
+  for (const std::optional<BlendState>& blend : {std::optional<BlendState>(), std::optional(kAlphaBlend)}) {
+    const PassStatistics s = draw_hidden_layer(samples, {.stencil = StencilState{face, face}, .blend = blend});
     EXPECT_EQ(s.samples_passed, covered);
-    if (rejects) {
+    if (fail == StencilOp::keep && depth_fail == StencilOp::keep) {
       EXPECT_LT(s.samples_tested, covered + covered / kRestOfHidden);
     } else {
       EXPECT_EQ(s.samples_tested, 2 * covered);
     }
+  }
+}
+
+TEST(SmallTriangles, HiddenOnesAreTestedIfTheyChangeTheStencil) {
+  for (const int samples : {1, 4}) {
+    expect_hidden_layer_tested(samples, StencilOp::keep, StencilOp::keep);
+    expect_hidden_layer_tested(samples, StencilOp::invert, StencilOp::keep);
+    expect_hidden_layer_tested(samples, StencilOp::keep, StencilOp::increment_clamp);
   }
 }
 
