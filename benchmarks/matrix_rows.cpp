@@ -184,7 +184,11 @@ void add_combinations(std::vector<MatrixRow>& rows) {
        .shader = Shader::alpha,
        .state = blending(add(one_minus_dst_color, one))});
   row({.name = "blend_masked", .what = "straight alpha; alpha is not written", .shader = Shader::alpha, .state = masked});
-  row({.name = "blend_srgb", .what = "straight alpha, an sRGB target", .shader = Shader::alpha, .color = ColorFormat::srgb8a8, .state = over});
+  row({.name = "blend_srgb",
+       .what = "straight alpha, an sRGB target",
+       .shader = Shader::alpha,
+       .color = ColorFormat::srgb8a8,
+       .state = over});
   row({.name = "blend_half",
        .what = "straight alpha, a half-float target",
        .shader = Shader::alpha,

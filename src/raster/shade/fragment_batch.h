@@ -8,8 +8,8 @@
 
 #include "halfspace/core/lanes.h"
 #include "halfspace/raster/tile/blend.h"
-#include "halfspace/raster/tile/write_programs.h"
 #include "halfspace/raster/tile/tile.h"
+#include "halfspace/raster/tile/write_programs.h"
 #include "halfspace/raster/visibility/visibility.h"
 
 namespace halfspace::inline HS_LANES_NAMESPACE {

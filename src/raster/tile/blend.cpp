@@ -2,8 +2,8 @@
 #include "halfspace/raster/tile/blend.h"
 
 #include "halfspace/raster/tile/blend_formulas.h"
-#include "halfspace/raster/tile/write_programs.h"
 #include "halfspace/raster/tile/tile_format.h"
+#include "halfspace/raster/tile/write_programs.h"
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
 

@@ -54,8 +54,7 @@ HS_INLINE void blend_packet(ColorBuffer& buffer, const PacketMask& packet, const
   const std::size_t first = static_cast<std::size_t>(packet.packet) * kLanes;
   if constexpr (format == ColorFormat::rgba8) {
     const Int codes = blended_codes(o, buffer, first, src, src1, s.blend->constant);
-    write_codes(buffer, first, mask_from_bits<Mask>(packet.lanes),
-                masked ? merged_codes(codes, read_codes(buffer, first), s.mask) : codes);
+    write_codes(buffer, first, mask_from_bits<Mask>(packet.lanes), masked ? merged_codes(codes, read_codes(buffer, first), s.mask) : codes);
   } else {
     PacketColor dst;
     for (int k = 0; k < 4; ++k) dst[static_cast<std::size_t>(k)] = read_channel<format>(buffer, first, k);

@@ -22,8 +22,9 @@ inline bool lists_undecided(const DrawInTile& d) {
 }
 
 /// Queues the packets of a draw. In VisibilityMode::early, depth is tested and written before a packet is queued. In all other modes, depth
-/// is tested after the shader; lanes that already fail the test are dropped if they cannot pass it later. begin() must be called
-/// before each triangle, and in a multisampled tile begin_sample() before the packets of each of its samples. undecided: compiled for draws with lists_undecided().
+/// is tested after the shader; lanes that already fail the test are dropped if they cannot pass it later. Call begin() before each triangle
+/// and, in a multisampled tile, begin_sample() before the packets of each of its samples. undecided: compiled for draws with
+/// lists_undecided().
 template <class S, bool multisampled, bool undecided = false>
 class ListWriter {
  public:
@@ -49,9 +50,7 @@ class ListWriter {
   /// Starts a triangle.
   void begin(const Triangle&) { first_ = queue_.count; }
   /// Starts a sample of the triangle.
-  void begin_sample(int sample)
-    requires multisampled
-  {
+  void begin_sample(int sample) requires multisampled {
     sample_ = static_cast<std::size_t>(sample);
     shift_ = packet_shift(sample_plane(tile_.samples, sample, tile_.size));
   }

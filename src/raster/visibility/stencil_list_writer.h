@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Runs the stencil test for packets before they are added to a PacketQueue. Replaces ListWriter for draws with a stencil test that can
-// precede the shader: the draw does not update the stencil values, or coverage, depth and the stencil test alone decide (Rasterizer::queued).
+// precede the shader: the draw does not update the stencil values, or coverage, depth and the stencil test alone decide
+// (Rasterizer::queued).
 #pragma once
 
 #include "halfspace/raster/visibility/list_writer.h"
@@ -19,9 +20,7 @@ class StencilListWriter : public ListWriter<S, multisampled> {
       : Base(d, queue, statistics), state_(d.draw.state), tests_depth_(d.tests), updates_(updates_stencil(d.draw.state)) {}
 
   /// Returns true if fragments that fail the depth test have no effect.
-  bool tests() const {
-    return Base::tests() && (!updates_ || (face_->fail == StencilOp::keep && face_->depth_fail == StencilOp::keep));
-  }
+  bool tests() const { return Base::tests() && (!updates_ || (face_->fail == StencilOp::keep && face_->depth_fail == StencilOp::keep)); }
 
   /// Starts a triangle and selects its stencil state.
   void begin(const Triangle& t) {

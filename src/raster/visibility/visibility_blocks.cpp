@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Visibility of draws where only coverage, depth and the stencil test determine visibility, and of queued draws. The results are the same as those of
-// visibility_general.cpp, which supports all draws. Most small triangles are drawn by visibility_small.cpp and visibility_samples.cpp.
+// Visibility of draws where only coverage, depth and the stencil test determine visibility, and of queued draws. The results are the same
+// as those of visibility_general.cpp, which supports all draws. Most small triangles are drawn by visibility_small.cpp and
+// visibility_samples.cpp.
 #include <algorithm>
 
 #include "halfspace/raster/pipeline/pixel_box.h"

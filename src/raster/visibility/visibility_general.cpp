@@ -32,8 +32,7 @@ void trace_packet(const Visit& c, int packet, Mask passed, Mask failed, Fragment
 // Runs the stencil test and the depth test, and updates the stencil values.
 template <class Visit>
 Mask test_with_stencil(const Visit& c, int packet, Real z, Mask mask) {
-  const auto [stencil_passed, passed] =
-      test_and_update_stencil(*c.stencil, c.tile, packet, mask, c.tests, c.draw.state.depth.compare, z);
+  const auto [stencil_passed, passed] = test_and_update_stencil(*c.stencil, c.tile, packet, mask, c.tests, c.draw.state.depth.compare, z);
   if constexpr (kTraces<typename Visit::Statistics>) {
     trace_packet(c, packet, passed, stencil_passed & !passed, FragmentOutcome::depth_failed, z);
     trace_packet(c, packet, Mask(false), mask & !stencil_passed, FragmentOutcome::stencil_failed, z);
