@@ -50,7 +50,7 @@ HS_INLINE R load_halves(const uint16_t* p) {
 #endif
   } else {
     using Halves __attribute__((vector_size(2 * kLanes))) = uint16_t;
-    return half_to_float(Int(__builtin_convertvector(load<Halves>(p), typename Int::V)));
+    return half_to_float(IntOf<R>(__builtin_convertvector(load<Halves>(p), typename IntOf<R>::V)));
   }
 }
 /// Stores the nearest finite halves of the lanes in mask. R: Real.
