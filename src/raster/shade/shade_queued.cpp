@@ -80,12 +80,11 @@ void write_samples(const Tile& tile, const FragmentOutput& output, const PacketQ
 }
 
 // Runs the late tests of packets that were shaded as packets 0, 1, ... of the output, and writes them. begin: position of the first packet
-// in the queue.
+// in the queue; target: see direct_target().
 template <class Shading>
-void finish_batch(const Shading& c, PacketQueue& queue, std::size_t begin, std::size_t n) {
+void finish_batch(const Shading& c, PacketQueue& queue, std::size_t begin, std::size_t n, const WriteTarget& target) {
   if (c.tile.samples > 1) {
-    if (const WriteTarget target = direct_target(c); target.program != nullptr)
-      return write_samples(c.tile, c.output, queue, begin, n, target);
+    if (target.program != nullptr) return write_samples(c.tile, c.output, queue, begin, n, target);
     for (int s = 0; s < c.tile.samples; ++s) finish_sample_batch(c, queue, begin, n, s);
     return;
   }
@@ -104,8 +103,8 @@ void trace_queued(const Shading& c, const PacketQueue& queue, std::size_t k, std
 
 // Shades packets of the queue as they are. Returns their number.
 template <class Shading>
-std::size_t shade_batch(const Shading& c, PacketQueue& queue, std::size_t begin) {
-  if (const WriteTarget target = direct_target(c); c.tile.samples == 1 && target.program != nullptr) {
+std::size_t shade_batch(const Shading& c, PacketQueue& queue, std::size_t begin, const WriteTarget& target) {
+  if (c.tile.samples == 1 && target.program != nullptr) {
     const std::size_t rest = static_cast<std::size_t>(queue.count) - begin;
     c.draw.kernels.fragment(c.draw.shader.get(), {queue.batch(c.context, c.tile, begin, rest), &c.output, nullptr, target});
     return rest;
@@ -118,24 +117,24 @@ std::size_t shade_batch(const Shading& c, PacketQueue& queue, std::size_t begin)
   if constexpr (kTracesShading<Shading>) {
     for (std::size_t i = 0; i < n; ++i) trace_queued(c, queue, begin + i, i);
   }
-  finish_batch(c, queue, begin, n);
+  finish_batch(c, queue, begin, n, target);
   return n;
 }
 
 // The same as shade_batch(), but packs the pixels first.
 template <class Shading>
-std::size_t shade_packed(const Shading& c, PacketQueue& queue, std::size_t begin, PackedFragments& packed) {
+std::size_t shade_packed(const Shading& c, PacketQueue& queue, std::size_t begin, PackedFragments& packed, const WriteTarget& target) {
   const std::span<const PacketMask> packets(&queue.packets[begin], static_cast<std::size_t>(queue.count) - begin);
   const std::size_t count = pack(packets, &queue.ids[begin], packed.pixels);
   c.draw.kernels.fragment(c.draw.shader.get(), {packed.pixels.batch(c.context, c.tile), &packed.output});
-  if (const WriteTarget target = direct_target(c); c.tile.samples == 1 && target.program != nullptr) {
+  if (c.tile.samples == 1 && target.program != nullptr) {
     write_packed(packed.output, packets.first(count), target);
     return count;
   }
   for (std::size_t done = 0, pixel = 0; done < count;) {
     const std::size_t n = std::min(std::size_t{kPacketBatch}, count - done);
     pixel = unpack(c.draw.kernels, packed.output, pixel, packets.subspan(done, n), c.output);
-    finish_batch(c, queue, begin + done, n);
+    finish_batch(c, queue, begin + done, n, target);
     done += n;
   }
   return count;
@@ -151,7 +150,9 @@ void shade_queued(const DrawInTile& d, PacketQueue& queue, TransparentLayers& la
   const std::span<const PacketMask> packets = std::span(queue.packets).first(count);
   statistics.fragments_shaded += pixel_count(packets);
   const bool packs = !kTraces<Statistics> && packs_queue(d.draw, d.tile, packets);
-  for (std::size_t begin = 0; begin < count;) begin += packs ? shade_packed(c, queue, begin, packed) : shade_batch(c, queue, begin);
+  const WriteTarget target = direct_target(c);
+  for (std::size_t begin = 0; begin < count;)
+    begin += packs ? shade_packed(c, queue, begin, packed, target) : shade_batch(c, queue, begin, target);
   queue.count = 0;
 }
 template void shade_queued(const DrawInTile&, PacketQueue&, TransparentLayers&, FragmentOutput&, PackedFragments&, PassStatistics&);

@@ -74,7 +74,7 @@ inline BlendOperation operation_of(const BlendState& s) {
   return {s.color_equation, s.alpha_equation, {s.source_color, s.destination_color, s.source_alpha, s.destination_alpha}};
 }
 
-/// An operation that is not known when the formulas are compiled. They have no branches that depend on its factors.
+/// An operation that is only known at run time. Its factors are found in a table, without branches.
 struct AnyOperation : BlendOperation {};
 
 /// Returns the blended color, before it is clamped. src and dst can have any unit; the colors in `from` are linear.
@@ -90,22 +90,29 @@ HS_INLINE PacketColor blend_sums(const BlendOperation& o, const PacketColor& src
 
 namespace detail {
 
-/// A factor as operand · scale + offset. The result is exact: either the operand, or 1 minus the operand with a single rounding.
+/// A factor as operand · scale + offset. It has the same bits as the operand, or as 1 minus the operand.
 struct FactorTerm {
   std::size_t operand;  ///< index into FactorOperands
   float scale, offset;  ///< 1 and −0, or −1 and 1
 };
-/// The operands of factors: 0, 1, min(source alpha, 1 − destination alpha), and the channels of src, dst, src1 and constant.
-using FactorOperands = std::array<Real, 19>;
+/// The operands of factors: three values, and the four channels of each color.
+struct FactorOperands {
+  static constexpr std::size_t zero = 0, one = 1, saturate = 2, src = 3, dst = 7, src1 = 11, constant = 15, count = 19;
+  static constexpr std::size_t alpha = 3;  ///< of a color
+  std::array<Real, count> values;
+};
 
+/// Returns factor f for channel k.
 constexpr FactorTerm factor_term(BlendFactor f, std::size_t k) {
   using enum BlendFactor;
-  constexpr std::size_t src = 3, dst = 7, src1 = 11, constant = 15, alpha = 3;
+  using Operands = FactorOperands;
+  constexpr std::size_t src = Operands::src, dst = Operands::dst, src1 = Operands::src1, constant = Operands::constant;
+  constexpr std::size_t alpha = Operands::alpha;
   const auto plain = [](std::size_t operand) { return FactorTerm{operand, 1.0f, -0.0f}; };
   const auto complement = [](std::size_t operand) { return FactorTerm{operand, -1.0f, 1.0f}; };
   switch (f) {
-    case zero: return plain(0);
-    case one: return plain(1);
+    case zero: return plain(Operands::zero);
+    case one: return plain(Operands::one);
     case src_color: return plain(src + k);
     case one_minus_src_color: return complement(src + k);
     case dst_color: return plain(dst + k);
@@ -118,13 +125,13 @@ constexpr FactorTerm factor_term(BlendFactor f, std::size_t k) {
     case one_minus_constant_color: return complement(constant + k);
     case constant_alpha: return plain(constant + alpha);
     case one_minus_constant_alpha: return complement(constant + alpha);
-    case src_alpha_saturate: return plain(k == alpha ? 1 : 2);
+    case src_alpha_saturate: return plain(k == alpha ? Operands::one : Operands::saturate);
     case src1_color: return plain(src1 + k);
     case one_minus_src1_color: return complement(src1 + k);
     case src1_alpha: return plain(src1 + alpha);
     case one_minus_src1_alpha: return complement(src1 + alpha);
   }
-  return plain(1);
+  return plain(Operands::one);
 }
 inline constexpr std::size_t kFactorCount = static_cast<std::size_t>(BlendFactor::one_minus_src1_alpha) + 1;
 inline constexpr auto kFactorTerms = [] {
@@ -136,23 +143,27 @@ inline constexpr auto kFactorTerms = [] {
 }();
 
 HS_INLINE FactorOperands factor_operands(const BlendSources& s) {
-  FactorOperands operands{Real(0.0f), Real(1.0f), min(s.src[3], Real(1.0f) - s.dst[3])};
+  FactorOperands operands;
+  operands.values[FactorOperands::zero] = Real(0.0f);
+  operands.values[FactorOperands::one] = Real(1.0f);
+  operands.values[FactorOperands::saturate] = min(s.src[FactorOperands::alpha], Real(1.0f) - s.dst[FactorOperands::alpha]);
   for (std::size_t k = 0; k < 4; ++k) {
-    operands[3 + k] = s.src[k];
-    operands[7 + k] = s.dst[k];
-    operands[11 + k] = s.clamped(s.src1[k]);
-    operands[15 + k] = s.clamped(Real(s.constant[static_cast<int>(k)]));
+    operands.values[FactorOperands::src + k] = s.src[k];
+    operands.values[FactorOperands::dst + k] = s.dst[k];
+    operands.values[FactorOperands::src1 + k] = s.clamped(s.src1[k]);
+    operands.values[FactorOperands::constant + k] = s.clamped(Real(s.constant[static_cast<int>(k)]));
   }
   return operands;
 }
 
 }  // namespace detail
 
+/// The same for an operation that is only known at run time. The result has the same bits.
 HS_INLINE PacketColor blend_sums(const AnyOperation& o, const PacketColor& src, const PacketColor& dst, const BlendSources& from) {
   const detail::FactorOperands operands = detail::factor_operands(from);
   const auto factor = [&](BlendFactor f, std::size_t k) {
     const detail::FactorTerm& term = detail::kFactorTerms[static_cast<std::size_t>(f)][k];
-    return fma(operands[term.operand], Real(term.scale), Real(term.offset));
+    return fma(operands.values[term.operand], Real(term.scale), Real(term.offset));
   };
   PacketColor out;
   for (std::size_t k = 0; k < 4; ++k) {
