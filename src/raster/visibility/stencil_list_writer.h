@@ -9,6 +9,7 @@
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
 
+/// See ListWriter. begin() must be called before each triangle, also before tests().
 template <class S, bool multisampled>
 class StencilListWriter : public ListWriter<S, multisampled> {
   using Base = ListWriter<S, multisampled>;
