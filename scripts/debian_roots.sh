@@ -12,11 +12,11 @@ mirror=${HALFSPACE_MIRROR:-http://deb.debian.org/debian}
 mkdir -p "$roots" "${HALFSPACE_CCACHE:=$roots/ccache}"
 export HALFSPACE_CCACHE
 
-# in_root ROOT COMMANDS: runs a script in a root. /proc, which $ORIGIN in a RUNPATH needs, and the ccache folder are mounted only while it
-# runs. ccache uses precompiled headers only with these settings.
+# in_root ROOT COMMANDS: runs a script in a root, whose home folder is /trial. /proc, which $ORIGIN in a RUNPATH needs, and the ccache folder
+# are mounted only while it runs. ccache uses precompiled headers only with these settings.
 in_root() {
   unshare --mount sh -euc 'mount -t proc proc "$1/proc"; mount --bind "$HALFSPACE_CCACHE" "$1/ccache"
-    exec chroot "$1" env -i PATH=/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C.UTF-8 DEBIAN_FRONTEND=noninteractive \
+    exec chroot "$1" env -i PATH=/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin HOME=/trial LC_ALL=C.UTF-8 DEBIAN_FRONTEND=noninteractive \
       CCACHE_DIR=/ccache CCACHE_BASEDIR=/src CCACHE_NOHASHDIR=1 CCACHE_SLOPPINESS=pch_defines,time_macros \
       bash -euc "$2"' in_root "$@"
 }
@@ -34,7 +34,7 @@ new_root() {
   fi
   rm -rf "$2" "$2.log"
   cp -a "$roots/$1" "$2"
-  mkdir "$2/ccache"
+  mkdir "$2/ccache" "$2/trial"
   cp /etc/resolv.conf "$2/etc/resolv.conf" 2> /dev/null || true
   quiet_in_root "$2" 'apt-get update -q'
   install_in_root "$2" "${@:3}"
@@ -54,26 +54,26 @@ copy_sources() {
 # run_programs ROOT: renders with the programs that are installed in a root.
 run_programs() {
   in_root "$1" 'halfspace --version; halfspace info; halfspace-bench --help | head -1
-    halfspace render moon --size 320x180 -o /root/moon.png; ls -l /root/moon.png
-    halfspace render earth --size 320x180 -o /root/earth.jpg; halfspace compare /root/earth.jpg /root/earth.jpg'
+    halfspace render moon --size 320x180 -o /trial/moon.png; ls -l /trial/moon.png
+    halfspace render earth --size 320x180 -o /trial/earth.jpg; halfspace compare /trial/earth.jpg /trial/earth.jpg'
 }
 
 # run_python ROOT: renders with the Python module that is installed in a root.
 run_python() {
-  in_root "$1" 'cd /root; python3 -c "import halfspace; print(halfspace.__file__, halfspace._core.arch)
-print(halfspace.render(\"moon\", size=(64, 36)).shape, halfspace.render(\"earth\", size=(64, 36), set={\"earth.color\": \"/root/earth.jpg\"}).shape)"'
+  in_root "$1" 'cd /trial; python3 -c "import halfspace; print(halfspace.__file__, halfspace._core.arch)
+print(halfspace.render(\"moon\", size=(64, 36)).shape, halfspace.render(\"earth\", size=(64, 36), set={\"earth.color\": \"/trial/earth.jpg\"}).shape)"'
 }
 
 # build_projects ROOT DECODERS: builds the project in tests/consumer and the extension module in python/examples/custom_shader with the
 # libraries that are installed in a root, and draws with both. DECODERS is the folder of the programs that decode images.
 build_projects() {
   install_in_root "$1" g++ cmake ninja-build pybind11-dev python3-dev python3-numpy
-  mkdir -p "$1/root/projects"
-  cp -r tests/consumer python/examples/custom_shader "$1/root/projects/"
-  quiet_in_root "$1" 'cd /root/projects; cmake -S consumer -B consumer/build -G Ninja -DCMAKE_BUILD_TYPE=Release -DCOMPONENTS="raster;render"
+  mkdir -p "$1/trial/projects"
+  cp -r tests/consumer python/examples/custom_shader "$1/trial/projects/"
+  quiet_in_root "$1" 'cd /trial/projects; cmake -S consumer -B consumer/build -G Ninja -DCMAKE_BUILD_TYPE=Release -DCOMPONENTS="raster;render"
     cmake --build consumer/build; cmake -S custom_shader -B custom_shader/build -G Ninja -DPython_EXECUTABLE=/usr/bin/python3
     cmake --build custom_shader/build -v'
-  in_root "$1" "cd /root/projects; consumer/build/own_shader; consumer/build/scene $2 /root/scene.jpg
+  in_root "$1" "cd /trial/projects; consumer/build/own_shader; consumer/build/scene $2 /trial/scene.jpg
     cd custom_shader/build; "'python3 -c "import numpy, stripes
 image = numpy.zeros((16, 64, 4), numpy.uint8)
 stripes.draw(numpy.array([[-1, -1, 0], [3, -1, 0], [-1, 3, 0]], numpy.float32), image, count=2)

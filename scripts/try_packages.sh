@@ -11,7 +11,7 @@ check_packages() {
   in_root "$1" 'status=0
     complain() { echo "$1" >&2; status=1; }
     for package in halfspace libhalfspace-dev python3-halfspace; do
-      cmp -s "/usr/share/doc/$package/copyright" /root/copyright || complain "$package has no license"
+      cmp -s "/usr/share/doc/$package/copyright" /trial/copyright || complain "$package has no license"
       dpkg-parsechangelog -l "/usr/share/doc/$package/changelog.Debian.gz" > /dev/null || complain "$package has no valid changelog"
       while read -r file; do
         if [[ $file != *.a && -f $file ]] && readelf -SW "$file" 2> /dev/null | grep -q " \.symtab "; then complain "$file is not stripped"; fi
@@ -31,21 +31,21 @@ for release in "$@"; do
 
   echo "== $release: installing and rendering"
   new_root "$release" "$use"
-  cp cmake/debian/copyright "$build"/src/build/packages/*.deb "$use/root/"
-  in_root "$use" 'apt-get install -q -y --no-install-recommends /root/halfspace_*.deb' 2>&1 | grep -E '^(Get:.*halfspace|Unpacking halfspace|Setting up halfspace)'
+  cp cmake/debian/copyright "$build"/src/build/packages/*.deb "$use/trial/"
+  in_root "$use" 'apt-get install -q -y --no-install-recommends /trial/halfspace_*.deb' 2>&1 | grep -E '^(Get:.*halfspace|Unpacking halfspace|Setting up halfspace)'
   run_programs "$use"
   in_root "$use" '/lib64/ld-linux-x86-64.so.2 --glibc-hwcaps-mask x86-64-v3 /usr/bin/halfspace info
     echo "$(ls /usr/share/man/man1/halfspace*.1* | wc -l) manual pages"'
-  install_in_root "$use" '/root/python3-halfspace_*.deb'
+  install_in_root "$use" '/trial/python3-halfspace_*.deb'
   run_python "$use"
 
   echo "== $release: building projects with libhalfspace-dev"
-  install_in_root "$use" '/root/libhalfspace-dev_*.deb' dpkg-dev
+  install_in_root "$use" '/trial/libhalfspace-dev_*.deb' dpkg-dev
   build_projects "$use" /usr/lib/x86_64-linux-gnu/halfspace
   check_packages "$use"
 
   echo "== $release: removing"
-  left=$(in_root "$use" 'apt-get purge -q -y "halfspace*" "libhalfspace*" "python3-halfspace*" > /root/purge.log 2>&1
-    find / -xdev \( -path /root -o -path /proc -o -path /ccache \) -prune -o -name "*halfspace*" -print')
+  left=$(in_root "$use" 'apt-get purge -q -y "halfspace*" "libhalfspace*" "python3-halfspace*" > /trial/purge.log 2>&1
+    find / -xdev \( -path /trial -o -path /proc -o -path /ccache \) -prune -o -name "*halfspace*" -print')
   [ -z "$left" ] || fail "files of the packages are left: $left"
 done
