@@ -40,6 +40,7 @@ SCREENSHOTS = Path(sys.argv[2]) if len(sys.argv) > 2 else None
 # Scenes that together use every stage: clipped triangles, shadows, HDR, points, several samples, transparent layers.
 SCENES = {"earth": ["earth"], "day-night": ["day-night", "--camera", "street"], "particles": ["particles"],
           "knot": ["shadow-knot", "--set", "samples=4"], "box": ["box.obj"], "panes": ["panes.json"]}
+LONG = os.environ.get("HALFSPACE_LONG_TESTS")  # scripts/test_full.sh
 HELMET = Path(__file__).resolve().parents[2].parent / "shared/data/gltf/DamagedHelmet/glTF-Binary/DamagedHelmet.glb"
 # Twenty-four squares, one behind the other and drawn from back to front, with two samples per pixel.
 PANES = {"version": 1, "samples": 2, "cameras": {"c": {"position": [0, 0, 6], "target": [0, 0, 0]}}, "lights": {"sun": {}},
@@ -102,7 +103,9 @@ EXERCISES = """() => {
   const all = c.exercises();
   return {count: document.querySelectorAll('.exercise').length, bad: all.filter((x) => !accepts(x, String(x.answer)) || accepts(x, '-12345.5') || accepts(x, '')).map((x) => x.ask)};
 }"""
-WIDTH = "() => document.documentElement.scrollWidth"
+WIDTH = "document.documentElement.scrollWidth"
+SMALLEST_FONT = """Math.min(99, ...[...document.querySelectorAll('figure svg text')].map((t) => {
+  const svg = t.closest('svg'); return parseFloat(t.getAttribute('font-size')) * svg.getBoundingClientRect().width / svg.viewBox.baseVal.width; }))"""
 
 
 class Page(unittest.TestCase):
@@ -165,11 +168,12 @@ class Page(unittest.TestCase):
                 seen[chapter].append(picture)
             self.assertEqual(self.errors(), [], name)
 
-    def test_nothing_is_wider_than_a_phone(self):
-        for name in SCENES:
+    def test_steps_fit_and_are_readable_on_a_phone(self):
+        for name in SCENES if LONG else ["day-night", "panes"]:
             self.open(name, width=390)
-            for chapter, step, width in self.tour(WIDTH):
+            for chapter, step, (width, font) in self.tour(f"() => [{WIDTH}, {SMALLEST_FONT}]"):
                 self.assertLessEqual(width, 390, f"{name}, {chapter}, step {step}")
+                self.assertGreaterEqual(font, 10, f"{name}, {chapter}, step {step}: font size in pixels")
 
     def test_answers_can_be_typed(self):
         self.open("earth", "frame")
@@ -268,13 +272,11 @@ class Page(unittest.TestCase):
 
     def test_pages_are_smaller_than_25_mb(self):
         folder = Path(self.folder.name)
-        names = ["day-night", "shapes"]  # the largest pages
-        if os.environ.get("HALFSPACE_LONG_TESTS"):
+        runs = [["particles", "--set", "particles.count=100000", "--set", "particles.arrangement=ball", "--set", "samples=4"]]  # the largest page
+        if LONG:
             names = subprocess.run([PROGRAM, "list", "--names"], check=True, capture_output=True, text=True).stdout.split()
-        runs = [[name] for name in names] + [["panes.json", "--set", "samples=8"],
-                                             ["particles", "--set", "particles.count=100000", "--set", "particles.arrangement=ball", "--set", "samples=4"]]
-        helmet = HELMET if HELMET.exists() else None
-        for arguments in runs + ([[helmet]] if helmet else []):
+            runs += [[name] for name in names] + [["panes.json", "--set", "samples=8"]] + ([[HELMET]] if HELMET.exists() else [])
+        for arguments in runs:
             page = folder / "size.html"
             subprocess.run([PROGRAM, "explain", *arguments, "-o", page], check=True, cwd=folder)
             self.assertLess(page.stat().st_size, 25_000_000, arguments)
@@ -299,13 +301,6 @@ class Page(unittest.TestCase):
         x, y = self.run_script("return PIXEL")
         self.assertIn(f"pixel ({min(x + 1, 319)}, {y})", self.driver.find_element(By.CLASS_NAME, "readout").text)
         self.assertEqual(self.run_script("return state.step"), 0, "the keys do not change the step")
-
-    def test_labels_are_readable_on_a_phone(self):
-        for name in SCENES:
-            self.open(name, width=390)
-            for chapter, step, size in self.tour("""() => Math.min(99, ...[...document.querySelectorAll('figure svg text')].map((t) => {
-                const svg = t.closest('svg'); return parseFloat(t.getAttribute('font-size')) * svg.getBoundingClientRect().width / svg.viewBox.baseVal.width; }))"""):
-                self.assertGreaterEqual(size, 10, f"{name}, {chapter}, step {step}: font size in pixels")
 
     def test_links_have_enough_contrast(self):
         for dark in (False, True):
@@ -339,7 +334,7 @@ class Page(unittest.TestCase):
         fields[0].send_keys(Keys.ENTER)
         self.wait_for_panel(x, y)
         self.run_script("document.querySelectorAll('#history-panel details').forEach((d) => { d.open = true; })")
-        return self.driver.find_element(By.ID, "history-panel").text
+        return self.run_script("return document.getElementById('history-panel').innerText")
 
     def wait_for_panel(self, x, y):
         title = f"Pixel {x}, {y}"

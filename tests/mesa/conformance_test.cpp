@@ -12,6 +12,7 @@
 #include "mesa/conformance_glsl.h"
 #include "mesa/mesa_context.h"
 #include "mesa/mesa_draw.h"
+#include "support/long_tests.h"
 
 namespace halfspace::test {
 
@@ -203,7 +204,8 @@ class MesaRandomStates : public MesaTest {
 
 TEST_F(MesaRandomStates, Agree) {
   Agreement sum;
-  for (uint64_t seed = 0; seed < 1000; ++seed) {
+  const uint64_t count = runs_long_tests() ? 1000 : 400;
+  for (uint64_t seed = 0; seed < count; ++seed) {
     const conformance::RandomState state{seed, 0};
     const conformance::Picture picture = conformance::random_picture(state);
     if (!comparable(picture) || compare_with_mesa(picture, state.text(), sum) < 12) continue;

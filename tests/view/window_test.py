@@ -7,6 +7,7 @@
 Events are pushed by --events, and the frames are written by --record. The class Desktop uses real key presses under Xvfb with openbox,
 wmctrl and xdotool. A test is skipped if a program that it needs is not installed; the message names the package.
 """
+import functools
 import os
 import shutil
 import signal
@@ -43,6 +44,17 @@ def picture_of(path):
     return read_rows(path)[2][:HEIGHT - MESSAGE_ROWS]
 
 
+def rendered_to(out, scene, *options):
+    subprocess.run([program("halfspace"), "render", scene, "-o", out, "--size", f"{WIDTH}x{HEIGHT}", *options], check=True)
+    return picture_of(out)
+
+
+@functools.cache
+def rendered_scene(scene, *options):
+    with tempfile.TemporaryDirectory(prefix="halfspace-view-") as folder:
+        return rendered_to(Path(folder) / "rendered.png", scene, *options)
+
+
 def changed_columns(before, after):
     """Returns the columns in which two pictures differ, in any of the rows above the messages."""
     pairs = list(zip(before[:-2 * MESSAGE_ROWS:20], after[::20]))
@@ -64,10 +76,10 @@ class Folder(unittest.TestCase):
             self.fail(f"{msg or 'lists differ'}: {str(first)[:100]} … {str(second)[:100]}")
 
     def rendered(self, scene, *options):
-        """Returns the picture that `halfspace render` writes."""
-        out = self.folder / "rendered.png"
-        subprocess.run([program("halfspace"), "render", scene, "-o", out, "--size", f"{WIDTH}x{HEIGHT}", *options], check=True)
-        return picture_of(out)
+        """Returns the picture that `halfspace render` writes. Pictures of shipped scenes are rendered once."""
+        if isinstance(scene, str):
+            return rendered_scene(scene, *options)
+        return rendered_to(self.folder / "rendered.png", scene, *options)
 
 
 class Events(Folder):
@@ -283,7 +295,7 @@ class Desktop(Folder):
     def wait_for(self, condition, what):
         """Waits until the condition holds. The limit is long because of busy machines, and because of the first start of a newly built
         program: a window once took more than 20 s to open while other tests ran."""
-        limit = 60
+        limit = 180
         end = time.monotonic() + limit
         while time.monotonic() < end:
             if value := condition():

@@ -81,11 +81,12 @@ function wireCanvas(label, triangles, lines, example, points = []) {
     const to = projector(all, width, height);
     pen.clearRect(0, 0, width, height);
     pen.lineJoin = "round";
-    const alpha = Math.max(0.12, Math.min(0.6, 600 / Math.max(triangles.length, 1)));
-    pen.globalAlpha = alpha;
-    for (const t of triangles) polygon(pen, t.corners.map(to), {stroke: css("--ink"), width: 1});
+    const ink = css("--ink");
+    pen.globalAlpha = Math.max(0.12, Math.min(0.6, 600 / Math.max(triangles.length, 1)));
+    for (const t of triangles) polygon(pen, t.corners.map(to), {stroke: ink, width: 1});
     pen.globalAlpha = 0.7;
-    for (const p of points) { const [x, y] = to(p); pen.fillStyle = css("--ink"); pen.fillRect(x - 1, y - 1, 2, 2); }
+    pen.fillStyle = ink;
+    for (const p of points) { const [x, y] = to(p); pen.fillRect(x - 1, y - 1, 2, 2); }
     pen.globalAlpha = 1;
     for (const l of lines) {
       pen.setLineDash(l.dash || []);
@@ -190,8 +191,8 @@ function windowWires(pen, s) {
   pen.globalAlpha = 0.72;
   pen.fillRect(0, 0, W * s, H * s);
   pen.globalAlpha = Math.max(0.25, Math.min(0.8, 900 / Math.max(DATA.wire.count, 1)));
-  const scaled = ([x, y]) => [x * s, y * s];
-  for (const t of wireIn((p) => toPixels(toNdc(toClip(p))))) if (t.outcome < 2 || t.outcome > 3) polygon(pen, t.corners.map(scaled), {stroke: css("--ink")});
+  const scaled = ([x, y]) => [x * s, y * s], ink = css("--ink");
+  for (const t of wireIn((p) => toPixels(toNdc(toClip(p))))) if (t.outcome < 2 || t.outcome > 3) polygon(pen, t.corners.map(scaled), {stroke: ink});
   pen.globalAlpha = 1;
   if (EX) markExample(pen, EX.vertices.map((v) => scaled([v.x / SUB, H - v.y / SUB])));
 }

@@ -63,8 +63,9 @@ function cullPicture(outcome) {
     pen.globalAlpha = 0.75;
     pen.fillRect(0, 0, W * s, H * s);
     pen.globalAlpha = 0.8;
+    const stroke = css(outcome === 0 ? "--ink" : "--accent");
     for (const t of wireIn((p) => toPixels(toNdc(toClip(p))))) {
-      if (t.outcome === outcome) polygon(pen, t.corners.map(([x, y]) => [x * s, y * s]), {stroke: css(outcome === 0 ? "--ink" : "--accent")});
+      if (t.outcome === outcome) polygon(pen, t.corners.map(([x, y]) => [x * s, y * s]), {stroke});
     }
     pen.globalAlpha = 1;
   }});

@@ -1,14 +1,17 @@
 // Interpolation, varyings, mip levels, light and shadows.
 
 const P = DATA.perspective;
+const CORNERS = P && P.xy.map(([x, y]) => [x / SUB, y / SUB]);
 
 // Returns the linear and the perspective-correct weights of a point of triangle P. x and y are pixels from the lower left.
 function weightsAt(x, y) {
-  const [a, b, c] = P.xy.map(([px, py]) => [px / SUB, py / SUB]);
-  const cross = (p, q, r) => (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]), area = cross(a, b, c), at = [x, y];
-  const linear = [cross(b, c, at) / area, cross(c, a, at) / area, cross(a, b, at) / area];
-  const scaled = linear.map((v, i) => v * P.inv_w[i]), sum = scaled[0] + scaled[1] + scaled[2];
-  return {linear, perspective: scaled.map((v) => v / sum)};
+  const [[ax, ay], [bx, by], [cx, cy]] = CORNERS, [qa, qb, qc] = P.inv_w;
+  const area = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax);
+  const a = ((cx - bx) * (y - by) - (cy - by) * (x - bx)) / area;
+  const b = ((ax - cx) * (y - cy) - (ay - cy) * (x - cx)) / area;
+  const c = ((bx - ax) * (y - ay) - (by - ay) * (x - ax)) / area;
+  const sum = a * qa + b * qb + c * qc;
+  return {linear: [a, b, c], perspective: [a * qa / sum, b * qb / sum, c * qc / sum]};
 }
 
 // Draws triangle P with affine and perspective-correct interpolation, next to each other or, on a phone, one above the other.
@@ -19,14 +22,16 @@ function checkeredPair() {
 
 // Draws triangle P, magnified, with a checkerboard in barycentric coordinates.
 function checkered(kind) {
-  const xs = P.xy.map((p) => p[0] / SUB), ys = P.xy.map((p) => p[1] / SUB), x0 = Math.min(...xs), y0 = Math.min(...ys), w = Math.max(...xs) - x0, h = Math.max(...ys) - y0;
+  const xs = CORNERS.map((p) => p[0]), ys = CORNERS.map((p) => p[1]), x0 = Math.min(...xs), y0 = Math.min(...ys), w = Math.max(...xs) - x0, h = Math.max(...ys) - y0;
   const width = 900, height = 460, scale = Math.min((width - 40) / w, (height - 40) / h), {canvas, pen} = canvasFigure(width, height, kind === "difference" ? "Difference between affine and perspective-correct interpolation" : `A triangle with a checkerboard and ${kind === "linear" ? "affine" : "perspective-correct"} interpolation`);
   const image = pen.createImageData(width, height), ox = (width - w * scale) / 2, oy = (height - h * scale) / 2;
   for (let j = 0; j < height; ++j) for (let i = 0; i < width; ++i) {
     const {linear, perspective} = weightsAt(x0 + (i - ox) / scale, y0 + (height - 1 - j - oy) / scale);
-    if (Math.min(...linear) < 0) continue;
+    if (linear[0] < 0 || linear[1] < 0 || linear[2] < 0) continue;
     const color = kind === "difference" ? differenceColor(linear, perspective) : squareColor(kind === "linear" ? linear : perspective);
-    image.data.set([...color, 255], 4 * (j * width + i));
+    const at = 4 * (j * width + i);
+    for (let k = 0; k < 3; ++k) image.data[at + k] = color[k];
+    image.data[at + 3] = 255;
   }
   pen.putImageData(image, 0, 0);
   return el("div", {class: "stage"}, canvas);
@@ -36,7 +41,7 @@ function differenceColor(a, b) {
   const d = Math.max(...a.map((v, i) => Math.abs(v - b[i])));
   return heat(d * 4).match(/\d+/g).map(Number);
 }
-const middle = () => { const c = [0, 1].map((k) => (P.xy[0][k] + P.xy[1][k] + P.xy[2][k]) / 3 / SUB); return weightsAt(...c); };
+const middle = () => weightsAt(...[0, 1].map((k) => (CORNERS[0][k] + CORNERS[1][k] + CORNERS[2][k]) / 3));
 
 chapter({
   id: "interpolation", title: "Perspective-correct interpolation", kicker: "Shading",
