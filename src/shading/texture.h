@@ -127,12 +127,12 @@ class Texture2D {
   __attribute__((pure)) vec4<R> sample_any(const Sampler& sampler, const vec2<R>& uv, const vec2<R>& duv_dx, const vec2<R>& duv_dy) const;
   template <class R>
   __attribute__((pure)) vec4<R> sample_levels_any(const Sampler& sampler, const vec2<R>& uv, const LevelChoice<R>& levels) const;
-  /// Returns whether nearest_texel() supports this sampler.
-  static bool reads_nearest_texel(const Sampler& sampler) {
+  /// Returns whether sample_nearest() supports this sampler.
+  static bool is_nearest(const Sampler& sampler) {
     return sampler.mag == Filter::nearest && sampler.min == Filter::nearest && !has_border(sampler);
   }
   template <class R>
-  vec4<R> nearest_texel(const Sampler& sampler, const vec2<R>& uv) const;
+  vec4<R> sample_nearest(const Sampler& sampler, const vec2<R>& uv) const;
   // A lookup for any sampler, for one format (texels.h).
   template <class R, class Texels>
   struct AnyLookup;

@@ -124,7 +124,7 @@ struct Texture2D::AnyLookup {
 
 /// Reads one texel of level 0. No axis may wrap to the border.
 template <class R>
-HS_INLINE vec4<R> Texture2D::nearest_texel(const Sampler& sampler, const vec2<R>& uv) const {
+HS_INLINE vec4<R> Texture2D::sample_nearest(const Sampler& sampler, const vec2<R>& uv) const {
   return with_texels<R>([&](const auto& texels) {
     using Any = AnyLookup<R, std::remove_cvref_t<decltype(texels)>>;
     const auto at = [](R coordinate, int size, Wrap wrap) -> IntOf<R> {
@@ -168,13 +168,13 @@ HS_INLINE vec4<R> Texture2D::with_lookup(const Sampler& sampler, const Function&
 
 template <class R>
 vec4<R> Texture2D::sample_levels_any(const Sampler& sampler, const vec2<R>& uv, const LevelChoice<R>& levels) const {
-  if (reads_nearest_texel(sampler)) return nearest_texel(sampler, uv);
+  if (is_nearest(sampler)) return sample_nearest(sampler, uv);
   return with_lookup<R>(sampler, [&](const auto& lookup) { return lookup.finish(lookup(uv, levels)); });
 }
 
 template <class R>
 vec4<R> Texture2D::sample_any(const Sampler& sampler, const vec2<R>& uv, const vec2<R>& duv_dx, const vec2<R>& duv_dy) const {
-  if (sampler.anisotropy <= 1 && reads_nearest_texel(sampler)) return nearest_texel(sampler, uv);
+  if (sampler.anisotropy <= 1 && is_nearest(sampler)) return sample_nearest(sampler, uv);
   if (sampler.anisotropy <= 1) return sample_levels_any<R>(sampler, uv, levels_of(sampler, duv_dx, duv_dy));
 
   HS_DCHECK(sampler.anisotropy <= 16);

@@ -49,7 +49,4 @@ void constant_colors(const Draw& draw, FragmentOutput& out);
 /// Writes the colors in out to the tile. packets[k] receives all colors of packet i + k of the batch.
 void write_colors(const Draw& draw, const FragmentOutput& out, std::size_t i, std::span<const PacketMask> packets, Tile& tile);
 
-/// Writes the colors of packed pixels to the packets to which they belong. packed: the output of a batch with `pixels`.
-void write_packed(const FragmentOutput& packed, std::span<const PacketMask> packets, const WriteTarget& to);
-
 }  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -66,11 +66,10 @@ Mask late_tests(const Shading& c, const FragmentOutput& out, std::size_t i, int 
     c.statistics.trace->set_outcome(id, packet, bits(mask), FragmentOutcome::depth_failed);  // unless something else follows
   }
   if (c.stencil != nullptr) {
-    const Mask stencil_passed = stencil_test(*c.stencil, c.tile, packet, mask);
-    const Mask passed = depth_test(state, c.tile, packet, z, stencil_passed);
+    const auto [stencil_passed, passed] =
+        test_and_update_stencil(*c.stencil, c.tile, packet, mask, tests_depth(state, c.tile), state.compare, z);
     if constexpr (kTracesShading<Shading>)
       c.statistics.trace->set_outcome(id, packet, bits(mask & !stencil_passed), FragmentOutcome::stencil_failed);
-    update_stencil(*c.stencil, c.tile, packet, mask & !stencil_passed, stencil_passed & !passed, passed);
     mask = passed;
   } else if (c.tests_late) {
     mask = depth_test(state, c.tile, packet, z, mask);

@@ -18,4 +18,7 @@ struct PackedFragments {
 std::size_t unpack(const ShaderKernels& kernels, const FragmentOutput& packed, std::size_t first, std::span<const PacketMask> packets,
                    FragmentOutput& out);
 
+/// Writes the colors of packed pixels to the packets to which they belong. packed: the output of a batch with `pixels`.
+void write_packed(const FragmentOutput& packed, std::span<const PacketMask> packets, const WriteTarget& to);
+
 }  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -37,7 +37,7 @@ int32_t* direct_codes(const Draw& draw, Tile& tile) {
 
 // The same for other formats. Deferred draws replace all channels.
 template <class Statistics>
-WriteTarget direct_target(const Draw& draw, Tile& tile) {
+WriteTarget deferred_target(const Draw& draw, Tile& tile) {
   if (kTraces<Statistics> || tile.color_count != 1 || draw.kernels.is_constant) return {};
   return {write_programs(tile.color[0].format, {}).packet, &tile.color[0]};
 }
@@ -56,7 +56,7 @@ class DrawShading {
         memory_(memory),
         statistics_(statistics),
         codes_(direct_codes<Statistics>(draw, tile)) {
-    if (codes_ == nullptr && !job.spreads) target_ = direct_target<Statistics>(draw, tile);
+    if (codes_ == nullptr && !job.spreads) target_ = deferred_target<Statistics>(draw, tile);
   }
 
   void shade(std::span<const PacketMask> packets) {
@@ -240,7 +240,7 @@ void shade_full_tile(const PassContext& context, TriangleId id, Tile& tile, Defe
                        .count = kPackets},
                       &memory.output,
                       direct_codes<Statistics>(draw, tile)};
-  if (batch.codes == nullptr) batch.target = direct_target<Statistics>(draw, tile);
+  if (batch.codes == nullptr) batch.target = deferred_target<Statistics>(draw, tile);
   if (batch.codes != nullptr || batch.target.program != nullptr) return draw.kernels.color(draw.shader.get(), batch);
   batch.count = kPacketBatch;
   for (std::size_t first = 0; first < kPackets; first += kPacketBatch) {

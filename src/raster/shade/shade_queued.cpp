@@ -56,7 +56,7 @@ void finish_sample_batch(const Shading& c, PacketQueue& queue, std::size_t begin
 
 // Returns the buffer to which the colors of the queue can be written directly, if no test follows the shader.
 template <class Shading>
-WriteTarget direct_target(const Shading& c) {
+WriteTarget queue_target(const Shading& c) {
   const bool is_single = c.tile.color_count == 1 && c.draw.kernels.color_count == 1;
   const bool is_supported = !kTracesShading<Shading> && c.mode == VisibilityMode::early && !c.draw.kernels.is_constant;
   if (!is_single || !is_supported) return {};
@@ -80,7 +80,7 @@ void write_samples(const Tile& tile, const FragmentOutput& output, const PacketQ
 }
 
 // Runs the late tests of packets that were shaded as packets 0, 1, ... of the output, and writes them. begin: position of the first packet
-// in the queue; target: see direct_target().
+// in the queue; target: see queue_target().
 template <class Shading>
 void finish_batch(const Shading& c, PacketQueue& queue, std::size_t begin, std::size_t n, const WriteTarget& target) {
   if (c.tile.samples > 1) {
@@ -150,7 +150,7 @@ void shade_queued(const DrawInTile& d, PacketQueue& queue, TransparentLayers& la
   const std::span<const PacketMask> packets = std::span(queue.packets).first(count);
   statistics.fragments_shaded += pixel_count(packets);
   const bool packs = !kTraces<Statistics> && packs_queue(d.draw, d.tile, packets);
-  const WriteTarget target = direct_target(c);
+  const WriteTarget target = queue_target(c);
   for (std::size_t begin = 0; begin < count;)
     begin += packs ? shade_packed(c, queue, begin, packed, target) : shade_batch(c, queue, begin, target);
   queue.count = 0;

@@ -20,7 +20,8 @@ void read_batch(const ColorBuffer& buffer, std::span<const PacketMask> packets, 
 /// existing ones; otherwise they replace them. src1 is the second color for dual-source blending; only src1 factors read it.
 void write_color(ColorBuffer& buffer, int packet, Mask mask, const PacketColor& src, const PacketColor& src1, const AttachmentState& state);
 
-/// The same for several packets. src and src1 have one element for each.
+/// The same for several packets. src and src1 have one element for each. Uses the functions of write_programs.h for the formats that have
+/// them; write_color() defines their results (test Blend.ProgramsWriteTheSameBitsAsTheGeneralCode).
 void write_batch(ColorBuffer& buffer, std::span<const PacketMask> packets, const PacketColor* src, const PacketColor* src1,
                  const AttachmentState& state);
 

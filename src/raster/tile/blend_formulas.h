@@ -158,7 +158,7 @@ HS_INLINE FactorOperands factor_operands(const BlendSources& s) {
 
 }  // namespace detail
 
-/// The same for an operation that is only known at run time. The result has the same bits.
+/// blend_sums() for an operation that is only known at run time. The result has the same bits.
 HS_INLINE PacketColor blend_sums(const AnyOperation& o, const PacketColor& src, const PacketColor& dst, const BlendSources& from) {
   const detail::FactorOperands operands = detail::factor_operands(from);
   const auto factor = [&](BlendFactor f, std::size_t k) {

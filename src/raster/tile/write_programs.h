@@ -20,7 +20,7 @@ struct WritePrograms {
   WriteProgram batch = nullptr;
   WritePacketProgram packet = nullptr;
 };
-/// Returns the functions for a format and a state, or null if there are none for the format.
+/// Returns the functions for a format and a state. Both are null if there are none for the format.
 WritePrograms write_programs(ColorFormat format, const AttachmentState& state);
 
 /// A color buffer to which a fragment kernel writes directly.

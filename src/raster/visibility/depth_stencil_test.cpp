@@ -41,11 +41,11 @@ void update_stencil(const StencilFace& face, Tile& tile, int packet, Mask failed
   store_u8(&tile.stencil[static_cast<std::size_t>(packet) * kLanes], value);
 }
 
-StencilDepthTest test_and_update_stencil(const StencilFace& face, Tile& tile, int packet, Mask mask, bool tests_depth, CompareOp op,
+StencilDepthTest test_and_update_stencil(const StencilFace& face, Tile& tile, int packet, Mask mask, bool with_depth, CompareOp op,
                                          Real z) {
   const Mask stencil_passed = stencil_test(face, tile, packet, mask);
   Mask passed = stencil_passed;
-  if (tests_depth) passed = passed & compare(op, z, load<Real>(&tile.depth[static_cast<std::size_t>(packet) * kLanes]));
+  if (with_depth) passed = passed & compare(op, z, load<Real>(&tile.depth[static_cast<std::size_t>(packet) * kLanes]));
   update_stencil(face, tile, packet, mask & !stencil_passed, stencil_passed & !passed, passed);
   return {stencil_passed, passed};
 }

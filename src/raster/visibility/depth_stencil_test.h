@@ -35,10 +35,12 @@ void update_stencil(const StencilFace& face, Tile& tile, int packet, Mask failed
 struct StencilDepthTest {
   Mask stencil_passed, passed;
 };
-/// Runs the stencil test and, if tests_depth, the depth test for the lanes in mask, and updates the stencil values. z: depth of the
+/// Runs the stencil test and, if with_depth is set, the depth test for the lanes in mask, and updates the stencil values. z: depth of the
 /// fragments, represented as in Tile::depth.
-StencilDepthTest test_and_update_stencil(const StencilFace& face, Tile& tile, int packet, Mask mask, bool tests_depth, CompareOp op,
-                                         Real z);
+StencilDepthTest test_and_update_stencil(const StencilFace& face, Tile& tile, int packet, Mask mask, bool with_depth, CompareOp op, Real z);
+
+/// Returns true if a draw has a depth test in this tile.
+inline bool tests_depth(const DepthState& state, const Tile& tile) { return state.test && tile.depth_format != DepthFormat::none; }
 
 /// Returns true if a draw has a stencil test in this tile.
 inline bool tests_stencil(const DrawState& state, const Tile& tile) { return state.stencil && tile.has_stencil; }

@@ -106,6 +106,22 @@ class ListWriter {
     if (lists_depth()) queue_.depth[i] = z;
     queue_.count += lanes != 0 ? 1 : 0;
   }
+  // Adds a pixel to the last element of the queue if it has the same packet and triangle, otherwise as a new element.
+  HS_INLINE void add_pixel(TriangleId id, int packet, int lane, float z) {
+    if (is_final()) ++statistics_.samples_passed;
+    const auto bit = static_cast<uint16_t>(1u << lane);
+    const bool is_same = queue_.count != 0 && queue_.ids[static_cast<std::size_t>(queue_.count) - 1] == id &&
+                         queue_.packets[static_cast<std::size_t>(queue_.count) - 1].packet == packet;
+    const auto i = static_cast<std::size_t>(is_same ? queue_.count - 1 : queue_.count++);
+    PacketMask& p = queue_.packets[i];
+    if (!is_same) {
+      p = {static_cast<uint16_t>(packet), 0};
+      queue_.ids[i] = id;
+      if (lists_depth()) queue_.depth[i] = Real(0.0f);
+    }
+    p.lanes = static_cast<uint16_t>(p.lanes | bit);
+    if (lists_depth()) set_lane(queue_.depth[i], lane, z);
+  }
 
   Tile& tile_;
 
@@ -140,22 +156,6 @@ class ListWriter {
     queue_.packets[n].lanes = static_cast<uint16_t>(queue_.packets[n].lanes | lanes);
     queue_.sample_lanes[n][sample_] = static_cast<uint16_t>(lanes);
     if (lists_depth()) queue_.sample_depth(tile_, n, static_cast<int>(sample_)) = z;
-  }
-  /// Adds a pixel to the last element of the queue if it has the same packet and triangle, otherwise as a new element.
-  HS_INLINE void add_pixel(TriangleId id, int packet, int lane, float z) {
-    if (is_final()) ++statistics_.samples_passed;
-    const auto bit = static_cast<uint16_t>(1u << lane);
-    const bool is_same = queue_.count != 0 && queue_.ids[static_cast<std::size_t>(queue_.count) - 1] == id &&
-                         queue_.packets[static_cast<std::size_t>(queue_.count) - 1].packet == packet;
-    const auto i = static_cast<std::size_t>(is_same ? queue_.count - 1 : queue_.count++);
-    PacketMask& p = queue_.packets[i];
-    if (!is_same) {
-      p = {static_cast<uint16_t>(packet), 0};
-      queue_.ids[i] = id;
-      if (lists_depth()) queue_.depth[i] = Real(0.0f);
-    }
-    p.lanes = static_cast<uint16_t>(p.lanes | bit);
-    if (lists_depth()) set_lane(queue_.depth[i], lane, z);
   }
 
   PacketQueue& queue_;

@@ -20,7 +20,7 @@ struct PacketBatch {
   const TriangleId* ids = nullptr;         ///< triangle of each pixel of the tile; null if each packet shows only one, see packet_ids
   const TriangleId* packet_ids = nullptr;  ///< triangle of each packet; only used if ids is null
   const PacketMask* packets = nullptr;
-  int count = 0;                              ///< ≤ kPacketBatch for a fragment function, unless FragmentBatch::codes or blend is set
+  int count = 0;                              ///< ≤ kPacketBatch for a fragment function, unless FragmentBatch::codes or target is set
   const SamplePosition* centroids = nullptr;  ///< positions of centroid varyings, W for each packet; null if the same as position
   /// If not null, the pixels are packed (see PackedPixels): packet i contains pixels i·W to i·W + W − 1 of this list. Each is stored as
   /// (y << 16) | x relative to the tile, and `ids` has the same order.

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Runs the stencil test for packets before they are added to a PacketQueue. Replaces ListWriter for draws with a stencil test that can
-// precede the shader: the draw does not update the stencil values, or coverage, depth and the stencil test alone decide
-// (Rasterizer::queued).
+// precede the shader: the draw does not update the stencil values, or only coverage, the depth test and the stencil test decide which
+// fragments do (Rasterizer::queued).
 #pragma once
 
 #include "halfspace/raster/visibility/list_writer.h"
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
 
-/// See ListWriter. begin() must be called before each triangle, also before tests().
+/// See ListWriter. Call begin() before each triangle and before tests(), which depends on the face of the triangle.
 template <class S, bool multisampled>
 class StencilListWriter : public ListWriter<S, multisampled> {
   using Base = ListWriter<S, multisampled>;
@@ -32,29 +32,46 @@ class StencilListWriter : public ListWriter<S, multisampled> {
   /// See OpaqueWriter.
   template <class Z>
   HS_INLINE bool write(TriangleId id, int packet, uint32_t covered, const Z& z_at, bool passes = false) {
-    return updates_ ? write_and_update(id, packet, covered, z_at) : write_passed(id, packet, covered, z_at, passes);
+    if (!updates_) {
+      const uint32_t lanes = passes_stencil(id, packet, covered, z_at);
+      return lanes != 0 && Base::write(id, packet, lanes, z_at, passes);
+    }
+    const Tested tested = test_and_update(id, packet, covered, z_at);
+    this->add(id, packet, tested.lanes, tested.z);
+    return tested.lanes != 0;
   }
   HS_INLINE void write_pixel(TriangleId id, std::size_t pixel, float z) {
-    const int packet = static_cast<int>(pixel) / kLanes;
-    const bool passed = write(id, packet, 1u << pixel % kLanes, [&] { return Real(z); });
-    if (passed && this->writes_depth()) widen_hiz(this->compare_op(), tile_, packet / kPacketsPerBlock, z, z);
+    const int packet = static_cast<int>(pixel) / kLanes, lane = static_cast<int>(pixel) % kLanes;
+    const auto z_at = [&] { return Real(z); };
+    if (!updates_) {
+      if (passes_stencil(id, packet, 1u << lane, z_at) != 0) Base::write_pixel(id, pixel, z);
+      return;
+    }
+    if (test_and_update(id, packet, 1u << lane, z_at).lanes == 0) return;
+    this->add_pixel(id, packet, lane, z);
+    if (this->writes_depth()) widen_hiz(this->compare_op(), tile_, packet / kPacketsPerBlock, z, z);
   }
 
  private:
   using Base::tile_;
 
-  // Passes on the lanes that pass the stencil test.
+  struct Tested {
+    uint32_t lanes;  // passed both tests
+    Real z;          // 0 without a depth test
+  };
+
+  // Returns the lanes that pass the stencil test.
   template <class Z>
-  HS_INLINE bool write_passed(TriangleId id, int packet, uint32_t covered, const Z& z_at, bool passes) {
+  HS_INLINE uint32_t passes_stencil(TriangleId id, int packet, uint32_t covered, const Z& z_at) {
     const uint32_t lanes = bits(stencil_test(*face_, tile_, packet, mask_from_bits<Mask>(covered)));
     this->statistics().samples_tested += static_cast<uint64_t>(std::popcount(covered & ~lanes));
     if constexpr (kTraces<S>) trace(id, packet, covered & ~lanes, FragmentOutcome::stencil_failed, z_at());
-    return lanes != 0 && Base::write(id, packet, lanes, z_at, passes);
+    return lanes;
   }
 
-  // Tests stencil and depth, and updates the stencil values.
+  // Tests stencil and depth, and updates the stencil values and the depth.
   template <class Z>
-  HS_INLINE bool write_and_update(TriangleId id, int packet, uint32_t covered, const Z& z_at) {
+  HS_INLINE Tested test_and_update(TriangleId id, int packet, uint32_t covered, const Z& z_at) {
     this->statistics().samples_tested += static_cast<uint64_t>(std::popcount(covered));
     float* depth = &tile_.depth[static_cast<std::size_t>(packet) * kLanes];
     const Real z = tests_depth_ ? z_at() : Real(0.0f);
@@ -67,8 +84,7 @@ class StencilListWriter : public ListWriter<S, multisampled> {
       trace(id, packet, covered & ~bits(stencil_passed), FragmentOutcome::stencil_failed, z_at());
     }
     if (this->writes_depth()) store(depth, select(passed, z, load<Real>(depth)));
-    this->add(id, packet, lanes, z);
-    return lanes != 0;
+    return {lanes, z};
   }
 
   void trace(TriangleId id, int packet, uint32_t lanes, FragmentOutcome outcome, Real z) {

@@ -25,7 +25,6 @@ class StencilWriter {
         writes_depth_(d.tests && d.draw.state.depth.write),
         writes_id_(d.mode == VisibilityMode::deferred) {}
 
-  PassStatistics& statistics() const { return statistics_; }
   /// Returns true if fragments that fail the depth test have no effect.
   bool tests() const { return tests_ && face_->fail == StencilOp::keep && face_->depth_fail == StencilOp::keep; }
   bool writes_depth() const { return writes_depth_; }

@@ -9,12 +9,6 @@
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
 
-namespace {
-
-bool tests_depth(const DepthState& state, const Tile& tile) { return state.test && tile.depth_format != DepthFormat::none; }
-
-}  // namespace
-
 VisibilityMode visibility_mode(const Draw& draw) {
   if (draw.deferred) return VisibilityMode::deferred;
   if (draw.kernels.fragment == nullptr) return VisibilityMode::depth_only;
