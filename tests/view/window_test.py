@@ -45,6 +45,7 @@ def picture_of(path):
 
 
 def rendered_to(out, scene, *options):
+    """Writes a picture with `halfspace render` and returns its rows above the messages."""
     subprocess.run([program("halfspace"), "render", scene, "-o", out, "--size", f"{WIDTH}x{HEIGHT}", *options], check=True)
     return picture_of(out)
 

@@ -24,14 +24,8 @@ Int apply(StencilOp op, Int value, Int reference) {
   return value;
 }
 
-}  // namespace
-
-Mask stencil_test(const StencilFace& face, const Tile& tile, int packet, Mask mask) {
-  const Int read(face.read_mask);
-  const Real reference = to_real<Real>(Int(face.reference) & read);  // integers up to 255 are exact in float
-  return mask & compare(face.compare, reference, to_real<Real>(load_values(tile, packet) & read));
-}
-
+// Applies the stencil operations of `face`. The three masks are disjoint: lanes that failed the stencil test, lanes that passed it but
+// failed the depth test, and lanes that passed both tests.
 void update_stencil(const StencilFace& face, Tile& tile, int packet, Mask failed, Mask depth_failed, Mask passed) {
   const Int old = load_values(tile, packet), reference(face.reference), write(face.write_mask);
   Int value = select(failed, apply(face.fail, old, reference), old);
@@ -39,6 +33,14 @@ void update_stencil(const StencilFace& face, Tile& tile, int packet, Mask failed
   value = select(passed, apply(face.pass, old, reference), value);
   value = (value & write) | (old & ~write);
   store_u8(&tile.stencil[static_cast<std::size_t>(packet) * kLanes], value);
+}
+
+}  // namespace
+
+Mask stencil_test(const StencilFace& face, const Tile& tile, int packet, Mask mask) {
+  const Int read(face.read_mask);
+  const Real reference = to_real<Real>(Int(face.reference) & read);  // integers up to 255 are exact in float
+  return mask & compare(face.compare, reference, to_real<Real>(load_values(tile, packet) & read));
 }
 
 StencilDepthTest test_and_update_stencil(const StencilFace& face, Tile& tile, int packet, Mask mask, bool with_depth, CompareOp op,

@@ -27,10 +27,6 @@ HS_INLINE MaskOf<R> compare(CompareOp op, R z, R stored) {
 /// Returns the lanes of mask that pass the stencil test.
 Mask stencil_test(const StencilFace& face, const Tile& tile, int packet, Mask mask);
 
-/// Applies the stencil operations of `face`. The three masks are disjoint: lanes that failed the stencil test, lanes that passed it but
-/// failed the depth test, and lanes that passed both tests.
-void update_stencil(const StencilFace& face, Tile& tile, int packet, Mask failed, Mask depth_failed, Mask passed);
-
 /// The lanes of a packet that pass the stencil test, and those of them that also pass the depth test.
 struct StencilDepthTest {
   Mask stencil_passed, passed;
