@@ -151,6 +151,45 @@ TEST(Operations, StencilDistinguishesFailDepthFailAndPass) {
   }
 }
 
+// Draws primitives that cover every pixel once over an image whose left half has stencil value 1. Only this value passes the stencil test,
+// which does not change it. Adds 1 to the pixels that pass.
+Image<glm::vec4> add_where_marked(const std::vector<glm::vec4>& positions, Topology topology) {
+  Image<glm::vec4> image(16, 16);
+  Image<uint32_t> depth(16, 16);
+  Pass pass(16, 16, rgba32f_target(image), d24s8_target(depth));
+  const std::vector<glm::vec4> everywhere = whole(0.5f);
+  const StencilFace mark{.pass = StencilOp::replace, .reference = 1}, marked{.compare = CompareOp::equal, .reference = 1};
+  pass.draw(ConstantShader{}, make_vertex_view(stream(everywhere)),
+            {.scissor = Rect{0, 0, 8, 16},
+             .depth = {.test = false},
+             .stencil = StencilState{mark, mark},
+             .color_mask = {false, false, false, false}});
+  pass.draw(ConstantShader{}, make_vertex_view(stream(positions)),
+            {.topology = topology, .depth = {.test = false}, .stencil = StencilState{marked, marked}, .blend = kAdd, .query = 0});
+  EXPECT_EQ(pass.run(one_worker()).queries[0], 8u * 16);
+  return image;
+}
+
+// Thin lines and tiny triangles are tested pixel by pixel.
+TEST(Operations, StencilThatIsOnlyReadSelectsPixelsOfThinLinesAndTinyTriangles) {
+  const auto expect_left_half = [](const Image<glm::vec4>& image) {
+    for (int y = 0; y < 16; ++y) {
+      for (int x = 0; x < 16; ++x) EXPECT_EQ(pixel(image, x, y).x, x < 8 ? 1.0f : 0.0f) << x << ' ' << y;
+    }
+  };
+  std::vector<glm::vec4> lines, triangles;
+  for (int y = 0; y < 16; ++y) {
+    const int center = y * 256 + 128;
+    for (const int x : {-256, 17 * 256}) lines.push_back(clip_position({x, center}, 16, 16));
+    for (int x = 128; x < 16 * 256; x += 256) {
+      for (const Point& p : {Point{x - 60, center - 60}, {x + 60, center - 60}, {x, center + 60}})
+        triangles.push_back(clip_position(p, 16, 16));
+    }
+  }
+  expect_left_half(add_where_marked(lines, Topology::lines));
+  expect_left_half(add_where_marked(triangles, Topology::triangles));
+}
+
 TEST(Operations, StencilFacesAndMasksAreSeparate) {
   Image<DepthStencil> depth(8, 8);
   Image<glm::vec4> image(8, 8);
