@@ -102,11 +102,11 @@ TEST(Multisample, PerSampleShadingUsesSamplePositions) {
 
 // Draws that blend are shaded in order, from a queue that holds pixels of several triangles. The blend state used here replaces the color,
 // so the result is the same as without blending.
+constexpr BlendState kReplace{.source_color = BlendFactor::one,
+                              .destination_color = BlendFactor::zero,
+                              .source_alpha = BlendFactor::one,
+                              .destination_alpha = BlendFactor::zero};
 TEST(Multisample, BlendedTrianglesCoverTheSameSamples) {
-  const BlendState replace{.source_color = BlendFactor::one,
-                           .destination_color = BlendFactor::zero,
-                           .source_alpha = BlendFactor::one,
-                           .destination_alpha = BlendFactor::zero};
   Random r(7);
   std::vector<glm::vec4> p;
   for (int i = 0; i < 300; ++i) {
@@ -122,7 +122,7 @@ TEST(Multisample, BlendedTrianglesCoverTheSameSamples) {
   const auto expect_same = [&](auto opaque, auto blended, const auto& target_of) {
     for (const int n : {2, 4, 8}) {
       draw(n, target_of(opaque), {});
-      draw(n, target_of(blended), {.blend = replace});
+      draw(n, target_of(blended), {.blend = kReplace});
       for (int y = 0; y < 64; ++y) {
         for (int x = 0; x < 64; ++x) ASSERT_EQ(pixel(blended, x, y), pixel(opaque, x, y)) << n << " samples: " << x << ' ' << y;
       }
@@ -131,6 +131,103 @@ TEST(Multisample, BlendedTrianglesCoverTheSameSamples) {
   expect_same(Image<glm::vec4>(64, 64), Image<glm::vec4>(64, 64), [](auto& image) { return rgba32f_target(image); });
   expect_same(Image<U16Vec4>(64, 64), Image<U16Vec4>(64, 64), [](auto& image) { return rgba16f_target(image); });
   expect_same(Image<glm::u8vec4>(64, 64), Image<glm::u8vec4>(64, 64), [](auto& image) { return rgba8_target(image); });
+}
+
+// A pixel is shaded once, however many of its samples a triangle covers.
+TEST(Multisample, QueuedPixelsAreShadedOnce) {
+  for (const int n : {2, 4, 8}) {
+    for (const int side : {10, 100}) {  // px
+      for (const bool writes_depth : {false, true}) {
+        const Point low{13 * 256 + 77, 9 * 256 + 140};
+        const std::vector<glm::vec4> p{clip_position(low, 128, 128), clip_position({low.x + side * 256, low.y + 300}, 128, 128),
+                                       clip_position({low.x + 200, low.y + side * 256}, 128, 128)};
+        Image<glm::vec4> image(128, 128);
+        Pass pass(128, 128, rgba32f_target(image), {.format = DepthFormat::d32f}, {.samples = n});
+        pass.draw(PlaceShader{}, make_vertex_view(stream(p)), {.depth = {.write = writes_depth}, .blend = kReplace});
+        const uint64_t shaded = pass.run(one_worker()).fragments_shaded;
+        uint64_t drawn = 0;
+        for (std::size_t i = 0; i < 128 * 128; ++i) drawn += image.data()[i].x != 0.0f ? 1 : 0;  // the color contains the window position
+        EXPECT_EQ(shaded, drawn) << n << " samples, " << side << " px";
+      }
+    }
+  }
+}
+
+// A pass with one sample per pixel, whose primitives are moved by the distance of a sample from the pixel center, draws exactly this
+// sample. Triangles and points are larger than those that are drawn in groups.
+TEST(Multisample, EverySampleOfLargePrimitivesIsDrawnLikeAPixelCenter) {
+  constexpr int kSide = 128;
+  struct Primitives {
+    std::vector<Point> places;
+    std::vector<float> depths;
+    std::vector<glm::vec4> colors;
+  };
+  Random r(11);
+  Primitives triangles, points;
+  const auto add = [&](Primitives& to, const Point& at, const glm::vec4& color) {
+    to.places.push_back(at);
+    to.depths.push_back(static_cast<float>(r.real(-0.99, 0.99)));
+    to.colors.push_back(color);
+  };
+  for (int i = 0; i < 60; ++i) {
+    const glm::vec4 color(r.integer(0, 255), r.integer(0, 255), r.integer(0, 255), r.integer(0, 255));
+    const int reach = i % 3 == 0 ? 300 * 256 : 60 * 256;  // pixels in 1/256
+    for (int k = 0; k < 3; ++k) add(triangles, {r.integer(-reach, reach) + 64 * 256, r.integer(-reach, reach) + 64 * 256}, color);
+    add(points, {r.integer(0, kSide * 256), r.integer(0, kSide * 256)}, color);
+  }
+  const auto draw = [&](Image<glm::vec4>& image, const Primitives& what, DrawState state, const Point& shift, int samples) {
+    std::vector<glm::vec4> p;
+    for (std::size_t i = 0; i < what.places.size(); ++i)
+      p.push_back(clip_position({what.places[i].x + shift.x, what.places[i].y + shift.y}, kSide, kSide, what.depths[i]));
+    Pass pass(kSide, kSide, rgba32f_target(image), {.format = DepthFormat::d32f}, {.samples = samples});
+    const std::size_t half = what.places.size() / 2;
+    const auto part = [half](const std::vector<glm::vec4>& values, std::size_t begin) {
+      return stream(std::span<const glm::vec4>(values).subspan(begin, half));
+    };
+    const auto draw_part = [&](std::size_t begin, const DrawState& part_state) {
+      pass.draw(FlatColorShader{}, make_vertex_view(part(p, begin), part(what.colors, begin)), part_state);
+    };
+    draw_part(0, {.topology = state.topology, .point_size = state.point_size, .sample_mask = state.sample_mask});
+    draw_part(half, state);
+    return pass.run(one_worker()).samples_passed;
+  };
+  const auto expect_equal = [&](const Primitives& what, const DrawState& state, std::size_t pattern) {
+    const auto n = static_cast<int>(kStandard[pattern].size());
+    Image<glm::vec4> image(kSide, kSide), one(kSide, kSide);
+    const uint64_t passed = draw(image, what, state, {0, 0}, n);
+    std::vector<glm::vec4> sums(static_cast<std::size_t>(kSide * kSide), glm::vec4(0));
+    uint64_t expected = 0;
+    for (std::size_t s = 0; s < kStandard[pattern].size(); ++s) {
+      const Point at = kStandard[pattern][s];
+      DrawState alone = state;
+      alone.sample_mask = ~0u;
+      if ((state.sample_mask >> s & 1) == 0) continue;
+      expected += draw(one, what, alone, {128 - 16 * at.x, 128 - 16 * at.y}, 1);
+      for (int y = 0; y < kSide; ++y) {
+        for (int x = 0; x < kSide; ++x) sums[static_cast<std::size_t>(y * kSide + x)] += pixel(one, x, y);
+      }
+    }
+    EXPECT_EQ(passed, expected) << n << " samples";
+    for (int y = 0; y < kSide; ++y) {
+      for (int x = 0; x < kSide; ++x) {
+        const glm::vec4 mean = sums[static_cast<std::size_t>(y * kSide + x)] / static_cast<float>(n);  // exact: sums of few integers
+        ASSERT_EQ(pixel(image, x, y), mean) << n << " samples: " << x << ' ' << y;
+      }
+    }
+  };
+  DrawState added{.blend = kAdd}, written{.blend = kAdd}, masked{.blend = kAdd}, replaced;
+  added.depth.write = false;
+  masked.sample_mask = 0xA6;
+  replaced.depth.compare = CompareOp::always;
+  for (const DrawState& state : {DrawState{}, added, written, masked, replaced}) {
+    for (std::size_t pattern = 0; pattern < kStandard.size(); ++pattern) {
+      expect_equal(triangles, state, pattern);
+      DrawState of_points = state;
+      of_points.topology = Topology::points;
+      of_points.point_size = 21.5f;
+      expect_equal(points, of_points, pattern);
+    }
+  }
 }
 
 // OpenGL 4.6, section 17.3.1: alpha 0 covers nothing, alpha 1 covers everything, and coverage never decreases with alpha.

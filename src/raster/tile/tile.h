@@ -82,6 +82,8 @@ struct PacketMask {
   uint16_t packet;
   uint16_t lanes;  ///< bit i: lane i
 };
+/// Lanes of the packets that store the samples of a packet of pixels, for each sample of the tile.
+using SampleLanes = std::array<uint16_t, kMaxSamples>;
 
 /// Colors of a packet: r, g, b and a, with one value per lane.
 using PacketColor = std::array<Real, 4>;

@@ -69,6 +69,8 @@ inline BlockCoverage block_coverage(const BlockEdges& edges, int x, int y) {
 struct TileRect {
   int x0, y0, x1, y1;
   bool empty() const { return x0 >= x1 || y0 >= y1; }
+  /// Returns true if it contains the block with corner (x, y).
+  bool contains_block(int x, int y) const { return x >= x0 && y >= y0 && x + kBlockSize <= x1 && y + kBlockSize <= y1; }
 };
 HS_INLINE Mask inside(const TileRect& r, int packet_x, int packet_y) {
   const Int x = lane_x() + packet_x, y = lane_y() + packet_y;

@@ -39,6 +39,14 @@ HS_INLINE void widen_hiz(CompareOp op, Tile& tile, int block, float low, float h
   tile.hiz_is_stale[b] = true;
 }
 
+/// Sets the bounds of a block after all its depths were replaced with depths in [low, high].
+inline void set_hiz(Tile& tile, int block, float low, float high) {
+  const auto b = static_cast<std::size_t>(block);
+  tile.hiz_min[b] = low;
+  tile.hiz_max[b] = high;
+  tile.hiz_is_stale[b] = false;
+}
+
 /// Testing fewer pixels than this takes no longer than recomputing the bounds of a block (measured on Zen 3).
 inline constexpr int kManyPixels = 24;
 

@@ -64,7 +64,7 @@ void FullTileOccluder::trace_passed(const DrawInTile& d, const Triangle& t, Tria
   const TileEdges tile_edges{};
   const BlockEdges edges(tile_edges);
   const auto plane_of = [&](const Triangle& of, const Draw& draw) {
-    return DepthPlane<false>(of, tile_edges, draw, grid, d.tile.depth_format);
+    return DepthPlane<false>(of, tile_edges.bias, draw, grid, d.tile.depth_format);
   };
   const DepthPlane<false> plane = plane_of(t, d.draw);
   const DepthPlane<false> before = pending_ ? plane_of(*pending_->triangle, pending_->draw.draw) : plane;

@@ -22,9 +22,8 @@ inline bool lists_undecided(const DrawInTile& d) {
 }
 
 /// Queues the packets of a draw. In VisibilityMode::early, depth is tested and written before a packet is queued. In all other modes, depth
-/// is tested after the shader; lanes that already fail the test are dropped if they cannot pass it later. Call begin() before each triangle
-/// and, in a multisampled tile, begin_sample() before the packets of each of its samples. undecided: compiled for draws with
-/// lists_undecided().
+/// is tested after the shader; lanes that already fail the test are dropped if they cannot pass it later. multisampled: for multisampled
+/// tiles, where write() adds to the current packet. undecided: compiled for draws with lists_undecided().
 template <class S, bool multisampled, bool undecided = false>
 class ListWriter {
  public:
@@ -47,13 +46,37 @@ class ListWriter {
   bool writes_depth() const { return !undecided && writes_depth_; }
   CompareOp compare_op() const { return undecided ? CompareOp::less : compare_; }
 
-  /// Starts a triangle.
-  void begin(const Triangle&) { first_ = queue_.count; }
-  /// Starts a sample of the triangle.
-  void begin_sample(int sample) requires multisampled {
-    sample_ = static_cast<std::size_t>(sample);
-    shift_ = packet_shift(sample_plane(tile_.samples, sample, tile_.size));
+  /// Adds a packet of pixels without testing it, if the draw lists no depths and the depth test passes everywhere or nothing is tested.
+  /// Returns false otherwise. See write_samples() in sample_set.h.
+  HS_INLINE bool add_untested(TriangleId id, int packet, const SampleLanes& lanes, uint32_t passes) requires multisampled {
+    constexpr bool traces = kTraces<Statistics>;
+    const uint32_t all = (1u << tile_.samples) - 1;
+    if (traces || lists_depth() || writes_depth() || (tests() && (passes & all) != all)) return false;
+    uint32_t any = 0;
+    int covered = 0;
+    for (const uint16_t of_sample : lanes) {
+      any |= of_sample;
+      covered += std::popcount(of_sample);
+    }
+    statistics_.samples_tested += static_cast<uint64_t>(covered);
+    if (is_final()) statistics_.samples_passed += static_cast<uint64_t>(covered);
+    const auto i = static_cast<std::size_t>(queue_.count);
+    queue_.packets[i] = {static_cast<uint16_t>(packet), static_cast<uint16_t>(any)};
+    queue_.ids[i] = id;
+    queue_.sample_lanes[i] = lanes;
+    queue_.count += any != 0 ? 1 : 0;
+    return true;
   }
+  /// Starts a packet of pixels. packet: its number in the plane of sample 0. Call begin_sample() and write() for each sample that has
+  /// covered lanes, and end_packet() after the last one.
+  void begin_packet(TriangleId id, int packet) requires multisampled {
+    const auto i = static_cast<std::size_t>(queue_.count);
+    queue_.packets[i] = {static_cast<uint16_t>(packet), 0};
+    queue_.ids[i] = id;
+    queue_.sample_lanes[i] = {};
+  }
+  void begin_sample(std::size_t sample) requires multisampled { sample_ = sample; }
+  void end_packet() requires multisampled { queue_.count += queue_.packets[static_cast<std::size_t>(queue_.count)].lanes != 0 ? 1 : 0; }
 
   /// See OpaqueWriter.
   template <class Z>
@@ -74,7 +97,7 @@ class ListWriter {
     return passed != 0;
   }
 
-  HS_INLINE void write_pixel(TriangleId id, std::size_t pixel, float z) {
+  HS_INLINE void write_pixel(TriangleId id, std::size_t pixel, float z) requires(!multisampled) {
     ++statistics_.samples_tested;
     if constexpr (kTraces<Statistics>) trace(id, static_cast<int>(pixel) / kLanes, 1u << pixel % kLanes, Real(z));
     if (tests() && !compare(compare_op(), z, tile_.depth[pixel])) return;
@@ -86,7 +109,7 @@ class ListWriter {
   }
 
   template <class Z>
-  HS_INLINE void write_whole(TriangleId id, int packet, const Z& z_at) {
+  HS_INLINE void write_whole(TriangleId id, int packet, const Z& z_at) requires(!multisampled) {
     statistics_.samples_tested += kLanes;
     if constexpr (kTraces<Statistics>) trace(id, packet, kAllBits<Mask>, z_at());
     Real z(0.0f);
@@ -99,7 +122,7 @@ class ListWriter {
   // Adds lanes that passed all tests before the shader.
   HS_INLINE void add(TriangleId id, int packet, uint32_t lanes, const Real& z) {
     if (is_final()) statistics_.samples_passed += static_cast<uint64_t>(std::popcount(lanes));
-    if constexpr (multisampled) return add_sample(id, packet - shift_, lanes, z);
+    if constexpr (multisampled) return add_sample(lanes, z);
     const auto i = static_cast<std::size_t>(queue_.count);
     queue_.packets[i] = {static_cast<uint16_t>(packet), static_cast<uint16_t>(lanes)};
     queue_.ids[i] = id;
@@ -107,7 +130,7 @@ class ListWriter {
     queue_.count += lanes != 0 ? 1 : 0;
   }
   // Adds a pixel to the last element of the queue if it has the same packet and triangle, otherwise as a new element.
-  HS_INLINE void add_pixel(TriangleId id, int packet, int lane, float z) {
+  HS_INLINE void add_pixel(TriangleId id, int packet, int lane, float z) requires(!multisampled) {
     if (is_final()) ++statistics_.samples_passed;
     const auto bit = static_cast<uint16_t>(1u << lane);
     const bool is_same = queue_.count != 0 && queue_.ids[static_cast<std::size_t>(queue_.count) - 1] == id &&
@@ -141,32 +164,20 @@ class ListWriter {
   /// Returns true if a fragment that fails the test would also fail it after other fragments of the draw have been written.
   static bool fails_for_good(CompareOp op) { return op != CompareOp::not_equal && op != CompareOp::always; }
 
-  /// Adds the current sample of the pixels of a packet, which the triangle may already have in the queue for other samples.
-  HS_INLINE void add_sample(TriangleId id, int packet, uint32_t lanes, const Real& z) {
-    if (lanes == 0) return;
-    int i = queue_.position[static_cast<std::size_t>(packet)];
-    if (i < first_ || i >= queue_.count || queue_.packets[static_cast<std::size_t>(i)].packet != packet) {
-      i = queue_.count++;
-      queue_.position[static_cast<std::size_t>(packet)] = static_cast<uint16_t>(i);
-      queue_.packets[static_cast<std::size_t>(i)] = {static_cast<uint16_t>(packet), 0};
-      queue_.ids[static_cast<std::size_t>(i)] = id;
-      queue_.sample_lanes[static_cast<std::size_t>(i)] = {};
-    }
-    const auto n = static_cast<std::size_t>(i);
-    queue_.packets[n].lanes = static_cast<uint16_t>(queue_.packets[n].lanes | lanes);
-    queue_.sample_lanes[n][sample_] = static_cast<uint16_t>(lanes);
-    if (lists_depth()) queue_.sample_depth(tile_, n, static_cast<int>(sample_)) = z;
+  /// Adds lanes of the current sample to the current packet.
+  HS_INLINE void add_sample(uint32_t lanes, const Real& z) {
+    const auto i = static_cast<std::size_t>(queue_.count);
+    queue_.packets[i].lanes = static_cast<uint16_t>(queue_.packets[i].lanes | lanes);
+    queue_.sample_lanes[i][sample_] = static_cast<uint16_t>(lanes);
+    if (lists_depth()) queue_.sample_depth(tile_, i, static_cast<int>(sample_)) = z;
   }
 
   PacketQueue& queue_;
   Statistics& statistics_;
   CompareOp compare_;
   bool tests_early_, may_reject_, writes_depth_, lists_depth_;
-  bool has_test_;  // depth is tested before or after the shader
-  // Only for multisampled tiles:
-  int first_ = 0;           // position of the triangle's first packet in the queue
-  std::size_t sample_ = 0;  // current sample
-  int shift_ = 0;           // distance of its packets from those of sample 0
+  bool has_test_;           // depth is tested before or after the shader
+  std::size_t sample_ = 0;  // current sample of a multisampled tile
 };
 
 }  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -42,9 +42,7 @@ struct PacketQueue {
   std::array<PacketMask, kCapacity> packets;  ///< in a multisampled tile, the lanes in which any sample is covered
   std::array<TriangleId, kCapacity> ids;
   /// Lanes of each sample; only valid in a multisampled tile.
-  std::array<std::array<uint16_t, kMaxSamples>, kCapacity> sample_lanes;
-  /// For each packet of pixels, its position in the queue, if the triangle that was added last covers it.
-  std::array<uint16_t, kPackets> position{};
+  std::array<SampleLanes, kCapacity> sample_lanes;
   /// Depth of the triangle, represented as in Tile::depth; see sample_depth(). Not valid for VisibilityMode::early and cover_only.
   alignas(64) std::array<Real, kDepthCapacity> depth;
 };

@@ -23,11 +23,10 @@ class StencilListWriter : public ListWriter<S, multisampled> {
   /// Returns true if fragments that fail the depth test have no effect.
   bool tests() const { return Base::tests() && (!updates_ || (face_->fail == StencilOp::keep && face_->depth_fail == StencilOp::keep)); }
 
+  /// See ListWriter. Each sample needs a stencil test.
+  bool add_untested(TriangleId, int, const SampleLanes&, uint32_t) requires multisampled { return false; }
   /// Starts a triangle and selects its stencil state.
-  void begin(const Triangle& t) {
-    Base::begin(t);
-    face_ = stencil_face(state_, tile_, t.is(kFrontFacing));
-  }
+  void begin(const Triangle& t) { face_ = stencil_face(state_, tile_, t.is(kFrontFacing)); }
 
   /// See OpaqueWriter.
   template <class Z>
@@ -40,7 +39,7 @@ class StencilListWriter : public ListWriter<S, multisampled> {
     this->add(id, packet, tested.lanes, tested.z);
     return tested.lanes != 0;
   }
-  HS_INLINE void write_pixel(TriangleId id, std::size_t pixel, float z) {
+  HS_INLINE void write_pixel(TriangleId id, std::size_t pixel, float z) requires(!multisampled) {
     const int packet = static_cast<int>(pixel) / kLanes, lane = static_cast<int>(pixel) % kLanes;
     const auto z_at = [&] { return Real(z); };
     if (!updates_) {

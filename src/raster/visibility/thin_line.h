@@ -52,7 +52,7 @@ void rasterize_thin_line(const DrawInTile& d, const Triangle& t, const PixelBoun
   const ThinLine line(t);
   if (line.is_empty()) return;
   const SampleGrid grid(d.tile, 0);
-  const DepthPlane<false> plane(t, TileEdges{}, d.draw, grid, d.tile.depth_format);
+  const DepthPlane<false> plane(t, {}, d.draw, grid, d.tile.depth_format);
   const int begin = line.y_major() ? bounds.y0 : bounds.x0, end = line.y_major() ? bounds.y1 : bounds.x1;
   const int low = line.y_major() ? bounds.x0 : bounds.y0, high = line.y_major() ? bounds.x1 : bounds.y1;
   const int first_major = line.y_major() ? d.tile.y0 : d.tile.x0, first_minor = line.y_major() ? d.tile.x0 : d.tile.y0;

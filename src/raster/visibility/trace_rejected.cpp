@@ -24,7 +24,7 @@ ComparedDepths compared_depths(CompareOp op, const RejectedPrimitive& p, float s
 template <bool small>
 void add_covered(const RejectedPrimitive& p, const TileEdges& tile_edges, const TileRect& area, FragmentOutcome outcome,
                  const ComparedDepths& depths, TileTrace& trace) {
-  const DepthPlane<small> plane(p.triangle, tile_edges, p.d.draw, p.grid, p.d.tile.depth_format);
+  const DepthPlane<small> plane(p.triangle, tile_edges.bias, p.d.draw, p.grid, p.d.tile.depth_format);
   const BlockEdges edges(tile_edges);
   for (int y = area.y0 / kPacketHeight * kPacketHeight; y < area.y1; y += kPacketHeight) {
     for (int x = area.x0 / kPacketWidth * kPacketWidth; x < area.x1; x += kPacketWidth) {

@@ -75,7 +75,7 @@ struct DrawInTile {
 template <class Statistics>
 void rasterize(const DrawInTile& d, uint32_t chunk, uint32_t index, CoverageList* list, Statistics& statistics);
 
-/// The same for a triangle of an opaque draw (visibility_blocks.cpp).
+/// The same for a triangle of an opaque draw (visibility_blocks.cpp; in multisampled tiles, sample_blocks.h).
 template <class Statistics>
 void rasterize_opaque(const DrawInTile& d, const Triangle& t, TriangleId id, Statistics& statistics);
 /// The same for a draw with Rasterizer::stencil.

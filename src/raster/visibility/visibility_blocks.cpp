@@ -2,12 +2,13 @@
 //
 // Visibility of draws where only coverage, depth and the stencil test determine visibility, and of queued draws. The results are the same
 // as those of visibility_general.cpp, which supports all draws. Most small triangles are drawn by visibility_small.cpp and
-// visibility_samples.cpp.
+// visibility_samples.cpp; sample_blocks.h has the loops over the blocks of multisampled tiles.
 #include <algorithm>
 
 #include "halfspace/raster/pipeline/pixel_box.h"
 #include "halfspace/raster/visibility/list_writer.h"
 #include "halfspace/raster/visibility/opaque_writer.h"
+#include "halfspace/raster/visibility/sample_blocks.h"
 #include "halfspace/raster/visibility/stencil_list_writer.h"
 #include "halfspace/raster/visibility/stencil_writer.h"
 #include "halfspace/raster/visibility/thin_line.h"
@@ -17,26 +18,13 @@ namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
-// Sets the bounds of a block after all its depth values were replaced with values within these bounds.
-void set_hiz(Tile& tile, int block, const DepthBounds& depth) {
-  const auto b = static_cast<std::size_t>(block);
-  tile.hiz_min[b] = depth.low;
-  tile.hiz_max[b] = depth.high;
-  tile.hiz_is_stale[b] = false;
-}
-
-// Returns true if the rectangle contains the block with corner (x, y).
-bool contains_block(const TileRect& rect, int x, int y) {
-  return x >= rect.x0 && y >= rect.y0 && x + kBlockSize <= rect.x1 && y + kBlockSize <= rect.y1;
-}
-
 // Finds the covered packets of one block after the other and writes them.
 template <bool small, class Writer>
 class BlockPackets {
  public:
   BlockPackets(const DrawInTile& d, const Triangle& t, const TileEdges& tile_edges, const SampleGrid& grid, const TileRect& rect,
                TriangleId id, Writer& writer)
-      : edges_(tile_edges), plane_(t, tile_edges, d.draw, grid, d.tile.depth_format), rect_(rect), id_(id), writer_(writer) {
+      : edges_(tile_edges), plane_(t, tile_edges.bias, d.draw, grid, d.tile.depth_format), rect_(rect), id_(id), writer_(writer) {
     for (int p = 0; p < kPacketsPerBlock; ++p) {
       for (std::size_t i = 0; i < 3; ++i) step_[static_cast<std::size_t>(p)][i] = edges_.value_step(i, packet_x(p), packet_y(p));
     }
@@ -107,12 +95,12 @@ void rasterize_blocks(const DrawInTile& d, const Triangle& t, const TileEdges& t
           trace_rejected_block({d, t, id, grid, low, high}, block, *writer.statistics().trace);
         continue;
       }
-      const bool is_cut = needs_bounds_test && !contains_block(rect, x, y);
+      const bool is_cut = needs_bounds_test && !rect.contains_block(x, y);
       const bool passes = test == BlockTest::all_pass;
       if constexpr (!Writer::kTestsStencil) {
         if (coverage == BlockCoverage::whole && passes && !is_cut) {
           packets.write_whole(block, x, y);
-          if (writer.writes_depth()) set_hiz(tile, block, {low, high});
+          if (writer.writes_depth()) set_hiz(tile, block, low, high);
           continue;
         }
       }
@@ -147,10 +135,11 @@ void rasterize_point(const DrawInTile& d, const Triangle& t, const SampleGrid& g
   }
 }
 
-// Rasterizes one sample of every pixel.
+// Rasterizes a primitive in a tile with one sample per pixel.
 template <class Writer>
-void rasterize_triangle(const DrawInTile& d, const Triangle& t, TriangleId id, int sample, Writer& writer) {
-  const SampleGrid grid(d.tile, sample);
+void rasterize_one_sample(const DrawInTile& d, const Triangle& t, TriangleId id, Writer writer) {
+  if constexpr (requires { writer.begin(t); }) writer.begin(t);
+  const SampleGrid grid(d.tile, 0);
   const PixelBounds b = pixel_bounds(d.draw, t, d.bounds, grid.position);
   if (b.empty()) return;
   const TileRect rect{b.x0 - grid.x0, b.y0 - grid.y0, b.x1 - grid.x0, b.y1 - grid.y0};
@@ -162,17 +151,6 @@ void rasterize_triangle(const DrawInTile& d, const Triangle& t, TriangleId id, i
     rasterize_blocks<true>(d, t, edges, grid, rect, id, writer);
   } else {
     rasterize_blocks<false>(d, t, edges, grid, rect, id, writer);
-  }
-}
-
-// Rasterizes all samples that the draw can write.
-template <class Writer>
-void rasterize_samples(const DrawInTile& d, const Triangle& t, TriangleId id, Writer writer) {
-  if constexpr (requires { writer.begin(t); }) writer.begin(t);
-  for (int s = 0; s < d.tile.samples; ++s) {
-    if ((d.draw.sample_mask >> s & 1) == 0) continue;
-    if constexpr (requires { writer.begin_sample(s); }) writer.begin_sample(s);
-    rasterize_triangle(d, t, id, s, writer);
   }
 }
 
@@ -189,7 +167,7 @@ bool covers_tile(const DrawInTile& d, const Triangle& t) {
 void write_full_tile(const DrawInTile& d, const Triangle& t, TriangleId id) {
   const SampleGrid grid(d.tile, 0);
   const TileEdges tile_edges{};
-  const DepthPlane<false> plane(t, tile_edges, d.draw, grid, d.tile.depth_format);
+  const DepthPlane<false> plane(t, tile_edges.bias, d.draw, grid, d.tile.depth_format);
   const BlockEdges edges(tile_edges);
   PassStatistics counted_before;
   OpaqueWriter<PassStatistics> writer(d, counted_before);
@@ -197,29 +175,37 @@ void write_full_tile(const DrawInTile& d, const Triangle& t, TriangleId id) {
   for (int p = 0; p < kPackets; ++p) writer.write_whole(id, p, [&] { return plane.at(edges, packet_x(p), packet_y(p)); });
   if (!writer.writes_depth()) return;
   const DepthInTile depth(t, d.draw, grid, d.tile.depth_format);
-  for (int b = 0; b < kBlocks; ++b)
-    set_hiz(d.tile, b, depth.at(b % kBlocksPerRow * kBlockSize, b / kBlocksPerRow * kBlockSize, kBlockSize, kBlockSize));
+  for (int b = 0; b < kBlocks; ++b) {
+    const auto [low, high] = depth.at(b % kBlocksPerRow * kBlockSize, b / kBlocksPerRow * kBlockSize, kBlockSize, kBlockSize);
+    set_hiz(d.tile, b, low, high);
+  }
 }
 
 template <class Statistics>
 void rasterize_opaque(const DrawInTile& d, const Triangle& t, TriangleId id, Statistics& statistics) {
-  if (writes_nearest(d)) return rasterize_samples(d, t, id, OpaqueWriter<Statistics, true>(d, statistics));
-  rasterize_samples(d, t, id, OpaqueWriter<Statistics>(d, statistics));
+  const auto rasterize_with = [&](auto writer) {
+    if (d.tile.samples > 1) return rasterize_all_samples(d, t, id, writer);
+    rasterize_one_sample(d, t, id, writer);
+  };
+  if (writes_nearest(d)) return rasterize_with(OpaqueWriter<Statistics, true>(d, statistics));
+  rasterize_with(OpaqueWriter<Statistics>(d, statistics));
 }
 template void rasterize_opaque(const DrawInTile&, const Triangle&, TriangleId, PassStatistics&);
 template void rasterize_opaque(const DrawInTile&, const Triangle&, TriangleId, TracedStatistics&);
 
 void rasterize_with_stencil(const DrawInTile& d, const Triangle& t, TriangleId id, PassStatistics& statistics) {
-  rasterize_samples(d, t, id, StencilWriter(d, statistics));
+  if (d.tile.samples > 1) return rasterize_all_samples(d, t, id, StencilWriter(d, statistics));
+  rasterize_one_sample(d, t, id, StencilWriter(d, statistics));
 }
 
 template <class Statistics>
 void rasterize_queued(const DrawInTile& d, const Triangle& t, TriangleId id, PacketQueue& queue, Statistics& statistics) {
-  const auto rasterize_with = [&](auto writer) { rasterize_samples(d, t, id, writer); };
   if (d.tile.samples > 1) {
+    const auto rasterize_with = [&](auto writer) { rasterize_all_samples(d, t, id, writer); };
     if (tests_stencil(d.draw.state, d.tile)) return rasterize_with(StencilListWriter<Statistics, true>(d, queue, statistics));
     return rasterize_with(ListWriter<Statistics, true>(d, queue, statistics));
   }
+  const auto rasterize_with = [&](auto writer) { rasterize_one_sample(d, t, id, writer); };
   if (tests_stencil(d.draw.state, d.tile)) return rasterize_with(StencilListWriter<Statistics, false>(d, queue, statistics));
   if (lists_undecided(d)) return rasterize_with(ListWriter<Statistics, false, true>(d, queue, statistics));
   rasterize_with(ListWriter<Statistics, false>(d, queue, statistics));

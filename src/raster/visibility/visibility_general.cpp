@@ -187,7 +187,7 @@ void find_depth_bounds(Visit& c) {
 
 template <bool small, class Visit>
 void visit_triangle(Visit& c, const TileEdges& tile_edges, const TileRect& rect) {
-  const DepthPlane<small> plane(c.triangle, tile_edges, c.draw, c.grid, c.tile.depth_format);
+  const DepthPlane<small> plane(c.triangle, tile_edges.bias, c.draw, c.grid, c.tile.depth_format);
   find_depth_bounds(c);
   const BlockEdges edges(tile_edges);
   for (int y = rect.y0 & kBlockMask; y < rect.y1; y += kBlockSize) {

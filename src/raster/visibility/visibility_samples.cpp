@@ -3,12 +3,14 @@
 // Visibility of small triangles in multisampled tiles. Like visibility_small.cpp, but the coverage of all samples of a packet is computed
 // together: the edge functions of a sample differ from those of the first sample by a constant.
 #include <bit>
+#include <ranges>
 
 #include "halfspace/raster/pipeline/pixel_box.h"
 #include "halfspace/raster/pipeline/triangle_lanes.h"
 #include "halfspace/raster/visibility/hidden_triangle.h"
 #include "halfspace/raster/visibility/list_writer.h"
 #include "halfspace/raster/visibility/opaque_writer.h"
+#include "halfspace/raster/visibility/sample_set.h"
 #include "halfspace/raster/visibility/small_triangle.h"
 #include "halfspace/raster/visibility/stencil_list_writer.h"
 #include "halfspace/raster/visibility/stencil_writer.h"
@@ -16,22 +18,6 @@
 namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
-
-// The samples that a draw can write in a tile, and the distance of their packets from those of sample 0.
-struct SampleSet {
-  explicit SampleSet(const DrawInTile& d) {
-    for (int s = 0; s < d.tile.samples; ++s) {
-      if ((d.draw.sample_mask >> s & 1) == 0) continue;
-      plane[count] = sample_plane(d.tile.samples, s, d.tile.size);
-      shift[count] = packet_shift(plane[count]);
-      index[count++] = s;
-    }
-  }
-
-  std::size_t count = 0;
-  std::array<int, kMaxSamples> index, shift;
-  std::array<SamplePlane, kMaxSamples> plane;
-};
 
 // Edge functions of up to W small triangles, computed for all of them at once.
 class SampledTriangles {
@@ -56,8 +42,8 @@ class SampledTriangles {
       store(step_x_[i].data(), -ey << kSubPixelBits);
       store(step_y_[i].data(), ex << kSubPixelBits);
       store(bias_[i].data(), bias);
-      for (std::size_t s = 0; s < samples.count; ++s) {
-        const SamplePosition at = sample_position(d.tile.samples, samples.index[s]);
+      for (std::size_t s = 0; s < samples.tile_samples; ++s) {
+        const SamplePosition at = samples.position[s];
         store(e_[s][i].data(), corner - ey * at.x + ex * at.y);
       }
     }
@@ -66,7 +52,7 @@ class SampledTriangles {
   bool is_wide(std::size_t k) const { return (wide_ >> k & 1) != 0; }
   // Returns the pixels that may have covered samples.
   TileRect rect(std::size_t k) const { return {rect_x0_[k], rect_y0_[k], rect_x1_[k], rect_y1_[k]}; }
-  // Returns edge i at sample s of the set, in the first pixel of the tile, with the bias subtracted.
+  // Returns edge i at sample s, in the first pixel of the tile, with the bias subtracted.
   int32_t edge(std::size_t i, std::size_t s, std::size_t k) const { return e_[s][i][k]; }
   int32_t step_x(std::size_t i, std::size_t k) const { return step_x_[i][k]; }
   int32_t step_y(std::size_t i, std::size_t k) const { return step_y_[i][k]; }
@@ -89,10 +75,10 @@ bool reject_hidden(const DrawInTile& d, const SampleSet& samples, const Triangle
     return TileRect{rect.x0 + p.x, rect.y0 + p.y, rect.x1 + p.x, rect.y1 + p.y};
   };
   // Alpha to coverage covers the last samples of a pixel least often, so they are most likely to show that the triangle is not hidden.
-  for (std::size_t s = samples.count; s-- > 0;) {
+  for (const std::size_t s : std::views::reverse(samples.samples())) {
     if (!is_hidden(d, t, in_plane(s), writer)) return false;
   }
-  for (std::size_t s = 0; s < samples.count; ++s) trace_hidden(d, t, id, in_plane(s), samples.index[s], writer);
+  for (const std::size_t s : samples.samples()) trace_hidden(d, t, id, in_plane(s), static_cast<int>(s), writer);
   return true;
 }
 
@@ -116,7 +102,7 @@ class SampledPackets {
       lanes_[i] = lane_x() * step_x_[i] + lane_y() * step_y_[i];
       bias_[i] = triangles.bias(i, k);
       highest_[i] = triangles.edge(i, 0, k);
-      for (std::size_t s = 0; s < samples.count; ++s) {
+      for (std::size_t s = 0; s < samples.tile_samples; ++s) {
         e_[s][i] = triangles.edge(i, s, k);
         highest_[i] = std::max(highest_[i], e_[s][i]);
       }
@@ -139,10 +125,10 @@ class SampledPackets {
   static constexpr int kMaxSide = largest_tile(2);
   static constexpr std::size_t kMaxPackets = std::size_t{kMaxSide / kPacketWidth} * (kMaxSide / kPacketHeight);
 
-  // A packet of pixels with covered samples.
+  // A packet with covered samples.
   struct Covered {
     uint16_t packet;  // of sample 0
-    std::array<uint16_t, kMaxSamples> lanes;
+    SampleLanes lanes;
     int32_t e1, e2;  // offsets of edges 1 and 2 from their values in the first packet of the tile
   };
 
@@ -161,10 +147,11 @@ class SampledPackets {
     c.packet = static_cast<uint16_t>(packet_at(x, y));
     c.e1 = at[1];
     c.e2 = at[2];
+    c.lanes = {};
     uint32_t any = 0;
-    for (std::size_t s = 0; s < samples_.count; ++s) {
+    for (std::size_t s = 0; s < samples_.tile_samples; ++s) {
       const Int edges = (lanes_[0] + (at[0] + e_[s][0])) | (lanes_[1] + (at[1] + e_[s][1])) | (lanes_[2] + (at[2] + e_[s][2]));
-      const uint32_t covered = seen & ~negative_bits(edges);
+      const uint32_t covered = seen & samples_.lanes[s] & ~negative_bits(edges);
       c.lanes[s] = static_cast<uint16_t>(covered);
       any |= covered;
     }
@@ -172,16 +159,12 @@ class SampledPackets {
   }
 
   HS_INLINE void write(const Covered& c) {
-    for (std::size_t s = 0; s < samples_.count; ++s) {
-      if (c.lanes[s] == 0) continue;
-      const int packet = c.packet + samples_.shift[s];
-      const auto z_at = [&] {
-        return depth_.at(d_.tile.depth_format, lanes_[1] + (c.e1 + e_[s][1] + bias_[1]), lanes_[2] + (c.e2 + e_[s][2] + bias_[2]));
-      };
-      if constexpr (requires { writer_.begin_sample(0); }) writer_.begin_sample(samples_.index[s]);
-      const bool passed = writer_.write(id_, packet, c.lanes[s], z_at);
-      if (passed && writer_.writes_depth()) widen_hiz(writer_.compare_op(), d_.tile, packet / kPacketsPerBlock, bounds_.low, bounds_.high);
-    }
+    const auto z_at = [&](std::size_t s) {
+      return depth_.at(d_.tile.depth_format, lanes_[1] + (c.e1 + e_[s][1] + bias_[1]), lanes_[2] + (c.e2 + e_[s][2] + bias_[2]));
+    };
+    write_samples(writer_, samples_, id_, c.packet, c.lanes, 0, z_at, [&](std::size_t, int packet) {
+      widen_hiz(writer_.compare_op(), d_.tile, packet / kPacketsPerBlock, bounds_.low, bounds_.high);
+    });
   }
 
   const DrawInTile& d_;
