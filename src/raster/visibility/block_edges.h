@@ -72,6 +72,8 @@ struct TileRect {
   /// Returns true if it contains the block with corner (x, y).
   bool contains_block(int x, int y) const { return x >= x0 && y >= y0 && x + kBlockSize <= x1 && y + kBlockSize <= y1; }
 };
+/// Returns bounds in window coordinates as a rectangle. x0, y0: window coordinates of pixel (0, 0) of the tile's storage.
+inline TileRect tile_rect(const PixelBounds& b, int x0, int y0) { return {b.x0 - x0, b.y0 - y0, b.x1 - x0, b.y1 - y0}; }
 HS_INLINE Mask inside(const TileRect& r, int packet_x, int packet_y) {
   const Int x = lane_x() + packet_x, y = lane_y() + packet_y;
   return (x >= Int(r.x0)) & (x < Int(r.x1)) & (y >= Int(r.y0)) & (y < Int(r.y1));

@@ -46,12 +46,11 @@ class ListWriter {
   bool writes_depth() const { return !undecided && writes_depth_; }
   CompareOp compare_op() const { return undecided ? CompareOp::less : compare_; }
 
-  /// Adds a packet of pixels without testing it, if the draw lists no depths and the depth test passes everywhere or nothing is tested.
-  /// Returns false otherwise. See write_samples() in sample_set.h.
+  /// Adds a packet of pixels without testing it, if the draw neither lists nor writes depths, no fragments are traced, and nothing is
+  /// tested or the depth test passes everywhere. Returns false otherwise. See write_samples() in sample_set.h.
   HS_INLINE bool add_untested(TriangleId id, int packet, const SampleLanes& lanes, uint32_t passes) requires multisampled {
     constexpr bool traces = kTraces<Statistics>;
-    const uint32_t all = (1u << tile_.samples) - 1;
-    if (traces || lists_depth() || writes_depth() || (tests() && (passes & all) != all)) return false;
+    if (traces || lists_depth() || writes_depth() || (tests() && passes != ~0u)) return false;
     uint32_t any = 0;
     int covered = 0;
     for (const uint16_t of_sample : lanes) {

@@ -62,7 +62,7 @@ class SampleEdges {
     const int64_t corner = edge.at(int64_t{tile.x0} * kSubPixels, int64_t{tile.y0} * kSubPixels) - bias_[i];
     std::array<int64_t, kMaxSamples> e;
     int64_t lowest = std::numeric_limits<int64_t>::max(), highest = std::numeric_limits<int64_t>::min();
-    for (const std::size_t s : samples.samples()) {
+    for (const std::size_t s : samples.indices()) {
       const SamplePosition at = samples.position[s];
       e[s] = (corner + int64_t{edge.ex} * at.y - int64_t{edge.ey} * at.x) >> shift;
       lowest = std::min(lowest, e[s]);
@@ -76,7 +76,7 @@ class SampleEdges {
     lanes_[i] = lane_x() * step_x_[i] + lane_y() * step_y_[i];
     lowest_[i] = value(lowest + smallest_step(kBlockSize - 1));
     highest_[i] = value(highest + largest_step(kBlockSize - 1));
-    for (const std::size_t s : samples.samples()) e_[s][i] = value(e[s]);
+    for (const std::size_t s : samples.indices()) e_[s][i] = value(e[s]);
   }
 
   bool outside_ = false;
@@ -97,7 +97,7 @@ class SampleBlocks {
   bool rejects_tile(const DepthBounds& z) {
     if (!writer_.tests() || test_tile(writer_.compare_op(), d_.tile, z.low, z.high) != BlockTest::none_passes) return false;
     if constexpr (kTraces<typename Writer::Statistics>) {
-      for (const std::size_t s : samples_.samples()) {
+      for (const std::size_t s : samples_.indices()) {
         const SampleGrid grid(d_.tile, static_cast<int>(s));
         trace_rejected_tile({d_, triangle_, id_, grid, z.low, z.high}, *writer_.statistics().trace);
       }
@@ -106,13 +106,15 @@ class SampleBlocks {
   }
 
   /// Starts the block with corner (x, y). Depths in it are in [z.low, z.high]. Returns false if the depth test rejects all of its samples.
+  /// may_refresh: see test_block().
   bool begin(int x, int y, const DepthBounds& z, bool may_refresh = true) {
     block_ = y / kBlockSize * kBlocksPerRow + x / kBlockSize;
     z_ = z;
     listed_ = 0;
     kept_count_ = 0;
-    passes_ = 0;
-    for (const std::size_t s : samples_.samples()) {
+    passes_ = ~0u;
+    written_ = 0;
+    for (const std::size_t s : samples_.indices()) {
       const BlockTest test =
           writer_.tests() ? test_block(writer_.compare_op(), d_.tile, block_of(s), z.low, z.high, may_refresh) : BlockTest::all_pass;
       if (test == BlockTest::none_passes) {
@@ -120,7 +122,7 @@ class SampleBlocks {
         continue;
       }
       kept_[kept_count_++] = s;
-      passes_ |= (test == BlockTest::all_pass ? 1u : 0u) << s;
+      if (test == BlockTest::some_may) passes_ &= ~(1u << s);
     }
     return kept_count_ != 0;
   }
@@ -144,22 +146,20 @@ class SampleBlocks {
   template <class Depth>
   void write_listed(const Depth& z_at) {
     for (std::size_t i = 0; i < listed_; ++i) write(list_[i].packet, list_[i].lanes, z_at);
-    if (!writer_.writes_depth()) return;
-    for (const std::size_t s : kept()) widen_hiz(writer_.compare_op(), d_.tile, block_of(s), z_.low, z_.high);
+    update_bounds(false);
   }
 
   /// Writes a block that is covered everywhere. z_at: as in write_listed().
   template <class Depth>
   void write_whole(const Depth& z_at) {
-    if constexpr (requires { writer_.write_whole(id_, 0, [] { return Real(0.0f); }); }) {
-      for (const std::size_t s : kept()) write_whole(s, z_at);
-    } else {
+    if constexpr (QueuesPixels<Writer> || Writer::kTestsStencil) {
       SampleLanes lanes{};
       for (const std::size_t s : kept()) lanes[s] = static_cast<uint16_t>(kAllBits<Mask>);
       for (int p = 0; p < kPacketsPerBlock; ++p) write(p, lanes, z_at);
-      if (!writer_.writes_depth()) return;
-      for (const std::size_t s : kept()) widen_hiz(writer_.compare_op(), d_.tile, block_of(s), z_.low, z_.high);
+    } else {
+      for (const std::size_t s : kept()) write_whole(s, z_at);
     }
+    update_bounds(true);
   }
 
   /// Returns the samples that the depth test did not reject in this block.
@@ -176,30 +176,38 @@ class SampleBlocks {
   HS_INLINE void write(int p, const SampleLanes& lanes, const Depth& z_at) {
     write_samples(
         writer_, samples_, id_, block_ * kPacketsPerBlock + p, lanes, passes_, [&](std::size_t s) { return z_at(s, p); },
-        [](std::size_t, int) {});
+        [&](std::size_t s, int) { written_ |= 1u << s; });
   }
 
   // Writes sample s of a block that is covered everywhere.
   template <class Depth>
   void write_whole(std::size_t s, const Depth& z_at) {
-    const bool passes = (passes_ >> s & 1) != 0;
     for (int p = 0; p < kPacketsPerBlock; ++p) {
       const int packet = block_of(s) * kPacketsPerBlock + p;
       const auto z = [&] { return z_at(s, p); };
-      if (passes) {
+      if (passes(s)) {
         writer_.write_whole(id_, packet, z);
       } else {
         writer_.write(id_, packet, kAllBits<Mask>, z);
       }
     }
+    written_ |= 1u << s;
+  }
+
+  // Updates the depth bounds of samples that were written. is_whole: the block is covered everywhere.
+  void update_bounds(bool is_whole) {
     if (!writer_.writes_depth()) return;
-    if (passes) {
-      set_hiz(d_.tile, block_of(s), z_.low, z_.high);
-    } else {
-      widen_hiz(writer_.compare_op(), d_.tile, block_of(s), z_.low, z_.high);
+    for (const std::size_t s : kept()) {
+      if ((written_ >> s & 1) == 0) continue;
+      if (is_whole && passes(s) && !Writer::kTestsStencil) {
+        set_hiz(d_.tile, block_of(s), z_.low, z_.high);
+      } else {
+        widen_hiz(writer_.compare_op(), d_.tile, block_of(s), z_.low, z_.high);
+      }
     }
   }
 
+  bool passes(std::size_t s) const { return (passes_ >> s & 1) != 0; }
   int block_of(std::size_t s) const { return block_ + samples_.shift[s] / kPacketsPerBlock; }
 
   void trace_rejected([[maybe_unused]] std::size_t s) {
@@ -217,7 +225,8 @@ class SampleBlocks {
   // The current block:
   int block_ = 0;
   DepthBounds z_{};
-  uint32_t passes_ = 0;  // bit s: the depth test passes everywhere at sample s
+  uint32_t passes_ = 0;   // bit s: the depth test passes in all covered lanes of sample s
+  uint32_t written_ = 0;  // bit s: the depth of sample s may have been written
   std::array<std::size_t, kMaxSamples> kept_;
   std::size_t kept_count_ = 0, listed_ = 0;
   std::array<Listed, kPacketsPerBlock + 1> list_;  // the element after the last one may be written
@@ -259,10 +268,10 @@ void rasterize_sampled_triangle(const DrawInTile& d, const SampleSet& samples, c
         for (std::size_t i = 0; i < 3; ++i) corner[k][i] = edges.values(i, blocks.kept()[k], x, y);
       }
       for (int p = 0; p < kPacketsPerBlock; ++p) {
-        const auto& [step0, step1, step2] = step[static_cast<std::size_t>(p)];
+        const std::array<int32_t, 3>& by = step[static_cast<std::size_t>(p)];
         const uint32_t seen = is_cut ? bits(inside(rect, x + packet_x(p), y + packet_y(p))) : kAllBits<Mask>;
         blocks.list(p, [&](std::size_t k) {
-          return seen & ~negative_bits((corner[k][0] + step0) | (corner[k][1] + step1) | (corner[k][2] + step2));
+          return seen & ~negative_bits((corner[k][0] + by[0]) | (corner[k][1] + by[1]) | (corner[k][2] + by[2]));
         });
       }
       blocks.write_listed(z_at);
@@ -275,9 +284,9 @@ template <class Writer>
 void rasterize_sampled_point(const DrawInTile& d, const SampleSet& samples, const Triangle& t, const TileRect& rect, TriangleId id,
                              Writer& writer) {
   std::array<TileRect, kMaxSamples> covered;
-  for (const std::size_t s : samples.samples()) {
+  for (const std::size_t s : samples.indices()) {
     const PixelBounds b = pixel_bounds(d.draw, t, d.bounds, samples.position[s]);
-    covered[s] = {b.x0 - d.tile.x0, b.y0 - d.tile.y0, b.x1 - d.tile.x0, b.y1 - d.tile.y0};
+    covered[s] = tile_rect(b, d.tile.x0, d.tile.y0);
   }
   const DepthBounds bounds = depth_bounds(t, d.draw, d.tile.depth_format);
   SampleBlocks blocks(d, samples, t, id, writer);
@@ -295,14 +304,14 @@ void rasterize_sampled_point(const DrawInTile& d, const SampleSet& samples, cons
   }
 }
 
-/// Rasterizes all samples of a triangle or point in a multisampled tile.
+/// Rasterizes a triangle or point at all samples in the sample mask of the draw. The tile must be multisampled.
 template <class Writer>
 void rasterize_all_samples(const DrawInTile& d, const Triangle& t, TriangleId id, Writer writer) {
   if constexpr (requires { writer.begin(t); }) writer.begin(t);
   const SampleSet samples(d);
   const PixelBounds b = pixel_bounds(d.draw, t, d.bounds, d.context.samples_at);
   if (samples.count == 0 || b.empty()) return;
-  const TileRect rect{b.x0 - d.tile.x0, b.y0 - d.tile.y0, b.x1 - d.tile.x0, b.y1 - d.tile.y0};
+  const TileRect rect = tile_rect(b, d.tile.x0, d.tile.y0);
   if (t.is(kPointSprite)) return rasterize_sampled_point(d, samples, t, rect, id, writer);
   if (t.is(kSmall)) return rasterize_sampled_triangle<true>(d, samples, t, rect, id, writer);
   rasterize_sampled_triangle<false>(d, samples, t, rect, id, writer);

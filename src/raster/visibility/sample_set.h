@@ -10,7 +10,7 @@
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
 
-/// The samples in the sample mask of a draw. The arrays have one element per sample of the tile.
+/// The samples in the sample mask of a draw. All arrays except `index` have one element per sample of the tile.
 struct SampleSet {
   explicit SampleSet(const DrawInTile& d) : tile_samples(static_cast<std::size_t>(d.tile.samples)) {
     for (std::size_t s = 0; s < tile_samples; ++s) {
@@ -24,7 +24,7 @@ struct SampleSet {
   }
 
   /// Returns the samples in the set.
-  std::span<const std::size_t> samples() const { return {index.data(), count}; }
+  std::span<const std::size_t> indices() const { return {index.data(), count}; }
 
   std::size_t tile_samples;  ///< samples of the tile
   std::size_t count = 0;     ///< samples in the set
@@ -35,26 +35,32 @@ struct SampleSet {
   std::array<int, kMaxSamples> shift;  ///< distance of packets from those of sample 0
 };
 
+/// A writer that adds packets of pixels with all their samples to a queue.
+template <class Writer>
+concept QueuesPixels = requires(Writer& writer) {
+  writer.begin_packet(TriangleId{}, 0);
+};
+
 /// Tests and writes the covered samples of a packet of pixels. packet: its number in the plane of sample 0; lanes: covered lanes, 0 for
-/// samples that are not in the set; passes: bit s: the depth test passes in all lanes of sample s; z_at(s): returns their depth. Calls
-/// wrote(s, packet) for samples of which a lane has passed, with the number of the packet in the plane of the sample, but only if the
+/// samples that are not in the set; passes: bit s: the depth test passes in all covered lanes of sample s; z_at(s): returns their depth.
+/// Calls wrote(s, packet) for samples of which a lane has passed, with the number of the packet in the plane of the sample, but only if the
 /// writer writes depth.
 template <class Writer, class Depth, class Wrote>
 HS_INLINE void write_samples(Writer& writer, const SampleSet& set, TriangleId id, int packet, const SampleLanes& lanes, uint32_t passes,
                              const Depth& z_at, const Wrote& wrote) {
-  if constexpr (requires { writer.begin_packet(id, packet); }) {
+  if constexpr (QueuesPixels<Writer>) {
     if (writer.add_untested(id, packet, lanes, passes)) return;
     writer.begin_packet(id, packet);
   }
   for (std::size_t s = 0; s < set.tile_samples; ++s) {
     if (lanes[s] == 0) continue;
-    if constexpr (requires { writer.begin_sample(s); }) writer.begin_sample(s);
+    if constexpr (QueuesPixels<Writer>) writer.begin_sample(s);
     const int at = packet + set.shift[s];
     const bool has_passed = writer.write(
         id, at, lanes[s], [&] { return z_at(s); }, (passes >> s & 1) != 0);
     if (has_passed && writer.writes_depth()) wrote(s, at);
   }
-  if constexpr (requires { writer.end_packet(); }) writer.end_packet();
+  if constexpr (QueuesPixels<Writer>) writer.end_packet();
 }
 
 }  // namespace halfspace::inline HS_LANES_NAMESPACE

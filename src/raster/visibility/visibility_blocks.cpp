@@ -142,7 +142,7 @@ void rasterize_one_sample(const DrawInTile& d, const Triangle& t, TriangleId id,
   const SampleGrid grid(d.tile, 0);
   const PixelBounds b = pixel_bounds(d.draw, t, d.bounds, grid.position);
   if (b.empty()) return;
-  const TileRect rect{b.x0 - grid.x0, b.y0 - grid.y0, b.x1 - grid.x0, b.y1 - grid.y0};
+  const TileRect rect = tile_rect(b, grid.x0, grid.y0);
   if (t.is(kPointSprite)) return rasterize_point(d, t, grid, rect, id, writer);
   if (t.is(kLine) && line_pixels(d.draw.state.line_width) == 1) return rasterize_thin_line(d, t, b, id, writer);
   const TileEdges edges = tile_edges(d.draw, t, grid, d.tile.size);
@@ -152,6 +152,13 @@ void rasterize_one_sample(const DrawInTile& d, const Triangle& t, TriangleId id,
   } else {
     rasterize_blocks<false>(d, t, edges, grid, rect, id, writer);
   }
+}
+
+// Rasterizes a primitive in any tile.
+template <class Writer>
+void rasterize_with(const DrawInTile& d, const Triangle& t, TriangleId id, Writer writer) {
+  if (d.tile.samples > 1) return rasterize_all_samples(d, t, id, writer);
+  rasterize_one_sample(d, t, id, writer);
 }
 
 }  // namespace
@@ -183,32 +190,27 @@ void write_full_tile(const DrawInTile& d, const Triangle& t, TriangleId id) {
 
 template <class Statistics>
 void rasterize_opaque(const DrawInTile& d, const Triangle& t, TriangleId id, Statistics& statistics) {
-  const auto rasterize_with = [&](auto writer) {
-    if (d.tile.samples > 1) return rasterize_all_samples(d, t, id, writer);
-    rasterize_one_sample(d, t, id, writer);
-  };
-  if (writes_nearest(d)) return rasterize_with(OpaqueWriter<Statistics, true>(d, statistics));
-  rasterize_with(OpaqueWriter<Statistics>(d, statistics));
+  if (writes_nearest(d)) return rasterize_with(d, t, id, OpaqueWriter<Statistics, true>(d, statistics));
+  rasterize_with(d, t, id, OpaqueWriter<Statistics>(d, statistics));
 }
 template void rasterize_opaque(const DrawInTile&, const Triangle&, TriangleId, PassStatistics&);
 template void rasterize_opaque(const DrawInTile&, const Triangle&, TriangleId, TracedStatistics&);
 
 void rasterize_with_stencil(const DrawInTile& d, const Triangle& t, TriangleId id, PassStatistics& statistics) {
-  if (d.tile.samples > 1) return rasterize_all_samples(d, t, id, StencilWriter(d, statistics));
-  rasterize_one_sample(d, t, id, StencilWriter(d, statistics));
+  rasterize_with(d, t, id, StencilWriter(d, statistics));
 }
 
 template <class Statistics>
 void rasterize_queued(const DrawInTile& d, const Triangle& t, TriangleId id, PacketQueue& queue, Statistics& statistics) {
   if (d.tile.samples > 1) {
-    const auto rasterize_with = [&](auto writer) { rasterize_all_samples(d, t, id, writer); };
-    if (tests_stencil(d.draw.state, d.tile)) return rasterize_with(StencilListWriter<Statistics, true>(d, queue, statistics));
-    return rasterize_with(ListWriter<Statistics, true>(d, queue, statistics));
+    if (tests_stencil(d.draw.state, d.tile))
+      return rasterize_all_samples(d, t, id, StencilListWriter<Statistics, true>(d, queue, statistics));
+    return rasterize_all_samples(d, t, id, ListWriter<Statistics, true>(d, queue, statistics));
   }
-  const auto rasterize_with = [&](auto writer) { rasterize_one_sample(d, t, id, writer); };
-  if (tests_stencil(d.draw.state, d.tile)) return rasterize_with(StencilListWriter<Statistics, false>(d, queue, statistics));
-  if (lists_undecided(d)) return rasterize_with(ListWriter<Statistics, false, true>(d, queue, statistics));
-  rasterize_with(ListWriter<Statistics, false>(d, queue, statistics));
+  if (tests_stencil(d.draw.state, d.tile))
+    return rasterize_one_sample(d, t, id, StencilListWriter<Statistics, false>(d, queue, statistics));
+  if (lists_undecided(d)) return rasterize_one_sample(d, t, id, ListWriter<Statistics, false, true>(d, queue, statistics));
+  rasterize_one_sample(d, t, id, ListWriter<Statistics, false>(d, queue, statistics));
 }
 template void rasterize_queued(const DrawInTile&, const Triangle&, TriangleId, PacketQueue&, PassStatistics&);
 template void rasterize_queued(const DrawInTile&, const Triangle&, TriangleId, PacketQueue&, TracedStatistics&);

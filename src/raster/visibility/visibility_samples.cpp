@@ -2,8 +2,6 @@
 //
 // Visibility of small triangles in multisampled tiles. Like visibility_small.cpp, but the coverage of all samples of a packet is computed
 // together: the edge functions of a sample differ from those of the first sample by a constant.
-#include <bit>
-#include <ranges>
 
 #include "halfspace/raster/pipeline/pixel_box.h"
 #include "halfspace/raster/pipeline/triangle_lanes.h"
@@ -75,10 +73,10 @@ bool reject_hidden(const DrawInTile& d, const SampleSet& samples, const Triangle
     return TileRect{rect.x0 + p.x, rect.y0 + p.y, rect.x1 + p.x, rect.y1 + p.y};
   };
   // Alpha to coverage covers the last samples of a pixel least often, so they are most likely to show that the triangle is not hidden.
-  for (const std::size_t s : std::views::reverse(samples.samples())) {
-    if (!is_hidden(d, t, in_plane(s), writer)) return false;
+  for (std::size_t k = samples.count; k-- > 0;) {
+    if (!is_hidden(d, t, in_plane(samples.index[k]), writer)) return false;
   }
-  for (const std::size_t s : samples.samples()) trace_hidden(d, t, id, in_plane(s), static_cast<int>(s), writer);
+  for (const std::size_t s : samples.indices()) trace_hidden(d, t, id, in_plane(s), static_cast<int>(s), writer);
   return true;
 }
 
