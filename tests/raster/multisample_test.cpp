@@ -100,12 +100,12 @@ TEST(Multisample, PerSampleShadingUsesSamplePositions) {
   }
 }
 
-// Draws that blend are shaded in order, from a queue that holds pixels of several triangles. The blend state used here replaces the color,
-// so the result is the same as without blending.
+// A blend state that replaces the color, so the result is the same as without blending.
 constexpr BlendState kReplace{.source_color = BlendFactor::one,
                               .destination_color = BlendFactor::zero,
                               .source_alpha = BlendFactor::one,
                               .destination_alpha = BlendFactor::zero};
+// The rasterizer shades draws that blend in order, from a queue that holds pixels of several triangles.
 TEST(Multisample, BlendedTrianglesCoverTheSameSamples) {
   Random r(7);
   std::vector<glm::vec4> p;
@@ -154,7 +154,7 @@ TEST(Multisample, QueuedPixelsAreShadedOnce) {
 }
 
 // A pass with one sample per pixel, whose primitives are moved by the distance of a sample from the pixel center, draws exactly this
-// sample. Triangles and points are larger than those that are drawn in groups.
+// sample. Points and most triangles are larger than those that the rasterizer draws in groups. The first half of them is not blended.
 TEST(Multisample, EverySampleOfLargePrimitivesIsDrawnLikeAPixelCenter) {
   constexpr int kSide = 128;
   struct Primitives {
@@ -171,11 +171,11 @@ TEST(Multisample, EverySampleOfLargePrimitivesIsDrawnLikeAPixelCenter) {
   };
   for (int i = 0; i < 60; ++i) {
     const glm::vec4 color(r.integer(0, 255), r.integer(0, 255), r.integer(0, 255), r.integer(0, 255));
-    const int reach = i % 3 == 0 ? 300 * 256 : 60 * 256;  // pixels in 1/256
+    const int reach = i % 3 == 0 ? 300 * 256 : 60 * 256;  // 1/256 px
     for (int k = 0; k < 3; ++k) add(triangles, {r.integer(-reach, reach) + 64 * 256, r.integer(-reach, reach) + 64 * 256}, color);
     add(points, {r.integer(0, kSide * 256), r.integer(0, kSide * 256)}, color);
   }
-  const auto draw = [&](Image<glm::vec4>& image, const Primitives& what, DrawState state, const Point& shift, int samples) {
+  const auto draw = [&](Image<glm::vec4>& image, const Primitives& what, const DrawState& state, const Point& shift, int samples) {
     std::vector<glm::vec4> p;
     for (std::size_t i = 0; i < what.places.size(); ++i)
       p.push_back(clip_position({what.places[i].x + shift.x, what.places[i].y + shift.y}, kSide, kSide, what.depths[i]));
@@ -199,9 +199,9 @@ TEST(Multisample, EverySampleOfLargePrimitivesIsDrawnLikeAPixelCenter) {
     uint64_t expected = 0;
     for (std::size_t s = 0; s < kStandard[pattern].size(); ++s) {
       const Point at = kStandard[pattern][s];
+      if ((state.sample_mask >> s & 1) == 0) continue;
       DrawState alone = state;
       alone.sample_mask = ~0u;
-      if ((state.sample_mask >> s & 1) == 0) continue;
       expected += draw(one, what, alone, {128 - 16 * at.x, 128 - 16 * at.y}, 1);
       for (int y = 0; y < kSide; ++y) {
         for (int x = 0; x < kSide; ++x) sums[static_cast<std::size_t>(y * kSide + x)] += pixel(one, x, y);

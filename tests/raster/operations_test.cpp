@@ -170,7 +170,7 @@ Image<glm::vec4> add_where_marked(const std::vector<glm::vec4>& positions, Topol
   return image;
 }
 
-// Thin lines and tiny triangles are tested pixel by pixel.
+// The rasterizer runs the stencil test of thin lines and tiny triangles for one pixel at a time.
 TEST(Operations, StencilThatIsOnlyReadSelectsPixelsOfThinLinesAndTinyTriangles) {
   const auto expect_left_half = [](const Image<glm::vec4>& image) {
     for (int y = 0; y < 16; ++y) {

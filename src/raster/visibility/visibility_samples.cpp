@@ -2,7 +2,6 @@
 //
 // Visibility of small triangles in multisampled tiles. Like visibility_small.cpp, but the coverage of all samples of a packet is computed
 // together: the edge functions of a sample differ from those of the first sample by a constant.
-
 #include "halfspace/raster/pipeline/pixel_box.h"
 #include "halfspace/raster/pipeline/triangle_lanes.h"
 #include "halfspace/raster/visibility/hidden_triangle.h"
