@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Loads and stores one byte per lane. GCC 12 compiles __builtin_convertvector between bytes and integers to one instruction per lane.
+// Loads and stores one byte per lane, and computes with the four bytes of each lane. GCC 12 compiles __builtin_convertvector between bytes
+// and integers to one instruction per lane.
 #pragma once
+
+#include <bit>
 
 #include "halfspace/core/lanes.h"
 
@@ -41,5 +44,24 @@ HS_INLINE void store_u8(uint8_t* p, IntN<W> i) {
 #endif
   store(p, __builtin_convertvector(i.v, typename detail::Vectors<W>::B));
 }
+
+namespace detail {
+using LaneBytes = uint8_t __attribute__((vector_size(4 * kLanes)));
+HS_INLINE LaneBytes bytes_of(Int i) { return std::bit_cast<LaneBytes>(i); }
+}  // namespace detail
+
+/// min_bytes() and max_bytes() return the smaller and the larger of each pair of unsigned bytes.
+HS_INLINE Int min_bytes(Int a, Int b) {
+  const detail::LaneBytes x = detail::bytes_of(a), y = detail::bytes_of(b);
+  return std::bit_cast<Int>(x < y ? x : y);
+}
+HS_INLINE Int max_bytes(Int a, Int b) {
+  const detail::LaneBytes x = detail::bytes_of(a), y = detail::bytes_of(b);
+  return std::bit_cast<Int>(x > y ? x : y);
+}
+/// Adds unsigned bytes; sums above 255 become 255.
+HS_INLINE Int add_bytes(Int a, Int b) { return std::bit_cast<Int>(detail::bytes_of(a) + detail::bytes_of(min_bytes(b, ~a))); }
+/// Subtracts unsigned bytes of b from those of a; differences below 0 become 0.
+HS_INLINE Int subtract_bytes(Int a, Int b) { return std::bit_cast<Int>(detail::bytes_of(a) - detail::bytes_of(min_bytes(a, b))); }
 
 }  // namespace halfspace::inline HS_LANES_NAMESPACE

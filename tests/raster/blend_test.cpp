@@ -19,7 +19,7 @@ using namespace raster_test;
 
 constexpr int kEquations = static_cast<int>(BlendEquation::max) + 1;
 constexpr int kFactors = static_cast<int>(BlendFactor::one_minus_src1_alpha) + 1;
-// The bound that blended_codes() states: half a code for the final rounding, and the rounding errors before it.
+// The bound that blend_codes.h states: half a code for the final rounding, and the rounding errors before it.
 constexpr double kTolerance = 0.5 + 1e-4;
 
 double in_range(double x) { return x > 0.0 ? std::min(x, 1.0) : 0.0; }  // 0 for NaN

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "halfspace/raster/tile/blend.h"
 
-#include "halfspace/raster/tile/blend_formulas.h"
+#include "halfspace/raster/tile/blend_codes.h"
 #include "halfspace/raster/tile/tile_format.h"
 #include "halfspace/raster/tile/write_programs.h"
 

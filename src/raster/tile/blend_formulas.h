@@ -77,16 +77,19 @@ inline BlendOperation operation_of(const BlendState& s) {
 /// An operation that is only known at run time. Its factors are found in a table, without branches.
 struct AnyOperation : BlendOperation {};
 
-/// Returns the blended color, before it is clamped. src and dst can have any unit; the colors in `from` are linear.
-HS_INLINE PacketColor blend_sums(const BlendOperation& o, const PacketColor& src, const PacketColor& dst, const BlendSources& from) {
-  PacketColor out;
-  for (std::size_t k = 0; k < 4; ++k) {
-    const Real source = blend_factor(k == 3 ? o.factors.source_alpha : o.factors.source_color, from, k);
-    const Real destination = blend_factor(k == 3 ? o.factors.destination_alpha : o.factors.destination_color, from, k);
-    out[k] = blend_sum(k == 3 ? o.alpha_equation : o.color_equation, src[k], source, dst[k], destination);
+/// The factors of an operation for the colors of a packet. k: channel. This class is for a constant operation.
+class PacketFactors {
+ public:
+  PacketFactors(const BlendOperation& o, const BlendSources& from) : factors_(o.factors), from_(from) {}
+  HS_INLINE Real source(std::size_t k) const { return blend_factor(k == 3 ? factors_.source_alpha : factors_.source_color, from_, k); }
+  HS_INLINE Real destination(std::size_t k) const {
+    return blend_factor(k == 3 ? factors_.destination_alpha : factors_.destination_color, from_, k);
   }
-  return out;
-}
+
+ private:
+  const BlendFactors& factors_;
+  const BlendSources& from_;
+};
 
 namespace detail {
 
@@ -158,39 +161,35 @@ HS_INLINE FactorOperands factor_operands(const BlendSources& s) {
 
 }  // namespace detail
 
-/// blend_sums() for an operation that is only known at run time. The result has the same bits.
-HS_INLINE PacketColor blend_sums(const AnyOperation& o, const PacketColor& src, const PacketColor& dst, const BlendSources& from) {
-  const detail::FactorOperands operands = detail::factor_operands(from);
-  const auto factor = [&](BlendFactor f, std::size_t k) {
+/// PacketFactors for an operation that is only known at run time. The factors have the same bits.
+class AnyPacketFactors {
+ public:
+  AnyPacketFactors(const AnyOperation& o, const BlendSources& from) : factors_(o.factors), operands_(detail::factor_operands(from)) {}
+  HS_INLINE Real source(std::size_t k) const { return factor(k == 3 ? factors_.source_alpha : factors_.source_color, k); }
+  HS_INLINE Real destination(std::size_t k) const { return factor(k == 3 ? factors_.destination_alpha : factors_.destination_color, k); }
+
+ private:
+  HS_INLINE Real factor(BlendFactor f, std::size_t k) const {
     const detail::FactorTerm& term = detail::kFactorTerms[static_cast<std::size_t>(f)][k];
-    return fma(operands.values[term.operand], Real(term.scale), Real(term.offset));
-  };
-  PacketColor out;
-  for (std::size_t k = 0; k < 4; ++k) {
-    const Real source = factor(k == 3 ? o.factors.source_alpha : o.factors.source_color, k);
-    const Real destination = factor(k == 3 ? o.factors.destination_alpha : o.factors.destination_color, k);
-    out[k] = blend_sum(k == 3 ? o.alpha_equation : o.color_equation, src[k], source, dst[k], destination);
+    return fma(operands_.values[term.operand], Real(term.scale), Real(term.offset));
   }
+
+  const BlendFactors& factors_;
+  detail::FactorOperands operands_;
+};
+
+HS_INLINE PacketFactors factors_of(const BlendOperation& o, const BlendSources& from) { return {o, from}; }
+HS_INLINE AnyPacketFactors factors_of(const AnyOperation& o, const BlendSources& from) { return {o, from}; }
+
+/// Returns the blended color, before it is clamped. src and dst can have any unit; the colors in `from` are linear.
+template <class Operation>
+HS_INLINE PacketColor blend_sums(const Operation& o, const PacketColor& src, const PacketColor& dst, const BlendSources& from) {
+  const auto factors = factors_of(o, from);
+  PacketColor out;
+  for (std::size_t k = 0; k < 4; ++k)
+    out[k] = blend_sum(k == 3 ? o.alpha_equation : o.color_equation, src[k], factors.source(k), dst[k], factors.destination(k));
   return out;
 }
-
-/// Returns false if the blended value of a channel with values in [0, 1] is known not to exceed 1, apart from rounding.
-constexpr bool can_exceed_one(const BlendOperation& o, bool alpha) {
-  using enum BlendFactor;
-  const BlendFactor source = alpha ? o.factors.source_alpha : o.factors.source_color;
-  const BlendFactor destination = alpha ? o.factors.destination_alpha : o.factors.destination_color;
-  if ((alpha ? o.alpha_equation : o.color_equation) != BlendEquation::add) return false;
-  if (source == zero || destination == zero) return false;
-  if (destination == one_minus_src_alpha) return source != src_alpha && !(alpha && source == one);
-  return !(destination == one_minus_constant_color && source == constant_color);
-}
-/// Returns true if the blended value of a channel with values in [0, 1] can be negative.
-constexpr bool can_be_negative(const BlendOperation& o, bool alpha) {
-  const BlendEquation e = alpha ? o.alpha_equation : o.color_equation;
-  return e == BlendEquation::subtract || e == BlendEquation::reverse_subtract;
-}
-constexpr bool can_exceed_one(const AnyOperation&, bool) { return true; }
-constexpr bool can_be_negative(const AnyOperation&, bool) { return true; }
 
 /// Clamps the source color of a fixed-point format, which must precede blending (OpenGL 4.6, section 17.3.6).
 HS_INLINE PacketColor clamped_color(PacketColor c) {
@@ -204,29 +203,6 @@ HS_INLINE PacketColor blended_color(const Operation& o, const PacketColor& dst, 
                                     const PacketColor& src1, const glm::vec4& constant) {
   const PacketColor in_range = fixed_point ? clamped_color(src) : src;
   return blend_sums(o, in_range, dst, {in_range, dst, src1, constant, fixed_point});
-}
-
-/// The same for a packet of an rgba8 buffer. Returns the packed codes. first: index of the packet's first pixel.
-/// Blends in units of codes: the existing codes are exact, and the sum only needs to be rounded to an integer. Before that, it differs from
-/// the exact sum by at most 1e-4: 2^-24 times 255 for the source in codes, for its product with the factor, and for each factor, and 2^-24
-/// times 510 for the sum.
-template <class Operation>
-HS_INLINE Int blended_codes(const Operation& o, const ColorBuffer& buffer, std::size_t first, const PacketColor& linear,
-                            const PacketColor& src1, const glm::vec4& constant) {
-  const Int codes = read_codes(buffer, first);
-  const PacketColor src = clamped_color(linear);
-  PacketColor src_codes, dst, dst_codes;
-  for (std::size_t k = 0; k < 4; ++k) {
-    src_codes[k] = src[k] * Real(255.0f);
-    dst_codes[k] = to_real<Real>(code_of(codes, static_cast<int>(k)));
-    dst[k] = unorm8_to_linear(dst_codes[k]);
-  }
-  PacketColor out = blend_sums(o, src_codes, dst_codes, {src, dst, src1, constant, true});
-  for (std::size_t k = 0; k < 4; ++k) {
-    if (can_exceed_one(o, k == 3)) out[k] = min(out[k], Real(255.0f));
-    if (can_be_negative(o, k == 3)) out[k] = max(out[k], Real(0.0f));
-  }
-  return pack_rounded(out);
 }
 
 }  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "halfspace/raster/tile/blend_formulas.h"
+#include "halfspace/raster/tile/blend_codes.h"
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
 

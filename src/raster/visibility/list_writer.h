@@ -46,25 +46,38 @@ class ListWriter {
   bool writes_depth() const { return !undecided && writes_depth_; }
   CompareOp compare_op() const { return undecided ? CompareOp::less : compare_; }
 
-  /// Adds a packet of pixels without testing it, if the draw neither lists nor writes depths, no fragments are traced, and nothing is
-  /// tested or the depth test passes everywhere. Returns false otherwise. See write_samples() in sample_set.h.
-  HS_INLINE bool add_untested(TriangleId id, int packet, const SampleLanes& lanes, uint32_t passes) requires multisampled {
-    constexpr bool traces = kTraces<Statistics>;
-    if (traces || lists_depth() || writes_depth() || (tests() && passes != ~0u)) return false;
+  /// Returns true if covered packets can be added without computing depths: the draw neither lists nor writes depths, no fragments are
+  /// traced, and nothing is tested or the depth test passes everywhere.
+  bool adds_untested(bool passes) const { return !kTraces<Statistics> && !lists_depth() && !writes_depth() && (passes || !tests()); }
+  /// Adds the packets of a block without testing them. lanes_at(p): covered lanes of packet p of the block.
+  template <class LanesAt>
+  HS_INLINE void add_block(TriangleId id, int block, const LanesAt& lanes_at) requires(!multisampled) {
+    auto i = static_cast<std::size_t>(queue_.count);
+    int covered = 0;
+    for (int p = 0; p < kPacketsPerBlock; ++p) {
+      const uint32_t lanes = lanes_at(p);
+      queue_.packets[i] = {static_cast<uint16_t>(block * kPacketsPerBlock + p), static_cast<uint16_t>(lanes)};
+      queue_.ids[i] = id;
+      i += lanes != 0 ? 1 : 0;
+      covered += std::popcount(lanes);
+    }
+    queue_.count = static_cast<int>(i);
+    count_untested(covered);
+  }
+  /// Adds a packet of pixels without testing it. See write_samples() in sample_set.h.
+  HS_INLINE void add_untested(TriangleId id, int packet, const SampleLanes& lanes) requires multisampled {
     uint32_t any = 0;
     int covered = 0;
     for (const uint16_t of_sample : lanes) {
       any |= of_sample;
       covered += std::popcount(of_sample);
     }
-    statistics_.samples_tested += static_cast<uint64_t>(covered);
-    if (is_final()) statistics_.samples_passed += static_cast<uint64_t>(covered);
+    count_untested(covered);
     const auto i = static_cast<std::size_t>(queue_.count);
     queue_.packets[i] = {static_cast<uint16_t>(packet), static_cast<uint16_t>(any)};
     queue_.ids[i] = id;
     queue_.sample_lanes[i] = lanes;
     queue_.count += any != 0 ? 1 : 0;
-    return true;
   }
   /// Starts a packet of pixels. packet: its number in the plane of sample 0. Call begin_sample() and write() for each sample that has
   /// covered lanes, and end_packet() after the last one.
@@ -151,6 +164,11 @@ class ListWriter {
   // Returns true if the depth test before the shader is the only one.
   bool is_final() const { return !undecided && tests_early_; }
   bool lists_depth() const { return undecided || lists_depth_; }
+
+  void count_untested(int covered) {
+    statistics_.samples_tested += static_cast<uint64_t>(covered);
+    if (is_final()) statistics_.samples_passed += static_cast<uint64_t>(covered);
+  }
 
   // Records fragments before they are tested and queued. The outcome of queued fragments is recorded when the queue is shaded.
   void trace(TriangleId id, int packet, uint32_t covered, Real z) {

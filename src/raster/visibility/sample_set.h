@@ -49,7 +49,7 @@ template <class Writer, class Depth, class Wrote>
 HS_INLINE void write_samples(Writer& writer, const SampleSet& set, TriangleId id, int packet, const SampleLanes& lanes, uint32_t passes,
                              const Depth& z_at, const Wrote& wrote) {
   if constexpr (QueuesPixels<Writer>) {
-    if (writer.add_untested(id, packet, lanes, passes)) return;
+    if (writer.adds_untested(passes == ~0u)) return writer.add_untested(id, packet, lanes);
     writer.begin_packet(id, packet);
   }
   for (std::size_t s = 0; s < set.tile_samples; ++s) {

@@ -23,8 +23,8 @@ class StencilListWriter : public ListWriter<S, multisampled> {
   /// Returns true if fragments that fail the depth test have no effect.
   bool tests() const { return Base::tests() && (!updates_ || (face_->fail == StencilOp::keep && face_->depth_fail == StencilOp::keep)); }
 
-  /// See ListWriter. Each sample needs a stencil test.
-  bool add_untested(TriangleId, int, const SampleLanes&, uint32_t) requires multisampled { return false; }
+  /// See ListWriter. Each packet needs a stencil test.
+  bool adds_untested(bool) const { return false; }
   /// Starts a triangle and selects its stencil state.
   void begin(const Triangle& t) { face_ = stencil_face(state_, tile_, t.is(kFrontFacing)); }
 

@@ -18,6 +18,12 @@ namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
+// A writer that can add the packets of a block without testing them.
+template <class Writer>
+concept QueuesBlocks = requires(Writer& writer) {
+  writer.add_block(TriangleId{}, 0, [](int) { return 0u; });
+};
+
 // Finds the covered packets of one block after the other and writes them.
 template <bool small, class Writer>
 class BlockPackets {
@@ -34,6 +40,9 @@ class BlockPackets {
 
   // Writes a block that is covered everywhere and passes everywhere. x, y: its corner.
   void write_whole(int block, int x, int y) {
+    if constexpr (QueuesBlocks<Writer>) {
+      if (writer_.adds_untested(true)) return writer_.add_block(id_, block, [](int) { return kAllBits<Mask>; });
+    }
     for (int p = 0; p < kPacketsPerBlock; ++p)
       writer_.write_whole(id_, block * kPacketsPerBlock + p, [&] { return plane_.at(edges_, x + packet_x(p), y + packet_y(p)); });
   }
@@ -41,12 +50,18 @@ class BlockPackets {
   // Writes the covered packets of any other block. passes: the depth test passes everywhere.
   void write_some(int block, int x, int y, bool is_cut, bool passes) {
     const std::array<Int, 3> corner{edges_.values(0, x, y), edges_.values(1, x, y), edges_.values(2, x, y)};
-    // The outcome is nearly random and a branch would often be mispredicted, so the code has none.
+    const auto lanes_at = [&](int p) {
+      const std::array<int32_t, 3>& step = step_[static_cast<std::size_t>(p)];
+      const uint32_t lanes = kAllBits<Mask> & ~negative_bits((corner[0] + step[0]) | (corner[1] + step[1]) | (corner[2] + step[2]));
+      return is_cut ? lanes & bits(inside(rect_, x + packet_x(p), y + packet_y(p))) : lanes;
+    };
+    if constexpr (QueuesBlocks<Writer>) {
+      if (writer_.adds_untested(passes)) return writer_.add_block(id_, block, lanes_at);
+    }
+    // Whether a packet has covered lanes is nearly random and a branch would often be mispredicted, so the code has none.
     std::size_t listed = 0;
     for (int p = 0; p < kPacketsPerBlock; ++p) {
-      const std::array<int32_t, 3>& step = step_[static_cast<std::size_t>(p)];
-      uint32_t lanes = kAllBits<Mask> & ~negative_bits((corner[0] + step[0]) | (corner[1] + step[1]) | (corner[2] + step[2]));
-      if (is_cut) lanes &= bits(inside(rect_, x + packet_x(p), y + packet_y(p)));
+      const uint32_t lanes = lanes_at(p);
       list_[listed] = {static_cast<uint16_t>(p), static_cast<uint16_t>(lanes)};
       listed += lanes != 0 ? 1 : 0;
     }
