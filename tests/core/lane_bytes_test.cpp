@@ -21,7 +21,8 @@ TEST(LaneBytes, ArithmeticIsExactForAllPairs) {
     for (int first = 0; first < 256; first += kBytes) {
       const Int x(static_cast<int32_t>(static_cast<uint32_t>(a) * 0x01010101u));
       Int y(0);
-      for (int i = 0; i < kLanes; ++i) set_lane(y, i, static_cast<int32_t>(0x03020100u + static_cast<uint32_t>(first + 4 * i) * 0x01010101u));
+      for (int i = 0; i < kLanes; ++i)
+        set_lane(y, i, static_cast<int32_t>(0x03020100u + static_cast<uint32_t>(first + 4 * i) * 0x01010101u));
       for (int k = 0; k < kBytes; ++k) {
         const int b = first + k;
         ASSERT_EQ(byte_at(y, k), b);
