@@ -8,8 +8,8 @@
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
 
-/// Returns true if the existing color has no factor, and the term of the source cannot be negative. Then only that term has to be rounded,
-/// and both are combined as bytes.
+/// Returns true if the operation does not scale the existing color: it adds a term to it, subtracts a term from it, or selects one of two
+/// colors. Then only the other term has to be rounded, and both are combined as bytes.
 constexpr bool combines_codes(const BlendOperation& o) {
   using enum BlendEquation;
   const BlendEquation e = o.color_equation;
@@ -38,8 +38,8 @@ constexpr bool can_be_negative(const AnyOperation&, bool) { return true; }
 
 namespace detail {
 
-/// For operations with combines_codes(). Before it is rounded, the term differs from the exact one by at most 1e-4: 2^-24 times 255 for the
-/// factor, for its product with 255, and for the product with the source.
+/// For operations with combines_codes(). Before it is rounded, the term differs from the exact one by at most 1e-4: 2^-24 times 255 for
+/// each rounding of the factor and for its product with 255. The product with the source is only rounded to an integer.
 template <class Operation>
 HS_INLINE Int combined_codes(const Operation& o, Int codes, const BlendSources& from) {
   const bool has_factors = o.color_equation == BlendEquation::add || o.color_equation == BlendEquation::reverse_subtract;

@@ -77,7 +77,8 @@ inline BlendOperation operation_of(const BlendState& s) {
 /// An operation that is only known at run time. Its factors are found in a table, without branches.
 struct AnyOperation : BlendOperation {};
 
-/// The factors of an operation for the colors of a packet. k: channel. This class is for a constant operation.
+/// The factors of an operation for the colors of a packet. k: channel. Finds each factor by a switch, which the compiler removes if the
+/// operation is a constant.
 class PacketFactors {
  public:
   PacketFactors(const BlendOperation& o, const BlendSources& from) : factors_(o.factors), from_(from) {}
