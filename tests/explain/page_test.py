@@ -41,6 +41,7 @@ SCREENSHOTS = Path(sys.argv[2]) if len(sys.argv) > 2 else None
 SCENES = {"earth": ["earth"], "day-night": ["day-night", "--camera", "street"], "particles": ["particles"],
           "knot": ["shadow-knot", "--set", "samples=4"], "box": ["box.obj"], "panes": ["panes.json"]}
 LONG = "HALFSPACE_LONG_TESTS" in os.environ  # set by scripts/test_full.sh
+TOURED = list(SCENES) if LONG else ["day-night", "particles", "box"]  # together, these three show every chapter, too
 HELMET = Path(__file__).resolve().parents[2].parent / "shared/data/gltf/DamagedHelmet/glTF-Binary/DamagedHelmet.glb"
 # Twenty-four squares, one behind the other and drawn from back to front, with two samples per pixel.
 PANES = {"version": 1, "samples": 2, "cameras": {"c": {"position": [0, 0, 6], "target": [0, 0, 0]}}, "lights": {"sun": {}},
@@ -153,7 +154,7 @@ class Page(unittest.TestCase):
         return self.driver.execute_async_script(TOUR.replace("LOOK", look))
 
     def test_every_step_of_every_chapter(self):
-        for name in SCENES:
+        for name in TOURED:
             self.open(name)
             seen = {}
             for chapter, step, look in self.tour(f"() => [({PICTURE})(), ({NAMELESS})(), ({EXERCISES})()]"):
@@ -169,7 +170,7 @@ class Page(unittest.TestCase):
             self.assertEqual(self.errors(), [], name)
 
     def test_steps_fit_and_are_readable_on_a_phone(self):
-        for name in SCENES if LONG else ["day-night", "panes"]:
+        for name in SCENES if LONG else ["day-night"]:
             self.open(name, width=390)
             for chapter, step, (width, font) in self.tour(f"() => [{WIDTH}, {SMALLEST_FONT}]"):
                 self.assertLessEqual(width, 390, f"{name}, {chapter}, step {step}")
@@ -198,13 +199,17 @@ class Page(unittest.TestCase):
             body.send_keys(Keys.ARROW_LEFT)
         self.assertEqual(self.run_script("return [CHAPTERS[state.chapter].id, state.step]"), ["frame", 2])
 
-    def test_together_the_scenes_show_every_chapter(self):
-        absent = None
+    def test_the_values_of_each_page_agree(self):
+        absent = {}
         for name in SCENES:
-            self.open(name)
-            here = set(self.run_script("return CHAPTERS.filter((c) => c.absent && c.absent()).map((c) => c.id)"))
-            absent = here if absent is None else absent & here
-        self.assertEqual(absent, set())
+            self.open(name, "history")
+            absent[name] = set(self.run_script("return CHAPTERS.filter((c) => c.absent && c.absent()).map((c) => c.id)"))
+            for check in (self.check_coverage, self.check_setup_depth, self.check_final_pixel, self.check_luminance_bar,
+                          self.check_shown_numbers, self.check_values_of_json):
+                with self.subTest(check.__name__, scene=name):
+                    check(name)
+        for scenes in (SCENES, TOURED):
+            self.assertEqual(set.intersection(*(absent[name] for name in scenes)), set(), f"no page of {list(scenes)} shows these chapters")
 
     def test_the_switch_changes_the_colors(self):
         self.open("earth")
@@ -215,33 +220,42 @@ class Page(unittest.TestCase):
         self.open("earth", dark=True)
         self.assertNotEqual(self.run_script(background), light, "prefers-color-scheme: dark")
 
-    def test_coverage_on_the_page_matches_the_renderer(self):
-        for name in SCENES:
-            self.open(name)
-            own, expected = self.run_script("return [countCovered(), TRI.covered]")
-            self.assertEqual(own, expected, name)
-            own, expected = self.run_script("""const [x0, y0] = WINDOW.map(blockOf);
-                return [EX.block.map((_, i) => allSamples.reduce((bits, s) => bits | covers(TRI, x0 + i % 8, y0 + (i >> 3), s) << s, 0)), EX.block]""")
-            self.assertEqual(own, expected, name)
-            self.assertTrue(self.run_script("return covers(TRI, ...WINDOW)"), f"{name}: the example covers the visible sample")
+    def check_coverage(self, _):
+        """The page computes the same coverage of the example as the renderer."""
+        own, expected = self.run_script("return [countCovered(), TRI.covered]")
+        self.assertEqual(own, expected)
+        own, expected = self.run_script("""const [x0, y0] = WINDOW.map(blockOf);
+            return [EX.block.map((_, i) => allSamples.reduce((bits, s) => bits | covers(TRI, x0 + i % 8, y0 + (i >> 3), s) << s, 0)), EX.block]""")
+        self.assertEqual(own, expected)
+        self.assertTrue(self.run_script("return covers(TRI, ...WINDOW)"), "the example covers the visible sample")
 
-    def test_the_depth_of_the_setup_chapter_is_that_of_the_fragment(self):
-        for name in SCENES:
-            self.open(name)
-            if self.run_script("return isTriangle"):
-                depth, expected = self.run_script("return [depthFromEdges(), VISIBLE.depth]")
-                self.assertLessEqual(abs(depth - expected), 1e-6 * abs(expected), f"{name}: the renderer uses floats")
+    def check_setup_depth(self, _):
+        """The setup chapter computes the depth of the fragment."""
+        if self.run_script("return isTriangle"):
+            depth, expected = self.run_script("return [depthFromEdges(), VISIBLE.depth]")
+            self.assertLessEqual(abs(depth - expected), 1e-6 * abs(expected), "the renderer uses floats")
 
-    def test_the_formulas_end_in_the_pixel(self):
-        for name in SCENES:
-            self.open(name)
-            page, pixel = self.driver.execute_async_script(
-                "const done = arguments[0]; unpackHistory().then(() => done([TONE.pixel, detailsOf(...PIXEL)]))")
-            self.assertEqual(page["code"], pixel["code"][:3], name)
-            self.assertEqual(page["light"], pixel["light"][:3], name)
-            if self.run_script("return DATA.mips !== null"):
-                size, lod = self.run_script("return [mipSize(), MIP.lod]")
-                self.assertAlmostEqual(2 ** lod / size, 1, 5, name)
+    def check_final_pixel(self, _):
+        """The formulas of the page end in the color of the pixel."""
+        page, pixel = self.driver.execute_async_script(
+            "const done = arguments[0]; unpackHistory().then(() => done([TONE.pixel, detailsOf(...PIXEL)]))")
+        self.assertEqual(page["code"], pixel["code"][:3])
+        self.assertEqual(page["light"], pixel["light"][:3])
+        if self.run_script("return DATA.mips !== null"):
+            size, lod = self.run_script("return [mipSize(), MIP.lod]")
+            self.assertAlmostEqual(2 ** lod / size, 1, 5)
+
+    def check_luminance_bar(self, _):
+        """The bar of the example in the histogram contains its luminance."""
+        light, bins, low, bars, edges = self.run_script(
+            "const all = [...TONE.histogram.keys()]; return [TONE.pixel.light, TONE.bins, TONE.low, all.filter(isExampleBin), all.map(binLow)]")
+        luminance = 0.2126 * light[0] + 0.7152 * light[1] + 0.0722 * light[2]
+        for edge, number in ((edges[0], low), (edges[bins], low + 1)):
+            self.assertEqual(edge, 2.0 ** number)
+        if edges[0] <= luminance < edges[-1]:
+            self.assertEqual(len(bars), 1)
+            self.assertLessEqual(edges[bars[0]], luminance)
+            self.assertLess(luminance, edges[bars[0] + 1])
 
     def test_sums_of_layers_match_the_stored_color(self):
         self.open("box")
@@ -270,12 +284,12 @@ class Page(unittest.TestCase):
         run("halfspace render 'sub folder/box.obj' --size 640x360 --yaw 20 --set samples=2 -o expected.png")
         self.assertEqual((folder / "command.png").read_bytes(), (folder / "expected.png").read_bytes())
 
+    @unittest.skipUnless(LONG, "needs HALFSPACE_LONG_TESTS")
     def test_pages_are_smaller_than_25_mb(self):
         folder = Path(self.folder.name)
-        runs = [["particles", "--set", "particles.count=100000", "--set", "particles.arrangement=ball", "--set", "samples=4"]]  # the largest page
-        if LONG:
-            names = subprocess.run([PROGRAM, "list", "--names"], check=True, capture_output=True, text=True).stdout.split()
-            runs += [[name] for name in names] + [["panes.json", "--set", "samples=8"]] + ([[HELMET]] if HELMET.exists() else [])
+        names = subprocess.run([PROGRAM, "list", "--names"], check=True, capture_output=True, text=True).stdout.split()
+        runs = [[name] for name in names] + [["panes.json", "--set", "samples=8"]] + ([[HELMET]] if HELMET.exists() else [])
+        runs += [["particles", "--set", "particles.count=100000", "--set", "particles.arrangement=ball", "--set", "samples=4"]]  # the largest page
         for arguments in runs:
             page = folder / "size.html"
             subprocess.run([PROGRAM, "explain", *arguments, "-o", page], check=True, cwd=folder)
@@ -311,20 +325,6 @@ class Page(unittest.TestCase):
                 return getComputedStyle(a).opacity === '1' ? (l[0] + 0.05) / (l[1] + 0.05) : 0""")
             self.assertGreaterEqual(ratio, 4.5, "dark" if dark else "light")  # WCAG 2.1, success criterion 1.4.3
 
-    def test_the_bar_of_the_example_contains_its_luminance(self):
-        for name in SCENES:
-            self.open(name)
-            light, bins, low, bars, edges = self.run_script(
-                "const all = [...TONE.histogram.keys()]; return [TONE.pixel.light, TONE.bins, TONE.low, all.filter(isExampleBin), all.map(binLow)]")
-            luminance = 0.2126 * light[0] + 0.7152 * light[1] + 0.0722 * light[2]
-            for edge, number in ((edges[0], low), (edges[bins], low + 1)):
-                self.assertEqual(edge, 2.0 ** number, name)
-            if not edges[0] <= luminance < edges[-1]:
-                continue
-            self.assertEqual(len(bars), 1, name)
-            self.assertLessEqual(edges[bars[0]], luminance, name)
-            self.assertLess(luminance, edges[bars[0] + 1], name)
-
     def show_pixel(self, x, y):
         """Types a pixel into the form of the history, and returns the displayed text, with all details open."""
         fields = self.driver.find_elements(By.CSS_SELECTOR, "form.pixel input")
@@ -340,47 +340,48 @@ class Page(unittest.TestCase):
         title = f"Pixel {x}, {y}"
         WebDriverWait(self.driver, 30).until(lambda d: d.execute_script("const h = document.querySelector('#history-panel h3'); return h && h.textContent") == title)
 
-    def test_a_pixel_shows_the_numbers_of_the_text(self):
+    def compared_pixels(self):
+        return [self.run_script("return PIXEL")] + ([[160, 88], [8, 16]] if LONG else [])
+
+    def check_shown_numbers(self, name):
+        """The history of a pixel shows the numbers of --text."""
         number = re.compile(r"(?<![\w.])-?\d+(?:\.\d+)?(?:e[-+]\d+)?(?![\w.]*\w)")
-        for name, arguments in SCENES.items():
-            self.open(name, "history")
-            for pixel in (self.run_script("return PIXEL"), [160, 88], [8, 16]):
-                text = self.text_of(name, pixel)
-                shown = set(number.findall(self.show_pixel(*pixel)))
-                missing = [n for n in number.findall(text.replace("8x8", "")) if n not in shown]
-                self.assertEqual(missing, [], f"{name}, pixel {pixel}: numbers of --text that the page does not show\n{text}")
+        for pixel in self.compared_pixels():
+            text = self.text_of(name, pixel)
+            shown = set(number.findall(self.show_pixel(*pixel)))
+            missing = [n for n in number.findall(text.replace("8x8", "")) if n not in shown]
+            self.assertEqual(missing, [], f"pixel {pixel}: numbers of --text that the page does not show\n{text}")
 
     def text_of(self, name, pixel, kind="--text"):
         return subprocess.run([PROGRAM, "explain", *SCENES[name], "--size", "320x180", "--pixel", "{},{}".format(*pixel), kind],
                               check=True, capture_output=True, text=True, cwd=self.folder.name).stdout
 
-    def test_a_pixel_has_the_values_of_the_json(self):
+    def check_values_of_json(self, name):
+        """The page has the values of --json."""
         def as_floats(x):
             if isinstance(x, list):
                 return [as_floats(v) for v in x]
             return struct.unpack("f", struct.pack("f", x))[0] if isinstance(x, float) else x
         as_list = lambda v: v if isinstance(v, list) else [v]
-        for name in SCENES:
-            self.open(name, "history")
-            for pixel in (self.run_script("return PIXEL"), [160, 88], [8, 16]):
-                expected = json.loads(self.text_of(name, pixel, "--json"))
-                page = self.driver.execute_async_script(
-                    "const done = arguments[2]; unpackHistory().then(() => done(detailsOf(arguments[0], arguments[1])))", *pixel)
-                where = f"{name}, pixel {pixel}"
-                self.assertEqual(page["others"], expected["fragments_left_out"], where)
-                self.assertEqual([f["index"] for f in page["list"]], list(range(len(expected["fragments"]))), where)
-                for own, f in zip(page["list"], expected["fragments"]):
-                    rows = [("draw", "draw"), ("instance", "instance"), ("primitive", "primitive"), ("sample", "sample"), ("depth", "depth"),
-                            ("barycentrics", "barycentrics"), ("invW", "inv_w"), ("color", "color")]
-                    rows += [("tested", "tested_depth"), ("stored", "stored_depth")] if "tested_depth" in f else []
-                    rows += [("value", "value")] if "value" in f else []
-                    for key, json_key in rows:
-                        self.assertEqual(as_floats(own[key]), as_floats(f[json_key]), f"{where}, {json_key}")
-                    self.assertEqual([own["kind"]["front"], own["kind"]["shader"], bool(own["isShaded"])], [f["front_facing"], f["shader"], f["shaded"]], where)
-                    for key in ("varyings", "terms", "factors"):
-                        self.assertEqual({k: as_floats(v) for k, v in own[key]}, {k: as_floats(as_list(v)) for k, v in f[key].items()}, where)
-                self.assertEqual(as_floats(page["samples"]), as_floats(expected["samples"]), where)
-                self.assertEqual([as_floats(page["light"]), page["code"]], [as_floats(expected["light"]), expected["code"]], where)
+        for pixel in self.compared_pixels():
+            expected = json.loads(self.text_of(name, pixel, "--json"))
+            page = self.driver.execute_async_script(
+                "const done = arguments[2]; unpackHistory().then(() => done(detailsOf(arguments[0], arguments[1])))", *pixel)
+            where = f"pixel {pixel}"
+            self.assertEqual(page["others"], expected["fragments_left_out"], where)
+            self.assertEqual([f["index"] for f in page["list"]], list(range(len(expected["fragments"]))), where)
+            for own, f in zip(page["list"], expected["fragments"]):
+                rows = [("draw", "draw"), ("instance", "instance"), ("primitive", "primitive"), ("sample", "sample"), ("depth", "depth"),
+                        ("barycentrics", "barycentrics"), ("invW", "inv_w"), ("color", "color")]
+                rows += [("tested", "tested_depth"), ("stored", "stored_depth")] if "tested_depth" in f else []
+                rows += [("value", "value")] if "value" in f else []
+                for key, json_key in rows:
+                    self.assertEqual(as_floats(own[key]), as_floats(f[json_key]), f"{where}, {json_key}")
+                self.assertEqual([own["kind"]["front"], own["kind"]["shader"], bool(own["isShaded"])], [f["front_facing"], f["shader"], f["shaded"]], where)
+                for key in ("varyings", "terms", "factors"):
+                    self.assertEqual({k: as_floats(v) for k, v in own[key]}, {k: as_floats(as_list(v)) for k, v in f[key].items()}, where)
+            self.assertEqual(as_floats(page["samples"]), as_floats(expected["samples"]), where)
+            self.assertEqual([as_floats(page["light"]), page["code"]], [as_floats(expected["light"]), expected["code"]], where)
 
     def test_a_click_selects_the_pixel(self):
         self.open("earth", "history")
