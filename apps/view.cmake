@@ -42,6 +42,9 @@ foreach(source IN LISTS view_without_window)
 endforeach()
 halfspace_program(halfspace-view view ${sources})
 set_property(SOURCE view/ui_scale.cpp PROPERTY SKIP_UNITY_BUILD_INCLUSION ON)  # the macros of X11 are common words
+# Like the command line. Only the file that draws the interface has a kernel.
+target_compile_options(${program_target} PRIVATE ${command_line_options})
+set_source_files_properties(view/imgui_pass.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON COMPILE_OPTIONS $<$<CONFIG:Release>:-O3>)
 add_library(halfspace_imgui INTERFACE)
 target_include_directories(halfspace_imgui SYSTEM INTERFACE ${IMGUI_INCLUDE_DIR} ${IMGUI_BACKENDS_INCLUDE_DIR})
 target_link_libraries(halfspace_imgui INTERFACE ${IMGUI_LIBRARY})

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <numeric>
+#include <utility>
 
 #include "halfspace/geometry/camera.h"
 #include "workload_canvas.h"
@@ -161,6 +163,14 @@ std::shared_ptr<const Texture2D> make_texture(MatrixTexture kind, int index) {
   return std::make_shared<Texture2D>(codes, kind == MatrixTexture::srgb ? TexelFormat::srgb8a8 : TexelFormat::rgba8);
 }
 
+// Returns a texture that is created once for all rows.
+std::shared_ptr<const Texture2D> shared_texture(MatrixTexture kind, int index) {
+  static std::map<std::pair<MatrixTexture, int>, std::shared_ptr<const Texture2D>> textures;
+  std::shared_ptr<const Texture2D>& texture = textures[{kind, index}];
+  if (!texture) texture = make_texture(kind, index);
+  return texture;
+}
+
 }  // namespace
 
 std::span<const uint32_t> MatrixScene::part(int i, int n) const {
@@ -191,7 +201,7 @@ MatrixScene matrix_scene(const MatrixRow& row, WorkloadSize size) {
     const double z = row.mesh == MatrixMesh::near ? kNearEyeZ : kEyeZ;
     scene.clip_from_world = glm::mat4(workload_projection(size, 0.25, 10.0) * look_at({0, 0, z}, {0, 0, z - 1}, {0, 1, 0}));
   }
-  for (int i = 0; i < std::min(kTextures, row.draws + row.textures - 1); ++i) scene.textures.push_back(make_texture(row.texels, i));
+  for (int i = 0; i < std::min(kTextures, row.draws + row.textures - 1); ++i) scene.textures.push_back(shared_texture(row.texels, i));
   return scene;
 }
 

@@ -175,7 +175,7 @@ def test_alpha_is_not_dropped_when_a_picture_is_saved(tmp_path):
     halfspace.render("moon", size=SMALL, linear=True).save(tmp_path / "a.hdr")
 
 
-@pytest.mark.parametrize("size", [(2048, 1), (1, 2048)])
+@pytest.mark.parametrize("size", [(512, 1), (1, 512)])
 def test_any_aspect_ratio_matches_the_command_line(command_line, size):
     path = command_line("moon", "--size", f"{size[0]}x{size[1]}")
     assert same_bytes(halfspace.render("moon", size=size), path)

@@ -180,9 +180,13 @@ class MesaConformance : public MesaTest, public testing::WithParamInterface<conf
 
 TEST_P(MesaConformance, AgreesOnTheGroup) {
   Agreement sum;
-  for (const conformance::Case& c : GetParam().cases()) {
-    const conformance::Picture picture = c.picture();
-    if (c.not_by_mesa == nullptr && not_comparable(picture) == nullptr) compare_with_mesa(picture, c.name, sum);
+  const conformance::Cases cases = GetParam().cases();
+  // llvmpipe compiles code for each state, which takes most of the time. Seven has no common factor with the numbers of factors and
+  // equations, so all of them are among every seventh case.
+  const std::size_t step = cases.size() > 150 && !runs_long_tests() ? 7 : 1;
+  for (std::size_t i = 0; i < cases.size(); i += step) {
+    const conformance::Picture picture = cases[i].picture();
+    if (cases[i].not_by_mesa == nullptr && not_comparable(picture) == nullptr) compare_with_mesa(picture, cases[i].name, sum);
   }
   expect_agreement(sum);
 }

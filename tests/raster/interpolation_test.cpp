@@ -228,7 +228,7 @@ constexpr Exact kTolerance = 3e-7L;
 TEST(Interpolation, SmoothValuesStayWithinTolerance) {
   int row = 0;
   for (const Shape shape : {Shape::small, Shape::medium, Shape::large, Shape::huge, Shape::sliver}) {
-    const int triangles = effort(shape == Shape::small ? 4000 : shape == Shape::sliver ? 400 : 150);
+    const int triangles = effort(shape == Shape::small ? 2000 : shape == Shape::sliver ? 200 : 75);
     for (const Values values : {Values::unit, Values::symmetric, Values::offset}) {
       Error all;
       for (const double ratio : {1.0, 2.0, 100.0, 1e4}) {
@@ -247,7 +247,7 @@ TEST(Interpolation, SmoothValuesStayWithinTolerance) {
 TEST(Interpolation, LinearValuesStayWithinTolerance) {
   int row = 0;
   for (const Shape shape : {Shape::small, Shape::medium, Shape::large, Shape::huge, Shape::sliver}) {
-    const int triangles = effort(shape == Shape::small ? 4000 : shape == Shape::sliver ? 400 : 150);
+    const int triangles = effort(shape == Shape::small ? 2000 : shape == Shape::sliver ? 200 : 75);
     for (const Values values : {Values::unit, Values::symmetric, Values::offset}) {
       const Error e = measure(static_cast<uint64_t>(300 + row++), triangles, shape, values, 100.0, true, LinearShader{});
       EXPECT_LE(e.max, kTolerance) << name_of(shape) << ' ' << name_of(values);

@@ -12,6 +12,7 @@ import unittest
 import xml.dom.minidom
 from itertools import combinations
 from pathlib import Path
+from unittest import mock
 
 SCRIPTS = Path(__file__).resolve().parents[2] / "scripts"
 SKIPPED = 77  # ctest shows the test as skipped
@@ -143,6 +144,12 @@ class Program(unittest.TestCase):
         return subprocess.run([sys.executable, SCRIPTS / "draw_charts.py", *map(str, arguments)], capture_output=True, text=True,
                               env={**os.environ, **environment})
 
+    def error_of(self, *arguments):
+        """Runs the script in this process, which saves the time of starting it, and returns the message with which it exits."""
+        with mock.patch.object(sys, "argv", ["draw_charts.py", *map(str, arguments)]), self.assertRaises(SystemExit) as raised:
+            draw_charts.main()
+        return raised.exception.code
+
     def test_files_hold_text_and_are_reproducible(self):
         files = [self.folder / name for name in ("wave.svg", "wave-dark.svg")]
         contents = []
@@ -170,9 +177,7 @@ class Program(unittest.TestCase):
         for content in ("{", "[]", json.dumps(incomplete), json.dumps({**wave_study(), "variants": []})):
             with self.subTest(content=content[:20]):
                 (self.folder / "wave.json").write_text(content)
-                result = self.run_script("studies", self.folder, "wave")
-                self.assertEqual(result.returncode, 1)
-                self.assertRegex(result.stderr, r"^draw_charts.py: .*wave.json: not the data of a study .*\n$")
+                self.assertRegex(self.error_of("studies", self.folder, "wave"), r"\Adraw_charts.py: .*wave.json: not the data of a study .*\Z")
         result = self.run_script("studies", self.folder, "none")
         self.assertEqual(result.returncode, 1)
         self.assertRegex(result.stderr, r"^draw_charts.py: .*none.json.*\n$")
