@@ -42,7 +42,7 @@ foreach(source IN LISTS view_without_window)
 endforeach()
 halfspace_program(halfspace-view view ${sources})
 set_property(SOURCE view/ui_scale.cpp PROPERTY SKIP_UNITY_BUILD_INCLUSION ON)  # the macros of X11 are common words
-# Like the command line. Only the file that draws the interface has a kernel.
+# Compiled at -O1, like the command line, except for the kernel that draws the interface.
 target_compile_options(${program_target} PRIVATE ${command_line_options})
 set_source_files_properties(view/imgui_pass.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON COMPILE_OPTIONS $<$<CONFIG:Release>:-O3>)
 add_library(halfspace_imgui INTERFACE)
