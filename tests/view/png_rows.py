@@ -5,26 +5,22 @@ import zlib
 
 
 def _unfilter(kind, line, above, step):
-    """Undoes the filter of a row in place (PNG specification, section 9). Each filter has its own loop, because these loops take most of
-    the time of reading a file."""
-    if kind == 2:
-        line[:] = bytes([(value + up) & 255 for value, up in zip(line, above)])
-        return
-    line[:0] = above[:0] = bytes(step)  # zeros to the left of the row
-    if kind == 1:
-        for i in range(step, len(line)):
-            line[i] = (line[i] + line[i - step]) & 255
-    elif kind == 3:
-        for i in range(step, len(line)):
-            line[i] = (line[i] + (line[i - step] + above[i]) // 2) & 255
-    else:
-        for i in range(step, len(line)):
-            left, up, corner = line[i - step], above[i], above[i - step]
-            to_left, to_up = abs(up - corner), abs(left - corner)
-            to_corner = abs(left + up - 2 * corner)
-            predicted = left if to_left <= to_up and to_left <= to_corner else up if to_up <= to_corner else corner
-            line[i] = (line[i] + predicted) & 255
-    del line[:step], above[:step]
+    """Undoes the filter of a row in place (PNG specification, section 9)."""
+    for i in range(len(line)):
+        left = line[i - step] if i >= step else 0
+        up = above[i]
+        if kind == 1:
+            predicted = left
+        elif kind == 2:
+            predicted = up
+        elif kind == 3:
+            predicted = (left + up) // 2
+        else:
+            corner = above[i - step] if i >= step else 0
+            p = left + up - corner
+            distances = (abs(p - left), abs(p - up), abs(p - corner))
+            predicted = (left, up, corner)[distances.index(min(distances))]
+        line[i] = (line[i] + predicted) & 255
 
 
 def read_rows(path):
