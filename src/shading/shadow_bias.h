@@ -39,7 +39,8 @@ HS_INLINE R tangent_of(R cosine, float limit) {
 /// Returns the offset in texels that ShadowBias::automatic applies. Within the triangle, its plane is sufficient. Neighboring triangles
 /// deviate from that plane by an amount that grows with the radius of the filter and with the angle of incidence. Half a texel is added for
 /// the rounding of depths within a texel. The radius is capped at the radius of pcf7: pcss reaches farther, but only for occluders that are
-/// far away.
+/// far away. A triangle that faces away from the light gets the tangent of the angle on its other side, so that the offset does not move
+/// the point past the object that shades it.
 template <class R>
 HS_INLINE R automatic_depth_offset(const ShadowSettings& s, R tangent) {
   return R(kAutomaticDepthOffset) * fma(R(1.0f + min(filter_reach(s), 4.0f)), tangent, R(1));
@@ -48,7 +49,7 @@ HS_INLINE R automatic_depth_offset(const ShadowSettings& s, R tangent) {
 /// Projects the receiver to the view and applies the bias of the settings.
 template <class R>
 HS_INLINE ShadowCoordinates<R> biased_coordinates(const ShadowView& view, const ShadowSettings& s, const ShadowReceiver<R>& at) {
-  const R cosine = clamp(dot(at.face_normal_ws, at.to_light_ws), R(0), R(1));
+  const R towards = dot(at.face_normal_ws, at.to_light_ws), cosine = clamp(towards, R(0), R(1));
   if (s.bias == ShadowBias::normal_offset) return normal_offset_coordinates(view, at, cosine, s.constant * filter_reach(s));
 
   ShadowCoordinates<R> p = shadow_coordinates(view, at.position_rws);
@@ -68,7 +69,7 @@ HS_INLINE ShadowCoordinates<R> biased_coordinates(const ShadowView& view, const 
       break;
     case ShadowBias::automatic:
       set_plane(view, at.position_rws, at.face_normal_ws, kSteepestSlope, p);
-      p.depth += texel * automatic_depth_offset(s, tangent_of(cosine, kSteepestSlope));
+      p.depth += texel * automatic_depth_offset(s, tangent_of(clamp(abs(towards), R(0), R(1)), kSteepestSlope));
       break;
     default: break;
   }

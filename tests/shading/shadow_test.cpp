@@ -246,6 +246,21 @@ TEST(ShadowBias, EachTypeOffsetsTheDepthByItsFormula) {
   EXPECT_NEAR(lift(ShadowBias::adaptive), 2.0 * 1e-4 * 0.5, kRounding);
 }
 
+TEST(ShadowBias, FacesThatFaceAwayStayInShadow) {
+  // The point is 1.8 units (57 texels) below an occluder. Its shading normal, turned by a normal map, faces the light. At 96 degrees, the
+  // tangent is 9.5, so the offset is 0.5 · (1 + 3 · 9.5) = 15 texels with pcf3, and the plane of the face rises by up to 2 · 9.5 texels
+  // within the filter. Both together are less than 57.
+  Map map(64);
+  map.fill([](double, double) { return 0.9; });
+  for (const double degrees : {96.0, 110.0, 135.0, 170.0, 180.0}) {
+    const double angle = degrees * std::numbers::pi / 180.0;
+    ShadowReceiver<float> point =
+        receiver({0.1f, 0.2f, -0.9f}, {static_cast<float>(std::sin(angle)), 0, static_cast<float>(std::cos(angle))});
+    point.shading_normal_ws = vec3<float>(glm::vec3(0, 0, 1));
+    EXPECT_EQ(shadow_factor(shadow_of(map.view, ShadowFilter::pcf3, ShadowBias::automatic), point), 0.0f) << degrees;
+  }
+}
+
 // Returns the fraction of a tilted floor that shadows itself. The floor is drawn into the map at texel centers.
 double false_shadow(ShadowFilter filter, ShadowBias bias, double degrees) {
   const double slope = std::tan(degrees * std::numbers::pi / 180.0);
