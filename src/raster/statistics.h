@@ -14,7 +14,7 @@ struct PassStatistics {
   uint64_t vertices_in = 0;        ///< submitted indices, for all instances, without restarts
   uint64_t vertices_shaded = 0;    ///< distinct vertices used by each draw, for all instances
   uint64_t primitives_in = 0;      ///< submitted primitives
-  uint64_t culled_non_finite = 0;  ///< a position contains NaN or Inf
+  uint64_t culled_non_finite = 0;  ///< a position or a clip distance is NaN or Inf
   uint64_t culled_outside = 0;     ///< completely outside one plane of the view volume, or nothing left after clipping
   uint64_t culled_face = 0;        ///< by CullMode
   uint64_t culled_degenerate = 0;  ///< zero area or length after snapping

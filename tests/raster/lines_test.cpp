@@ -160,6 +160,33 @@ TEST(Lines, ClipDistancesCutTrianglesLinesAndPoints) {
   EXPECT_EQ(point_pass.run(one_worker()).samples_passed, 1u);
 }
 
+// The x coordinate is the clip distance; the position itself is always in view.
+struct DistanceFromX : ConstantShader {
+  template <class R>
+  PerVertex<R, 1> vertex(const Attributes<R>& in, Varyings<R>&) const {
+    return {vec4<R>(select(in.position.y > R(0.5f), R(0.5f), R(-0.5f)), in.position.y, R(0), R(1)), R(1.0f), {in.position.x}};
+  }
+};
+
+TEST(Lines, PrimitivesWithANonFiniteClipDistanceAreCulled) {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity(), kNan = std::numeric_limits<float>::quiet_NaN();
+  for (const float distance : {kInfinity, -kInfinity, kNan}) {
+    for (const Topology topology : {Topology::triangles, Topology::lines, Topology::points}) {
+      const std::vector<glm::vec4> corners{{1, -0.9f, 0, 1}, {-1, 0.9f, 0, 1}, {distance, 0.1f, 0, 1}};
+      const std::vector<uint32_t> indices = topology == Topology::triangles ? std::vector<uint32_t>{0, 1, 2}
+                                            : topology == Topology::lines   ? std::vector<uint32_t>{1, 2, 2, 0}
+                                                                            : std::vector<uint32_t>{2};
+      Image<glm::vec4> image(16, 16);
+      const Indices list(indices, corners.size());
+      Pass pass(16, 16, rgba32f_target(image), {});
+      pass.draw(DistanceFromX{}, make_vertex_view(stream(corners)), list, {.topology = topology});
+      const PassStatistics s = pass.run(one_worker());
+      EXPECT_EQ(s.culled_non_finite, topology == Topology::lines ? 2u : 1u);
+      EXPECT_EQ(s.samples_passed, 0u);
+    }
+  }
+}
+
 }  // namespace
 
 }  // namespace halfspace

@@ -18,7 +18,8 @@ void Chunk::clear() {
 
 std::size_t Chunk::bytes() const {
   return triangles.capacity() * sizeof(Triangle) + bin_triangles.capacity() * sizeof(uint16_t) + bin_start.capacity() * sizeof(uint32_t) +
-         clip_vertices.capacity() * sizeof(ClipVertex) + (clip_varyings.capacity() + primitives.capacity()) * sizeof(float);
+         clip_vertices.capacity() * sizeof(ClipVertex) + clip_sources.capacity() * sizeof(clip_sources[0]) +
+         (clip_varyings.capacity() + primitives.capacity()) * sizeof(float);
 }
 
 }  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -59,7 +59,7 @@ struct PointSpriteRect {
 using Outcode = uint8_t;
 inline constexpr Outcode kOutLeft = 1, kOutRight = 2, kOutBottom = 4, kOutTop = 8, kOutNear = 16, kOutFar = 32;
 inline constexpr Outcode kOutGuard = 64;       ///< outside the guard band, or w too small: no window position
-inline constexpr Outcode kOutNonFinite = 128;  ///< x, y, z or w is NaN or Inf
+inline constexpr Outcode kOutNonFinite = 128;  ///< x, y, z, w or a clip distance is NaN or Inf
 inline constexpr Outcode kOutNeedsClip = kOutNear | kOutFar | kOutGuard;
 inline constexpr Outcode kOutView = 63;  ///< the six planes of the view volume
 
@@ -89,13 +89,14 @@ struct ShadedVertices {
   int varying_count = 0;        ///< floats per vertex in varyings
   Buffer<ScreenVertex> screen;  ///< uninitialized for slots that no index refers to
   Buffer<Outcode> outcodes;
-  Outcode any_outcode = 0;                     ///< union of all outcodes; 0 if the whole draw is in view
-  Buffer<float> varyings;                      ///< followed by kRowSlack floats of padding (core/transpose.h)
-  std::unique_ptr<PointSpriteRect[]> sprites;  ///< only for points
-  int clip_distance_count = 0;                 ///< floats per vertex in clip_distances
-  std::unique_ptr<float[]> clip_distances;
+  Outcode any_outcode = 0;  ///< union of all outcodes; 0 if the whole draw is in view
+  Buffer<float> varyings;   ///< followed by kRowSlack floats of padding (core/transpose.h)
+  bool has_sprites = false;
+  Buffer<PointSpriteRect> sprites;  ///< only for points
+  int clip_distance_count = 0;      ///< floats per vertex in clip_distances
+  Buffer<float> clip_distances;
 
-  std::size_t bytes() const { return screen.bytes() + outcodes.bytes() + varyings.bytes(); }
+  std::size_t bytes() const { return screen.bytes() + outcodes.bytes() + varyings.bytes() + sprites.bytes() + clip_distances.bytes(); }
 };
 
 // ---- vertex stage → vertex kernels ------------------------------------------------------------------------------

@@ -91,7 +91,7 @@ class TriangleSetup {
       ++chunk_.statistics.culled_non_finite;
     } else if (all) {
       ++chunk_.statistics.culled_outside;
-    } else if ((any & kOutNeedsClip) != 0 || shaded_.clip_distances || draw_.state.polygon_mode != PolygonMode::fill) {
+    } else if ((any & kOutNeedsClip) != 0 || shaded_.clip_distance_count != 0 || draw_.state.polygon_mode != PolygonMode::fill) {
       submit_triangle_slowly(id, any);
     } else {
       append_whole(id);

@@ -2,6 +2,7 @@
 #include "halfspace/raster/primitives/vertex_stage.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 #include "halfspace/core/transpose.h"
@@ -40,6 +41,24 @@ Outcode project(const Draw& draw, const float* clip, int count, ScreenVertex* sc
   return all;
 }
 
+// Stores clip distances, which are given in rows, and marks vertices with a distance that is NaN or infinite. slot_of(i): slot of vertex i.
+template <class SlotOf>
+Outcode store_clip_distances(const float* rows, int count, SlotOf slot_of, ShadedVertices& out) {
+  Outcode any = 0;
+  const auto distances = static_cast<std::size_t>(out.clip_distance_count);
+  for (int i = 0; i < count; ++i) {
+    const std::size_t slot = slot_of(i);
+    bool is_finite = true;
+    for (std::size_t k = 0; k < distances; ++k) {
+      const float distance = rows[k * kVertexBatch + static_cast<std::size_t>(i)];
+      is_finite &= std::isfinite(distance);
+      out.clip_distances[slot * distances + k] = distance;
+    }
+    if (!is_finite) any |= out.outcodes[slot] |= kOutNonFinite;
+  }
+  return any;
+}
+
 }  // namespace
 
 Viewport make_viewport(const Rect& r, const DepthState& depth) {
@@ -76,8 +95,9 @@ void allocate_vertices(const Draw& draw, ShadedVertices& out) {
   out.any_outcode = 0;
   out.varyings.reset(n * static_cast<std::size_t>(out.varying_count) + kRowSlack);
   out.clip_distance_count = draw.kernels.clip_distance_count;
-  out.clip_distances.reset(out.clip_distance_count == 0 ? nullptr : new float[n * static_cast<std::size_t>(out.clip_distance_count)]);
-  out.sprites.reset(draws_points(draw.state) ? new PointSpriteRect[n] : nullptr);
+  out.clip_distances.reset(n * static_cast<std::size_t>(out.clip_distance_count));
+  out.has_sprites = draws_points(draw.state);
+  if (out.has_sprites) out.sprites.reset(n);
 }
 
 Outcode shade_vertices(const Draw& draw, std::size_t begin, std::size_t end, ShadedVertices& out) {
@@ -100,30 +120,25 @@ Outcode shade_vertices(const Draw& draw, std::size_t begin, std::size_t end, Sha
     draw.kernels.vertex(draw.shader.get(),
                         {at_instance(draw.vertices, instance, storage), ids, out.first + static_cast<uint32_t>(local), count, slot_base,
                          draw.state.base_vertex, static_cast<int32_t>(instance), out.varyings.get(), clip.data(), extra.data()});
-    if (out.clip_distances) {
-      for (int i = 0; i < count; ++i) {
-        const uint32_t slot = (ids != nullptr ? ids[i] : out.first + static_cast<uint32_t>(local) + static_cast<uint32_t>(i)) - slot_base;
-        for (int k = 0; k < out.clip_distance_count; ++k) {
-          const std::size_t at = std::size_t{slot} * static_cast<std::size_t>(out.clip_distance_count) + static_cast<std::size_t>(k);
-          out.clip_distances[at] = extra[static_cast<std::size_t>((k + 1) * kVertexBatch + i)];
-        }
-      }
-    }
+    const auto slot_of = [&](int i) {
+      return std::size_t{(ids != nullptr ? ids[i] : out.first + static_cast<uint32_t>(local) + static_cast<uint32_t>(i)) - slot_base};
+    };
     if (ids == nullptr) {
-      const std::size_t slot = std::size_t{instance} * out.count + local;
+      const std::size_t slot = slot_of(0);
       ScreenVertex* to = out.screen.get() + slot;
       Outcode* codes = out.outcodes.get() + slot;
       any |= project(draw, clip.data(), count, to, codes);
-      if (out.sprites) make_point_sprites(draw, clip.data(), extra.data(), count, to, codes, out.sprites.get() + slot);
-      continue;
+      if (out.has_sprites) make_point_sprites(draw, clip.data(), extra.data(), count, to, codes, out.sprites.get() + slot);
+    } else {
+      any |= project(draw, clip.data(), count, screen.data(), outcodes.data());
+      if (out.has_sprites) make_point_sprites(draw, clip.data(), extra.data(), count, screen.data(), outcodes.data(), sprites.data());
+      for (int i = 0; i < count; ++i) {
+        if (out.has_sprites) out.sprites[slot_of(i)] = sprites[static_cast<std::size_t>(i)];
+        out.screen[slot_of(i)] = screen[static_cast<std::size_t>(i)];
+        out.outcodes[slot_of(i)] = outcodes[static_cast<std::size_t>(i)];
+      }
     }
-    any |= project(draw, clip.data(), count, screen.data(), outcodes.data());
-    if (out.sprites) make_point_sprites(draw, clip.data(), extra.data(), count, screen.data(), outcodes.data(), sprites.data());
-    for (int i = 0; i < count; ++i) {
-      if (out.sprites) out.sprites[ids[i] - slot_base] = sprites[static_cast<std::size_t>(i)];
-      out.screen[ids[i] - slot_base] = screen[static_cast<std::size_t>(i)];
-      out.outcodes[ids[i] - slot_base] = outcodes[static_cast<std::size_t>(i)];
-    }
+    if (out.clip_distance_count != 0) any |= store_clip_distances(extra.data() + kVertexBatch, count, slot_of, out);
   }
   return any;
 }
