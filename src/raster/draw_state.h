@@ -166,9 +166,10 @@ struct DrawState {
   uint32_t sample_mask = 0xffffffffu;     ///< multisampling only: bit s enables sample s
   /// Blends fragments in depth order, regardless of the order in which they are submitted. Fragments of these draws are kept until the next
   /// draw that writes color in another way, or the end of the pass, and then blended from the farthest to the nearest. The result is exact
-  /// for up to 8 layers per sample; further layers are merged into the farthest. Opaque draws must come first. Requires a depth test that
-  /// does not write (less, less_equal, greater or greater_equal), a single color attachment with straight alpha, and no `blend`. If a pass
-  /// is flushed (PassOptions::bin_budget), fragments are sorted within each flush only.
+  /// for up to 8 layers per sample; further layers are merged into the farthest. Opaque draws must come first. Colors have straight alpha.
+  /// Requires one color attachment that is not r32ui, no `blend`, no color mask, and a depth state that does not write and whose `compare`
+  /// (less, less_equal, greater or greater_equal) tells which fragments are nearer. If a pass is flushed (PassOptions::bin_budget),
+  /// fragments are sorted within each flush only.
   bool order_independent = false;
   std::optional<BlendState> blend{};  ///< default: no blending, the color is replaced
   ColorMask color_mask{};

@@ -117,6 +117,7 @@ class PassState {
   Plan plan_;
   Attachments attachments_;
   PassOptions options_;
+  uint32_t layer_group_ = 0;  // of the last draw
 };
 
 PassState::PassState(int width, int height, std::span<const ColorTarget> colors, const DepthTarget& depth, const PassOptions& options)
@@ -161,7 +162,8 @@ void PassState::add_draw(const ShaderKernels& kernels, KeptShader shader, const 
   if (state.viewport) check_rect(*state.viewport, 1);
   if (state.scissor) check_rect(*state.scissor, 0);
   if (state.order_independent) {
-    HS_CHECK(!state.depth.write && !state.blend && attachments_.colors.size() == 1);
+    HS_CHECK(attachments_.colors.size() == 1 && attachments_.colors[0].format != ColorFormat::r32ui);
+    HS_CHECK(!state.depth.write && !blend_of(state, 0) && color_mask_of(state, 0).all());
     HS_CHECK(state.depth.compare == CompareOp::less || state.depth.compare == CompareOp::less_equal ||
              state.depth.compare == CompareOp::greater || state.depth.compare == CompareOp::greater_equal);
   }
@@ -173,10 +175,13 @@ void PassState::add_draw(const ShaderKernels& kernels, KeptShader shader, const 
   d.sample_mask = context_.samples == 1 ? 1u : state.sample_mask & ((1u << context_.samples) - 1);
   const bool replaces = set_color_writes(d);
   const bool decides_visibility = kernels.discards || kernels.writes_depth;
-  const bool covers_by_alpha = state.alpha_to_coverage && context_.samples > 1;
-  const bool defers =
-      options_.defer && replaces && !state.order_independent && !covers_by_alpha && (!decides_visibility || kernels.visibility != nullptr);
-  d.deferred = defers || !attachments_.has_color;  // without color attachments there is nothing to blend or to shade immediately
+  const bool has_integers = !attachments_.colors.empty() && attachments_.colors[0].format == ColorFormat::r32ui;
+  d.covers_by_alpha = state.alpha_to_coverage && context_.samples > 1 && !has_integers;
+  // Without color attachments, there is nothing to blend.
+  const bool may_defer = !attachments_.has_color || (options_.defer && replaces && !state.order_independent);
+  d.deferred = may_defer && !d.covers_by_alpha && (!decides_visibility || kernels.visibility != nullptr);
+  if (d.writes_color && !state.order_independent) ++layer_group_;
+  d.layer_group = layer_group_;
   std::vector<uint64_t>& queries = plan_.submitted.queries;
   if (state.query) queries.resize(std::max(queries.size(), std::size_t{*state.query} + 1));
   add_vertex_tasks(context_.draws.size() - 1);

@@ -425,7 +425,7 @@ SceneDraw operations_draw(const S& shader, const char* name, const Scene& scene,
 
 SceneDraw random_operations(const Scene& scene, const Geometry& g, const DrawState& state, const glm::mat4& matrix, Random& random) {
   const float value = random.real(0.05f, 0.4f);
-  if (scene.color.format == ColorFormat::none || random.once_in(12))
+  if (random.once_in(scene.color.format == ColorFormat::none ? 2 : 12))
     return operations_draw(DepthShader{matrix}, "DepthShader", scene, g, state, random);
   switch (random.below(10)) {
     case 0: return operations_draw(ColorShader{matrix, 1.0f}, "ColorShader", scene, g, state, random);

@@ -55,6 +55,23 @@ TEST_F(PassCheckTest, DrawRejectsOutOfRangeIndices) {
   EXPECT_EQ(image_.at(8, 8), glm::vec4(1));
 }
 
+TEST_F(PassCheckTest, OrderIndependentDrawsRejectStatesThatLayersDoNotHave) {
+  const DrawState layered{.depth = {.write = false}, .order_independent = true};
+  DrawState masked = layered, blended = layered, writes = layered;
+  masked.color_mask.g = false;
+  blended.attachments[0] = AttachmentState{.blend = kAlphaBlend};
+  writes.depth.write = true;
+  Pass pass(16, 16, rgba32f_target(image_), {});
+  const auto message = [&](Pass& to, const DrawState& s) {
+    return failure_of([&] { to.draw(ConstantShader{}, make_vertex_view(stream(positions_)), s); });
+  };
+  EXPECT_EQ(message(pass, layered), "");
+  for (const DrawState& s : {masked, blended, writes}) EXPECT_NE(message(pass, s), "");
+  Image<uint32_t> integers(16, 16);
+  Pass integer_pass(16, 16, r32ui_target(integers), {});
+  EXPECT_NE(message(integer_pass, layered), "");
+}
+
 TEST_F(PassCheckTest, RunPropagatesAFailedCheckOfAShader) {
   for (const int threads : {1, 3}) {
     Pass pass(16, 16, rgba32f_target(image_), {}, {.tile_size = 8});

@@ -2,6 +2,7 @@
 //
 // Tests order-independent transparency: compares the result with fragments sorted and blended in double precision.
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "halfspace/raster/tile/layers.h"
@@ -176,6 +177,54 @@ TEST(Layers, AreBlendedBeforeALaterDrawOfAnotherKind) {
   pass.draw(ConstantShader{glm::vec4(0, 1, 0, 0.25f)}, make_vertex_view(stream(near)), kLayered);
   pass.run(one_worker());
   EXPECT_EQ(image.at(3, 3), glm::vec4(0, 0.25f, 0.75f, 1));
+}
+
+TEST(Layers, ALaterDrawOfAnotherKindSeparatesLayersInAllTiles) {
+  // The draw between the layers touches one pixel. The farther layer is drawn last, so it is blended over the nearer one everywhere.
+  // Without the draw between them, or if it writes only depth, they are sorted.
+  const std::vector<glm::vec4> near = full_screen(-0.5f), far = full_screen(0.5f);
+  const std::vector<glm::vec4> small{{-1, -1, 0.9f, 1}, {-0.98f, -1, 0.9f, 1}, {-1, -0.96f, 0.9f, 1}};
+  for (const int tile_size : {32, 64}) {
+    for (const bool writes_color : {true, false}) {
+      Image<glm::vec4> image(128, 64);
+      Pass pass(128, 64, rgba32f_target(image), {.format = DepthFormat::d32f}, {.tile_size = tile_size});
+      pass.draw(ConstantShader{glm::vec4(1, 0, 0, 0.5f)}, make_vertex_view(stream(near)), kLayered);
+      if (writes_color) {
+        pass.draw(ConstantShader{glm::vec4(0, 0, 1, 1)}, make_vertex_view(stream(small)), kAlphaBlendState);
+      } else {
+        pass.draw_depth(ConstantShader{}, make_vertex_view(stream(small)));
+      }
+      pass.draw(ConstantShader{glm::vec4(0, 1, 0, 0.5f)}, make_vertex_view(stream(far)), kLayered);
+      pass.run(one_worker());
+      const glm::vec4 expected = writes_color ? glm::vec4(0.25f, 0.5f, 0, 0.75f) : glm::vec4(0.5f, 0.25f, 0, 0.75f);
+      for (int x = 4; x < 128; ++x) ASSERT_EQ(image.at(x, 3), expected) << "pixel " << x << ", tiles of " << tile_size;
+    }
+  }
+}
+
+TEST(Layers, ColorsAreClampedForFixedPointFormats) {
+  for (const bool layered : {true, false}) {
+    Image<glm::u8vec4> image(8, 8);
+    const std::vector<glm::vec4> p = full_screen();
+    Pass pass(8, 8, rgba8_target(image), {.format = DepthFormat::d32f});
+    pass.draw(ConstantShader{glm::vec4(4, -1, 0.5f, 0.25f)}, make_vertex_view(stream(p)), layered ? kLayered : kAlphaBlendState);
+    pass.run(one_worker());
+    EXPECT_EQ(glm::u8vec3(image.at(3, 3)), glm::u8vec3(64, 0, 32)) << layered;  // 1/4, 0 and 1/8
+  }
+}
+
+TEST(Layers, OtherPixelsKeepTheirBits) {
+  Image<glm::vec4> image(8, 8);
+  std::fill_n(image.data(), 64, glm::vec4(-0.0f));
+  const std::vector<glm::vec4> p{{-1, -1, 0, 1}, {-0.7f, -1, 0, 1}, {-1, -0.7f, 0, 1}};  // covers the pixel at the lower left
+  ColorTarget target = rgba32f_target(image);
+  target.load = LoadOp::load;
+  Pass pass(8, 8, target, {.format = DepthFormat::d32f});
+  pass.draw(ConstantShader{glm::vec4(1, 1, 1, 0.5f)}, make_vertex_view(stream(p)), kLayered);
+  EXPECT_EQ(pass.run(one_worker()).samples_passed, 1u);
+  for (int y = 0; y < 8; ++y) {
+    for (int x = 0; x < 8; ++x) EXPECT_EQ(std::signbit(pixel(image, x, y).x), x != 0 || y != 0) << x << ' ' << y;
+  }
 }
 
 }  // namespace

@@ -252,6 +252,27 @@ TEST(Multisample, AlphaToCoverageIsMonotonic) {
   }
 }
 
+// OpenGL 4.6, section 17.3.1: alpha to coverage does not apply to integer colors, which have no alpha.
+TEST(Multisample, AlphaToCoverageSkipsIntegerFormats) {
+  const std::vector<glm::vec4> p = square({0, 0}, {16 * 256, 16 * 256});
+  Image<uint32_t> image(16, 16);
+  Pass pass(16, 16, r32ui_target(image), {}, {.samples = 4});
+  pass.draw(ConstantShader{glm::vec4(1.0f, 0.0f, 0.0f, 0.0f)}, make_vertex_view(stream(p)), {.alpha_to_coverage = true});
+  pass.run(one_worker());
+  EXPECT_EQ(image.at(7, 7), std::bit_cast<uint32_t>(1.0f));
+}
+
+// The sum of the samples is infinite, but their mean is not.
+TEST(Multisample, TheLargestFloatResolvesToItself) {
+  constexpr float kMax = std::numeric_limits<float>::max();
+  const std::vector<glm::vec4> p = square({0, 0}, {8 * 256, 16 * 256});
+  Image<glm::vec4> image(16, 16);
+  Pass pass(16, 16, rgba32f_target(image), {}, {.samples = 4});
+  pass.draw(ConstantShader{glm::vec4(kMax)}, make_vertex_view(stream(p)));
+  pass.run(one_worker());
+  EXPECT_EQ(pixel(image, 4, 4), glm::vec4(kMax));
+}
+
 // Along a slightly tilted edge, all n + 1 coverage values must occur (VK-GL-CTS has the same requirement).
 TEST(Multisample, EdgesShowAllCoverageValuesAndSharedEdgesAreSeamless) {
   for (const int n : {2, 4, 8}) {

@@ -315,6 +315,30 @@ TEST(LoadStore, BlendingUsesTheLoadedColor) {
   EXPECT_TRUE(is_everywhere(image, glm::vec4(1.25f)));
 }
 
+// Without color attachments, the shader still decides which fragments are drawn, whether or not it has a visibility function.
+TEST(DepthOnlyPass, ShadersDiscardFragmentsAndReplaceDepth) {
+  for (const int samples : {1, 4}) {
+    const auto depth_of = [&](const auto& shader, const DrawState& state, PassStatistics& statistics) {
+      Image<float> depth(64, 64);
+      Pass pass(64, 64, ColorTarget{}, d32f_target(depth), {.samples = samples});
+      pass.draw(shader, make_vertex_view(stream(kFullScreen)), state);
+      statistics = pass.run(one_worker());
+      return depth;
+    };
+    const auto total = static_cast<uint64_t>(64 * 64 * samples);
+    PassStatistics s;
+    for (const Image<float>& depth : {depth_of(HalfShader<false>{}, {.query = 0}, s), depth_of(HalfShader<true>{}, {.query = 0}, s)}) {
+      EXPECT_EQ(s.queries.at(0), total / 2);
+      for (int x = 0; x < 64; ++x) EXPECT_EQ(depth.at(x, 5), x < 32 ? 0.5f : 1.0f) << x;
+    }
+    for (const Image<float>& depth : {depth_of(DepthShader<false>{}, {}, s), depth_of(DepthShader<true>{}, {}, s)}) {
+      for (int x = 0; x < 64; ++x) EXPECT_EQ(depth.at(x, 5), (static_cast<float>(x) + 0.5f) / 64) << x;
+    }
+    depth_of(ConstantShader{glm::vec4(1, 1, 1, 0.25f)}, {.alpha_to_coverage = true, .query = 0}, s);
+    EXPECT_EQ(s.queries.at(0), samples == 1 ? total : total / 4);
+  }
+}
+
 TEST(LoadStore, StoreDontCareWritesNothing) {
   const glm::vec4 before(7.0f);
   Image<glm::vec4> image(70, 40);
@@ -330,6 +354,39 @@ TEST(LoadStore, StoreDontCareWritesNothing) {
   EXPECT_EQ(pass.run(one_worker()).fragments_shaded, 70u * 40u);
   EXPECT_TRUE(is_everywhere(image, before));
   for (const float z : depth.texels()) ASSERT_EQ(z, 0.125f);
+}
+
+TEST(LoadStore, StoreDontCareWritesNothingBetweenFlushes) {
+  Image<glm::vec4> image(16, 16);
+  Image<float> depth(16, 16);
+  std::fill_n(image.data(), 256, glm::vec4(7.0f));
+  std::fill_n(depth.data(), 256, 0.125f);
+  ColorTarget color_target = rgba32f_target(image);
+  DepthTarget depth_target = d32f_target(depth);
+  color_target.store = depth_target.store = StoreOp::dont_care;
+  Pass pass(16, 16, color_target, depth_target, {.chunk_triangles = 1, .bin_budget = 1});
+  for (int i = 0; i < 100; ++i) pass.draw(ConstantShader{}, make_vertex_view(stream(kFullScreen)));
+  EXPECT_GT(pass.run(one_worker()).flushes, 1u);
+  EXPECT_TRUE(is_everywhere(image, glm::vec4(7.0f)));
+  for (const float z : depth.texels()) ASSERT_EQ(z, 0.125f);
+}
+
+// A depth image that is loaded but not stored is tested against in all rounds, also in a tile in which the first round draws nothing.
+TEST(LoadStore, FlushesKeepLoadedDepthThatIsNotStored) {
+  Image<glm::vec4> image(128, 64);
+  Image<float> depth(128, 64);
+  std::fill_n(depth.data(), 128 * 64, 0.125f);
+  DepthTarget depth_target = d32f_target(depth);
+  depth_target.load = LoadOp::load;
+  depth_target.store = StoreOp::dont_care;
+  Pass pass(128, 64, rgba32f_target(image), depth_target, {.chunk_triangles = 1, .bin_budget = 1});
+  DrawState left, right;
+  left.viewport = Rect{0, 0, 64, 64};
+  right.viewport = Rect{64, 0, 64, 64};
+  for (int i = 0; i < 100; ++i) pass.draw(ConstantShader{}, make_vertex_view(stream(kFullScreen)), i < 60 ? left : right);  // depth 1/2
+  const PassStatistics s = pass.run(one_worker());
+  EXPECT_GT(s.flushes, 1u);
+  EXPECT_EQ(s.samples_passed, 0u);
 }
 
 TEST(LoadStore, LoadDontCareLeavesUntouchedTilesUnchanged) {

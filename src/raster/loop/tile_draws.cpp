@@ -101,24 +101,20 @@ class TileDraws {
   void begin_draw(const Draw& draw, std::optional<DrawInTile>& here) {
     finish_draw(here);
     here.emplace(context_, draw, visibility_mode(draw), memory_.tile);
-    if (!draw.state.order_independent) {
-      write_layers();
-    } else if (memory_.layers.empty()) {
-      memory_.layers.clear(prefers_greater(draw.state.depth.compare));
-    }
+    if (draw.layer_group != layer_group_) write_layers();
+    layer_group_ = draw.layer_group;
+    if (draw.state.order_independent && memory_.layers.empty()) memory_.layers.clear(prefers_greater(draw.state.depth.compare));
   }
 
-  // Called before a triangle is drawn. Shades the pending pixels of the tile if the draw shades immediately. A draw that does not write
-  // color does not affect them.
+  // Called before a triangle is drawn. Shades the pending pixels of the tile if the draw shades immediately.
   void begin_triangle(const DrawInTile& d) {
     if (d.mode == VisibilityMode::deferred && !pending_) {
       d.tile.visibility.fill(kNoTriangle);
       pending_ = true;
     }
     if (shades_later(d.mode)) return;
-    const bool shades = d.mode != VisibilityMode::early || d.draw.writes_color;
-    if (shades && pending_ && has_color_) shade_deferred(context_, d.tile, memory_.shading, statistics_);
-    if (shades) pending_ = false;
+    if (pending_ && has_color_) shade_deferred(context_, d.tile, memory_.shading, statistics_);
+    pending_ = false;
   }
 
   // Runs the shader for the packets in the queue, which belong to the draw.
@@ -191,7 +187,8 @@ class TileDraws {
   bool has_color_;
   TileMemory& memory_;
   Statistics& statistics_;
-  bool pending_ = false;  // Tile::visibility is in use: pixels may have been drawn that are not shaded yet
+  bool pending_ = false;      // Tile::visibility is in use: pixels may have been drawn that are not shaded yet
+  uint32_t layer_group_ = 0;  // of the current draw
 };
 
 }  // namespace

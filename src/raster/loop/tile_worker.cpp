@@ -18,7 +18,13 @@ namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
-// Returns where a target is stored between flushes: in its image, or in the spill buffer if it has no image or several samples per pixel.
+// Returns true if a target is stored in its image between flushes. Otherwise it has a spill buffer.
+template <class Target>
+bool keeps_in_image(const PassContext& context, const Target& target) {
+  return target.data != nullptr && target.store == StoreOp::store && context.samples == 1;
+}
+
+// Returns where a target is stored between flushes: in its image, or in the spill buffer if it has one.
 template <class Target>
 Target between_flushes(Target target, const std::vector<std::byte>& spill) {
   if (!spill.empty()) target.data = const_cast<std::byte*>(spill.data());
@@ -129,12 +135,13 @@ class TileWorker {
   void run_tile(int tile_x, int tile_y, bool drawn, TileMemory& memory, Statistics& statistics) const {
     if (drawn) ++statistics.tiles_touched;
     const std::vector<ColorTarget>& colors = attachments_.colors;
-    // If nothing is drawn in a tile, its attachments are stored only if they are cleared. Otherwise the image already has the correct
-    // contents; with LoadOp::dont_care, the tile does not even contain them. With several rounds, multisampled attachments are always
-    // stored, because they are kept in the spill buffer.
+    // If nothing is drawn in a tile, its attachments are stored only if they are cleared or if the first of several rounds moves their
+    // contents to the spill buffer. Otherwise they already have the correct contents; with LoadOp::dont_care, the tile does not even
+    // contain them. With several rounds, multisampled attachments are always stored, because they are kept in the spill buffer.
     const bool spills = context_.samples > 1 && !(round_.first && round_.last);
     const auto changes = [&](const auto& target) {
-      return drawn || spills || (round_.first && target.load == LoadOp::clear && bytes_per_pixel(target.format) != 0);
+      const bool moves = target.load == LoadOp::load && !round_.last && !keeps_in_image(context_, target);
+      return drawn || spills || (round_.first && (target.load == LoadOp::clear || moves) && bytes_per_pixel(target.format) != 0);
     };
     const bool changes_color = std::any_of(colors.begin(), colors.end(), changes), changes_depth = changes(attachments_.depth);
     const bool has_post_step = round_.last && attachments_.post.kernel != nullptr;
@@ -228,8 +235,7 @@ void keep_between_flushes(const PassContext& context, Attachments& attachments) 
   const std::size_t samples =
       static_cast<std::size_t>(context.width) * static_cast<std::size_t>(context.height) * static_cast<std::size_t>(context.samples);
   const auto spill = [&](const auto& target, std::vector<std::byte>& bytes) {
-    const bool is_image_enough = target.data != nullptr && context.samples == 1;
-    if (!is_image_enough) bytes.resize(samples * static_cast<std::size_t>(bytes_per_pixel(target.format)));
+    if (!keeps_in_image(context, target)) bytes.resize(samples * static_cast<std::size_t>(bytes_per_pixel(target.format)));
   };
   attachments.color_spills.resize(attachments.colors.size());
   for (std::size_t i = 0; i < attachments.colors.size(); ++i) spill(attachments.colors[i], attachments.color_spills[i]);

@@ -70,7 +70,12 @@ struct Draw {
   bool deferred = false;        ///< shaded after visibility, once per visible pixel; otherwise shaded immediately, in order
   bool writes_color = false;    ///< writes any channel of any attachment
   bool shades_samples = false;  ///< the fragment function runs per sample instead of per pixel
-  uint32_t sample_mask = 1;     ///< bit s: sample s can be drawn
+  /// Alpha to coverage applies: there are several samples, and the first color attachment does not contain integers (OpenGL 4.6, section
+  /// 17.3.1).
+  bool covers_by_alpha = false;
+  uint32_t sample_mask = 1;  ///< bit s: sample s can be drawn
+  /// Order-independent draws with the same number are sorted together: the number of preceding draws that write color in another way.
+  uint32_t layer_group = 0;
 
   std::size_t vertex_count = 0;  ///< vertices used by the indices, for all instances
   uint32_t primitive_count = 0;  ///< per instance

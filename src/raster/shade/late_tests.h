@@ -6,6 +6,8 @@
 #include <bit>
 
 #include "halfspace/raster/shade/shade_immediate.h"
+#include "halfspace/raster/tile/blend_formulas.h"
+#include "halfspace/raster/tile/tile_format.h"
 #include "halfspace/raster/trace/tile_trace.h"
 #include "halfspace/raster/visibility/depth_stencil_test.h"
 
@@ -82,7 +84,8 @@ Mask late_tests(const Shading& c, const FragmentOutput& out, std::size_t i, int 
 template <class Shading>
 void add_to_layers(const Shading& c, const FragmentOutput& out, std::size_t i, int packet, Mask mask, Real z,
                    [[maybe_unused]] TriangleId id) {
-  const Mask merged = c.layers.add(packet, mask, z, out.packet_color(0, i));
+  const PacketColor color = out.packet_color(0, i);
+  const Mask merged = c.layers.add(packet, mask, z, is_fixed_point(c.tile.color[0].format) ? clamped_color(color) : color);
   c.statistics.layers_merged += static_cast<uint64_t>(std::popcount(bits(merged)));
   if constexpr (kTracesShading<Shading>) c.statistics.trace->add_layers(id, packet, bits(mask), bits(merged));
 }

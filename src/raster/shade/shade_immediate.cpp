@@ -22,7 +22,7 @@ struct TriangleShading : ImmediateShading<Statistics> {
 template <class Shading>
 void finish_sample(const Shading& c, const FragmentOutput& out, std::size_t i, int s, const PacketMask& packet) {
   Mask mask = mask_from_bits<Mask>(packet.lanes);
-  if (c.draw.state.alpha_to_coverage && c.tile.samples > 1) mask = mask & alpha_covers(out.packet_color(0, i)[3], c.tile.samples, s);
+  if (c.draw.covers_by_alpha) mask = mask & alpha_covers(out.packet_color(0, i)[3], c.tile.samples, s);
   if constexpr (kTracesShading<Shading>) trace_shaded(c, out, i, packet, c.id);
   const bool is_late = c.mode != VisibilityMode::early;
   const Real z = is_late ? late_depth(c, out, i, load<Real>(&c.list.depth[static_cast<std::size_t>(packet.packet) * kLanes])) : Real(0.0f);

@@ -46,7 +46,7 @@ void finish_sample_batch(const Shading& c, PacketQueue& queue, std::size_t begin
   std::array<PacketMask, kPacketBatch> packets;
   for (std::size_t i = 0; i < n; ++i) {
     PacketMask& p = packets[i] = queue.sample(c.tile, begin + i, s);
-    if (p.lanes != 0 && c.draw.state.alpha_to_coverage)
+    if (p.lanes != 0 && c.draw.covers_by_alpha)
       p.lanes = static_cast<uint16_t>(p.lanes & bits(alpha_covers(c.output.packet_color(0, i)[3], c.tile.samples, s)));
     if (p.lanes != 0 && c.mode != VisibilityMode::early)
       p.lanes = finish_queued(c, p, i, queue.sample_depth(c.tile, begin + i, s), queue.ids[begin + i]);

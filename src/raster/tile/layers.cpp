@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "halfspace/raster/tile/layers.h"
 
-#include <limits>
 #include <utility>
 
 #include "halfspace/raster/tile/blend.h"
@@ -44,8 +43,7 @@ TransparentLayers::Stack& TransparentLayers::stack_of(int packet) {
 }
 
 Mask TransparentLayers::add(int packet, Mask mask, Real depth, const PacketColor& color) {
-  constexpr float kInfinity = std::numeric_limits<float>::infinity();
-  const Real farthest(nearer_is_greater_ ? -kInfinity : kInfinity);
+  const Real farthest = farthest_depth();
   const Real alpha = select(mask, clamp(color[3], Real(0.0f), Real(1.0f)), Real(0.0f));
   Layer added{select(mask, depth, farthest), {color[0] * alpha, color[1] * alpha, color[2] * alpha, alpha}};
   for (std::size_t k = 0; k < 3; ++k) added.color[k] = select(mask, added.color[k], Real(0.0f));
@@ -73,7 +71,7 @@ void TransparentLayers::write(ColorBuffer& buffer) {
     const Stack& stack = *stacks_[i];
     PacketColor color = read_color(buffer, used_[i]);
     for (int k = stack.count - 1; k >= 0; --k) color = over(stack.layers[static_cast<std::size_t>(k)].color, color);
-    write_color(buffer, used_[i], Mask(true), color, color, {});
+    write_color(buffer, used_[i], !(stack.layers[0].depth == farthest_depth()), color, color, {});  // other pixels keep their bits
     index_[used_[i]] = 0;
   }
   used_.clear();

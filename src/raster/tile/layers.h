@@ -4,6 +4,7 @@
 // them are known. Input: shaded packets and their depth. Output: the tile's color buffers.
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -36,6 +37,11 @@ class TransparentLayers {
     int count;                             // layers that exist in at least one lane; in other lanes they are infinitely far and transparent
   };
 
+  // Depth of layers that do not exist.
+  Real farthest_depth() const {
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    return Real(nearer_is_greater_ ? -kInfinity : kInfinity);
+  }
   Mask is_nearer(Real a, Real b) const { return nearer_is_greater_ ? a > b : a < b; }
   Stack& stack_of(int packet);
 

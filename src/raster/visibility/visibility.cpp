@@ -12,11 +12,11 @@ namespace halfspace::inline HS_LANES_NAMESPACE {
 VisibilityMode visibility_mode(const Draw& draw) {
   if (draw.deferred) return VisibilityMode::deferred;
   if (draw.kernels.fragment == nullptr) return VisibilityMode::depth_only;
-  const bool needs_fragments = draw.state.alpha_to_coverage || draw.state.order_independent;
+  const bool needs_fragments = draw.covers_by_alpha || draw.state.order_independent;
   const bool is_undecided = (draw.kernels.discards || draw.kernels.writes_depth) && draw.kernels.visibility == nullptr;
   if (!draw.writes_color && !needs_fragments && !is_undecided) return VisibilityMode::depth_only;
   if (draw.kernels.writes_depth) return VisibilityMode::cover_only;
-  if (draw.kernels.discards || draw.state.alpha_to_coverage || draw.state.order_independent) return VisibilityMode::test_only;
+  if (draw.kernels.discards || needs_fragments) return VisibilityMode::test_only;
   return VisibilityMode::early;
 }
 

@@ -22,9 +22,8 @@ namespace {
 template <class Visit>
 void trace_packet(const Visit& c, int packet, Mask passed, Mask failed, FragmentOutcome failure, Real z) {
   const Real stored = load<Real>(&c.tile.depth[static_cast<std::size_t>(packet) * kLanes]);
-  const FragmentOutcome outcome = c.mode == VisibilityMode::depth_only || (c.mode == VisibilityMode::early && !c.draw.writes_color)
-                                      ? FragmentOutcome::depth_only
-                                      : FragmentOutcome::hidden_before_shading;
+  const FragmentOutcome outcome =
+      c.mode == VisibilityMode::depth_only ? FragmentOutcome::depth_only : FragmentOutcome::hidden_before_shading;
   c.statistics.trace->add(c.id, packet, bits(passed), outcome, z, stored, c.draw_in_tile.tests);
   c.statistics.trace->add(c.id, packet, bits(failed), failure, z, stored, c.draw_in_tile.tests);
 }
