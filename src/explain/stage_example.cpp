@@ -49,7 +49,7 @@ StageExample stage_example(const PreparedScene& scene, const PassContext& contex
     v.outcode = shaded.outcodes[slots[k]];
   }
   out.triangles.assign(geometry.triangles.begin() + p.first_triangle, geometry.triangles.begin() + p.first_triangle + p.triangle_count);
-  if (out.corners == 1 && shaded.sprites) out.sprite = shaded.sprites[slots[0]];
+  if (out.corners == 1 && shaded.has_sprites) out.sprite = shaded.sprites[slots[0]];
   return out;
 }
 
