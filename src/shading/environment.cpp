@@ -41,6 +41,17 @@ struct Face {
   }
 };
 
+// Returns a power of two whose product with the components of d is about 1, so that fourth powers of them neither overflow nor underflow.
+template <class R>
+HS_INLINE R unit_scale(const vec3<R>& d) {
+  if constexpr (std::is_same_v<R, double>) {
+    return 1.0;
+  } else {
+    const IntOf<R> exponent = as_int(max(max(abs(d.x), abs(d.y)), abs(d.z))) & IntOf<R>(0x7f800000);
+    return as_real(IntOf<R>(0x7f000000) - min(max(exponent, IntOf<R>(0x00800000)), IntOf<R>(0x7e800000)));
+  }
+}
+
 }  // namespace
 
 template <class R>
@@ -62,7 +73,10 @@ EnvironmentMap::Coordinates<R> EnvironmentMap::cube_coordinates(const vec3<R>& d
 
 // A step of the direction rotates it by the angle |d × step| / |d|².
 template <class R>
-EnvironmentMap::Coordinates<R> EnvironmentMap::panorama_coordinates(const vec3<R>& d, const vec3<R>& dx, const vec3<R>& dy) const {
+EnvironmentMap::Coordinates<R> EnvironmentMap::panorama_coordinates(const vec3<R>& d_ms, const vec3<R>& dx_ms,
+                                                                    const vec3<R>& dy_ms) const {
+  const R scale = unit_scale(d_ms);
+  const vec3<R> d = d_ms * scale, dx = dx_ms * scale, dy = dy_ms * scale;
   const auto squared = [](const vec3<R>& v) { return dot(v, v); };
   const R turn2 = max(squared(cross(d, dx)), squared(cross(d, dy))) / (squared(d) * squared(d));
   const R texels = R(std::max(0.5f * static_cast<float>(width()), static_cast<float>(height()))) * inverse_pi<R>();  // texels per radian

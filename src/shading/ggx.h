@@ -21,16 +21,17 @@ namespace halfspace::inline HS_LANES_NAMESPACE {
 inline constexpr float kMinRoughness = 0.045f;
 
 /// Returns π·D·V·n·l: the reflection of a light of strength 1, before the Fresnel term. The factor π matches the convention of Light, under
-/// which a white diffuse surface that faces a light of strength 1 reflects 1. n and h are unit vectors; n_l and n_v are positive.
+/// which a white diffuse surface that faces a light of strength 1 reflects 1. n and h are unit vectors; n_l and n_v are positive. If the
+/// light is exactly opposite to the eye, the half vector h is zero, and the result is 0.
 template <Number R>
 HS_INLINE R ggx_reflection(R alpha, const vec3<R>& n, const vec3<R>& h, R n_l, R n_v) {
   const R a2 = alpha * alpha, n_h = dot(n, h);
   const vec3<R> sine = cross(n, h);  // 1 − (n·h)² would suffer from cancellation at small angles
-  // (n·h)² (α² − 1) + 1, which is at least α². A half vector of zero would give 0.
-  const R d = max(fma(a2 * n_h, n_h, dot(sine, sine)), a2 * a2);
+  // (n·h)² (α² − 1) + 1, which is at least α². It is 0 if h is zero.
+  const R d = fma(a2 * n_h, n_h, dot(sine, sine));
   const R rest = R(1) - a2;
   const R masking = n_l * sqrt(fma(n_v * n_v, rest, a2)) + n_v * sqrt(fma(n_l * n_l, rest, a2));
-  return R(0.5f) * n_l * (a2 / (d * d)) / masking;
+  return select(d > R(0), R(0.5f) * n_l * (a2 / (d * d)) / masking, R(0));
 }
 
 /// Returns the factor (1 − cosine)⁵ of Schlick's Fresnel approximation. cosine must be at most 1.

@@ -259,6 +259,18 @@ TEST(EnvironmentMap, PanoramaLevelFollowsTheAngle) {
   }
 }
 
+// A power of two changes only exponents, so the results have the same bits.
+TEST(EnvironmentMap, LevelsDoNotDependOnTheLengthOfTheDirection) {
+  std::mt19937 random(13);
+  for (const EnvironmentMap& map : {random_panorama(256, 128), random_cube(64)}) {
+    for (int i = 0; i < 100; ++i) {
+      const glm::vec3 d(random_vector(random)), dx(random_vector(random) * 0.01), dy(random_vector(random) * 0.01);
+      const float want = map.level_of_detail<float>(d, dx, dy);
+      for (const float scale : {0x1p-50f, 0x1p-12f, 0x1p50f}) EXPECT_EQ(map.level_of_detail<float>(d * scale, dx * scale, dy * scale), want);
+    }
+  }
+}
+
 TEST(EnvironmentMap, CubeLevelFollowsTheFaceDensity) {
   const EnvironmentMap map = random_cube(64);
   std::mt19937 random(12);
