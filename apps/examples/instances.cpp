@@ -52,5 +52,5 @@ int main(int argc, char** argv) {
   pass.draw(InstanceShader{glm::mat4(camera)},
             make_vertex_view(stream(ball.positions), stream(ball.normals), per_instance(stream(offsets))), ball.indices, state);
   pass.run(Workers(Workers::cores()));
-  write_image(argc > 1 ? argv[1] : "instances.png", image);
+  return save_image(argc > 1 ? argv[1] : "instances.png", image);
 }

@@ -44,5 +44,5 @@ int main(int argc, char** argv) {
     pass.draw(WhiteShader{}, make_vertex_view(stream(star)), {.viewport = Rect{samples == 1 ? 0 : 256, 0, 256, 256}});
     pass.run(workers);
   }
-  write_image(argc > 1 ? argv[1] : "msaa.png", image);
+  return save_image(argc > 1 ? argv[1] : "msaa.png", image);
 }

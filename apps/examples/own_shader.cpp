@@ -53,5 +53,5 @@ int main(int argc, char** argv) {
   Pass pass(480, 480, srgb8a8_target(image), {});
   pass.draw(my::RingShader{6.0f, {0.9f, 0.5f, 0.1f}}, make_vertex_view(stream(quad)));
   pass.run(Workers(Workers::cores()));
-  write_image(argc > 1 ? argv[1] : "own_shader.png", image);
+  return save_image(argc > 1 ? argv[1] : "own_shader.png", image);
 }

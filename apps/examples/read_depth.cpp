@@ -44,5 +44,5 @@ int main(int argc, char** argv) {
     const auto gray = static_cast<uint8_t>(std::clamp(255.0 * (4.0 - distance(d)) + 0.5, 0.0, 255.0));
     return glm::u8vec4(gray, gray, gray, 255);
   });
-  write_image(argc > 1 ? argv[1] : "read_depth.png", image);
+  return save_image(argc > 1 ? argv[1] : "read_depth.png", image);
 }

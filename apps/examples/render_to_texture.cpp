@@ -55,5 +55,5 @@ int main(int argc, char** argv) {
   second.draw(GlowShader{&texture}, make_vertex_view(stream(kFullScreen)));
   second.post(ToneMap{}, srgb8a8_target(image));  // runs for each finished pixel while its tile is in cache
   second.run(workers);
-  write_image(argc > 1 ? argv[1] : "render_to_texture.png", image);
+  return save_image(argc > 1 ? argv[1] : "render_to_texture.png", image);
 }

@@ -55,5 +55,5 @@ int main(int argc, char** argv) {
   for (const Mesh& m : meshes)
     pass.draw(Shadowed{glm::mat4(camera), glm::mat4(light), sun, &map}, make_vertex_view(stream(m.positions)), m.indices, kReversedZState);
   pass.run(Workers(Workers::cores()));
-  write_image(argc > 1 ? argv[1] : "shadow_map.png", image);
+  return save_image(argc > 1 ? argv[1] : "shadow_map.png", image);
 }

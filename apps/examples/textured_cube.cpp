@@ -53,5 +53,5 @@ int main(int argc, char** argv) {
   pass.draw(TexturedShader{glm::mat4(clip_from_view * view_from_world), &texture},
             make_vertex_view(stream(mesh.positions), stream(mesh.uvs)), mesh.indices, state);
   pass.run(Workers(Workers::cores()));
-  write_image(argc > 1 ? argv[1] : "textured_cube.png", image);
+  return save_image(argc > 1 ? argv[1] : "textured_cube.png", image);
 }

@@ -44,5 +44,5 @@ int main(int argc, char** argv) {
   Pass pass(640, 480, target, {});  // {}: no depth buffer
   pass.draw(ColorShader{}, make_vertex_view(stream(positions), stream(colors)));
   pass.run(Workers(Workers::cores()));
-  write_image(argc > 1 ? argv[1] : "triangle.png", image);
+  return save_image(argc > 1 ? argv[1] : "triangle.png", image);
 }

@@ -53,9 +53,13 @@ int main(int argc, char** argv) {
   Image image;
   for (const Triangle& bar : bars) draw(image, bar);
 
-  std::FILE* file = std::fopen(argc > 1 ? argv[1] : "lesson02.ppm", "wb");
-  if (file == nullptr) return 1;
-  std::fprintf(file, "P6\n%d %d\n255\n", kWidth, kHeight);
-  std::fwrite(image.colors.data(), 1, image.colors.size(), file);
-  return std::fclose(file) == 0 ? 0 : 1;
+  const char* path = argc > 1 ? argv[1] : "lesson02.ppm";
+  std::FILE* file = std::fopen(path, "wb");
+  if (file != nullptr) {
+    std::fprintf(file, "P6\n%d %d\n255\n", kWidth, kHeight);
+    const bool complete = std::fwrite(image.colors.data(), 1, image.colors.size(), file) == image.colors.size();
+    if (std::fclose(file) == 0 && complete) return 0;
+  }
+  std::perror(path);
+  return 1;
 }

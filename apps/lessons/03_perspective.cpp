@@ -58,9 +58,13 @@ int main(int argc, char** argv) {
   draw(image, near_left, far_left, far_right);
   draw(image, near_left, far_right, near_right);
 
-  std::FILE* file = std::fopen(argc > 1 ? argv[1] : "lesson03.ppm", "wb");
-  if (file == nullptr) return 1;
-  std::fprintf(file, "P6\n%d %d\n255\n", kWidth, kHeight);
-  std::fwrite(image.data(), 1, image.size(), file);
-  return std::fclose(file) == 0 ? 0 : 1;
+  const char* path = argc > 1 ? argv[1] : "lesson03.ppm";
+  std::FILE* file = std::fopen(path, "wb");
+  if (file != nullptr) {
+    std::fprintf(file, "P6\n%d %d\n255\n", kWidth, kHeight);
+    const bool complete = std::fwrite(image.data(), 1, image.size(), file) == image.size();
+    if (std::fclose(file) == 0 && complete) return 0;
+  }
+  std::perror(path);
+  return 1;
 }

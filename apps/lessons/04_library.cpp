@@ -53,5 +53,5 @@ int main(int argc, char** argv) {
   Pass pass(320, 240, color, {.format = DepthFormat::d32f, .clear_value = 0.0f});
   pass.draw(FloorShader{glm::mat4(camera)}, make_vertex_view(stream(positions), stream(uvs)), indices, kReversedZState);
   pass.run(Workers(1));
-  write_image(argc > 1 ? argv[1] : "lesson04.png", image);
+  return save_image(argc > 1 ? argv[1] : "lesson04.png", image);
 }

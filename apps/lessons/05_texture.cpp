@@ -55,5 +55,5 @@ int main(int argc, char** argv) {
   pass.draw(TexturedShader{glm::mat4(camera), &texture, sampler}, make_vertex_view(stream(floor.positions), stream(floor.uvs)),
             floor.indices, kReversedZState);
   pass.run(Workers(1));
-  write_image(argc > 1 ? argv[1] : "lesson05.png", image);
+  return save_image(argc > 1 ? argv[1] : "lesson05.png", image);
 }

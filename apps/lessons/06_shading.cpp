@@ -67,5 +67,5 @@ int main(int argc, char** argv) {
   pass.draw(LitShader<Rate::gouraud>{camera, {0, 0, 0}, eye}, vertices, ball.indices, kReversedZState);
   pass.draw(LitShader<Rate::phong>{camera, {2.4f, 0, 0}, eye}, vertices, ball.indices, kReversedZState);
   pass.run(Workers(1));
-  write_image(argc > 1 ? argv[1] : "lesson06.png", image);
+  return save_image(argc > 1 ? argv[1] : "lesson06.png", image);
 }

@@ -71,5 +71,5 @@ int main(int argc, char** argv) {
             make_vertex_view(stream(ring.positions), stream(ring.normals), stream(ring.tangents), stream(ring.uvs)), ring.indices,
             kReversedZState);
   pass.run(Workers(1));
-  write_image(argc > 1 ? argv[1] : "lesson07.png", image);
+  return save_image(argc > 1 ? argv[1] : "lesson07.png", image);
 }

@@ -68,5 +68,5 @@ int main(int argc, char** argv) {
   }
   from_light.run(Workers(1));
   pass.run(Workers(1));
-  write_image(argc > 1 ? argv[1] : "lesson08.png", image);
+  return save_image(argc > 1 ? argv[1] : "lesson08.png", image);
 }

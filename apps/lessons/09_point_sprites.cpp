@@ -61,5 +61,5 @@ int main(int argc, char** argv) {
   state.topology = Topology::points;
   pass.draw(SphereShader{glm::mat4(camera)}, make_vertex_view(stream(centers), stream(colors)), state);
   pass.run(Workers(1));
-  write_image(argc > 1 ? argv[1] : "lesson09.png", image);
+  return save_image(argc > 1 ? argv[1] : "lesson09.png", image);
 }

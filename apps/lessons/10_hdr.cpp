@@ -58,5 +58,5 @@ int main(int argc, char** argv) {
               mesh.indices, kReversedZState);
   pass.post(ToneCurve{1.0f}, srgb8a8_target(image));
   pass.run(Workers(1));
-  write_image(argc > 1 ? argv[1] : "lesson10.png", image);
+  return save_image(argc > 1 ? argv[1] : "lesson10.png", image);
 }

@@ -91,6 +91,6 @@ int main(int argc, char** argv) {
   const bool same = by_pixel == by_lanes;
   std::printf("scalar loop %.2f ms, %d lanes %.2f ms: %.1f times as fast, %s\n", pixel_ms, kLanes, lanes_ms, pixel_ms / lanes_ms,
               same ? "the same picture" : "different pictures");
-  write_image(argc > 1 ? argv[1] : "lesson11.png", by_lanes);
-  return same ? 0 : 1;
+  const int status = save_image(argc > 1 ? argv[1] : "lesson11.png", by_lanes);
+  return same ? status : 1;
 }

@@ -93,7 +93,7 @@ int main(int argc, char** argv) {
   measure("scalar loop", 1, [&](const Workers&) { draw<float>(image, vertices, 0, kHeight, 0, kTriangles); });
   measure("lanes", 1, [&](const Workers&) { draw<Real>(image, vertices, 0, kHeight, 0, kTriangles); });
   measure("bands", 1, bands);
-  write_image(argc > 1 ? argv[1] : "lesson12.png", image);
+  if (save_image(argc > 1 ? argv[1] : "lesson12.png", image) != 0) return 1;
   measure("bands", Workers::cores(), bands);
   measure("library", 1, library);
   measure("library", Workers::cores(), library);

@@ -3,6 +3,7 @@
 // Runs every program in apps/examples and checks pixels whose expected values follow from its source.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -12,6 +13,7 @@
 #include "halfspace/core/image.h"
 #include "halfspace/core/srgb.h"
 #include "halfspace/image/image_io.h"
+#include "support/program.h"
 #include "support/temporary_folder.h"
 
 namespace halfspace {
@@ -116,6 +118,16 @@ TEST(Examples, ReadDepthShowsDistances) {
   EXPECT_EQ(p.at(128, 128).x, 255);  // the front of the sphere, 3 units away
   // At the silhouette the distance is between 3.5 and 4 units, slightly less than at the center of the sphere.
   EXPECT_NEAR(p.at(128, 66).x, 255.0 * (4.0 - 3.33), 40.0);
+}
+
+TEST(Examples, ReportAnOutputFileThatCannotBeWritten) {
+  const std::string program = std::string(HALFSPACE_EXAMPLES_DIR) + "/example-triangle ";
+  const ProgramOutput format = run_command(program + "x.foo 2>&1"), folder = run_command(program + "/proc/x.png 2>&1");
+  EXPECT_EQ(format.exit_code, 1);
+  EXPECT_EQ(format.text, "x.foo: unknown image format; expected a file name ending in .png, .jpg or .tif\n");
+  EXPECT_EQ(folder.exit_code, 1);
+  EXPECT_TRUE(folder.text.starts_with("/proc/x.png: ")) << folder.text;
+  EXPECT_EQ(std::ranges::count(folder.text, '\n'), 1) << folder.text;
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 
 #include "halfspace/core/image.h"
 #include "halfspace/image/image_io.h"
+#include "support/program.h"
 #include "support/temporary_folder.h"
 
 namespace halfspace {
@@ -45,14 +46,22 @@ Image<glm::u8vec4> read_ppm(const std::filesystem::path& path) {
   return image;
 }
 
-// Runs the program of a lesson, counted from 1.
-Lesson run_lesson(int number) {
-  const std::string digits = (number < 10 ? "0" : "") + std::to_string(number);
-  Lesson lesson;
+std::string digits_of(int number) { return (number < 10 ? "0" : "") + std::to_string(number); }
+
+// Returns the name of a lesson, counted from 1.
+std::string lesson_name(int number) {
   for (const auto& entry : std::filesystem::directory_iterator(HALFSPACE_LESSONS_SOURCE_DIR)) {
     const std::string stem = entry.path().stem().string();
-    if (entry.path().extension() == ".cpp" && stem.starts_with(digits)) lesson.name = stem;
+    if (entry.path().extension() == ".cpp" && stem.starts_with(digits_of(number))) return stem;
   }
+  return "";
+}
+
+// Runs the program of a lesson, counted from 1.
+Lesson run_lesson(int number) {
+  const std::string digits = digits_of(number);
+  Lesson lesson;
+  lesson.name = lesson_name(number);
   const TemporaryFolder folder;
   const std::filesystem::path out = folder.path() / ("lesson" + digits + (number <= 3 ? ".ppm" : ".png")),
                               printed = folder.path() / ("lesson" + digits + ".txt");
@@ -71,6 +80,14 @@ class Lessons : public testing::TestWithParam<int> {};
 TEST_P(Lessons, DrawThePictureOfTheirPage) {
   const Lesson lesson = run_lesson(GetParam());
   EXPECT_EQ(lesson.picture, lesson.in_docs) << lesson.name << ": scripts/lesson_pictures.py draws the pictures again";
+}
+
+TEST_P(Lessons, ReportAnOutputFileThatCannotBeWritten) {
+  const std::string program = std::string(HALFSPACE_EXAMPLES_DIR) + "/lesson-" + lesson_name(GetParam());
+  const ProgramOutput output = run_command(program + " /proc/x.png 2>&1 > /dev/null");
+  EXPECT_EQ(output.exit_code, 1);
+  EXPECT_TRUE(output.text.starts_with("/proc/x.png: ")) << output.text;
+  EXPECT_EQ(std::ranges::count(output.text, '\n'), 1) << output.text;
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Lessons, testing::Range(1, kLessons + 1));
