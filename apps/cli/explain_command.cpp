@@ -44,11 +44,11 @@ OpenedScene open_explained_scene(const ExplainArguments& args, const PictureSize
   return opened;
 }
 
-PreparedScene prepare_explained(const SceneDescription& scene, const std::string& source, const PictureSize& size, SceneAssets& assets) {
+PreparedScene prepare_explained(const SceneDescription& scene, const SceneFile& file, const PictureSize& size, SceneAssets& assets) {
   try {
     return assets.prepare(scene, size.width, size.height);
   } catch (const InputError& e) {
-    throw InputError(source + ": " + e.what());
+    throw InputError(message_in_scene(file, e.what()));
   }
 }
 
@@ -75,7 +75,7 @@ void explain_command(const ExplainArguments& args) {
     add_models(assets, models);
     const SceneDescription scene = opened.scene.at(time);
     if (is_page) reject_overwriting(out, input_files(scene, args.scene, models));
-    const PreparedScene prepared = prepare_explained(scene, opened.scene.source(), size, assets);
+    const PreparedScene prepared = prepare_explained(scene, opened.scene, size, assets);
     const ExplainJob job{scene, prepared, args.scene, pixel, explain_commands(args, time), workers};
     output = is_page ? page_of(job) : explained_history(job, args.json);
   }

@@ -171,8 +171,7 @@ PreparedScene prepare(const RenderJob& job, double seconds, SceneAssets& assets,
     if (job.arguments.naive) check_naive(prepared, scene);
     return prepared;
   } catch (const InputError& e) {
-    const std::string place = job.scene.source() + ": ", what = e.what();
-    throw InputError(what.starts_with(place) ? what : place + what);
+    throw InputError(message_in_scene(job.scene, e.what()));
   }
 }
 

@@ -21,11 +21,27 @@ constexpr std::pair<std::string_view, std::string_view> kPhrases[] = {
     {" (--max-primitives)", ""},
 };
 
+// Starts of messages about arguments, and their replacements.
+constexpr std::pair<std::string_view, std::string_view> kPlaces[] = {
+    {"--set: ", ""},
+    {"--scene: ", "model_scene: "},
+    {"--animation: ", "animation: "},
+    {"--variant: ", "variant: "},
+    {"--environment: ", "environment: "},
+    {"--eye: ", "eye: "},
+    {"--look-at: ", "look_at: "},
+    {"--up: ", "up: "},
+};
+
 }  // namespace
 
 std::string in_python_terms(std::string message) {
-  constexpr std::string_view kSettings = "--set: ";
-  if (message.starts_with(kSettings)) message.erase(0, kSettings.size());
+  for (const auto& [place, replacement] : kPlaces) {
+    if (message.starts_with(place)) {
+      message.replace(0, place.size(), replacement);
+      break;
+    }
+  }
   for (const auto& [phrase, replacement] : kPhrases) {
     if (const std::size_t at = message.rfind(phrase); at != std::string::npos) message.replace(at, phrase.size(), replacement);
   }

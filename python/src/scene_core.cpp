@@ -204,8 +204,7 @@ PreparedScene SceneCore::State::prepare(const Shot& shot, PictureSize size, Scen
   try {
     return assets.prepare(shown, size.width, size.height);
   } catch (const InputError& e) {
-    const std::string place = scene.source() + ": ", what = e.what();
-    throw InputError(what.starts_with(place) ? what : place + what);
+    throw InputError(message_in_scene(scene, e.what()));
   }
 }
 

@@ -120,6 +120,20 @@ def test_wrong_types_are_reported(model, arguments, words):
     assert str(error.value).startswith(words) and "\n" not in str(error.value)
 
 
+@pytest.mark.parametrize("arguments, words", [
+    ({"animation": "walk"}, "animation: "),
+    ({"model_variant": 0}, "variant: "),
+    ({"model_scene": 5}, "model_scene: "),
+    ({"environment": "none.hdr"}, "environment: "),
+    ({"eye": (0, 50, 0), "look_at": (0, 0, 0)}, "up: "),
+])
+def test_values_that_do_not_fit_the_model_are_reported(tmp_path, arguments, words):
+    model = write_model(tmp_path / "still.gltf", ())
+    with pytest.raises(halfspace.InputError) as error:
+        halfspace.render(str(model), size=SMALL, **arguments)
+    assert str(error.value).startswith(words) and "\n" not in str(error.value) and "--" not in str(error.value)
+
+
 @pytest.mark.parametrize("argument, option, name, index", [
     ("model_scene", "--scene", "tall", 1),
     ("animation", "--animation", "Fly", np.int64(1)),

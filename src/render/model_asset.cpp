@@ -24,32 +24,35 @@ const TextureUse* tangent_map(const ModelMaterial& m) {
 // Returns the index of the item with that name or, if none has it, at that index. Returns −1 if the name is empty. `what`: the plural of
 // the item.
 template <class T, class Name>
-int index_of(const std::vector<T>& list, const std::string& name, const Name& name_of, const std::string& where, const char* what) {
+int index_of(const std::vector<T>& list, const std::string& name, const Name& name_of, const std::string& where, const std::string& file,
+             const char* what) {
   if (name.empty()) return -1;
   std::vector<std::string_view> names;
   for (std::size_t i = 0; i < list.size(); ++i) {
     if (name_of(list[i]) == name) return static_cast<int>(i);
     if (!name_of(list[i]).empty()) names.push_back(name_of(list[i]));
   }
-  if (list.empty()) throw InputError(fmt::format("{} is '{}', but the file has no {}; expected none", where, name, what));
+  if (list.empty()) throw InputError(fmt::format("{}: {} has no {}; expected no value, got '{}'", where, file, what, name));
   int index = -1;
   const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), index);
   if (error == std::errc() && end == name.data() + name.size() && index >= 0 && index < static_cast<int>(list.size())) return index;
   const std::string expected = names.empty()
                                    ? fmt::format("; expected an index from 0 to {}, because its {} have no names", list.size() - 1, what)
                                    : suggestion(name, names);
-  throw InputError(fmt::format("{}: the file has no '{}'{}", where, name, expected));
+  throw InputError(fmt::format("{}: {} has no '{}'{}", where, file, name, expected));
 }
 
 }  // namespace
 
-PoseOptions pose_options(const Model& model, const ObjectDescription& o, const std::string& path) {
+PosePlaces pose_places(const std::string& path) { return {path + ".model_scene", path + ".model_animation", path + ".model_variant"}; }
+
+PoseOptions pose_options(const Model& model, const ObjectDescription& o, const PosePlaces& places) {
   const auto own_name = [](const auto& item) -> const std::string& { return item.name; };
   PoseOptions options;
-  options.scene = index_of(model.scenes, o.model_scene, own_name, path + ".model_scene", "scenes");
-  options.animation = index_of(model.animations, o.model_animation, own_name, path + ".model_animation", "animations");
+  options.scene = index_of(model.scenes, o.model_scene, own_name, places.scene, places.file, "scenes");
+  options.animation = index_of(model.animations, o.model_animation, own_name, places.animation, places.file, "animations");
   options.variant = index_of(
-      model.variants, o.model_variant, [](const std::string& name) -> const std::string& { return name; }, path + ".model_variant",
+      model.variants, o.model_variant, [](const std::string& name) -> const std::string& { return name; }, places.variant, places.file,
       "variants");
   options.time = o.model_time;
   return options;

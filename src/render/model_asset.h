@@ -20,8 +20,17 @@ struct ModelAsset {
   std::vector<Indices> indices;  ///< one per mesh of the model; refers to the indices of the mesh
 };
 
+/// What the user calls the choices of a pose, and the file, in messages.
+struct PosePlaces {
+  std::string scene, animation, variant;
+  std::string file = "the file";
+};
+
+/// The places of an object of a scene: `path`.model_scene, `path`.model_animation and `path`.model_variant.
+PosePlaces pose_places(const std::string& path);
+
 /// Returns the pose that an object of shape `file` specifies. Scenes, animations and variants are selected by name or, if none has that
-/// name, by index. If the file has no such item, throws an InputError that begins with `path`.
-PoseOptions pose_options(const Model& model, const ObjectDescription& o, const std::string& path);
+/// name, by index. If the file has no such item, throws an InputError that begins with its place.
+PoseOptions pose_options(const Model& model, const ObjectDescription& o, const PosePlaces& places);
 
 }  // namespace halfspace::inline HS_LANES_NAMESPACE

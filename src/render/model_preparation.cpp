@@ -149,7 +149,7 @@ uint64_t primitive_count(const ModelAsset& asset, const PosedModel& posed) {
 
 void ModelPreparation::add(int object, const std::string& path, const ObjectDescription& o) {
   const std::shared_ptr<const ModelAsset> model = model_asset(o, path);
-  PoseOptions options = pose_options(model->model, o, path);
+  PoseOptions options = pose_options(model->model, o, pose_places(path));
   options.bounds = false;
   const auto posed = std::make_shared<const PosedModel>(pose(model->model, options));
   used_.keep(posed);

@@ -13,6 +13,7 @@
 #include "halfspace/core/float_mode.h"
 #include "halfspace/core/text.h"
 #include "halfspace/core/units.h"
+#include "halfspace/core/vec.h"
 #include "halfspace/model/pose.h"
 #include "halfspace/render/model_fit.h"
 #include "halfspace/scene/scene_paths.h"
@@ -56,6 +57,23 @@ Frame frame_of(const ModelBounds& b, const std::filesystem::path& file) {
   return frame;
 }
 
+// Throws InputError if the camera has no horizontal axis (see the check of cameras in scene_check.cpp).
+void check_up(const glm::dvec3& up, const glm::dvec3& eye, const glm::dvec3& target) {
+  if (up == glm::dvec3(0.0)) throw InputError("--up: is zero; expected a direction, for example 0,1,0");
+  const glm::dvec3 ahead = unit_or_zero(target - eye), side = glm::cross(ahead, unit_or_zero(up));
+  if (glm::dot(side, side) > 1e-24) return;
+  throw InputError(
+      fmt::format("--up: {:g},{:g},{:g} is parallel to the line from the eye to the target; expected another direction, for example {}",
+                  up.x, up.y, up.z, std::abs(ahead.z) < 0.5 ? "0,0,-1" : "0,1,0"));
+}
+
+// Throws InputError if the eye is so far away that the range of the camera exceeds the limit of scene files.
+void check_distance(double far, const ModelBounds& b, const Frame& frame) {
+  if (far <= kMaxCount) return;
+  throw InputError(
+      fmt::format("--eye: is too far from the model; expected a distance of at most {:.3g}", kMaxCount / frame.scale - 20.0 * b.radius));
+}
+
 OrderedJson fitted_camera(const ModelPoses& poses, const ModelBounds& b, const Frame& frame, const ModelView& view) {
   glm::dvec3 target = view.look_at.value_or(b.center), eye = target;
   if (view.eye) {
@@ -70,13 +88,15 @@ OrderedJson fitted_camera(const ModelPoses& poses, const ModelBounds& b, const F
     eye = fit.eye + (target - fit.target);
   }
   if (eye == target) target = eye + glm::dvec3(0, 0, -1) * b.radius;
-  const double distance = glm::distance(eye, b.center) * frame.scale, radius = b.radius * frame.scale;
+  const double distance = glm::distance(eye, b.center) * frame.scale, radius = b.radius * frame.scale, far = distance + 20.0 * radius;
+  check_up(view.up, eye, target);
+  if (view.eye) check_distance(far, b, frame);
   return {{"position", json_of(frame.point(eye))},
           {"target", json_of(frame.point(target))},
           {"up", json_of(view.up)},
           {"fov", view.fov},
           {"near", std::max(1e-3 * radius, 0.5 * (distance - 1.5 * radius))},
-          {"far", distance + 20.0 * radius}};
+          {"far", far}};
 }
 
 // Returns a name for a scene file that is similar to a name in the model: a letter a to z followed by letters a to z, digits and '_', not
@@ -223,7 +243,8 @@ GeneratedScene model_scene(const std::filesystem::path& file, const ModelView& v
   shown.model_scene = view.scene;
   shown.model_animation = animation;
   shown.model_variant = view.variant;
-  const ModelPoses poses(model, pose_options(model, shown, file.string()), view.times.empty() ? std::vector{0.0} : view.times);
+  const ModelPoses poses(model, pose_options(model, shown, {"--scene", "--animation", "--variant", file.string()}),
+                         view.times.empty() ? std::vector{0.0} : view.times);
   const PosedModel& posed = poses.first();
   const ModelBounds b = bounds_of(poses, file);
   const Frame frame = frame_of(b, file);

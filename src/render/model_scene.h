@@ -49,7 +49,7 @@ bool is_model_file(const std::filesystem::path& file);
 
 /// Reads the model and returns a scene with the object `model`, the camera kFittedCamera, the cameras of the file, and the lights of the
 /// file or, if it has none, a key light with a soft shadow. If `view` has times but no animation, the first animation of the file plays.
-/// Throws InputError.
+/// Throws InputError, which names invalid values of `view` by the options of `halfspace render`, for example --animation.
 GeneratedScene model_scene(const std::filesystem::path& file, const ModelView& view);
 
 }  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <string_view>
 #include <utility>
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
@@ -13,6 +14,13 @@ OpenedScene open_scene_or_model(const std::string& name_or_file, const ModelView
   const std::filesystem::path file = std::filesystem::absolute(name_or_file).lexically_normal();
   return {SceneFile::parse(generated.text, name_or_file, std::filesystem::current_path()), file, std::move(generated.model),
           std::move(generated.camera_names)};
+}
+
+std::string message_in_scene(const SceneFile& scene, const std::string& message) {
+  constexpr std::string_view kPanorama = "environments.around.map: ";
+  if (is_model_file(scene.source()) && message.starts_with(kPanorama)) return "--environment: " + message.substr(kPanorama.size());
+  const std::string place = scene.source() + ": ";
+  return message.starts_with(place) ? message : place + message;
 }
 
 void expect_frames(SceneAssets& assets, const SceneFile& scene, int frames, const std::function<double(int)>& time_of, int width,

@@ -26,6 +26,10 @@ struct OpenedScene {
 /// Opens a scene by name or file name, or generates one that shows a model file. `view` is only used for model files. Throws InputError.
 OpenedScene open_scene_or_model(const std::string& name_or_file, const ModelView& view);
 
+/// Returns the message of an InputError with the name of the scene in front, unless it already begins with that name. If the scene was
+/// generated for a model file, an error in its panorama is one of the option --environment.
+std::string message_in_scene(const SceneFile& scene, const std::string& message);
+
 /// Announces `frames` frames of width x height pixels to the assets (SceneAssets::expect), so that generated maps get the resolution that
 /// the closest view of the animation needs and do not change between frames. time_of(i) is the time of frame i in seconds. Examines at most
 /// a thousand frames, and only one if nothing is animated. frames must be at least 1.

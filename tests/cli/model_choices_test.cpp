@@ -133,9 +133,9 @@ TEST_F(ModelChoices, AnimationsCanBeSelectedByIndex) {
   const std::pair<std::vector<std::string>, std::string> mistakes[] = {
       {{"a.gltf", "--animation", "2"}, "expected an index from 0 to 1"},
       {{"named.gltf", "--animation", "jump"}, "expected one of walk, run"},
-      {{"none.gltf", "--animation", "0"}, "the file has no animations"},
-      {{"none.gltf", "--variant", "0"}, "the file has no variants"},
-      {{"none.gltf", "--scene", "1"}, "expected an index from 0 to 0"},
+      {{"none.gltf", "--animation", "0"}, "halfspace: --animation: none.gltf has no animations; expected no value, got '0'"},
+      {{"none.gltf", "--variant", "0"}, "halfspace: --variant: none.gltf has no variants"},
+      {{"none.gltf", "--scene", "1"}, "halfspace: --scene: none.gltf has no '1'; expected an index from 0 to 0"},
   };
   for (const auto& [words, keyword] : mistakes) {
     const Outcome o = render(words);
@@ -143,6 +143,26 @@ TEST_F(ModelChoices, AnimationsCanBeSelectedByIndex) {
     EXPECT_EQ(lines_of(o.err), 1) << o.err;
     EXPECT_NE(o.err.find(keyword), std::string::npos) << o.err;
   }
+}
+
+TEST_F(ModelChoices, ErrorsInTheViewNameTheOption) {
+  write("a.gltf", moving({}));
+  const std::pair<std::vector<std::string>, std::string> mistakes[] = {
+      {{"--environment", "none.hdr"}, "halfspace: --environment: "},
+      {{"--eye", "0,5,0", "--look-at", "0,0,0"}, "halfspace: --up: 0,1,0 is parallel"},
+      {{"--up", "0,0,0"}, "halfspace: --up: is zero"},
+      {{"--eye", "1e9,0,0"}, "halfspace: --eye: is too far from the model"},
+  };
+  for (auto [words, start] : mistakes) {
+    words.insert(words.begin(), "a.gltf");
+    const Outcome o = render(words);
+    EXPECT_EQ(o.exit_code, 3) << o.err;
+    EXPECT_EQ(lines_of(o.err), 1) << o.err;
+    EXPECT_TRUE(o.err.starts_with(start)) << o.err;
+  }
+  EXPECT_EQ(render({"a.gltf", "--eye", "0,5,0", "--look-at", "0,0,0", "--up", "0,0,-1"}).exit_code, 0);
+  const Outcome explained = run({"explain", "a.gltf", "--environment", "none.hdr", "--size", "32x32", "-o", "a.html"});
+  EXPECT_TRUE(explained.err.starts_with("halfspace: --environment: ")) << explained.err;
 }
 
 // Object 0 is the model; its node is at x = 10 at time 1.

@@ -89,7 +89,7 @@ class SceneExporter {
   }
 
   void add_file(const std::string& name, const ObjectDescription& o, const Model& file) {
-    const PoseOptions options = pose_options(file, o, "objects." + name);
+    const PoseOptions options = pose_options(file, o, pose_places("objects." + name));
     const std::size_t copies = std::max<std::size_t>(o.instances.size(), 1);
     const auto roots = append_model(model_, file, options.scene < 0 ? file.scene : options.scene, options.variant, copies);
     const bool turned = o.up_axis == ModelUp::automatic ? file.up == UpAxis::z : o.up_axis == ModelUp::z;
