@@ -270,13 +270,17 @@ Corners random_corners(Random& random) {
 // Random triangles of all sizes, with several kinds of draws.
 void draw_random(Traced& t, uint32_t seed) {
   Random random(seed);
+  constexpr StencilFace only_zero{.compare = CompareOp::equal};  // keeps the stencil values
+  constexpr StencilFace increment{.depth_fail = StencilOp::increment_clamp, .pass = StencilOp::increment_clamp};
   for (int i = 0; i < 60; ++i) {
     const Corners corners = random_corners(random);
     const glm::vec4 color(random.real(0, 1), random.real(0, 1), random.real(0, 1), random.real(0.2f, 1));
     t.draw(ConstantShader(color), corners,
-           i % 5 == 3   ? kAlphaBlendState
-           : i % 7 == 3 ? DrawState{.depth = {.write = false}, .order_independent = true}
-                        : DrawState{});
+           i % 5 == 3    ? kAlphaBlendState
+           : i % 7 == 3  ? DrawState{.depth = {.write = false}, .order_independent = true}
+           : i % 11 == 4 ? DrawState{.stencil = StencilState{increment, increment}}
+           : i % 3 == 1  ? DrawState{.stencil = StencilState{only_zero, only_zero}}
+                         : DrawState{});
   }
 }
 
@@ -312,7 +316,7 @@ TEST(PassTrace, CountsMatchTheStatisticsAndTheImage) {
       for (const TracedFragment& f : tile.fragments) {
         ++all;
         rejected += f.outcome == tile_rejected || f.outcome == block_rejected ? 1 : 0;
-        failed += f.outcome == depth_failed ? 1 : 0;
+        failed += f.outcome == depth_failed || f.outcome == stencil_failed ? 1 : 0;
       }
     }
     EXPECT_EQ(all - rejected, want.samples_tested);

@@ -66,7 +66,7 @@ class TileDraws {
         const Draw& draw = context_.draws[chunk.ranges[chunk.triangles[t].range()].draw];
         if (!here || &here->draw != &draw) begin_draw(draw, here);
         const uint64_t passed_before = statistics_.samples_passed;
-        const std::size_t small = draws_groups(here->rasterizer) && !occluder.is_pending() ? small_run(chunk, bin.subspan(i)) : 0;
+        const std::size_t small = here->rasterizer != Rasterizer::general && !occluder.is_pending() ? small_run(chunk, bin.subspan(i)) : 0;
         for (std::size_t k = i; k < i + std::max<std::size_t>(small, 1); ++k) {
           prefetch(ahead(k + kTrianglesAhead));
           if (here->fetches_vertices) prefetch_vertex(context_, chunk, ahead(k + kVerticesAhead));
@@ -134,20 +134,11 @@ class TileDraws {
     if (d->draw.state.query) statistics_.add_to_query(*d->draw.state.query, statistics_.samples_passed - passed_before);
   }
 
-  // Returns true if draw_small() supports the draws of a rasterizer. With a stencil test, small triangles are traced one by one.
-  static bool draws_groups(Rasterizer r) { return r != Rasterizer::general && !(kTraces<Statistics> && r == Rasterizer::stencil); }
-
-  // Draws small triangles of one draw, 1 to W. Returns how many were drawn.
+  // Draws small triangles of one draw, 1 to W, whose rasterizer is not `general`. Returns how many were drawn.
   std::size_t draw_small(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices) {
-    if (d.rasterizer == Rasterizer::opaque) {
+    if (d.rasterizer != Rasterizer::queued) {
       rasterize_small(d, chunk, indices, statistics_);
       return indices.size();
-    }
-    if constexpr (!kTraces<Statistics>) {
-      if (d.rasterizer == Rasterizer::stencil) {
-        rasterize_small_with_stencil(d, chunk, indices, statistics_);
-        return indices.size();
-      }
     }
     const std::size_t count = rasterize_small_queued(d, chunk, indices, memory_.queue, statistics_);
     if (memory_.queue.is_full()) finish_queue(d);
@@ -156,12 +147,9 @@ class TileDraws {
 
   void draw_triangle(const DrawInTile& d, uint32_t chunk, uint16_t index) {
     const Triangle& t = context_.chunks[chunk].triangles[index];
-    if (d.rasterizer == Rasterizer::opaque) {
+    if (d.rasterizer == Rasterizer::opaque || d.rasterizer == Rasterizer::stencil) {
       if (is_small_triangle(t)) return rasterize_small(d, chunk, {&index, 1}, statistics_);
       return rasterize_opaque(d, t, triangle_id(chunk, index), statistics_);
-    }
-    if constexpr (!kTraces<Statistics>) {
-      if (d.rasterizer == Rasterizer::stencil) return rasterize_with_stencil(d, t, triangle_id(chunk, index), statistics_);
     }
     if (d.rasterizer == Rasterizer::queued) {
       rasterize_queued(d, t, triangle_id(chunk, index), memory_.queue, statistics_);

@@ -5,6 +5,7 @@
 
 #include <bit>
 
+#include "halfspace/raster/trace/tile_trace.h"
 #include "halfspace/raster/visibility/depth_bounds.h"
 #include "halfspace/raster/visibility/depth_stencil_test.h"
 #include "halfspace/raster/visibility/visibility.h"
@@ -12,12 +13,13 @@
 namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// For draws whose visibility depends only on coverage, the depth test and the stencil test (Rasterizer::stencil).
+template <class S>
 class StencilWriter {
  public:
-  using Statistics = PassStatistics;
+  using Statistics = S;
   static constexpr bool kTestsStencil = true;
 
-  StencilWriter(const DrawInTile& d, PassStatistics& statistics)
+  StencilWriter(const DrawInTile& d, Statistics& statistics)
       : draw_(d.draw),
         tile_(d.tile),
         statistics_(statistics),
@@ -25,6 +27,7 @@ class StencilWriter {
         writes_depth_(d.tests && d.draw.state.depth.write),
         writes_id_(d.mode == VisibilityMode::deferred) {}
 
+  Statistics& statistics() const { return statistics_; }
   /// Returns true if fragments that fail the depth test have no effect.
   bool tests() const { return tests_ && face_->fail == StencilOp::keep && face_->depth_fail == StencilOp::keep; }
   bool writes_depth() const { return writes_depth_; }
@@ -38,9 +41,11 @@ class StencilWriter {
   HS_INLINE bool write(TriangleId id, int packet, uint32_t covered, const Z& z_at, [[maybe_unused]] bool passes = false) {
     statistics_.samples_tested += static_cast<uint64_t>(std::popcount(covered));
     const std::size_t first = static_cast<std::size_t>(packet) * kLanes;
-    const Real z = tests_ ? z_at() : Real(0.0f);
-    const Mask passed = test_and_update_stencil(*face_, tile_, packet, mask_from_bits<Mask>(covered), tests_, compare_op(), z).passed;
+    const Real z = tests_ || kTraces<Statistics> ? z_at() : Real(0.0f);
+    const auto [stencil_passed, passed] =
+        test_and_update_stencil(*face_, tile_, packet, mask_from_bits<Mask>(covered), tests_, compare_op(), z);
     const uint32_t lanes = bits(passed);
+    if constexpr (kTraces<Statistics>) trace(id, packet, covered, bits(stencil_passed), lanes, z);
     statistics_.samples_passed += static_cast<uint64_t>(std::popcount(lanes));
     if (writes_depth_) store(&tile_.depth[first], select(passed, z, load<Real>(&tile_.depth[first])));
     if (writes_id_) {
@@ -57,9 +62,18 @@ class StencilWriter {
   }
 
  private:
+  // Records tested fragments before depth is written.
+  void trace(TriangleId id, int packet, uint32_t covered, uint32_t stencil_passed, uint32_t passed, Real z) {
+    const Real old = load<Real>(&tile_.depth[static_cast<std::size_t>(packet) * kLanes]);
+    const auto add = [&](uint32_t lanes, FragmentOutcome outcome) { statistics_.trace->add(id, packet, lanes, outcome, z, old, tests_); };
+    add(passed, writes_id_ ? FragmentOutcome::hidden_before_shading : FragmentOutcome::depth_only);
+    add(stencil_passed & ~passed, FragmentOutcome::depth_failed);
+    add(covered & ~stencil_passed, FragmentOutcome::stencil_failed);
+  }
+
   const Draw& draw_;
   Tile& tile_;
-  PassStatistics& statistics_;
+  Statistics& statistics_;
   const StencilFace* face_ = nullptr;
   bool tests_, writes_depth_, writes_id_;
 };

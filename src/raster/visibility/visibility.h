@@ -45,7 +45,7 @@ VisibilityMode visibility_mode(const Draw& draw);
 /// The functions that rasterize the triangles of a draw in a tile, by what determines visibility.
 enum class Rasterizer : uint8_t {
   opaque,   ///< only coverage and depth: rasterize_opaque()
-  stencil,  ///< coverage, depth and the stencil test: rasterize_with_stencil(), or rasterize() if fragments are traced
+  stencil,  ///< coverage, depth and the stencil test: rasterize_opaque()
   queued,   ///< the shader, which runs per pixel, and a stencil test that can precede it: rasterize_queued()
   general   ///< all other draws: rasterize()
 };
@@ -75,31 +75,26 @@ struct DrawInTile {
 template <class Statistics>
 void rasterize(const DrawInTile& d, uint32_t chunk, uint32_t index, CoverageList* list, Statistics& statistics);
 
-/// The same for a triangle of an opaque draw (visibility_blocks.cpp; in multisampled tiles, sample_blocks.h).
+/// The same for a triangle of an opaque draw, with or without a stencil test (visibility_blocks.cpp; in multisampled tiles,
+/// sample_blocks.h).
 template <class Statistics>
 void rasterize_opaque(const DrawInTile& d, const Triangle& t, TriangleId id, Statistics& statistics);
-/// The same for a draw with Rasterizer::stencil.
-void rasterize_with_stencil(const DrawInTile& d, const Triangle& t, TriangleId id, PassStatistics& statistics);
 /// The same for a triangle of a queued draw. Its packets are listed in the queue until the shader runs.
 template <class Statistics>
 void rasterize_queued(const DrawInTile& d, const Triangle& t, TriangleId id, PacketQueue& queue, Statistics& statistics);
 /// Returns true if the triangle can be drawn by rasterize_small().
 inline bool is_small_triangle(const Triangle& t) { return (t.flags & (kSmall | kPointSprite)) == kSmall; }
-/// Rasterizes small triangles of an opaque draw in order. indices: 1 to W triangles of the chunk.
+/// Rasterizes small triangles of an opaque draw, with or without a stencil test, in order. indices: 1 to W triangles of the chunk.
 template <class Statistics>
 void rasterize_small(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, Statistics& statistics);
-/// The same for a draw with Rasterizer::stencil.
-void rasterize_small_with_stencil(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, PassStatistics& statistics);
 /// The same for a queued draw. Stops when the queue is full. Returns the number of triangles that were added to the queue, at least 1.
 template <class Statistics>
 std::size_t rasterize_small_queued(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, PacketQueue& queue,
                                    Statistics& statistics);
 
-/// The same three functions for a multisampled tile (visibility_samples.cpp).
+/// The same two functions for a multisampled tile (visibility_samples.cpp).
 template <class Statistics>
 void rasterize_small_samples(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, Statistics& statistics);
-void rasterize_small_samples_with_stencil(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices,
-                                          PassStatistics& statistics);
 template <class Statistics>
 std::size_t rasterize_small_samples_queued(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, PacketQueue& queue,
                                            Statistics& statistics);

@@ -205,15 +205,12 @@ void write_full_tile(const DrawInTile& d, const Triangle& t, TriangleId id) {
 
 template <class Statistics>
 void rasterize_opaque(const DrawInTile& d, const Triangle& t, TriangleId id, Statistics& statistics) {
+  if (d.rasterizer == Rasterizer::stencil) return rasterize_with(d, t, id, StencilWriter<Statistics>(d, statistics));
   if (writes_nearest(d)) return rasterize_with(d, t, id, OpaqueWriter<Statistics, true>(d, statistics));
   rasterize_with(d, t, id, OpaqueWriter<Statistics>(d, statistics));
 }
 template void rasterize_opaque(const DrawInTile&, const Triangle&, TriangleId, PassStatistics&);
 template void rasterize_opaque(const DrawInTile&, const Triangle&, TriangleId, TracedStatistics&);
-
-void rasterize_with_stencil(const DrawInTile& d, const Triangle& t, TriangleId id, PassStatistics& statistics) {
-  rasterize_with(d, t, id, StencilWriter(d, statistics));
-}
 
 template <class Statistics>
 void rasterize_queued(const DrawInTile& d, const Triangle& t, TriangleId id, PacketQueue& queue, Statistics& statistics) {

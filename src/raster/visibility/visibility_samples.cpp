@@ -205,16 +205,12 @@ std::size_t write_triangles(const DrawInTile& d, uint32_t chunk, std::span<const
 template <class Statistics>
 void rasterize_small_samples(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, Statistics& statistics) {
   const auto large = [&](const Triangle& t, TriangleId id) { rasterize_opaque(d, t, id, statistics); };
-  write_triangles(d, chunk, indices, OpaqueWriter<Statistics>(d, statistics), large, [] { return true; });
+  const auto write_with = [&](auto writer) { write_triangles(d, chunk, indices, writer, large, [] { return true; }); };
+  if (d.rasterizer == Rasterizer::stencil) return write_with(StencilWriter<Statistics>(d, statistics));
+  write_with(OpaqueWriter<Statistics>(d, statistics));
 }
 template void rasterize_small_samples(const DrawInTile&, uint32_t, std::span<const uint16_t>, PassStatistics&);
 template void rasterize_small_samples(const DrawInTile&, uint32_t, std::span<const uint16_t>, TracedStatistics&);
-
-void rasterize_small_samples_with_stencil(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices,
-                                          PassStatistics& statistics) {
-  const auto large = [&](const Triangle& t, TriangleId id) { rasterize_with_stencil(d, t, id, statistics); };
-  write_triangles(d, chunk, indices, StencilWriter(d, statistics), large, [] { return true; });
-}
 
 template <class Statistics>
 std::size_t rasterize_small_samples_queued(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, PacketQueue& queue,

@@ -248,18 +248,10 @@ void rasterize_small(const DrawInTile& d, uint32_t chunk, std::span<const uint16
   const auto write_all = [&](auto writer) {
     for (std::size_t k = 0; k < indices.size(); ++k) write_triangle(d, triangles, k, chunk, indices[k], writer, large);
   };
+  if (d.rasterizer == Rasterizer::stencil) return write_all(StencilWriter<Statistics>(d, statistics));
   if (writes_nearest(d)) return write_all(OpaqueWriter<Statistics, true>(d, statistics));
   write_all(OpaqueWriter<Statistics>(d, statistics));
 }
-
-void rasterize_small_with_stencil(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, PassStatistics& statistics) {
-  if (d.tile.samples > 1) return rasterize_small_samples_with_stencil(d, chunk, indices, statistics);
-  const SmallTriangles triangles(d, d.context.chunks[chunk], indices);
-  StencilWriter writer(d, statistics);
-  const auto large = [&](const Triangle& t, TriangleId id) { rasterize_with_stencil(d, t, id, statistics); };
-  for (std::size_t k = 0; k < indices.size(); ++k) write_triangle(d, triangles, k, chunk, indices[k], writer, large);
-}
-
 template void rasterize_small(const DrawInTile&, uint32_t, std::span<const uint16_t>, PassStatistics&);
 template void rasterize_small(const DrawInTile&, uint32_t, std::span<const uint16_t>, TracedStatistics&);
 
