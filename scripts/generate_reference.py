@@ -22,15 +22,14 @@ def output_of(program, *arguments):
     return subprocess.run([program, *arguments], check=True, capture_output=True, text=True).stdout
 
 
-def number(value):
-    return str(int(value)) if float(value).is_integer() and abs(value) < 1e6 else f"{value:g}"
+def number(value, is_integer):
+    """Large integers have no exponent, as in error messages."""
+    return str(int(value)) if is_integer or (float(value).is_integer() and abs(value) < 1e6) else f"{value:g}"
 
 
 def range_text(schema):
-    low, high = schema.get("minimum"), schema.get("maximum")
-    if low is None or (low == -high and high >= 1e6):
-        return ""
-    return f" of at least {number(low)}" if high >= 1e6 else f" from {number(low)} to {number(high)}"
+    is_integer = schema.get("type") == "integer"
+    return f" from {number(schema['minimum'], is_integer)} to {number(schema['maximum'], is_integer)}" if "minimum" in schema else ""
 
 
 def type_text(schema):
@@ -40,9 +39,9 @@ def type_text(schema):
     if "anyOf" in schema:
         kinds = schema["anyOf"]
         if any("pattern" in kind for kind in kinds):
-            return 'color: `"#rrggbb"`, `[r, g, b]` or one number'
+            return 'color: `"#rrggbb"`, `[r, g, b]` or one number' + range_text(kinds[-1])
         if any(kind.get("type") == "string" for kind in kinds):
-            return "texture: its name or a file, or a constant"
+            return "texture: its name or a file, or a constant" + range_text(kinds[-1])
         return " or ".join(type_text(kind) for kind in kinds)
     kind = schema.get("type")
     if kind == "array":

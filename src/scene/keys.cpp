@@ -29,16 +29,25 @@ std::string shown(const Json& json) {
   return text;
 }
 
+// Returns an integer without an exponent, and other numbers like number_text.
+std::string integer_text(double x) {
+  constexpr double kMaxExact = 1e15;
+  return std::floor(x) == x && std::fabs(x) <= kMaxExact ? std::to_string(static_cast<int64_t>(x)) : number_text(x);
+}
+
+// Returns " from LOW to HIGH".
+std::string range_text(const Key& key) {
+  constexpr double kMaxPlain = 999999.0;  // larger real numbers are easier to read with an exponent
+  const auto bound = [&](double x) { return key.type == KeyType::integer || std::fabs(x) <= kMaxPlain ? integer_text(x) : number_text(x); };
+  return " from " + bound(key.limits.low) + " to " + bound(key.limits.high);
+}
+
 [[noreturn]] void fail_expected(const Key& key, const Json& got, const ReadContext& c, const std::string& path) {
   if (key.type == KeyType::choice && got.is_string()) {
     fail(c, path, shown(got) + " is not a valid choice" + suggestion(got.get_ref<const std::string&>(), key.choices));
   }
-  const bool unbounded = key.limits.low <= -kMaxCount && key.limits.high >= kMaxCount;
-  const bool is_number = got.is_number() && (key.type == KeyType::integer || key.type == KeyType::number);
-  const bool is_vector = got.is_array() && got.size() == 3 && key.type == KeyType::vector;
-  const std::string range =
-      (is_number || is_vector) && unbounded ? " from " + number_text(-kMaxCount) + " to " + number_text(kMaxCount) : "";
-  fail(c, path, "expected " + expectation(key) + range + ", got " + shown(got));
+  const std::string text = got.is_number() && key.type == KeyType::integer ? integer_text(got.get<double>()) : shown(got);
+  fail(c, path, "expected " + expectation(key) + ", got " + text);
 }
 
 bool in_range(const Key& key, double x) { return x >= key.limits.low && x <= key.limits.high; }
@@ -204,9 +213,7 @@ Field find_field(const Section& section, std::string_view name) {
 
 std::string expectation(const Key& key) {
   const Limits& l = key.limits;
-  const std::string range = l.low <= -kMaxCount && l.high >= kMaxCount ? ""
-                            : l.high >= kMaxCount                      ? " of at least " + number_text(l.low)
-                                                                       : " from " + number_text(l.low) + " to " + number_text(l.high);
+  const std::string range = range_text(key);
   const std::string unit = l.unit[0] == '\0' ? "" : " (" + std::string(l.unit) + ")";
   switch (key.type) {
     case KeyType::boolean: return "true or false";
@@ -216,9 +223,9 @@ std::string expectation(const Key& key) {
     case KeyType::color: return "a color: \"#rrggbb\", [r, g, b] or one number" + range;
     case KeyType::text: return "a string";
     case KeyType::file: return "a file name";
-    case KeyType::map: return "a color (#rrggbb, r,g,b or a number), the name of a texture or an image file";
-    case KeyType::numbers: return "a number or [x, y, z]" + unit;
-    case KeyType::keyframes: return "rows [seconds, value] in order of time, with values all numbers or all [x, y, z]";
+    case KeyType::map: return "a color (#rrggbb, r,g,b or a number" + range + "), the name of a texture or an image file";
+    case KeyType::numbers: return "a number or [x, y, z]" + range + unit;
+    case KeyType::keyframes: return "rows [seconds, value] in order of time, with values all numbers or all [x, y, z]" + range;
     case KeyType::choice: break;
   }
   std::string text = "one of ";
