@@ -69,13 +69,24 @@ uint64_t memory_left() {
   return left(state, resident);
 }
 
+uint64_t memory_in_use() {
+  const uint64_t resident = counted_resident_memory();
+  LimitState& state = limit_state();
+  const std::lock_guard lock(state.mutex);
+  return resident + state.claimed;
+}
+
+std::string memory_problem(uint64_t needed, uint64_t in_use, uint64_t limit) {
+  return "needs " + mebibytes(needed) + " of memory in addition to " + mebibytes(in_use) + " in use; expected at most " + mebibytes(limit) +
+         " (--max-memory)";
+}
+
 MemoryClaim::MemoryClaim(uint64_t bytes, const std::string& place) : bytes_(bytes) {
   const uint64_t resident = counted_resident_memory();
   LimitState& state = limit_state();
   const std::lock_guard lock(state.mutex);
   if (bytes > left(state, resident)) {
-    throw LimitError(place + ": needs " + mebibytes(bytes) + " of memory in addition to " + mebibytes(resident + state.claimed) +
-                     " in use; expected at most " + mebibytes(state.limits.max_memory) + " (--max-memory)");
+    throw LimitError(place + ": " + memory_problem(bytes, resident + state.claimed, state.limits.max_memory));
   }
   state.claimed += bytes;
 }

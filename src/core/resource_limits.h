@@ -42,6 +42,13 @@ void set_resource_limits(const ResourceLimits& limits);
 /// of the process.
 uint64_t memory_left();
 
+/// Returns the claims of all threads plus, with counts_resident, the resident memory of the process, in bytes.
+uint64_t memory_in_use();
+
+/// Returns the text of an error about a limit: "needs 52 MiB of memory in addition to 16 MiB in use; expected at most 40 MiB
+/// (--max-memory)". All arguments are in bytes.
+std::string memory_problem(uint64_t needed, uint64_t in_use, uint64_t limit);
+
 /// Reserves memory that is about to be allocated and filled, so that threads that load files in parallel do not exceed the limit together.
 /// Release the claim once the memory has been filled and therefore counts as resident.
 class MemoryClaim {

@@ -38,7 +38,8 @@ std::size_t size_of(const std::filesystem::path& file, int descriptor, std::size
   if (!S_ISREG(status.st_mode)) fail(file, "is a device, pipe or socket; expected a regular file");
   const auto size = static_cast<std::size_t>(status.st_size);
   if (size > max_bytes)
-    throw LimitError(fmt::format("{}: has {} bytes; expected at most {} (--max-memory)", file.string(), size, max_bytes));
+    throw LimitError(fmt::format("{}: has {} bytes; expected at most {}, which the memory limit leaves for it (--max-memory)",
+                                 file.string(), size, max_bytes));
   return size;
 }
 

@@ -9,6 +9,7 @@
 
 #include "halfspace/core/check.h"
 #include "halfspace/core/text.h"
+#include "halfspace/model/model.h"
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
 
@@ -88,9 +89,9 @@ std::string gltf_quoted(std::string_view text) {
   return fmt::format("'{}{}'", std::string_view(shown).substr(1, shown.size() - 2), cut ? "..." : "");
 }
 
-GltfDocument::GltfDocument(const std::filesystem::path& file, std::string_view text, std::size_t offset, std::size_t max_memory,
+GltfDocument::GltfDocument(const std::filesystem::path& file, std::string_view text, std::size_t offset, const ReadModelOptions& options,
                            std::vector<std::string>& warnings)
-    : file_(file.string()), max_memory_(max_memory), memory_left_(max_memory), warnings_(warnings) {
+    : file_(file.string()), max_memory_(options.max_memory), memory_in_use_(options.memory_in_use), warnings_(warnings) {
   const TextSize size = size_of(text);
   if (size.depth > kMaxDepth) throw InputError(fmt::format("{}: JSON is nested too deeply; expected at most {} levels", file_, kMaxDepth));
   take_memory(empty_object(), size.values, kBytesPerValue);
@@ -141,10 +142,9 @@ void GltfDocument::warn_at(const GltfValue& object, std::string_view key, std::s
 }
 
 void GltfDocument::take_memory(const GltfValue& value, uint64_t count, uint64_t bytes_each) {
-  if (count > memory_left_ / bytes_each) {
-    fail(value, fmt::format("the model needs too much memory; expected at most {} MB (--max-memory)", max_memory_ >> 20));
-  }
-  memory_left_ -= count * bytes_each;
+  const uint64_t needed = count > UINT64_MAX / bytes_each ? UINT64_MAX : count * bytes_each;
+  if (needed > memory_left()) fail(value, memory_problem(needed, memory_in_use_, max_memory_));
+  memory_in_use_ += needed;
 }
 
 const GltfValue* GltfDocument::find(const GltfValue& object, const char* key) const {

@@ -20,12 +20,13 @@
 namespace halfspace::inline HS_LANES_NAMESPACE {
 
 using GltfValue = nlohmann::json;
+struct ReadModelOptions;
 
 class GltfDocument {
  public:
   /// Parses the text. offset: position of the text in a binary file, for messages; 0 if the file contains only the text. warnings: receives
   /// one line for each problem that is not an error; must outlive this object.
-  GltfDocument(const std::filesystem::path& file, std::string_view text, std::size_t offset, std::size_t max_memory,
+  GltfDocument(const std::filesystem::path& file, std::string_view text, std::size_t offset, const ReadModelOptions& options,
                std::vector<std::string>& warnings);
   ~GltfDocument();
   GltfDocument(const GltfDocument&) = delete;
@@ -88,7 +89,7 @@ class GltfDocument {
   /// Counts memory that is allocated for `value`. The count never decreases, so the limit also bounds the time. Throws InputError if the
   /// limit is exceeded.
   void take_memory(const GltfValue& value, uint64_t count, uint64_t bytes_each);
-  std::size_t memory_left() const { return memory_left_; }
+  std::size_t memory_left() const { return max_memory_ > memory_in_use_ ? max_memory_ - memory_in_use_ : 0; }
   std::vector<std::string>& warnings() { return warnings_; }
 
   static constexpr double kMaxNumber = std::numeric_limits<float>::max();
@@ -102,7 +103,7 @@ class GltfDocument {
 
   std::string file_;
   std::unique_ptr<const GltfValue> root_;
-  std::size_t max_memory_, memory_left_;
+  std::size_t max_memory_, memory_in_use_;
   int placed_warnings_ = 0;
   std::vector<std::string>& warnings_;
   std::set<std::string, std::less<>> known_warnings_;

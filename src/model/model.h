@@ -267,7 +267,11 @@ std::vector<std::filesystem::path> files_of(const Model& model);
 struct ReadModelOptions {
   bool allow_outside = false;                             ///< open referenced files outside the folder of the model
   std::size_t max_memory = resource_limits().max_memory;  ///< memory limit in bytes, checked before memory is allocated
+  std::size_t memory_in_use = 0;                          ///< part of max_memory; read_model() adds what else is in memory
   float crease_degrees = 30.0f;                           ///< OBJ, PLY and STL without normals: edges sharper than this stay sharp
+
+  /// Returns the part of max_memory that is not in use.
+  std::size_t memory_left() const { return max_memory > memory_in_use ? max_memory - memory_in_use : 0; }
 };
 
 /// Reads a model file. The format is detected from the contents or, if they are ambiguous, from the extension. Throws InputError

@@ -51,7 +51,7 @@ Model read_gltf(const std::filesystem::path& file, std::span<const std::byte> by
   model.format = "glTF";
   const GltfChunks chunks = gltf_chunks(file, bytes);
   const auto offset = static_cast<std::size_t>(chunks.json.data() - reinterpret_cast<const char*>(bytes.data()));
-  GltfDocument document(file, chunks.json, offset, options.max_memory, model.warnings);
+  GltfDocument document(file, chunks.json, offset, options, model.warnings);
   check_version(document);
   read_gltf_extensions(document, model);
   References references(file, options.allow_outside, model.warnings);

@@ -68,6 +68,14 @@ Reader reader_of(const std::filesystem::path& file, std::span<const std::byte> b
   throw InputError(fmt::format("{}: unknown model format; expected glTF (.gltf, .glb), OBJ, PLY or STL", file.string()));
 }
 
+/// Replaces the memory limit by that of the process if the latter leaves less, because other models and images are in memory.
+ReadModelOptions within_limits(const ReadModelOptions& options) {
+  ReadModelOptions process = options;
+  process.max_memory = static_cast<std::size_t>(resource_limits().max_memory);
+  process.memory_in_use = static_cast<std::size_t>(memory_in_use());
+  return process.memory_left() < options.memory_left() ? process : options;
+}
+
 }  // namespace
 
 std::vector<std::filesystem::path> files_of(const Model& model) {
@@ -80,12 +88,11 @@ std::vector<std::filesystem::path> files_of(const Model& model) {
 
 Model read_model(const std::filesystem::path& file, const ReadModelOptions& options) {
   const FloatMode float_mode;
-  ReadModelOptions left = options;  // other models and images may be in memory
-  left.max_memory = static_cast<std::size_t>(std::min<uint64_t>(options.max_memory, memory_left()));
-  const std::vector<std::byte> bytes = file_bytes(file, left.max_memory);
+  const ReadModelOptions limited = within_limits(options);
+  const std::vector<std::byte> bytes = file_bytes(file, limited.memory_left());
   if (bytes.empty()) throw InputError(fmt::format("{}: the file is empty; expected a glTF, OBJ, PLY or STL file", file.string()));
   const std::span<const std::byte> contents = without_byte_order_mark(bytes);
-  return reader_of(file, contents)(file, contents, left);
+  return reader_of(file, contents)(file, contents, limited);
 }
 
 }  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -83,7 +83,7 @@ class Libraries {
   void read(const std::filesystem::path& path) {
     std::vector<std::byte> bytes;
     try {
-      bytes = file_bytes(path, options_.max_memory / kMemoryPerByte);
+      bytes = file_bytes(path, options_.memory_left() / kMemoryPerByte);
     } catch (const LimitError&) {
       throw;
     } catch (const InputError& e) {
@@ -140,10 +140,11 @@ std::vector<const MtlMaterial*> resolve_materials(ObjText& obj, const Libraries&
 }  // namespace
 
 Model read_obj(const std::filesystem::path& file, std::span<const std::byte> bytes, const ReadModelOptions& options) {
-  const std::size_t max_bytes = std::min(kMaxBytes, options.max_memory / kMemoryPerByte);
-  if (bytes.size() > max_bytes) {
-    throw InputError(fmt::format("{}: {} bytes; expected at most {}, because reading needs {} times as much memory (--max-memory)",
-                                 file.string(), bytes.size(), max_bytes, kMemoryPerByte));
+  if (bytes.size() > kMaxBytes)
+    throw InputError(fmt::format("{}: has {} bytes; expected at most {}", file.string(), bytes.size(), kMaxBytes));
+  if (bytes.size() > options.memory_left() / kMemoryPerByte) {
+    throw InputError(
+        fmt::format("{}: {}", file.string(), memory_problem(bytes.size() * kMemoryPerByte, options.memory_in_use, options.max_memory)));
   }
   Model model;
   model.format = "OBJ";

@@ -53,8 +53,7 @@ Model single_mesh_model(std::string format, const std::filesystem::path& file, M
 }
 
 void check_memory(std::size_t bytes, const ReadModelOptions& options) {
-  if (bytes <= options.max_memory) return;
-  throw InputError(fmt::format("reading needs {} MiB; expected at most {} (--max-memory)", bytes >> 20, options.max_memory >> 20));
+  if (bytes > options.memory_left()) throw InputError(memory_problem(bytes, options.memory_in_use, options.max_memory));
 }
 
 }  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -23,7 +23,7 @@ void set_positions(ModelMesh& mesh, std::span<const glm::dvec3> positions);
 /// colors, and blended if a vertex color is not opaque.
 Model single_mesh_model(std::string format, const std::filesystem::path& file, ModelMesh mesh);
 
-/// Throws an InputError that does not name the file if `bytes` exceeds options.max_memory.
+/// Throws an InputError that does not name the file if `bytes` exceeds options.memory_left().
 void check_memory(std::size_t bytes, const ReadModelOptions& options);
 
 /// Upper bound on the memory per triangle while normals are computed, in bytes.

@@ -68,7 +68,7 @@ TEST_F(Limits, GltfAccessorWithTwoBillionElements) {
   write("a.gltf", R"({"asset": {"version": "2.0"}, "accessors": [{"componentType": 5126, "count": 2147483648, "type": "VEC3"}],
     "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}], "nodes": [{"mesh": 0}]})");
   expect_rejected({"render", "a.gltf"}, {"a.gltf", "--max-memory"});
-  expect_rejected({"info", "a.gltf", "--max-memory", "1G"}, {"a.gltf", "--max-memory"});
+  expect_rejected({"info", "a.gltf", "--max-memory", "1G"}, {"a.gltf", "needs 8192 MiB", "expected at most 1024 MiB (--max-memory)"});
 }
 
 TEST_F(Limits, LargeFile) {

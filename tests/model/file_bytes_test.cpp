@@ -46,7 +46,8 @@ TEST_F(FileBytes, OfAnEmptyFileAreEmpty) {
 
 TEST_F(FileBytes, AreLimited) {
   write_bytes(folder_ / "file", "123456");
-  EXPECT_EQ(error_for(folder_ / "file", 5), (folder_ / "file").string() + ": has 6 bytes; expected at most 5 (--max-memory)");
+  EXPECT_EQ(error_for(folder_ / "file", 5),
+            (folder_ / "file").string() + ": has 6 bytes; expected at most 5, which the memory limit leaves for it (--max-memory)");
   EXPECT_THROW(file_bytes(folder_ / "file", 5), LimitError);
 }
 

@@ -89,7 +89,7 @@ TEST(GltfHostile, NamesThePlaceOfEveryProblem) {
       {"accessors[0].bufferView", [](GltfJson& j) { j["accessors"][0]["bufferView"] = 99; }},
       {"accessors[1].count", [](GltfJson& j) { j["accessors"][1]["count"] = 2; }},
       {"accessors[3].componentType", [](GltfJson& j) { j["accessors"][3]["componentType"] = 5122; }},
-      {"meshes[0].primitives[0]: the model needs too much memory",
+      {"meshes[0].primitives[0]: needs 15259 MiB of memory",
        [](GltfJson& j) {
          j["accessors"][0] = {{"componentType", 5126}, {"count", 4000000000}, {"type", "VEC3"}},
          j["meshes"][0]["primitives"][0].erase("indices");
@@ -246,11 +246,12 @@ TEST(GltfHostile, LimitsMemory) {
   GltfJson primitives = GltfJson::array();
   for (int i = 0; i < 100; ++i) primitives.push_back({{"attributes", {{"POSITION", p}}}});
   file.add("meshes", {{"primitives", primitives}});
-  EXPECT_NE(error_of(file.text(), {.max_memory = 64u << 20}).find("the model needs too much memory; expected at most 64 MB"),
-            std::string::npos);
+  const std::string error = error_of(file.text(), {.max_memory = 64u << 20, .memory_in_use = 16u << 20});
+  EXPECT_NE(error.find(" MiB of memory in addition to "), std::string::npos) << error;
+  EXPECT_NE(error.find(" in use; expected at most 64 MiB (--max-memory)"), std::string::npos) << error;
   file = {};
   file.json["extras"] = std::vector<int>(1'000'000, 1);
-  EXPECT_NE(error_of(file.text(), {.max_memory = 64u << 20}).find("too much memory"), std::string::npos);
+  EXPECT_NE(error_of(file.text(), {.max_memory = 64u << 20}).find("expected at most 64 MiB (--max-memory)"), std::string::npos);
 }
 
 // Returns the smallest limit with which a mesh of 100,000 vertices can be read.

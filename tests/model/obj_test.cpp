@@ -252,7 +252,7 @@ TEST(Obj, RejectsFilesLargerThanMemory) {
   ReadModelOptions options;
   options.max_memory = 400;
   EXPECT_TRUE(reports(input_error([&] { read_obj_text(with_triangle("f 1 2 3 # 0123456789012345678901234567890123456789\n"), options); }),
-                      "/none/a.obj: ", {"bytes", "expected at most"}));
+                      "/none/a.obj: ", {"memory", "expected at most"}));
 }
 
 }  // namespace
