@@ -71,12 +71,14 @@ EnvironmentMap cube_of(const std::array<fs::path, 6>& files, std::array<Picture,
   for (std::size_t f = 0; f < 6; ++f) {
     auto* face = std::get_if<Image<Texel>>(&pictures[f]);
     if (face == nullptr)
-      throw InputError(files[f].string() + ": its format differs from the first face (linear or 8-bit); expected six of the same kind");
+      throw InputError(fmt::format("{}: its format differs from that of {} (linear or 8-bit); expected six of the same kind",
+                                   files[f].string(), files[0].string()));
     faces[f] = std::move(*face);
-    const int size = faces[0].width();
-    if (faces[f].width() != size || faces[f].height() != size) {
-      throw InputError(
-          fmt::format("{}: is {}x{}; expected six square faces of the same size", files[f].string(), faces[f].width(), faces[f].height()));
+    const int width = faces[f].width(), height = faces[f].height(), size = faces[0].width();
+    if (width != height) throw InputError(fmt::format("{}: is {}x{}; expected a square face", files[f].string(), width, height));
+    if (width != size) {
+      throw InputError(fmt::format("{}: is {}x{}, but {} is {}x{}; expected six faces of the same size", files[f].string(), width, height,
+                                   files[0].string(), size, size));
     }
     format = std::max(format, format_for(faces[f]));
   }

@@ -248,8 +248,14 @@ TEST_F(EnvironmentFiles, ReportsErrorsInOneLine) {
   put_face(3, 4, 5);
   EXPECT_TRUE(reports(error_of(cube()), bottom, {"4x5", "square"}));
   put_face(3, 8, 8);
-  EXPECT_TRUE(reports(error_of(cube()), bottom, {"8x8", "same size"}));
+  EXPECT_TRUE(reports(error_of(cube()), bottom + ": is 8x8, but " + (directory / "right.png").string() + " is 4x4;", {"same size"}));
   put_face(3, 4, 4);
+  put_face(0, 8, 8);
+  EXPECT_TRUE(reports(
+      error_of(cube()),
+      "environments.globe: " + (directory / "left.png").string() + ": is 4x4, but " + (directory / "right.png").string() + " is 8x8;",
+      {"same size"}));
+  put_face(0, 4, 4);
   put("left.jpg", "x");
   EXPECT_TRUE(reports(error_of(cube()), "environments.globe: " + directory.string(), {"two files", "face left"}));
   for (const std::string key : {"background.environment", "background.second"})
