@@ -7,6 +7,7 @@
 #include "cli/model_arguments.h"
 #include "halfspace/core/check.h"
 #include "halfspace/core/text.h"
+#include "halfspace/scene/scene_check.h"
 #include "halfspace/scene/scene_file.h"
 
 namespace halfspace {
@@ -44,7 +45,12 @@ void set_shading(SceneFile& scene, const std::string& rate) {
   const std::span<const std::string_view> rates = find_field(section_of(any), "shading").key->choices;
   if (std::ranges::find(rates, rate) == rates.end()) throw UsageError("--shading is '" + rate + "'" + suggestion(rate, rates));
   std::vector<std::string> settings;
-  for (const auto& [name, object] : scene.description().objects) settings.push_back("objects." + name + ".shading=" + rate);
+  for (const auto& [name, object] : scene.description().objects) {
+    if (!object.shadow_only && lack_of_effect(object, "shading").empty()) settings.push_back("objects." + name + ".shading=" + rate);
+  }
+  if (settings.empty()) {
+    throw UsageError("--shading has no effect on this scene; expected an object that is not a model, or a model with the key material");
+  }
   scene.set(settings);
 }
 

@@ -87,6 +87,7 @@ OrderedJson fitted_camera(const ModelPoses& poses, const ModelBounds& b, const F
     target = view.look_at.value_or(fit.target);
     eye = fit.eye + (target - fit.target);
   }
+  if (view.look_at && eye == target) throw InputError("--look-at: is the position of the eye; expected another point");
   if (eye == target) target = eye + glm::dvec3(0, 0, -1) * b.radius;
   const double distance = glm::distance(eye, b.center) * frame.scale, radius = b.radius * frame.scale, far = distance + 20.0 * radius;
   check_up(view.up, eye, target);

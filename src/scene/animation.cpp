@@ -7,6 +7,7 @@
 
 #include "halfspace/core/check.h"
 #include "halfspace/core/trig_double.h"
+#include "halfspace/scene/scene_check.h"
 #include "halfspace/scene/scene_paths.h"
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
@@ -73,6 +74,10 @@ void check_animation(SceneDescription& scene, const AnimationDescription& a, con
   if (key.type != KeyType::number && !is_vector(key)) {
     throw InputError(source + ": " + path + ".target: " + a.target +
                      " is neither a number nor a vector; expected the path to a number or vector");
+  }
+  if (found.words[0] == "objects") {
+    const std::string problem = lack_of_effect(*find_named(scene.objects, found.words[1]), found.words[2]);
+    if (!problem.empty()) throw InputError(source + ": " + path + ".target: " + a.target + " " + problem);
   }
   const std::size_t size = is_vector(key) ? 3 : 1;
   const auto check_size = [&](const char* name, std::size_t got) {

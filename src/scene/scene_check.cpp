@@ -7,6 +7,8 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <nlohmann/json.hpp>
+#include <vector>
 
 #include "halfspace/core/check.h"
 #include "halfspace/core/text.h"
@@ -32,6 +34,8 @@ constexpr int64_t kMaxDrawnVertices = int64_t{1} << 25;  // over all visible cop
 
 void check(const CameraDescription& c, const std::string& where) {
   if (c.near >= c.far) reject(where + ".far", "expected a value greater than near");
+  if (c.target == c.position) reject(where + ".target", "equals position; expected another point");
+  if (c.up == glm::dvec3(0.0)) reject(where + ".up", "is zero; expected a direction");
   const glm::dvec3 side = glm::cross(unit_or_zero(c.target - c.position), unit_or_zero(c.up));
   if (glm::dot(side, side) <= 1e-24) {
     reject(where + ".up", "up is parallel to the line from position to target; expected another direction");
@@ -97,6 +101,18 @@ void check(const ObjectDescription& o, const std::string& where) {
   }
 }
 
+// Rejects keys that have no effect unless they have their default values, which printed scenes contain.
+void check_effect(ObjectDescription& o, const std::string& where) {
+  if (o.shape != Shape::file) return;
+  ObjectDescription standard;
+  standard.shape = Shape::file;
+  const std::vector<Field> fields = fields_of(section_of(o)), defaults = fields_of(section_of(standard));
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    const std::string problem = lack_of_effect(o, fields[i].key->name);
+    if (!problem.empty() && value_of(fields[i]) != value_of(defaults[i])) reject(where + "." + fields[i].key->name, problem);
+  }
+}
+
 bool is_uniformly_scaled(const Placement& p) { return glm::abs(p.scale) == glm::dvec3(std::fabs(p.scale.x)); }
 
 // Checks that the ancestors of an object exist and form no cycle, and that exact spheres stay round.
@@ -140,6 +156,19 @@ std::string_view mesh_only_key(const ObjectDescription& o) {
   return std::ranges::all_of(o.instances, is_uniformly_scaled) ? "" : kInstances;
 }
 
+std::string lack_of_effect(const ObjectDescription& o, std::string_view key) {
+  if (o.shape != Shape::file) return {};
+  static const std::vector<std::string_view> surface_keys = [] {
+    SurfaceDescription surface;
+    std::vector<std::string_view> names;
+    for (const Field& field : fields_of(section_of(surface))) names.emplace_back(field.key->name);
+    return names;
+  }();
+  if (key == "height" || key.starts_with("height_")) return "has no effect on a model; expected another shape, or no such key";
+  if (!o.material.empty() || std::ranges::find(surface_keys, key) == surface_keys.end()) return {};
+  return "has no effect on a model with its own materials; expected the key material as well, or no such key";
+}
+
 bool has_uniformly_scaled_ancestors(const SceneDescription& scene, const ObjectDescription& o) {
   if (o.parent.empty()) return true;
   const ObjectDescription* parent = find_named(scene.objects, o.parent);
@@ -179,8 +208,9 @@ void check_scene(SceneDescription& scene, const std::string& source) {
       }
     }
   });
-  for (const auto& [name, object] : scene.objects) {
+  for (auto& [name, object] : scene.objects) {
     const std::string where = source + ": objects." + name;
+    check_effect(object, where);
     check_parents(scene, object, where);
     check_material_overrides(scene, object, where);
   }

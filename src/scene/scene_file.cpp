@@ -225,10 +225,12 @@ bool animates_material(SceneDescription& scene, const AnimationDescription& anim
   return find_key(scene, animation.target, "animation").words.front() == "materials";
 }
 
-void drop_foreign_keys(const Section& fields, Json& section) {
+// object: the object to which the section belongs, or null.
+void drop_foreign_keys(const Section& fields, const ObjectDescription* object, Json& section) {
   Json kept = Json::object();
   for (const auto& [name, value] : section.items()) {
-    if (name == kInstances || find_field(fields, name).key != nullptr) kept[name] = value;
+    const bool applies = find_field(fields, name).key != nullptr && (object == nullptr || lack_of_effect(*object, name).empty());
+    if (name == kInstances || applies) kept[name] = value;
   }
   section = kept;
 }
@@ -283,7 +285,9 @@ void SceneFile::set(std::span<const std::string> settings) {
     section[found.words.back()] = value_of(found.field);
     // A different kind of section can have different keys: remove those that the new kind lacks.
     const Section fields = section_at(next.description_, std::span(found.words).first(found.words.size() - 1));
-    if (found.field.key == &fields.front().keys.front() && found.field.key->type == KeyType::choice) drop_foreign_keys(fields, section);
+    if (found.field.key != &fields.front().keys.front() || found.field.key->type != KeyType::choice) continue;
+    const bool is_object = found.words.front() == "objects";
+    drop_foreign_keys(fields, is_object ? find_named(next.description_.objects, found.words[1]) : nullptr, section);
   }
   next.description_ = read_scene(json, source_, directory_);
   next.json_ = std::make_shared<const Json>(std::move(json));

@@ -202,7 +202,7 @@ class Events(Folder):
         plain = self.rendered(model)
         for options in (["--yaw", "120", "--pitch", "40", "--zoom", "1.5"], ["--eye", "2,2,2", "--look-at", "0,0.5,0", "--fov", "50"],
                         ["--up-axis", "z"], ["--environment", panorama, "--background", "environment"], ["--background", "#203040"],
-                        ["--shading", "none", "--set", "post.exposure=1"], ["--inside"]):
+                        ["--set", "post.exposure=1"], ["--inside"]):
             with self.subTest(options):
                 first = self.pictures(model, [], 1, *options)[0]
                 self.assertEqual(first, self.rendered(model, *options))
