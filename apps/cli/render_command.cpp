@@ -228,11 +228,21 @@ SceneFile chosen(const RenderJob& job) {
 
 double time_of(const RenderJob& job, int frame) { return job.time + frame / job.fps; }
 
-// Returns true if the scene has an object or particles, so that an empty picture is probably a mistake.
-bool is_meant_to_show(const SceneDescription& scene) {
-  const auto is_visible = [](const auto& object) { return object.second.visible; };
-  return std::ranges::any_of(scene.objects, is_visible) || scene.particles.count > 0 || !scene.particles.file.path.empty() ||
-         !scene.particle_systems.empty();
+bool shows_background(const SceneDescription& scene) {
+  return scene.background.type == BackgroundType::environment || scene.background.type == BackgroundType::stars;
+}
+
+// Returns what to change in a scene that draws nothing from any camera, or an empty string if it draws something.
+std::string advice_for_empty(const SceneDescription& scene) {
+  const auto has_spheres = [](const ParticlesDescription& p) { return p.count > 0 || !p.file.path.empty(); };
+  const auto is_shown = [](const auto& entry) { return entry.second.visible && !entry.second.shadow_only; };
+  const auto is_hidden = [](const auto& entry) { return !entry.second.visible && !entry.second.shadow_only; };
+  if (has_spheres(scene.particles) || std::ranges::any_of(scene.objects, is_shown) ||
+      std::ranges::any_of(scene.particle_systems, [&](const auto& entry) { return has_spheres(entry.second); }))
+    return {};
+  const auto hidden = std::ranges::find_if(scene.objects, is_hidden);
+  if (hidden == scene.objects.end()) return "a scene with objects or particles";
+  return "--set objects." + hidden->first + ".visible=true, because all objects are hidden";
 }
 
 // Returns what to change if a picture is empty.
@@ -307,8 +317,11 @@ void render_command(const RenderArguments& args) {
   RenderReport report = run(job);
   report.read_ms = read_ms;
   // A single frame of an animation may be empty on purpose.
-  if (report.pictures > 0 && report.empty_pictures == report.pictures && is_meant_to_show(job.scene.description()))
-    print_warning("nothing is visible in the picture; try " + advice_for_empty(args));
+  const std::string advice = advice_for_empty(job.scene.description());
+  // A floor covers pixels even if nothing casts a shadow on it.
+  const bool shows_floor_only = !advice.empty() && !shows_background(job.scene.description()) && !job.wireframe;
+  if (report.pictures > 0 && (shows_floor_only || report.empty_pictures == report.pictures))
+    print_warning("nothing is visible in the picture; try " + (advice.empty() ? advice_for_empty(args) : advice));
   if (report.spheres_without_wireframe) print_warning("spheres that are not meshes have no wireframe; they are drawn as surfaces");
   // If the image goes to standard output, print the reports to standard error.
   std::ostream& out = is_standard_output(job.out) ? std::cerr : std::cout;

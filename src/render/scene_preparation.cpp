@@ -20,7 +20,7 @@ ScenePreparation::ScenePreparation(const SceneDescription& scene, int width, int
       lights_(scene, view_.eye_ws, used_),
       maps_(scene, view_, minimum.map_widths, used_, workers),
       environments_(scene, view_, minimum.environments, maps_, used_, workers),
-      surfaces_(view_, lights_, maps_, environments_),
+      surfaces_(scene, view_, lights_, maps_, environments_, warnings),
       details_(maps_, used_, workers),
       materials_(view_, lights_, environments_, used_, warnings, workers),
       shapes_(scene, view_, lights_, SceneMeshes(maps_, used_, workers), surfaces_, details_, draws_),

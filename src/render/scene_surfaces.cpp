@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "halfspace/render/scene_surfaces.h"
 
+#include <algorithm>
+
+#include "halfspace/image/image_io.h"
+
 namespace halfspace::inline HS_LANES_NAMESPACE {
 
 // The map is omitted if the factor is zero or the shading rate does not read it.
@@ -16,6 +20,33 @@ void SceneSurfaces::add_factor(LitSurface& s, MaterialFactor factor, const glm::
   f.sampler = make_sampler(use.texture);
 }
 
+// Reports maps that are multiplied by zero. Their files are opened but not decoded, so that a wrong name is an error.
+void SceneSurfaces::report_unused_maps(const ObjectDescription& o, const std::string& path) {
+  const SurfaceDescription& d = o.surface;
+  const struct {
+    const char* key;
+    const MapValue& map;
+    const char* factor;
+    const Color& constant;
+  } maps[] = {{"color", d.color, "tint", d.tint},
+              {"ambient_map", d.ambient_map, "ambient", d.ambient},
+              {"diffuse_map", d.diffuse_map, "diffuse", d.diffuse},
+              {"specular_map", d.specular_map, "specular", d.specular},
+              {"shininess_map", d.shininess_map, "specular", d.specular},
+              {"emissive_map", d.emissive_map, "emissive", d.emissive}};
+  if (!d.textured) return;
+  for (const auto& m : maps) {
+    if (!is_map(m.map) || m.constant.linear != glm::dvec3(0.0)) continue;
+    const MapUse use = maps_.use_of(m.map, o);
+    const std::string where = path + "." + m.key;
+    if (use.texture.source == TextureSource::file) read_for(where, [&] { return holds_linear_numbers(use.texture.file.path); });
+    // At other times, an animation can make the factor positive.
+    const bool is_animated = std::ranges::any_of(
+        scene_.animations, [&](const auto& entry) { return entry.second.target.ends_with(std::string(".") + m.factor); });
+    if (!is_animated) warnings_.warn_once(where + ": has no effect, because " + m.factor + " is 0; expected " + m.factor + " above 0");
+  }
+}
+
 LitSurface SceneSurfaces::surface_of(const ObjectDescription& o, const std::string& path) {
   const SurfaceDescription& d = o.surface;
   LitSurface s;
@@ -23,6 +54,7 @@ LitSurface SceneSurfaces::surface_of(const ObjectDescription& o, const std::stri
   s.lights = lights_.of_surface(o.receives_shadow);
   s.shadowed = lights_.have_shadow(o.receives_shadow);
   s.two_sided = d.two_sided || o.shape == Shape::plane;
+  report_unused_maps(o, path);
   add_factor(s, kColor, d.tint.linear, d.color, o, path + ".color");
   add_factor(s, kAmbient, d.ambient.linear * lights_.ambient(), d.ambient_map, o, path + ".ambient_map");
   add_factor(s, kDiffuse, d.diffuse.linear, d.diffuse_map, o, path + ".diffuse_map");

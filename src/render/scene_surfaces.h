@@ -9,6 +9,7 @@
 #include "halfspace/render/scene_lights.h"
 #include "halfspace/render/scene_maps.h"
 #include "halfspace/render/view.h"
+#include "halfspace/render/warnings.h"
 #include "halfspace/shading/lit_surface.h"
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
@@ -16,8 +17,9 @@ namespace halfspace::inline HS_LANES_NAMESPACE {
 class SceneSurfaces {
  public:
   // Keeps references to all arguments.
-  SceneSurfaces(const View& view, const SceneLights& lights, SceneMaps& maps, SceneEnvironments& environments)
-      : view_(view), lights_(lights), maps_(maps), environments_(environments) {}
+  SceneSurfaces(const SceneDescription& scene, const View& view, const SceneLights& lights, SceneMaps& maps,
+                SceneEnvironments& environments, Warnings& warnings)
+      : scene_(scene), view_(view), lights_(lights), maps_(maps), environments_(environments), warnings_(warnings) {}
 
   // Returns the surface of an object without its transforms and without a map for per-pixel normals. path: the path of the object, for
   // error messages.
@@ -26,11 +28,14 @@ class SceneSurfaces {
  private:
   void add_factor(LitSurface& s, MaterialFactor factor, const glm::dvec3& constant, const MapValue& map, const ObjectDescription& o,
                   const std::string& where);
+  void report_unused_maps(const ObjectDescription& o, const std::string& path);
 
+  const SceneDescription& scene_;
   const View& view_;
   const SceneLights& lights_;
   SceneMaps& maps_;
   SceneEnvironments& environments_;
+  Warnings& warnings_;
 };
 
 }  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -10,6 +10,7 @@
 #include "halfspace/image/image_io.h"
 #include "halfspace/scene/scene_file.h"
 #include "render/naive_picture.h"
+#include "support/errors.h"
 #include "support/folder_test.h"
 
 namespace halfspace {
@@ -351,9 +352,12 @@ TEST_F(FactorMaps, ShininessIsNotDecodedFromSrgb) {
 }
 
 TEST_F(FactorMaps, AreLoadedOnlyIfTheyHaveAnEffect) {
+  std::vector<std::string> warnings;
   const auto uses = [&](const std::string& surface) {
     const Workers workers(1);
-    SceneAssets assets(workers);
+    SceneAssets assets(workers, [&](const std::string& warning) {
+      if (warning.starts_with("objects.")) warnings.push_back(warning);
+    });
     const PreparedScene scene = assets.prepare(parsed_at_root(scene_text(R"("objects": {"a": {"shape": "plane")" + surface + "}}")), 8, 8);
     int maps = 0;
     for (const Factor& f : surface_of(scene.draws.front()).factors) maps += f.map != nullptr;
@@ -362,8 +366,16 @@ TEST_F(FactorMaps, AreLoadedOnlyIfTheyHaveAnEffect) {
   const std::string none = "\"/none.png\"";  // loading it would throw
   EXPECT_EQ(uses(""), 0);
   EXPECT_EQ(uses(R"(, "color": )" + texel(128)), 1);
-  EXPECT_EQ(uses(R"(, "specular_map": )" + none + R"(, "emissive_map": )" + none + R"(, "shininess_map": )" + none), 0)
+  EXPECT_TRUE(warnings.empty());
+  EXPECT_EQ(uses(R"(, "specular_map": )" + texel(128) + R"(, "emissive_map": )" + texel(128) + R"(, "shininess_map": )" + texel(128)), 0)
       << "their constants are 0";
+  ASSERT_EQ(warnings.size(), 3u) << "a map that is multiplied by 0 is probably a mistake";
+  EXPECT_TRUE(reports(warnings[0], "objects.a.specular_map", {"specular is 0"}));
+  EXPECT_TRUE(reports(warnings[1], "objects.a.shininess_map", {"specular is 0"}));
+  EXPECT_TRUE(reports(warnings[2], "objects.a.emissive_map", {"emissive is 0"}));
+  for (const char* map : {"specular_map", "shininess_map", "emissive_map"})
+    EXPECT_TRUE(
+        reports(input_error([&] { uses(std::string(", \"") + map + "\": " + none); }), std::string("objects.a.") + map, {"/none.png"}));
   EXPECT_EQ(uses(R"(, "ambient_map": )" + none), 0) << "there is no ambient light";
   EXPECT_EQ(uses(R"(, "shading": "none", "diffuse_map": )" + none), 0);
   EXPECT_EQ(uses(R"(, "textured": false, "color": )" + none), 0);
