@@ -9,6 +9,7 @@
 
 #include "cli/commands.h"
 #include "halfspace/core/check.h"
+#include "halfspace/render/model_scene.h"
 #include "halfspace/scene/scene_file.h"
 #include "halfspace/scene/scene_paths.h"
 
@@ -69,6 +70,13 @@ void list_paths(const std::string& name) {
   }
 }
 
+// Throws InputError for a model file, which other commands accept in place of a scene.
+void reject_model(const std::string& name) {
+  if (!is_model_file(name)) return;
+  throw InputError(name + ": is a model file, which has no keys; expected a scene or a scene file (use 'halfspace render " + name +
+                   " --print' to print the scene that shows a model)");
+}
+
 }  // namespace
 
 void list_command(const ListArguments& args) {
@@ -77,6 +85,7 @@ void list_command(const ListArguments& args) {
   } else if (args.scene.empty()) {
     list_scenes(args.names);
   } else {
+    reject_model(args.scene);
     args.names ? list_paths(args.scene) : list_keys(args.scene);
   }
 }

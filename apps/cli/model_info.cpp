@@ -5,10 +5,13 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <unordered_map>
 
 #include "cli/errors.h"
+#include "halfspace/core/check.h"
 #include "halfspace/core/resource_limits.h"
 #include "halfspace/core/text.h"
 #include "halfspace/image/image_size.h"
@@ -16,6 +19,7 @@
 #include "halfspace/model/pose.h"
 #include "halfspace/model/position_ids.h"
 #include "halfspace/model/used_images.h"
+#include "halfspace/scene/scene_file.h"
 
 namespace halfspace {
 
@@ -117,11 +121,34 @@ OrderedJson images_of(Model& model) {
   return list;
 }
 
+// Returns true if the name is that of a shipped scene, or of a JSON file that begins like a scene file.
+bool is_scene(const std::string& name) {
+  std::error_code error;
+  if (!std::filesystem::exists(name, error))
+    return std::ranges::any_of(shipped_scenes(), [&](const ShippedScene& scene) { return scene.name == name; });
+  constexpr std::uintmax_t kMaxBytes = std::uintmax_t{4} << 20;  // as for scene files
+  if (!std::filesystem::is_regular_file(name, error) || std::filesystem::file_size(name, error) > kMaxBytes) return false;
+  std::ifstream file(name, std::ios::binary);
+  const nlohmann::json json = nlohmann::json::parse(file, nullptr, false, true);
+  return json.is_object() && json.contains("version") && !json.contains("asset");
+}
+
+// Reads the model. An error in a scene names the commands for scenes.
+Model read_described_model(const InfoArguments& args) {
+  try {
+    return read_model(args.model, {.allow_outside = args.allow_outside});
+  } catch (const InputError&) {
+    if (!is_scene(args.model)) throw;
+    throw InputError(
+        fmt::format("{0}: is a scene; expected a model file (use 'halfspace list {0}' to list the keys of the scene)", args.model));
+  }
+}
+
 OrderedJson describe(const InfoArguments& args) {
   const std::filesystem::path file = args.model;
   if (!args.up_axis.empty() && args.up_axis != "y" && args.up_axis != "z")
     throw UsageError("--up-axis is '" + args.up_axis + "'; expected y or z");
-  Model model = read_model(file, {.allow_outside = args.allow_outside});
+  Model model = read_described_model(args);
   if (!args.up_axis.empty()) model.up = args.up_axis == "z" ? UpAxis::z : UpAxis::y;
   const PosedModel posed = pose(model, {});
   std::size_t vertices = 0;

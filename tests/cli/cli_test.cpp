@@ -117,6 +117,8 @@ const Mistake kMistakes[] = {
     {"ControlCharacters", {"render", "a\nb\x1b"}, 3, "unknown scene", {"'a\\x0ab\\x1b'", shipped_scenes()}},
     {"PrintChecksToo", {"render", "earth", "--print", "--size", "bogus"}, 2, "--size", {"'bogus'", "WxH"}},
     {"ListUnknown", {"list", "eart"}, 3, "unknown scene", {"'eart'", "'earth'"}},
+    {"ListModel", {"list", "a/Box.glb"}, 3, "a/Box.glb: is a model file", {"a scene file", "render a/Box.glb --print"}},
+    {"InfoScene", {"info", "shapes"}, 3, "shapes: is a scene", {"model file", "list shapes"}},
     {"ValidateNothing", {"validate"}, 2, "SCENE", {"required", "--table", "validate --help"}},
     {"ValidateBoth", {"validate", "earth", "--table"}, 2, "--table", {"SCENE"}},
     {"ValidateFull", {"validate", "earth", "--full"}, 2, "--full", {"--table"}},
