@@ -50,6 +50,7 @@ std::string_view nearest_name(std::string_view wrong, std::span<const std::strin
 
 std::string suggestion(std::string_view wrong, std::span<const std::string_view> names) {
   if (const std::string_view name = nearest_name(wrong, names); !name.empty()) return "; did you mean '" + std::string(name) + "'?";
+  if (names.empty()) return "; expected none, because none is defined";
   std::string text = names.size() == 1 ? "; expected " : "; expected one of ";
   for (std::size_t i = 0; i < names.size(); ++i) text += (i == 0 ? "" : ", ") + std::string(names[i]);
   return text;

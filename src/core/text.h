@@ -20,7 +20,8 @@ int edit_distance(std::string_view a, std::string_view b);
 /// is close, i.e. if all distances are greater than 2 and greater than a third of the length of `wrong`.
 std::string_view nearest_name(std::string_view wrong, std::span<const std::string_view> names);
 
-/// Returns "; did you mean 'NAME'?" or, if no name is close, "; expected one of A, B, C". Meant to be appended to an error line.
+/// Returns "; did you mean 'NAME'?" or, if no name is close, "; expected one of A, B, C". Returns "; expected none, because
+/// none is defined" if there are no names. Meant to be appended to an error line.
 std::string suggestion(std::string_view wrong, std::span<const std::string_view> names);
 
 /// Returns the text with every control character, and every byte that is not part of valid UTF-8, replaced by \xHH. Texts from files and

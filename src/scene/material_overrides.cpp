@@ -36,6 +36,13 @@ void for_each_override(std::string_view list, F visit) {
 
 }  // namespace
 
+std::string no_material(const SceneDescription& scene, std::string_view name) {
+  const std::string problem = "no material '" + std::string(name) + "'";
+  if (!scene.materials.empty()) return problem + suggestion(name, names_of(scene.materials));
+  return problem +
+         R"(, because the scene has none; expected one that the scene file defines, for example "materials": {"red": {"color": "#c02020"}})";
+}
+
 const SurfaceDescription* override_of(const SceneDescription& scene, const ObjectDescription& o, std::string_view name) {
   const SurfaceDescription* found = nullptr;
   for_each_override(o.model_materials, [&](std::string_view of, std::string_view material) {
@@ -49,9 +56,7 @@ void check_material_overrides(const SceneDescription& scene, const ObjectDescrip
     if (of.empty() || material.empty())
       throw InputError(where + ".model_materials: '" + o.model_materials +
                        "'; expected NAME=MATERIAL[, NAME=MATERIAL...], where each NAME is a material of the model");
-    if (find_named(scene.materials, material) == nullptr)
-      throw InputError(where + ".model_materials: no material '" + std::string(material) + "'" +
-                       suggestion(material, names_of(scene.materials)));
+    if (find_named(scene.materials, material) == nullptr) throw InputError(where + ".model_materials: " + no_material(scene, material));
   });
 }
 

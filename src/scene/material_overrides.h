@@ -10,6 +10,9 @@
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
 
+/// Returns an error about a name that no material of the scene has: "no material 'red'; expected ...".
+std::string no_material(const SceneDescription& scene, std::string_view name);
+
 /// Returns the material of the scene that replaces the material `name` of the object's model file: the entry of `model_materials` for that
 /// name, or else the object's `material`. Returns null if the model keeps its own. The object must have passed check_material_overrides.
 const SurfaceDescription* override_of(const SceneDescription& scene, const ObjectDescription& o, std::string_view name);

@@ -15,6 +15,7 @@
 #include "halfspace/core/text.h"
 #include "halfspace/scene/animation.h"
 #include "halfspace/scene/scene_check.h"
+#include "halfspace/scene/material_overrides.h"
 #include "halfspace/scene/scene_paths.h"
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
@@ -154,7 +155,7 @@ class Reader {
       const auto& name = json["material"].get_ref<const std::string&>();
       SurfaceDescription* material = find_named(scene_.materials, name);
       if (material == nullptr) {
-        fail(context_.source, path + ".material: no material '" + name + "'" + suggestion(name, names_of(scene_.materials)));
+        fail(context_.source, path + ".material: " + no_material(scene_, name));
       }
       object.surface = *material;
     }

@@ -32,6 +32,7 @@ TEST(NearestName, SuggestionCompletesAnErrorMessage) {
   constexpr std::array<std::string_view, 2> names = {"earth", "moon"};
   EXPECT_EQ(suggestion("erth", names), "; did you mean 'earth'?");
   EXPECT_EQ(suggestion("teapot", names), "; expected one of earth, moon");
+  EXPECT_EQ(suggestion("teapot", {}), "; expected none, because none is defined");
 }
 
 TEST(Text, PrintableEscapesControlCharactersAndInvalidUtf8) {
