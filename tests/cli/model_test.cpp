@@ -293,6 +293,7 @@ TEST_F(Models, MistakesAreReportedInOneLine) {
   write("empty.obj", "");
   write("tiny.obj", cube(0.0, 1e-40));
   write("cube", cube(0.0, 1.0));
+  write("scene.json", "// a comment\n{\"version\": 1}");
   struct WrongCommand {
     std::vector<std::string> words;
     int exit_code;
@@ -305,6 +306,7 @@ TEST_F(Models, MistakesAreReportedInOneLine) {
       {{"render", "tiny.obj"}, 3, "tiny.obj: the model is too small"},
       {{"render", "cube"}, 3, "cube: the format is not recognized"},
       {{"info", "none.glb"}, 3, "none.glb"},
+      {{"info", "scene.json"}, 3, "scene.json: is a scene; expected a model file (use 'halfspace list scene.json'"},
       {{"render", "cube.obj", "--yaw", "much"}, 2, "--yaw"},
       {{"render", "cube.obj", "--eye", "1,2"}, 2, "--eye"},
       {{"render", "cube.obj", "--up-axis", "x"}, 2, "--up-axis"},
