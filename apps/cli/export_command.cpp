@@ -39,12 +39,12 @@ ExportSource model_source(const ExportArguments& args) {
   return {std::move(model), std::move(inputs)};
 }
 
-ExportSource scene_source(const ExportArguments& args, const Workers& workers) {
+ExportSource scene_source(const ExportArguments& args, bool with_lights, const Workers& workers) {
   SceneFile file = SceneFile::open(args.scene);
   if (args.allow_outside) allow_outside(file);
   set_scene(file, args.set, "");
   SceneAssets assets(workers);
-  Model model = scene_model(file.at(0.0), assets);
+  Model model = scene_model(file.at(0.0), assets, with_lights);
   std::vector<std::filesystem::path> inputs = input_files(file.description(), args.scene, {});
   for (const std::filesystem::path& input : files_of(model)) inputs.push_back(input);
   return {std::move(model), std::move(inputs)};
@@ -59,9 +59,12 @@ void export_command(const ExportArguments& args) {
   if (!format) throw UsageError("-o is '" + args.out + "'; expected a file name ending in .glb, .gltf, .obj, .ply or .stl");
   const StageDisplay display("exporting " + args.scene);
   const Workers workers(parse_threads(args.threads));
-  ExportSource source = is_model_file(args.scene) ? model_source(args) : scene_source(args, workers);
+  const bool is_gltf = *format == ModelFormat::glb || *format == ModelFormat::gltf;
+  ExportSource source = is_model_file(args.scene) ? model_source(args) : scene_source(args, is_gltf, workers);
+  if (source.model.meshes.empty())
+    throw InputError(args.scene + ": has no meshes to export; expected at least one (particles are not exported)");
   embed_images(source.model, args.scene);
-  if (*format == ModelFormat::glb || *format == ModelFormat::gltf) pack_maps(source.model, args.scene);
+  if (is_gltf) pack_maps(source.model, args.scene);
   const WrittenModel written = written_model(source.model, out, *format);
   for (const ModelFile& file : written.files) reject_overwriting(out.parent_path() / file.name, source.inputs);
   for (const std::span<const std::string> warnings : {std::span<const std::string>(source.model.warnings), {written.warnings}}) {

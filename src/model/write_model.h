@@ -42,8 +42,8 @@ struct WrittenModel {
 ///   coordinates if any mesh has them.
 /// stl: the triangles in world space, binary, z up.
 ///
-/// obj, ply and stl contain the default scene without animation. Throws OutputError if the model contains nothing that the format can
-/// store, or more than it can address.
+/// obj, ply and stl contain the default scene without animation. Throws InputError if the model contains nothing that the format can
+/// store, and OutputError if it contains more than the format can address.
 WrittenModel written_model(const Model& model, const std::filesystem::path& file, ModelFormat format);
 
 /// Returns ".png" or ".jpg" for an image in a format that all glTF readers support, otherwise an empty string.

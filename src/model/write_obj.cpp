@@ -136,7 +136,7 @@ WrittenModel write_obj(const Model& model, const std::string& stem) {
   const PosedModel posed = pose(model, {});
   ObjWriter writer(material_names);
   for (const PosedMesh& part : posed.meshes) writer.add(WorldMesh(model, part));
-  if (writer.empty()) throw OutputError(stem + ".obj: the model has no vertices; expected a mesh");
+  if (writer.empty()) throw InputError(stem + ".obj: the model has no vertices; expected a mesh");
   std::string text;
   const bool has_library = !model.materials.empty() || writer.has_default_material();
   if (has_library) text = "mtllib " + stem + ".mtl\n";

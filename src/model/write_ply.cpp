@@ -109,7 +109,7 @@ class PlyWriter {
 WrittenModel write_ply(const Model& model, const std::string& stem) {
   const PosedModel posed = pose(model, {});
   const PlyWriter writer(model, posed);
-  if (writer.vertices() == 0) throw OutputError(stem + ".ply: the model has neither triangles nor points; expected one of them");
+  if (writer.vertices() == 0) throw InputError(stem + ".ply: the model has neither triangles nor points; expected one of them");
   if (writer.vertices() > 0xffffffffu) throw OutputError(stem + ".ply: more than 2^32 - 1 vertices; expected fewer");
   WrittenModel written;
   written.files.push_back({stem + ".ply", writer.bytes()});

@@ -43,7 +43,7 @@ WrittenModel write_stl(const Model& model, const std::string& stem) {
     triangles += mesh.triangles();
     has_lines_or_points = has_lines_or_points || mesh.mesh().topology != MeshTopology::triangles;
   }
-  if (triangles == 0) throw OutputError(stem + ".stl: the model has no triangles; expected triangles");
+  if (triangles == 0) throw InputError(stem + ".stl: the model has no triangles; expected triangles");
   if (triangles > 0xffffffffu) throw OutputError(stem + ".stl: more than 2^32 - 1 triangles; expected fewer");
   const auto count = static_cast<uint32_t>(triangles);
   std::copy_n(reinterpret_cast<const std::byte*>(&count), sizeof count, bytes.begin() + kStlHeader);

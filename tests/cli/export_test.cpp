@@ -124,6 +124,27 @@ TEST_F(Export, WarnsAboutOmissions) {
   EXPECT_NE(o.err.find("environments and backgrounds are omitted"), std::string::npos) << o.err;
 }
 
+// OBJ, PLY and STL store no lights, so nothing is lost by converting them.
+TEST_F(Export, WarnsAboutLightsOnlyIfTheFormatStoresThem) {
+  write("scene.json", R"({"version": 1, "lights": {"lamp": {"type": "point", "specular": 0.5}}, "objects": {"a": {"shape": "cube"}}})");
+  for (const std::string file : {"a.glb", "a.gltf", "a.obj", "a.ply", "a.stl"}) {
+    const Outcome o = run({"export", "scene.json", "-o", file});
+    EXPECT_EQ(o.exit_code, 0) << o.err;
+    const bool is_gltf = file.starts_with("a.gl");
+    EXPECT_EQ(o.err.find("physical falloff") != std::string::npos, is_gltf) << file << ": " << o.err;
+    EXPECT_EQ(o.err.find("diffuse and specular light") != std::string::npos, is_gltf) << file << ": " << o.err;
+  }
+}
+
+TEST_F(Export, RejectsScenesWithoutMeshes) {
+  for (const char* file : {"a.glb", "a.gltf", "a.obj", "a.ply", "a.stl"}) {
+    const Outcome o = run({"export", "particles", "-o", file});
+    EXPECT_EQ(o.exit_code, 3) << file;
+    EXPECT_EQ(o.err, "halfspace: particles: has no meshes to export; expected at least one (particles are not exported)\n");
+    EXPECT_FALSE(fs::exists(directory / file));
+  }
+}
+
 TEST_F(Export, WarningsOfReadersNameTheModelFile) {
   write("a.obj", "mtllib a.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   write("a.mtl", "newmtl m\nKd x\n");

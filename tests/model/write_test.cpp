@@ -486,7 +486,7 @@ TEST(WriteModel, RejectsModelsThatTheFormatCannotStore) {
   Model model;
   model.scenes.emplace_back();
   for (const ModelFormat format : {ModelFormat::obj, ModelFormat::ply, ModelFormat::stl})
-    EXPECT_TRUE(reports(output_error([&] { written_model(model, "a.x", format); }), "a.", {"expected"}));
+    EXPECT_TRUE(reports(input_error([&] { written_model(model, "a.x", format); }), "a.", {"expected"}));
   EXPECT_EQ(written_model(model, "a.glb", ModelFormat::glb).files.size(), 1u);
 }
 

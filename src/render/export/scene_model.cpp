@@ -80,10 +80,12 @@ class SceneExporter {
     add_object_nodes();
   }
 
-  Model model() {
+  Model model(bool with_lights) {
     add_meshes();
     for (const auto& [name, camera] : scene_.cameras) add_camera(name, camera);
-    for (const auto& [name, light] : scene_.lights) add_light(name, light);
+    if (with_lights) {
+      for (const auto& [name, light] : scene_.lights) add_light(name, light);
+    }
     warn_about_omissions();
     return std::move(model_);
   }
@@ -249,7 +251,7 @@ class SceneExporter {
 
 }  // namespace
 
-Model scene_model(SceneDescription scene, SceneAssets& assets) {
+Model scene_model(SceneDescription scene, SceneAssets& assets, bool with_lights) {
   const FloatMode float_mode;
   scene.shadow.method = ShadowMethod::none;
   for (auto& [name, object] : scene.objects) {
@@ -265,7 +267,7 @@ Model scene_model(SceneDescription scene, SceneAssets& assets) {
     if (object.shape == Shape::file && object.visible)
       exporter.add_file(name, object, read_model(object.file.path, {.allow_outside = object.allow_outside}));
   }
-  return exporter.model();
+  return exporter.model(with_lights);
 }
 
 }  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -16,8 +16,9 @@
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
 
-/// Returns the scene as a model with images in memory. Model::warnings has one line for each kind of data that is omitted. Throws
-/// InputError if a file that the scene refers to cannot be used.
-Model scene_model(SceneDescription scene, SceneAssets& assets);
+/// Returns the scene as a model with images in memory. Model::warnings has one line for each kind of data that is omitted. with_lights:
+/// false for formats that cannot store lights. The model then has none, and there are no warnings about their conversion. Throws InputError
+/// if a file that the scene refers to cannot be used.
+Model scene_model(SceneDescription scene, SceneAssets& assets, bool with_lights = true);
 
 }  // namespace halfspace::inline HS_LANES_NAMESPACE
