@@ -39,8 +39,10 @@ PassStatistics draw_naive_picture(const PreparedScene& scene, const FrameImages&
 }
 
 std::string naive_line(const NaiveReport& r, int threads) {
-  return fmt::format("naive pipeline: {} of {} pixels differ; {:.1f} times slower ({:.1f} ms instead of {:.1f} ms with {} thread{})\n",
-                     r.differing, r.pixels, r.naive_ms / r.tiles_ms, r.naive_ms, r.tiles_ms, threads, threads == 1 ? "" : "s");
+  const double ratio = r.naive_ms / r.tiles_ms;
+  return fmt::format(
+      "naive pipeline: {} of {} pixels differ; takes {:.{}f} times as long ({:.1f} ms instead of {:.1f} ms with {} thread{})\n",
+      r.differing, r.pixels, ratio, ratio < 1.0 ? 2 : 1, r.naive_ms, r.tiles_ms, threads, threads == 1 ? "" : "s");
 }
 
 }  // namespace halfspace
