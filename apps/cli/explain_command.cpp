@@ -61,7 +61,7 @@ void explain_command(const ExplainArguments& args) {
   if (args.text && args.json) throw UsageError("--text and --json cannot be combined; expected at most one of them");
   const bool is_page = !args.text && !args.json;
   if (!is_page && !args.out.empty()) throw UsageError("-o applies only to the page; expected it without --text and --json");
-  const double time = args.time.empty() ? 0.0 : parse_real("--time", args.time, -1e9, 1e9, "seconds, for example 2.5");
+  const double time = args.time.empty() ? 0.0 : parse_real("--time", args.time, -1e9, 1e9, "-1e9 to 1e9 seconds, for example 2.5");
   const Workers workers(parse_threads(args.threads));
   check_picture(size, sizeof(glm::vec4));
   const std::filesystem::path out = is_page ? page_path(args) : std::filesystem::path();

@@ -26,7 +26,8 @@ FrameRange parse_frames(std::string_view text) {
     const FrameRange range{parse_number(text.substr(0, dots)), parse_number(text.substr(dots + 2))};
     if (range.first >= 0 && range.last >= range.first && range.last < kMaxFrames) return range;
   }
-  throw UsageError("--frames is '" + std::string(text) + "'; expected FIRST..LAST, for example 0..47");
+  throw UsageError("--frames is '" + std::string(text) + "'; expected FIRST..LAST with FIRST at most LAST and LAST below " +
+                   std::to_string(kMaxFrames) + ", for example 0..47");
 }
 
 std::filesystem::path frame_path(const std::filesystem::path& out, int frame, const FrameRange& range) {

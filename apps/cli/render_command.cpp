@@ -68,9 +68,10 @@ ImageFile output_format(const std::filesystem::path& path) {
 std::optional<AllowedError> allowed_error(const RenderArguments& args) {
   if (args.max_error.empty() && args.max_error_color.empty()) return std::nullopt;
   AllowedError allowed;
-  if (!args.max_error.empty()) allowed.edge_px = parse_real("--max-error", args.max_error, 0.01, 100.0, "pixels, for example 0.5");
+  if (!args.max_error.empty())
+    allowed.edge_px = parse_real("--max-error", args.max_error, 0.01, 100.0, "0.01 to 100 pixels, for example 0.5");
   if (!args.max_error_color.empty())
-    allowed.color = parse_real("--max-error-color", args.max_error_color, 0.1, 255.0, "8-bit steps (1 of 255), for example 4");
+    allowed.color = parse_real("--max-error-color", args.max_error_color, 0.1, 255.0, "0.1 to 255 8-bit steps, for example 4");
   return allowed;
 }
 
@@ -101,8 +102,9 @@ RenderJob parse_job(const RenderArguments& args) {
   if (args.statistics != "" && args.statistics != "text" && args.statistics != "json") {
     throw UsageError("--stats is '" + args.statistics + "'; expected --stats or --stats=json");
   }
-  const double time = args.time.empty() ? 0.0 : parse_real("--time", args.time, -1e9, 1e9, "seconds, for example 2.5");
-  const double fps = args.fps.empty() ? 30.0 : parse_real("--fps", args.fps, 1e-3, 1e6, "frames per second, for example 30");
+  const double time = args.time.empty() ? 0.0 : parse_real("--time", args.time, -1e9, 1e9, "-1e9 to 1e9 seconds, for example 2.5");
+  const double fps =
+      args.fps.empty() ? 30.0 : parse_real("--fps", args.fps, 1e-3, 1e6, "0.001 to 1000000 frames per second, for example 30");
   std::optional<FrameRange> frames;
   if (!args.frames.empty()) frames = parse_frames(args.frames);
   if (const std::optional<int> turn = turntable_frames(args.model)) {

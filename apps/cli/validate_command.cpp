@@ -74,8 +74,8 @@ void validate_command(const ValidateArguments& args) {
                                 : "SCENE or --table is required; see 'halfspace validate --help'");
   }
   if (args.table) return print_table(args, size, workers);
-  const double time = args.time.empty() ? 0.0 : parse_real("--time", args.time, -1e9, 1e9, "seconds, for example 2.5");
-  const double rays = args.rays.empty() ? 1024.0 : parse_real("--rays", args.rays, 1, 1e6, "rays per pixel, for example 1024");
+  const double time = args.time.empty() ? 0.0 : parse_real("--time", args.time, -1e9, 1e9, "-1e9 to 1e9 seconds, for example 2.5");
+  const double rays = args.rays.empty() ? 1024.0 : parse_real("--rays", args.rays, 1, 1e6, "1 to 1000000 rays per pixel, for example 1024");
   OpenedScene opened = open_scene_or_model(args.scene, args.model, args.camera, static_cast<double>(size.width) / size.height, 30.0,
                                            args.time.empty() ? std::vector<double>{} : std::vector{time});
   set_scene(opened, args.set, args.camera);

@@ -56,8 +56,8 @@ ViewOptions options_of(const ViewArguments& args) {
   options.width = size.width;
   options.height = size.height;
   options.threads = parse_threads(args.threads);
-  options.ui_scale =
-      args.ui_scale.empty() ? default_ui_scale() : parse_real("--ui-scale", args.ui_scale, 0.5, 4.0, "a factor, for example 2");
+  options.ui_scale = args.ui_scale.empty() ? default_ui_scale()
+                                           : parse_real("--ui-scale", args.ui_scale, 0.5, 4.0, "a factor from 0.5 to 4, for example 2");
   if (!args.frames.empty()) {
     const int frames = parse_number(args.frames);
     if (frames < 1) throw UsageError("--frames is '" + args.frames + "'; expected a number of frames of at least 1");
@@ -80,7 +80,7 @@ void print(const RunTimes& times, const ViewOptions& options) {
 void run(const ViewArguments& args) {
   set_limits(args.limits);
   const ViewOptions options = options_of(args);
-  const double time = args.time.empty() ? 0.0 : parse_real("--time", args.time, -1e9, 1e9, "seconds, for example 2.5");
+  const double time = args.time.empty() ? 0.0 : parse_real("--time", args.time, -1e9, 1e9, "-1e9 to 1e9 seconds, for example 2.5");
   OpenedScene opened = open_scene_or_model(args.scene, args.model, args.camera, static_cast<double>(options.width) / options.height, 30.0,
                                            args.time.empty() ? std::vector<double>{} : std::vector{time});
   set_scene(opened, args.set, args.camera);

@@ -21,14 +21,6 @@ constexpr double kMinPause = 1e-6;  // minimum time between keyframes, in second
   throw InputError(c.source + ": " + path + ": " + what);
 }
 
-// Formats a value for a message: short, on one line.
-std::string shown(const Json& json) {
-  if (json.is_number()) return number_text(json.get<double>());  // 1, not 1.0: numbers from the command line are doubles
-  std::string text = json.dump(-1, ' ', true, Json::error_handler_t::replace);
-  if (text.size() > 40) text = text.substr(0, 37) + "...";
-  return text;
-}
-
 // Returns an integer without an exponent, and other numbers like number_text.
 std::string integer_text(double x) {
   constexpr double kMaxExact = 1e15;
@@ -188,6 +180,13 @@ std::optional<Json> parse_numbers(std::string_view text) {
 }
 
 }  // namespace
+
+std::string shown(const Json& json) {
+  if (json.is_number()) return number_text(json.get<double>());  // 1, not 1.0: numbers from the command line are doubles
+  std::string text = json.dump(-1, ' ', true, Json::error_handler_t::replace);
+  if (text.size() > 40) text = text.substr(0, 37) + "...";
+  return text;
+}
 
 std::string number_text(double x) {
   std::array<char, 32> text{};

@@ -167,6 +167,9 @@ Json parse_text(const Key& key, std::string_view text, const std::string& path, 
 /// Returns the shortest decimal that reads back as x.
 std::string number_text(double x);
 
+/// Formats a value for a message: short, on one line.
+std::string shown(const Json& json);
+
 /// Describes the expected value in words: "a number from 1 to 180 (degrees)".
 std::string expectation(const Key& key);
 

@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -14,8 +15,8 @@
 #include "halfspace/core/float_mode.h"
 #include "halfspace/core/text.h"
 #include "halfspace/scene/animation.h"
-#include "halfspace/scene/scene_check.h"
 #include "halfspace/scene/material_overrides.h"
+#include "halfspace/scene/scene_check.h"
 #include "halfspace/scene/scene_paths.h"
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
@@ -30,30 +31,71 @@ constexpr int kMaxLevels = 32;
 
 // ---- text → JSON -----------------------------------------------------------------------------------------------
 
+// Iterator over a text that keeps track of how much of it the parser has read.
+class TrackedText {
+ public:
+  using iterator_category = std::input_iterator_tag;
+  using value_type = char;
+  using difference_type = std::ptrdiff_t;
+  using pointer = const char*;
+  using reference = const char&;
+
+  TrackedText(const char* at, const char*& read) : at_(at), read_(&read) {}
+  reference operator*() const { return *at_; }
+  TrackedText& operator++() {
+    *read_ = ++at_;
+    return *this;
+  }
+  bool operator==(const TrackedText& other) const { return at_ == other.at_; }
+
+ private:
+  const char* at_;
+  const char** read_;
+};
+
 // Parser callback that rejects duplicate names in an object, which JSON libraries silently drop, and deep nesting, which could exhaust the
-// stack.
+// stack. read: end of the part of the text that has been read, which is behind the name when the parser reports a name.
 class OnceOnly {
  public:
-  explicit OnceOnly(const std::string& source) : source_(source) {}
+  OnceOnly(std::string_view text, const char* const& read, const std::string& source) : text_(text), read_(read), source_(source) {}
   bool operator()(int depth, Json::parse_event_t event, Json& parsed) {
-    if (depth > kMaxLevels) fail(source_, fmt::format("is nested deeper than {} levels", kMaxLevels));
+    if (depth > kMaxLevels) fail_at(read_ - 1, fmt::format("is nested deeper than {} levels; expected fewer", kMaxLevels));
     if (event == Json::parse_event_t::object_start) names_.emplace_back();
     if (event == Json::parse_event_t::object_end) names_.pop_back();
     if (event == Json::parse_event_t::key && !names_.back().insert(parsed.get<std::string>()).second) {
-      fail(source_, "'" + parsed.get<std::string>() + "' occurs twice in one object; expected each name once");
+      fail_at(start_of_name(), "'" + parsed.get<std::string>() + "' occurs twice in one object; expected each name once");
     }
-    if (!names_.empty() && names_.back().size() > kMaxNames) fail(source_, fmt::format("an object has more than {} names", kMaxNames));
+    if (!names_.empty() && names_.back().size() > kMaxNames)
+      fail_at(read_ - 1, fmt::format("an object has more than {} names; expected fewer", kMaxNames));
     return true;
   }
 
  private:
+  [[noreturn]] void fail_at(const char* place, const std::string& what) const {
+    fail(source_ + ":" + line_and_column(text_, static_cast<std::size_t>(place - text_.data()) + 1), what);
+  }
+
+  // Returns the quote at the start of the name that was read last. Quotes within the name follow an odd number of backslashes.
+  const char* start_of_name() const {
+    for (const char* quote = read_ - 2;; --quote) {
+      if (*quote != '"') continue;
+      const char* other = quote;
+      while (other[-1] == '\\') --other;
+      if ((quote - other) % 2 == 0) return quote;
+    }
+  }
+
+  std::string_view text_;
+  const char* const& read_;
   const std::string& source_;
   std::vector<std::set<std::string>> names_;
 };
 
 Json parse_json(std::string_view text, const std::string& source) {
   try {
-    return Json::parse(text.begin(), text.end(), OnceOnly(source), true, true);
+    const char* read = text.data();
+    return Json::parse(TrackedText(text.data(), read), TrackedText(text.data() + text.size(), read), OnceOnly(text, read, source), true,
+                       true);
   } catch (const Json::parse_error& e) {
     fail(source + ":" + line_and_column(text, e.byte), "invalid JSON: " + json_problem(e));
   } catch (const Json::out_of_range& e) {
@@ -121,7 +163,8 @@ class Reader {
  private:
   void check_version() const {
     if (!json_.contains("version")) fail(context_.source, fmt::format("version: missing; expected \"version\": {}", SceneFile::kVersion));
-    if (json_["version"] != SceneFile::kVersion) fail(context_.source, fmt::format("version: expected {}", SceneFile::kVersion));
+    if (json_["version"] != SceneFile::kVersion)
+      fail(context_.source, fmt::format("version: expected {}, got {}", SceneFile::kVersion, shown(json_["version"])));
   }
 
   const Json& collection(const char* name) const {
