@@ -89,7 +89,10 @@ def command_line(program):
     overview = output_of(program, "--help")
     text = ["# Command line\n", NOTE, f"```text\n{overview.strip()}\n```\n"]
     for command in commands_of(overview):
-        text += [f"## halfspace {command}\n", f"```text\n{output_of(program, command, '--help').strip()}\n```\n"]
+        help_text = output_of(program, command, "--help")
+        text += [f"## halfspace {command}\n", f"```text\n{help_text.strip()}\n```\n"]
+        for option in sorted(set(re.findall(r"--help-[a-z]+", help_text))):
+            text.append(f"`halfspace {command} {option}`:\n\n```text\n{output_of(program, command, option).strip()}\n```\n")
     return "\n".join(text)
 
 

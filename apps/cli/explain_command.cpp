@@ -36,7 +36,6 @@ std::optional<glm::ivec2> parse_pixel(const std::string& text, const PictureSize
 }
 
 OpenedScene open_explained_scene(const ExplainArguments& args, const PictureSize& size, double time) {
-  if (!args.model.turntable.empty()) throw UsageError("--turntable does not apply to explain; expected --yaw or --time");
   const std::vector<double> times = args.time.empty() ? std::vector<double>{} : std::vector{time};
   OpenedScene opened = open_scene_or_model(args.scene, args.model, args.camera, static_cast<double>(size.width) / size.height, 30.0, times);
   set_scene(opened, args.set, args.camera);

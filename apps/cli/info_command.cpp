@@ -25,21 +25,23 @@ constexpr const char* kCompiler =
 #endif
 
 void print_text() {
-  const std::filesystem::path tool = find_image_tool(), draco = find_draco_tool();
+  const std::filesystem::path tool = find_image_tool(), jpeg = find_jpeg_tool(), draco = find_draco_tool();
   std::cout << "halfspace " << HALFSPACE_VERSION << '\n'
             << "build         " << build_description() << ", " << kCompiler << '\n'
             << "cores         " << Workers::cores() << '\n'
             << "draco tool    " << (draco.empty() ? "not found: glTF meshes that are compressed with Draco cannot be read" : draco.string())
             << '\n'
-            << "image tool    "
-            << (tool.empty() ? "not found: only PNG images, and JPEG if its decoder is installed, can be read" : tool.string()) << '\n';
+            << "image tool    " << (tool.empty() ? "not found: only PNG images and, with the JPEG tool, JPEG can be read" : tool.string())
+            << '\n'
+            << "jpeg tool     " << (jpeg.empty() ? "not found: JPEG images need the image tool" : jpeg.string()) << '\n';
 }
 
 void print_json() {
-  const std::filesystem::path tool = find_image_tool(), draco = find_draco_tool();
+  const std::filesystem::path tool = find_image_tool(), jpeg = find_jpeg_tool(), draco = find_draco_tool();
   nlohmann::ordered_json json = {{"version", HALFSPACE_VERSION}, {"arch", build_arch()},  {"lanes", kLanes},      {"compiler", kCompiler},
-                                 {"cores", Workers::cores()},    {"image_tool", nullptr}, {"draco_tool", nullptr}};
+                                 {"cores", Workers::cores()},    {"image_tool", nullptr}, {"jpeg_tool", nullptr}, {"draco_tool", nullptr}};
   if (!tool.empty()) json["image_tool"] = tool.string();
+  if (!jpeg.empty()) json["jpeg_tool"] = jpeg.string();
   if (!draco.empty()) json["draco_tool"] = draco.string();
   std::cout << json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
 }

@@ -32,8 +32,10 @@ void add_output_options(CLI::App* command, OutputArguments& args) {
           "--help-output",
           [command] {
             print_group(command, kOutputGroup,
-                        "Output options of 'halfspace render'. --aov accepts a comma-separated list of depth, distance,\n"
-                        "normal, camera_normal, albedo, position, uv, object, instance, triangle and barycentrics.\n"
+                        "Output options of 'halfspace render'. OUT ends in .png, .jpg, .tif, .exr or .hdr. By default,\n"
+                        "it is NAME.png for a scene or the scene file NAME.json, and NAME-render.png for a model file.\n"
+                        "--aov accepts a comma-separated list of depth, distance, normal, camera_normal, albedo, position,\n"
+                        "uv, object, instance, triangle and barycentrics.\n"
                         "They are written to OUT if that is an .exr file, and to OUT-aov.exr otherwise.");
           },
           "Print these options and exit")
@@ -47,7 +49,7 @@ void add_render_command(CLI::App& program) {
       ->required()
       ->type_name("")
       ->check(not_empty());
-  command->add_option("-o,--output", args->out, ".png .jpg .tif .exr .hdr (see --help-output)")->type_name("OUT")->check(not_empty());
+  command->add_option("-o,--output", args->out, "Picture (default NAME.png; see --help-output)")->type_name("OUT")->check(not_empty());
   command->add_option("--size", args->size, "Size in pixels (default 1920x1080)")->type_name("WxH");
   add_set_option(command, args->set);
   add_view_options(command, args->camera, args->shading, args->time);
@@ -87,7 +89,7 @@ void add_explain_command(CLI::App& program) {
   add_set_option(command, args->set);
   add_view_options(command, args->camera, args->shading, args->time);
   command->add_option("--threads", args->threads, "Threads (default: one per core)")->type_name("N");
-  add_model_options(command, args->model);
+  add_model_options(command, args->model, false);
   add_limit_options(command, args->limits, false);
   add_primitive_limit_option(command, args->limits, false);
   command->footer(
@@ -138,7 +140,7 @@ void add_convert_normal_command(CLI::App& program) {
 void add_validate_command(CLI::App& program) {
   CLI::App* command = program.add_subcommand("validate", "Compare the shadows of a scene with ray tracing");
   const auto args = std::make_shared<ValidateArguments>();
-  command->add_option("SCENE", args->scene, "Scene or scene file")->type_name("")->check(not_empty());
+  command->add_option("SCENE", args->scene, "Scene, scene file or model file")->type_name("")->check(not_empty());
   command->add_flag("--json", args->json, "Report as JSON, one object per light");
   command->add_option("-o,--output", args->out, "Folder for images, or for the chart of --table")->type_name("DIR")->check(not_empty());
   command->add_flag("--table", args->table, "Score all biases and filters on four scenes (CSV)");

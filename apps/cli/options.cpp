@@ -60,7 +60,7 @@ void add_primitive_limit_option(CLI::App* command, LimitArguments& args, bool is
       ->group(group);
 }
 
-void add_model_options(CLI::App* command, ModelArguments& args) {
+void add_model_options(CLI::App* command, ModelArguments& args, bool with_turntable) {
   const auto add = [&](const char* name, std::string& value, const char* help, const char* type) {
     command->add_option(name, value, help)->type_name(type)->group(kUnlistedGroup);
   };
@@ -75,7 +75,7 @@ void add_model_options(CLI::App* command, ModelArguments& args) {
   add("--look-at", args.look_at, "Point at the center of the image", "X,Y,Z");
   add("--up", args.up, "Direction that points up (default 0,1,0)", "X,Y,Z");
   add_flag("--inside", args.inside, "Place the camera inside the model");
-  add("--turntable", args.turntable, "Render N frames around the model", "N");
+  if (with_turntable) add("--turntable", args.turntable, "Render N frames around the model", "N");
   add("--environment", args.environment, "Panorama that lights the model", "FILE");
   add("--background", args.background, "Background: #rrggbb, environment or transparent", "COLOR");
   add_flag("--floor", args.floor, "Draw the shadow below the model (default)");

@@ -26,7 +26,8 @@ void add_set_option(CLI::App* command, std::vector<std::string>& settings);
 void add_view_options(CLI::App* command, std::string& camera, std::string& shading, std::string& time);
 
 /// Adds the options for model files. They are listed by --help-model, so that the help of the command fits on a screen.
-void add_model_options(CLI::App* command, ModelArguments& args);
+/// with_turntable: whether the command accepts --turntable.
+void add_model_options(CLI::App* command, ModelArguments& args, bool with_turntable = true);
 
 /// Adds --max-memory and --max-pixels. If they are unlisted, --help-model lists them.
 void add_limit_options(CLI::App* command, LimitArguments& args, bool is_listed = true);

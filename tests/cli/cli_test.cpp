@@ -318,8 +318,10 @@ TEST_F(Cli, PrintsStatisticsAsTextAndJson) {
 TEST_F(Cli, InfoPrintsVersionAndJsonKeys) {
   EXPECT_TRUE(run({"info"}).out.starts_with("halfspace "));
   const auto parsed = nlohmann::json::parse(run({"info", "--json"}).out);
-  for (const char* key : {"version", "arch", "lanes", "compiler", "cores", "image_tool", "draco_tool"})
+  for (const char* key : {"version", "arch", "lanes", "compiler", "cores", "image_tool", "jpeg_tool", "draco_tool"})
     EXPECT_TRUE(parsed.contains(key)) << key;
+  for (const char* line : {"\ndraco tool ", "\nimage tool ", "\njpeg tool "})
+    EXPECT_NE(run({"info"}).out.find(line), std::string::npos) << line;
 }
 
 TEST_F(Cli, HelpFitsOnAScreenAndEndsWithTwoExamples) {

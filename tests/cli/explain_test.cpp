@@ -41,6 +41,9 @@ TEST_F(Explain, RejectsWrongScenesAndCombinations) {
   EXPECT_EQ(run({"explain", "earth", "--text", "--json"}).exit_code, 2);
   EXPECT_EQ(run({"explain", "earth", "--text", "--shading", "wrong"}).exit_code, 2);
   EXPECT_EQ(run({"explain", "earth", "--text", "--turntable", "3"}).exit_code, 2);
+  EXPECT_EQ(run({"explain", "--help-model"}).out.find("--turntable"), std::string::npos);
+  EXPECT_EQ(run({"explain", "earth", "--colours"}).err.find("--turntable"), std::string::npos);
+  EXPECT_NE(run({"render", "--help-model"}).out.find("--turntable"), std::string::npos);
 }
 
 }  // namespace

@@ -141,7 +141,7 @@ TEST_F(Outputs, OptionsAreChecked) {
   EXPECT_EQ(files().size(), 2u);
   const Outcome help = run({"render", "--help-output"});
   EXPECT_EQ(help.exit_code, 0);
-  for (const char* option : {"--aov LIST", "--aov-separate", "--bits N", "--crop X,Y,W,H"})
+  for (const char* option : {"--aov LIST", "--aov-separate", "--bits N", "--crop X,Y,W,H", "NAME.png", "NAME-render.png"})
     EXPECT_NE(help.out.find(option), std::string::npos);
 }
 
