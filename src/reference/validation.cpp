@@ -76,12 +76,22 @@ std::string json_report(const Validation& validation) {
   return rows.dump(2) + "\n";
 }
 
-std::string text_report(const Validation& validation) {
+namespace {
+
+// The header of the table of lights.
+std::string table_header() {
   std::string text =
       fmt::format("{:<14} {:<10} {:<9} {:<14} {:>5}  {:^29}  {:^29}  {:>18} {:>7} {:>7}\n", "scene", "light", "method", "bias", "size",
                   "false shadow, % of lit px", "false light, % of shadowed px", "edge, px", "map ms", "lookup");
   text += fmt::format("{:<14} {:<10} {:<9} {:<14} {:>5}  {:>9}{:>10}{:>10}  {:>9}{:>10}{:>10}  {:>5} {:>5} {:>6}\n", "", "", "", "", "",
                       "<=1 texel", "1 to 3", "beyond", "<=1 texel", "1 to 3", "beyond", "mean", "p95", "max");
+  return text;
+}
+
+}  // namespace
+
+std::string text_report(const Validation& validation) {
+  std::string text = validation.lights.empty() ? "the scene has no lights with shadows, so no shadows are compared\n" : table_header();
   for (const ShadowComparison& c : validation.lights) {
     const ShadowScore& s = c.score;
     text += fmt::format(
@@ -98,6 +108,7 @@ std::string text_report(const Validation& validation) {
                           100 * s.sides_differ);
   }
   const VisibilityScore& v = validation.visibility;
+  if (validation.lights.empty() && v.pixels == 0) return text;  // without lights, visibility is not compared either
   return text +
          fmt::format("visible triangles: {} pixels, {} match the rays, {} within 1/256 px of an edge, {} depth ties, {} unexplained\n",
                      v.pixels, v.same, v.near_edge, v.depth_tie, v.unexplained);

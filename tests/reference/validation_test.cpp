@@ -170,5 +170,11 @@ TEST(Validation, ReportsContainAllFields) {
   EXPECT_NE(text_report(v).find("unexplained"), std::string::npos);
 }
 
+TEST(Validation, ReportsThatNoLightHasShadows) {
+  const std::string text = text_report(validated("shadow-plane", {"lamp.shadow=false"}, 64, 36));
+  EXPECT_TRUE(text.starts_with("the scene has no lights with shadows, so no shadows are compared\nvisible triangles: ")) << text;
+  EXPECT_EQ(text_report({}), "the scene has no lights with shadows, so no shadows are compared\n");
+}
+
 }  // namespace
 }  // namespace halfspace

@@ -46,7 +46,7 @@ const middle = () => weightsAt(...[0, 1].map((k) => (CORNERS[0][k] + CORNERS[1][
 chapter({
   id: "interpolation", title: "Perspective-correct interpolation", kicker: "Shading",
   lead: () => "Vertices have values such as texture coordinates, normals and positions. These values are interpolated between the vertices. The interpolation cannot be linear on the screen: where a surface is farther away, its values change faster from pixel to pixel.",
-  absent: () => (P === null ? `No triangle of this frame is entirely inside the window. A frame that shows the difference: ${command("halfspace explain shadow-plane")}.` : null),
+  absent: () => (P === null ? `${DATA.wire.count === 0 ? "This frame has no mesh, so there are no triangles between whose vertices values are interpolated" : "No triangle of this frame is entirely inside the window"}. A frame that shows the difference: ${command("halfspace explain shadow-plane")}.` : null),
   input: () => ["edge functions at a sample", "1/w of the three vertices"],
   output: () => ["three weights that add up to 1"],
   steps: () => [
