@@ -7,7 +7,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <nlohmann/json.hpp>
+#include <variant>
 #include <vector>
 
 #include "halfspace/core/check.h"
@@ -101,15 +101,40 @@ void check(const ObjectDescription& o, const std::string& where) {
   }
 }
 
+template <class T>
+bool are_equal(const void* a, const void* b) {
+  return *static_cast<const T*>(a) == *static_cast<const T*>(b);
+}
+
+// Compares a value with the default of its key. Scenes are checked in every frame, so this does not convert the values to JSON.
+bool is_default(KeyType type, const void* value, const void* standard) {
+  switch (type) {
+    case KeyType::boolean: return are_equal<bool>(value, standard);
+    case KeyType::integer: return are_equal<int>(value, standard);
+    case KeyType::number: return are_equal<double>(value, standard);
+    case KeyType::vector: return are_equal<glm::dvec3>(value, standard);
+    case KeyType::choice: return are_equal<uint8_t>(value, standard);
+    case KeyType::text: return are_equal<std::string>(value, standard);
+    case KeyType::numbers: return are_equal<Numbers>(value, standard);
+    case KeyType::keyframes: return are_equal<Keyframes>(value, standard);
+    case KeyType::file: return static_cast<const FilePath*>(value)->path == static_cast<const FilePath*>(standard)->path;
+    case KeyType::color: return static_cast<const Color*>(value)->linear == static_cast<const Color*>(standard)->linear;
+    case KeyType::map: break;
+  }
+  const auto* color = std::get_if<Color>(static_cast<const MapValue*>(value));  // all defaults are colors
+  return color != nullptr && color->linear == std::get<Color>(*static_cast<const MapValue*>(standard)).linear;
+}
+
 // Rejects keys that have no effect unless they have their default values, which printed scenes contain.
 void check_effect(ObjectDescription& o, const std::string& where) {
   if (o.shape != Shape::file) return;
-  ObjectDescription standard;
-  standard.shape = Shape::file;
-  const std::vector<Field> fields = fields_of(section_of(o)), defaults = fields_of(section_of(standard));
-  for (std::size_t i = 0; i < fields.size(); ++i) {
-    const std::string problem = lack_of_effect(o, fields[i].key->name);
-    if (!problem.empty() && value_of(fields[i]) != value_of(defaults[i])) reject(where + "." + fields[i].key->name, problem);
+  static ObjectDescription standard;
+  const Section parts = section_of(o), defaults = section_of(standard);
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    for (const Key& key : parts[i].keys) {
+      if (is_default(key.type, key.member(parts[i].data), key.member(defaults[i].data))) continue;
+      if (const std::string problem = lack_of_effect(o, key.name); !problem.empty()) reject(where + "." + key.name, problem);
+    }
   }
 }
 
