@@ -122,7 +122,7 @@ def test_wrong_types_are_reported(model, arguments, words):
 
 @pytest.mark.parametrize("arguments, words", [
     ({"animation": "walk"}, "animation: "),
-    ({"model_variant": 0}, "variant: "),
+    ({"model_variant": 7}, "variant: "),
     ({"model_scene": 5}, "model_scene: "),
     ({"environment": "none.hdr"}, "environment: "),
     ({"eye": (0, 50, 0), "look_at": (0, 0, 0)}, "up: "),
