@@ -67,7 +67,8 @@ class State:
     blend: a Blend, "alpha", "additive" or None.   color_mask: which of r, g, b and a are written.
     stencil: a Stencil for both faces, or a pair for front and back faces.
     query: number of an occlusion query, 0 to 1023, that counts the samples that pass all tests of the draw (Pass.samples_passed).
-    order_independent: blend fragments from far to near, regardless of the order of the draws; needs depth_write=False.
+    order_independent: blend fragments from far to near, regardless of the order of the draws; needs depth_write=False
+        and a color attachment, and allows neither blend nor color_mask.
     point_size, line_width: in pixels.   sample_mask, alpha_to_coverage, sample_shading: for passes with several samples per pixel.
     """
 
@@ -110,6 +111,8 @@ class State:
                 raise fail("depth_write", "is True with order_independent=True", "False")
             if blend is not None:
                 raise fail("blend", "is set with order_independent=True", "None")
+            if not all(color_mask):
+                raise fail("color_mask", "disables channels with order_independent=True", "4 times True")
             if depth_compare not in ("less", "less_equal", "greater", "greater_equal"):
                 raise fail("depth_compare", f"is {depth_compare!r} with order_independent=True",
                            "less, less_equal, greater or greater_equal")

@@ -242,6 +242,8 @@ IMAGE = np.zeros((2, 2, 4), np.uint8)
     (lambda: draw.State(blend=3), "blend: is of type int; expected a Blend, alpha, additive or None"),
     (lambda: draw.State(order_independent=True), "depth_write: is True with order_independent=True; expected False"),
     (lambda: draw.State(order_independent=True, depth_write=False, blend="alpha"), "blend: is set with order_independent=True; expected None"),
+    (lambda: draw.State(order_independent=True, depth_write=False, color_mask=(True, False, True, True)),
+     "color_mask: disables channels with order_independent=True; expected 4 times True"),
     (lambda: draw.State(order_independent=True, depth_write=False, depth_compare="always"),
      "depth_compare: is 'always' with order_independent=True; expected less, less_equal, greater or greater_equal"),
     (lambda: draw.Stencil(reference=0.5), "reference: is 0.5; expected an integer from 0 to 255"),

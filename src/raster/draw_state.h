@@ -162,7 +162,9 @@ struct DrawState {
   DepthOffset offset{};
   std::optional<StencilState> stencil{};  ///< default: no stencil test
   bool sample_shading = false;            ///< run the fragment function once per sample, at the sample position
-  bool alpha_to_coverage = false;         ///< multisampling only: the alpha of the first color determines how many samples are drawn
+  /// Multisampling only: the alpha of the first color determines how many samples are drawn. Has no effect if the first color attachment
+  /// is r32ui.
+  bool alpha_to_coverage = false;
   uint32_t sample_mask = 0xffffffffu;     ///< multisampling only: bit s enables sample s
   /// Blends fragments in depth order, regardless of the order in which they are submitted. Fragments of these draws are kept until the next
   /// draw that writes color in another way, or the end of the pass, and then blended from the farthest to the nearest. The result is exact

@@ -162,7 +162,7 @@ void PassState::add_draw(const ShaderKernels& kernels, KeptShader shader, const 
   if (state.viewport) check_rect(*state.viewport, 1);
   if (state.scissor) check_rect(*state.scissor, 0);
   if (state.order_independent) {
-    HS_CHECK(attachments_.colors.size() == 1 && attachments_.colors[0].format != ColorFormat::r32ui);
+    HS_CHECK(attachments_.colors.size() == 1 && attachments_.has_color && attachments_.colors[0].format != ColorFormat::r32ui);
     HS_CHECK(!state.depth.write && !blend_of(state, 0) && color_mask_of(state, 0).all());
     HS_CHECK(state.depth.compare == CompareOp::less || state.depth.compare == CompareOp::less_equal ||
              state.depth.compare == CompareOp::greater || state.depth.compare == CompareOp::greater_equal);

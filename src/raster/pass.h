@@ -26,7 +26,8 @@
 namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Options of a pass. `samples` and `supersample` affect the rendered image. The others affect speed and memory use, except that bin_budget
-/// can change the result of order-independent blending (DrawState::order_independent).
+/// can change the result of order-independent blending (DrawState::order_independent) and contents that are not defined
+/// (LoadOp::dont_care).
 struct PassOptions {
   /// Samples per pixel: 1, 2, 4 or 8, at the standard positions. Colors are resolved to the mean of the samples; depth and stencil are
   /// taken from sample 0.

@@ -39,8 +39,8 @@ HS_INLINE R tangent_of(R cosine, float limit) {
 /// Returns the offset in texels that ShadowBias::automatic applies. Within the triangle, its plane is sufficient. Neighboring triangles
 /// deviate from that plane by an amount that grows with the radius of the filter and with the angle of incidence. Half a texel is added for
 /// the rounding of depths within a texel. The radius is capped at the radius of pcf7: pcss reaches farther, but only for occluders that are
-/// far away. A triangle that faces away from the light gets the tangent of the angle on its other side, so that the offset does not move
-/// the point past the object that shades it.
+/// far away. tangent: of the angle between the light and the normal of the plane on the lit side. The offset of a triangle that faces away
+/// from the light is therefore large only at grazing angles, as near the terminator of a smooth mesh, where the triangle is lit.
 template <class R>
 HS_INLINE R automatic_depth_offset(const ShadowSettings& s, R tangent) {
   return R(kAutomaticDepthOffset) * fma(R(1.0f + min(filter_reach(s), 4.0f)), tangent, R(1));

@@ -271,7 +271,12 @@ Corner project(const Transform& t, const ShadedVertex& v) {
   return c;
 }
 
-bool is_finite(const glm::vec4& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z) && std::isfinite(p.w); }
+// Whether the position and the clip distances of a vertex are finite.
+bool is_finite(const ShadedVertex& v) {
+  const glm::vec4& p = v.pos_clip;
+  const auto finite = [](float x) { return std::isfinite(x); };
+  return finite(p.x) && finite(p.y) && finite(p.z) && finite(p.w) && std::ranges::all_of(v.clip_distances, finite);
+}
 
 bool beyond_near(const DepthState& d, const glm::vec4& p) { return d.clip == ClipDepth::zero_to_one ? p.z < 0.0f : p.z < -p.w; }
 bool beyond_far(const glm::vec4& p) { return p.z > p.w; }
@@ -1000,7 +1005,7 @@ std::vector<std::array<uint32_t, 3>> assemble(const std::vector<uint32_t>& indic
 std::vector<WindowTriangle> Renderer::window_points(const DrawState& state, const ShadedVertex& v) {
   ++counts_.primitives_in;
   const glm::vec4& p = v.pos_clip;
-  if (!is_finite(p)) {
+  if (!is_finite(v)) {
     ++counts_.culled_non_finite;
     return {};
   }
@@ -1131,7 +1136,7 @@ std::vector<WindowTriangle> Renderer::window_triangles(const DrawState& state, c
   ++counts_.primitives_in;
   const bool line = is_lines(state.topology);
   counts_.has_lines |= line || state.polygon_mode != PolygonMode::fill;
-  if (!std::all_of(v.begin(), v.end(), [](const ShadedVertex* s) { return is_finite(s->pos_clip); })) {
+  if (!std::all_of(v.begin(), v.end(), [](const ShadedVertex* s) { return is_finite(*s); })) {
     ++counts_.culled_non_finite;
     return {};
   }

@@ -4,6 +4,8 @@
 // a NaN, because the bits of a NaN depend on the operand order of instructions.
 #pragma once
 
+#include <limits>
+
 #include "halfspace/raster/pass.h"
 #include "support/shaders.h"
 
@@ -423,6 +425,9 @@ struct ClipShader {
       const R turn(static_cast<float>(i) * 0.125f);
       v.clip_distance[i] = in.a.x - turn * in.a.y + (in.a.z + R(0.4f)) * (R(1.0f) - turn);
     }
+    // A tenth of the vertices has an infinite distance.
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    v.clip_distance[0] = select(in.a.w > R(1.3f), R(kInfinity), v.clip_distance[0]);
     return v;
   }
   template <class R>

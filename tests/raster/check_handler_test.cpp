@@ -70,6 +70,8 @@ TEST_F(PassCheckTest, OrderIndependentDrawsRejectStatesThatLayersDoNotHave) {
   Image<uint32_t> integers(16, 16);
   Pass integer_pass(16, 16, r32ui_target(integers), {});
   EXPECT_NE(message(integer_pass, layered), "");
+  Pass colorless_pass(16, 16, ColorTarget{}, {.format = DepthFormat::d32f});
+  EXPECT_NE(message(colorless_pass, layered), "");
 }
 
 TEST_F(PassCheckTest, RunPropagatesAFailedCheckOfAShader) {

@@ -135,13 +135,13 @@ class TileWorker {
   void run_tile(int tile_x, int tile_y, bool drawn, TileMemory& memory, Statistics& statistics) const {
     if (drawn) ++statistics.tiles_touched;
     const std::vector<ColorTarget>& colors = attachments_.colors;
-    // If nothing is drawn in a tile, its attachments are stored only if they are cleared or if the first of several rounds moves their
-    // contents to the spill buffer. Otherwise they already have the correct contents; with LoadOp::dont_care, the tile does not even
-    // contain them. With several rounds, multisampled attachments are always stored, because they are kept in the spill buffer.
+    // If nothing is drawn in a tile, its attachments are stored only if they are cleared or if the first of several rounds fills the
+    // spill buffer. Otherwise they already have the correct contents; with LoadOp::dont_care, the tile does not even contain them. With
+    // several rounds, multisampled attachments are always stored, because they are kept in the spill buffer.
     const bool spills = context_.samples > 1 && !(round_.first && round_.last);
     const auto changes = [&](const auto& target) {
-      const bool moves = target.load == LoadOp::load && !round_.last && !keeps_in_image(context_, target);
-      return drawn || spills || (round_.first && (target.load == LoadOp::clear || moves) && bytes_per_pixel(target.format) != 0);
+      const bool fills_spill = !round_.last && !keeps_in_image(context_, target);
+      return drawn || spills || (round_.first && (target.load == LoadOp::clear || fills_spill) && bytes_per_pixel(target.format) != 0);
     };
     const bool changes_color = std::any_of(colors.begin(), colors.end(), changes), changes_depth = changes(attachments_.depth);
     const bool has_post_step = round_.last && attachments_.post.kernel != nullptr;

@@ -15,7 +15,7 @@ struct Attachments {
   DepthTarget depth;
   bool has_color = false;  ///< at least one color attachment has a format
   PostStep post;
-  // Values between flushes of attachments that have no image or several samples per pixel.
+  // Values between flushes of attachments that are not stored in an image or have several samples per pixel.
   std::vector<std::vector<std::byte>> color_spills;
   std::vector<std::byte> depth_spill;
 };

@@ -43,6 +43,7 @@ TransparentLayers::Stack& TransparentLayers::stack_of(int packet) {
 }
 
 Mask TransparentLayers::add(int packet, Mask mask, Real depth, const PacketColor& color) {
+  if (none(mask)) return mask;
   const Real farthest = farthest_depth();
   const Real alpha = select(mask, clamp(color[3], Real(0.0f), Real(1.0f)), Real(0.0f));
   Layer added{select(mask, depth, farthest), {color[0] * alpha, color[1] * alpha, color[2] * alpha, alpha}};

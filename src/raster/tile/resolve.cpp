@@ -63,14 +63,15 @@ void resolve_color(const Tile& tile, ColorBuffer& color) {
   if (color.format == ColorFormat::srgb8a8) return resolve_words<ColorFormat::srgb8a8>(tile, color);
   const std::array<int, kMaxSamples> shifts = sample_shifts(tile);
   for_each_packet(tile, [&](int p) {
-    std::array<PacketColor, kMaxSamples> colors{};
+    std::array<PacketColor, kMaxSamples> colors;
     for (std::size_t s = 0; s < static_cast<std::size_t>(tile.samples); ++s) colors[s] = read_color(color, p + shifts[s]);
     // Where all samples of a channel are the same, the sum of large values can be infinite, but the mean is not.
-    const PacketColor first = colors[0];
+    const PacketColor first = read_color(color, p);
     std::array<Mask, 4> same{Mask(true), Mask(true), Mask(true), Mask(true)};
-    for (std::size_t s = 1; s < static_cast<std::size_t>(tile.samples); ++s) {
+    for (std::size_t s = 0; s < static_cast<std::size_t>(tile.samples); ++s) {
       for (std::size_t k = 0; k < 4; ++k) same[k] = same[k] & (as_int(colors[s][k]) == as_int(first[k]));
     }
+    if (all(same[0] & same[1] & same[2] & same[3])) return;  // the pixels of sample 0 already have this color
     PacketColor mean = mean_of(colors, tile.samples);
     for (std::size_t k = 0; k < 4; ++k) mean[k] = select(same[k], first[k], mean[k]);
     write_color(color, p, Mask(true), mean, mean, {});
