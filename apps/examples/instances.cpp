@@ -2,6 +2,8 @@
 //
 // Draws 10,000 instances of a mesh with one draw call.
 #include <cmath>
+#include <cstdio>
+#include <exception>
 
 #include "halfspace/geometry/camera.h"
 #include "halfspace/geometry/shapes.h"
@@ -35,7 +37,7 @@ struct InstanceShader {
   }
 };
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   const Mesh ball = icosphere(1, 0.4f);
   std::vector<glm::vec3> offsets;
   for (int z = 0; z < 100; ++z)
@@ -52,5 +54,8 @@ int main(int argc, char** argv) {
   pass.draw(InstanceShader{glm::mat4(camera)},
             make_vertex_view(stream(ball.positions), stream(ball.normals), per_instance(stream(offsets))), ball.indices, state);
   pass.run(Workers(Workers::cores()));
-  return save_image(argc > 1 ? argv[1] : "instances.png", image);
+  write_image(argc > 1 ? argv[1] : "instances.png", image);
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "%s\n", error.what());
+  return 1;
 }

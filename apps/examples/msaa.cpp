@@ -2,6 +2,8 @@
 //
 // Multisample antialiasing: draws the same star with 1 sample per pixel (left) and with 4 (right).
 #include <cmath>
+#include <cstdio>
+#include <exception>
 #include <numbers>
 
 #include "halfspace/image/image_io.h"
@@ -26,7 +28,7 @@ struct WhiteShader {
   }
 };
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   const Workers workers(Workers::cores());
   std::vector<glm::vec2> star;  // seven thin triangles around the center
   for (int i = 0; i < 7; ++i) {
@@ -44,5 +46,8 @@ int main(int argc, char** argv) {
     pass.draw(WhiteShader{}, make_vertex_view(stream(star)), {.viewport = Rect{samples == 1 ? 0 : 256, 0, 256, 256}});
     pass.run(workers);
   }
-  return save_image(argc > 1 ? argv[1] : "msaa.png", image);
+  write_image(argc > 1 ? argv[1] : "msaa.png", image);
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "%s\n", error.what());
+  return 1;
 }

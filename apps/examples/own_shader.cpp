@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Defines a shader in a user namespace, with uniforms, three kinds of varyings, and discard.
+#include <cstdio>
+#include <exception>
+
 #include "halfspace/image/image_io.h"
 #include "halfspace/raster/pass.h"
 
@@ -46,12 +49,15 @@ struct RingShader {
 
 }  // namespace my
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   using namespace halfspace;
   const std::vector<glm::vec2> quad{{-1, -1}, {1, -1}, {1, 1}, {-1, -1}, {1, 1}, {-1, 1}};
   Image<glm::u8vec4> image(480, 480);
   Pass pass(480, 480, srgb8a8_target(image), {});
   pass.draw(my::RingShader{6.0f, {0.9f, 0.5f, 0.1f}}, make_vertex_view(stream(quad)));
   pass.run(Workers(Workers::cores()));
-  return save_image(argc > 1 ? argv[1] : "own_shader.png", image);
+  write_image(argc > 1 ? argv[1] : "own_shader.png", image);
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "%s\n", error.what());
+  return 1;
 }

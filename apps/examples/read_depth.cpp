@@ -3,6 +3,7 @@
 // Reads back the depth buffer and converts depth to distance along the view axis.
 #include <algorithm>
 #include <cstdio>
+#include <exception>
 
 #include "halfspace/geometry/camera.h"
 #include "halfspace/geometry/shapes.h"
@@ -26,7 +27,7 @@ struct PositionShader {
   }
 };
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   constexpr double near = 0.5, far = 20.0;
   const Mesh ball = uv_sphere(64, 128, 1.0f);
   const glm::dmat4 camera = perspective_reversed(0.8, 1.0, near, far) * look_at({0, 0, 4}, {0, 0, 0}, {0, 1, 0});
@@ -44,5 +45,8 @@ int main(int argc, char** argv) {
     const auto gray = static_cast<uint8_t>(std::clamp(255.0 * (4.0 - distance(d)) + 0.5, 0.0, 255.0));
     return glm::u8vec4(gray, gray, gray, 255);
   });
-  return save_image(argc > 1 ? argv[1] : "read_depth.png", image);
+  write_image(argc > 1 ? argv[1] : "read_depth.png", image);
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "%s\n", error.what());
+  return 1;
 }

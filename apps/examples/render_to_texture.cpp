@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Renders to a float image, samples it as a half-float texture in a second pass, and tone-maps the result.
+#include <cstdio>
+#include <exception>
+
 #include "halfspace/image/image_io.h"
 #include "halfspace/raster/pass.h"
 #include "halfspace/shading/texture.h"
@@ -43,7 +46,7 @@ struct ToneMap {
   }
 };
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   const Workers workers(Workers::cores());
   Image<glm::vec4> light(256, 256);
   Pass first(256, 256, rgba32f_target(light), {});
@@ -55,5 +58,8 @@ int main(int argc, char** argv) {
   second.draw(GlowShader{&texture}, make_vertex_view(stream(kFullScreen)));
   second.post(ToneMap{}, srgb8a8_target(image));  // runs for each finished pixel while its tile is in cache
   second.run(workers);
-  return save_image(argc > 1 ? argv[1] : "render_to_texture.png", image);
+  write_image(argc > 1 ? argv[1] : "render_to_texture.png", image);
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "%s\n", error.what());
+  return 1;
 }

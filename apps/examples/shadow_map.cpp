@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A hand-written shadow map: renders depth from the light, then compares it with the distance to the light at every pixel.
+#include <cstdio>
+#include <exception>
+
 #include "halfspace/geometry/camera.h"
 #include "halfspace/geometry/shapes.h"
 #include "halfspace/image/image_io.h"
@@ -40,7 +43,7 @@ struct Shadowed {
   }
 };
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   const glm::vec3 sun = glm::normalize(glm::vec3(3, 4, 2));  // direction towards the light
   const std::vector<Mesh> meshes{cube(1.0f), plane(6.0f)};   // the ground plane cuts the cube in half
   const glm::dmat4 light = orthographic_reversed(6.0, 1.0, 0.1, 12.0) * look_at({3, 4, 2}, {0, 0, 0}, {0, 1, 0});
@@ -55,5 +58,8 @@ int main(int argc, char** argv) {
   for (const Mesh& m : meshes)
     pass.draw(Shadowed{glm::mat4(camera), glm::mat4(light), sun, &map}, make_vertex_view(stream(m.positions)), m.indices, kReversedZState);
   pass.run(Workers(Workers::cores()));
-  return save_image(argc > 1 ? argv[1] : "shadow_map.png", image);
+  write_image(argc > 1 ? argv[1] : "shadow_map.png", image);
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "%s\n", error.what());
+  return 1;
 }

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Draws a textured cube with a perspective camera.
+#include <cstdio>
+#include <exception>
+
 #include "halfspace/geometry/camera.h"
 #include "halfspace/geometry/shapes.h"
 #include "halfspace/image/image_io.h"
@@ -35,7 +38,7 @@ struct TexturedShader {
   }
 };
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   Image<glm::u8vec4> checkers(64, 64);
   for (int y = 0; y < 64; ++y)
     for (int x = 0; x < 64; ++x)
@@ -53,5 +56,8 @@ int main(int argc, char** argv) {
   pass.draw(TexturedShader{glm::mat4(clip_from_view * view_from_world), &texture},
             make_vertex_view(stream(mesh.positions), stream(mesh.uvs)), mesh.indices, state);
   pass.run(Workers(Workers::cores()));
-  return save_image(argc > 1 ? argv[1] : "textured_cube.png", image);
+  write_image(argc > 1 ? argv[1] : "textured_cube.png", image);
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "%s\n", error.what());
+  return 1;
 }

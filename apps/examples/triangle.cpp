@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Draws a triangle with colors interpolated between its vertices.
+#include <cstdio>
+#include <exception>
+
 #include "halfspace/image/image_io.h"
 #include "halfspace/raster/pass.h"
 
@@ -33,7 +36,7 @@ struct ColorShader {
   }
 };
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   const std::vector<glm::vec2> positions{{-0.8f, -0.8f}, {0.8f, -0.8f}, {0.0f, 0.8f}};
   const std::vector<glm::vec3> colors{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 
@@ -44,5 +47,8 @@ int main(int argc, char** argv) {
   Pass pass(640, 480, target, {});  // {}: no depth buffer
   pass.draw(ColorShader{}, make_vertex_view(stream(positions), stream(colors)));
   pass.run(Workers(Workers::cores()));
-  return save_image(argc > 1 ? argv[1] : "triangle.png", image);
+  write_image(argc > 1 ? argv[1] : "triangle.png", image);
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "%s\n", error.what());
+  return 1;
 }

@@ -2,6 +2,9 @@
 //
 // Lesson 4: the picture from lesson 3, drawn with the library. The camera is a matrix, the mesh is a list of vertices and indices, and the
 // shader transforms the vertices and colors the pixels.
+#include <cstdio>
+#include <exception>
+
 #include "halfspace/geometry/camera.h"
 #include "halfspace/image/image_io.h"
 #include "halfspace/raster/pass.h"
@@ -38,7 +41,7 @@ struct FloorShader {
   }
 };
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   const std::vector<glm::vec3> positions{{-4, -1, -1.25}, {4, -1, -1.25}, {-4, -1, -9.25}, {4, -1, -9.25}};
   const std::vector<glm::vec2> uvs{{0, 0}, {8, 0}, {0, 8}, {8, 8}};
   const std::vector<uint32_t> indices{0, 3, 2, 0, 1, 3};
@@ -53,5 +56,8 @@ int main(int argc, char** argv) {
   Pass pass(320, 240, color, {.format = DepthFormat::d32f, .clear_value = 0.0f});
   pass.draw(FloorShader{glm::mat4(camera)}, make_vertex_view(stream(positions), stream(uvs)), indices, kReversedZState);
   pass.run(Workers(1));
-  return save_image(argc > 1 ? argv[1] : "lesson04.png", image);
+  write_image(argc > 1 ? argv[1] : "lesson04.png", image);
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "%s\n", error.what());
+  return 1;
 }

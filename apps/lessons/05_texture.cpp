@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Lesson 5: far away, a pixel covers many texels of a texture. Mip levels store their averages.
+#include <cstdio>
+#include <exception>
+
 #include "halfspace/geometry/camera.h"
 #include "halfspace/geometry/shapes.h"
 #include "halfspace/image/image_io.h"
@@ -36,7 +39,7 @@ struct TexturedShader {
   }
 };
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   Image<glm::u8vec4> checks(64, 64);
   for (int y = 0; y < 64; ++y)
     for (int x = 0; x < 64; ++x)
@@ -55,5 +58,8 @@ int main(int argc, char** argv) {
   pass.draw(TexturedShader{glm::mat4(camera), &texture, sampler}, make_vertex_view(stream(floor.positions), stream(floor.uvs)),
             floor.indices, kReversedZState);
   pass.run(Workers(1));
-  return save_image(argc > 1 ? argv[1] : "lesson05.png", image);
+  write_image(argc > 1 ? argv[1] : "lesson05.png", image);
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "%s\n", error.what());
+  return 1;
 }

@@ -2,6 +2,9 @@
 //
 // Lesson 6: the same light on the same coarse sphere, with one normal per triangle (flat), with light per vertex (Gouraud) and with light
 // per pixel (Phong).
+#include <cstdio>
+#include <exception>
+
 #include "halfspace/geometry/camera.h"
 #include "halfspace/geometry/shapes.h"
 #include "halfspace/image/image_io.h"
@@ -53,7 +56,7 @@ struct LitShader {
   }
 };
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   const Mesh ball = uv_sphere(9, 14, 1.0f);
   const glm::vec3 eye(0, 0, 6);
   const glm::mat4 camera(perspective_reversed(0.6, 480.0 / 200.0, 0.1, 100.0) * look_at(glm::dvec3(eye), {0, 0, 0}, {0, 1, 0}));
@@ -67,5 +70,8 @@ int main(int argc, char** argv) {
   pass.draw(LitShader<Rate::gouraud>{camera, {0, 0, 0}, eye}, vertices, ball.indices, kReversedZState);
   pass.draw(LitShader<Rate::phong>{camera, {2.4f, 0, 0}, eye}, vertices, ball.indices, kReversedZState);
   pass.run(Workers(1));
-  return save_image(argc > 1 ? argv[1] : "lesson06.png", image);
+  write_image(argc > 1 ? argv[1] : "lesson06.png", image);
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "%s\n", error.what());
+  return 1;
 }

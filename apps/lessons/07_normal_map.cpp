@@ -2,6 +2,8 @@
 //
 // Lesson 7: a normal map stores normals relative to the surface. Here, it is computed from the heights of a bump map.
 #include <cmath>
+#include <cstdio>
+#include <exception>
 
 #include "halfspace/geometry/camera.h"
 #include "halfspace/geometry/shapes.h"
@@ -58,7 +60,7 @@ Image<glm::u8vec4> normal_map() {
   return map;
 }
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   const Texture2D normals(normal_map(), TexelFormat::rgba8);
   const Mesh ring = torus(1.0f, 0.45f, 48, 96);
   const glm::dmat4 camera = perspective_reversed(0.6, 320.0 / 240.0, 0.1, 100.0) * look_at({0, 2.5, 4}, {0, 0, 0}, {0, 1, 0});
@@ -71,5 +73,8 @@ int main(int argc, char** argv) {
             make_vertex_view(stream(ring.positions), stream(ring.normals), stream(ring.tangents), stream(ring.uvs)), ring.indices,
             kReversedZState);
   pass.run(Workers(1));
-  return save_image(argc > 1 ? argv[1] : "lesson07.png", image);
+  write_image(argc > 1 ? argv[1] : "lesson07.png", image);
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "%s\n", error.what());
+  return 1;
 }

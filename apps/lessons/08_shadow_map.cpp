@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Lesson 8: a shadow map is a depth buffer drawn from the light. A point is in shadow if the map contains something nearer to the light.
+#include <cstdio>
+#include <exception>
+
 #include "halfspace/geometry/camera.h"
 #include "halfspace/geometry/shapes.h"
 #include "halfspace/image/image_io.h"
@@ -47,7 +50,7 @@ struct ShadowShader {
   }
 };
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   Mesh meshes[]{torus_knot(0.7f, 0.16f, 24, 240), plane(6.0f)};
   for (glm::vec3& p : meshes[0].positions) p.y += 1.1f;  // above the plane
   const glm::dvec3 sun(3, 4, 2);
@@ -68,5 +71,8 @@ int main(int argc, char** argv) {
   }
   from_light.run(Workers(1));
   pass.run(Workers(1));
-  return save_image(argc > 1 ? argv[1] : "lesson08.png", image);
+  write_image(argc > 1 ? argv[1] : "lesson08.png", image);
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "%s\n", error.what());
+  return 1;
 }

@@ -2,6 +2,8 @@
 //
 // Lesson 9: a sphere without triangles. A point covers a square; the fragment function keeps a disk and computes its normal and depth.
 #include <cmath>
+#include <cstdio>
+#include <exception>
 
 #include "halfspace/geometry/camera.h"
 #include "halfspace/image/image_io.h"
@@ -42,7 +44,7 @@ struct SphereShader {
   }
 };
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   std::vector<glm::vec3> centers, colors;
   for (int i = 0; i < 24; ++i) {  // two strands of a helix; the spheres are so close that neighbors intersect
     const double angle = 0.5 * (i / 2) + (i % 2) * 3.141592653589793;
@@ -61,5 +63,8 @@ int main(int argc, char** argv) {
   state.topology = Topology::points;
   pass.draw(SphereShader{glm::mat4(camera)}, make_vertex_view(stream(centers), stream(colors)), state);
   pass.run(Workers(1));
-  return save_image(argc > 1 ? argv[1] : "lesson09.png", image);
+  write_image(argc > 1 ? argv[1] : "lesson09.png", image);
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "%s\n", error.what());
+  return 1;
 }

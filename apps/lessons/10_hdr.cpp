@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Lesson 10: light has no upper limit, but pixel values do. A float target stores the light, and a tone curve maps it to the display.
+#include <cstdio>
+#include <exception>
+
 #include "halfspace/geometry/camera.h"
 #include "halfspace/geometry/shapes.h"
 #include "halfspace/image/image_io.h"
@@ -46,7 +49,7 @@ struct ToneCurve {
   }
 };
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   const Mesh meshes[]{plane(12.0f), uv_sphere(48, 96, 0.8f)};
   const glm::dmat4 camera = perspective_reversed(0.7, 320.0 / 240.0, 0.1, 100.0) * look_at({0, 2.2, 5}, {0, 0.4, 0}, {0, 1, 0});
 
@@ -58,5 +61,8 @@ int main(int argc, char** argv) {
               mesh.indices, kReversedZState);
   pass.post(ToneCurve{1.0f}, srgb8a8_target(image));
   pass.run(Workers(1));
-  return save_image(argc > 1 ? argv[1] : "lesson10.png", image);
+  write_image(argc > 1 ? argv[1] : "lesson10.png", image);
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "%s\n", error.what());
+  return 1;
 }

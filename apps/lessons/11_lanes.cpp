@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <exception>
 
 #include "halfspace/core/vec.h"
 #include "halfspace/geometry/shapes.h"
@@ -72,7 +73,7 @@ double milliseconds(const F& function) {
   return best;
 }
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   // Five torus knots of 4096 triangles each, seen from above and without perspective. x and y are rounded to 1/16 pixel; see the page.
   const Mesh mesh = torus_knot(1.0f, 0.24f, 16, 128);
   std::vector<Vertex> vertices;
@@ -91,6 +92,9 @@ int main(int argc, char** argv) {
   const bool same = by_pixel == by_lanes;
   std::printf("scalar loop %.2f ms, %d lanes %.2f ms: %.1f times as fast, %s\n", pixel_ms, kLanes, lanes_ms, pixel_ms / lanes_ms,
               same ? "the same picture" : "different pictures");
-  const int status = save_image(argc > 1 ? argv[1] : "lesson11.png", by_lanes);
-  return same ? status : 1;
+  write_image(argc > 1 ? argv[1] : "lesson11.png", by_lanes);
+  return same ? 0 : 1;
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "%s\n", error.what());
+  return 1;
 }

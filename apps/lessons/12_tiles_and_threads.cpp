@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Lesson 12: threads draw parts of an image in parallel. Compares the loops from lesson 11 with bands of rows and with the tiles of the
-// library.
+// Lesson 12: threads draw parts of an image in parallel: bands of rows with the loops of lesson 11, and the tiles of the library.
 #include <chrono>
 #include <cstdio>
+#include <exception>
 
 #include "halfspace/geometry/shapes.h"
 #include "halfspace/image/image_io.h"
@@ -52,13 +52,12 @@ void draw(Image<glm::u8vec4>& image, const std::vector<Vertex>& vertices, int to
   }
 }
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   const Mesh mesh = torus_knot(1.0f, 0.24f, 16, 128);
   std::vector<Vertex> vertices;
   for (int knot = 0; knot < 5; ++knot)
     for (const uint32_t i : mesh.indices) {
-      const glm::vec3 color(knot % 2 == 0 ? 0.95f : 0.55f);
-      const glm::vec3 p = mesh.positions[i];
+      const glm::vec3 color(knot % 2 == 0 ? 0.95f : 0.55f), p = mesh.positions[i];
       const glm::vec2 pixels = glm::round((glm::vec2(196 + 117 * knot, 224) + glm::vec2(p.x, p.z) * 140.0f) * 16.0f) / 16.0f;
       const float diffuse = std::max(glm::dot(mesh.normals[i], glm::normalize(glm::vec3(-1, 2, -1))), 0.0f);
       vertices.push_back({glm::vec3(pixels, 0.5f + 0.25f * p.y), glm::vec4(color * (0.2f + 0.8f * diffuse), 1)});
@@ -92,9 +91,10 @@ int main(int argc, char** argv) {
   };
   measure("scalar loop", 1, [&](const Workers&) { draw<float>(image, vertices, 0, kHeight, 0, kTriangles); });
   measure("lanes", 1, [&](const Workers&) { draw<Real>(image, vertices, 0, kHeight, 0, kTriangles); });
-  measure("bands", 1, bands);
-  if (save_image(argc > 1 ? argv[1] : "lesson12.png", image) != 0) return 1;
-  measure("bands", Workers::cores(), bands);
-  measure("library", 1, library);
-  measure("library", Workers::cores(), library);
+  for (const int threads : {1, Workers::cores()}) measure("bands", threads, bands);
+  write_image(argc > 1 ? argv[1] : "lesson12.png", image);
+  for (const int threads : {1, Workers::cores()}) measure("library", threads, library);
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "%s\n", error.what());
+  return 1;
 }

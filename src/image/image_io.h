@@ -87,10 +87,6 @@ void write_image(const std::filesystem::path& path, const Image<glm::u8vec4>& im
 ///         Alpha is dropped, negative values become 0, and infinities become 65504.
 void write_image(const std::filesystem::path& path, const Image<glm::vec4>& image, const ImageText& text = {});
 
-/// Writes an image like write_image(), for small programs without error handling of their own. Returns 0 or, if the image cannot be
-/// written, prints the error as a line on standard error and returns 1. main() can return the result.
-[[nodiscard]] int save_image(const std::filesystem::path& path, const Image<glm::u8vec4>& image);
-
 struct ExrChannel;
 /// Returns the channels that write_image() stores for .exr. The image is not copied and must outlive them.
 std::vector<ExrChannel> color_channels(const Image<glm::vec4>& image);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <cstring>
 #include <limits>
 #include <new>
@@ -10,7 +9,6 @@
 
 #include "halfspace/core/check.h"
 #include "halfspace/core/half.h"
-#include "halfspace/core/text.h"
 #include "halfspace/image/atomic_output.h"
 #include "halfspace/image/exr_encode.h"
 #include "halfspace/image/image_errors.h"
@@ -139,14 +137,6 @@ void write_image(const std::filesystem::path& path, const Image<glm::u8vec4>& im
   file == ImageFile::jpeg ? write_jpeg(path, image) : write_tiff(path, image);
 } catch (const std::bad_alloc&) {
   fail_for_memory(path);
-}
-
-int save_image(const std::filesystem::path& path, const Image<glm::u8vec4>& image) try {
-  write_image(path, image);
-  return 0;
-} catch (const std::exception& e) {
-  std::fputs((printable(e.what()) + "\n").c_str(), stderr);
-  return 1;
 }
 
 std::vector<ExrChannel> color_channels(const Image<glm::vec4>& image) {
