@@ -165,7 +165,7 @@ struct DrawState {
   /// Multisampling only: the alpha of the first color determines how many samples are drawn. Has no effect if the first color attachment
   /// is r32ui.
   bool alpha_to_coverage = false;
-  uint32_t sample_mask = 0xffffffffu;     ///< multisampling only: bit s enables sample s
+  uint32_t sample_mask = 0xffffffffu;  ///< multisampling only: bit s enables sample s
   /// Blends fragments in depth order, regardless of the order in which they are submitted. Fragments of these draws are kept until the next
   /// draw that writes color in another way, or the end of the pass, and then blended from the farthest to the nearest. The result is exact
   /// for up to 8 layers per sample; further layers are merged into the farthest. Opaque draws must come first. Colors have straight alpha.

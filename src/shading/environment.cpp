@@ -73,8 +73,7 @@ EnvironmentMap::Coordinates<R> EnvironmentMap::cube_coordinates(const vec3<R>& d
 
 // A step of the direction rotates it by the angle |d × step| / |d|².
 template <class R>
-EnvironmentMap::Coordinates<R> EnvironmentMap::panorama_coordinates(const vec3<R>& d_ms, const vec3<R>& dx_ms,
-                                                                    const vec3<R>& dy_ms) const {
+EnvironmentMap::Coordinates<R> EnvironmentMap::panorama_coordinates(const vec3<R>& d_ms, const vec3<R>& dx_ms, const vec3<R>& dy_ms) const {
   const R scale = unit_scale(d_ms);
   const vec3<R> d = d_ms * scale, dx = dx_ms * scale, dy = dy_ms * scale;
   const auto squared = [](const vec3<R>& v) { return dot(v, v); };

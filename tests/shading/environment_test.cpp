@@ -266,7 +266,8 @@ TEST(EnvironmentMap, LevelsDoNotDependOnTheLengthOfTheDirection) {
     for (int i = 0; i < 100; ++i) {
       const glm::vec3 d(random_vector(random)), dx(random_vector(random) * 0.01), dy(random_vector(random) * 0.01);
       const float want = map.level_of_detail<float>(d, dx, dy);
-      for (const float scale : {0x1p-50f, 0x1p-12f, 0x1p50f}) EXPECT_EQ(map.level_of_detail<float>(d * scale, dx * scale, dy * scale), want);
+      for (const float scale : {0x1p-50f, 0x1p-12f, 0x1p50f})
+        EXPECT_EQ(map.level_of_detail<float>(d * scale, dx * scale, dy * scale), want);
     }
   }
 }
