@@ -5,7 +5,9 @@
 // decoder processes are started when they are first needed and serve all later images of this process. PNG, JPEG and OpenEXR are encoded in
 // this process.
 //
-// Images have straight alpha and store the top row first. There are two kinds of files:
+// Images have straight alpha and store the top row first, however the file stores them: the tags of the file that state the order of rows
+// and columns (TIFF, TGA, BMP, Radiance), the display window (OpenEXR) and premultiplied alpha (TIFF, TGA, DDS, OpenEXR) are applied. EXIF
+// data is not: texture coordinates refer to the stored pixels. There are two kinds of files:
 //   integers       PNG, JPEG, TIFF, TGA, BMP, GIF, WebP, PNM, PSD, DDS: 8 or 16 bits per channel, sRGB-encoded if they are colors
 //   linear values  OpenEXR, Radiance HDR, PFM, and floating-point TIFF, PSD or DDS
 // Readers detect the format from the content of a file, writers from its name. A file can also be read from memory, for example if it is
@@ -44,8 +46,8 @@ bool holds_linear_numbers(const std::filesystem::path& path);
 bool holds_linear_numbers(std::span<const std::byte> file, const std::string& name);
 
 /// Reads an image with 8-bit or 16-bit values as 8-bit RGBA. Gray is replicated to all color channels, alpha is 255 if the file has none,
-/// and 16-bit values are rounded to 8 bits. Color profiles and EXIF orientation are ignored; only the first image of a file is read. Throws
-/// InputError if the format implies linear values.
+/// and 16-bit values are rounded to 8 bits. Color profiles, gamma values and EXIF data are ignored; only the first image of a file is
+/// read. Throws InputError if the format implies linear values.
 Image<glm::u8vec4> read_image(const std::filesystem::path& path);
 Image<glm::u8vec4> read_image(std::span<const std::byte> file, const std::string& name);
 
@@ -56,8 +58,8 @@ Image<float> read_gray(const std::filesystem::path& path);
 Image<float> read_gray(std::span<const std::byte> file, const std::string& name);
 
 /// Reads any file as linear light with straight alpha. Integer colors are decoded from sRGB; integer alpha is divided by 255 or 65535.
-/// Linear values are unchanged, except that OpenEXR colors are divided by alpha where it is positive. Infinities are clamped to ±65504; NaN
-/// throws an InputError that names the pixel.
+/// Linear values are unchanged, except that premultiplied colors are divided by alpha where it is positive; EXPOSURE and COLORCORR lines of
+/// Radiance files are ignored. Infinities are clamped to ±65504; NaN throws an InputError that names the pixel.
 Image<glm::vec4> read_linear(const std::filesystem::path& path);
 Image<glm::vec4> read_linear(std::span<const std::byte> file, const std::string& name);
 

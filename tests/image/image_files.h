@@ -3,10 +3,10 @@
 // Builders for small image files in formats that the renderer reads but does not write.
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <cstring>
-#include <iterator>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -68,29 +68,50 @@ inline std::string png16_row(const std::vector<uint16_t>& codes, int width, int 
 /// Values of TIFF's SampleFormat tag.
 enum class TiffSampleFormat : uint16_t { unsigned_integer = 1, signed_integer = 2, floating_point = 3 };
 
-/// Builds an uncompressed grayscale TIFF with one row; T is the sample type.
+/// The layout of an uncompressed TIFF.
+struct TiffLayout {
+  uint32_t width = 1, channels = 1;
+  uint32_t photometric = 1;  ///< 1: gray, 2: RGB
+  TiffSampleFormat format = TiffSampleFormat::unsigned_integer;
+  std::vector<std::pair<uint16_t, uint32_t>> more{};  ///< further tags with their values
+};
+
+/// Builds a TIFF with one strip; T is the sample type.
+template <class T>
+std::string tiff(const TiffLayout& layout, const std::vector<T>& samples) {
+  static_assert(std::endian::native == std::endian::little);
+  constexpr uint16_t kBits = 8 * sizeof(T);
+  constexpr uint32_t kFirst = 8;  // file offset of the samples
+  const auto bytes = static_cast<uint32_t>(samples.size() * sizeof(T));
+  const uint32_t bits_offset = kFirst + (bytes + 1) / 2 * 2, directory = bits_offset + 2 * layout.channels;
+  const uint32_t height = static_cast<uint32_t>(samples.size()) / (layout.width * layout.channels);
+  struct Entry {
+    uint16_t tag, type;  // type 3: 16 bits, 4: 32 bits
+    uint32_t count, value;
+  };
+  std::vector<Entry> entries = {{256, 4, 1, layout.width},
+                                {257, 4, 1, height},
+                                {258, 3, layout.channels, layout.channels > 2 ? bits_offset : kBits * 0x10001u},
+                                {259, 4, 1, 1},
+                                {262, 4, 1, layout.photometric},
+                                {273, 4, 1, kFirst},
+                                {277, 4, 1, layout.channels},
+                                {278, 4, 1, height},
+                                {279, 4, 1, bytes},
+                                {339, 3, 1, static_cast<uint32_t>(layout.format)}};
+  for (const auto& [tag, value] : layout.more) entries.push_back({tag, 3, 1, value});
+  std::ranges::sort(entries, {}, &Entry::tag);
+  std::string file = "II*" + std::string(1, '\0') + memory_of<uint32_t>({directory}) + memory_of(samples);
+  file.resize(bits_offset);
+  file += memory_of(std::vector<uint16_t>(layout.channels, kBits)) + memory_of<uint16_t>({static_cast<uint16_t>(entries.size())});
+  for (const Entry& e : entries) file += memory_of<uint16_t>({e.tag, e.type}) + memory_of<uint32_t>({e.count, e.value});
+  return file + memory_of<uint32_t>({0});
+}
+
+/// Builds a grayscale TIFF with one row; T is the sample type.
 template <class T>
 std::string gray_tiff_row(const std::vector<T>& samples, TiffSampleFormat format) {
-  static_assert(std::endian::native == std::endian::little);
-  const uint32_t width = static_cast<uint32_t>(samples.size());
-  constexpr uint32_t kFirst = 8;  // file offset of the samples
-  const uint32_t bytes = width * sizeof(T);
-  const uint32_t directory = kFirst + (bytes + 1) / 2 * 2;
-  const std::pair<uint16_t, uint32_t> entries[] = {{256, width},
-                                                   {257, 1},
-                                                   {258, 8 * sizeof(T)},
-                                                   {259, 1},
-                                                   {262, 1},
-                                                   {273, kFirst},
-                                                   {277, 1},
-                                                   {278, 1},
-                                                   {279, bytes},
-                                                   {339, static_cast<uint32_t>(format)}};
-  std::string file = "II*" + std::string(1, '\0') + memory_of<uint32_t>({directory}) + memory_of(samples);
-  file.resize(directory);
-  file += memory_of<uint16_t>({static_cast<uint16_t>(std::size(entries))});
-  for (const auto& [tag, value] : entries) file += memory_of<uint16_t>({tag, 4}) + memory_of<uint32_t>({1, value});
-  return file + memory_of<uint32_t>({0});
+  return tiff({.width = static_cast<uint32_t>(samples.size()), .format = format}, samples);
 }
 
 /// Builds a color PFM. Rows are ordered bottom to top.

@@ -91,6 +91,18 @@ TEST_F(Jpeg, GrayIsTheFirstChannel) {
   EXPECT_NEAR(gray.at(3, 3), 200.0f / 255.0f, 1.01f / 255.0f);
 }
 
+// Texture coordinates refer to the stored pixels.
+TEST_F(Jpeg, ExifOrientationIsIgnored) {
+  Image<glm::u8vec4> image(16, 8);
+  for (int x = 0; x < 16; ++x) image.at(x, 0) = glm::u8vec4(16 * x, 0, 0, 255);
+  write_image(directory / "a.jpg", image);
+  const std::string file = read_bytes(directory / "a.jpg");
+  // A TIFF directory whose only entry is Orientation (0x112): 6, turned by 90 degrees.
+  const std::string exif("Exif\0\0MM\0*\0\0\0\x08\0\x01\x01\x12\0\x03\0\0\0\x01\0\x06\0\0\0\0\0\0", 32);
+  const std::string segment = std::string("\xff\xe1\0", 3) + static_cast<char>(exif.size() + 2) + exif;
+  EXPECT_TRUE(read_image(put("b.jpg", file.substr(0, 2) + segment + file.substr(2))) == read_image(directory / "a.jpg"));
+}
+
 TEST_F(Jpeg, RejectsTruncatedFiles) {
   for (const bool progressive : {false, true}) {
     const fs::path whole = directory / "whole.jpg";

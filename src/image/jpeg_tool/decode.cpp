@@ -1,41 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "halfspace/image/jpeg_tool/decode.h"
 
-#include <sys/mman.h>
-
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <new>
 #include <vector>
 
 #include "halfspace/core/cache_line_allocator.h"
 #include "halfspace/image/jpeg_errors.h"
 #include "halfspace/image/tool/failure.h"
+#include "halfspace/image/tool/mapped_file.h"
 #include "halfspace/image/tool/protocol.h"
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
-
-// The bytes of an open file. If another program truncates the file, reading its bytes kills this process. The parent process reports this
-// like any other crash of the decoder.
-class MappedFile {
- public:
-  MappedFile(int file, std::size_t bytes) : bytes_(bytes), start_(::mmap(nullptr, bytes, PROT_READ, MAP_PRIVATE, file, 0)) {
-    if (start_ == MAP_FAILED) throw Failure{std::string("cannot be read (") + std::strerror(errno) + "); expected an image"};
-  }
-  ~MappedFile() { ::munmap(start_, bytes_); }
-  MappedFile(const MappedFile&) = delete;
-  MappedFile& operator=(const MappedFile&) = delete;
-
-  const unsigned char* data() const { return static_cast<const unsigned char*>(start_); }
-  std::size_t size() const { return bytes_; }
-
- private:
-  std::size_t bytes_;
-  void* start_;
-};
 
 // Adobe stores CMYK inverted, as 255 minus the amount of ink, and so do all programs that write such files. The reflected light is then the
 // product of the color and the black channel.

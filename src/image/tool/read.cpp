@@ -4,25 +4,26 @@
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <memory>
 #include <new>
+#include <optional>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "halfspace/image/image_limits.h"
 #include "halfspace/image/tool/failure.h"
+#include "halfspace/image/tool/mapped_file.h"
+#include "halfspace/image/tool/picture.h"
 #include "halfspace/image/tool/protocol.h"
+#include "halfspace/image/tool/radiance_header.h"
+#include "halfspace/image/tool/read_webp.h"
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
-
-// A decoded image with the requested channels: all channels of the file, or only the first.
-struct Picture {
-  int width = 0, height = 0, channels = 0, alpha_channel = -1;
-  Sample sample = Sample::uint8;
-  std::vector<std::byte> pixels;
-};
 
 // The name under which OpenImageIO opens the file of a request.
 std::string name_of(const ReadRequest& request) { return "/proc/self/fd/" + std::to_string(request.file); }
@@ -47,13 +48,47 @@ Sample sample_of(const OIIO::TypeDesc& type) {
   return type.basetype == OIIO::TypeDesc::UINT16 ? Sample::uint16 : Sample::float32;
 }
 
+// How OpenImageIO describes the alpha of a file.
+enum class Alpha : uint8_t { none, straight, premultiplied };
+
+// Returns the index of the alpha channel, or -1. OpenImageIO 2.4 states a wrong index for GIF, but the name is right.
+int alpha_channel_of(const OIIO::ImageSpec& spec) {
+  if (spec.alpha_channel < spec.nchannels) return spec.alpha_channel;
+  return spec.channelindex("A");
+}
+
+// OpenImageIO was asked not to change colors, and marks those that are straight. It premultiplies WebP all the same. OpenEXR
+// is converted later, with its infinities (image_samples.h).
+Alpha alpha_of(const OIIO::ImageSpec& spec, const std::string& format) {
+  if (alpha_channel_of(spec) < 0) return Alpha::none;
+  const int targa_type = spec.get_int_attribute("targa:alpha_type", 3);  // TGA 2.0: 1 and 2 are undefined, 3 straight, 4 premultiplied
+  if (targa_type == 1 || targa_type == 2) return Alpha::none;
+  const bool may_be_premultiplied = format == "tiff" || format == "webp" || targa_type == 4;
+  return may_be_premultiplied && spec.get_int_attribute("oiio:UnassociatedAlpha") == 0 ? Alpha::premultiplied : Alpha::straight;
+}
+
+// Returns the number of channels to read. Only the first is needed for gray, unless it has to be divided by alpha.
+int channels_to_read(const OIIO::ImageSpec& spec, const ReadRequest& request) {
+  return request.gray && alpha_of(spec, request.format) != Alpha::premultiplied ? 1 : spec.nchannels;
+}
+
+Window data_window(const OIIO::ImageSpec& spec) { return {spec.x, spec.y, spec.width, spec.height}; }
+
+// Returns the area of the picture. An OpenEXR file can store a part of it, or more ("Technical Introduction to OpenEXR", section Display
+// Window and Data Window).
+Window picture_window(const OIIO::ImageSpec& spec, const ReadRequest& request) {
+  if (request.format != "openexr") return data_window(spec);
+  return {spec.full_x, spec.full_y, spec.full_width, spec.full_height};
+}
+
 void check_spec(const OIIO::ImageSpec& spec, const ReadRequest& request) {
   if (spec.depth > 1) throw Failure{"has several layers of pixels; expected a flat image"};
   if (spec.nchannels < 1 || spec.nchannels > kMaxChannels) {
     throw Failure{"has " + std::to_string(spec.nchannels) + " channels; expected 1 to " + std::to_string(kMaxChannels)};
   }
-  const auto channels = static_cast<uint64_t>(request.gray ? 1 : spec.nchannels);
-  check_claimed_size(request, spec.width, spec.height, channels * sample_bytes(sample_of(spec.format)));
+  const auto channels = static_cast<uint64_t>(channels_to_read(spec, request));
+  for (const Window& w : {data_window(spec), picture_window(spec, request)})
+    check_claimed_size(request, w.width, w.height, channels * sample_bytes(sample_of(spec.format)));
   const uint64_t tile = static_cast<uint64_t>(std::max(spec.tile_width, 0)) * static_cast<uint64_t>(std::max(spec.tile_height, 0));
   if (spec.deep || tile > kMaxImagePixels) throw Failure{"has deep pixels or oversized tiles; expected a flat image"};
 }
@@ -63,7 +98,29 @@ OIIO::TypeDesc type_of(Sample sample) {
   return sample == Sample::uint16 ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::FLOAT;
 }
 
+// Returns the orientation of the stored rows (see upright). EXIF data is ignored, as in JPEG files: texture coordinates refer to the stored
+// pixels. OpenImageIO 2.4 exchanges two of the orientations of Radiance files, so their header is read here.
+int orientation_of(const OIIO::ImageSpec& spec, const ReadRequest& request) {
+  if (request.format == "tiff") return spec.get_int_attribute("Orientation", 1);
+  if (request.format != "hdr") return 1;
+  const MappedFile file(request.file, request.file_bytes);
+  return radiance_orientation({reinterpret_cast<const char*>(file.data()), file.size()});
+}
+
+// Converts the stored pixels to an upright picture with straight alpha.
+Picture arranged(Picture p, const OIIO::ImageSpec& spec, const ReadRequest& request) {
+  if (alpha_of(spec, request.format) == Alpha::premultiplied) divide_by_alpha(p);
+  // Programs that do not know alpha leave the fourth byte of a pixel 0. All other viewers show such files.
+  if (request.format == "bmp" || request.format == "targa") drop_empty_alpha(p);
+  const Window stored = data_window(spec), wanted = picture_window(spec, request);
+  if (stored != wanted) p = in_window(p, stored, wanted);
+  return upright(std::move(p), orientation_of(spec, request));
+}
+
 Picture read_picture(const ReadRequest& request) {
+  if (request.format == "webp") {
+    if (std::optional<Picture> p = read_webp(request)) return *std::move(p);
+  }
   // Uses create() instead of open(), which would try all other readers if the matching one rejects the file.
   const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(request.format);
   if (input == nullptr) throw Failure{"is " + request.format + ", which this OpenImageIO cannot read; expected PNG or JPEG"};
@@ -72,11 +129,13 @@ Picture read_picture(const ReadRequest& request) {
   hints.attribute("oiio:UnassociatedAlpha", 1);  // keep straight alpha as it is
   if (!input->open(name_of(request), spec, hints)) throw damaged(request, input->geterror());
   check_spec(spec, request);
-  Picture p{spec.width, spec.height, request.gray ? 1 : spec.nchannels, request.gray ? -1 : spec.alpha_channel, sample_of(spec.format), {}};
-  p.pixels.resize(static_cast<std::size_t>(p.width) * static_cast<std::size_t>(p.height) * static_cast<std::size_t>(p.channels) *
-                  sample_bytes(p.sample));
+  const int channels = channels_to_read(spec, request);
+  const bool has_alpha = channels > 1 && alpha_of(spec, request.format) != Alpha::none;
+  Picture p = empty_picture(
+      spec.width, spec.height,
+      {.channels = channels, .alpha_channel = has_alpha ? alpha_channel_of(spec) : -1, .sample = sample_of(spec.format), .pixels = {}});
   if (!input->read_image(0, 0, 0, p.channels, type_of(p.sample), p.pixels.data())) throw damaged(request, input->geterror());
-  return p;
+  return arranged(std::move(p), spec, request);
 }
 
 // Returns the bytes of one fully opaque sample.
@@ -87,15 +146,11 @@ std::vector<std::byte> opaque(Sample sample) {
   return bytes;
 }
 
-// Writes RGBA row by row, which avoids a second copy of the image. If there are fewer than three color channels, the first one is
-// written as gray. If there is no alpha channel, alpha is opaque.
-void put_rgba(const Picture& p) {
-  const int colors = p.channels - (p.alpha_channel >= 0 ? 1 : 0);
-  const int from[4] = {0, colors >= 3 ? 1 : 0, colors >= 3 ? 2 : 0, p.alpha_channel};
-  const std::size_t size = sample_bytes(p.sample);
-  const std::size_t stride = size * static_cast<std::size_t>(p.channels);
+// Writes channels row by row, which avoids a second copy of the image. `from`: the channel of p for each channel of the answer; -1: opaque.
+void put_channels(const Picture& p, std::span<const int> from) {
+  const std::size_t size = sample_bytes(p.sample), stride = p.pixel_bytes();
   const std::vector<std::byte> one = opaque(p.sample);
-  std::vector<std::byte> row(static_cast<std::size_t>(p.width) * 4 * size);
+  std::vector<std::byte> row(static_cast<std::size_t>(p.width) * from.size() * size);
   for (std::size_t pixel = 0; pixel < p.pixels.size();) {
     for (std::byte* to = row.data(); to != row.data() + row.size(); pixel += stride) {
       for (const int channel : from) {
@@ -107,17 +162,21 @@ void put_rgba(const Picture& p) {
   }
 }
 
+// Writes the first channel, or RGBA. If there are fewer than three color channels, the first one is written as gray. If there is no alpha
+// channel, alpha is opaque.
+void put_pixels(const Picture& p, bool gray) {
+  if (gray) return put_channels(p, std::array{0});
+  const bool colors = p.channels - (p.alpha_channel >= 0 ? 1 : 0) >= 3;
+  put_channels(p, std::array{0, colors ? 1 : 0, colors ? 2 : 0, p.alpha_channel});
+}
+
 }  // namespace
 
 bool read_and_answer(const ReadRequest& request) {
   try {
     const Picture p = read_picture(request);
     put_answer(PictureHeader{kImageToolMagic, p.width, p.height, request.gray ? 1u : 4u, p.sample, 0}, "");
-    if (request.gray) {
-      std::fwrite(p.pixels.data(), 1, p.pixels.size(), stdout);
-    } else {
-      put_rgba(p);
-    }
+    put_pixels(p, request.gray);
   } catch (const Failure& failure) {
     report_failure(failure);
   } catch (const std::bad_alloc&) {
