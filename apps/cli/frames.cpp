@@ -9,6 +9,7 @@
 #include <atomic>
 #include <cstdint>
 #include <cstdio>
+#include <optional>
 #include <string>
 
 #include "cli/arguments.h"
@@ -33,6 +34,30 @@ FrameRange parse_frames(std::string_view text) {
 std::filesystem::path frame_path(const std::filesystem::path& out, int frame, const FrameRange& range) {
   const std::size_t digits = std::max<std::size_t>(4, std::to_string(range.last).size());
   return out.parent_path() / fmt::format("{}_{:0{}}{}", out.stem().string(), frame, digits, out.extension().string());
+}
+
+namespace {
+
+// Returns the frame number in a file name such as "moon_0007" or "moon_0007-camera_normal", if the output is "moon".
+std::optional<int> frame_in(const std::string& name, const std::string& output) {
+  if (!name.starts_with(output + "_")) return std::nullopt;
+  const std::string end = name.substr(output.size() + 1);
+  const int number = parse_number(end.substr(0, end.find('-')));
+  return number < 0 ? std::nullopt : std::optional(number);
+}
+
+}  // namespace
+
+// Reads the folder instead of trying each name, because there may be millions of frames.
+std::set<int> existing_frames(const std::filesystem::path& out, const FrameRange& range) {
+  std::set<int> frames;
+  const std::filesystem::path folder = out.has_parent_path() ? out.parent_path() : ".";
+  std::error_code error;
+  for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+    const std::optional<int> frame = frame_in(entry->path().stem().string(), out.stem().string());
+    if (frame && *frame >= range.first && *frame <= range.last) frames.insert(*frame);
+  }
+  return frames;
 }
 
 std::vector<double> frame_times(const FrameRange& range, double start, double fps) {

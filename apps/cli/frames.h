@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,6 +23,9 @@ FrameRange parse_frames(std::string_view text);
 
 /// Returns the file name of a frame: "moon_0007.png" for "moon.png" and frame 7. Uses more than four digits if the range needs them.
 std::filesystem::path frame_path(const std::filesystem::path& out, int frame, const FrameRange& range);
+
+/// Returns the numbers of the frames in the range of which at least one file exists: moon_0007.png or, for example, moon_0007-depth.exr.
+std::set<int> existing_frames(const std::filesystem::path& out, const FrameRange& range);
 
 /// Returns the time of each frame in seconds, where frame 0 is at `start`. If there are more than 1000 frames, returns 1000 evenly spaced
 /// ones, including the first and the last.

@@ -1,8 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/output_files.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
+
+#include "cli/errors.h"
+#include "halfspace/core/text.h"
+#include "halfspace/image/image_comment.h"
 
 namespace halfspace {
 
@@ -57,6 +63,22 @@ void render_files(const PreparedScene& scene, const PictureFiles& files, const W
   report.draw_ms += render_ms;
   report.render_ms += render_ms;
   report.write_ms += milliseconds() - render_ms;
+}
+
+bool record_same_options(const PictureFiles& files) {
+  bool all = true;
+  std::vector<std::filesystem::path> paths = value_files(files.choice, files.picture);
+  paths.push_back(files.picture);
+  for (const std::filesystem::path& path : paths) {
+    std::error_code error;
+    if (!std::filesystem::exists(path, error)) continue;
+    const std::string recorded = image_comment(path);
+    all = all && !recorded.empty();
+    if (recorded.empty() || recorded == files.text.comment) continue;
+    throw UsageError(fmt::format("--resume: {} was rendered by \"{}\"; expected the same options as now: \"{}\"", path.string(),
+                                 printable(recorded), files.text.comment));
+  }
+  return all;
 }
 
 bool are_complete(const PictureFiles& files) {

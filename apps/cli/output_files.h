@@ -24,6 +24,10 @@ struct PictureFiles {
 /// Renders the picture and its values and writes them, with the picture last. Adds times and counts to the report.
 void render_files(const PreparedScene& scene, const PictureFiles& files, const Workers& workers, RenderReport& report);
 
+/// Returns true if every existing file of the picture records how it was rendered. Throws UsageError if one of them was rendered with other
+/// options than those of `files.text`. Only PNG and OpenEXR files have such a record.
+bool record_same_options(const PictureFiles& files);
+
 /// Returns true if all files from an earlier run exist, and the picture is complete and has the requested size.
 bool are_complete(const PictureFiles& files);
 

@@ -284,23 +284,20 @@ RenderReport run(const RenderJob& job) {
   return report;
 }
 
-// Returns the frame number in a file name such as "moon_0007" or "moon_0007-camera_normal", if the output is "moon".
-std::optional<int> frame_in(const std::string& name, const std::string& output) {
-  if (!name.starts_with(output + "_")) return std::nullopt;
-  const std::string end = name.substr(output.size() + 1);
-  const int number = parse_number(end.substr(0, end.find('-')));
-  return number < 0 ? std::nullopt : std::optional(number);
-}
-
-// Like protect_inputs, for all frames. Examines only files that exist, so that a long animation does not fail at its last frame.
-void protect_frame_inputs(const RenderJob& job) {
+// Like protect_inputs, for all frames, so that a long animation does not fail at its last frame. With --resume, throws UsageError if a
+// frame was rendered with other options, and warns if this is unknown.
+void check_existing_frames(const RenderJob& job) {
   if (!job.frames) return protect_inputs(job, job.out);
-  const std::filesystem::path folder = job.out.has_parent_path() ? job.out.parent_path() : ".";
-  std::error_code error;
-  for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
-    const std::optional<int> frame = frame_in(entry->path().stem().string(), job.out.stem().string());
-    if (frame && *frame >= job.frames->first && *frame <= job.frames->last) protect_inputs(job, frame_path(job.out, *frame, *job.frames));
+  std::filesystem::path unknown;
+  for (const int frame : existing_frames(job.out, *job.frames)) {
+    const std::filesystem::path path = frame_path(job.out, frame, *job.frames);
+    protect_inputs(job, path);
+    std::error_code error;
+    if (!job.resume || !std::filesystem::exists(path, error)) continue;
+    if (!record_same_options(files_of(job, time_of(job, frame), path)) && unknown.empty()) unknown = path;
   }
+  if (unknown.empty()) return;
+  print_warning("--resume: files such as " + unknown.string() + " do not record their options; complete ones are kept, whatever they were");
 }
 
 }  // namespace
@@ -315,7 +312,7 @@ void render_command(const RenderArguments& args) {
   }
   reading.reset();
   const double read_ms = milliseconds_since(start);
-  protect_frame_inputs(job);
+  check_existing_frames(job);
   RenderReport report = run(job);
   report.read_ms = read_ms;
   // A single frame of an animation may be empty on purpose.

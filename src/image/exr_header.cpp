@@ -11,7 +11,7 @@ namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
-// The list of channels is among the first attributes.
+// Attributes are sorted by name, so the comments and the list of channels are among the first.
 constexpr std::size_t kHeaderBytes = 1 << 16;
 constexpr std::string_view kMagic("\x76\x2f\x31\x01", 4);
 // Version, and per channel: type, linearity with padding, and two subsampling rates.
@@ -58,7 +58,10 @@ std::vector<std::string> names_in(std::string_view list) {
 
 }  // namespace
 
-std::vector<std::string> exr_channel_names(const std::filesystem::path& file) {
+namespace {
+
+// Returns the value of the first attribute with the name and type, or an empty string.
+std::string attribute(const std::filesystem::path& file, std::string_view name, std::string_view type) {
   std::ifstream stream(file, std::ios::binary);
   std::string start(kHeaderBytes, '\0');
   stream.read(start.data(), static_cast<std::streamsize>(start.size()));
@@ -66,12 +69,18 @@ std::vector<std::string> exr_channel_names(const std::filesystem::path& file) {
   HeaderBytes bytes(start);
   if (bytes.take(kMagic.size()) != kMagic) return {};
   bytes.take(kVersionBytes);
-  while (!bytes.word().empty()) {
-    const bool is_list = bytes.word() == "chlist";
+  for (std::string_view found = bytes.word(); !found.empty(); found = bytes.word()) {
+    const bool is_wanted = bytes.word() == type && found == name;
     const std::string_view value = bytes.take(bytes.size());
-    if (is_list) return names_in(value);
+    if (is_wanted) return std::string(value);
   }
   return {};
 }
+
+}  // namespace
+
+std::vector<std::string> exr_channel_names(const std::filesystem::path& file) { return names_in(attribute(file, "channels", "chlist")); }
+
+std::string exr_comment(const std::filesystem::path& file) { return attribute(file, "comments", "string"); }
 
 }  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -15,4 +15,7 @@ namespace halfspace::inline HS_LANES_NAMESPACE {
 /// is invalid. Source: "OpenEXR File Layout", sections Header and Channel List.
 std::vector<std::string> exr_channel_names(const std::filesystem::path& file);
 
+/// Returns ImageText::comment of an OpenEXR file, or an empty string if the file cannot be read or has none.
+std::string exr_comment(const std::filesystem::path& file);
+
 }  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -32,4 +32,7 @@ bool is_png(std::span<const std::byte> bytes);
 /// begins with `name`, for damaged or oversized files.
 ColorPicture decode_png(std::span<const std::byte> bytes, const std::string& name);
 
+/// Returns ImageText::comment of a PNG file, or an empty string if the bytes before the pixels are not valid or have none.
+std::string png_comment(std::span<const std::byte> bytes);
+
 }  // namespace halfspace::inline HS_LANES_NAMESPACE

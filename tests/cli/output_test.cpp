@@ -109,6 +109,42 @@ TEST_F(Outputs, ResumeKeepsFramesWithAllValues) {
   }
 }
 
+// A sequence must not mix frames of different options, and no frame may be lost.
+TEST_F(Outputs, ResumeRefusesFramesOfOtherOptions) {
+  for (const std::string name : {"a.png", "a.exr"}) {
+    expect_success({"--frames", "0..1", "-o", name});
+    const std::string frame = fs::path(name).stem().string() + "_0001" + fs::path(name).extension().string();
+    const std::string before = bytes(frame);
+    for (const std::vector<std::string>& other : std::vector<std::vector<std::string>>{
+             {"--set", "ambient=0.5"}, {"--fps", "12"}, {"--time", "1"}, {"--crop", "0,0,96,64"}, {"--shading", "flat"}}) {
+      std::vector<std::string> words{"--frames", "0..2", "-o", name, "--resume"};
+      words.insert(words.end(), other.begin(), other.end());
+      expect_usage_error(words, "_000");
+    }
+    EXPECT_EQ(run({"render", "scene.json", "--size", "48x32", "--frames", "0..2", "-o", name, "--resume"}).exit_code, 2);
+    EXPECT_EQ(bytes(frame), before);
+    EXPECT_FALSE(fs::exists(directory / ("a_0002" + fs::path(name).extension().string())));
+    expect_success({"--frames", "0..2", "-o", name, "--resume"});
+  }
+}
+
+TEST_F(Outputs, ResumeRefusesValuesOfOtherOptions) {
+  expect_success({"--frames", "0..1", "-o", "a.png", "--aov", "depth", "--set", "cameras.c.fov=30"});
+  expect_success({"--frames", "0..1", "-o", "a.png"});
+  expect_usage_error({"--frames", "0..1", "-o", "a.png", "--aov", "depth", "--resume"}, "a_0000-aov.exr");
+}
+
+TEST_F(Outputs, ResumeWarnsIfOptionsAreUnknown) {
+  for (const std::string extension : {"jpg", "tif", "hdr"}) {
+    expect_success({"--frames", "0..1", "-o", "a." + extension});
+    const Outcome o = render({"--frames", "0..1", "-o", "a." + extension, "--resume", "--set", "ambient=0.5"});
+    EXPECT_EQ(o.exit_code, 0);
+    EXPECT_EQ(lines_of(o.err), 1) << o.err;
+    EXPECT_NE(o.err.find("a_0000." + extension), std::string::npos) << o.err;
+  }
+  expect_success({"--frames", "5..6", "-o", "a.jpg", "--resume"});
+}
+
 TEST_F(Outputs, ValuesDoNotReplaceInputs) {
   fs::copy_file(directory / "scene.json", directory / "scene-aov.exr");
   const Outcome o = run({"render", "scene-aov.exr", "--size", "96x64", "--aov", "depth", "-o", "scene.png"});
