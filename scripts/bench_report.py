@@ -5,6 +5,7 @@ documents."""
 import argparse
 import json
 import shutil
+import subprocess
 import sys
 from pathlib import Path
 
@@ -15,6 +16,12 @@ DOCUMENTS = ["README.md", "docs/results/performance.md"]
 CHARTS = Path("docs/results/benchmark")
 
 
+def later_commits(commit):
+    """The number of commits after the measured one that changed the renderer. 0 if the commit is unknown."""
+    count = subprocess.run(["git", "rev-list", "--count", f"{commit.removesuffix('-dirty')}..HEAD", "--", "src"], capture_output=True, text=True)
+    return int(count.stdout) if count.returncode == 0 else 0
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("results", type=Path)
@@ -23,7 +30,7 @@ def main():
     args = parser.parse_args()
 
     results = bench_tables.Results(json.loads(args.results.read_text()))
-    sections = bench_tables.sections(results)
+    sections = bench_tables.sections(results, later_commits(results.raw["machine"]["commit"]))
     args.out.mkdir(parents=True, exist_ok=True)
     shown = ("source", "means", "times", "ratios", "resources", "limits", "growth", "matrix", "scenes")
     (args.out / "tables.md").write_text("\n\n".join(sections[name] for name in shown) + "\n")

@@ -48,6 +48,14 @@ class Results:
         a, b = self.ms(ours, workload, size), self.ms(theirs, workload, size)
         return b / a if a and b and self.picture_counts(ours, workload, size) else None
 
+    def names_without_ratio(self):
+        """The workloads that we and llvmpipe drew, but not accurately enough for a ratio at any size."""
+        def has_ratio(name):
+            return any(self.ratio(f"halfspace native {n}", f"llvmpipe {n}", name, size) for n in (1, self.threads) for size in self.sizes)
+
+        drawn = {w for (who, w, _) in self.rows if who.startswith("llvmpipe")}
+        return [name for name in self.names if name in drawn and not has_ratio(name)]
+
     def mean_ratio(self, ours, theirs, size):
         found = [self.ratio(ours, theirs, w, size) for w in COMPARED]
         found = [r for r in found if r]
@@ -82,6 +90,18 @@ def source_line(results):
     busy = f" **Other processes kept {others:.1f} cores busy during the run, so the times are not reliable.**" if others > 0.2 else ""
     return (f"Measured on {m['date']} at commit {m['commit']} on {m['cpu']}, {m['cores']} cores, {m['system']}, compiled with {m['compiler']}. "
             f"{rounds}{busy}")
+
+
+def gaps_line(results, later_commits):
+    """What the figures do not cover: later changes of the renderer, counted in whole hundreds of commits, and workloads without a speedup.
+    Empty if they cover everything."""
+    without = results.names_without_ratio()
+    parts = []
+    if later_commits >= 100:
+        parts.append(f"The renderer has changed in more than {later_commits // 100 * 100} commits since then, which are not measured yet.")
+    if without:
+        parts.append(f"This run has no speedup of {', '.join(without)}.")
+    return " ".join(parts)
 
 
 def stamp(results):
@@ -249,8 +269,11 @@ def growth_table(results):
     return table(["one thread", "cost", "values", "exponent"], rows)
 
 
-def sections(results):
-    """The generated sections of the documents, by the name in their markers."""
+def sections(results, later_commits=0):
+    """The generated sections of the documents, by the name in their markers. later_commits: number of commits after the measured one that
+    changed the renderer."""
+    gaps = gaps_line(results, later_commits)
+    source = source_line(results) + (f" **{gaps}**" if gaps else "")
     stamped = lambda text: f"{text}\n\n{stamp(results)}"
     by_size = lambda make: stamped("\n\n".join(make(results, size) for size in results.sizes))
 
@@ -265,7 +288,7 @@ def sections(results):
         f"({times(results.mean_ratio(f'halfspace v3 {n}', f'llvmpipe {n}', size))} with the x86-64-v3 build) and "
         f"{times(results.mean_ratio(f'halfspace native {n}', f'SwiftShader {n}', size))} over SwiftShader" for size in results.sizes))
     return {
-        "source": source_line(results),
+        "source": source,
         "means": means,
         "times": by_size(time_table),
         "ratios": by_size(ratio_table),
@@ -274,5 +297,5 @@ def sections(results):
         "growth": stamped(growth_table(results)),
         "matrix": states("matrix", "state", "plain"),
         "scenes": states("scenes", "scene and camera"),
-        "readme": means + "\n\n" + source_line(results),
+        "readme": means + "\n\n" + source,
     }

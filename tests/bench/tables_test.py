@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Tests the table values that scripts/bench_tables.py produces, the rule for when it shows a ratio, and the processor names from
 scripts/bench_measure.py."""
+import re
 import sys
 import unittest
 from pathlib import Path
@@ -53,6 +54,28 @@ class Tables(unittest.TestCase):
             r.pictures[(f"halfspace native {n}", "fill", SIZE)] = r.pictures[("halfspace native 1", "fill", SIZE)]
             r.pictures[(f"halfspace native {n}", "tiny_1m", SIZE)] = r.pictures[("halfspace native 1", "tiny_1m", SIZE)]
         self.assertAlmostEqual(r.mean_ratio("halfspace native 1", "llvmpipe 1", SIZE), 6.0)
+
+    def test_gaps_are_stated_beside_the_figures(self):
+        r = results()
+        self.assertEqual(bench_tables.gaps_line(r, 99), "")
+        self.assertNotIn("**", bench_tables.sections(r)["readme"])
+        r.pictures[("halfspace native 1", "tiny_1m", SIZE)]["colors_off"] = 11  # the picture no longer counts
+        gaps = bench_tables.gaps_line(r, 249)
+        self.assertIn("more than 200 commits", gaps)
+        self.assertIn("no speedup of tiny_1m.", gaps)
+        for name in ("readme", "source"):
+            self.assertTrue(bench_tables.sections(r, 249)[name].endswith(f"**{gaps}**"))
+
+    def test_documents_state_the_gaps_of_their_run(self):
+        root = Path(bench_report.__file__).resolve().parents[1]
+        readme, page = ((root / name).read_text(encoding="utf-8") for name in bench_report.DOCUMENTS)
+        commit = re.search(r"at commit (\w+)", readme)[1]
+        self.assertIn(f"at commit {commit}", page)
+        without = {name for name in re.findall(r"^\| (\w+) \| – ", page, re.MULTILINE)}
+        for text in (readme, " ".join(page.split())):
+            self.assertEqual(bench_report.later_commits(commit) >= 100, "commits since then" in text)
+            for name in without:
+                self.assertRegex(text, rf"no speedup of [^.]*\b{name}\b")
 
     def test_a_wrong_picture_has_no_ratio(self):
         r = results()
