@@ -20,7 +20,9 @@ _halfspace() {
     COMPREPLY=($(compgen -W "$(halfspace completion words)" -- "$cur"))
   elif [ "$prev" = --set ]; then
     compopt -o nospace
+    local IFS=$'\n'  # names can contain spaces
     COMPREPLY=($(compgen -S = -W "$(halfspace list "$scene" --names 2> /dev/null)" -- "$cur"))
+    COMPREPLY=("${COMPREPLY[@]// /\\ }")
   elif [[ $cur == -* ]]; then
     COMPREPLY=($(compgen -W "$(halfspace completion words "$command")" -- "$cur"))
   elif [ "$COMP_CWORD" -eq 2 ] && [[ $command == render || $command == list ]]; then

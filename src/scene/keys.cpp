@@ -331,6 +331,8 @@ Json parse_text(const Key& key, std::string_view text, const std::string& path, 
       break;
     }
     default: {
+      const bool is_texture = key.type == KeyType::map && std::ranges::find(context.textures, text) != context.textures.end();
+      if (is_texture) return std::string(text);  // even if its name is a number
       if (const std::optional<Json> numbers = parse_numbers(text)) return *numbers;
       if (key.type == KeyType::color || key.type == KeyType::map) return std::string(text);
       break;

@@ -132,10 +132,11 @@ void check_format(const std::filesystem::path& path) {
 
 // ---- JSON → description ----------------------------------------------------------------------------------------
 
-// Names consist of characters that have no other meaning in a dotted path.
+// Names do not contain characters that have another meaning where names are used: '=' and ',' in settings and lists, '#' before colors, and
+// blanks at the ends.
 bool is_name(std::string_view s) {
-  const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_'; };
-  return !s.empty() && s[0] >= 'a' && s[0] <= 'z' && std::ranges::all_of(s, letter);
+  const auto allowed = [](char c) { return static_cast<unsigned char>(c) >= 32 && c != 127 && c != '=' && c != ','; };
+  return !s.empty() && s.front() != '#' && s.front() != ' ' && s.back() != ' ' && std::ranges::all_of(s, allowed);
 }
 
 class Reader {
@@ -181,7 +182,9 @@ class Reader {
       const std::string path = std::string(collection_name) + "." + name;
       if (std::ranges::find(top_words_, name) != top_words_.end())
         fail(context_.source, path + ": is a reserved word; expected another name");
-      if (!is_name(name)) fail(context_.source, path + ": invalid name; expected a letter a to z followed by letters, digits and _");
+      if (!is_name(name))
+        fail(context_.source,
+             printable(path) + ": invalid name; expected text without '=' and ',' that neither begins with '#' nor begins or ends with a space");
       T thing;
       if constexpr (std::is_same_v<T, ObjectDescription>) {
         read_object(thing, value, path);

@@ -32,6 +32,42 @@ std::string joined(std::span<const std::string> words) {
 
 bool contains(const std::vector<std::string_view>& names, std::string_view name) { return std::ranges::find(names, name) != names.end(); }
 
+// Returns whether the words are the full path of a section or of a key.
+bool exists(SceneDescription& scene, std::span<const std::string> words) {
+  if (!section_at(scene, words).empty()) return true;
+  return words.size() > 1 && find_field(section_at(scene, words.first(words.size() - 1)), words.back()).key != nullptr;
+}
+
+// Like exists(), but the path may omit the collection.
+bool exists_anywhere(SceneDescription& scene, const std::vector<std::string>& words) {
+  bool found = exists(scene, words);
+  for_each_collection(scene, [&](const char* collection, const char*, auto&) {
+    if (found) return;
+    std::vector<std::string> whole = words;
+    whole.insert(whole.begin(), collection);
+    found = exists(scene, whole);
+  });
+  return found;
+}
+
+// Joins the words of a name that contains dots, such as "Cube.001". Returns the split that names something or, if none does, the one with
+// the longest name.
+std::vector<std::string> with_joined_name(SceneDescription& scene, const std::vector<std::string>& words) {
+  std::vector<std::string> best = words;
+  bool found = false;
+  for_each_collection(scene, [&](const char* collection, const char*, auto& list) {
+    const std::size_t first = words[0] == collection ? 1 : 0;
+    for (std::size_t end = first + 2; end <= words.size() && !found; ++end) {
+      const std::string name = joined(std::span(words).subspan(first, end - first));
+      if (find_named(list, name) == nullptr) continue;
+      best = {collection, name};
+      best.insert(best.end(), words.begin() + static_cast<std::ptrdiff_t>(end), words.end());
+      found = exists(scene, best);
+    }
+  });
+  return best;
+}
+
 // Prepends the collection to a path that omits it.
 void complete(std::vector<std::string>& words, SceneDescription& scene, const std::string& where) {
   std::vector<std::string_view> names = top_words(scene);
@@ -48,6 +84,14 @@ void complete(std::vector<std::string>& words, SceneDescription& scene, const st
                      "; expected a path that begins with one of them");
   }
   words.insert(words.begin(), homes[0]);
+}
+
+// Returns the words of the full path. where: the start of error messages.
+std::vector<std::string> words_of(SceneDescription& scene, std::string_view path, const std::string& where) {
+  std::vector<std::string> words = split(path);
+  if (!exists_anywhere(scene, words)) words = with_joined_name(scene, words);
+  if (words.size() > 1 || !contains(top_words(scene), words[0])) complete(words, scene, where);
+  return words;
 }
 
 // Returns the names that may follow words[0], for suggestions if words[1] is unknown.
@@ -129,10 +173,13 @@ std::vector<NamedSection> sections_of(SceneDescription& scene) {
   return sections;
 }
 
+Section find_section(SceneDescription& scene, std::string_view path, const std::string& source) {
+  return section_at(scene, words_of(scene, path, source + ": " + std::string(path) + ": "));
+}
+
 FoundKey find_key(SceneDescription& scene, std::string_view path, const std::string& source) {
   const std::string where = source + ": " + std::string(path) + ": ";
-  std::vector<std::string> words = split(path);
-  if (words.size() > 1 || !contains(top_words(scene), words[0])) complete(words, scene, where);
+  const std::vector<std::string> words = words_of(scene, path, where);
   if (!section_at(scene, words).empty()) throw InputError(where + "is a section; expected " + joined(words) + ".KEY");
   const Section section = section_at(scene, std::span(words).first(words.size() - 1));
   if (section.empty()) {

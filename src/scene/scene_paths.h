@@ -35,9 +35,13 @@ struct FoundKey {
   std::vector<std::string> words;
 };
 
-/// Finds a key by its dotted path. The collection can be omitted if the name of the item is unique. Throws InputError with a
-/// message that begins with `source`.
+/// Finds a key by its dotted path. The collection can be omitted if the name of the item is unique. Names may contain dots. Throws
+/// InputError with a message that begins with `source`.
 FoundKey find_key(SceneDescription& scene, std::string_view path, const std::string& source);
+
+/// Returns the section with a dotted path, or an empty section if that path is a key. The collection can be omitted as for find_key().
+/// Throws InputError with a message that begins with `source`.
+Section find_section(SceneDescription& scene, std::string_view path, const std::string& source);
 
 /// Returns the section named by the words, or an empty section if there is none.
 Section section_at(SceneDescription& scene, std::span<const std::string> words);

@@ -9,6 +9,9 @@ namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
+// The names that the reader accepts.
+constexpr const char* kNamePattern = R"(^[^ #=,\x00-\x1f\x7f]([^=,\x00-\x1f\x7f]*[^ =,\x00-\x1f\x7f])?$)";
+
 // Lists the keys of all kinds. The schema does not express which kind has which key; the program checks that.
 Json schema_of(const Section& section) {
   Json properties = Json::object();
@@ -41,7 +44,7 @@ std::string scene_schema() {
       Placement p;
       item["properties"][kInstances] = {{"type", "array"}, {"items", schema_of(section_of(p))}};
     }
-    properties[name] = {{"type", "object"}, {"propertyNames", {{"pattern", "^[a-z][a-z0-9_]*$"}}}, {"additionalProperties", item}};
+    properties[name] = {{"type", "object"}, {"propertyNames", {{"pattern", kNamePattern}}}, {"additionalProperties", item}};
   });
   Json out = {{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "Halfspace scene"}};
   out.update(schema);

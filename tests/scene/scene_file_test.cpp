@@ -254,7 +254,9 @@ const Wrong kWrong[] = {
     {"Choice", R"({"version": 1, "objects": {"a": {"shape": "uv_spere"}}})", "test.json: objects.a.shape", {"\"uv_spere\"", "'uv_sphere'"}},
     {"Colour", R"({"version": 1, "ambient": "#12345"})", "test.json: ambient", {"#rrggbb", "\"#12345\""}},
     {"Boolean", R"({"version": 1, "objects": {"a": {"visible": 1}}})", "test.json: objects.a.visible", {"true or false", "got 1"}},
-    {"Name", R"({"version": 1, "objects": {"A b": {}}})", "test.json: objects.A b", {"letter", "digits"}},
+    {"Name", R"({"version": 1, "objects": {"a=b": {}}})", "test.json: objects.a=b", {"invalid name", "expected text without '='"}},
+    {"NameEndsWithSpace", R"({"version": 1, "lights": {"a ": {}}})", "test.json: lights.a ", {"invalid name"}},
+    {"NameLooksLikeColor", R"({"version": 1, "textures": {"#fff": {}}})", "test.json: textures.#fff", {"invalid name"}},
     {"NoObject", R"({"version": 1, "objects": {"a": 3}})", "test.json: objects.a", {"object", "got 3"}},
     {"NoCollection", R"({"version": 1, "objects": []})", "test.json: objects", {"object", "names"}},
     {"Material",
@@ -537,6 +539,27 @@ TEST(Merge, LeavesTheSceneUnchangedOnErrors) {
   EXPECT_EQ(scene.description().head.samples, 2);
 }
 
+// Names as other programs write them: with spaces, capitals, dots, signs and letters of all languages.
+constexpr const char* kOddNames = R"json({"version": 1, "textures": {"1": {"source": "moon_color"}}, "materials": {"a.b": {}},
+  "objects": {"My Obj": {}, "Cube": {}, "Cube.001": {"material": "a.b"}, "Größe (2)": {"parent": "Cube.001", "instances": [{}]}}})json";
+
+TEST(SceneFile, NamesMayContainSpacesAndDots) {
+  SceneFile file = SceneFile::parse(kOddNames, "test.json", {});
+  file.set(std::vector<std::string>{"My Obj.radius=2", "Cube.001.radius=3", "objects.Cube.001.visible=false", "Cube.radius=4",
+                                    "a.b.shininess=5", "Größe (2).instances.0.position=1,2,3", "My Obj.color=1"});
+  const SceneDescription& scene = file.description();
+  EXPECT_EQ(find_named(scene.objects, "My Obj")->radius, 2.0);
+  EXPECT_EQ(find_named(scene.objects, "Cube.001")->radius, 3.0);
+  EXPECT_FALSE(find_named(scene.objects, "Cube.001")->visible);
+  EXPECT_EQ(find_named(scene.objects, "Cube")->radius, 4.0);
+  EXPECT_EQ(find_named(scene.objects, "Cube.001")->surface.shininess, 5.0);
+  EXPECT_EQ(find_named(scene.objects, "Größe (2)")->instances.at(0).position, glm::dvec3(1, 2, 3));
+  EXPECT_TRUE(std::holds_alternative<TextureName>(find_named(scene.objects, "My Obj")->surface.color)) << "the texture is named 1";
+  EXPECT_TRUE(reports(input_error([&] { file.set("Cube.001.radus=1"); }), "--set: Cube.001.radus", {"radius"}));
+  EXPECT_TRUE(reports(input_error([&] { file.set("Cube.001=1"); }), "--set: Cube.001", {"section", "objects.Cube.001.KEY"}));
+  EXPECT_EQ(SceneFile::parse(file.print(), "again.json", {}).print(), file.print());
+}
+
 TEST(Schema, FileInDocsIsUpToDate) {
   EXPECT_TRUE(read_bytes("docs/reference/scene.schema.json") == scene_schema())
       << "to update it, run: halfspace list --schema > docs/reference/scene.schema.json";
@@ -563,9 +586,11 @@ sys.exit(0 if all(V(schema).is_valid(s) for s in ok) and not any(V(schema).is_va
     std::ofstream(directory / scene.name) << SceneFile::open(std::string(scene.name)).print();
     right += std::string(scene.name) + " ";
   }
+  std::ofstream(directory / "names") << kOddNames;
+  right += "names ";
   for (const Wrong& w : kWrong) {
-    for (const char* kind :
-         {"NoVersion", "OtherVersion", "Section", "Key", "Type", "Range", "Fraction", "Vector", "Choice", "Boolean", "Name", "NoObject"}) {
+    for (const char* kind : {"NoVersion", "OtherVersion", "Section", "Key", "Type", "Range", "Fraction", "Vector", "Choice", "Boolean",
+                             "Name", "NameEndsWithSpace", "NameLooksLikeColor", "NoObject"}) {
       if (std::string(w.name) != kind) continue;
       std::ofstream(directory / w.name) << w.text;
       wrong += std::string(w.name) + " ";
