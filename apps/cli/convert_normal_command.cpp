@@ -6,7 +6,7 @@
 #include "cli/arguments.h"
 #include "cli/commands.h"
 #include "cli/errors.h"
-#include "cli/input_files.h"
+#include "halfspace/render/input_files.h"
 #include "halfspace/core/check.h"
 #include "halfspace/core/parallel.h"
 #include "halfspace/geometry/normal_map.h"

@@ -11,7 +11,7 @@
 #include "cli/command_line.h"
 #include "cli/commands.h"
 #include "cli/errors.h"
-#include "cli/input_files.h"
+#include "halfspace/render/input_files.h"
 #include "cli/scene_arguments.h"
 #include "cli/stage_display.h"
 #include "halfspace/core/check.h"

@@ -5,59 +5,49 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.h"
-#include "cli/model_info.h"
+#include "cli/errors.h"
 #include "cli/stage_display.h"
 #include "halfspace/core/cpu.h"
-#include "halfspace/core/lanes.h"
-#include "halfspace/core/parallel.h"
-#include "halfspace/image/image_tool.h"
-#include "halfspace/model/draco_process.h"
+#include "halfspace/render/model/model_info.h"
+#include "halfspace/render/program_info.h"
 
 namespace halfspace {
 
 namespace {
 
-constexpr const char* kCompiler =
-#ifdef __clang__
-    "Clang " __clang_version__;
-#else
-    "GCC " __VERSION__;
-#endif
-
-void print_text() {
-  const std::filesystem::path tool = find_image_tool(), jpeg = find_jpeg_tool(), draco = find_draco_tool();
+void print_text(const nlohmann::ordered_json& info) {
+  const auto tool = [&](const char* name, const char* missing) {
+    return info.at(name).is_null() ? std::string("not found: ") + missing : info.at(name).get<std::string>();
+  };
   std::cout << "halfspace " << HALFSPACE_VERSION << '\n'
-            << "build         " << build_description() << ", " << kCompiler << '\n'
-            << "cores         " << Workers::cores() << '\n'
-            << "draco tool    " << (draco.empty() ? "not found: glTF meshes that are compressed with Draco cannot be read" : draco.string())
-            << '\n'
-            << "image tool    " << (tool.empty() ? "not found: only PNG images and, with the JPEG tool, JPEG can be read" : tool.string())
-            << '\n'
-            << "jpeg tool     " << (jpeg.empty() ? "not found: JPEG images need the image tool" : jpeg.string()) << '\n';
+            << "build         " << build_description() << ", " << info.at("compiler").get<std::string>() << '\n'
+            << "cores         " << info.at("cores") << '\n'
+            << "draco tool    " << tool("draco_tool", "glTF meshes that are compressed with Draco cannot be read") << '\n'
+            << "image tool    " << tool("image_tool", "only PNG images and, with the JPEG tool, JPEG can be read") << '\n'
+            << "jpeg tool     " << tool("jpeg_tool", "JPEG images need the image tool") << '\n';
 }
 
-void print_json() {
-  const std::filesystem::path tool = find_image_tool(), jpeg = find_jpeg_tool(), draco = find_draco_tool();
-  nlohmann::ordered_json json = {{"version", HALFSPACE_VERSION}, {"arch", build_arch()},  {"lanes", kLanes},      {"compiler", kCompiler},
-                                 {"cores", Workers::cores()},    {"image_tool", nullptr}, {"jpeg_tool", nullptr}, {"draco_tool", nullptr}};
-  if (!tool.empty()) json["image_tool"] = tool.string();
-  if (!jpeg.empty()) json["jpeg_tool"] = jpeg.string();
-  if (!draco.empty()) json["draco_tool"] = draco.string();
-  std::cout << json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
+std::optional<UpAxis> parse_up_axis(const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  if (text != "y" && text != "z") throw UsageError("--up-axis is '" + text + "'; expected y or z");
+  return text == "z" ? UpAxis::z : UpAxis::y;
 }
 
 }  // namespace
 
 void info_command(const InfoArguments& args) {
   set_limits(args.limits);
-  if (!args.model.empty()) {
-    const std::string text = [&] {
-      const StageDisplay reading("reading " + args.model);
-      return model_info(args);
-    }();
-    std::cout << text;
+  const auto read = [&] {
+    const StageDisplay reading("reading " + args.model);
+    return model_info(args.model, args.allow_outside, parse_up_axis(args.up_axis));
+  };
+  const nlohmann::ordered_json info = args.model.empty() ? program_info(HALFSPACE_VERSION) : read();
+  if (args.json) {
+    std::cout << info.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
+  } else if (args.model.empty()) {
+    print_text(info);
   } else {
-    args.json ? print_json() : print_text();
+    std::cout << model_info_text(info);
   }
 }
 

@@ -16,7 +16,7 @@
 #include "cli/commands.h"
 #include "cli/errors.h"
 #include "cli/frames.h"
-#include "cli/input_files.h"
+#include "halfspace/render/input_files.h"
 #include "cli/output_files.h"
 #include "cli/render_comment.h"
 #include "cli/scene_arguments.h"

@@ -11,7 +11,7 @@
 #include "cli/charting.h"
 #include "cli/commands.h"
 #include "cli/errors.h"
-#include "cli/input_files.h"
+#include "halfspace/render/input_files.h"
 #include "cli/scene_arguments.h"
 #include "halfspace/core/parallel.h"
 #include "halfspace/image/atomic_output.h"

@@ -251,7 +251,7 @@ class SceneExporter {
 
 }  // namespace
 
-Model scene_model(SceneDescription scene, SceneAssets& assets, bool with_lights) {
+Model scene_model(SceneDescription scene, SceneAssets& assets, bool with_lights, const MemoryModels& models) {
   const FloatMode float_mode;
   scene.shadow.method = ShadowMethod::none;
   for (auto& [name, object] : scene.objects) {
@@ -264,8 +264,13 @@ Model scene_model(SceneDescription scene, SceneAssets& assets, bool with_lights)
   const PreparedScene prepared = assets.prepare(meshes, kExportWidth, kExportHeight);
   SceneExporter exporter(meshes, prepared);
   for (const auto& [name, object] : scene.objects) {
-    if (object.shape == Shape::file && object.visible)
+    if (object.shape != Shape::file || !object.visible) continue;
+    const auto known = models.find(object.file.path.string());
+    if (known != models.end()) {
+      exporter.add_file(name, object, known->second->model);
+    } else {
       exporter.add_file(name, object, read_model(object.file.path, {.allow_outside = object.allow_outside}));
+    }
   }
   return exporter.model(with_lights);
 }

@@ -11,14 +11,21 @@
 // * Ambient light, environments, the background, the tone curve, bump maps and reflections have no equivalent and are omitted.
 #pragma once
 
+#include <map>
+#include <memory>
+#include <string>
+
 #include "halfspace/model/model.h"
 #include "halfspace/render/prepared_scene.h"
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
 
+/// Models in memory, by the file names that objects have.
+using MemoryModels = std::map<std::string, std::shared_ptr<const ModelAsset>>;
+
 /// Returns the scene as a model with images in memory. Model::warnings has one line for each kind of data that is omitted. with_lights:
-/// false for formats that cannot store lights. The model then has none, and there are no warnings about their conversion. Throws InputError
-/// if a file that the scene refers to cannot be used.
-Model scene_model(SceneDescription scene, SceneAssets& assets, bool with_lights = true);
+/// false for formats that cannot store lights. The model then has none, and there are no warnings about their conversion. models:
+/// files that are not read. Throws InputError if a file that the scene refers to cannot be used.
+Model scene_model(SceneDescription scene, SceneAssets& assets, bool with_lights = true, const MemoryModels& models = {});
 
 }  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The files that a command reads. No command may overwrite them.
+// The files that a scene is made from. No command may overwrite the files that it reads.
 #pragma once
 
 #include <filesystem>
@@ -12,7 +12,7 @@
 
 #include "halfspace/render/opened_scene.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Models of objects with the shape `file`. Key: the file, and whether files outside of its folder were allowed.
 using ReadModels = std::map<std::pair<std::filesystem::path, bool>, std::shared_ptr<const ModelAsset>>;
@@ -29,4 +29,4 @@ std::vector<std::filesystem::path> input_files(SceneDescription scene, const std
 /// Throws OutputError if the output is one of the files, even under a different name.
 void reject_overwriting(const std::filesystem::path& out, const std::vector<std::filesystem::path>& inputs);
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/input_files.h"
+#include "halfspace/render/input_files.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include "halfspace/render/model_asset.h"
 #include "halfspace/scene/scene_paths.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 ReadModels read_models(const OpenedScene& opened) {
   ReadModels models;
@@ -55,4 +55,4 @@ void reject_overwriting(const std::filesystem::path& out, const std::vector<std:
   }
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/model_info.h"
+#include "halfspace/render/model/model_info.h"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,6 @@
 #include <nlohmann/json.hpp>
 #include <unordered_map>
 
-#include "cli/errors.h"
 #include "halfspace/core/check.h"
 #include "halfspace/core/resource_limits.h"
 #include "halfspace/core/text.h"
@@ -21,7 +20,7 @@
 #include "halfspace/model/used_images.h"
 #include "halfspace/scene/scene_file.h"
 
-namespace halfspace {
+namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
@@ -56,7 +55,7 @@ void count_problems(const ModelMesh& mesh, Problems& problems) {
   }
 }
 
-std::size_t count_of(const Model& model, MeshTopology topology, int corners) {
+std::size_t info_primitive_count(const Model& model, MeshTopology topology, int corners) {
   std::size_t count = 0;
   for (const ModelMesh& mesh : model.meshes) {
     const std::size_t used = mesh.indices.empty() ? mesh.positions.size() : mesh.indices.size();
@@ -66,7 +65,7 @@ std::size_t count_of(const Model& model, MeshTopology topology, int corners) {
 }
 
 template <class T>
-std::vector<std::string> names_of(const std::vector<T>& list) {
+std::vector<std::string> item_names(const std::vector<T>& list) {
   std::vector<std::string> names;
   for (const T& item : list) names.push_back(item.name);
   return names;
@@ -94,7 +93,7 @@ std::size_t texture_count(const Model& model) {
 }
 
 // Describes the images. The size is null if an image cannot be read, or if its reader did not read it because no material uses it.
-OrderedJson images_of(Model& model) {
+OrderedJson image_facts(Model& model) {
   OrderedJson list = OrderedJson::array();
   const std::vector<bool> used = needed_images(model);
   for (std::size_t i = 0; i < model.images.size(); ++i) {
@@ -133,23 +132,48 @@ bool is_scene(const std::string& name) {
   return json.is_object() && json.contains("version") && !json.contains("asset");
 }
 
-// Reads the model. An error in a scene names the commands for scenes.
-Model read_described_model(const InfoArguments& args) {
+// Reads the model. An error in a scene names the command for scenes.
+Model read_described_model(const std::filesystem::path& file, bool allow_outside) {
   try {
-    return read_model(args.model, {.allow_outside = args.allow_outside});
+    return read_model(file, {.allow_outside = allow_outside});
   } catch (const InputError&) {
-    if (!is_scene(args.model)) throw;
+    if (!is_scene(file.string())) throw;
     throw InputError(
-        fmt::format("{0}: is a scene; expected a model file (use 'halfspace list {0}' to list the keys of the scene)", args.model));
+        fmt::format("{0}: is a scene; expected a model file (use 'halfspace list {0}' to list the keys of the scene)", file.string()));
   }
 }
 
-OrderedJson describe(const InfoArguments& args) {
-  const std::filesystem::path file = args.model;
-  if (!args.up_axis.empty() && args.up_axis != "y" && args.up_axis != "z")
-    throw UsageError("--up-axis is '" + args.up_axis + "'; expected y or z");
-  Model model = read_described_model(args);
-  if (!args.up_axis.empty()) model.up = args.up_axis == "z" ? UpAxis::z : UpAxis::y;
+// Returns the text of a list item: its name, and its size if it is an image.
+std::string info_item_text(const OrderedJson& item) {
+  const std::string name = (item.is_object() ? item.at("name") : item).get<std::string>();
+  const std::string shown = name.empty() ? "(no name)" : name;
+  if (!item.is_object()) return shown;
+  const bool used = item.at("used").get<bool>();
+  if (item.at("width").is_null()) return shown + (used ? " (unreadable)" : " (unused)");
+  return fmt::format("{} ({}x{}{})", shown, item.at("width").get<int>(), item.at("height").get<int>(), used ? "" : ", unused");
+}
+
+std::string info_value_text(const std::string& key, const OrderedJson& value) {
+  if (value.is_null()) return "none";
+  if (key == "bounds") {
+    const auto corner = [&](const char* name) {
+      const OrderedJson& c = value.at(name);
+      return fmt::format("({:.6g}, {:.6g}, {:.6g})", c[0].get<double>(), c[1].get<double>(), c[2].get<double>());
+    };
+    return corner("low") + " to " + corner("high");
+  }
+  if (value.is_string()) return value.get<std::string>();
+  if (!value.is_array()) return value.dump();
+  std::string names;
+  for (const OrderedJson& item : value) names += (names.empty() ? "" : ", ") + info_item_text(item);
+  return value.empty() ? "0" : fmt::format("{}: {}", value.size(), names);
+}
+
+}  // namespace
+
+nlohmann::ordered_json model_info(const std::filesystem::path& file, bool allow_outside, std::optional<UpAxis> up) {
+  Model model = read_described_model(file, allow_outside);
+  model.up = up.value_or(model.up);
   const PosedModel posed = pose(model, {});
   std::size_t vertices = 0;
   Problems problems;
@@ -162,21 +186,21 @@ OrderedJson describe(const InfoArguments& args) {
                       {"up_axis", model.up == UpAxis::z ? "z" : "y"},
                       {"meshes", model.meshes.size()},
                       {"vertices", vertices},
-                      {"triangles", count_of(model, MeshTopology::triangles, 3)},
-                      {"lines", count_of(model, MeshTopology::lines, 2)},
-                      {"points", count_of(model, MeshTopology::points, 1)},
+                      {"triangles", info_primitive_count(model, MeshTopology::triangles, 3)},
+                      {"lines", info_primitive_count(model, MeshTopology::lines, 2)},
+                      {"points", info_primitive_count(model, MeshTopology::points, 1)},
                       {"nodes", model.nodes.size()},
                       {"drawn_meshes", posed.meshes.size()}};
   const auto vector = [](const glm::dvec3& v) { return OrderedJson{v.x, v.y, v.z}; };
   json["bounds"] =
       posed.low.x <= posed.high.x ? OrderedJson{{"low", vector(posed.low)}, {"high", vector(posed.high)}} : OrderedJson(nullptr);
-  json["materials"] = names_of(model.materials);
+  json["materials"] = item_names(model.materials);
   json["textures"] = texture_count(model);
-  json["images"] = images_of(model);
-  json["cameras"] = names_of(model.cameras);
-  json["lights"] = names_of(model.lights);
-  json["scenes"] = names_of(model.scenes);
-  json["animations"] = names_of(model.animations);
+  json["images"] = image_facts(model);
+  json["cameras"] = item_names(model.cameras);
+  json["lights"] = item_names(model.lights);
+  json["scenes"] = item_names(model.scenes);
+  json["animations"] = item_names(model.animations);
   json["variants"] = model.variants;
   json["extensions"] = model.extensions;
   json["unsupported_extensions"] = model.unsupported_extensions;
@@ -188,48 +212,18 @@ OrderedJson describe(const InfoArguments& args) {
   return json;
 }
 
-// Returns the text of a list item: its name, and its size if it is an image.
-std::string item_text(const OrderedJson& item) {
-  const std::string name = (item.is_object() ? item.at("name") : item).get<std::string>();
-  const std::string shown = name.empty() ? "(no name)" : name;
-  if (!item.is_object()) return shown;
-  const bool used = item.at("used").get<bool>();
-  if (item.at("width").is_null()) return shown + (used ? " (unreadable)" : " (unused)");
-  return fmt::format("{} ({}x{}{})", shown, item.at("width").get<int>(), item.at("height").get<int>(), used ? "" : ", unused");
-}
-
-std::string value_text(const std::string& key, const OrderedJson& value) {
-  if (value.is_null()) return "none";
-  if (key == "bounds") {
-    const auto corner = [&](const char* name) {
-      const OrderedJson& c = value.at(name);
-      return fmt::format("({:.6g}, {:.6g}, {:.6g})", c[0].get<double>(), c[1].get<double>(), c[2].get<double>());
-    };
-    return corner("low") + " to " + corner("high");
-  }
-  if (value.is_string()) return value.get<std::string>();
-  if (!value.is_array()) return value.dump();
-  std::string names;
-  for (const OrderedJson& item : value) names += (names.empty() ? "" : ", ") + item_text(item);
-  return value.empty() ? "0" : fmt::format("{}: {}", value.size(), names);
-}
-
-}  // namespace
-
-std::string model_info(const InfoArguments& args) {
-  const OrderedJson facts = describe(args);
-  if (args.json) return facts.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+std::string model_info_text(const nlohmann::ordered_json& info) {
   std::string text;
-  for (const auto& [key, value] : facts.items()) {
+  for (const auto& [key, value] : info.items()) {
     if (key == "warnings") {
       for (const OrderedJson& warning : value) text += "warning: " + printable(warning.get<std::string>()) + "\n";
       continue;
     }
     std::string label = key;
     std::ranges::replace(label, '_', ' ');
-    text += fmt::format("{:<24}{}\n", label, printable(value_text(key, value)));
+    text += fmt::format("{:<24}{}\n", label, printable(info_value_text(key, value)));
   }
   return text;
 }
 
-}  // namespace halfspace
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

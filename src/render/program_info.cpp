@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "halfspace/render/program_info.h"
+
+#include <nlohmann/json.hpp>
+
+#include "halfspace/core/cpu.h"
+#include "halfspace/core/lanes.h"
+#include "halfspace/core/parallel.h"
+#include "halfspace/image/image_tool.h"
+#include "halfspace/model/draco_process.h"
+
+namespace halfspace::inline HS_LANES_NAMESPACE {
+
+namespace {
+
+constexpr const char* kCompiler =
+#ifdef __clang__
+    "Clang " __clang_version__;
+#else
+    "GCC " __VERSION__;
+#endif
+
+}  // namespace
+
+nlohmann::ordered_json program_info(const std::string& version) {
+  nlohmann::ordered_json json = {
+      {"version", version}, {"arch", build_arch()}, {"lanes", kLanes}, {"compiler", kCompiler}, {"cores", Workers::cores()}};
+  const auto add = [&](const char* name, const std::filesystem::path& tool) {
+    json[name] = tool.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(tool.string());
+  };
+  add("image_tool", find_image_tool());
+  add("jpeg_tool", find_jpeg_tool());
+  add("draco_tool", find_draco_tool());
+  return json;
+}
+
+}  // namespace halfspace::inline HS_LANES_NAMESPACE

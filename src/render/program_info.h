@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Describes this build and the tools that it found.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "halfspace/core/namespace.h"
+
+namespace halfspace::inline HS_LANES_NAMESPACE {
+
+/// Returns the version, the instruction set, the lanes, the compiler, the number of cores, and the paths of the decoders, which are null if
+/// they were not found.
+nlohmann::ordered_json program_info(const std::string& version);
+
+}  // namespace halfspace::inline HS_LANES_NAMESPACE
