@@ -24,12 +24,14 @@ if _folder is not None:
 from . import _core  # noqa: E402
 from . import _check, draw  # noqa: E402
 from ._core import InputError, OutputError  # noqa: E402
+from ._files import DifferenceError, compare, export, info  # noqa: E402
 from ._one_call import render  # noqa: E402
 from ._options import RenderWarning  # noqa: E402
 from .camera import Camera  # noqa: E402
 from .labels import LABELS, NO_ID  # noqa: E402
 from .material import Material, Texture, srgb  # noqa: E402
 from .mesh import Mesh  # noqa: E402
+from .model import Model  # noqa: E402
 from .picture import Picture  # noqa: E402
 from .scene import Scene  # noqa: E402
 
@@ -50,5 +52,5 @@ def set_tool_folder(folder: "str | _os.PathLike[str]") -> None:
     _core.set_tool_folder(_check.path("folder", folder))
 
 
-__all__ = ["LABELS", "NO_ID", "Camera", "InputError", "Material", "Mesh", "OutputError", "Picture", "RenderWarning", "Scene", "Texture", "draw", "render",
-           "scenes", "set_tool_folder", "srgb"]
+__all__ = ["LABELS", "NO_ID", "Camera", "DifferenceError", "InputError", "Material", "Mesh", "Model", "OutputError", "Picture", "RenderWarning",
+           "Scene", "Texture", "compare", "draw", "export", "info", "render", "scenes", "set_tool_folder", "srgb"]

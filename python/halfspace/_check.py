@@ -9,7 +9,7 @@ from typing import Any, Iterable, List, Mapping, Optional, Sequence, Tuple
 
 import numpy as np
 
-from ._core import InputError
+from ._core import InputError, is_model_format
 
 MAX_SIDE = 16384
 
@@ -80,6 +80,14 @@ def texels(name: str, value: Any) -> np.ndarray:
     return np.ascontiguousarray(array)
 
 
+def read_only(array: np.ndarray, given: Any) -> np.ndarray:
+    """Returns an array that cannot be written, as a copy if it shares memory with the value that the caller passed."""
+    foreign = given is not None and not isinstance(given, (list, tuple)) and np.shares_memory(array, given)
+    own = array.copy() if foreign else array
+    own.flags.writeable = False
+    return own
+
+
 def plain(name: str, value: Any) -> Any:
     """Returns a value that JSON can represent. Converts NumPy numbers, arrays and paths, also inside of lists and dictionaries."""
     if isinstance(value, (np.ndarray, np.generic)):
@@ -134,6 +142,14 @@ def path(name: str, value: Any) -> str:
         return os.fsdecode(value)
     except TypeError:
         raise fail(name, f"is {value!r}", "a file name") from None
+
+
+def model_output(name: str, value: Any) -> str:
+    """Returns the name of a model file to write."""
+    file = path(name, value)
+    if not is_model_format(file):
+        raise fail(name, f"is {file!r}", "a file name ending in .glb, .gltf, .obj, .ply or .stl")
+    return file
 
 
 def items(name: str, value: Any, expected: str) -> List[Any]:

@@ -72,7 +72,7 @@ class State:
     point_size, line_width: in pixels.   sample_mask, alpha_to_coverage, sample_shading: for passes with several samples per pixel.
     """
 
-    __slots__ = ("_core", "_base_vertex", "_topology")
+    __slots__ = ("_core", "_base_vertex", "_order_independent", "_topology")
 
     def __init__(self, *, topology: str = "triangles", polygon_mode: str = "fill", cull: str = "none", front: str = "counter_clockwise",
                  provoking: str = "last", depth_test: bool = True, depth_write: bool = True, depth_compare: str = "less",
@@ -83,7 +83,7 @@ class State:
                  line_width: float = 1.0, sample_mask: int = 0xFFFFFFFF, alpha_to_coverage: bool = False, sample_shading: bool = False,
                  base_vertex: int = 0, query: Optional[int] = None) -> None:
         s = _core.DrawState()
-        self._topology = topology
+        self._topology, self._order_independent = topology, bool(order_independent)
         s.topology, s.polygon_mode = word("DrawTopology", "topology", topology), word("PolygonMode", "polygon_mode", polygon_mode)
         s.cull, s.front = word("CullMode", "cull", cull), word("Winding", "front", front)
         s.provoking, s.point_origin = word("ProvokingVertex", "provoking", provoking), word("PointOrigin", "point_origin", point_origin)

@@ -61,7 +61,7 @@ def _map(texture: Any) -> Any:
     if texture is None:
         return _core.Map(None, Texture(np.zeros((1, 1), np.uint8))._sampler)
     texture = texture if isinstance(texture, Texture) else Texture(texture)
-    return _core.Map(texture._texels, texture._sampler)
+    return _core.Map(texture.texels, texture._sampler)
 
 
 def phong(clip_from_world: Any, world_from_object: Any = None, *, eye: Any, lights: Iterable[Any] = (), color: Any = (1.0, 1.0, 1.0),

@@ -20,7 +20,11 @@ _TURN = np.diag([1.0, -1.0, -1.0, 1.0])
 
 class Camera:
     """A view of a scene. Use one of the class methods. Cameras are immutable and can be used with any scene, from any thread, and in other
-    processes: they can be pickled."""
+    processes: they can be pickled.
+
+    Every camera can be read as matrices: `pose`, `extrinsics`, projection() and intrinsics(). The last two depend on the size of the picture
+    if the camera has a field of view instead of a projection in pixels.
+    """
 
     __slots__ = ("_for_size", "_text", "_made_by")
 
@@ -36,6 +40,40 @@ class Camera:
 
     def __reduce__(self) -> Any:
         return _make, self._made_by
+
+    @property
+    def pose(self) -> np.ndarray:
+        """Camera to world, with OpenGL's axes (x right, y up, z backward): float64 of shape (4, 4)."""
+        return self._for_size(1, 1).pose()
+
+    @property
+    def extrinsics(self) -> np.ndarray:
+        """World to camera, with OpenCV's axes (x right, y down, z forward): float64 of shape (4, 4)."""
+        return _TURN @ _inverse("pose", self.pose)
+
+    def projection(self, size: Tuple[int, int]) -> np.ndarray:
+        """Returns OpenGL's projection for pictures of this size: camera to clip space, float64 of shape (4, 4). Clip-space z is -w at the
+        near plane and w at the far plane.
+
+        size: (width, height) in pixels.
+        """
+        width, height = _check.size(size)
+        return self._for_size(width, height).projection(width, height)
+
+    def intrinsics(self, size: Tuple[int, int]) -> np.ndarray:
+        """Returns OpenCV's K for pictures of this size: float64 of shape (3, 3), in pixels. Pixel centers are at integers: (0, 0) is the
+        center of the top left pixel. A point p in world space appears at K @ (extrinsics @ (*p, 1))[:3], divided by its third element.
+
+        size: (width, height) in pixels.
+        Raises InputError for orthographic cameras, which have no K.
+        """
+        width, height = _check.size(size)
+        p = self.projection(size)
+        if p[3, 3] != 0.0:
+            raise fail("camera", "is orthographic, so it has no intrinsics", "a perspective camera, or projection()")
+        half_width, half_height = width / 2.0, height / 2.0
+        return np.array([[half_width * p[0, 0], -half_width * p[0, 1], half_width * (1.0 - p[0, 2]) - 0.5],
+                         [-half_height * p[1, 0], half_height * p[1, 1], half_height * (1.0 + p[1, 2]) - 0.5], [0.0, 0.0, 1.0]])
 
     @classmethod
     def look_at(cls, position: Any, target: Any = (0.0, 0.0, 0.0), up: Any = (0.0, 1.0, 0.0), *, fov: Optional[float] = None,

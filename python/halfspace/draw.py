@@ -135,6 +135,10 @@ class Pass:
             if low + base < 0 or high + base >= vertices:
                 raise fail("base_vertex", f"is {base}, so that vertices {low + base} to {high + base} are drawn",
                            f"vertices from 0 to {vertices - 1}")
+        if copies * (vertices if index is None else len(index)) >= 2**32:
+            raise fail("instances", f"is {copies} with {vertices if index is None else len(index)} vertices each", "less than 2^32 vertices in all")
+        if state is not None and state._order_independent and not any(label == "color" for label, _, _ in self._targets):
+            raise fail("state", "has order_independent=True, but the pass has no color array", "a pass with one")
         chosen = state._core if state is not None else _core.DrawState()
         self._core.draw(shader, streams, [int(name in own) for name in needed], index, chosen, copies)
 

@@ -4,13 +4,15 @@
 from __future__ import annotations
 
 import itertools
-from typing import Any, Optional, Tuple
+import os
+from typing import Any, Dict, Optional, Tuple, Union
 
 import numpy as np
 
 from . import _check, _core
 from ._check import fail
 from ._options import warn
+from ._shapes import Shapes
 from .material import Material, Texture, srgb
 
 _numbers = itertools.count(1)
@@ -20,8 +22,16 @@ _MIN_COORDINATE, _MAX_COORDINATE = 1e-20, 1e18  # outside this range, float32 ov
 _UNSET_DIFFUSE = (102, 102, 102, 255)  # of a trimesh.visual.material.SimpleMaterial that was made without one
 
 
-class Mesh:
+def new_file(name: str) -> str:
+    """Returns a file name for a model in memory, which no other model has. Warnings about the model begin with it."""
+    return f"/memory/{next(_numbers)}/{name}"
+
+
+class Mesh(Shapes):
     """Vertices of one material. All arrays are copied; a Mesh is immutable and can be added to any number of scenes.
+
+    Mesh.load() reads a file, and sphere(), box(), plane(), cylinder(), cone(), torus() and others create shapes. All arguments except
+    `crease` can be read as members of the same name: read-only arrays, or None for those that were not given.
 
     vertices: (N, 3), in object space. The largest magnitude of a coordinate is 1e-20 to 1e18, unless all are 0.
     faces: (M, 3) indices of triangles, counter-clockwise seen from the front; (M, 2) for lines, (M,) for points. The default is
@@ -35,7 +45,16 @@ class Mesh:
     topology: "triangles", "lines" or "points". Lines and points are not lit.
     """
 
-    __slots__ = ("_model", "_file", "_low", "_high", "_faces")
+    __slots__ = ("vertices", "faces", "normals", "uvs", "uv_origin", "colors", "material", "topology", "bounds", "_model", "_file")
+    vertices: np.ndarray  #: float64 (N, 3)
+    faces: np.ndarray  #: uint32 (M, 3), (M, 2) for lines, (M,) for points
+    normals: Optional[np.ndarray]  #: float32 (N, 3), unit length; None if they are computed
+    uvs: Optional[np.ndarray]  #: float32 (N, 2)
+    uv_origin: str
+    colors: Optional[np.ndarray]  #: float32 (N, 4), linear
+    material: Material
+    topology: str
+    bounds: np.ndarray  #: float64 (2, 3): the lowest and highest coordinates of the vertices that faces use, in object space
 
     def __init__(self, vertices: Any, faces: Any = None, *, normals: Any = None, uvs: Any = None, colors: Any = None,
                  material: Optional[Material] = None, topology: str = "triangles", crease: float = 30.0,
@@ -63,23 +82,56 @@ class Mesh:
                                 alpha_mode="blend" if rgba is not None and rgba[:, 3].min() < 1.0 else "opaque")
         if not isinstance(material, Material):
             raise fail("material", f"is of type {type(material).__name__}", "a halfspace.Material")
-        if uvs is None and material._textures:  # not an error, because meshes with and without uvs can share a material
-            names = ", ".join(material._textures)
-            warn([f"uvs: are missing, but the material has {names}; expected uvs, without which textures have no effect"])
-        self._model = _core.Model(positions, unit, uv, rgba, None, None if index is None else index.ravel(),
-                                  getattr(_core.Topology, topology), uv_origin == "lower_left", material._materials(),
-                                  _check.number("crease", crease, 0.0, 180.0) or -1.0)
-        self._file = f"/memory/mesh{next(_numbers)}"
-        self._low, self._high = positions.min(axis=0), positions.max(axis=0)
-        self._faces = count // 3 if index is None else len(index)
+        names = material._texture_names()
+        if uvs is None and names:  # not an error, because meshes with and without uvs can share a material
+            warn([f"uvs: are missing, but the material has {', '.join(names)}; expected uvs, without which textures have no effect"])
+        model = _core.Model(*_used(positions, unit, uv, rgba, None if index is None else index.ravel()), getattr(_core.Topology, topology),
+                            uv_origin == "lower_left", material._materials(), _check.number("crease", crease, 0.0, 180.0) or -1.0)
+        if index is None:
+            index = np.arange(count, dtype=np.uint32)
+            index = index if topology == "points" else index.reshape(-1, _WIDTHS[topology])
+        self._set_arrays(vertices=_check.read_only(positions, vertices), faces=_check.read_only(index, faces),
+                         normals=None if unit is None else _check.read_only(unit, normals),
+                         uvs=None if uv is None else _check.read_only(uv, uvs), uv_origin=uv_origin,
+                         colors=None if rgba is None else _check.read_only(rgba, colors), material=material, topology=topology)
+        self._set(_model=model, _file=new_file("mesh"))
+
+    def _set_arrays(self, **members: Any) -> None:
+        self._set(**members)
+        seen = self.vertices[_mask(self.faces, len(self.vertices))]
+        self._set(bounds=_check.read_only(np.array([seen.min(axis=0), seen.max(axis=0)]), None))
 
     def __repr__(self) -> str:
-        return f"Mesh({self._faces} faces, from {self._low.tolist()} to {self._high.tolist()})"
+        low, high = self.bounds.tolist()
+        return f"Mesh({len(self.faces)} faces, from {low} to {high})"
 
-    @property
-    def bounds(self) -> np.ndarray:
-        """The lowest and highest coordinates, float64 of shape (2, 3), in object space."""
-        return np.array([self._low, self._high])
+    @classmethod
+    def load(cls, path: Union[str, "os.PathLike[str]"], *, material: Optional[Material] = None, allow_outside: bool = False,
+             up_axis: Optional[str] = None) -> "Mesh":
+        """Reads a model file (.obj, .gltf, .glb, .ply, .stl) as one mesh, in the pose of the file, y up. The arguments are those of
+        Model.load().
+
+        material: replaces the materials of the file. Without it, a file whose meshes differ in their materials raises InputError;
+            Model.load() keeps all of them.
+        """
+        from .model import Model  # which creates meshes
+
+        return Model.load(path, allow_outside=allow_outside, up_axis=up_axis)._single_mesh(material)
+
+    @classmethod
+    def _of_file(cls, asset: Any, name: str, arrays: Dict[str, Any], material: Material) -> "Mesh":
+        """Returns a mesh that is drawn as its file is drawn, also with properties of materials that Material lacks."""
+        topology = arrays["topology"].name
+        width = _WIDTHS[topology]
+        mesh = cls.__new__(cls)
+        faces = arrays["faces"] if width is None else arrays["faces"].reshape(-1, width)
+        known = {key: arrays[key] for key in ("vertices", "normals", "uvs", "colors")}
+        for array in (faces, *known.values()):
+            if array is not None:
+                array.flags.writeable = False
+        mesh._set_arrays(**known, faces=faces, uv_origin="upper_left", material=material, topology=topology)
+        mesh._set(_model=asset, _file=new_file(name))
+        return mesh
 
     @classmethod
     def from_trimesh(cls, mesh: Any, *, crease: float = 30.0, material: Optional[Material] = None) -> "Mesh":
@@ -108,6 +160,22 @@ class Mesh:
             uvs = None if getattr(visual, "uv", None) is None else np.asarray(visual.uv)
             material = material if material is not None else _material_of(getattr(visual, "material", None), uvs is not None)
         return cls(vertices, faces, uvs=uvs, colors=colors, material=material, crease=crease)
+
+
+def _mask(index: np.ndarray, count: int) -> Any:
+    """Returns a mask of the vertices that the index uses, or a slice if it uses all."""
+    used = np.zeros(count, bool)
+    used[index.ravel()] = True
+    return slice(None) if used.all() else used
+
+
+def _used(positions: np.ndarray, normals: Any, uvs: Any, colors: Any, index: Optional[np.ndarray]) -> Tuple[Any, ...]:
+    """Returns the arguments of _core.Model without the vertices that no face uses, so that they do not affect bounds and precision."""
+    used = slice(None) if index is None else _mask(index, len(positions))
+    if isinstance(used, np.ndarray):
+        index = (np.cumsum(used) - 1)[index].astype(np.uint32)
+    arrays = (None if array is None else array[used] for array in (positions, normals, uvs, colors))
+    return (*arrays, None, index)
 
 
 def _rows(name: str, value: Any, count: int, width: int) -> np.ndarray:

@@ -12,10 +12,12 @@ import numpy as np
 
 from . import _check, _core
 from ._check import fail
+from ._contents import Contents
 from ._options import LIGHTING, check_names, emit, is_model_file, pixel_kind, setting_text, times_of, view_options
 from .camera import Camera
 from .labels import LABELS, checked_background, checked_outputs, finished, images_of
 from .mesh import Mesh
+from .model import Model
 from .picture import Picture
 
 Size = Tuple[int, int]
@@ -34,7 +36,7 @@ def _fits(span: float) -> bool:
     return span == 0.0 or _MIN_SPAN <= span <= _MAX_SPAN
 
 
-def _world_span(mesh: Mesh, places: np.ndarray) -> float:
+def _world_span(mesh: Union[Mesh, Model], places: np.ndarray) -> float:
     """Returns the diagonal of the bounds of all copies of a mesh, in world space."""
     x, y, z = mesh.bounds.T
     corners = np.array([(a, b, c, 1.0) for a in x for b in y for c in z])
@@ -42,7 +44,7 @@ def _world_span(mesh: Mesh, places: np.ndarray) -> float:
     return float(np.linalg.norm(points.max(axis=(0, 2)) - points.min(axis=(0, 2))))
 
 
-class Scene:
+class Scene(Contents):
     """A scene that can be changed and rendered. Textures, meshes and maps are cached from one picture to the next.
 
     Scene() starts an empty scene, for add() and add_light(). Scene.load() opens a scene or a model file.
@@ -50,6 +52,8 @@ class Scene:
     lighting: "studio" (the environment, key light and tone curve that are used for model files) or "none" (black background, no light,
         no tone curve: colors are clamped to [0, 1]).
     threads: number of threads; the default is one per core. The pictures do not depend on it.
+
+    A scene is a mapping of its keys: scene["samples"], "ball" in scene, list(scene) and dict(scene) work.
 
     All methods can be called by several Python threads at once. Pictures and labels do not share memory with the scene.
     """
@@ -63,7 +67,7 @@ class Scene:
         self._core = core
         self._lock = threading.RLock()  # guards the following members
         self._pending: Dict[str, Any] = {}  # objects that are not yet in the scene of _core, which reads all of its objects for each change
-        self._meshes: Dict[str, Tuple[Mesh, np.ndarray]] = {}
+        self._meshes: Dict[str, Tuple[Union[Mesh, Model], np.ndarray]] = {}
         self._names = 0
         self._fits = False  # no camera has been given: all objects are shown
         self.camera: Union[str, Camera, None] = None  #: used if render() is called without a camera
@@ -121,11 +125,6 @@ class Scene:
     def __setitem__(self, key: str, value: Any) -> None:
         self.set({key: value})
 
-    def __getitem__(self, key: str) -> Any:
-        """Returns the value of a key as it is represented in JSON: a bool, number, string or list."""
-        self._flush()
-        return json.loads(self._core.value(_check.string("key", key)))
-
     def merge(self, patch: Mapping[str, Any]) -> None:
         """Applies a JSON merge patch (RFC 7386) to the scene file, for example {"objects": {"ball": {"shape": "sphere"}}}. Values may be
         NumPy numbers and arrays."""
@@ -139,22 +138,37 @@ class Scene:
         self._flush()
         return self._core.print()
 
+    def export(self, path: Union[str, "os.PathLike[str]"]) -> None:
+        """Writes the scene at time 0 as a model file (.glb, .gltf, .obj, .ply, .stl), with the meshes, materials, cameras and lights that
+        the format can store. Other data is omitted with a RenderWarning.
+
+        Raises OutputError if the file cannot be written, or is one from which the scene was made.
+        """
+        out = _check.model_output("path", path)
+        self._flush()
+        try:
+            self._core.export_to(out)
+        finally:
+            emit(self._core)
+
     # ---- objects and lights --------------------------------------------------------------------------------------
 
     def add(self, mesh: Any, transform: Any = None, *, name: Optional[str] = None, casts_shadow: bool = True,
             receives_shadow: bool = True) -> str:
         """Adds an object and returns its name.
 
-        mesh: a Mesh, or an object like trimesh.Trimesh.
+        mesh: a Mesh, a Model, or an object like trimesh.Trimesh.
         transform: affine matrix from object to world space, of shape (4, 4), or (N, 4, 4) for N copies. The default is the identity.
-        name: a letter a to z followed by a to z, 0 to 9 and _. It must differ from the names of other objects and of sections. By
-            default, a name is generated.
+        name: any text without "=", "," and control characters that neither begins with "#" nor begins or ends with a space. It must differ
+            from the names of other objects and of sections. By default, a name is generated.
 
-        The name is a section of the scene: scene[name + ".visible"] = False hides the object. Object ids in labels number the objects in
+        The name is a section of the scene: scene[name + ".visible"] = False hides the object, also if the name contains spaces or dots. Object ids in labels number the objects in
         the order in which they were added.
         """
-        if not isinstance(mesh, Mesh):
+        if not isinstance(mesh, (Mesh, Model)):
             mesh = Mesh.from_trimesh(mesh)
+        if mesh.bounds is None:
+            raise fail("mesh", "has no vertices", "a model with at least one mesh")
         places = np.eye(4)[np.newaxis] if transform is None else self._transforms(transform)
         with self._lock:
             if name is None:
@@ -179,24 +193,30 @@ class Scene:
             self._meshes[name] = (mesh, places)
 
     def remove(self, name: str) -> None:
-        """Removes an object that was added with add()."""
+        """Removes an object: one that was added with add() or one of the scene file."""
         with self._lock:
-            self._mesh(name)
             self._flush()
+            if not self._core.has_object(_check.string("name", name)):
+                known = "one of " + ", ".join(self.objects) if self.objects else "add() first"
+                raise fail("name", f"no object '{name}' in this scene", "remove_light() for a light" if name in self.lights else known)
             self._core.merge(json.dumps({"objects": {name: None}}))
-            self._forget(name)
+            if name in self._meshes:
+                self._forget(name)
 
     def add_light(self, type: str = "directional", *, name: Optional[str] = None, **keys: Any) -> str:
         """Adds a light and returns its name.
 
         type: "directional" (direction: towards the light), "point" (position) or "spot" (position, direction, inner, outer in degrees).
+        name: as for add().
         keys: keys of a light in a scene file, for example color=(1, 0.9, 0.8), intensity=2, shadow=False, falloff="physical". Colors are
-            linear.
+            linear, or "#rrggbb".
+
+        `lights` lists all lights, and remove_light() removes one.
         """
         if name is None:
             with self._lock:
-                name = self._new_name("light", self._core.has_light)
-        elif self._core.has_light(_check.string("name", name)):
+                name = self._new_name("light", self.lights.__contains__)
+        elif _check.string("name", name) in self.lights:
             raise fail("name", f"a light '{name}' exists", "another name")
         light = _check.plain("", {"type": type, **keys})
         self._flush()
@@ -206,7 +226,8 @@ class Scene:
     @property
     def bounds(self) -> Optional[np.ndarray]:
         """The minimum and maximum coordinates of all visible objects at time 0, in world space: float64 of shape (2, 3). None if there are
-        no such objects. Each object contributes the axis-aligned box around its transformed bounding box."""
+        no such objects. Each object contributes the axis-aligned box around its transformed bounding box. Objects that show only shadows,
+        such as the floor of a model file, do not count."""
         self._flush()
         return self._core.bounds()
 
@@ -229,6 +250,15 @@ class Scene:
         distance = radius / float(np.sin(narrow))
         near = min(max(1e-3 * radius, 0.5 * (distance - 1.5 * radius), _MIN_SPAN), _MAX_SPAN)
         return Camera.look_at(center + towards * distance, center, fov=fov, near=near, far=distance + 20.0 * radius)
+
+    def view(self, camera: Union[str, Camera, None] = None, *, size: Size = (640, 480), time: float = 0.0) -> Camera:
+        """Returns the camera that render() uses for the same arguments, for example to read its pose and intrinsics."""
+        width, height = _check.size(size)
+        self._flush()
+        chosen = self._chosen(camera, width, height)
+        if isinstance(chosen, Camera):
+            return chosen
+        return Camera.look_at(**self._core.camera(chosen or "", _check.number("time", time)).look_at_arguments())
 
     # ---- pictures ------------------------------------------------------------------------------------------------
 
@@ -351,12 +381,6 @@ class Scene:
         finally:
             emit(self._core)
 
-    @property
-    def objects(self) -> List[str]:
-        """The names of all objects of the scene, in the order of their ids."""
-        self._flush()
-        return self._core.objects()
-
     def __repr__(self) -> str:
         names = self.objects
         shown = ", ".join(names[:4]) + (", ..." if len(names) > 4 else "")
@@ -373,17 +397,22 @@ class Scene:
         finally:
             emit(core)
 
-    def _camera(self, camera: Union[str, Camera, None], width: int, height: int, time: float) -> Any:
+    def _chosen(self, camera: Union[str, Camera, None], width: int, height: int) -> Union[str, Camera, None]:
+        """Returns the camera of a picture. None: the camera that the scene selects."""
         camera = camera if camera is not None else self.camera
         if camera is None and self._fits and self.bounds is not None:
-            camera = self.fit(aspect=width / height)
-        if camera is None:
-            return None
-        if isinstance(camera, str):
-            return self._core.camera(camera, time)
-        if not isinstance(camera, Camera):
+            return self.fit(aspect=width / height)
+        if camera is not None and not isinstance(camera, (str, Camera)):
             raise fail("camera", f"is of type {type(camera).__name__}", "a halfspace.Camera, the name of a camera or None")
-        return camera._for_size(width, height)
+        if camera == "":
+            raise fail("camera", "is empty", "the name of a camera: one of " + ", ".join(self.cameras))
+        return camera
+
+    def _camera(self, camera: Union[str, Camera, None], width: int, height: int, time: float) -> Any:
+        chosen = self._chosen(camera, width, height)
+        if chosen is None:
+            return None
+        return self._core.camera(chosen, time) if isinstance(chosen, str) else chosen._for_size(width, height)
 
     def _flush(self) -> None:
         """Adds the objects pending from add() to the scene. Other threads wait until this is done.
@@ -425,7 +454,7 @@ class Scene:
             if not exists(name):
                 return name
 
-    def _mesh(self, name: str) -> Tuple[Mesh, np.ndarray]:
+    def _mesh(self, name: str) -> Tuple[Union[Mesh, Model], np.ndarray]:
         if _check.string("name", name) not in self._meshes:
             raise fail("name", f"no object '{name}' has been added", "one of " + ", ".join(self._meshes) if self._meshes else "add() first")
         return self._meshes[name]

@@ -180,13 +180,16 @@ void bind_scene(py::module_& m) {
       .def("copy", &SceneCore::copy, Release())
       .def("set", &SceneCore::set, Release())
       .def("value", &SceneCore::value, Release())
+      .def("keys", &SceneCore::keys, Release())
       .def("merge", &SceneCore::merge, Release())
       .def("objects", &SceneCore::objects, Release())
       .def("bounds", &bounds)
       .def("camera", &SceneCore::camera, Release())
       .def("has_object", &SceneCore::has_object, Release())
-      .def("has_light", &SceneCore::has_light, Release())
+      .def("lights", &SceneCore::lights, Release())
+      .def("cameras", &SceneCore::cameras, Release())
       .def("print", &SceneCore::print, Release())
+      .def("export_to", &SceneCore::export_to, Release())
       .def(
           "provide",
           [](SceneCore& scene, const std::string& file, std::shared_ptr<ModelAsset> model) { scene.provide(file, std::move(model)); },

@@ -31,7 +31,10 @@ void bind_draw(py::module_& m);
 void bind_draw_state(py::module_& m);
 void bind_scene(py::module_& m);
 void bind_model(py::module_& m);
+void bind_model_file(py::module_& m);
+void bind_shapes(py::module_& m);
 void bind_image(py::module_& m);
+void bind_files(py::module_& m);
 void bind_labels(py::module_& m);
 
 /// Returns the elements of an array, whose last axis must have the length of T.

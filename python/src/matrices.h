@@ -18,6 +18,12 @@ inline glm::dmat4 matrix_at(const double* rows) {
   return m;
 }
 
+/// Returns an array of shape (4, 4).
+inline py::array_t<double> array_of(const glm::dmat4& m) {
+  const glm::dmat4 rows = glm::transpose(m);
+  return py::array_t<double>({py::ssize_t{4}, py::ssize_t{4}}, &rows[0].x);
+}
+
 /// Returns the matrices of an array of shape (N, 4, 4).
 inline std::vector<glm::dmat4> matrices_of(const Array<double>& array) {
   if (array.ndim() != 3 || array.shape(1) != 4 || array.shape(2) != 4)

@@ -51,7 +51,10 @@ PYBIND11_MODULE(_core, m) {
   bind_camera(m);
   bind_scene(m);
   bind_model(m);
+  bind_model_file(m);
+  bind_shapes(m);
   bind_image(m);
+  bind_files(m);
   bind_labels(m);
   bind_draw_state(m);
   bind_draw(m);

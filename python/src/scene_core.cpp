@@ -8,6 +8,8 @@
 #include <utility>
 
 #include "halfspace/core/check.h"
+#include "halfspace/render/export/export_files.h"
+#include "halfspace/render/scene_places.h"
 #include "halfspace/scene/scene_paths.h"
 #include "messages.h"
 
@@ -31,6 +33,12 @@ class Box {
   glm::dvec3 low_{kInfinity}, high_{-kInfinity};
 };
 
+template <class T>
+std::vector<std::string> copied_names(const Named<T>& list) {
+  const std::vector<std::string_view> names = names_of(list);
+  return {names.begin(), names.end()};
+}
+
 // Adds the corners of a transformed box.
 void add_corners(Box& box, const Box& object, const glm::dmat4& world_from_object) {
   for (int i = 0; i < 8; ++i) {
@@ -45,7 +53,7 @@ std::optional<std::array<glm::dvec3, 2>> bounds_of(const PreparedScene& scene) {
   std::map<const glm::vec3*, Box> meshes;  // copies of an object share their positions
   for (const PreparedDraw& draw : scene.draws) {
     const std::span<const glm::vec3> positions = draw.source.streams.positions;
-    if (draw.source.object < 0 || positions.empty()) continue;
+    if (draw.source.object < 0 || positions.empty() || std::holds_alternative<ShadowCatcher>(draw.shader)) continue;
     Box& mesh = meshes[positions.data()];
     if (mesh.is_empty()) std::ranges::for_each(positions, [&](const glm::vec3& p) { mesh.add(glm::dvec3(p)); });
     add_corners(all, mesh, draw.source.world_from_object);
@@ -95,7 +103,19 @@ void SceneCore::set(const std::vector<std::string>& settings) {
 std::string SceneCore::value(const std::string& path) const {
   const std::lock_guard lock(mutex_);
   SceneDescription scene = state_.scene.description();
-  return value_of(find_key(scene, path, state_.scene.source()).field).dump();
+  const Section section = find_section(scene, path, state_.scene.source());
+  return (section.empty() ? value_of(find_key(scene, path, state_.scene.source()).field) : json_of(section)).dump();
+}
+
+std::vector<std::string> SceneCore::keys() const {
+  const std::lock_guard lock(mutex_);
+  SceneDescription scene = state_.scene.description();
+  std::vector<std::string> paths;
+  for (const NamedSection& section : sections_of(scene)) {
+    for (const Field& field : fields_of(section.section))
+      paths.push_back(section.path.empty() ? field.key->name : section.path + "." + field.key->name);
+  }
+  return paths;
 }
 
 void SceneCore::merge(const std::string& patch) {
@@ -106,9 +126,7 @@ void SceneCore::merge(const std::string& patch) {
 
 std::vector<std::string> SceneCore::objects() const {
   const std::lock_guard lock(mutex_);
-  std::vector<std::string> names;
-  for (const auto& [name, object] : state_.scene.description().objects) names.push_back(name);
-  return names;
+  return copied_names(state_.scene.description().objects);
 }
 
 bool SceneCore::has_object(const std::string& name) const {
@@ -116,15 +134,21 @@ bool SceneCore::has_object(const std::string& name) const {
   return find_named(state_.scene.description().objects, name) != nullptr;
 }
 
-bool SceneCore::has_light(const std::string& name) const {
+std::vector<std::string> SceneCore::lights() const {
   const std::lock_guard lock(mutex_);
-  return find_named(state_.scene.description().lights, name) != nullptr;
+  return copied_names(state_.scene.description().lights);
+}
+
+std::vector<std::string> SceneCore::cameras() const {
+  const std::lock_guard lock(mutex_);
+  return copied_names(state_.scene.description().cameras);
 }
 
 CameraDescription SceneCore::camera(const std::string& name, double time) const {
   const std::lock_guard lock(mutex_);
   const auto renamed = camera_names_.find(name);
   const SceneDescription description = state_.scene.at(time);
+  if (name.empty()) return camera_of(description);
   if (const CameraDescription* found = find_named(description.cameras, renamed != camera_names_.end() ? renamed->second : name))
     return *found;
   std::string names;
@@ -144,6 +168,15 @@ std::optional<std::array<glm::dvec3, 2>> SceneCore::bounds() {
   bounds_ = bounds_of(state_.prepare(shot, {16, 16}, assets_));
   bounds_known_ = true;
   return bounds_;
+}
+
+void SceneCore::export_to(const std::string& out) {
+  const std::lock_guard lock(mutex_);
+  const ModelFormat format = model_format_of(out).value();
+  SceneAssets assets(assets_, workers_, {});  // of pictures; those of the export are dropped
+  for (const auto& [file, model] : state_.models) assets.add_model(file, model);
+  ExportSource source = export_source(state_.description({}), state_.scene.source(), assets, format, state_.models);
+  write_files(out, exported_files(std::move(source), out, format, warner()));
 }
 
 void SceneCore::provide(const std::string& file, std::shared_ptr<const ModelAsset> model) {

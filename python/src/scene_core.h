@@ -43,21 +43,28 @@ class SceneCore {
 
   /// Sets keys, as in SceneFile::set. `camera` in a setting may also be the name of a camera in the model file.
   void set(const std::vector<std::string>& settings);
-  /// Returns the value of a key as JSON text.
+  /// Returns the value of a key, or the values of all keys of a section, as JSON text.
   std::string value(const std::string& path) const;
+  /// Returns the full paths of all keys, in the order of a scene file.
+  std::vector<std::string> keys() const;
   /// Applies a JSON merge patch to the scene file.
   void merge(const std::string& patch);
   /// Returns the names of all objects, in the order of their ids.
   std::vector<std::string> objects() const;
   bool has_object(const std::string& name) const;
-  bool has_light(const std::string& name) const;
-  /// Returns a camera of the scene at a time in seconds. name: as in a setting of `camera`.
+  /// Returns the names of all lights and of all cameras.
+  std::vector<std::string> lights() const;
+  std::vector<std::string> cameras() const;
+  /// Returns a camera of the scene at a time in seconds. name: as in a setting of `camera`; empty: the camera that the scene selects.
   CameraDescription camera(const std::string& name, double time) const;
   /// Returns the whole scene as the text of a scene file.
   std::string print() const;
   /// Returns the minimum and maximum coordinates of all visible objects at time 0, in world space; nullopt if there are none. Each object
-  /// contributes the axis-aligned box around its transformed bounding box.
+  /// contributes the axis-aligned box around its transformed bounding box. Objects that only show shadows are not visible.
   std::optional<std::array<glm::dvec3, 2>> bounds();
+
+  /// Writes the scene at time 0 as a model file. The extension of `out` must be that of a model format.
+  void export_to(const std::string& out);
 
   /// Provides the model for objects with this file name.
   void provide(const std::string& file, std::shared_ptr<const ModelAsset> model);

@@ -383,7 +383,7 @@ def test_materials_of_trimesh_like_objects(of_trimesh, own):
     (lambda: fitted(QUAD[0], 1e10), "mesh 'shape': spans 2.83e+10 units in world space; expected"),
     (lambda: fitted(QUAD[0], ball=(1e9, 0, 0)), "scene: spans 1e+09 units in world space; expected"),
     (lambda: halfspace.Material("red"), "base_color: is 'red'; expected 3 or 4 numbers from 0 to 1"),
-    (lambda: halfspace.Material((1, 2, 3)), "base_color: is [1, 2, 3]; expected 3 or 4 numbers from 0 to 1"),
+    (lambda: halfspace.Material((1, 2, 3)), "base_color: is [1.0, 2.0, 3.0]; expected 3 or 4 numbers from 0 to 1"),
     (lambda: halfspace.Material(roughness=-1), "roughness: is -1; expected a number from 0 to 1"),
     (lambda: halfspace.Material(sheen=1.5), "sheen: is 1.5; expected a number from 0 to 1"),
     (lambda: halfspace.Material(base_color_texture=np.zeros((2, 2))), "base_color_texture: texels: has the dtype float64; expected uint8"),
@@ -420,7 +420,7 @@ def test_wrong_arrays_are_reported(make, words):
     assert str(error.value).startswith(words) and "\n" not in str(error.value)
 
 
-@pytest.mark.parametrize("name, words", [("Wrong Name", "invalid name"), ("post", "is a reserved word"), (7, "name: is 7; expected a string"),
+@pytest.mark.parametrize("name, words", [("Wrong=Name", "invalid name"), ("post", "is a reserved word"), (7, "name: is 7; expected a string"),
                                          ("object_1", "name: an object 'object_1' exists; expected another name")])
 def test_a_wrong_name_is_rejected_at_once(name, words):
     scene = halfspace.Scene(lighting="none")

@@ -195,3 +195,79 @@ def test_wrong_cameras_are_reported(make, words):
     with pytest.raises(halfspace.InputError) as error:
         make(halfspace.Camera)
     assert str(error.value).startswith(words) and "\n" not in str(error.value)
+
+
+SNAPPED = 1 / 512 + 1e-4  # half a step, and the rounding of points to float32
+
+
+def projected(points, matrix):
+    """Returns the points after a projection to homogeneous coordinates, divided by the last of them."""
+    out = np.column_stack([points, np.ones(len(points))]) @ matrix.T
+    return out[:, :-1] / out[:, -1:]
+
+
+def seen_points(scene, camera, size):
+    """Returns the points in world space that pixels show, with the columns, the rows and the depths of the pixels."""
+    labels = scene.labels(["position", "depth", "mask"], size=size, camera=camera)
+    rows, columns = np.nonzero(labels["mask"])
+    return labels["position"][rows, columns].astype(float), np.column_stack([columns, rows]), labels["depth"][rows, columns]
+
+
+def cameras_of_all_kinds(scene):
+    pose = look_at_pose((2.0, 1.5, 4.0), (0.1, 0.0, -0.2))
+    skewed = [[1.7, 0.2, 0.15, 0], [0.1, 2.1, -0.2, 0], [0, 0, -21 / 19, -40 / 19], [0, 0, -1, 0]]
+    return {"look_at": halfspace.Camera.look_at((2, 1, 4), (0.1, 0, 0), up=(0.2, 1, 0), fov=33, near=0.5, far=50), "fit": scene.fit(fov=50),
+            "from_pose": halfspace.Camera.from_pose(pose, fov=40), "from_matrices": halfspace.Camera.from_matrices(skewed, pose=pose),
+            "from_intrinsics": halfspace.Camera.from_intrinsics(K, pose=pose), "view": scene.view(size=SIZE)}
+
+
+@pytest.mark.parametrize("kind", ["look_at", "fit", "from_pose", "from_matrices", "from_intrinsics", "view"])
+def test_every_camera_can_be_read_as_intrinsics_and_extrinsics(kind):
+    """Projects the point that each pixel shows. It must land in the center of the pixel, except that vertices are snapped to
+    1/256 px, which moves the interpolated point by up to 1/512 px."""
+    scene = textured_scene()
+    camera = cameras_of_all_kinds(scene)[kind]
+    points, pixels, depths = seen_points(scene, camera, SIZE)
+    assert len(points) > 30
+    in_camera = projected(points, camera.extrinsics)
+    assert np.abs(projected(in_camera, np.column_stack([camera.intrinsics(SIZE), [0, 0, 0]])) - pixels).max() < SNAPPED
+    assert np.allclose(in_camera[:, 2], depths, rtol=1e-6)
+    ndc = projected(points, camera.projection(SIZE) @ np.linalg.inv(camera.pose))
+    assert np.abs((ndc[:, 0] + 1) * SIZE[0] / 2 - 0.5 - pixels[:, 0]).max() < SNAPPED
+    assert np.abs((1 - ndc[:, 1]) * SIZE[1] / 2 - 0.5 - pixels[:, 1]).max() < SNAPPED
+
+
+def test_an_orthographic_camera_can_be_read_as_matrices():
+    scene = textured_scene()
+    camera = halfspace.Camera.look_at((2, 1, 4), (0, 0.2, 0), height=3, near=1, far=20)
+    points, pixels, _ = seen_points(scene, camera, SIZE)
+    ndc = projected(points, camera.projection(SIZE) @ np.linalg.inv(camera.pose))
+    assert np.abs((ndc[:, 0] + 1) * SIZE[0] / 2 - 0.5 - pixels[:, 0]).max() < SNAPPED and ndc[:, 2].min() > -1 and ndc[:, 2].max() < 1
+    with pytest.raises(halfspace.InputError, match="camera: is orthographic, so it has no intrinsics; expected a perspective camera"):
+        camera.intrinsics(SIZE)
+
+
+def test_a_camera_read_and_created_again_is_the_same():
+    camera = halfspace.Camera.look_at((2, 1, 4), (0, 0.2, 0), fov=33)
+    again = halfspace.Camera.from_intrinsics(camera.intrinsics(SIZE), extrinsics=camera.extrinsics, near=0.1, far=1000)
+    assert np.allclose(again.projection(SIZE), camera.projection(SIZE), rtol=1e-13, atol=1e-15)
+    assert np.allclose(again.intrinsics(SIZE), camera.intrinsics(SIZE), rtol=1e-13, atol=1e-12) and np.allclose(again.pose, camera.pose)
+    given = halfspace.Camera.from_intrinsics(K, pose=look_at_pose((2.0, 1.5, 4.0), (0, 0, 0)))
+    assert np.allclose(given.intrinsics(SIZE), K, rtol=1e-14, atol=1e-13)  # two roundings per element
+    with pytest.raises(halfspace.InputError, match="size: is 7; expected"):
+        camera.intrinsics(7)
+
+
+def test_the_cameras_of_a_scene_can_be_read():
+    scene = halfspace.Scene.load("moon")
+    names = scene.cameras
+    assert "terminator" in names
+    picture = scene.render(SIZE, camera="terminator")
+    view = scene.view("terminator", size=SIZE)
+    assert np.allclose(view.pose[:3, 3], scene["terminator.position"]) and difference(scene.render(SIZE, camera=view), picture) == 0
+    assert difference(scene.render(SIZE, camera=scene.view(size=SIZE)), scene.render(SIZE)) == 0
+    scene.camera = halfspace.Camera.look_at((0, 0, 3))
+    assert scene.view() is scene.camera
+    for wrong in ("", "clsoe", 3):
+        with pytest.raises(halfspace.InputError, match="^camera: "):
+            scene.view(wrong)

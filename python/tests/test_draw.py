@@ -246,6 +246,10 @@ IMAGE = np.zeros((2, 2, 4), np.uint8)
      "color_mask: disables channels with order_independent=True; expected 4 times True"),
     (lambda: draw.State(order_independent=True, depth_write=False, depth_compare="always"),
      "depth_compare: is 'always' with order_independent=True; expected less, less_equal, greater or greater_equal"),
+    (lambda: paint(draw.Pass(None, np.zeros((2, 2), np.float32)), RED, state=draw.State(order_independent=True, depth_write=False)),
+     "state: has order_independent=True, but the pass has no color array; expected a pass with one"),
+    (lambda: draw.Pass(IMAGE).draw(draw.colored(np.eye(4)), positions=np.zeros((3, 3)), colors=np.zeros((3, 4)), instances=2**31 - 1),
+     "instances: is 2147483647 with 3 vertices each; expected less than 2^32 vertices in all"),
     (lambda: draw.Stencil(reference=0.5), "reference: is 0.5; expected an integer from 0 to 255"),
 ])
 def test_wrong_draws_are_reported(make, words):
