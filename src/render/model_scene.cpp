@@ -179,6 +179,14 @@ OrderedJson lights_of(const Model& model, const PosedModel& posed, const Frame& 
   return lights;
 }
 
+// Returns the width of shadow maps. Together, the maps of many lights have at most as many texels as those of eight lights, down to the
+// smallest width of a map.
+int shadow_map_width(std::size_t lights) {
+  int width = 1024;
+  for (std::size_t full = 8; lights > full && width > kMinShadowTexels; full *= 4) width /= 2;
+  return width;
+}
+
 // A soft light from above, to the left of the eye.
 OrderedJson key_light(const ModelView& view) {
   ModelView from = view;
@@ -268,7 +276,7 @@ GeneratedScene model_scene(const std::filesystem::path& file, const ModelView& v
     scene["background"] = {{"color", {0.62, 0.63, 0.65}}};
   }
   scene["post"] = {{"hdr", true}, {"tone", "aces"}, {"exposure", 0.62}};
-  scene["shadow"] = {{"method", "pcf7"}, {"resolution", 1024}, {"faces", "both"}};
+  scene["shadow"] = {{"method", "pcf7"}, {"resolution", shadow_map_width(posed.lights.size())}, {"faces", "both"}};
   OrderedJson object = {{"shape", "file"}, {"file", std::filesystem::absolute(file).lexically_normal().string()}};
   if (frame.origin != glm::dvec3(0.0)) object["position"] = json_of(-frame.origin * frame.scale);
   if (frame.scale != 1.0) object["scale"] = json_of(glm::dvec3(frame.scale));

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "halfspace/core/trig_double.h"
+#include "halfspace/render/light_cells.h"
 #include "halfspace/scene/lights.h"
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
@@ -48,8 +49,8 @@ glm::dvec3 ambient_of(const SceneDescription& scene) {
 
 }  // namespace
 
-SceneLights::SceneLights(const SceneDescription& scene, const glm::dvec3& eye_ws, UsedAssets& used)
-    : prepared_(shining_lights(scene, eye_ws)), ambient_(ambient_of(scene)) {
+SceneLights::SceneLights(const SceneDescription& scene, const View& view, UsedAssets& used)
+    : prepared_(shining_lights(scene, view.eye_ws)), ambient_(ambient_of(scene)) {
   const auto shadows = std::make_shared<std::vector<Shadow>>(prepared_.size());
   const auto lights = std::make_shared<std::vector<Light>>(), shadowless = std::make_shared<std::vector<Light>>();
   for (std::size_t i = 0; i < prepared_.size(); ++i) {
@@ -58,12 +59,14 @@ SceneLights::SceneLights(const SceneDescription& scene, const glm::dvec3& eye_ws
     if (scene.shadow.method != ShadowMethod::none && light.description.shadow) light.light.shadow = &(*shadows)[i];
     lights->push_back(light.light);
   }
+  const std::shared_ptr<const LightCells> cells = light_cells(view, *lights);
   shadows_ = *shadows;
-  lights_ = *lights;
-  shadowless_lights_ = *shadowless;
+  lights_ = {*lights, cells.get()};
+  shadowless_lights_ = {*shadowless, cells.get()};
   used.keep(shadows);
   used.keep(lights);
   used.keep(shadowless);
+  used.keep(cells);
 }
 
 bool SceneLights::have_shadow(bool receives_shadow) const {

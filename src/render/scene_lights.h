@@ -8,13 +8,14 @@
 
 #include "halfspace/render/prepared_scene.h"
 #include "halfspace/render/used_assets.h"
+#include "halfspace/render/view.h"
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
 
 class SceneLights {
  public:
   // Does not keep references to its arguments.
-  SceneLights(const SceneDescription& scene, const glm::dvec3& eye_ws, UsedAssets& used);
+  SceneLights(const SceneDescription& scene, const View& view, UsedAssets& used);
 
   // Returns the lights that emit diffuse or specular light.
   const std::vector<PreparedLight>& prepared() const { return prepared_; }
@@ -22,7 +23,7 @@ class SceneLights {
   std::span<Shadow> shadows() const { return shadows_; }
 
   // Returns the lights of a surface. For a surface that does not receive shadows, Light::shadow is null.
-  std::span<const Light> of_surface(bool receives_shadow) const { return receives_shadow ? lights_ : shadowless_lights_; }
+  LightSet of_surface(bool receives_shadow) const { return receives_shadow ? lights_ : shadowless_lights_; }
   // Returns true if one of these lights has a shadow.
   bool have_shadow(bool receives_shadow) const;
   // Returns the sum of all ambient light.
@@ -31,8 +32,8 @@ class SceneLights {
  private:
   std::vector<PreparedLight> prepared_;
   std::span<Shadow> shadows_;
-  std::span<const Light> lights_;
-  std::span<const Light> shadowless_lights_;
+  LightSet lights_;
+  LightSet shadowless_lights_;
   glm::dvec3 ambient_;
 };
 

@@ -17,7 +17,7 @@ ScenePreparation::ScenePreparation(const SceneDescription& scene, int width, int
       workers_(workers),
       view_(make_view(camera_of(scene), width, height)),
       used_(cache),
-      lights_(scene, view_.eye_ws, used_),
+      lights_(scene, view_, used_),
       maps_(scene, view_, minimum.map_widths, used_, workers),
       environments_(scene, view_, minimum.environments, maps_, used_, workers),
       surfaces_(scene, view_, lights_, maps_, environments_, warnings),

@@ -15,29 +15,13 @@
 
 #include <cstdint>
 #include <limits>
-#include <span>
 
 #include "halfspace/core/lane_math.h"
 #include "halfspace/core/vec.h"
-#include "halfspace/shading/light_types.h"
+#include "halfspace/shading/light_set.h"
 #include "halfspace/shading/shadow.h"
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
-
-/// A light source. Colors are linear and include the intensity. The suffix _rws denotes camera-relative world space: the axes of
-/// the world with the eye as the origin, so that floats are most precise near the eye.
-struct Light {
-  LightType type = LightType::directional;
-  glm::vec3 position_rws{0, 0, 1};  ///< directional: unit vector towards the light; otherwise its position
-  glm::vec3 diffuse{1.0f};
-  glm::vec3 specular{1.0f};
-  glm::vec3 attenuation{1, 0, 0};  ///< coefficients a of 1 / (a0 + a1·d + a2·d²); (0, 0, 1) is the physical falloff
-  glm::vec3 axis_ws{0, 0, 1};      ///< spot: unit vector from the lit scene towards the light
-  float cos_outer = 0.0f;          ///< spot: cosine of the angle to the axis at which the light fades to zero
-  float cone_scale = 1.0f;         ///< spot: 1 / (cosine of the angle up to which the light has full strength − cos_outer)
-  float inverse_range = 0.0f;      ///< point, spot: 1 / distance at which the light has faded to zero; 0: unlimited
-  const Shadow* shadow = nullptr;  ///< shadow of this light; null: none. Not owned
-};
 
 /// Lower limit of the attenuation denominator, which keeps the strength finite close to a light.
 inline constexpr float kMinAttenuation = 1e-12f;
@@ -107,13 +91,14 @@ struct Illumination {
   vec3<R> diffuse, specular;
 };
 
-/// Returns the light of all sources at p. shininess must not be negative; at 0, the highlight is 1 wherever the surface faces the
+/// Returns the light of the given sources at p. shininess must not be negative; at 0, the highlight is 1 wherever the surface faces the
 /// light. lambert computes no specular light. The result is never NaN.
 template <class R>
-HS_INLINE Illumination<R> illuminate(std::span<const Light> lights, LightModel model, R shininess, const SurfacePoint<R>& p) {
+HS_INLINE Illumination<R> illuminate(const LightRange& lights, LightModel model, R shininess, const SurfacePoint<R>& p) {
   Illumination<R> sum{vec3<R>(R(0)), vec3<R>(R(0))};
   for (const Light& light : lights) {
     IncidentLight<R> arriving = light_at(light, p.position_rws);
+    if (none(arriving.strength > R(0))) continue;
     const R n_l = dot(p.n_ws, arriving.l_ws);
     if (light.shadow != nullptr && any(n_l > R(0)))  // skip the lookup if no lane faces the light
       arriving.strength *=

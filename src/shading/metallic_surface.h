@@ -271,8 +271,10 @@ struct MetallicSurface : MetallicMaterial {
     if (shadowed) p.face_ws = face_towards(cross(px.ddx(&V::position_rws), px.ddy(&V::position_rws)), v_ws);
     vec3<R> sum = emissive * texels.emissive;
     vec3<R> coat_sum(R(0));
-    for (const Light& light : lights) {
+    const LightRange reaching = lights.at_pixel(px.x, px.y);
+    for (const Light& light : reaching) {
       const IncidentLight<R> arriving = light_at(light, p.position_rws);
+      if (none(arriving.strength > R(0))) continue;
       const R n_l = dot(n_ws, arriving.l_ws), coat_n_l = has_coat ? dot(coat.n_ws, arriving.l_ws) : R(0);
       R received = arriving.strength;
       if (light.shadow != nullptr && any(n_l > R(0) || coat_n_l > R(0)))
@@ -314,7 +316,7 @@ struct MetallicSurface : MetallicMaterial {
       const SheenLayer<R> sheen_layer{sheen_color * texels.sheen_color * (R(sheen) * texels.number[kSheenMap]),
                                       R(sheen_roughness) * texels.number[kSheenRoughnessMap]};
       const vec3<R> around_n = environment != nullptr ? vec3<R>(ambient) + environment->diffuse_at<R>(n_ws) : vec3<R>(ambient);
-      sum = with_sheen(sum, sheen_layer, p, lights, around_n * occlusion);
+      sum = with_sheen(sum, sheen_layer, p, reaching, around_n * occlusion);
     }
     return has_coat ? sum * through + coat_sum * coverage : sum;
   }

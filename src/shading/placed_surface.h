@@ -3,8 +3,6 @@
 // The placement and the lights of a surface: uniforms that all shaders for lit surfaces share.
 #pragma once
 
-#include <span>
-
 #include "halfspace/shading/lighting.h"
 #include "halfspace/shading/texture.h"
 
@@ -23,7 +21,7 @@ struct PlacedSurface {
   glm::mat3 normal_from_object;   ///< inverse transpose of the upper left 3x3 of world_from_object
   float handedness = 1.0f;        ///< −1 if world_from_object mirrors, otherwise 1
   glm::vec3 to_eye_ws{0.0f};      ///< orthographic: the constant unit vector towards the eye; perspective: 0
-  std::span<const Light> lights;  ///< not owned
+  LightSet lights;                ///< not owned
   bool shadowed = false;          ///< at least one light has a shadow
   bool two_sided = false;         ///< flip the normal of back faces for lighting
 

@@ -34,7 +34,7 @@ struct ShadowCatcher : PlacedSurface {
     const vec3<R> v_ws = to_eye(in.position_rws);
     const vec3<R> n_ws = face_towards(cross(px.ddx(&V::position_rws), px.ddy(&V::position_rws)), v_ws);
     R lit(1e-6f), whole(1e-6f);  // not 0, so that a point without any light counts as lit
-    for (const Light& light : lights) {
+    for (const Light& light : lights.at_pixel(px.x, px.y)) {
       const IncidentLight<R> arriving = light_at(light, in.position_rws);
       const R share =
           arriving.strength * max(dot(n_ws, arriving.l_ws), R(0)) * R(max(light.diffuse.x, max(light.diffuse.y, light.diffuse.z)));

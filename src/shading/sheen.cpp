@@ -113,7 +113,7 @@ R directional_sheen(R roughness, R n_v) {
 }
 
 template <class R>
-vec3<R> with_sheen(const vec3<R>& below, const SheenLayer<R>& sheen, const SurfacePoint<R>& p, std::span<const Light> lights,
+vec3<R> with_sheen(const vec3<R>& below, const SheenLayer<R>& sheen, const SurfacePoint<R>& p, const LightRange& lights,
                    const vec3<R>& around) {
   const R n_v = max(dot(p.n_ws, p.v_ws), R(1e-4f)), total = directional_sheen(sheen.roughness, n_v);
   const SheenLobe<R> lobe(alpha_of(sheen.roughness));
@@ -134,12 +134,12 @@ vec3<R> with_sheen(const vec3<R>& below, const SheenLayer<R>& sheen, const Surfa
   return below * (R(1) - min(largest * total, R(1))) + sheen.color * reflected;
 }
 
-template vec3<float> with_sheen(const vec3<float>&, const SheenLayer<float>&, const SurfacePoint<float>&, std::span<const Light>,
+template vec3<float> with_sheen(const vec3<float>&, const SheenLayer<float>&, const SurfacePoint<float>&, const LightRange&,
                                 const vec3<float>&);
-template vec3<double> with_sheen(const vec3<double>&, const SheenLayer<double>&, const SurfacePoint<double>&, std::span<const Light>,
+template vec3<double> with_sheen(const vec3<double>&, const SheenLayer<double>&, const SurfacePoint<double>&, const LightRange&,
                                  const vec3<double>&);
 template vec3<FragmentReal> with_sheen(const vec3<FragmentReal>&, const SheenLayer<FragmentReal>&, const SurfacePoint<FragmentReal>&,
-                                       std::span<const Light>, const vec3<FragmentReal>&);
+                                       const LightRange&, const vec3<FragmentReal>&);
 
 template float sheen_reflection(float, float, float, float);
 template double sheen_reflection(double, double, double, double);
@@ -148,8 +148,7 @@ template double directional_sheen(double, double);
 #if HALFSPACE_LANES > 1
 template Real sheen_reflection(Real, Real, Real, Real);
 template Real directional_sheen(Real, Real);
-template vec3<Real> with_sheen(const vec3<Real>&, const SheenLayer<Real>&, const SurfacePoint<Real>&, std::span<const Light>,
-                               const vec3<Real>&);
+template vec3<Real> with_sheen(const vec3<Real>&, const SheenLayer<Real>&, const SurfacePoint<Real>&, const LightRange&, const vec3<Real>&);
 #endif
 
 }  // namespace halfspace::inline HS_LANES_NAMESPACE

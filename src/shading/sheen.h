@@ -10,8 +10,6 @@
 // The functions are instantiated in sheen.cpp. Few materials have sheen, so it is not compiled into every kernel.
 #pragma once
 
-#include <span>
-
 #include "halfspace/shading/lighting.h"
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
@@ -38,7 +36,7 @@ struct SheenLayer {
 /// the part 1 − E(n·v) of it, where E is the integral of its own reflection; the extension permits this simplification. around: light from
 /// all directions, as a white diffuse surface would reflect it. Available for R = float, double, Real and FragmentReal.
 template <class R>
-vec3<R> with_sheen(const vec3<R>& below, const SheenLayer<R>& sheen, const SurfacePoint<R>& p, std::span<const Light> lights,
+vec3<R> with_sheen(const vec3<R>& below, const SheenLayer<R>& sheen, const SurfacePoint<R>& p, const LightRange& lights,
                    const vec3<R>& around);
 
 }  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -110,7 +110,7 @@ struct SurfaceShader : LitSurface {
     } else {
       const Material<R> m = material(in, px);
       const SurfacePoint<R> p = point_at(in, px);
-      vec3<R> light = reflected(m, illuminate(lights, model, m[kShininess].x, p));
+      vec3<R> light = reflected(m, illuminate(lights.at_pixel(px.x, px.y), model, m[kShininess].x, p));
       if (reflected_environment != nullptr)
         light += reflection * environment_reflection(*reflected_environment, from_eye(in, px), normal_with_steps(in, px, p.n_ws));
       return {vec4<R>(light, R(1))};

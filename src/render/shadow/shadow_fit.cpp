@@ -17,13 +17,6 @@ namespace {
 // degrees or more a single projection plane is impossible, so cube faces are used instead.
 constexpr double kWidestSpot = 60.0;
 
-// The bounds of a mesh, or of a set of spheres.
-struct Extent {
-  const PlacedMesh* mesh;  // if null, `particles` is set
-  const Particles* particles;
-  Box box_ws;
-};
-
 // Returns the bounds of the mesh's vertices along the columns of a rotation.
 Box bounds_along(const PlacedMesh& placed, const glm::dmat3& axes) {
   const glm::dmat3 turn = glm::transpose(axes) * glm::dmat3(placed.world_from_object);
@@ -43,8 +36,8 @@ Box bounds_along(const Particles& spheres, const glm::dmat3& axes) {
   return box;
 }
 
-Box bounds_along(const Extent& e, const glm::dmat3& axes) {
-  return e.mesh != nullptr ? bounds_along(*e.mesh, axes) : bounds_along(*e.particles, axes);
+Box bounds_along(const ShadowExtent& e, const glm::dmat3& axes) {
+  return e.mesh != nullptr ? bounds_along(*e.mesh, axes) : bounds_along(*e.spheres->particles, axes);
 }
 
 Box common(const Box& a, const Box& b) { return {glm::max(a.low, b.low), glm::min(a.high, b.high)}; }
@@ -57,14 +50,20 @@ Box joined(Box a, const Box& b) {
   return a;
 }
 
-// Computes the views of one light.
+// Returns the part of a box within `reach` of a point along each axis; reach may be infinity.
+Box part_within(const Box& box, const glm::dvec3& point, double reach) { return common(box, {point - reach, point + reach}); }
+
+// Computes the views of one light. Objects count if a part of them is within `reach` of `position`; receivers only if that part is visible.
 class ViewFinder {
  public:
-  ViewFinder(const View& view, const std::vector<PlacedMesh>& meshes, const std::vector<PlacedSpheres>& spheres, int size, double margin)
-      : frustum_(frustum_corners(view.clip_from_world)), eye_ws_(view.eye_ws), forward_ws_(view.forward_ws), size_(size), margin_(margin) {
-    for (const PlacedMesh& m : meshes) add({&m, nullptr, bounds_along(m, glm::dmat3(1.0))}, m.casts_shadow, m.receives_shadow);
-    for (const PlacedSpheres& s : spheres)
-      add({nullptr, s.particles.get(), bounds_along(*s.particles, glm::dmat3(1.0))}, s.casts_shadow, s.receives_shadow);
+  ViewFinder(const ShadowScene& scene, const glm::dvec3& position, double reach, int size, double margin)
+      : frustum_(scene.frustum_ws), eye_ws_(scene.eye_ws), forward_ws_(scene.forward_ws), reach_(reach), size_(size), margin_(margin) {
+    for (const ShadowExtent& e : scene.objects) {
+      const Box part = part_within(e.box_ws, position, reach);
+      if (glm::any(glm::greaterThan(part.low, part.high))) continue;
+      if (e.casts_shadow) casters_.push_back(e);
+      if (e.receives_shadow && !common_corners(frustum_, part).empty()) receivers_.push_back(e);
+    }
   }
 
   bool nothing_received() const { return receivers_.empty(); }
@@ -72,8 +71,8 @@ class ViewFinder {
   std::vector<LightView> directional(const glm::dvec3& to_light_ws, int cascades, double growth) const {
     const glm::dmat3 axes = light_axes(to_light_ws);
     std::vector<Box> receivers, casters;
-    for (const Extent& r : receivers_) receivers.push_back(bounds_along(r, axes));
-    for (const Extent& c : casters_) casters.push_back(bounds_along(c, axes));
+    for (const ShadowExtent& r : receivers_) receivers.push_back(bounds_along(r, axes));
+    for (const ShadowExtent& c : casters_) casters.push_back(bounds_along(c, axes));
     const auto view_of = [&](const std::array<glm::dvec3, 8>& part) -> std::optional<LightView> {
       Box seen;
       for (std::size_t i = 0; i < receivers_.size(); ++i) {
@@ -98,53 +97,47 @@ class ViewFinder {
     return views;
   }
 
-  // reach: distance beyond which there is no light; may be infinity.
-  std::vector<LightView> spot(const glm::dvec3& position, const glm::dvec3& forward, double angle, double reach) const {
+  std::vector<LightView> spot(const glm::dvec3& position, const glm::dvec3& forward, double angle) const {
     const glm::dvec3 axis = unit_or_zero(forward);
     double near = 1e300, far = 0.0;
-    for (const Extent& e : casters_)
+    for (const ShadowExtent& e : casters_)
       for (const glm::dvec3& c : corners_of(e.box_ws)) near = std::min(near, glm::dot(c - position, axis));
-    for (const Extent& e : receivers_)
+    for (const ShadowExtent& e : receivers_)
       for (const glm::dvec3& c : corners_of(e.box_ws)) far = std::max(far, glm::dot(c - position, axis));
-    far = std::min(far, reach);
+    far = std::min(far, reach_);
     if (far <= 0.0) return {};
     return {spot_view(position, axis, angle, near_end(near, far), far * 1.001, size_, margin_)};
   }
 
-  std::vector<LightView> cube(const glm::dvec3& position, double reach) const {
+  std::vector<LightView> cube(const glm::dvec3& position) const {
     double near = 1e300, far = 0.0;
     // The distance along the axis of the face that contains the point is the largest component.
-    for (const Extent& e : casters_) {
+    for (const ShadowExtent& e : casters_) {
       const glm::dvec3 gap = glm::max(glm::max(e.box_ws.low - position, position - e.box_ws.high), glm::dvec3(0.0));
       near = std::min(near, std::max({gap.x, gap.y, gap.z}));
     }
-    for (const Extent& e : receivers_) {
+    for (const ShadowExtent& e : receivers_) {
       const glm::dvec3 distance = glm::max(glm::abs(e.box_ws.low - position), glm::abs(e.box_ws.high - position));
       far = std::max({far, distance.x, distance.y, distance.z});
     }
-    far = std::min(far, reach);
+    far = std::min(far, reach_);
     std::vector<LightView> views;
     for (const LightView& view : cube_views(position, near_end(near, far), far * 1.001, size_, margin_)) {
       const auto seen = frustum_corners(view.clip_from_world);
-      const auto sees = [&](const Extent& e) { return !common_corners(seen, e.box_ws).empty(); };
+      const auto sees = [&](const ShadowExtent& e) { return !common_corners(seen, e.box_ws).empty(); };
       if (std::ranges::any_of(receivers_, sees) && std::ranges::any_of(casters_, sees)) views.push_back(view);
     }
     return views;
   }
 
  private:
-  void add(const Extent& e, bool casts, bool receives) {
-    if (casts) casters_.push_back(e);
-    if (receives && !common_corners(frustum_, e.box_ws).empty()) receivers_.push_back(e);
-  }
-
   // Returns a distance slightly in front of the nearest caster, but at least far/1000, in case the light is among the casters.
   static double near_end(double nearest, double far) { return std::max(std::min(0.9 * nearest, 0.5 * far), 1e-3 * far); }
 
   // Returns the range of distances along the view axis in which receivers are visible.
   std::pair<double, double> seen_distances() const {
     double near = 1e300, far = 0.0;
-    for (const Extent& r : receivers_) {
+    for (const ShadowExtent& r : receivers_) {
       for (const glm::dvec3& p : common_corners(frustum_, r.box_ws)) {
         near = std::min(near, distance_to(p));
         far = std::max(far, distance_to(p));
@@ -161,23 +154,46 @@ class ViewFinder {
 
   std::array<glm::dvec3, 8> frustum_;
   glm::dvec3 eye_ws_, forward_ws_;
+  double reach_;
   int size_;
   double margin_;
-  std::vector<Extent> casters_, receivers_;
+  std::vector<ShadowExtent> casters_, receivers_;
 };
 
 }  // namespace
 
-std::vector<LightView> fitted_views(const View& view, const std::vector<PlacedMesh>& meshes, const std::vector<PlacedSpheres>& spheres,
-                                    const LightDescription& light, const ShadowDescription& shadow, int size, double margin) {
-  const ViewFinder finder(view, meshes, spheres, size, margin);
-  if (finder.nothing_received()) return {};
+ShadowScene shadow_scene(const View& view, const std::vector<PlacedMesh>& meshes, const std::vector<PlacedSpheres>& spheres) {
+  ShadowScene scene{{}, frustum_corners(view.clip_from_world), view.eye_ws, view.forward_ws};
+  for (const PlacedMesh& m : meshes)
+    scene.objects.push_back({&m, nullptr, bounds_along(m, glm::dmat3(1.0)), m.casts_shadow, m.receives_shadow});
+  for (const PlacedSpheres& s : spheres)
+    scene.objects.push_back({nullptr, &s, bounds_along(*s.particles, glm::dmat3(1.0)), s.casts_shadow, s.receives_shadow});
+  return scene;
+}
+
+bool is_outside(const glm::dmat4& clip_from_world, const Box& box_ws) {
+  const glm::dmat4 rows = glm::transpose(clip_from_world);
+  const auto is_behind = [&](const glm::dvec4& plane) {  // true if dot(plane, (p, 1)) < 0 in the whole box
+    const glm::dvec3 normal(plane);
+    const glm::dvec3 farthest(normal.x > 0.0 ? box_ws.high.x : box_ws.low.x, normal.y > 0.0 ? box_ws.high.y : box_ws.low.y,
+                              normal.z > 0.0 ? box_ws.high.z : box_ws.low.z);
+    return glm::dot(normal, farthest) + plane.w < 0.0;
+  };
+  return is_behind(rows[3] + rows[0]) || is_behind(rows[3] - rows[0]) || is_behind(rows[3] + rows[1]) || is_behind(rows[3] - rows[1]) ||
+         is_behind(rows[2]) || is_behind(rows[3] - rows[2]);
+}
+
+std::vector<LightView> fitted_views(const ShadowScene& scene, const LightDescription& light, const ShadowDescription& shadow, int size,
+                                    double margin) {
   const LightKind& kind = kind_of(light.type);
+  const bool is_limited = !kind.is_distant && light.range > 0.0;
+  const double reach = is_limited ? light.range : std::numeric_limits<double>::infinity();
+  const ViewFinder finder(scene, light.position, reach, size, margin);
+  if (finder.nothing_received()) return {};
   if (kind.is_distant) return finder.directional(light.direction, shadow.cascades, shadow.cascade_growth);
-  const double reach = light.range > 0.0 ? light.range : std::numeric_limits<double>::infinity();
   if (kind.has_cone && light.outer <= kWidestSpot)
-    return finder.spot(light.position, -light.direction, 2.0 * light.outer * kRadiansPerDegree, reach);
-  return finder.cube(light.position, reach);
+    return finder.spot(light.position, -light.direction, 2.0 * light.outer * kRadiansPerDegree);
+  return finder.cube(light.position);
 }
 
 }  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -9,7 +9,6 @@
 #include "halfspace/core/trig_double.h"
 #include "halfspace/core/units.h"
 #include "halfspace/render/shadow/moment_map.h"
-#include "halfspace/render/shadow/shadow_fit.h"
 #include "halfspace/render/sphere_camera.h"
 #include "halfspace/scene/lights.h"
 #include "halfspace/shading/depth_only.h"
@@ -75,29 +74,26 @@ ShadowView to_shading(const LightView& v, int size, const glm::dvec3& eye_ws) {
   return s;
 }
 
-// What to draw into a depth map.
-struct Placed {
-  const std::vector<PlacedMesh>& meshes;
-  const std::vector<PlacedSpheres>& spheres;
-};
-
 // Draws the depth of meshes and spheres as seen from a light or from the eye. Spheres always draw their front, regardless of
 // `faces`.
-PassStatistics draw_depth(const glm::dmat4& clip_from_world, double near, double far, const Placed& placed, bool casters_only,
+PassStatistics draw_depth(const glm::dmat4& clip_from_world, double near, double far, const ShadowScene& scene, bool casters_only,
                           ShadowFaces faces, Image<float>& depth, const Workers& workers) {
   DepthTarget target = d32f_target(depth);
   target.clear_value = 0.0f;
   Pass pass(depth.width(), depth.height(), {}, target);
   std::deque<std::vector<glm::vec3>> centers_cs;  // must outlive the pass, which refers to them
   const SphereCamera camera(clip_from_world, near, far);
-  for (const PlacedSpheres& spheres : placed.spheres) {
-    if (casters_only && !spheres.casts_shadow) continue;
+  const auto is_drawn = [&](const ShadowExtent& e) { return (e.casts_shadow || !casters_only) && !is_outside(clip_from_world, e.box_ws); };
+  for (const ShadowExtent& e : scene.objects) {
+    if (e.spheres == nullptr || !is_drawn(e)) continue;
+    const PlacedSpheres& spheres = *e.spheres;
     const auto& centers = centers_cs.emplace_back(camera.centers_cs(*spheres.particles));
     pass.draw(SphereDepth{camera.lens({depth.width(), depth.height()})},
               make_vertex_view(stream(centers), stream(spheres.particles->radii)), sprite_state());
   }
-  for (const PlacedMesh& m : placed.meshes) {
-    if (casters_only && !m.casts_shadow) continue;
+  for (const ShadowExtent& e : scene.objects) {
+    if (e.mesh == nullptr || !is_drawn(e)) continue;
+    const PlacedMesh& m = *e.mesh;
     const CullMode cull = m.two_sided || faces == ShadowFaces::both ? CullMode::none
                           : faces == ShadowFaces::front             ? CullMode::back
                                                                     : CullMode::front;
@@ -121,10 +117,10 @@ struct VisiblePoint {
   glm::dvec3 position_rws;
   double pixel;
 };
-std::vector<VisiblePoint> visible_points(const View& view, const Placed& placed, const Workers& workers) {
+std::vector<VisiblePoint> visible_points(const View& view, const ShadowScene& scene, const Workers& workers) {
   constexpr int kWidth = 96, kHeight = 54;
   Image<float> depth(kWidth, kHeight);
-  draw_depth(view.clip_from_world, view.near, view.far, placed, false, ShadowFaces::front, depth, workers);
+  draw_depth(view.clip_from_world, view.near, view.far, scene, false, ShadowFaces::front, depth, workers);
   const glm::dmat4 world_from_clip = glm::inverse(view.clip_from_world);
   std::vector<VisiblePoint> places;
   for (int row = 0; row < kHeight; ++row) {
@@ -162,12 +158,12 @@ double footprint_of(const std::vector<ShadowView>& views, const std::vector<Visi
 std::vector<LightView> ShadowRenderer::views(const LightDescription& light, const ShadowSettings& settings, int size) const {
   // Half a texel is added to the reach of the filter, so that rounding cannot push a point on the edge between two faces out of
   // both.
-  return fitted_views(view_, meshes_, spheres_, light, shadow_, size, static_cast<double>(filter_reach(settings)) + 0.5);
+  return fitted_views(scene_, light, shadow_, size, static_cast<double>(filter_reach(settings)) + 0.5);
 }
 
 int ShadowRenderer::resolution(const LightDescription& light, const ShadowSettings& settings) const {
   if (shadow_.resolution != 0) return shadow_.resolution;
-  const std::vector<VisiblePoint> places = visible_points(view_, {meshes_, spheres_}, workers_);
+  const std::vector<VisiblePoint> places = visible_points(view_, scene_, workers_);
   int size = 256;
   for (; size < kMaxShadowTexels; size *= 2) {
     std::vector<ShadowView> seen;
@@ -188,7 +184,7 @@ RenderedShadow ShadowRenderer::render(const std::string& name, const LightDescri
     maps->views.push_back(to_shading(view, size, view_.eye_ws));
     ShadowView& s = maps->views.back();
     Image<float>& depth = maps->depths.emplace_back(size, size);
-    out.statistics += draw_depth(view.clip_from_world, view.near, view.far, {meshes_, spheres_}, true, shadow_.faces, depth, workers_);
+    out.statistics += draw_depth(view.clip_from_world, view.near, view.far, scene_, true, shadow_.faces, depth, workers_);
     s.depth = depth.data();
     if (is_wide_box(settings.filter)) s.block_depths = maps->block_depths.emplace_back(shadow_block_depths(depth, workers_)).data();
     if (!is_moment_filter(settings.filter)) continue;

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "halfspace/render/prepared_scene.h"
-#include "halfspace/render/shadow/shadow_views.h"
+#include "halfspace/render/shadow/shadow_fit.h"
 #include "halfspace/render/view.h"
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
@@ -25,7 +25,7 @@ class ShadowRenderer {
   // Keeps references to all arguments. The shadow method must not be `none`.
   ShadowRenderer(const ShadowDescription& shadow, const View& view, const std::vector<PlacedMesh>& meshes,
                  const std::vector<PlacedSpheres>& spheres, const Workers& workers)
-      : shadow_(shadow), view_(view), meshes_(meshes), spheres_(spheres), workers_(workers) {}
+      : shadow_(shadow), view_(view), scene_(shadow_scene(view, meshes, spheres)), workers_(workers) {}
 
   // Finds views that cover the visible receivers, and renders the depth of the casters into each view. name: of the light, for error
   // messages.
@@ -37,8 +37,7 @@ class ShadowRenderer {
 
   const ShadowDescription& shadow_;
   const View& view_;
-  const std::vector<PlacedMesh>& meshes_;
-  const std::vector<PlacedSpheres>& spheres_;
+  const ShadowScene scene_;
   const Workers& workers_;
 };
 
