@@ -6,12 +6,12 @@
 #include "cli/arguments.h"
 #include "cli/commands.h"
 #include "cli/errors.h"
-#include "halfspace/render/input_files.h"
 #include "halfspace/core/check.h"
 #include "halfspace/core/parallel.h"
 #include "halfspace/geometry/normal_map.h"
 #include "halfspace/image/atomic_output.h"
 #include "halfspace/image/image_io.h"
+#include "halfspace/render/input_files.h"
 
 namespace halfspace {
 

@@ -11,11 +11,11 @@
 #include "cli/command_line.h"
 #include "cli/commands.h"
 #include "cli/errors.h"
-#include "halfspace/render/input_files.h"
 #include "cli/scene_arguments.h"
 #include "cli/stage_display.h"
 #include "halfspace/core/check.h"
 #include "halfspace/image/atomic_output.h"
+#include "halfspace/render/input_files.h"
 #include "halfspace/scene/scene_file.h"
 
 namespace halfspace {

@@ -11,12 +11,12 @@
 #include "cli/charting.h"
 #include "cli/commands.h"
 #include "cli/errors.h"
-#include "halfspace/render/input_files.h"
 #include "cli/scene_arguments.h"
 #include "halfspace/core/parallel.h"
 #include "halfspace/image/atomic_output.h"
 #include "halfspace/image/image_io.h"
 #include "halfspace/reference/shadow_table.h"
+#include "halfspace/render/input_files.h"
 #include "halfspace/scene/scene_file.h"
 #include "halfspace/study/shadow_study.h"
 

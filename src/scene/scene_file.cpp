@@ -184,7 +184,8 @@ class Reader {
         fail(context_.source, path + ": is a reserved word; expected another name");
       if (!is_name(name))
         fail(context_.source,
-             printable(path) + ": invalid name; expected text without '=' and ',' that neither begins with '#' nor begins or ends with a space");
+             printable(path) +
+                 ": invalid name; expected text without '=' and ',' that neither begins with '#' nor begins or ends with a space");
       T thing;
       if constexpr (std::is_same_v<T, ObjectDescription>) {
         read_object(thing, value, path);
