@@ -73,7 +73,7 @@ void FrameMaker::render(const SceneDescription& scene, int divisor, Overlay over
 }
 
 PickedPixel FrameMaker::pick(const glm::ivec2& pixel, const std::string& title) const {
-  HS_CHECK(scene_.has_value());
+  HS_CHECK(scene_.has_value(), "viewer: no scene has been opened; expected open() first");
   PickedPixel picked = picked_pixel(title, *scene_, description_, pixel / divisor_, workers_);
   picked.pixel = pixel;
   return picked;

@@ -33,8 +33,8 @@ class OutputError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Describes a failed check: its source location, and a one-line message with the condition. For comparisons the message includes both
-/// values, for example "width % 2 == 0 (1 vs 0)".
+/// Describes a failed check: its source location, and a one-line message: the problem in words or, for internal checks, the condition. For
+/// comparisons the message ends with both values, for example "width % 2 == 0 (1 vs 0)".
 struct CheckFailure {
   const char* file;
   int line;
@@ -63,6 +63,9 @@ namespace detail {
 [[noreturn]] __attribute__((cold)) void check_failed(const char* file, int line, const char* condition, const std::string& left,
                                                      const std::string& right);
 
+/// Returns the message of a check: its words if it has any, otherwise its condition.
+constexpr const char* check_text(const char* condition, const char* words = nullptr) { return words != nullptr ? words : condition; }
+
 std::string value_text(int64_t value);
 std::string value_text(uint64_t value);
 std::string value_text(double value);  ///< six significant digits, like %g
@@ -88,10 +91,16 @@ template <class A, class B>
 }  // namespace halfspace::inline HS_LANES_NAMESPACE
 
 // These are macros because they need the text of the condition and the location of the caller. A check that passes costs
-// one comparison; failure handling is out of line.
-#define HS_CHECK_OP(a, op, b) \
-  (((a)op(b)) ? (void)0 : ::halfspace::detail::comparison_failed(__FILE__, __LINE__, #a " " #op " " #b, (a), (b)))
-#define HS_CHECK(condition) ((condition) ? (void)0 : ::halfspace::detail::check_failed(__FILE__, __LINE__, #condition))
+// one comparison; failure handling is out of line. Checks that a caller of the public API can fail have a second argument: the
+// message in words, "PLACE: problem; expected ...". Without it, for internal checks, the message is the text of the condition.
+#define HS_CHECK_OP(a, op, b, ...)                      \
+  (((a)op(b)) ? (void)0                                 \
+              : ::halfspace::detail::comparison_failed( \
+                    __FILE__, __LINE__, ::halfspace::detail::check_text(#a " " #op " " #b __VA_OPT__(, ) __VA_ARGS__), (a), (b)))
+#define HS_CHECK(condition, ...) \
+  ((condition)                   \
+       ? (void)0                 \
+       : ::halfspace::detail::check_failed(__FILE__, __LINE__, ::halfspace::detail::check_text(#condition __VA_OPT__(, ) __VA_ARGS__)))
 #ifdef HALFSPACE_ASSERTS
 #define HS_DCHECK(condition) HS_CHECK(condition)
 #else

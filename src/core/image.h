@@ -19,8 +19,8 @@ class Image {
   Image() = default;
   /// Creates an image of texels initialized to T(). width and height must not be negative.
   Image(int width, int height) : width_(width), height_(height) {
-    HS_CHECK_OP(width, >=, 0);
-    HS_CHECK_OP(height, >=, 0);
+    HS_CHECK_OP(width, >=, 0, "Image: the width is negative; expected at least 0");
+    HS_CHECK_OP(height, >=, 0, "Image: the height is negative; expected at least 0");
     texels_ = Texels(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
   }
 

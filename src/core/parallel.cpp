@@ -105,7 +105,7 @@ struct Workers::Impl {
 #endif
 
 Workers::Workers(int threads) : threads_(threads) {
-  HS_CHECK_OP(threads, >=, 1);
+  HS_CHECK_OP(threads, >=, 1, "Workers: the number of threads is not positive; expected at least 1");
   impl_ = Impl::make(threads);
 }
 Workers::~Workers() = default;

@@ -56,7 +56,8 @@ ResourceLimits resource_limits() {
 }
 
 void set_resource_limits(const ResourceLimits& limits) {
-  HS_CHECK_OP(limits.max_pixels, <=, ResourceLimits::kMaxPixels);
+  HS_CHECK_OP(limits.max_pixels, <=, ResourceLimits::kMaxPixels,
+              "set_resource_limits: the number of pixels is too large; expected at most 2^28");
   LimitState& state = limit_state();
   const std::lock_guard lock(state.mutex);
   state.limits = limits;

@@ -56,7 +56,7 @@ uint32_t example_primitive(const StageGeometry& g, const TracedFragment* f) {
 
 std::string replaced(std::string text, std::string_view placeholder, std::string_view value) {
   const std::size_t at = text.find(placeholder);
-  HS_CHECK(at != std::string::npos);
+  HS_CHECK(at != std::string::npos, "explain: the template of the page lacks a placeholder; expected each placeholder once");
   return text.replace(at, placeholder.size(), value);
 }
 

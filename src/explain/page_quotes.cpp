@@ -70,7 +70,7 @@ std::string_view embedded_text(std::string_view name) {
   for (const EmbeddedFile& file : embedded_files()) {
     if (file.name == name) return file.text;
   }
-  HS_CHECK(false);
+  HS_CHECK(false, "explain: the quoted source was not found; expected it in the sources that are built in");
   return {};
 }
 

@@ -18,15 +18,16 @@ namespace {
 glm::dvec3 checked_unit(const glm::dvec3& v) {
   const glm::dvec3 u = unit_or_zero(v);
   const double length = glm::dot(u, u);
-  HS_CHECK_OP(length, >, 0.0);
+  HS_CHECK_OP(length, >, 0.0,
+              "look_at: the eye is the target, or up is parallel to the line between them; expected two points and another direction");
   return u;
 }
 
 // A perspective projection with clip w = −z and clip depth a·z + b. x and y are scaled so that the angle fovy spans [−w, w].
 glm::dmat4 perspective(double fovy, double aspect, double a, double b) {
-  HS_CHECK_OP(fovy, >, 0.0);
-  HS_CHECK_OP(fovy, <, std::numbers::pi);
-  HS_CHECK_OP(aspect, >, 0.0);
+  HS_CHECK_OP(fovy, >, 0.0, "perspective: the angle of view is not positive; expected radians between 0 and pi");
+  HS_CHECK_OP(fovy, <, std::numbers::pi, "perspective: the angle of view is too large; expected radians between 0 and pi");
+  HS_CHECK_OP(aspect, >, 0.0, "projection: the aspect ratio is not positive; expected width / height");
   const SinCosDouble half = sincos_radians(0.5 * fovy);
   glm::dmat4 m(0.0);
   m[0][0] = half.cos / (half.sin * aspect);
@@ -38,8 +39,8 @@ glm::dmat4 perspective(double fovy, double aspect, double a, double b) {
 }
 
 glm::dmat4 orthographic(double height, double aspect, double a, double b) {
-  HS_CHECK_OP(height, >, 0.0);
-  HS_CHECK_OP(aspect, >, 0.0);
+  HS_CHECK_OP(height, >, 0.0, "orthographic: the height is not positive; expected more than 0");
+  HS_CHECK_OP(aspect, >, 0.0, "projection: the aspect ratio is not positive; expected width / height");
   glm::dmat4 m(1.0);
   m[0][0] = 2.0 / (height * aspect);
   m[1][1] = 2.0 / height;
@@ -68,30 +69,31 @@ glm::dmat4 look_at(const glm::dvec3& eye, const glm::dvec3& target, const glm::d
 // Clip depth a·z + b must equal −w at z = −near and w at z = −far, where w = −z.
 glm::dmat4 perspective_gl(double fovy, double aspect, double near, double far) {
   const FloatMode float_mode;
-  HS_CHECK_OP(near, >, 0.0);
-  HS_CHECK_OP(near, <, far);
-  HS_CHECK_OP(far, <, std::numeric_limits<double>::infinity());
+  HS_CHECK_OP(near, >, 0.0, "perspective: the near plane is not in front of the eye; expected more than 0");
+  HS_CHECK_OP(near, <, far, "projection: the far plane is not behind the near plane; expected near < far");
+  HS_CHECK_OP(far, <, std::numeric_limits<double>::infinity(),
+              "perspective_gl: the far plane is infinitely far; expected a finite distance, or perspective_reversed");
   return perspective(fovy, aspect, -(far + near) / (far - near), -2.0 * far * near / (far - near));
 }
 
 // Clip depth must equal w at z = −near and 0 at z = −far. The limit for an infinite far plane is a = 0, b = near.
 glm::dmat4 perspective_reversed(double fovy, double aspect, double near, double far) {
   const FloatMode float_mode;
-  HS_CHECK_OP(near, >, 0.0);
-  HS_CHECK_OP(near, <, far);
+  HS_CHECK_OP(near, >, 0.0, "perspective: the near plane is not in front of the eye; expected more than 0");
+  HS_CHECK_OP(near, <, far, "projection: the far plane is not behind the near plane; expected near < far");
   if (std::isinf(far)) return perspective(fovy, aspect, 0.0, near);
   return perspective(fovy, aspect, near / (far - near), far * near / (far - near));
 }
 
 glm::dmat4 orthographic_gl(double height, double aspect, double near, double far) {
   const FloatMode float_mode;
-  HS_CHECK_OP(near, <, far);
+  HS_CHECK_OP(near, <, far, "projection: the far plane is not behind the near plane; expected near < far");
   return orthographic(height, aspect, -2.0 / (far - near), -(far + near) / (far - near));
 }
 
 glm::dmat4 orthographic_reversed(double height, double aspect, double near, double far) {
   const FloatMode float_mode;
-  HS_CHECK_OP(near, <, far);
+  HS_CHECK_OP(near, <, far, "projection: the far plane is not behind the near plane; expected near < far");
   return orthographic(height, aspect, 1.0 / (far - near), far / (far - near));
 }
 

@@ -79,9 +79,9 @@ SlopeRows::SlopeRows(const HeightField& field, int width, int height, double rad
       height_scale_(height_scale),
       zero_level_(zero_level),
       at_texels_(width == field.width() && height == field.height()) {
-  HS_CHECK_OP(width, >=, 1);
-  HS_CHECK_OP(height, >=, 1);
-  HS_CHECK_OP(radius, >, 0.0);
+  HS_CHECK_OP(width, >=, 1, "displaced sphere: the width of the map is not positive; expected at least 1");
+  HS_CHECK_OP(height, >=, 1, "displaced sphere: the height of the map is not positive; expected at least 1");
+  HS_CHECK_OP(radius, >, 0.0, "displaced sphere: the radius is not positive; expected more than 0");
   for (int x = 0; x < width && !at_texels_; ++x) taps_.push_back(field.taps((x + 0.5) / width));
 }
 

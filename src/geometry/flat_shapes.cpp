@@ -52,8 +52,8 @@ void add_face(SurfaceMesh& mesh, double h, const Face& face, int segments, bool 
 
 Mesh plane(float size, int segments, const Displacement* displacement) {
   const FloatMode float_mode;
-  HS_CHECK_OP(size, >, 0.0f);
-  HS_CHECK_OP(segments, >=, 1);
+  HS_CHECK_OP(size, >, 0.0f, "plane or cube: the size is not positive; expected more than 0");
+  HS_CHECK_OP(segments, >=, 1, "plane or cube: the number of segments is not positive; expected at least 1");
   SurfaceMesh mesh(displacement);
   add_face(mesh, 0.5 * static_cast<double>(size), {{0, 0, 0}, {1, 0, 0}, {0, 0, -1}}, segments, false);
   return mesh.take();
@@ -61,8 +61,8 @@ Mesh plane(float size, int segments, const Displacement* displacement) {
 
 Mesh cube(float size, int segments, const Displacement* displacement) {
   const FloatMode float_mode;
-  HS_CHECK_OP(size, >, 0.0f);
-  HS_CHECK_OP(segments, >=, 1);
+  HS_CHECK_OP(size, >, 0.0f, "plane or cube: the size is not positive; expected more than 0");
+  HS_CHECK_OP(segments, >=, 1, "plane or cube: the number of segments is not positive; expected at least 1");
   SurfaceMesh mesh(displacement);
   const glm::dvec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
   for (const Face& face : {Face{x, -z, y}, Face{-x, z, y}, Face{y, x, -z}, Face{-y, x, z}, Face{z, x, y}, Face{-z, -x, y}}) {

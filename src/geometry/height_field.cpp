@@ -172,9 +172,9 @@ SplineWeights spline_weights(double t) {
 
 HeightField::HeightField(const Image<float>& map, double smoothing, const Workers& workers, MapEdges edges) : edges_(edges) {
   const FloatMode float_mode;
-  HS_CHECK_OP(map.width(), >=, 2);
-  HS_CHECK_OP(map.height(), >=, 1);
-  HS_CHECK_OP(smoothing, >=, 0.0);
+  HS_CHECK_OP(map.width(), >=, 2, "HeightField: the map is too narrow; expected at least 2 columns");
+  HS_CHECK_OP(map.height(), >=, 1, "HeightField: the map has no rows; expected at least 1");
+  HS_CHECK_OP(smoothing, >=, 0.0, "HeightField: the smoothing is negative; expected at least 0");
   base_ = map.at(0, 0);
   texels_ = Image<float>(map.width(), map.height());
   workers.for_each(map.height(), [&](int row) {
@@ -261,7 +261,7 @@ HeightSample HeightField::at(double u, double v) const {
 
 HeightField HeightField::filtered(int max_width, const Workers& workers) const {
   const FloatMode float_mode;
-  HS_CHECK_OP(max_width, >=, 2);
+  HS_CHECK_OP(max_width, >=, 2, "HeightField::filtered: the width is too small; expected at least 2");
   if (width() <= max_width) return *this;
   const int to_width = max_width / 2 * 2;
   const int64_t rounded = (static_cast<int64_t>(height()) * to_width * 2 + width()) / (2 * static_cast<int64_t>(width()));

@@ -169,8 +169,8 @@ class Icosphere {
 
 Mesh icosphere(int level, float radius, const Displacement* displacement) {
   const FloatMode float_mode;
-  HS_CHECK_OP(level, >=, 0);
-  HS_CHECK_OP(radius, >, 0.0f);
+  HS_CHECK_OP(level, >=, 0, "icosphere: the level is negative; expected at least 0");
+  HS_CHECK_OP(radius, >, 0.0f, "icosphere: the radius is not positive; expected more than 0");
   return Icosphere(level, static_cast<double>(radius), displacement).make();
 }
 

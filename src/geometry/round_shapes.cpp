@@ -85,16 +85,16 @@ void add_cap(SurfaceMesh& mesh, double radius, double y, bool faces_up, int ring
 }
 
 void check_counts(int bands, int sectors, int min_bands) {
-  HS_CHECK_OP(bands, >=, min_bands);
-  HS_CHECK_OP(sectors, >=, 3);
+  HS_CHECK_OP(bands, >=, min_bands, "round shape: too few bands; expected at least 1, or 3 for a torus");
+  HS_CHECK_OP(sectors, >=, 3, "round shape: too few sectors; expected at least 3");
 }
 
 }  // namespace
 
 Mesh cylinder(float radius, float length, int bands, int sectors, const Displacement* displacement) {
   const FloatMode float_mode;
-  HS_CHECK_OP(radius, >, 0.0f);
-  HS_CHECK_OP(length, >, 0.0f);
+  HS_CHECK_OP(radius, >, 0.0f, "round shape: the radius is not positive; expected more than 0");
+  HS_CHECK_OP(length, >, 0.0f, "round shape: the length is not positive; expected more than 0");
   check_counts(bands, sectors, 1);
   const double r = static_cast<double>(radius), l = static_cast<double>(length);
   SurfaceMesh mesh(displacement);
@@ -121,8 +121,8 @@ Mesh cylinder(float radius, float length, int bands, int sectors, const Displace
 
 Mesh cone(float radius, float length, int bands, int sectors, const Displacement* displacement) {
   const FloatMode float_mode;
-  HS_CHECK_OP(radius, >, 0.0f);
-  HS_CHECK_OP(length, >, 0.0f);
+  HS_CHECK_OP(radius, >, 0.0f, "round shape: the radius is not positive; expected more than 0");
+  HS_CHECK_OP(length, >, 0.0f, "round shape: the length is not positive; expected more than 0");
   check_counts(bands, sectors, 1);
   const double r = static_cast<double>(radius), l = static_cast<double>(length), slant = std::sqrt(r * r + l * l);
   const auto at = [&](double u, double v) {
@@ -149,8 +149,8 @@ Mesh cone(float radius, float length, int bands, int sectors, const Displacement
 
 Mesh torus(float radius, float tube, int bands, int sectors, const Displacement* displacement) {
   const FloatMode float_mode;
-  HS_CHECK_OP(tube, >, 0.0f);
-  HS_CHECK_OP(radius, >, tube);
+  HS_CHECK_OP(tube, >, 0.0f, "torus: the radius of the tube is not positive; expected more than 0");
+  HS_CHECK_OP(radius, >, tube, "torus: the tube closes the hole; expected a radius larger than that of the tube");
   check_counts(bands, sectors, 3);
   const double r = static_cast<double>(radius), t = static_cast<double>(tube);
   SurfaceMesh mesh(displacement);

@@ -41,9 +41,9 @@ SphereFrame sphere_frame(const SinCosDouble& two_pi_u, const SinCosDouble& pi_v)
 
 Mesh uv_sphere(int latitudes, int longitudes, float radius) {
   const FloatMode float_mode;
-  HS_CHECK_OP(latitudes, >=, 2);
-  HS_CHECK_OP(longitudes, >=, 3);
-  HS_CHECK_OP(radius, >, 0.0f);
+  HS_CHECK_OP(latitudes, >=, 2, "uv_sphere: too few latitudes; expected at least 2");
+  HS_CHECK_OP(longitudes, >=, 3, "uv_sphere: too few longitudes; expected at least 3");
+  HS_CHECK_OP(radius, >, 0.0f, "uv_sphere: the radius is not positive; expected more than 0");
   Mesh mesh;
   for (int i = 0; i <= latitudes; ++i) add_sphere_row(mesh, uv_sphere_row(i, latitudes, longitudes), static_cast<double>(radius));
   for (int i = 0; i < latitudes; ++i) {

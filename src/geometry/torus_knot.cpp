@@ -49,10 +49,10 @@ Along along(double radius, double u) {
 
 Mesh torus_knot(float radius, float tube, int bands, int sectors, const Displacement* displacement) {
   const FloatMode float_mode;
-  HS_CHECK_OP(tube, >, 0.0f);
-  HS_CHECK_OP(radius, >, tube);
-  HS_CHECK_OP(bands, >=, 3);
-  HS_CHECK_OP(sectors, >=, 3);
+  HS_CHECK_OP(tube, >, 0.0f, "torus_knot: the radius of the tube is not positive; expected more than 0");
+  HS_CHECK_OP(radius, >, tube, "torus_knot: the tube closes the hole; expected a radius larger than that of the tube");
+  HS_CHECK_OP(bands, >=, 3, "torus_knot: too few bands; expected at least 3");
+  HS_CHECK_OP(sectors, >=, 3, "torus_knot: too few sectors; expected at least 3");
   const double t = static_cast<double>(tube), turn = 2.0 * std::numbers::pi;
   std::vector<Along> curve;
   for (int j = 0; j <= sectors; ++j) curve.push_back(along(static_cast<double>(radius), static_cast<double>(j % sectors) / sectors));

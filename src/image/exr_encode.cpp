@@ -105,7 +105,7 @@ void write_bands(Imf::OutputFile& file, int width, int height, std::span<const E
 
 std::vector<std::byte> encode_exr(const std::filesystem::path& path, int width, int height, std::span<const ExrChannel> channels,
                                   const ImageText& text) {
-  HS_CHECK(width > 0 && height > 0 && !channels.empty());
+  HS_CHECK(width > 0 && height > 0 && !channels.empty(), "write_exr: there are no pixels or no channels; expected at least one of each");
   MemoryStream stream(path.c_str());
   try {
     Imf::OutputFile file(stream, header_of(width, height, channels, text), 0);  // 0: no threads

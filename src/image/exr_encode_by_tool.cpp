@@ -25,7 +25,7 @@ bool tool_can_write(std::span<const ExrChannel> channels) {
 
 std::vector<std::byte> encode_exr(const std::filesystem::path& path, int width, int height, std::span<const ExrChannel> channels,
                                   const ImageText&) {
-  HS_CHECK(width > 0 && height > 0 && !channels.empty());
+  HS_CHECK(width > 0 && height > 0 && !channels.empty(), "write_exr: there are no pixels or no channels; expected at least one of each");
   if (!tool_can_write(channels)) fail_writing(path, "cannot write (this build has no OpenEXR); expected channels R, G, B and A, or Z");
   PictureHeader header;
   header.width = width;

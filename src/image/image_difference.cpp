@@ -98,14 +98,14 @@ double mean_ssim(const Image<double>& a, const Image<double>& b) {
 
 template <class Texel>
 int compared_channels(const Image<Texel>& a, const Image<Texel>& b) {
-  HS_CHECK(a.width() == b.width() && a.height() == b.height());
+  HS_CHECK(a.width() == b.width() && a.height() == b.height(), "compare_images: the images have different sizes; expected the same size");
   return is_opaque(a) && is_opaque(b) ? 3 : 4;
 }
 
 template <class Texel>
 ImageDifference compare(const Image<Texel>& a, const Image<Texel>& b) {
   const FloatMode float_mode;
-  HS_CHECK(!a.empty());
+  HS_CHECK(!a.empty(), "compare_images: the images are empty; expected at least one pixel");
   ImageDifference d;
   d.channels = compared_channels(a, b);
   std::vector<double> largest;

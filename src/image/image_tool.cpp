@@ -59,7 +59,8 @@ ToolRequest request_of(ToolTask task, std::string_view format) {
   request.max_pixels = resource_limits().max_pixels;
   request.max_bytes = memory_left();
   request.task = task;
-  HS_CHECK_OP(format.size(), <, sizeof request.format);
+  HS_CHECK_OP(format.size(), <, sizeof request.format,
+              "image tool: the name of the format is too long; expected one that fits the request");
   std::ranges::copy(format, request.format);
   return request;
 }
@@ -207,7 +208,7 @@ std::vector<std::byte> encode_by_tool(const std::filesystem::path& path, const c
 
 std::vector<std::byte> encode_codes_by_tool(const std::filesystem::path& path, const char* format, const Image<glm::u8vec4>& image,
                                             uint32_t channels) {
-  HS_CHECK(!image.empty());
+  HS_CHECK(!image.empty(), "write_image: the image is empty; expected at least one pixel");
   PictureHeader header;
   header.width = image.width();
   header.height = image.height();

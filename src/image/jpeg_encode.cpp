@@ -67,7 +67,7 @@ class JpegEncoder {
 }  // namespace
 
 std::vector<std::byte> encode_jpeg(const std::filesystem::path& path, const Image<glm::u8vec4>& image) {
-  HS_CHECK(!image.empty());
+  HS_CHECK(!image.empty(), "write_image: the image is empty; expected at least one pixel");
   JpegEncoder encoder;
   if (!encoder.encode(image)) fail_writing(path, std::string("cannot write (the jpeg encoder reported: ") + encoder.why() + ")");
   return encoder.file();

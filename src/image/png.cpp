@@ -91,7 +91,7 @@ Image<Texel> decode_texels(spng_ctx* context, const spng_ihdr& header, spng_form
 
 template <class Channel>
 std::vector<std::byte> encode_codes(const Image<glm::vec<4, Channel>>& image, PngCodes codes, const ImageText& text) {
-  HS_CHECK(!image.empty());
+  HS_CHECK(!image.empty(), "write_png: the image is empty; expected at least one pixel");
   constexpr Channel kOpaque = std::numeric_limits<Channel>::max();
   const bool opaque = std::ranges::all_of(image.texels(), [](const glm::vec<4, Channel>& t) { return t.w == kOpaque; });
   const SpngContext context = new_context(SPNG_CTX_ENCODER);

@@ -74,7 +74,7 @@ glm::dquat shortest_rotation(const glm::dquat& a, const glm::dquat& b, double t)
 }
 
 std::vector<double> value_at(const AnimationChannel& channel, double time) {
-  HS_CHECK(!channel.times.empty());
+  HS_CHECK(!channel.times.empty(), "animation: a channel has no keyframes; expected at least one");
   const Keys keys = {channel};
   const auto after = std::ranges::upper_bound(channel.times, time, {}, [](float x) { return static_cast<double>(x); });
   const auto key = static_cast<std::size_t>(std::max<std::ptrdiff_t>(after - channel.times.begin() - 1, 0));

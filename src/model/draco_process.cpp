@@ -29,7 +29,7 @@ bool receive_list(ToolProcess& tool, std::size_t bytes, std::vector<std::byte>& 
 std::filesystem::path find_draco_tool() { return find_tool(kDracoToolName); }
 
 DracoMesh DracoProcess::decode(std::span<const std::byte> stream, std::span<const uint32_t> ids, uint64_t max_bytes) {
-  HS_CHECK_OP(ids.size(), <=, kMaxDracoAttributes);
+  HS_CHECK_OP(ids.size(), <=, kMaxDracoAttributes, "Draco: too many attributes; expected at most 64");
   DracoMesh mesh;
   if (!tool_.running()) {
     const std::filesystem::path program = find_draco_tool();

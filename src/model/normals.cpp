@@ -225,7 +225,7 @@ glm::vec3 normal_of_fan(const Facets& facets, std::span<const uint32_t> corners)
 }  // namespace
 
 void add_flat_normals(ModelMesh& mesh) {
-  HS_CHECK(mesh.topology == MeshTopology::triangles);
+  HS_CHECK(mesh.topology == MeshTopology::triangles, "normals: the mesh has lines or points; expected triangles");
   std::vector<glm::vec3> normals;
   normals.reserve(mesh.indices.size());
   for (std::size_t t = 0; t < mesh.indices.size() / 3; ++t) {
@@ -239,9 +239,10 @@ void add_flat_normals(ModelMesh& mesh) {
 }
 
 void add_smooth_normals(ModelMesh& mesh, float crease_degrees, std::span<const uint32_t> groups) {
-  HS_CHECK(mesh.topology == MeshTopology::triangles);
-  HS_CHECK(groups.empty() || groups.size() == mesh.indices.size() / 3);
-  HS_CHECK_OP(mesh.indices.size(), <, kNone);
+  HS_CHECK(mesh.topology == MeshTopology::triangles, "normals: the mesh has lines or points; expected triangles");
+  HS_CHECK(groups.empty() || groups.size() == mesh.indices.size() / 3,
+           "add_smooth_normals: the number of groups differs from that of triangles; expected one group per triangle, or none");
+  HS_CHECK_OP(mesh.indices.size(), <, kNone, "add_smooth_normals: too many indices; expected fewer than 2^32 - 1");
   remove_tangents(mesh);
   const std::vector<uint32_t> points = position_ids(mesh.positions);
   const Facets facets(mesh, crease_degrees, groups);

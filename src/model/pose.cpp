@@ -215,9 +215,12 @@ class Poser {
 
 PosedModel pose(const Model& model, const PoseOptions& options) {
   const FloatMode float_mode;
-  HS_CHECK(options.scene < static_cast<int>(model.scenes.size()));
-  HS_CHECK(options.animation < static_cast<int>(model.animations.size()));
-  HS_CHECK(options.variant < static_cast<int>(model.variants.size()) || options.variant < 0);
+  HS_CHECK(options.scene < static_cast<int>(model.scenes.size()),
+           "pose: the model has no scene with this index; expected an index in Model::scenes, or -1");
+  HS_CHECK(options.animation < static_cast<int>(model.animations.size()),
+           "pose: the model has no animation with this index; expected an index in Model::animations, or -1");
+  HS_CHECK(options.variant < static_cast<int>(model.variants.size()) || options.variant < 0,
+           "pose: the model has no variant with this index; expected an index in Model::variants, or -1");
   return Poser(model, options).pose();
 }
 

@@ -162,10 +162,12 @@ class TangentBuilder {
 }  // namespace
 
 void add_tangents(ModelMesh& mesh, int uv_set) {
-  HS_CHECK(mesh.topology == MeshTopology::triangles);
-  HS_CHECK(uv_set == 0 || uv_set == 1);
-  HS_CHECK(mesh.normals.size() == mesh.positions.size());
-  HS_CHECK(mesh.uvs[static_cast<std::size_t>(uv_set)].size() == mesh.positions.size());
+  HS_CHECK(mesh.topology == MeshTopology::triangles, "add_tangents: the mesh has lines or points; expected triangles");
+  HS_CHECK(uv_set == 0 || uv_set == 1, "add_tangents: there is no such set of texture coordinates; expected 0 or 1");
+  HS_CHECK(mesh.normals.size() == mesh.positions.size(),
+           "add_tangents: the number of normals differs from that of positions; expected one normal per vertex");
+  HS_CHECK(mesh.uvs[static_cast<std::size_t>(uv_set)].size() == mesh.positions.size(),
+           "add_tangents: the number of texture coordinates differs from that of positions; expected one pair per vertex");
   TangentBuilder(mesh, uv_set).build();
 }
 

@@ -138,8 +138,8 @@ void put_heights(const Terrain& t, int x, std::span<float> row) {
 
 Image<float> procedural_earth_heights(int width, int height, const Workers& workers) {
   const FloatMode float_mode;
-  HS_CHECK_OP(width, >=, 1);
-  HS_CHECK_OP(height, >=, 1);
+  HS_CHECK_OP(width, >=, 1, "procedural_earth: the width is not positive; expected at least 1");
+  HS_CHECK_OP(height, >=, 1, "procedural_earth: the height is not positive; expected at least 1");
   Image<float> map(width, height);
   const Longitudes longitudes = longitudes_of(width);
   workers.for_each(height, [&](int row) {
@@ -150,8 +150,8 @@ Image<float> procedural_earth_heights(int width, int height, const Workers& work
 
 Image<glm::u8vec4> procedural_earth(int width, int height, const Workers& workers) {
   const FloatMode float_mode;
-  HS_CHECK_OP(width, >=, 1);
-  HS_CHECK_OP(height, >=, 1);
+  HS_CHECK_OP(width, >=, 1, "procedural_earth: the width is not positive; expected at least 1");
+  HS_CHECK_OP(height, >=, 1, "procedural_earth: the height is not positive; expected at least 1");
   Image<glm::u8vec4> map(width, height);
   const Longitudes longitudes = longitudes_of(width);
   workers.for_each(height, [&](int row) {
@@ -162,8 +162,8 @@ Image<glm::u8vec4> procedural_earth(int width, int height, const Workers& worker
 
 EarthMaps procedural_earth_maps(int width, int height, const Workers& workers) {
   const FloatMode float_mode;
-  HS_CHECK_OP(width, >=, 1);
-  HS_CHECK_OP(height, >=, 1);
+  HS_CHECK_OP(width, >=, 1, "procedural_earth: the width is not positive; expected at least 1");
+  HS_CHECK_OP(height, >=, 1, "procedural_earth: the height is not positive; expected at least 1");
   EarthMaps maps{Image<glm::u8vec4>(width, height), Image<float>(width, height)};
   const Longitudes longitudes = longitudes_of(width);
   workers.for_each(height, [&](int row) {

@@ -247,8 +247,8 @@ int octaves_of(int width) {
 
 MoonMaps procedural_moon(int width, const Workers& workers) {
   const FloatMode float_mode;
-  HS_CHECK_OP(width, >=, 2);
-  HS_CHECK_OP(width % 2, ==, 0);
+  HS_CHECK_OP(width, >=, 2, "procedural_moon: the width is too small; expected at least 2");
+  HS_CHECK_OP(width % 2, ==, 0, "procedural_moon: the width is odd; expected an even number");
   const int height = width / 2;
   MoonMaps maps{Image<glm::u8vec4>(width, height), Image<uint16_t>(width, height)};
   Moon moon{longitudes_of(width), placed_basins(), moon_craters(width), {}, octaves_of(width)};

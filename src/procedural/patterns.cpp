@@ -205,7 +205,7 @@ void fill_row(PatternMaps& maps, Pattern pattern, int y) {
 
 PatternMaps procedural_pattern(Pattern pattern, int width, const Workers& workers) {
   const FloatMode float_mode;
-  HS_CHECK_OP(width, >=, 1);
+  HS_CHECK_OP(width, >=, 1, "procedural_pattern: the width is not positive; expected at least 1");
   PatternMaps maps{Image<glm::u8vec4>(width, width), Image<glm::u8vec4>(width, width), Image<glm::u8vec4>(width, width),
                    Image<uint16_t>(width, width)};
   workers.for_each(width, [&](int y) { fill_row(maps, pattern, y); });

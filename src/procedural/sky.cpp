@@ -125,7 +125,7 @@ Vec studio_light(const Vec& d) {
 // Evaluates light(d) for the direction d of every texel.
 template <class Light>
 SkyFaces fill_faces(int size, const Light& light, const Workers& workers) {
-  HS_CHECK_OP(size, >=, 1);
+  HS_CHECK_OP(size, >=, 1, "sky: the size of the faces is not positive; expected at least 1");
   SkyFaces faces;
   for (Image<glm::vec4>& face : faces) face = Image<glm::vec4>(size, size);
   workers.for_each(6 * size, [&](int i) {

@@ -23,7 +23,7 @@ class AssetCache {
   std::shared_ptr<const T> find(const std::string& recipe) {
     const auto found = entries_.find(recipe);
     if (found == entries_.end()) return nullptr;
-    HS_CHECK(found->second.type == typeid(T));
+    HS_CHECK(found->second.type == typeid(T), "asset cache: two types of assets have the same recipe; expected one type");
     found->second.wanted = true;
     return std::static_pointer_cast<const T>(found->second.asset);
   }

@@ -190,8 +190,10 @@ class TargetImage {
  public:
   TargetImage(Image<T>* wanted, const std::optional<ImageRect>& crop, int width, int height) : wanted_(wanted), crop_(crop) {
     if (wanted == nullptr) return;
-    HS_CHECK_OP(wanted->width(), ==, crop ? crop->width : width);
-    HS_CHECK_OP(wanted->height(), ==, crop ? crop->height : height);
+    HS_CHECK_OP(wanted->width(), ==, crop ? crop->width : width,
+                "render: an image has the wrong width; expected that of the crop or the view");
+    HS_CHECK_OP(wanted->height(), ==, crop ? crop->height : height,
+                "render: an image has the wrong height; expected that of the crop or the view");
     if (crop) whole_ = Image<T>(width, height);
   }
 
@@ -218,7 +220,8 @@ class TargetImage {
 glm::ivec2 view_size(const PreparedScene& scene, const FrameImages& images) {
   glm::ivec2 size(scene.view.width_px, scene.view.height_px);
   if (const std::optional<ImageRect>& c = images.crop) {
-    HS_CHECK(c->x >= 0 && c->y >= 0 && c->width >= 1 && c->height >= 1 && c->x <= size.x - c->width && c->y <= size.y - c->height);
+    HS_CHECK(c->x >= 0 && c->y >= 0 && c->width >= 1 && c->height >= 1 && c->x <= size.x - c->width && c->y <= size.y - c->height,
+             "render: the crop is not inside the view; expected a rectangle of at least one pixel inside");
   }
   return size;
 }
@@ -295,9 +298,11 @@ PassStatistics render_with(const PreparedScene& scene, Image<glm::u8vec4>& pictu
 
 void display_frame(const PreparedScene& scene, const Image<glm::vec4>& light, const FrameImages& images, const Workers& workers) {
   const FloatMode float_mode;
-  HS_CHECK(!images.crop && !wants_values(images));
+  HS_CHECK(!images.crop && !wants_values(images),
+           "display_frame: a crop or values other than the color were requested; expected only pictures");
   const glm::ivec2 size = view_size(scene, images);
-  HS_CHECK(light.width() == size.x && light.height() == size.y);
+  HS_CHECK(light.width() == size.x && light.height() == size.y,
+           "display_frame: the light has another size than the view; expected the same size");
   const FrameRenderer renderer(scene, images.crop, size.x, size.y, workers, [&workers](Pass& pass) { return pass.run(workers); });
   if (images.picture != nullptr) renderer.display(light, *images.picture);
   if (images.fine_picture != nullptr) renderer.display(light, *images.fine_picture);

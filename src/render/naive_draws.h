@@ -22,7 +22,7 @@ void draw_all_naive(NaiveTarget<R>& target, const PreparedScene& scene, const F&
           if constexpr (kDrawsTriangles<S>) {
             draw_naive(target, shader_of(shader), draw.vertices, *draw.indices, draw.state);
           } else {
-            HS_CHECK(false);
+            HS_CHECK(false, "naive pipeline: the scene draws points; expected triangles or lines");
           }
         },
         draw.shader);

@@ -8,7 +8,7 @@ namespace halfspace::inline HS_LANES_NAMESPACE {
 
 Image<float> shadow_block_depths(const Image<float>& depth, const Workers& workers) {
   const int size = depth.width(), side = shadow_blocks_per_side(size);
-  HS_CHECK_OP(depth.height(), ==, size);
+  HS_CHECK_OP(depth.height(), ==, size, "shadow map: the depths are not square; expected a height equal to the width");
   Image<float> largest(side, side);
   workers.for_each(side, [&](int block_row) {
     std::vector<float> column(static_cast<std::size_t>(size));  // the largest depth of each column of texels

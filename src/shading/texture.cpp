@@ -55,31 +55,35 @@ void put(int32_t* words, std::size_t i, const glm::vec4& t, TexelFormat format) 
 }  // namespace
 
 Texture2D::Texture2D(const Image<glm::u8vec4>& base, TexelFormat format, const Workers* workers) : format_(format) {
-  HS_CHECK(format == TexelFormat::rgba8 || format == TexelFormat::srgb8a8);
+  HS_CHECK(format == TexelFormat::rgba8 || format == TexelFormat::srgb8a8,
+           "Texture2D: the format does not match an image of u8vec4; expected rgba8 or srgb8a8");
   add_chain(base, workers);
   add_alphas(workers);
 }
 Texture2D::Texture2D(const Image<uint8_t>& base) : format_(TexelFormat::r8) { add_chain(base, nullptr); }
 Texture2D::Texture2D(const Image<uint16_t>& base) : format_(TexelFormat::r16) { add_chain(base, nullptr); }
 Texture2D::Texture2D(const Image<glm::vec4>& base, TexelFormat format, const Workers* workers) : format_(format) {
-  HS_CHECK(format == TexelFormat::rgba16f || format == TexelFormat::rgba32f);
+  HS_CHECK(format == TexelFormat::rgba16f || format == TexelFormat::rgba32f,
+           "Texture2D: the format does not match an image of vec4; expected rgba16f or rgba32f");
   add_chain(base, workers);
 }
 
 Texture2D::Texture2D(std::span<const Image<glm::u8vec4>> levels, TexelFormat format) : format_(format) {
-  HS_CHECK(format == TexelFormat::rgba8 || format == TexelFormat::srgb8a8);
+  HS_CHECK(format == TexelFormat::rgba8 || format == TexelFormat::srgb8a8,
+           "Texture2D: the format does not match an image of u8vec4; expected rgba8 or srgb8a8");
   add_levels(levels);
   add_alphas(nullptr);
 }
 Texture2D::Texture2D(std::span<const Image<glm::vec4>> levels, TexelFormat format) : format_(format) {
-  HS_CHECK(format == TexelFormat::rgba16f || format == TexelFormat::rgba32f);
+  HS_CHECK(format == TexelFormat::rgba16f || format == TexelFormat::rgba32f,
+           "Texture2D: the format does not match an image of vec4; expected rgba16f or rgba32f");
   add_levels(levels);
 }
 
 template <class Texel>
 void Texture2D::add_levels(std::span<const Image<Texel>> levels) {
   const FloatMode float_mode;
-  HS_CHECK_OP(levels.size(), >=, 1u);
+  HS_CHECK_OP(levels.size(), >=, 1u, "Texture2D: there are no levels; expected at least one");
   std::size_t size = 0;
   for (const Image<Texel>& level : levels) size += with_border(level.width(), level.height());
   texels_.reserve(words_of(size, format_) + kRowSlack);
@@ -99,17 +103,23 @@ template <class Texel>
 void Texture2D::add_level(const Image<Texel>& image, const Workers* workers) {
   std::size_t begin = 0;
   if (levels_ == 0) {
-    HS_CHECK_OP(std::min(image.width(), image.height()), >=, 1);
-    HS_CHECK_OP(std::max(image.width(), image.height()), <=, kMaxSize);
+    HS_CHECK_OP(std::min(image.width(), image.height()), >=, 1,
+                "Texture2D: the image is empty; expected a width and a height of at least 1");
+    HS_CHECK_OP(std::max(image.width(), image.height()), <=, kMaxSize,
+                "Texture2D: the image is too large; expected sides of at most 32768");
   } else {
     const int last = levels_ - 1;
-    HS_CHECK_OP(std::max(width(last), height(last)), >, 1);
-    HS_CHECK_OP(image.width(), ==, detail::half_size(width(last)));
-    HS_CHECK_OP(image.height(), ==, detail::half_size(height(last)));
+    HS_CHECK_OP(std::max(width(last), height(last)), >, 1,
+                "Texture2D: there are levels after the one of 1x1 texels; expected it to be the last");
+    HS_CHECK_OP(image.width(), ==, detail::half_size(width(last)),
+                "Texture2D: a level has the wrong width; expected half the width of the level before");
+    HS_CHECK_OP(image.height(), ==, detail::half_size(height(last)),
+                "Texture2D: a level has the wrong height; expected half the height of the level before");
     begin = index_of(last, width(last) - 1, height(last) - 1) + static_cast<std::size_t>(width(last)) + 4;
   }
   const std::size_t end = begin + with_border(image.width(), image.height());
-  HS_CHECK_OP(words_of(end, format_), <, std::size_t{1} << 31);  // limit of 32-bit indices
+  HS_CHECK_OP(words_of(end, format_), <, std::size_t{1} << 31,
+              "Texture2D: the texture takes too many words of 32 bits; expected fewer than 2^31");  // limit of 32-bit indices
   texels_.resize(words_of(end, format_) + kRowSlack);
   const auto l = static_cast<std::size_t>(levels_++);
   width_[l] = image.width();
@@ -158,14 +168,16 @@ void Texture2D::add_alphas(const Workers* workers) {
 
 /// Returns an index in texels, counted from the start of the allocation.
 std::size_t Texture2D::index_of(int level, int x, int row) const {
-  HS_CHECK(level >= 0 && level < levels_);
-  HS_CHECK(x >= 0 && x < width(level) && row >= 0 && row < height(level));
+  HS_CHECK(level >= 0 && level < levels_, "Texture2D: there is no such level; expected 0 to levels() - 1");
+  HS_CHECK(x >= 0 && x < width(level) && row >= 0 && row < height(level),
+           "Texture2D: the texel is outside of its level; expected a column and a row inside");
   const auto l = static_cast<std::size_t>(level);
   return static_cast<std::size_t>(offset_[l] + row * pitch_[l] + x);
 }
 
 glm::u8vec4 Texture2D::texel(int level, int x, int row) const {
-  HS_CHECK(format_ == TexelFormat::rgba8 || format_ == TexelFormat::srgb8a8);
+  HS_CHECK(format_ == TexelFormat::rgba8 || format_ == TexelFormat::srgb8a8,
+           "Texture2D::texel: the texture has another format; expected rgba8 or srgb8a8");
   const auto t = static_cast<uint32_t>(texels_[index_of(level, x, row)]);
   return {t & 255, (t >> 8) & 255, (t >> 16) & 255, t >> 24};
 }

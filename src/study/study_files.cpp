@@ -35,7 +35,8 @@ std::string csv_of(const Study& study, const std::vector<bool>& front) {
       fmt::format("study,variant,group{},error{},ms_median,ms_low,ms_high,runs,pareto\n", names(first.parameters), names(first.measures));
   for (std::size_t i = 0; i < study.variants.size(); ++i) {
     const Variant& v = study.variants[i];
-    HS_CHECK(v.parameters.size() == first.parameters.size() && v.measures.size() == first.measures.size());
+    HS_CHECK(v.parameters.size() == first.parameters.size() && v.measures.size() == first.measures.size(),
+             "study: the variants report different parameters or measures; expected the same for all");
     text += fmt::format("{},\"{}\",\"{}\"{},{:.6g}{},{:.6g},{:.6g},{:.6g},{},{}\n", study.name, v.name, v.group, values(v.parameters),
                         v.error, values(v.measures), v.time.median_ms, v.time.low_ms, v.time.high_ms, v.time.runs, front[i] ? 1 : 0);
   }

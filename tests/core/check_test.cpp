@@ -72,6 +72,13 @@ TEST_F(CheckHandlerTest, HandlerReceivesLocationAndMessage) {
   EXPECT_EQ(handler_calls, 2);
 }
 
+TEST_F(CheckHandlerTest, MessageIsInWordsIfTheCheckHasThem) {
+  const int width = 3;
+  EXPECT_STREQ(failure_of([&] { HS_CHECK(width > 3, "map: too narrow; expected more"); }).what(), "map: too narrow; expected more");
+  EXPECT_STREQ(failure_of([&] { HS_CHECK_OP(width, >, 4, "map: too narrow; expected more"); }).what(),
+               "map: too narrow; expected more (3 vs 4)");
+}
+
 TEST_F(CheckHandlerTest, MessageShowsValuesOfEveryArithmeticType) {
   const std::string prefix = "left == right ";
   EXPECT_EQ(message_of(-7, 8), prefix + "(-7 vs 8)");

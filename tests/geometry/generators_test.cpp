@@ -274,11 +274,11 @@ TEST_P(Generator, DisplacedNormalsAndTangentsMatchTheSurface) {
 }
 
 TEST(Generators, BrokenPreconditionsAbort) {
-  EXPECT_DEATH(icosphere(-1, 1), "level >= 0");
-  EXPECT_DEATH(cylinder(1, 1, 0, 8), "bands >= min_bands");
-  EXPECT_DEATH(cone(1, 0, 1, 8), "length > 0.0f");
-  EXPECT_DEATH(torus(1, 1, 8, 8), "radius > tube");
-  EXPECT_DEATH(plane(1, 0), "segments >= 1");
+  EXPECT_DEATH(icosphere(-1, 1), "level is negative");
+  EXPECT_DEATH(cylinder(1, 1, 0, 8), "too few bands");
+  EXPECT_DEATH(cone(1, 0, 1, 8), "length is not positive");
+  EXPECT_DEATH(torus(1, 1, 8, 8), "tube closes the hole");
+  EXPECT_DEATH(plane(1, 0), "segments is not positive");
 }
 
 TEST(Icosphere, TrianglesHaveSimilarAreasAndDoNotSpanTheMap) {

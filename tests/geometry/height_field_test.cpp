@@ -239,7 +239,7 @@ TEST(HeightField, AcceptsOddAndMinimumSizes) {
       EXPECT_LE(f.at(a, a).value, 1.0);
     }
   }
-  EXPECT_DEATH(HeightField(Image<float>(1, 1), 0.0, Workers(1)), "width");
+  EXPECT_DEATH(HeightField(Image<float>(1, 1), 0.0, Workers(1)), "too narrow");
 }
 
 TEST(HeightField, IsBitIdenticalForAnyThreadCount) {

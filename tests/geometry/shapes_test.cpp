@@ -158,9 +158,9 @@ TEST(Tangents, FollowTheTextureCoordinatesOnUvSpheres) {
 }
 
 TEST(Shapes, BrokenPreconditionsAbort) {
-  EXPECT_DEATH(uv_sphere(1, 8, 1), "latitudes >= 2");
-  EXPECT_DEATH(uv_sphere(8, 2, 1), "longitudes >= 3");
-  EXPECT_DEATH(uv_sphere(8, 8, 0), "radius > 0.0f");
+  EXPECT_DEATH(uv_sphere(1, 8, 1), "too few latitudes");
+  EXPECT_DEATH(uv_sphere(8, 2, 1), "too few longitudes");
+  EXPECT_DEATH(uv_sphere(8, 8, 0), "radius is not positive");
 }
 
 }  // namespace

@@ -55,7 +55,7 @@ TEST(ProceduralMoon, FillsImagesOfAnySize) {
       EXPECT_GT(t.x, 30);
     }
   }
-  EXPECT_DEATH(procedural_moon(3, Workers(1)), "width % 2");
+  EXPECT_DEATH(procedural_moon(3, Workers(1)), "width is odd");
 }
 
 // The heights of the real Moon range from −9.1 to 10.8 km. Means and fractions are weighted by area, which is proportional to sin πv.

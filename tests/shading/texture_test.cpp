@@ -96,7 +96,7 @@ TEST(Texture, KeepsItsTexelsAndHasAllLevels) {
 
 TEST(TextureDeathTest, RejectsLevelsThatAreNotHalved) {
   const Image<glm::u8vec4> levels[] = {noise(8, 8, 1), noise(4, 3, 1)};
-  EXPECT_DEATH(Texture2D(levels, TexelFormat::rgba8), "image.height");
+  EXPECT_DEATH(Texture2D(levels, TexelFormat::rgba8), "wrong height");
   EXPECT_DEATH(Texture2D(Image<glm::u8vec4>(), TexelFormat::rgba8), "width");
 }
 

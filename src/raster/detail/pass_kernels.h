@@ -166,7 +166,9 @@ std::shared_ptr<const Indices> view_indices(I& indices, std::size_t vertex_count
 template <DrawKind kind, class S>
 void draw(PassState& state, const S& shader, const VertexView& vertices, std::shared_ptr<const Indices> indices,
           const DrawState& draw_state) {
-  HS_CHECK_OP(vertices.components, ==, static_cast<int>(kComponents<typename S::template Attributes<float>>));
+  HS_CHECK_OP(vertices.components, ==, static_cast<int>(kComponents<typename S::template Attributes<float>>),
+              "Pass::draw: the vertex streams have another number of components than the attributes of the shader; expected one stream per "
+              "attribute, in their order");
   add_draw(state, kKernels<S, kind>, keep_shader(shader, memory_of(state)), vertices, std::move(indices), draw_state);
 }
 

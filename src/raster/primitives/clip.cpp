@@ -67,7 +67,7 @@ void clip_plane(int plane, const Viewport& v, const DepthState& depth, const Cli
       return plane == 0 ? cut_at_min_w(inside, outside) : cut(inside, d[in], outside, d[out]);
     };
     const auto keep = [&kept](const ClipCorner& c) {
-      HS_CHECK_OP(kept.count, <, kMaxCorners);
+      HS_CHECK_OP(kept.count, <, kMaxCorners, "clipping: a polygon has too many corners; expected fewer than kMaxCorners");
       kept.corners[static_cast<std::size_t>(kept.count++)] = c;
     };
     if (a_in) keep(polygon.corners[a]);

@@ -33,7 +33,7 @@ void count_primitives(Draw& d) {
   };
   for (const uint32_t restart : d.indices->restarts()) add(restart);
   add(d.indices->size());
-  HS_CHECK_OP(primitives, <, std::size_t{1} << 32);
+  HS_CHECK_OP(primitives, <, std::size_t{1} << 32, "Pass::draw: too many primitives; expected fewer than 2^32");
   d.primitive_count = static_cast<uint32_t>(primitives);
 }
 

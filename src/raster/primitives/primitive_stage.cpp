@@ -71,7 +71,7 @@ void for_each_triangle(const PassContext& context, const Chunk& chunk, const Dra
     const auto source = primitives.source(i);
     if (source.is_first) {
       do {
-        HS_CHECK(next < range.first + range.count);
+        HS_CHECK(next < range.first + range.count, "primitive stage: a chunk has too many primitives; expected those of its range");
         vertex = assembly.next();
         for (uint32_t& v : vertex) v -= slot_base;
         ++next;

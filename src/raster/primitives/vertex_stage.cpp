@@ -89,7 +89,7 @@ void allocate_vertices(const Draw& draw, ShadedVertices& out) {
   out.count = draw.indices->end_vertex() - out.first;
   out.varying_count = draw.kernels.varying_count;
   const std::size_t n = out.count * std::size_t{draw.state.instances};
-  HS_CHECK_OP(n, <, std::size_t{1} << 32);
+  HS_CHECK_OP(n, <, std::size_t{1} << 32, "Pass::draw: too many vertices; expected fewer than 2^32 over all instances");
   out.screen.reset(n);
   out.outcodes.reset(n);
   out.any_outcode = 0;

@@ -48,7 +48,7 @@ TileTrace::Entry& TileTrace::add_entry(TriangleId id, std::size_t slot, Fragment
 std::size_t TileTrace::find_index(TriangleId id, std::size_t slot) const {
   int32_t i = last_[slot];
   while (i != kNone && entries_[static_cast<std::size_t>(i)].fragment.id != id) i = entries_[static_cast<std::size_t>(i)].previous;
-  HS_CHECK(i != kNone);
+  HS_CHECK(i != kNone, "trace: a fragment belongs to no draw; expected a draw of this pass");
   return static_cast<std::size_t>(i);
 }
 
