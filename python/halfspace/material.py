@@ -89,7 +89,7 @@ class Material(Immutable):
     sheen, sheen_roughness: white reflection by the fibers of cloth, 0 to 1.
     alpha_mode: "opaque", "mask" (the surface exists where alpha >= alpha_cutoff) or "blend". The default is "blend" if the alpha of
         base_color is less than 1, otherwise "opaque".
-    unlit: draw the base color without lighting.   double_sided: draw both sides.
+    unlit: draw the base color without lighting, exposure and tone curve.   double_sided: draw both sides.
     *_texture: a Texture, or an array that Texture accepts. metallic_roughness_texture has roughness in the green and metallic in the blue
         channel, as in glTF. normal_texture is in tangent space with green up. Textures need a mesh with `uvs`.
     """

@@ -4,10 +4,12 @@
 #include <array>
 #include <utility>
 
+#include "halfspace/core/srgb.h"
 #include "halfspace/explain/fragment_values.h"
 #include "halfspace/explain/pixel_history.h"
 #include "halfspace/render/frame.h"
 #include "halfspace/render/scene_pass.h"
+#include "halfspace/render/unlit_layer.h"
 #include "halfspace/scene/scene_paths.h"
 #include "halfspace/shading/tone.h"
 
@@ -100,6 +102,9 @@ DisplayDetail display_detail(const PreparedScene& scene, const FrameTrace& trace
   const float alpha = scene.transparent && d.light.w > 0.0f ? d.light.w : 1.0f;
   d.tone_mapped = tone_map(SceneLight<float>{vec3<float>(glm::vec3(d.light) / alpha)}, tone).rgb;
   d.code = picture.at(pixel.x, pixel.y);
+  if (separates_unlit(scene)) {  // unlit surfaces are displayed without exposure and tone curve
+    for (glm::length_t k = 0; k < 3; ++k) d.tone_mapped[k] = kSrgbToLinear[d.code[k]];
+  }
   return d;
 }
 

@@ -94,6 +94,46 @@ struct Straightened {
   operator()(const vec4<R>& color, Position... position) const { return next(straight(color), position...); }
 };
 
+// Converts the lit part of a pixel and adds its unlit part (see unlit_layer.h). `next` encodes the result, which is display light.
+template <class F>
+struct WithUnlit {
+  ToneMapping tone;
+  const Image<glm::vec4>* unlit;
+  bool premultiplied;
+  F next;
+
+  template <class R>
+  vec4<R> operator()(const vec4<R>& color, IntOf<R> x, IntOf<R> y) const {
+    const vec4<R> u = unlit_at<R>(x, y);
+    const R a = premultiplied ? color.w : R(1), rest = max(a - u.w, R(0));
+    const MaskOf<R> is_lit = rest > R(0);
+    const vec3<R> light = (vec3<R>(color) - vec3<R>(u)) / select(is_lit, rest, R(1));
+    vec3<R> shown = tone_map(SceneLight<R>{light}, tone).rgb * rest;
+    for (int k = 0; k < 3; ++k) shown[k] += min(u[k], u.w);
+    const vec4<R> sum(shown, color.w);
+    return finished(premultiplied ? straight(sum) : sum, x, y);
+  }
+
+ private:
+  template <class R>
+  vec4<R> unlit_at(IntOf<R> x, IntOf<R> y) const {
+    const int width = unlit->width(), height = unlit->height();
+    const float* first = &unlit->data()->x;
+    const IntOf<R> column = min(x, IntOf<R>(width - 1)), row = max(IntOf<R>(height - 1) - y, IntOf<R>(0));  // packets can exceed the image
+    const IntOf<R> at = (row * width + column) * 4;
+    return {gather(first, at), gather(first, at + 1), gather(first, at + 2), gather(first, at + 3)};
+  }
+
+  template <class R>
+  vec4<R> finished(const vec4<R>& color, IntOf<R> x, IntOf<R> y) const {
+    if constexpr (std::invocable<const F&, vec4<R>, IntOf<R>, IntOf<R>>) {
+      return next(color, x, y);
+    } else {
+      return next(color);
+    }
+  }
+};
+
 // Returns the light unchanged; it may exceed the displayable range.
 struct ToLight {
   template <class R>
@@ -102,24 +142,18 @@ struct ToLight {
   }
 };
 
-// Converts to encoded values for more than 8 bits per channel.
-struct ToFineCodes {
-  ToCodes codes;
-  bool premultiplied;
-
-  template <class R>
-  vec4<R> operator()(const vec4<R>& color, IntOf<R> x, IntOf<R> y) const {
-    return codes(premultiplied ? straight(color) : color, x, y);
-  }
-};
-
-// Adds a post step for colors with premultiplied or straight alpha.
+// Adds a post step for colors with premultiplied or straight alpha. make(tone): returns a functor that applies the tone mapping and encodes
+// the result.
 template <class F>
-void add_post(Pass& pass, const F& function, const ColorTarget& target, Premultiplied premultiplied) {
-  if (premultiplied == Premultiplied::yes) {
-    pass.post(Straightened<F>{function}, target);
+void add_post(Pass& pass, const ToneMapping& tone, const F& make, const ColorTarget& target, Premultiplied premultiplied,
+              const Image<glm::vec4>& unlit) {
+  using Function = decltype(make(tone));
+  if (!unlit.empty()) {
+    pass.post(WithUnlit<Function>{tone, &unlit, premultiplied == Premultiplied::yes, make(ToneMapping{})}, target);
+  } else if (premultiplied == Premultiplied::yes) {
+    pass.post(Straightened<Function>{make(tone)}, target);
   } else {
-    pass.post(function, target);
+    pass.post(make(tone), target);
   }
 }
 
@@ -133,18 +167,22 @@ ToneMapping tone_of(const PostDescription& post, double exposure) {
 double log_average_luminance(const Image<U16Vec4>& light, const Workers& workers) { return log_average(light, workers); }
 double log_average_luminance(const Image<glm::vec4>& light, const Workers& workers) { return log_average(light, workers); }
 
-void show(Pass& pass, const PostDescription& post, double exposure, Image<glm::u8vec4>& picture, Premultiplied premultiplied) {
+void show(Pass& pass, const PostDescription& post, double exposure, Image<glm::u8vec4>& picture, Premultiplied premultiplied,
+          const Image<glm::vec4>& unlit) {
   const ToneMapping tone = tone_of(post, exposure);
   if (post.encode == DisplayEncoding::srgb && !post.dither) {
-    add_post(pass, ToDisplayLight{tone}, srgb8a8_target(picture), premultiplied);
+    add_post(
+        pass, tone, [](const ToneMapping& t) { return ToDisplayLight{t}; }, srgb8a8_target(picture), premultiplied, unlit);
   } else {
-    add_post(pass, ToCodes{tone, post.encode, static_cast<float>(post.gamma), post.dither}, rgba8_target(picture), premultiplied);
+    const auto codes = [&](const ToneMapping& t) { return ToCodes{t, post.encode, static_cast<float>(post.gamma), post.dither}; };
+    add_post(pass, tone, codes, rgba8_target(picture), premultiplied, unlit);
   }
 }
 
-void show_fine(Pass& pass, const PostDescription& post, double exposure, Image<glm::vec4>& encoded, Premultiplied premultiplied) {
-  const ToCodes codes{tone_of(post, exposure), post.encode, static_cast<float>(post.gamma), false};
-  pass.post(ToFineCodes{codes, premultiplied == Premultiplied::yes}, rgba32f_target(encoded));
+void show_fine(Pass& pass, const PostDescription& post, double exposure, Image<glm::vec4>& encoded, Premultiplied premultiplied,
+               const Image<glm::vec4>& unlit) {
+  const auto codes = [&](const ToneMapping& t) { return ToCodes{t, post.encode, static_cast<float>(post.gamma), false}; };
+  add_post(pass, tone_of(post, exposure), codes, rgba32f_target(encoded), premultiplied, unlit);
 }
 
 void show_light(Pass& pass, Image<glm::vec4>& light) { pass.post(ToLight{}, rgba32f_target(light)); }

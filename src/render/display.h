@@ -21,16 +21,20 @@ double log_average_luminance(const Image<glm::vec4>& light, const Workers& worke
 /// Returns the tone mapping of an image that is displayed with the given exposure.
 ToneMapping tone_of(const PostDescription& post, double exposure);
 
+inline const Image<glm::vec4> kNoUnlit;
+
 /// Whether the colors of a pass are premultiplied by alpha. If so, they are divided by alpha before the tone curve is applied.
 enum class Premultiplied : bool { no, yes };
 
 /// Makes a pass write displayable pixel values to `picture`, as specified by `post` but with the given `exposure`. The color attachment of
-/// the pass must hold linear light. `picture` must have the size of the pass and outlive it.
+/// the pass must hold linear light. unlit: the result of a pass with the draws of unlit_layer() (unlit_layer.h), or an empty image. The
+/// images must have the size of the pass and outlive it.
 void show(Pass& pass, const PostDescription& post, double exposure, Image<glm::u8vec4>& picture,
-          Premultiplied premultiplied = Premultiplied::no);
+          Premultiplied premultiplied = Premultiplied::no, const Image<glm::vec4>& unlit = kNoUnlit);
 
 /// Like show(), but writes encoded values in [0, 1] that are neither rounded nor dithered.
-void show_fine(Pass& pass, const PostDescription& post, double exposure, Image<glm::vec4>& encoded, Premultiplied premultiplied);
+void show_fine(Pass& pass, const PostDescription& post, double exposure, Image<glm::vec4>& encoded, Premultiplied premultiplied,
+               const Image<glm::vec4>& unlit = kNoUnlit);
 
 /// Makes a pass write linear color with straight alpha to `light`. The colors of the pass must be premultiplied.
 void show_light(Pass& pass, Image<glm::vec4>& light);

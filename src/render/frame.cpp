@@ -10,6 +10,7 @@
 #include "halfspace/core/resource_limits.h"
 #include "halfspace/render/display.h"
 #include "halfspace/render/scene_pass.h"
+#include "halfspace/render/unlit_layer.h"
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
 
@@ -47,13 +48,15 @@ class FrameRenderer {
 
   PassStatistics render(Image<glm::u8vec4>& picture) const {
     if (!scene_.post.hdr && !scene_.transparent) return run(pass_of(srgb8a8_target(picture), Draws::in_crop));
-    return displayed([&](Pass& pass, double exposure) { show(pass, post_, exposure, picture, premultiplied()); });
+    const Image<glm::vec4> unlit = unlit_part();
+    return displayed([&](Pass& pass, double exposure) { show(pass, post_, exposure, picture, premultiplied(), unlit); });
   }
 
   PassStatistics render(Image<glm::u16vec4>& picture) const {
     Image<glm::vec4> encoded(width_, height_);
+    const Image<glm::vec4> unlit = unlit_part();
     const PassStatistics statistics =
-        displayed([&](Pass& pass, double exposure) { show_fine(pass, post_, exposure, encoded, premultiplied()); });
+        displayed([&](Pass& pass, double exposure) { show_fine(pass, post_, exposure, encoded, premultiplied(), unlit); });
     round(encoded, picture);
     return statistics;
   }
@@ -67,12 +70,14 @@ class FrameRenderer {
 
   // Converts light that has already been rendered. There must be no crop.
   void display(const Image<glm::vec4>& light, Image<glm::u8vec4>& picture) const {
-    display_light(light, [&](Pass& pass, double exposure) { show(pass, post_, exposure, picture, premultiplied()); });
+    const Image<glm::vec4> unlit = unlit_part();
+    display_light(light, [&](Pass& pass, double exposure) { show(pass, post_, exposure, picture, premultiplied(), unlit); });
   }
 
   void display(const Image<glm::vec4>& light, Image<glm::u16vec4>& picture) const {
     Image<glm::vec4> encoded(width_, height_);
-    display_light(light, [&](Pass& pass, double exposure) { show_fine(pass, post_, exposure, encoded, premultiplied()); });
+    const Image<glm::vec4> unlit = unlit_part();
+    display_light(light, [&](Pass& pass, double exposure) { show_fine(pass, post_, exposure, encoded, premultiplied(), unlit); });
     round(encoded, picture);
   }
 
@@ -114,6 +119,19 @@ class FrameRenderer {
     Pass pass(width_, height_, color, kDepth, {.samples = scene_.samples});
     for (const PreparedDraw& draw : scene_.draws) add_draw(pass, draw, state_of(draw, where));
     return pass;
+  }
+
+  // Renders the unlit surfaces alone, for show(). Returns an empty image if they are displayed like all others.
+  Image<glm::vec4> unlit_part() const {
+    if (!separates_unlit(scene_)) return {};
+    const MemoryClaim claim(static_cast<uint64_t>(width_) * static_cast<uint64_t>(height_) * sizeof(glm::vec4), "post.tone_unlit");
+    Image<glm::vec4> unlit(width_, height_);
+    ColorTarget color = rgba32f_target(unlit);
+    color.clear_value = glm::vec4(0.0f);
+    Pass pass(width_, height_, color, kDepth, {.samples = scene_.samples});
+    for (const PreparedDraw& draw : unlit_layer(scene_)) add_draw(pass, draw, state_of(draw, Draws::in_crop));
+    pass.run(workers_);
+    return unlit;
   }
 
   // Renders light and displays it. display(pass, exposure) must add the post step.

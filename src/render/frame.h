@@ -57,7 +57,7 @@ bool wants_values(const FrameImages& images);
 
 /// Renders the requested images. Throws LimitError if auto_exposure needs more memory than permitted. The result does not depend on the
 /// number of workers. Light is stored for the whole image only if it is requested, or if auto_exposure has to measure it first. Otherwise
-/// it exists only in tiles. The returned statistics are the sums over all passes that draw the scene.
+/// it exists only in tiles. The returned statistics are the sums over all passes that draw the scene, except for that of unlit_layer().
 PassStatistics render_frame(const PreparedScene& scene, const FrameImages& images, const Workers& workers);
 
 /// Converts light that has already been rendered to the color images of a frame. The result is bit-identical to that of render_frame(). The

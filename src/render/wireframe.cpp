@@ -73,6 +73,7 @@ bool make_wireframe(PreparedScene& scene, const SceneDescription& description, H
     if (kind != DrawKind::mesh) draws.push_back(std::move(draw));
   }
   scene.draws = std::move(draws);
+  scene.post.tone_unlit = true;  // surfaces have to match the background
   return has_spheres;
 }
 

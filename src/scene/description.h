@@ -234,6 +234,7 @@ struct PostDescription {
   DisplayEncoding encode = DisplayEncoding::srgb;
   double gamma = 2.2;
   bool dither = false;
+  bool tone_unlit = false;  ///< exposure and tone curve also apply to surfaces without lighting
 };
 
 /// `none`, followed by the values of ShadowFilter.

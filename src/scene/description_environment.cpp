@@ -128,6 +128,7 @@ Section section_of(PostDescription& p) {
       key<&T::encode>("encode", "Encoding of linear values: exact sRGB, or a power"),
       key<&T::gamma>("gamma", "Display gamma of encode gamma; its exponent is 1/gamma", {.low = 0.1, .high = 10}),
       key<&T::dither>("dither", "Whether 8x8 ordered dithering hides banding"),
+      key<&T::tone_unlit>("tone_unlit", "Whether exposure and tone curve also apply to surfaces without lighting"),
   };
   return {{keys, &p}};
 }

@@ -72,7 +72,7 @@ HS_INLINE IncidentLight<R> light_at(const Light& light, const vec3<R>& position_
   }
   if (light.type == LightType::spot) {
     const R t = clamp((dot(l_ws, light.axis_ws) - R(light.cos_outer)) * R(light.cone_scale), R(0), R(1));
-    strength *= t * t * (R(3) - R(2) * t);
+    strength *= t * t;  // the falloff that KHR_lights_punctual recommends
   }
   return {l_ws, strength};
 }

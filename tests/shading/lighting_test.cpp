@@ -63,7 +63,7 @@ TEST(Lighting, ARangeFadesTheLightToZero) {
   EXPECT_EQ(light_at<double>(sun, {0, 0, -9}).strength, 1.0) << "directional lights have no range";
 }
 
-TEST(Lighting, SpotIsFullInsideDarkOutsideAndSmoothInBetween) {
+TEST(Lighting, SpotFadesLikeKhrLightsPunctual) {
   Light spot{.type = LightType::spot, .position_rws = {0, 0, 2}};
   const double inner = std::cos(20 * kPi / 180), outer = std::cos(30 * kPi / 180);
   spot.cos_outer = static_cast<float>(outer);
@@ -77,11 +77,11 @@ TEST(Lighting, SpotIsFullInsideDarkOutsideAndSmoothInBetween) {
   EXPECT_EQ(light_at<double>(spot, {1, 0, 5}).strength, 0.0) << "behind the spot light";
   for (double degrees = 20.5; degrees < 30; degrees += 0.5) {
     const double t = (std::cos(degrees * kPi / 180) - outer) / (inner - outer);
-    EXPECT_NEAR(strength(degrees), t * t * (3 - 2 * t), 3e-6) << degrees;  // float cos_outer: 6e-8 of 0.07 is 1e-6 of t, times slope 1.5
+    EXPECT_NEAR(strength(degrees), t * t, 3e-6) << degrees;  // float cos_outer: 6e-8 of 0.07 is 1e-6 of t, times slope 2
   }
-  // There is no step at either edge: 0.1 degrees past an edge, t is at most 0.012, and smoothstep has risen by 3 t^2 = 4.3e-4.
-  EXPECT_LT(1 - strength(20.1), 5e-4);
-  EXPECT_LT(strength(29.9), 5e-4);
+  // There is no step at either edge: 0.1 degrees past an edge, t has changed by at most 0.012, and its square by at most 0.024.
+  EXPECT_LT(1 - strength(20.1), 0.024);
+  EXPECT_LT(strength(29.9), 1.5e-4);
 }
 
 TEST(Lighting, HighlightsPeakInTheMirrorDirection) {
