@@ -13,28 +13,62 @@ if(NOT HALFSPACE_ARCH MATCHES "^(native|x86-64-v[234])$")
   message(FATAL_ERROR "HALFSPACE_ARCH is '${HALFSPACE_ARCH}'; expected native, x86-64-v2, x86-64-v3 or x86-64-v4")
 endif()
 
-# Sets the variable named by `out` to the macros that the compiler defines for an instruction set.
-function(halfspace_arch_macros arch out)
-  execute_process(COMMAND ${CMAKE_CXX_COMPILER} -march=${arch} -dM -E -x c++ /dev/null
-    OUTPUT_VARIABLE macros RESULT_VARIABLE result ERROR_VARIABLE error)
+# The extensions that code for an instruction set may need: those that the compiler uses on its own or that our code uses. core/cpu.cpp knows
+# the same names. Other extensions, such as AES, SSE4A and ADX, are used by intrinsics only, of which we have none.
+set(halfspace_extensions SSE3 SSSE3 SSE4_1 SSE4_2 POPCNT MOVBE LZCNT BMI BMI2 AVX F16C FMA AVX2 FMA4 XOP TBM AVX512F AVX512BW AVX512DQ
+  AVX512VL AVX512CD)
+
+# Sets the variable named by `out` to the macros that the compiler defines with the given options.
+function(halfspace_macros out)
+  execute_process(COMMAND ${CMAKE_CXX_COMPILER} ${ARGN} -dM -E -x c++ /dev/null OUTPUT_VARIABLE macros RESULT_VARIABLE result ERROR_VARIABLE error)
   if(NOT result EQUAL 0)
-    message(FATAL_ERROR "${CMAKE_CXX_COMPILER} does not support -march=${arch}: ${error}")
+    message(FATAL_ERROR "${CMAKE_CXX_COMPILER} does not support ${ARGN}: ${error}")
   endif()
   set(${out} "${macros}" PARENT_SCOPE)
 endfunction()
 
-# Sets the variable named by `out` to the features that code for an instruction set needs, as core/cpu.cpp expects them, for example
+# Sets the variable named by `out` to the options that select an instruction set. They exclude extensions that make nothing faster, so that a
+# build does not need them:
+# - LZCNT and MOVBE, which x86-64-v3 and x86-64-v4 include and some processors and virtual machines lack
+# - for a processor with AVX-512: everything beyond x86-64-v4, such as VBMI and VNNI
+# - for other processors: GFNI and the extensions of AVX2 for matrix products and conversions, such as AVX-VNNI
+function(halfspace_arch_options arch out)
+  set(options -march=${arch})
+  if(arch STREQUAL "native")
+    halfspace_macros(macros -march=native)
+    if(macros MATCHES "__AVX512BW__" AND macros MATCHES "__AVX512CD__" AND macros MATCHES "__AVX512DQ__" AND macros MATCHES "__AVX512VL__")
+      set(options -march=x86-64-v4 -mtune=native -mno-lzcnt -mno-movbe)
+    else()
+      string(REGEX MATCHALL "__(GFNI|AVX[A-Z0-9]+)__ 1" excluded "${macros}")
+      list(TRANSFORM excluded REPLACE "^__(.*)__ 1$" "\\1")
+      list(REMOVE_ITEM excluded ${halfspace_extensions})
+      list(TRANSFORM excluded TOLOWER)
+      list(TRANSFORM excluded PREPEND -mno-)
+      list(APPEND options ${excluded})
+    endif()
+  elseif(arch MATCHES "^x86-64-v[34]$")
+    list(APPEND options -mno-lzcnt -mno-movbe)
+  endif()
+  set(${out} ${options} PARENT_SCOPE)
+endfunction()
+
+# Sets the variable named by `out` to the extensions that code for an instruction set needs, as core/cpu.cpp expects them, for example
 # " SSE3 AVX AVX2 FMA ".
 function(halfspace_cpu_needs arch out)
-  halfspace_arch_macros(${arch} macros)
-  string(REGEX MATCHALL "__(S?SSE|AVX|FMA|BMI|F16C|LZCNT|POPCNT|MOVBE|ADX|GFNI|XOP|TBM)[A-Z0-9_]*__ 1" needs "${macros}")
-  list(TRANSFORM needs REPLACE "^__(.*)__ 1$" "\\1")
-  list(JOIN needs " " needs)
-  set(${out} " ${needs} " PARENT_SCOPE)
+  halfspace_arch_options(${arch} options)
+  halfspace_macros(macros ${options})
+  set(needs " ")
+  foreach(extension IN LISTS halfspace_extensions)
+    if(macros MATCHES "#define __${extension}__ 1")
+      string(APPEND needs "${extension} ")
+    endif()
+  endforeach()
+  set(${out} "${needs}" PARENT_SCOPE)
 endfunction()
 
 # The default width depends on the macros that the compiler defines for this instruction set.
-halfspace_arch_macros(${HALFSPACE_ARCH} arch_macros)
+halfspace_arch_options(${HALFSPACE_ARCH} arch_options)
+halfspace_macros(arch_macros ${arch_options})
 
 set(lanes "${HALFSPACE_LANES}")
 if(lanes STREQUAL "")
@@ -64,13 +98,14 @@ set(HALFSPACE_BUILD_LANES ${lanes})
 target_compile_definitions(halfspace_flags INTERFACE HALFSPACE_LANES=${lanes})
 # Contraction of a*b + c would make results depend on the compiler.
 set(halfspace_common_options -ffp-contract=off)
-target_compile_options(halfspace_flags INTERFACE -march=${HALFSPACE_ARCH} ${halfspace_common_options})
+target_compile_options(halfspace_flags INTERFACE ${arch_options} ${halfspace_common_options})
 # Gives a program the include path and the options of halfspace_flags, but another instruction set. It must not link halfspace_flags, whose
 # -march would follow this one and override it.
 function(halfspace_set_arch target arch)
   target_include_directories(${target} PRIVATE $<TARGET_PROPERTY:halfspace_flags,INTERFACE_INCLUDE_DIRECTORIES>)
   target_compile_features(${target} PRIVATE cxx_std_20)
-  target_compile_options(${target} PRIVATE -march=${arch} ${halfspace_common_options})
+  halfspace_arch_options(${arch} options)
+  target_compile_options(${target} PRIVATE ${options} ${halfspace_common_options})
 endfunction()
 
 # Copy vectors as a whole. When tuning for x86-64-v3 and many processors, g++ copies them in halves. A subsequent load of the whole vector

@@ -19,8 +19,7 @@ if(HALFSPACE_SECOND_BUILD)
   # CPack ignores the component of a second project, so the files are installed by this one.
   install(DIRECTORY ${HALFSPACE_SECOND_BUILD}/bin/glibc-hwcaps DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT isa FILES_MATCHING PATTERN "*.so.*")
   if(TARGET halfspace_python)
-    install(DIRECTORY ${HALFSPACE_SECOND_BUILD}/python/halfspace DESTINATION ${HALFSPACE_PYTHON_DIR} COMPONENT python
-      FILES_MATCHING PATTERN "_core*.so")
+    install(DIRECTORY ${HALFSPACE_SECOND_BUILD}/python/halfspace/glibc-hwcaps DESTINATION ${HALFSPACE_PYTHON_DIR}/halfspace COMPONENT python)
   endif()
 endif()
 set(CPACK_COMPONENTS_GROUPING ONE_PER_GROUP)

@@ -15,25 +15,19 @@ Results are bit-identical for any number of threads.
 
 import os as _os
 
-from . import _instruction_set
-
-_folder = _instruction_set.extension_folder(_os.path.dirname(_os.path.abspath(__file__)), _instruction_set.processor_flags())
-if _folder is not None:
-    __path__.insert(0, _folder)
-
-from . import _core  # noqa: E402
-from . import _check, draw  # noqa: E402
-from ._core import InputError, OutputError  # noqa: E402
-from ._files import DifferenceError, compare, export, info  # noqa: E402
-from ._one_call import render  # noqa: E402
-from ._options import RenderWarning  # noqa: E402
-from .camera import Camera  # noqa: E402
-from .labels import LABELS, NO_ID  # noqa: E402
-from .material import Material, Texture, srgb  # noqa: E402
-from .mesh import Mesh  # noqa: E402
-from .model import Model  # noqa: E402
-from .picture import Picture  # noqa: E402
-from .scene import Scene  # noqa: E402
+from . import _core  # first: raises ImportError if the processor lacks instructions that this build uses
+from . import _check, draw
+from ._core import InputError, OutputError
+from ._files import DifferenceError, compare, export, info
+from ._one_call import render
+from ._options import RenderWarning
+from .camera import Camera
+from .labels import LABELS, NO_ID
+from .material import Material, Texture, srgb
+from .mesh import Mesh
+from .model import Model
+from .picture import Picture
+from .scene import Scene
 
 InputError.__doc__ = "An argument or a file cannot be used. The message is one line: where, the problem, and what was expected."
 OutputError.__doc__ = "A result cannot be written. The message is one line: the file, the problem, and what was expected."

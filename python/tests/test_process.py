@@ -5,6 +5,8 @@ import ctypes
 import gc
 import multiprocessing
 import os
+import re
+import shutil
 import subprocess
 import sys
 import threading
@@ -244,37 +246,36 @@ def test_import_is_fast():
     assert min(times) < 0.2
 
 
-def test_the_extension_is_chosen_by_the_processor(tmp_path):
-    from halfspace import _instruction_set as sets
-
-    v3, v4 = sets._V3 | {"sse"}, sets._V4
-    assert sets.extension_folder(str(tmp_path), set()) is None  # only one extension
-    assert sets.extension_folder(str(tmp_path), None) is None
-    (tmp_path / "x86-64-v3").mkdir()
-    (tmp_path / "x86-64-v4").mkdir()
-    assert sets.extension_folder(str(tmp_path), v4) == str(tmp_path / "x86-64-v4")
-    assert sets.extension_folder(str(tmp_path), v3) == str(tmp_path / "x86-64-v3")
-    with pytest.raises(ImportError, match="lacks avx2, movbe; expected a processor with x86-64-v3"):
-        sets.extension_folder(str(tmp_path), v3 - {"avx2", "movbe"})
-    (tmp_path / "cpuinfo").write_text("processor : 0\nflags\t\t: fpu avx2 movbe\n")
-    assert sets.processor_flags(tmp_path / "cpuinfo") == {"fpu", "avx2", "movbe"}
-    assert sets.processor_flags(tmp_path / "missing") is None
-    with pytest.warns(RuntimeWarning, match="/proc/cpuinfo cannot be read; the extension for x86-64-v3 is used"):
-        assert sets.extension_folder(str(tmp_path), None) == str(tmp_path / "x86-64-v3")
-    assert sets.processor_flags()
+def import_on(processor):
+    """Imports the module on an emulated processor. Its /proc/cpuinfo is that of this machine."""
+    code = "import halfspace; print(halfspace._core.lanes)"
+    result = subprocess.run(["qemu-x86_64", "-cpu", processor, sys.executable, "-c", code], capture_output=True, text=True)
+    return result.returncode, result.stdout, [line for line in result.stderr.splitlines() if "TCG doesn't support" not in line]
 
 
-def test_an_extension_in_a_folder_is_imported(tmp_path):
+@pytest.mark.skipif(not shutil.which("qemu-x86_64"), reason="qemu-x86_64 (package qemu-user) is absent")
+def test_the_processor_is_checked_before_code_for_it_is_loaded():
+    code, out, error = import_on("Nehalem")
+    if (code, out) != (0, "4\n"):  # a build for x86-64-v2
+        assert code == 1 and out == ""
+        assert re.fullmatch("ImportError: halfspace: this build needs .*AVX2.*, which this processor does not support; .*", error[-1])
+    code, out, error = import_on("max")  # AVX2 without AVX-512
+    if halfspace._core.lanes == 16:
+        assert code == 1 and "AVX-512 (F, BW, DQ, VL" in error[-1]
+    else:
+        assert (code, out, error) == (0, f"{halfspace._core.lanes}\n", [])
+
+
+def test_a_missing_library_is_reported_in_one_line(tmp_path):
     source = os.path.dirname(halfspace.__file__)
     package = tmp_path / "halfspace"
-    (package / "x86-64-v3").mkdir(parents=True)
+    package.mkdir()
     for name in os.listdir(source):
-        folder = package / "x86-64-v3" if name.startswith("_core") else package
-        if os.path.isfile(os.path.join(source, name)):
-            (folder / name).symlink_to(os.path.realpath(os.path.join(source, name)))
-    code = "import halfspace; print(halfspace._core.__file__, halfspace.render('moon', size=(8, 8)).shape)"
-    out = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, env={**os.environ, "PYTHONPATH": str(tmp_path)})
-    assert out.stdout.startswith(str(package / "x86-64-v3")) and "(8, 8, 3)" in out.stdout
+        if name.endswith((".py", ".so")) and not name.startswith("_library"):
+            (package / name).symlink_to(os.path.realpath(os.path.join(source, name)))
+    result = subprocess.run([sys.executable, "-c", "import halfspace"], capture_output=True, text=True, env={**os.environ, "PYTHONPATH": str(tmp_path)})
+    assert result.returncode == 1
+    assert re.fullmatch("ImportError: halfspace: _library.*: cannot open shared object file.*; expected .*", result.stderr.splitlines()[-1])
 
 
 def run(code, **more):

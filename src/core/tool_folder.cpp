@@ -36,10 +36,8 @@ std::vector<std::filesystem::path> tool_folders() {
   if (const ToolFolder* set = tool_folder.load(); set != nullptr && !set->path.empty()) return {set->path};
   std::filesystem::path folder = this_binary().parent_path();
   if (folder.empty()) return {};
-  // For some processors, the loader selects a library in LIB/glibc-hwcaps/LEVEL.
+  // In packages, the libraries of the programs and of the Python module are in FOLDER/glibc-hwcaps/LEVEL.
   if (folder.parent_path().filename() == "glibc-hwcaps") folder = folder.parent_path().parent_path();
-  // The packaged Python module has one extension module per instruction set, in halfspace/LEVEL.
-  if (folder.filename() == "x86-64-v3" || folder.filename() == "x86-64-v4") folder = folder.parent_path();
   // An installed Python module is in PREFIX/lib/python3/dist-packages/halfspace or PREFIX/lib/python3.N/site-packages/halfspace.
   const std::filesystem::path parent = folder.parent_path().filename();
   const bool is_python = parent == "dist-packages" || parent == "site-packages";
