@@ -13,22 +13,23 @@ if(NOT HALFSPACE_ARCH MATCHES "^(native|x86-64-v[234])$")
   message(FATAL_ERROR "HALFSPACE_ARCH is '${HALFSPACE_ARCH}'; expected native, x86-64-v2, x86-64-v3 or x86-64-v4")
 endif()
 
-# The extensions that code for an instruction set may need: those that the compiler uses on its own or that our code uses. core/cpu.cpp knows
-# the same names. Other extensions, such as AES, SSE4A and ADX, are used by intrinsics only, of which we have none.
+# The extensions that code for an instruction set may need: those that the compiler uses on its own or that our code uses. core/cpu.cpp
+# knows the same names. Other extensions, such as AES, SSE4A and ADX, are used by intrinsics only, of which we have none.
 set(halfspace_extensions SSE3 SSSE3 SSE4_1 SSE4_2 POPCNT MOVBE LZCNT BMI BMI2 AVX F16C FMA AVX2 FMA4 XOP TBM AVX512F AVX512BW AVX512DQ
   AVX512VL AVX512CD)
 
 # Sets the variable named by `out` to the macros that the compiler defines with the given options.
 function(halfspace_macros out)
-  execute_process(COMMAND ${CMAKE_CXX_COMPILER} ${ARGN} -dM -E -x c++ /dev/null OUTPUT_VARIABLE macros RESULT_VARIABLE result ERROR_VARIABLE error)
+  execute_process(COMMAND ${CMAKE_CXX_COMPILER} ${ARGN} -dM -E -x c++ /dev/null
+    OUTPUT_VARIABLE macros RESULT_VARIABLE result ERROR_VARIABLE error)
   if(NOT result EQUAL 0)
     message(FATAL_ERROR "${CMAKE_CXX_COMPILER} does not support ${ARGN}: ${error}")
   endif()
   set(${out} "${macros}" PARENT_SCOPE)
 endfunction()
 
-# Sets the variable named by `out` to the options that select an instruction set. They exclude extensions that make nothing faster, so that a
-# build does not need them:
+# Sets the variable named by `out` to the options that select an instruction set. They exclude extensions that make nothing faster, so that
+# a build does not need them:
 # - LZCNT and MOVBE, which x86-64-v3 and x86-64-v4 include and some processors and virtual machines lack
 # - for a processor with AVX-512: everything beyond x86-64-v4, such as VBMI and VNNI
 # - for other processors: GFNI and the extensions of AVX2 for matrix products and conversions, such as AVX-VNNI
