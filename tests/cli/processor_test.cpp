@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Tests the start-up check. The tested programs processor-LEVEL consist of start_check.cpp and cpu.cpp and need what a build for LEVEL needs.
-// processor-none needs SSE3, which every processor supports, and FMA4 and XOP, which no processor since 2017 supports. The features of other
-// processors come from an emulator (package qemu-user), whose /proc/cpuinfo is that of this machine.
+// Tests the start-up check. The tested programs processor-LEVEL consist of start_check.cpp and cpu.cpp and need what a build for LEVEL
+// needs. processor-none needs SSE3, which every processor supports, and FMA4 and XOP, which no processor since 2017 supports. The features
+// of other processors come from an emulator (package qemu-user), whose /proc/cpuinfo is that of this machine.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -64,7 +64,8 @@ TEST(StartCheck, NamesWhatEachProcessorLacks) {
   };
   for (const auto& [processor, level, missing] : cases) {
     const std::string said = run_on(processor, level).text;
-    EXPECT_TRUE(said.starts_with(std::string("halfspace: this build needs ") + missing + ", which this processor does not support; ")) << said;
+    EXPECT_TRUE(said.starts_with(std::string("halfspace: this build needs ") + missing + ", which this processor does not support; "))
+        << said;
     EXPECT_EQ(said.find('\n'), said.size() - 1) << said;
   }
 }
