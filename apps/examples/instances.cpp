@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Draws 10,000 instances of a mesh with one draw call.
-#include <cmath>
 #include <cstdio>
 #include <exception>
 
@@ -40,11 +39,10 @@ struct InstanceShader {
 int main(int argc, char** argv) try {
   const Mesh ball = icosphere(1, 0.4f);
   std::vector<glm::vec3> offsets;
-  for (int z = 0; z < 100; ++z)
-    for (int x = 0; x < 100; ++x) {
-      const auto dx = static_cast<float>(x) - 49.5f, dz = static_cast<float>(z) - 49.5f;
-      offsets.emplace_back(dx, 0.004f * (dx * dx - dz * dz), dz);
-    }
+  for (int i = 0; i < 10000; ++i) {
+    const float x = static_cast<float>(i % 100) - 49.5f, z = static_cast<float>(i / 100) - 49.5f;
+    offsets.emplace_back(x, 0.004f * (x * x - z * z), z);
+  }
   const glm::dmat4 camera = perspective_reversed(0.8, 640.0 / 480.0, 1.0, 1000.0) * look_at({0, 60, 90}, {0, 0, 0}, {0, 1, 0});
 
   Image<glm::u8vec4> image(640, 480);

@@ -9,12 +9,11 @@
 
 namespace my {
 
-using halfspace::abs, halfspace::floor, halfspace::select;  // work for scalars and for SIMD lanes
-using halfspace::vec2, halfspace::vec3, halfspace::vec4;
+// The functions work for scalars and for SIMD lanes.
+using halfspace::abs, halfspace::floor, halfspace::select, halfspace::vec2, halfspace::vec3, halfspace::vec4;
 
 struct RingShader {
-  // Data members are uniforms: they have one value for the whole draw call.
-  float rings;
+  float rings;  // data members are uniforms: they have one value for the whole draw call
   glm::vec3 tint;
 
   template <class R>
@@ -27,7 +26,6 @@ struct RingShader {
     halfspace::NoPerspective<vec2<R>> window;  // interpolated linearly in window space
     halfspace::Flat<R> triangle;               // not interpolated; has the value of the provoking vertex
   };
-
   // The VertexId parameter is optional. It holds the index of the vertex being shaded.
   template <class R>
   vec4<R> vertex(const Attributes<R>& in, const halfspace::VertexId<R>& id, Varyings<R>& out) const {
@@ -36,12 +34,10 @@ struct RingShader {
     out.triangle.value = select(id.vertex < 3, R(0), R(1));
     return vec4<R>(in.position.x, in.position.y, R(0), R(1));
   }
-
   // Use select() to branch per pixel. The second member of the result is the mask of the fragments to keep; the others are discarded.
   template <class R>
   halfspace::DiscardingFragment<R> fragment(const Varyings<R>& in, const halfspace::Pixel<R>&) const {
-    const R distance = length(in.smooth) * R(rings);
-    const R ring = distance - floor(distance);
+    const R distance = length(in.smooth) * R(rings), ring = distance - floor(distance);
     const vec3<R> color = mix(vec3<R>(R(0.05f)), vec3<R>(tint), ring);
     return {vec4<R>(select(in.triangle.value > R(0.5f), color, color * R(0.5f)), R(1)), abs(in.window.value.x) < R(0.9f)};
   }

@@ -11,11 +11,8 @@
 
 using namespace halfspace;
 
-const std::vector<glm::vec2> kFullScreen{{-1, -1}, {3, -1}, {-1, 3}};  // one triangle that covers the window
-
 struct GlowShader {
-  const Texture2D* texture;  // null in the first pass, which draws a bright disk
-
+  const Texture2D* texture;  // null in the first pass, which draws a bright disk in the upper left
   template <class R>
   struct Attributes {
     vec2<R> position;
@@ -26,12 +23,12 @@ struct GlowShader {
   };
   template <class R>
   vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
-    out.uv = in.position * R(0.5f) + vec2<R>(R(0.5f));
+    out.uv = vec2<R>(in.position.x, -in.position.y) * R(0.5f) + vec2<R>(R(0.5f));  // t = 0 is the top row, and y points up
     return vec4<R>(in.position.x, in.position.y, R(0), R(1));
   }
   template <class R>
   Fragment<R> fragment(const Varyings<R>& in) const {
-    const R disk = select(length(in.uv - vec2<R>(R(0.5f))) < R(0.2f), R(1), R(0));
+    const R disk = select(length(in.uv - vec2<R>(R(0.35f), R(0.3f))) < R(0.2f), R(1), R(0));
     if (texture == nullptr) return {vec4<R>(R(4) * disk, R(2) * disk, disk, R(1))};
     vec4<R> glow(R(0));  // average four mip levels, a cheap blur
     for (int level = 1; level <= 4; ++level) glow += texture->sample_level<R>(Sampler{}, in.uv, R(static_cast<float>(level)));
@@ -39,24 +36,21 @@ struct GlowShader {
   }
 };
 
-struct ToneMap {
-  template <class R>
-  vec4<R> operator()(const vec4<R>& c) const {
-    return vec4<R>(tone_map(SceneLight<R>{vec3<R>(c.x, c.y, c.z)}, ToneMapping{.curve = ToneCurve::reinhard}).rgb, R(1));
-  }
-};
-
 int main(int argc, char** argv) try {
   const Workers workers(Workers::cores());
+  const std::vector<glm::vec2> full_screen{{-1, -1}, {3, -1}, {-1, 3}};  // one triangle that covers the window
   Image<glm::vec4> light(256, 256);
   Pass first(256, 256, rgba32f_target(light), {});
-  first.draw(GlowShader{nullptr}, make_vertex_view(stream(kFullScreen)));
+  first.draw(GlowShader{nullptr}, make_vertex_view(stream(full_screen)));
   first.run(workers);
   const Texture2D texture(light, TexelFormat::rgba16f);
   Image<glm::u8vec4> image(256, 256);
   Pass second(256, 256, {.format = ColorFormat::rgba16f, .store = StoreOp::dont_care}, {});
-  second.draw(GlowShader{&texture}, make_vertex_view(stream(kFullScreen)));
-  second.post(ToneMap{}, srgb8a8_target(image));  // runs for each finished pixel while its tile is in cache
+  second.draw(GlowShader{&texture}, make_vertex_view(stream(full_screen)));
+  const auto reinhard = []<class R>(const vec4<R>& c) {
+    return vec4<R>(tone_map(SceneLight<R>{vec3<R>(c.x, c.y, c.z)}, ToneMapping{.curve = ToneCurve::reinhard}).rgb, R(1));
+  };
+  second.post(reinhard, srgb8a8_target(image));  // runs for each finished pixel while its tile is in cache
   second.run(workers);
   write_image(argc > 1 ? argv[1] : "render_to_texture.png", image);
 } catch (const std::exception& error) {

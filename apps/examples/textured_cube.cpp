@@ -25,7 +25,6 @@ struct TexturedShader {
   struct Varyings {
     vec2<R> uv;
   };
-
   template <class R>
   vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
     out.uv = in.uv;
@@ -40,21 +39,18 @@ struct TexturedShader {
 
 int main(int argc, char** argv) try {
   Image<glm::u8vec4> checkers(64, 64);
-  for (int y = 0; y < 64; ++y)
-    for (int x = 0; x < 64; ++x)
-      checkers.at(x, y) = (x / 8 + y / 8) % 2 == 0 ? glm::u8vec4(230, 180, 60, 255) : glm::u8vec4(40, 60, 120, 255);
+  for (int i = 0; i < 64 * 64; ++i)
+    checkers.at(i % 64, i / 64) = (i % 64 / 8 + i / 512) % 2 == 0 ? glm::u8vec4(230, 180, 60, 255) : glm::u8vec4(40, 60, 120, 255);
   const Texture2D texture(checkers, TexelFormat::srgb8a8);
   const Mesh mesh = cube(1.0f);
   // Multiply matrices in double and round the product to float once. Reversed Z maps the near plane to depth 1 and the far plane to 0.
-  const glm::dmat4 clip_from_view = perspective_reversed(0.7, 640.0 / 480.0, 0.1, 100.0);
-  const glm::dmat4 view_from_world = look_at({1.4, 1.2, 1.9}, {0, 0, 0}, {0, 1, 0});
+  const glm::mat4 camera(perspective_reversed(0.7, 640.0 / 480.0, 0.1, 100.0) * look_at({1.4, 1.2, 1.9}, {0, 0, 0}, {0, 1, 0}));
 
   Image<glm::u8vec4> image(640, 480);
   Pass pass(640, 480, srgb8a8_target(image), {.format = DepthFormat::d32f, .clear_value = 0.0f});
   DrawState state = kReversedZState;
   state.cull = CullMode::back;
-  pass.draw(TexturedShader{glm::mat4(clip_from_view * view_from_world), &texture},
-            make_vertex_view(stream(mesh.positions), stream(mesh.uvs)), mesh.indices, state);
+  pass.draw(TexturedShader{camera, &texture}, make_vertex_view(stream(mesh.positions), stream(mesh.uvs)), mesh.indices, state);
   pass.run(Workers(Workers::cores()));
   write_image(argc > 1 ? argv[1] : "textured_cube.png", image);
 } catch (const std::exception& error) {

@@ -13,6 +13,7 @@
 #include "halfspace/core/image.h"
 #include "halfspace/core/srgb.h"
 #include "halfspace/image/image_io.h"
+#include "support/files.h"
 #include "support/program.h"
 #include "support/temporary_folder.h"
 
@@ -75,10 +76,11 @@ TEST(Examples, OwnShaderDiscardsAndUsesFlatVaryings) {
 
 TEST(Examples, RenderToTextureReadsAllLevels) {
   const Picture p = run_example("render_to_texture");
-  // At the center all four levels contain (4, 2, 1), which the Reinhard operator maps to 4/5, 2/3 and 1/2. Far from the disk they contain
-  // 0.
-  EXPECT_EQ(p.at(128, 128), glm::u8vec4(srgb(0.8f), srgb(2.0f / 3.0f), srgb(0.5f), 255));
-  EXPECT_EQ(p.at(2, 2), glm::u8vec4(0, 0, 0, 255));
+  // At the center of the disk, all four levels contain (4, 2, 1), which the Reinhard operator maps to 4/5, 2/3 and 1/2. Far from the disk
+  // they contain 0. The disk is in the upper left, 0.35 from the left edge and 0.3 from the top, so that a flip would move it.
+  EXPECT_EQ(p.at(90, 77), glm::u8vec4(srgb(0.8f), srgb(2.0f / 3.0f), srgb(0.5f), 255));
+  for (const auto& [x, y] : {std::pair(90, 255 - 77), {255 - 90, 77}, {255 - 90, 255 - 77}, {2, 2}})
+    EXPECT_EQ(p.at(x, y), glm::u8vec4(0, 0, 0, 255)) << x << ' ' << y;
 }
 
 TEST(Examples, ShadowMapDarkensTheGround) {
@@ -118,6 +120,17 @@ TEST(Examples, ReadDepthShowsDistances) {
   EXPECT_EQ(p.at(128, 128).x, 255);  // the front of the sphere, 3 units away
   // At the silhouette the distance is between 3.5 and 4 units, slightly less than at the center of the sphere.
   EXPECT_NEAR(p.at(128, 66).x, 255.0 * (4.0 - 3.33), 40.0);
+}
+
+// README.md and docs/reference/api.md promise this.
+TEST(Examples, HaveFewerThan60LinesEach) {
+  int examples = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(HALFSPACE_EXAMPLES_SOURCE_DIR)) {
+    const std::string source = read_bytes(entry.path());
+    EXPECT_LT(std::ranges::count(source, '\n'), 60) << entry.path();
+    ++examples;
+  }
+  EXPECT_EQ(examples, 8);  // README.md: triangle and seven more
 }
 
 TEST(Examples, ReportAnOutputFileThatCannotBeWritten) {
