@@ -95,7 +95,7 @@ void apply_movement(CameraDescription& camera, Action movement, double seconds) 
 
 void widen_depth_range(CameraDescription& camera) {
   const double distance = glm::distance(camera.position, camera.target);
-  camera.near = std::min(camera.near, 1e-3 * distance);
+  camera.near = 0.0;
   camera.far = std::max(camera.far, 30.0 * distance);
 }
 

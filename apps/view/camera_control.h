@@ -26,7 +26,7 @@ void zoom_camera(CameraDescription& camera, double factor);
 /// Applies a movement for some time in seconds.
 void apply_movement(CameraDescription& camera, Action movement, double seconds);
 
-/// Moves the near and far planes apart, so that objects that were visible before a camera movement are not clipped after it.
+/// Moves the near plane to the eye and the far plane away, so that a camera movement clips nothing.
 void widen_depth_range(CameraDescription& camera);
 
 }  // namespace halfspace

@@ -42,9 +42,11 @@ class ArrayPass {
       : width_(width), height_(height), samples_(samples), color_(std::move(color)), depth_(std::move(depth)) {
     color_target_.format = color_format;
     color_target_.data = data_of(color_);
+    color_target_.width = width, color_target_.height = height;
     color_target_.store = color_.is_none() ? StoreOp::dont_care : StoreOp::store;
     depth_target_.format = depth_format;
     depth_target_.data = data_of(depth_);
+    depth_target_.width = width, depth_target_.height = height;
     depth_target_.store = depth_.is_none() ? StoreOp::dont_care : StoreOp::store;
   }
 

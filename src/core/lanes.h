@@ -181,6 +181,8 @@ inline constexpr bool kIsLanes<RealN<W>> = true;
 /// float, double or lanes of float: the types that can be the parameter R of a shader.
 template <class R>
 concept Number = std::is_same_v<R, float> || std::is_same_v<R, double> || kIsLanes<R>;
+template <class R>
+concept Scalar = Number<R> && !kIsLanes<R>;
 
 // The SIMD width of this build. CMake sets HALFSPACE_LANES to 1, 4, 8 or 16.
 inline constexpr int kLanes = HALFSPACE_LANES;
@@ -445,8 +447,17 @@ HS_INLINE IntN<W> round_to_int(RealN<W> r) {
 
 // ---- correctly rounded functions -------------------------------------------------------------------------------
 
-HS_INLINE float fma(float a, float b, float c) { return __builtin_fmaf(a, b, c); }
-HS_INLINE double fma(double a, double b, double c) { return __builtin_fma(a, b, c); }
+// The scalar overloads of functions that C also declares are templates. After `using namespace halfspace`, an unqualified call then prefers
+// the function of C, which returns the same bits, instead of being ambiguous.
+
+template <Scalar R>
+HS_INLINE R fma(R a, std::type_identity_t<R> b, std::type_identity_t<R> c) {
+  if constexpr (std::is_same_v<R, float>) {
+    return __builtin_fmaf(a, b, c);
+  } else {
+    return __builtin_fma(a, b, c);
+  }
+}
 /// Returns a·b + c, rounded once.
 template <int W>
 HS_INLINE RealN<W> fma(RealN<W> a, std::type_identity_t<RealN<W>> b, std::type_identity_t<RealN<W>> c) {
@@ -463,8 +474,14 @@ HS_INLINE RealN<W> fma(RealN<W> a, std::type_identity_t<RealN<W>> b, std::type_i
   return r;
 }
 
-HS_INLINE float sqrt(float a) { return __builtin_sqrtf(a); }
-HS_INLINE double sqrt(double a) { return __builtin_sqrt(a); }
+template <Scalar R>
+HS_INLINE R sqrt(R a) {
+  if constexpr (std::is_same_v<R, float>) {
+    return __builtin_sqrtf(a);
+  } else {
+    return __builtin_sqrt(a);
+  }
+}
 template <int W>
 HS_INLINE RealN<W> sqrt(RealN<W> a) {
   using V [[maybe_unused]] = typename RealN<W>::V;
@@ -480,8 +497,14 @@ HS_INLINE RealN<W> sqrt(RealN<W> a) {
   return r;
 }
 
-HS_INLINE float floor(float a) { return __builtin_floorf(a); }
-HS_INLINE double floor(double a) { return __builtin_floor(a); }
+template <Scalar R>
+HS_INLINE R floor(R a) {
+  if constexpr (std::is_same_v<R, float>) {
+    return __builtin_floorf(a);
+  } else {
+    return __builtin_floor(a);
+  }
+}
 template <int W>
 HS_INLINE RealN<W> floor(RealN<W> a) {
   using V [[maybe_unused]] = typename RealN<W>::V;
@@ -518,15 +541,22 @@ HS_INLINE RealN<W> round_even(RealN<W> a) {
   return r;
 }
 
-HS_INLINE float abs(float a) { return __builtin_fabsf(a); }
-HS_INLINE double abs(double a) { return __builtin_fabs(a); }
+template <Scalar R>
+HS_INLINE R abs(R a) {
+  if constexpr (std::is_same_v<R, float>) {
+    return __builtin_fabsf(a);
+  } else {
+    return __builtin_fabs(a);
+  }
+}
 template <int W>
 HS_INLINE RealN<W> abs(RealN<W> a) {
   return as_real(as_int(a) & 0x7fffffff);
 }
 
 // min and max return the second argument if either is NaN, like the SSE instructions, at every width. (They use intrinsics
-// because compilers turn a > b ? a : b into a comparison and a blend.)
+// because compilers turn a > b ? a : b into a comparison and a blend.) Both arguments take part in the deduction of W, so that the
+// overloads are more specialized than std::min and std::max.
 HS_INLINE float min(float a, float b) { return a < b ? a : b; }
 HS_INLINE float max(float a, float b) { return a > b ? a : b; }
 HS_INLINE double min(double a, double b) { return a < b ? a : b; }
@@ -534,7 +564,7 @@ HS_INLINE double max(double a, double b) { return a > b ? a : b; }
 HS_INLINE int32_t min(int32_t a, int32_t b) { return a < b ? a : b; }
 HS_INLINE int32_t max(int32_t a, int32_t b) { return a > b ? a : b; }
 template <int W>
-HS_INLINE RealN<W> min(RealN<W> a, std::type_identity_t<RealN<W>> b) {
+HS_INLINE RealN<W> min(RealN<W> a, RealN<W> b) {
   using V [[maybe_unused]] = typename RealN<W>::V;
 #ifdef __AVX512F__
   if constexpr (W == 16) return RealN<W>((V)_mm512_maskz_min_ps(detail::kAll16, (__m512)a.v, (__m512)b.v));
@@ -546,7 +576,7 @@ HS_INLINE RealN<W> min(RealN<W> a, std::type_identity_t<RealN<W>> b) {
   return RealN<W>(a.v < b.v ? a.v : b.v);
 }
 template <int W>
-HS_INLINE RealN<W> max(RealN<W> a, std::type_identity_t<RealN<W>> b) {
+HS_INLINE RealN<W> max(RealN<W> a, RealN<W> b) {
   using V [[maybe_unused]] = typename RealN<W>::V;
 #ifdef __AVX512F__
   if constexpr (W == 16) return RealN<W>((V)_mm512_maskz_max_ps(detail::kAll16, (__m512)a.v, (__m512)b.v));
@@ -562,21 +592,41 @@ HS_INLINE RealN<W> min(float a, RealN<W> b) {
   return min(RealN<W>(a), b);
 }
 template <int W>
+HS_INLINE RealN<W> min(RealN<W> a, float b) {
+  return min(a, RealN<W>(b));
+}
+template <int W>
 HS_INLINE RealN<W> max(float a, RealN<W> b) {
   return max(RealN<W>(a), b);
 }
 template <int W>
-HS_INLINE IntN<W> min(IntN<W> a, std::type_identity_t<IntN<W>> b) {
+HS_INLINE RealN<W> max(RealN<W> a, float b) {
+  return max(a, RealN<W>(b));
+}
+template <int W>
+HS_INLINE IntN<W> min(IntN<W> a, IntN<W> b) {
   return IntN<W>(a.v < b.v ? a.v : b.v);
 }
 template <int W>
-HS_INLINE IntN<W> max(IntN<W> a, std::type_identity_t<IntN<W>> b) {
+HS_INLINE IntN<W> min(IntN<W> a, int32_t b) {
+  return min(a, IntN<W>(b));
+}
+template <int W>
+HS_INLINE IntN<W> max(IntN<W> a, IntN<W> b) {
   return IntN<W>(a.v > b.v ? a.v : b.v);
+}
+template <int W>
+HS_INLINE IntN<W> max(IntN<W> a, int32_t b) {
+  return max(a, IntN<W>(b));
 }
 
 /// Clamps x to [lo, hi]. NaN gives lo.
 template <Number R>
 HS_INLINE R clamp(R x, std::type_identity_t<R> lo, std::type_identity_t<R> hi) {
+  return min(max(x, lo), hi);
+}
+template <int W>
+HS_INLINE RealN<W> clamp(RealN<W> x, RealN<W> lo, RealN<W> hi) {
   return min(max(x, lo), hi);
 }
 

@@ -120,6 +120,9 @@ struct ColorMask {
 /// Maximum number of color attachments of a pass, and of attachments that can have a state of their own.
 inline constexpr int kMaxColorTargets = 12;
 inline constexpr int kMaxAttachmentStates = 4;
+/// Number of occlusion queries of a pass, and the largest width of a line in pixels.
+inline constexpr uint32_t kMaxQueries = 1 << 16;
+inline constexpr float kMaxLineWidth = 4096.0f;
 
 /// Blending and color mask of one color attachment.
 struct AttachmentState {
@@ -149,9 +152,9 @@ struct DrawState {
   Topology topology = Topology::triangles;
   int32_t base_vertex = 0;  ///< added to every index
   uint32_t instances = 1;   ///< number of instances; see VertexId and per_instance()
-  float point_size = 1.0f;  ///< side length of a point in pixels, unless the vertex function sets it
+  float point_size = 1.0f;  ///< side length of a point in pixels, at least 0, unless the vertex function sets it
   PointOrigin point_origin = PointOrigin::upper_left;
-  float line_width = 1.0f;  ///< in pixels, at most 4096; rounded to an integer if there is one sample per pixel
+  float line_width = 1.0f;  ///< in pixels, 0 to kMaxLineWidth; rounded to an integer if there is one sample per pixel
   PolygonMode polygon_mode = PolygonMode::fill;
   std::optional<Rect> viewport{};  ///< default: the whole target
   std::optional<Rect> scissor{};   ///< default: no scissor test
@@ -176,7 +179,7 @@ struct DrawState {
   std::optional<BlendState> blend{};  ///< default: no blending, the color is replaced
   ColorMask color_mask{};
   std::array<std::optional<AttachmentState>, kMaxAttachmentStates> attachments{};  ///< override blend and color_mask
-  std::optional<uint32_t> query{};  ///< occlusion query: passing samples are added to PassStatistics::queries[query]
+  std::optional<uint32_t> query{};  ///< occlusion query: passing samples are added to PassStatistics::queries[query]; below kMaxQueries
 };
 
 /// Common blend states, for DrawState::blend.

@@ -178,6 +178,10 @@ void draw_naive(NaiveTarget<R>& target, const S& shader, const VertexView& verti
   const FloatMode float_mode;
   static_assert(!kUsesPrimitiveId<S>, "draw_naive() does not support primitive ids");
   using V = typename S::template Varyings<R>;
+  HS_CHECK_OP(indices.end_vertex(), <=, vertices.vertex_count);
+  HS_CHECK_OP(static_cast<std::size_t>(vertices.components), ==, (kComponents<typename S::template Attributes<R>>));
+  HS_CHECK_OP(target.depth.width(), ==, target.color.width());
+  HS_CHECK_OP(target.depth.height(), ==, target.color.height());
   const Rect rect = state.viewport.value_or(Rect{0, 0, target.color.width(), target.color.height()});
   const Viewport viewport = make_viewport(rect, state.depth);
   Rect bounds = intersect({0, 0, target.color.width(), target.color.height()}, rect);

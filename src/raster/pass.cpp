@@ -2,9 +2,11 @@
 #include "halfspace/raster/pass.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "halfspace/core/float_mode.h"
+#include "halfspace/core/lane_math.h"
 #include "halfspace/raster/loop/tile_worker.h"
 #include "halfspace/raster/pipeline/pass_memory.h"
 #include "halfspace/raster/primitives/bin.h"
@@ -59,6 +61,30 @@ void check_rect(const Rect& r, int smallest) {
   HS_CHECK_OP(r.width, <=, kMaxTargetSize);
   HS_CHECK_OP(r.height, <=, kMaxTargetSize);
   HS_CHECK(r.x >= -kMaxTargetSize && r.x <= kMaxTargetSize && r.y >= -kMaxTargetSize && r.y <= kMaxTargetSize);
+}
+
+// Checks that the image of a target has the size of the pass, width x height pixels, or is not needed.
+template <class Target>
+void check_target(const Target& target, int width, int height) {
+  HS_CHECK(target.data != nullptr || (target.load != LoadOp::load && target.store == StoreOp::dont_care),
+           "target: it has no image, but is loaded or stored; expected an image, or clear and dont_care");
+  if (target.data == nullptr) return;
+  HS_CHECK_OP(target.width, ==, width, "target: its image has another width than the pass; expected an image of the size of the pass");
+  HS_CHECK_OP(target.height, ==, height, "target: its image has another height than the pass; expected an image of the size of the pass");
+}
+
+// Comparisons are written so that NaN fails.
+void check_numbers(const DrawState& state) {
+  HS_CHECK_OP(state.line_width, >=, 0.0f, "line_width: is negative or NaN; expected 0 to 4096");
+  HS_CHECK_OP(state.line_width, <=, kMaxLineWidth, "line_width: is too large; expected 0 to 4096");
+  HS_CHECK_OP(state.point_size, >=, 0.0f, "point_size: is negative or NaN; expected at least 0");
+  HS_CHECK_OP(std::fabs(state.offset.slope), <, detail::kInfinity, "offset.slope: is not finite; expected a finite number");
+  HS_CHECK_OP(std::fabs(state.offset.constant), <, detail::kInfinity, "offset.constant: is not finite; expected a finite number");
+  HS_CHECK(state.offset.clamp == state.offset.clamp, "offset.clamp: is NaN; expected a number");
+  HS_CHECK(state.depth.range_near >= 0 && state.depth.range_near <= 1 && state.depth.range_far >= 0 && state.depth.range_far <= 1);
+  if (state.query) HS_CHECK_OP(*state.query, <, kMaxQueries, "query: is too large; expected less than 65536");
+  if (state.viewport) check_rect(*state.viewport, 1);
+  if (state.scissor) check_rect(*state.scissor, 0);
 }
 
 }  // namespace
@@ -130,10 +156,11 @@ PassState::PassState(int width, int height, std::span<const ColorTarget> colors,
   HS_CHECK(options.samples == 1 || options.samples == 2 || options.samples == 4 || options.samples == 8);
   HS_CHECK_OP(colors.size(), <=, std::size_t{kMaxColorTargets});
   for (const ColorTarget& c : colors) {
-    HS_CHECK(c.data != nullptr || c.format == ColorFormat::none || (c.load != LoadOp::load && c.store == StoreOp::dont_care));
-    attachments_.has_color |= c.format != ColorFormat::none;
+    if (c.format == ColorFormat::none) continue;
+    check_target(c, width, height);
+    attachments_.has_color = true;
   }
-  HS_CHECK(depth.data != nullptr || depth.format == DepthFormat::none || (depth.load != LoadOp::load && depth.store == StoreOp::dont_care));
+  if (depth.format != DepthFormat::none) check_target(depth, width, height);
   context_.memory = std::make_unique<std::pmr::monotonic_buffer_resource>();
   context_.width = width;
   context_.height = height;
@@ -158,9 +185,7 @@ void PassState::add_draw(const ShaderKernels& kernels, KeptShader shader, const 
   HS_CHECK_OP(int64_t{indices->first_vertex()} + state.base_vertex, >=, 0);
   HS_CHECK_OP(int64_t{indices->end_vertex()} + state.base_vertex, <=, static_cast<int64_t>(vertices.vertex_count));
   HS_CHECK_OP(std::size_t{state.instances}, <=, vertices.instance_count);
-  HS_CHECK(state.depth.range_near >= 0 && state.depth.range_near <= 1 && state.depth.range_far >= 0 && state.depth.range_far <= 1);
-  if (state.viewport) check_rect(*state.viewport, 1);
-  if (state.scissor) check_rect(*state.scissor, 0);
+  check_numbers(state);
   if (state.order_independent) {
     HS_CHECK(attachments_.colors.size() == 1 && attachments_.has_color && attachments_.colors[0].format != ColorFormat::r32ui);
     HS_CHECK(!state.depth.write && !blend_of(state, 0) && color_mask_of(state, 0).all());
@@ -371,6 +396,8 @@ PassStatistics PassState::run(TileRunner& tiles, const Workers& workers) {
 
 void PassState::set_post_step(PostStep post) {
   HS_CHECK(!attachments_.colors.empty() && attachments_.colors[0].format != ColorFormat::none);
+  HS_CHECK(post.target.format != ColorFormat::none);
+  check_target(post.target, context_.width, context_.height);
   attachments_.post = std::move(post);
 }
 

@@ -49,7 +49,8 @@ struct PassOptions {
 /// used by one thread at a time.
 class Pass {
  public:
-  /// Creates a pass for images of width x height pixels, each 1 to 16384. The images of all targets must outlive the pass.
+  /// Creates a pass for images of width x height pixels, each 1 to 16384. The images of all targets must have this size, which is checked,
+  /// and must outlive the pass.
   Pass(int width, int height, const ColorTarget& color, const DepthTarget& depth, const PassOptions& options = {})
       : Pass(std::span(&color, 1), width, height, depth, options) {}
   /// Creates a pass with up to kMaxColorTargets color attachments. Fragment output n is written to attachment n; attachments without an
@@ -103,7 +104,8 @@ class Pass {
   /// Passes the final color of each pixel in the first attachment through a functor and stores the result in another target of the same
   /// size. This happens while the tile is in cache and is intended for tone mapping and encoding. The functor is copied. It must have
   /// `template <class R> vec4<R> operator()(vec4<R> color) const`, or the same with window coordinates: `operator()(vec4<R> color,
-  /// IntOf<R> x, IntOf<R> y)`. The format of the first color attachment must not be none.
+  /// IntOf<R> x, IntOf<R> y)`. The format of the first color attachment must not be none. The target must have an image of the size of the
+  /// pass, which is checked.
   template <class F>
   void post(const F& function, const ColorTarget& target) {
     detail::set_post_step(*state_, {std::make_shared<const F>(function), detail::post_kernel<F>, target});

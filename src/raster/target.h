@@ -69,68 +69,66 @@ enum class LoadOp : uint8_t { clear, load, dont_care };
 enum class StoreOp : uint8_t { store, dont_care };
 
 /// Color attachment. data can be null if the pass does not load the image and StoreOp is dont_care. The color is then only an intermediate
-/// result.
+/// result, and its size does not matter. Otherwise, the size must be that of the pass, which an HS_CHECK verifies.
 struct ColorTarget {
   ColorFormat format = ColorFormat::none;
   std::byte* data = nullptr;  ///< not owned; width × height pixels, tightly packed, top row first
+  int width = 0, height = 0;  ///< of the image, in pixels
   LoadOp load = LoadOp::clear;
   StoreOp store = StoreOp::store;
   glm::vec4 clear_value = glm::vec4(0.0f);  ///< linear, straight alpha; for r32ui, see r32ui_target()
 };
 
 /// Depth attachment with values in [0, 1]. Pixels are uint16_t for d16, uint32_t for d24 (0 to 2^24 − 1), float for d32f, uint32_t for
-/// d24s8 (depth · 2^8 + stencil) and DepthStencil for d32fs8. data is the same as in ColorTarget.
+/// d24s8 (depth · 2^8 + stencil) and DepthStencil for d32fs8. data and the size are the same as in ColorTarget.
 struct DepthTarget {
   DepthFormat format = DepthFormat::none;
   std::byte* data = nullptr;
+  int width = 0, height = 0;
   LoadOp load = LoadOp::clear;
   StoreOp store = StoreOp::dont_care;
   float clear_value = 1.0f;
   uint8_t stencil_clear_value = 0;
 };
 
-// Each of these functions returns a target that refers to the image. The image must outlive the pass.
-inline ColorTarget rgba8_target(Image<glm::u8vec4>& image) {
-  return {.format = ColorFormat::rgba8, .data = reinterpret_cast<std::byte*>(image.data())};
+namespace detail {
+
+template <class Target, class Format, class Pixel>
+Target target_of(Format format, Image<Pixel>& image) {
+  Target target;
+  target.format = format;
+  target.data = reinterpret_cast<std::byte*>(image.data());
+  target.width = image.width();
+  target.height = image.height();
+  target.store = StoreOp::store;
+  return target;
 }
-inline ColorTarget srgb8a8_target(Image<glm::u8vec4>& image) {
-  return {.format = ColorFormat::srgb8a8, .data = reinterpret_cast<std::byte*>(image.data())};
-}
-inline ColorTarget rgba16f_target(Image<U16Vec4>& image) {
-  return {.format = ColorFormat::rgba16f, .data = reinterpret_cast<std::byte*>(image.data())};
-}
-inline ColorTarget rgba32f_target(Image<glm::vec4>& image) {
-  return {.format = ColorFormat::rgba32f, .data = reinterpret_cast<std::byte*>(image.data())};
-}
+
+}  // namespace detail
+
+// Each of these functions returns a target that refers to the image and has its size. The image must outlive the pass, and its size must
+// not change.
+inline ColorTarget rgba8_target(Image<glm::u8vec4>& image) { return detail::target_of<ColorTarget>(ColorFormat::rgba8, image); }
+inline ColorTarget srgb8a8_target(Image<glm::u8vec4>& image) { return detail::target_of<ColorTarget>(ColorFormat::srgb8a8, image); }
+inline ColorTarget rgba16f_target(Image<U16Vec4>& image) { return detail::target_of<ColorTarget>(ColorFormat::rgba16f, image); }
+inline ColorTarget rgba32f_target(Image<glm::vec4>& image) { return detail::target_of<ColorTarget>(ColorFormat::rgba32f, image); }
 inline ColorTarget r32f_target(Image<float>& image, float clear_value = 0.0f) {
-  return {.format = ColorFormat::r32f, .data = reinterpret_cast<std::byte*>(image.data()), .clear_value = glm::vec4(clear_value)};
+  ColorTarget target = detail::target_of<ColorTarget>(ColorFormat::r32f, image);
+  target.clear_value = glm::vec4(clear_value);
+  return target;
 }
-inline ColorTarget rg32f_target(Image<glm::vec2>& image) {
-  return {.format = ColorFormat::rg32f, .data = reinterpret_cast<std::byte*>(image.data())};
-}
-inline ColorTarget rgb32f_target(Image<glm::vec3>& image) {
-  return {.format = ColorFormat::rgb32f, .data = reinterpret_cast<std::byte*>(image.data())};
-}
+inline ColorTarget rg32f_target(Image<glm::vec2>& image) { return detail::target_of<ColorTarget>(ColorFormat::rg32f, image); }
+inline ColorTarget rgb32f_target(Image<glm::vec3>& image) { return detail::target_of<ColorTarget>(ColorFormat::rgb32f, image); }
 inline ColorTarget r32ui_target(Image<uint32_t>& image, uint32_t clear_value = 0) {
-  return {.format = ColorFormat::r32ui,
-          .data = reinterpret_cast<std::byte*>(image.data()),
-          .clear_value = glm::vec4(std::bit_cast<float>(clear_value))};
+  ColorTarget target = detail::target_of<ColorTarget>(ColorFormat::r32ui, image);
+  target.clear_value = glm::vec4(std::bit_cast<float>(clear_value));
+  return target;
 }
-inline DepthTarget d16_target(Image<uint16_t>& image) {
-  return {.format = DepthFormat::d16, .data = reinterpret_cast<std::byte*>(image.data()), .store = StoreOp::store};
-}
-inline DepthTarget d24_target(Image<uint32_t>& image) {
-  return {.format = DepthFormat::d24, .data = reinterpret_cast<std::byte*>(image.data()), .store = StoreOp::store};
-}
-inline DepthTarget d24s8_target(Image<uint32_t>& image) {
-  return {.format = DepthFormat::d24s8, .data = reinterpret_cast<std::byte*>(image.data()), .store = StoreOp::store};
-}
-inline DepthTarget d32fs8_target(Image<DepthStencil>& image) {
-  return {.format = DepthFormat::d32fs8, .data = reinterpret_cast<std::byte*>(image.data()), .store = StoreOp::store};
-}
-inline DepthTarget d32f_target(Image<float>& image) {
-  return {.format = DepthFormat::d32f, .data = reinterpret_cast<std::byte*>(image.data()), .store = StoreOp::store};
-}
+inline DepthTarget d16_target(Image<uint16_t>& image) { return detail::target_of<DepthTarget>(DepthFormat::d16, image); }
+inline DepthTarget d24_target(Image<uint32_t>& image) { return detail::target_of<DepthTarget>(DepthFormat::d24, image); }
+inline DepthTarget d24s8_target(Image<uint32_t>& image) { return detail::target_of<DepthTarget>(DepthFormat::d24s8, image); }
+inline DepthTarget d32fs8_target(Image<DepthStencil>& image) { return detail::target_of<DepthTarget>(DepthFormat::d32fs8, image); }
+inline DepthTarget d32f_target(Image<float>& image) { return detail::target_of<DepthTarget>(DepthFormat::d32f, image); }
 /// The same with a clear depth other than 1, such as 0 for reversed Z.
 inline DepthTarget d32f_target(Image<float>& image, float clear_value) {
   DepthTarget target = d32f_target(image);

@@ -18,7 +18,11 @@ VertexView bind_streams(std::span<const VertexStream> streams, std::size_t verte
   VertexView v{.streams = {}, .stream_count = static_cast<int>(streams.size()), .vertex_count = vertex_count};
   std::ranges::copy(streams, v.streams.begin());
   for (const VertexStream& s : streams) {
-    HS_CHECK_OP(s.count * static_cast<std::size_t>(s.stride), <, std::size_t{1} << 31);  // gather uses 32-bit indices
+    HS_CHECK_OP(s.stride, >=, 0);
+    HS_CHECK_OP(s.components, >=, 0);
+    HS_CHECK(s.data != nullptr || s.count == 0 || s.components == 0);
+    // gather uses 32-bit indices. The division avoids an overflow of the product.
+    HS_CHECK_OP(s.count, <=, ((std::size_t{1} << 31) - 1) / std::max<std::size_t>(static_cast<std::size_t>(s.stride), 1));
     v.components += s.components;
     if (s.divisor != 0) {
       v.has_instance_streams = true;

@@ -31,10 +31,45 @@ struct StreamOf : VertexStream {
   using Element = T;
 };
 
-/// Creates a stream of tightly packed float, glm::vec2/3/4, or structs of floats such as Attributes<float>.
+namespace detail {
+
+template <class T>
+consteval bool consists_of_floats();
+
+// Converts to any type that consists of floats.
+struct FloatField {
+  template <class T>
+  requires(consists_of_floats<T>()) operator T() const;
+};
+
+template <class T, std::size_t... I>
+constexpr bool has_float_fields(std::index_sequence<I...>) {
+  return requires { T{((void)I, FloatField{})...}; };
+}
+
+/// Returns true if all numbers in an object of type T are floats. T may be float, an array, a class with a value_type such as a vector or a
+/// matrix, or an aggregate of these. Elements of arrays in an aggregate count as members of it.
+template <class T>
+consteval bool consists_of_floats() {
+  if constexpr (std::is_array_v<T>) {
+    return consists_of_floats<std::remove_all_extents_t<T>>();
+  } else if constexpr (requires { typename T::value_type; }) {
+    return consists_of_floats<typename T::value_type>();
+  } else if constexpr (std::is_class_v<T> && std::is_aggregate_v<T>) {
+    return has_float_fields<T>(std::make_index_sequence<count_fields<T, sizeof(T) / sizeof(float)>()>{});
+  } else {
+    return std::is_same_v<T, float>;
+  }
+}
+
+}  // namespace detail
+
+/// Creates a stream of tightly packed float, glm::vec2/3/4, or structs of floats such as Attributes<float>. Elements with other numbers,
+/// such as uint32_t, glm::ivec4 or a struct with a packed color, do not compile; of such a struct, a member can be a stream (see below).
 template <class T>
 StreamOf<T> stream(std::span<const T> values) {
   static_assert(std::is_trivially_copyable_v<T> && sizeof(T) % sizeof(float) == 0 && alignof(T) == alignof(float));
+  static_assert(detail::consists_of_floats<T>(), "vertex attributes must consist of floats");
   constexpr auto n = static_cast<int32_t>(sizeof(T) / sizeof(float));
   return {{reinterpret_cast<const float*>(values.data()), n, n, values.size()}};
 }
@@ -47,9 +82,7 @@ StreamOf<T> stream(const std::vector<T>& values) {
 template <class V, class F>
 StreamOf<F> stream(std::span<const V> vertices, F V::*member) {
   static_assert(std::is_trivially_copyable_v<V> && sizeof(V) % sizeof(float) == 0 && sizeof(F) % sizeof(float) == 0);
-  static_assert(
-      std::is_same_v<F, float> || requires { requires std::is_same_v<typename F::value_type, float>; },
-      "vertex attributes must consist of floats");
+  static_assert(detail::consists_of_floats<F>(), "vertex attributes must consist of floats");
   StreamOf<F> s{{nullptr, sizeof(V) / sizeof(float), sizeof(F) / sizeof(float), vertices.size()}};
   if (!vertices.empty()) s.data = reinterpret_cast<const float*>(&(vertices.front().*member));
   return s;

@@ -74,6 +74,16 @@ void check_distance(double far, const ModelBounds& b, const Frame& frame) {
       fmt::format("--eye: is too far from the model; expected a distance of at most {:.3g}", kMaxCount / frame.scale - 20.0 * b.radius));
 }
 
+// Returns the distance of the near plane in the units of the scene, or 0 if it must not cut off anything (near_plane() in view.h). A camera
+// that is outside of the bounding sphere and looks at the model needs no such plane.
+double near_of(const ModelView& view, double distance, double radius) {
+  if (view.eye || view.look_at || view.inside) return 0.0;
+  const double in_front = 0.5 * (distance - 1.5 * radius), close = 1e-3 * radius;
+  // A camera that is not moved by a zoom or a turntable keeps more than this distance from all vertices (see fitted_view).
+  if (in_front < close && (view.zoom > 1.0 || view.turn_seconds > 0.0)) return 0.0;
+  return std::max(close, in_front);
+}
+
 OrderedJson fitted_camera(const ModelPoses& poses, const ModelBounds& b, const Frame& frame, const ModelView& view) {
   glm::dvec3 target = view.look_at.value_or(b.center), eye = target;
   if (view.eye) {
@@ -96,7 +106,7 @@ OrderedJson fitted_camera(const ModelPoses& poses, const ModelBounds& b, const F
           {"target", json_of(frame.point(target))},
           {"up", json_of(view.up)},
           {"fov", view.fov},
-          {"near", std::max(1e-3 * radius, 0.5 * (distance - 1.5 * radius))},
+          {"near", near_of(view, distance, radius)},
           {"far", far}};
 }
 

@@ -27,6 +27,13 @@ struct View {
 /// if clip_from_camera is not a perspective or orthographic projection.
 CameraDescription matrix_camera(const CameraMatrices& matrices);
 
+/// Returns the distance of the near plane. If CameraDescription::near is 0, it is so near that it cuts off nothing that is in front of the
+/// eye: far · 2^-40 for a perspective camera (a nanometer if far is a kilometer), and 0 for an orthographic one.
+///
+/// A perspective camera can afford this because depth is a float with reversed Z: near / distance. Its relative precision is the same at
+/// every distance and for every near plane. tests/render/near_plane_test.cpp measures this.
+double near_plane(const CameraDescription& camera);
+
 /// Returns the view of a camera for an image of width x height pixels, with reversed Z.
 View make_view(const CameraDescription& camera, int width, int height);
 

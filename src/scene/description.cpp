@@ -108,7 +108,8 @@ Section section_of(CameraDescription& c) {
       key<&T::up>("up", "Direction that points up in the image"),
       key<&T::fov>("fov", "Vertical field of view", {.unit = "degrees", .low = 0.01, .high = 179, .only = "perspective"}),
       key<&T::height>("height", "Height of the view volume", {.unit = "units", .low = kTiny, .high = kMaxCount, .only = "orthographic"}),
-      key<&T::near>("near", "Distance of the near plane", {.unit = "units", .low = kTiny, .high = kMaxCount}),
+      key<&T::near>("near", "Distance of the near plane; 0: so near that it cuts off nothing",
+                    {.unit = "units", .low = 0, .high = kMaxCount}),
       key<&T::far>("far", "Distance to the far plane", {.unit = "units", .low = kTiny, .high = kMaxCount}),
   };
   return {{keys, &c}};

@@ -162,6 +162,7 @@ PassResult run_pass(const Scene& scene, const PassOptions& options, int threads)
     p.color = scene.color_before;
     p.color.resize(pixels_of(scene) * static_cast<std::size_t>(bytes_per_pixel(color.format)));
     color.data = p.color.data();
+    color.width = scene.width, color.height = scene.height;
   } else {
     color.store = StoreOp::dont_care;
   }
@@ -169,6 +170,7 @@ PassResult run_pass(const Scene& scene, const PassOptions& options, int threads)
     p.depth = scene.depth_before;
     p.depth.resize(pixels_of(scene) * static_cast<std::size_t>(bytes_per_pixel(depth.format)));
     depth.data = p.depth.data();
+    depth.width = scene.width, depth.height = scene.height;
     depth.store = StoreOp::store;
   }
   std::vector<ColorTarget> colors{color};
@@ -178,6 +180,7 @@ PassResult run_pass(const Scene& scene, const PassOptions& options, int threads)
     colors.push_back(scene.more_colors[i]);
     p.more[i].resize(pixels_of(scene) * static_cast<std::size_t>(bytes_per_pixel(colors.back().format)));
     colors.back().data = p.more[i].data();
+    colors.back().width = scene.width, colors.back().height = scene.height;
   }
   PassOptions all_options = options;
   all_options.samples = scene.samples;
@@ -185,7 +188,7 @@ PassResult run_pass(const Scene& scene, const PassOptions& options, int threads)
   Pass pass(scene.width, scene.height, colors, depth, all_options);
   if (scene.post_format != ColorFormat::none) {
     p.post.resize(pixels_of(scene) * static_cast<std::size_t>(bytes_per_pixel(scene.post_format)));
-    pass.post(Curve{}, {.format = scene.post_format, .data = p.post.data()});
+    pass.post(Curve{}, {.format = scene.post_format, .data = p.post.data(), .width = scene.width, .height = scene.height});
   }
   for (const SceneDraw& d : scene.draws) d.submit(pass);
   r.statistics = pass.run(Workers(threads));

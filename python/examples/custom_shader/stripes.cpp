@@ -52,9 +52,11 @@ void draw(const Array<float>& positions, Array<uint8_t> image, float count) {
       image.shape(2) != 4 || image.size() == 0)
     throw std::invalid_argument("expected positions of shape (3 N, 3) and an image of shape (H, W, 4), neither of them empty");
   const std::span rows(reinterpret_cast<const glm::vec3*>(positions.data()), static_cast<std::size_t>(positions.shape(0)));
-  const halfspace::ColorTarget target{.format = halfspace::ColorFormat::srgb8a8,
-                                      .data = reinterpret_cast<std::byte*>(image.mutable_data())};
   const int width = static_cast<int>(image.shape(1)), height = static_cast<int>(image.shape(0));
+  const halfspace::ColorTarget target{.format = halfspace::ColorFormat::srgb8a8,
+                                      .data = reinterpret_cast<std::byte*>(image.mutable_data()),
+                                      .width = width,
+                                      .height = height};
   const py::gil_scoped_release release;
   halfspace::Pass pass(width, height, target, {});
   pass.draw(Stripes{count}, halfspace::make_vertex_view(halfspace::stream(rows)));

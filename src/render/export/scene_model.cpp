@@ -197,7 +197,8 @@ class SceneExporter {
     camera.perspective = c.type == Projection::perspective;
     camera.fovy = c.fov * kRadiansPerDegree;
     camera.height = c.height;
-    camera.near = c.near;
+    // Other viewers often have integer depth, which needs a near plane that is not extremely near.
+    camera.near = c.near == 0.0 && camera.perspective ? 1e-5 * c.far : c.near;
     camera.far = c.far;
     ModelNode node;
     node.name = name;

@@ -1,0 +1,7 @@
+// SPDX-License-Identifier: Apache-2.0
+// A stream of integers must not compile, and the error must contain: vertex attributes must consist of floats.
+#include "halfspace/raster/pass.h"
+
+using namespace halfspace;
+
+auto create(const std::vector<uint32_t>& joints) { return stream(joints); }

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A pass refuses images that are smaller than it, and numbers that would make it write or allocate out of bounds, in one line and before
+// anything is drawn.
+#include <limits>
+#include <stdexcept>
+
+#include "halfspace/core/check.h"
+#include "halfspace/raster/naive.h"
+#include "raster/raster_test.h"
+
+namespace halfspace::raster_test {
+namespace {
+
+constexpr float kNaN = std::numeric_limits<float>::quiet_NaN(), kInfinity = std::numeric_limits<float>::infinity();
+
+class MisuseTest : public testing::Test {
+ protected:
+  MisuseTest() {
+    set_check_handler([](const CheckFailure& f) { throw std::logic_error(f.message); });
+  }
+  ~MisuseTest() override { set_check_handler(nullptr); }
+
+  const std::vector<glm::vec4> positions_{{-1, -1, 0, 1}, {3, -1, 0, 1}, {-1, 3, 0, 1}};
+};
+
+/// Returns the message of the failed check, or "" if none failed.
+template <class F>
+std::string failure_of(const F& function) {
+  try {
+    function();
+  } catch (const std::logic_error& e) {
+    return e.what();
+  }
+  return "";
+}
+
+/// Checks that the target of an image fits only passes of its own size, whether it is loaded, stored or both.
+template <class Target>
+void expect_only_own_size(const Target& target) {
+  const auto message = [&](const Target& t, int width, int height, int samples) {
+    return failure_of([&] {
+      if constexpr (std::is_same_v<Target, ColorTarget>) {
+        Pass(width, height, t, {}, {.samples = samples});
+      } else {
+        Pass(width, height, ColorTarget{}, t, {.samples = samples});
+      }
+    });
+  };
+  for (const auto& [load, store] :
+       {std::pair(LoadOp::clear, StoreOp::store), {LoadOp::load, StoreOp::store}, {LoadOp::load, StoreOp::dont_care}}) {
+    Target t = target;
+    t.load = load;
+    t.store = store;
+    for (const int samples : {1, 4}) {
+      EXPECT_EQ(message(t, 16, 8, samples), "");
+      EXPECT_NE(message(t, 17, 8, samples).find("(16 vs 17)"), std::string::npos) << message(t, 17, 8, samples);
+      EXPECT_NE(message(t, 16, 9, samples).find("(8 vs 9)"), std::string::npos) << message(t, 16, 9, samples);
+      EXPECT_NE(message(t, 8, 16, samples), "") << "the same number of pixels, but other rows";
+      EXPECT_NE(message(t, 640, 480, samples), "");
+    }
+    t.width = t.height = 0;  // a target made by hand, without a size
+    EXPECT_NE(message(t, 16, 8, 1), "");
+  }
+}
+
+template <class Pixel, class Make>
+void expect_only_own_size(Make make) {
+  Image<Pixel> image(16, 8);
+  expect_only_own_size(make(image));
+}
+
+TEST_F(MisuseTest, ImagesOfOtherSizesAreRefused) {
+  expect_only_own_size<glm::u8vec4>([](auto& i) { return rgba8_target(i); });
+  expect_only_own_size<glm::u8vec4>([](auto& i) { return srgb8a8_target(i); });
+  expect_only_own_size<U16Vec4>([](auto& i) { return rgba16f_target(i); });
+  expect_only_own_size<glm::vec4>([](auto& i) { return rgba32f_target(i); });
+  expect_only_own_size<float>([](auto& i) { return r32f_target(i); });
+  expect_only_own_size<glm::vec2>([](auto& i) { return rg32f_target(i); });
+  expect_only_own_size<glm::vec3>([](auto& i) { return rgb32f_target(i); });
+  expect_only_own_size<uint32_t>([](auto& i) { return r32ui_target(i); });
+  expect_only_own_size<uint16_t>([](auto& i) { return d16_target(i); });
+  expect_only_own_size<uint32_t>([](auto& i) { return d24_target(i); });
+  expect_only_own_size<uint32_t>([](auto& i) { return d24s8_target(i); });
+  expect_only_own_size<DepthStencil>([](auto& i) { return d32fs8_target(i); });
+  expect_only_own_size<float>([](auto& i) { return d32f_target(i); });
+  expect_only_own_size<float>([](auto& i) { return d32f_target(i, 0.0f); });
+}
+
+TEST_F(MisuseTest, EveryAttachmentAndThePostTargetAreChecked) {
+  Image<glm::vec4> whole(16, 16), small(8, 8), empty;
+  const std::vector<ColorTarget> colors{rgba32f_target(whole), rgba32f_target(small)};
+  EXPECT_NE(failure_of([&] { Pass(16, 16, colors, {}); }), "");
+  EXPECT_NE(failure_of([&] { Pass(16, 16, rgba32f_target(empty), {}); }), "");
+  const auto identity = [](const auto& color) { return color; };
+  Pass pass(16, 16, rgba32f_target(whole), {});
+  Image<glm::u8vec4> codes(16, 8);
+  EXPECT_NE(failure_of([&] { pass.post(identity, srgb8a8_target(codes)); }).find("(8 vs 16)"), std::string::npos);
+  EXPECT_NE(failure_of([&] { pass.post(identity, {.format = ColorFormat::rgba8}); }), "");
+  EXPECT_NE(failure_of([&] { pass.post(identity, {}); }), "");
+  // Attachments without an image have no size.
+  Pass(640, 480, {.format = ColorFormat::rgba32f, .store = StoreOp::dont_care}, {.format = DepthFormat::d32f});
+}
+
+TEST_F(MisuseTest, NumbersThatAreNotInRangeAreRefused) {
+  Image<glm::vec4> image(16, 16);
+  Pass pass(16, 16, rgba32f_target(image), {});
+  const auto message = [&](const DrawState& state) {
+    return failure_of([&] { pass.draw(ConstantShader{}, make_vertex_view(stream(positions_)), state); });
+  };
+  for (const float width : {kNaN, -1.0f, 4097.0f, kInfinity, -kInfinity})
+    EXPECT_NE(message({.topology = Topology::lines, .line_width = width}), "") << width;
+  for (const float size : {kNaN, -1.0f, -kInfinity}) EXPECT_NE(message({.topology = Topology::points, .point_size = size}), "") << size;
+  for (const uint32_t query : {4000000000u, 0xffffffffu, kMaxQueries}) EXPECT_NE(message({.query = query}), "") << query;
+  for (const DepthOffset& offset : {DepthOffset{.slope = kNaN}, DepthOffset{.constant = kNaN}, DepthOffset{.clamp = kNaN},
+                                    DepthOffset{.slope = kInfinity}, DepthOffset{.constant = -kInfinity}})
+    EXPECT_NE(message({.offset = offset}), "");
+  EXPECT_NE(message({.depth = {.range_near = kNaN}}), "");
+  EXPECT_EQ(pass.run(one_worker()).primitives_in, 0u) << "a refused draw is not recorded";
+  EXPECT_EQ(message({.topology = Topology::lines, .line_width = kMaxLineWidth}), "");
+  EXPECT_EQ(message({.topology = Topology::points, .point_size = 1e6f}), "");
+  EXPECT_EQ(message({.query = kMaxQueries - 1}), "");
+  EXPECT_EQ(pass.run(one_worker()).queries.size(), kMaxQueries);
+}
+
+TEST_F(MisuseTest, StreamsMadeByHandAreChecked) {
+  const float number = 0.0f;
+  const auto message = [](const VertexStream& s) { return failure_of([&] { make_vertex_view(s); }); };
+  EXPECT_EQ(message({.data = &number, .stride = 0, .components = 1, .count = 9}), "");
+  EXPECT_NE(message({.data = nullptr, .stride = 1, .components = 1, .count = 9}), "");
+  EXPECT_NE(message({.data = &number, .stride = -1, .components = 1, .count = 9}), "");
+  EXPECT_NE(message({.data = &number, .stride = 4, .components = 4, .count = std::size_t{1} << 62}), "") << "the product overflows";
+}
+
+TEST_F(MisuseTest, TheNaivePipelineChecksIndicesAndSizes) {
+  const std::vector<uint32_t> list{0, 1, 5};
+  const Indices of_six(list, 6), in_order = Indices::sequential(3);
+  const std::vector<float> numbers(3);
+  NaiveTarget<float> target(16, 16, vec4<float>(0.0f), 1.0f);
+  const auto draw = [&](const VertexView& view, const Indices& indices) {
+    return failure_of([&] { draw_naive(target, ConstantShader{}, view, indices); });
+  };
+  EXPECT_EQ(draw(make_vertex_view(stream(positions_)), in_order), "");
+  EXPECT_NE(draw(make_vertex_view(stream(positions_)), of_six), "");
+  EXPECT_NE(draw(make_vertex_view(stream(numbers)), in_order), "") << "one float per vertex instead of four";
+  target.depth = Image<float>(8, 8);
+  EXPECT_NE(draw(make_vertex_view(stream(positions_)), in_order), "");
+}
+
+}  // namespace
+}  // namespace halfspace::raster_test
