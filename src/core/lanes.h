@@ -263,7 +263,7 @@ HS_INLINE MaskN<W> select(MaskN<W> m, MaskN<W> a, std::type_identity_t<MaskN<W>>
 /// Loads a T from consecutive values of type S. p need not be aligned.
 template <class T, class S>
 HS_INLINE T load(const S* p) {
-  static_assert(std::is_trivially_copyable_v<T> && sizeof(T) % sizeof(S) == 0);
+  static_assert(std::is_trivially_copyable_v<T> && sizeof(T) % sizeof(S) == 0, "lanes must consist of whole values of type S");
   T t;
   std::memcpy(&t, p, sizeof t);
   return t;
@@ -271,7 +271,7 @@ HS_INLINE T load(const S* p) {
 /// Stores all lanes of t to consecutive values of type S. p need not be aligned.
 template <class S, class T>
 HS_INLINE void store(S* p, const T& t) {
-  static_assert(std::is_trivially_copyable_v<T> && sizeof(T) % sizeof(S) == 0);
+  static_assert(std::is_trivially_copyable_v<T> && sizeof(T) % sizeof(S) == 0, "lanes must consist of whole values of type S");
   std::memcpy(p, &t, sizeof t);
 }
 

@@ -150,11 +150,15 @@ PassState::PassState(int width, int height, std::span<const ColorTarget> colors,
     : options_(options) {
   attachments_.colors.assign(colors.begin(), colors.end());
   attachments_.depth = depth;
-  HS_CHECK(width >= 1 && width <= kMaxTargetSize && height >= 1 && height <= kMaxTargetSize);
-  HS_CHECK(options.tile_size == 8 || options.tile_size == 16 || options.tile_size == 32 || options.tile_size == 64);
-  HS_CHECK(options.chunk_triangles >= 1 && options.chunk_triangles <= kMaxPrimitivesPerChunk);
-  HS_CHECK(options.samples == 1 || options.samples == 2 || options.samples == 4 || options.samples == 8);
-  HS_CHECK_OP(colors.size(), <=, std::size_t{kMaxColorTargets});
+  HS_CHECK(width >= 1 && width <= kMaxTargetSize && height >= 1 && height <= kMaxTargetSize,
+           "Pass: the size is outside of its range; expected a width and a height from 1 to 16384");
+  HS_CHECK(options.tile_size == 8 || options.tile_size == 16 || options.tile_size == 32 || options.tile_size == 64,
+           "PassOptions: the tile size is not supported; expected 8, 16, 32 or 64");
+  HS_CHECK(options.chunk_triangles >= 1 && options.chunk_triangles <= kMaxPrimitivesPerChunk,
+           "PassOptions: the number of triangles per chunk is outside of its range; expected 1 to 8192");
+  HS_CHECK(options.samples == 1 || options.samples == 2 || options.samples == 4 || options.samples == 8,
+           "PassOptions: the number of samples is not supported; expected 1, 2, 4 or 8");
+  HS_CHECK_OP(colors.size(), <=, std::size_t{kMaxColorTargets}, "Pass: too many color targets; expected at most 12");
   for (const ColorTarget& c : colors) {
     if (c.format == ColorFormat::none) continue;
     check_target(c, width, height);
@@ -187,10 +191,13 @@ void PassState::add_draw(const ShaderKernels& kernels, KeptShader shader, const 
   HS_CHECK_OP(std::size_t{state.instances}, <=, vertices.instance_count);
   check_numbers(state);
   if (state.order_independent) {
-    HS_CHECK(attachments_.colors.size() == 1 && attachments_.has_color && attachments_.colors[0].format != ColorFormat::r32ui);
-    HS_CHECK(!state.depth.write && !blend_of(state, 0) && color_mask_of(state, 0).all());
+    HS_CHECK(attachments_.colors.size() == 1 && attachments_.has_color && attachments_.colors[0].format != ColorFormat::r32ui,
+             "DrawState: order_independent needs one color target of colors; expected no integers and no second target");
+    HS_CHECK(!state.depth.write && !blend_of(state, 0) && color_mask_of(state, 0).all(),
+             "DrawState: order_independent is combined with depth writes, blending or a color mask; expected none of them");
     HS_CHECK(state.depth.compare == CompareOp::less || state.depth.compare == CompareOp::less_equal ||
-             state.depth.compare == CompareOp::greater || state.depth.compare == CompareOp::greater_equal);
+                 state.depth.compare == CompareOp::greater || state.depth.compare == CompareOp::greater_equal,
+             "DrawState: order_independent is combined with another depth test; expected less, less_equal, greater or greater_equal");
   }
   if (context_.draws.capacity() == 0) context_.draws = take_draw_list();
   Draw& d = context_.draws.emplace_back(kernels, std::move(shader), std::move(indices), keep_streams(vertices, *context_.memory), state);
@@ -229,9 +236,12 @@ bool PassState::set_color_writes(Draw& d) const {
   for (std::size_t i = 0; i < attachments_.colors.size(); ++i) {
     const std::optional<BlendState>& blend = blend_of(d.state, i);
     const ColorMask& mask = color_mask_of(d.state, i);
-    if (blend && uses_second_source(*blend)) HS_CHECK(d.kernels.color_count > 1 && attachments_.colors.size() == 1);
+    if (blend && uses_second_source(*blend))
+      HS_CHECK(d.kernels.color_count > 1 && attachments_.colors.size() == 1,
+               "DrawState: blend factors use a second source; expected a shader with two colors and one color target");
     if (attachments_.colors[i].format == ColorFormat::none) continue;
-    HS_CHECK(!blend || attachments_.colors[i].format != ColorFormat::r32ui);
+    HS_CHECK(!blend || attachments_.colors[i].format != ColorFormat::r32ui,
+             "DrawState: a target of integers is blended; expected no blending");
     const bool has_color = d.kernels.fragment != nullptr && static_cast<int>(i) < d.kernels.color_count;
     replaces &= has_color && !blend && mask.all();
     d.writes_color |= has_color && (mask.r || mask.g || mask.b || mask.a);

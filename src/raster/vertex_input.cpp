@@ -9,12 +9,13 @@ namespace detail {
 
 VertexView bind_streams(std::span<const VertexStream> streams) {
   const auto per_vertex = std::ranges::find(streams, 0u, &VertexStream::divisor);
-  HS_CHECK(per_vertex != streams.end());  // without a per-vertex stream, the vertex count must be given
+  HS_CHECK(per_vertex != streams.end(),
+           "make_vertex_view: no stream has one row per vertex; expected such a stream, or the number of vertices as an argument");
   return bind_streams(streams, per_vertex->count);
 }
 
 VertexView bind_streams(std::span<const VertexStream> streams, std::size_t vertex_count) {
-  HS_CHECK_OP(streams.size(), <=, kMaxStreams);
+  HS_CHECK_OP(streams.size(), <=, kMaxStreams, "make_vertex_view: too many streams; expected at most 12");
   VertexView v{.streams = {}, .stream_count = static_cast<int>(streams.size()), .vertex_count = vertex_count};
   std::ranges::copy(streams, v.streams.begin());
   for (const VertexStream& s : streams) {
@@ -37,7 +38,7 @@ VertexView bind_streams(std::span<const VertexStream> streams, std::size_t verte
 }  // namespace detail
 
 Indices Indices::sequential(std::size_t vertex_count) {
-  HS_CHECK_OP(vertex_count, <, std::size_t{1} << 32);
+  HS_CHECK_OP(vertex_count, <, std::size_t{1} << 32, "Indices: too many vertices; expected fewer than 2^32");
   Indices i;
   i.size_ = vertex_count;
   i.end_ = static_cast<uint32_t>(vertex_count);
@@ -67,7 +68,7 @@ void Indices::scan(std::span<const T> list, std::size_t vertex_count, PrimitiveR
     high = std::max(high, list[place]);
   }
   if (restarts_.size() == list.size()) return;
-  HS_CHECK_OP(high, <, vertex_count);
+  HS_CHECK_OP(high, <, vertex_count, "Indices: an index is too large; expected less than the number of vertices");
   first_ = low;
   end_ = static_cast<uint32_t>(high) + 1;
   std::vector<bool> seen(end_ - first_);

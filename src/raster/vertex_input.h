@@ -97,7 +97,7 @@ void stream(const std::vector<T>&& values, Member...) = delete;  // the vector m
 /// Returns the stream with one row per `divisor` instances instead of one row per vertex. divisor must be at least 1.
 template <std::derived_from<VertexStream> S>
 S per_instance(S stream, uint32_t divisor = 1) {
-  HS_CHECK_OP(divisor, >=, 1u);
+  HS_CHECK_OP(divisor, >=, 1u, "per_instance: the divisor is 0; expected at least 1");
   stream.divisor = divisor;
   return stream;
 }

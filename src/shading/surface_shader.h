@@ -22,8 +22,9 @@ enum class NormalDetail : uint8_t {
 /// light. Without a highlight, the varying for it is omitted; only gouraud with maps supports this.
 template <ShadingRate rate, bool mapped, NormalDetail normal_detail = NormalDetail::none, bool highlight = true>
 struct SurfaceShader : LitSurface {
-  static_assert(normal_detail == NormalDetail::none || (rate == ShadingRate::phong && mapped));
-  static_assert(highlight || (rate == ShadingRate::gouraud && mapped));
+  static_assert(normal_detail == NormalDetail::none || (rate == ShadingRate::phong && mapped),
+                "normal and bump maps need the shading rate phong and texture coordinates");
+  static_assert(highlight || (rate == ShadingRate::gouraud && mapped), "only the shading rate gouraud with maps can omit the highlight");
   static constexpr bool kByVertex = rate == ShadingRate::provoking || rate == ShadingRate::gouraud;
   static constexpr bool kByPixel = rate == ShadingRate::phong;
   static constexpr bool kSlopes = normal_detail == NormalDetail::slopes;

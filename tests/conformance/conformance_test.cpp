@@ -62,10 +62,10 @@ TEST(ConformanceBlendDeathTest, DualSourceBlendingRequiresASecondColor) {
     draw(p);
   };
   constexpr BlendFactor kSecond = BlendFactor::src1_alpha;
-  EXPECT_DEATH(draw_with([](BlendState& b) { b.source_color = kSecond; }), "color_count > 1");
-  EXPECT_DEATH(draw_with([](BlendState& b) { b.destination_color = kSecond; }), "color_count > 1");
-  EXPECT_DEATH(draw_with([](BlendState& b) { b.source_alpha = kSecond; }), "color_count > 1");
-  EXPECT_DEATH(draw_with([](BlendState& b) { b.destination_alpha = kSecond; }), "color_count > 1");
+  EXPECT_DEATH(draw_with([](BlendState& b) { b.source_color = kSecond; }), "use a second source");
+  EXPECT_DEATH(draw_with([](BlendState& b) { b.destination_color = kSecond; }), "use a second source");
+  EXPECT_DEATH(draw_with([](BlendState& b) { b.source_alpha = kSecond; }), "use a second source");
+  EXPECT_DEATH(draw_with([](BlendState& b) { b.destination_alpha = kSecond; }), "use a second source");
 }
 
 class DepthStencil : public ConformanceOf {};

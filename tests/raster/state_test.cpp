@@ -799,8 +799,8 @@ TEST(DepthOnlyDraw, RunsTheVisibilityFunctionInAnyPass) {
 TEST(StateDeathTest, ChecksVerticesAndIndices) {
   const std::vector<glm::vec4> four(4), five(5);
   const std::vector<uint32_t> list{0, 1, 4};
-  EXPECT_DEATH(make_vertex_view(stream(four), stream(five)), "s.count == vertex_count \\(5 vs 4\\)");
-  EXPECT_DEATH(Indices(list, 4), "high < vertex_count \\(4 vs 4\\)");
+  EXPECT_DEATH(make_vertex_view(stream(four), stream(five)), "\\(5 vs 4\\)");
+  EXPECT_DEATH(Indices(list, 4), "index is too large.*\\(4 vs 4\\)");
   const std::vector<uint16_t> narrow{0, 1, 9};
   EXPECT_DEATH(Indices(narrow, 9), "check failed");
   EXPECT_DEATH(Indices::sequential(std::size_t{1} << 32), "check failed");
@@ -836,7 +836,7 @@ TEST(StateDeathTest, ChecksDraws) {
   };
   EXPECT_DEATH(Pass(16, 16, rgba32f_target(image), {}).draw(ConstantShader{}, make_vertex_view(stream(p)), of_six), "check failed");
   const VertexView untyped = make_vertex_view(stream(p));  // untyped, so that the compiler does not check the streams
-  EXPECT_DEATH(Pass(16, 16, rgba32f_target(image), {}).draw(FlatColorShader{}, untyped), "vertices.components == .* \\(4 vs 8\\)");
+  EXPECT_DEATH(Pass(16, 16, rgba32f_target(image), {}).draw(FlatColorShader{}, untyped), "another number of components.*\\(4 vs 8\\)");
   EXPECT_DEATH(draw_with([](DrawState& s) { s.viewport = Rect{0, 0, 0, 16}; }), "check failed");
   EXPECT_DEATH(draw_with([](DrawState& s) { s.viewport = Rect{0, 0, 16385, 16}; }), "check failed");
   EXPECT_DEATH(draw_with([](DrawState& s) { s.viewport = Rect{20000, 0, 16, 16}; }), "check failed");
