@@ -8,6 +8,7 @@
 #include <mutex>
 #include <new>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #ifndef HALFSPACE_STD_THREADS
@@ -37,7 +38,7 @@ void run_on_std_threads(int threads, int count, const Task& task) {
       for (int i = next++; i < count; i = next++) task(i);
     } catch (...) {
       const std::lock_guard lock(mutex);
-      error = std::current_exception();
+      if (!error) error = std::current_exception();
       next = count;
     }
   };
@@ -104,13 +105,21 @@ struct Workers::Impl {
 
 #endif
 
-Workers::Workers(int threads) : threads_(threads) {
+Workers::Workers(int threads, std::function<void()> before_task) : threads_(threads), before_task_(std::move(before_task)) {
   HS_CHECK_OP(threads, >=, 1, "Workers: the number of threads is not positive; expected at least 1");
   impl_ = Impl::make(threads);
 }
 Workers::~Workers() = default;
 
 void Workers::for_each(int count, const std::function<void(int)>& task) const {
+  if (!before_task_) return run(count, task);
+  run(count, [&](int i) {
+    before_task_();
+    task(i);
+  });
+}
+
+void Workers::run(int count, const std::function<void(int)>& task) const {
   try {
     if (impl_ != nullptr && count > 1 && Impl::works()) {
       impl_->run(count, task);

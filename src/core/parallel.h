@@ -17,7 +17,10 @@ class Workers {
  public:
   /// Creates a team of `threads` >= 1 threads, including the calling thread. The count may exceed the number of cores. Other users of TBB
   /// in the process are not affected. A limit set by the host (tbb::global_control) applies to teams that run on TBB.
-  explicit Workers(int threads);
+  ///
+  /// before_task: called before each task, on the thread that will run it. If it throws, for_each() ends as if the task had thrown. A
+  /// program can use it to stop a computation early. It must be thread-safe.
+  explicit Workers(int threads, std::function<void()> before_task = {});
   ~Workers();
   Workers(const Workers&) = delete;
   Workers& operator=(const Workers&) = delete;
@@ -35,7 +38,10 @@ class Workers {
 
  private:
   struct Impl;
+  void run(int count, const std::function<void(int)>& task) const;
+
   int threads_;
+  std::function<void()> before_task_;
   std::unique_ptr<Impl> impl_;
 };
 

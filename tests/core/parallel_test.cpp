@@ -69,6 +69,46 @@ TEST(Workers, NeverRunMoreTasksAtOnceThanThreads) {
   }
 }
 
+TEST(Workers, CallTheFunctionBeforeEachTaskOnItsThread) {
+  for (const int threads : {1, 2, Workers::cores() + 1}) {
+    static thread_local int announced = 0;
+    std::atomic<int> calls = 0, misplaced = 0;
+    const Workers workers(threads, [&] {
+      ++announced;
+      ++calls;
+    });
+    workers.for_each(100, [&](int) {
+      if (--announced != 0) ++misplaced;
+    });
+    EXPECT_EQ(calls, 100) << threads;
+    EXPECT_EQ(misplaced, 0) << threads;
+  }
+}
+
+// Each thread may have started one more task when the function throws.
+TEST(Workers, StopBeforeTheNextTaskIfTheFunctionThrows) {
+  struct Stop {};
+  for (const int threads : {1, 2, Workers::cores() + 1}) {
+    std::atomic<bool> stop = false;
+    std::atomic<int> late = 0;
+    const Workers workers(threads, [&] {
+      if (stop) throw Stop();
+    });
+    EXPECT_THROW(workers.for_each(1000,
+                                  [&](int i) {
+                                    if (stop) ++late;
+                                    if (i == 3) stop = true;
+                                  }),
+                 Stop)
+        << threads;
+    EXPECT_LE(late, threads) << threads;
+    stop = false;
+    std::atomic<int> done = 0;
+    workers.for_each(10, [&](int) { ++done; });
+    EXPECT_EQ(done, 10) << "the team can be used again";
+  }
+}
+
 #ifdef HALFSPACE_TEST_TBB
 
 std::size_t tbb_limit() { return tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism); }
