@@ -3,8 +3,10 @@
 // Keeps textures, meshes and maps of scenes from one frame to the next.
 #pragma once
 
+#include <algorithm>
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
 #include <typeindex>
 
@@ -34,9 +36,10 @@ class AssetCache {
     entries_.insert_or_assign(recipe, Entry{std::move(asset), typeid(T), true});
   }
 
-  /// Removes the assets that were neither found nor added since the last call.
-  void remove_unwanted() {
-    std::erase_if(entries_, [](const auto& entry) { return !entry.second.wanted; });
+  /// Removes the assets that were neither found nor added since the last call, except for those of the kept types.
+  void remove_unwanted(std::span<const std::type_index> kept = {}) {
+    const auto is_kept = [&](const Entry& e) { return e.wanted || std::ranges::find(kept, e.type) != kept.end(); };
+    std::erase_if(entries_, [&](const auto& entry) { return !is_kept(entry.second); });
     for (auto& [recipe, entry] : entries_) entry.wanted = false;
   }
 

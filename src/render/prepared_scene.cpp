@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "halfspace/render/prepared_scene.h"
 
+#include <array>
+#include <typeindex>
+
 #include "halfspace/core/float_mode.h"
 #include "halfspace/render/model/model_chooser.h"
 #include "halfspace/render/model_preparation.h"
@@ -54,6 +57,17 @@ PreparedScene SceneAssets::prepare(const SceneDescription& scene, int width, int
   const FloatMode float_mode;
   PreparedScene prepared = ScenePreparation(scene, width, height, minimum_, cache_, warnings_, workers_).prepare();
   cache_.remove_unwanted();
+  return prepared;
+}
+
+PreparedScene SceneAssets::prepare_values(SceneDescription scene, int width, int height) {
+  const FloatMode float_mode;
+  for (auto& [name, light] : scene.lights) light.shadow = false;
+  scene.head.ambient = Color{glm::dvec3(1.0)};  // no warning that nothing lights the scene
+  scene.reflections.on = false;
+  scene.background.type = BackgroundType::color;
+  PreparedScene prepared = ScenePreparation(scene, width, height, minimum_, cache_, warnings_, workers_).prepare();
+  cache_.remove_unwanted(std::array<std::type_index, 2>{typeid(EnvironmentMap), typeid(FilteredEnvironment)});
   return prepared;
 }
 

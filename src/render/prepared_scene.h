@@ -160,6 +160,10 @@ class SceneAssets {
   /// Prepares a frame of width x height pixels. Throws InputError with a message that begins with the key if a file cannot be used.
   PreparedScene prepare(const SceneDescription& scene, int width, int height);
 
+  /// The same for a frame without color (render/frame.h). Lights, shadows, reflections and the background are not prepared. Environments
+  /// stay in the cache for later frames.
+  PreparedScene prepare_values(SceneDescription scene, int width, int height);
+
  private:
   const Workers& workers_;
   Warnings warnings_;

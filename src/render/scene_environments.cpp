@@ -103,6 +103,12 @@ EnvironmentMap uniform(const Color& color) {
   return EnvironmentMap(one, TexelFormat::rgba32f);
 }
 
+std::size_t bytes_of(const EnvironmentMap& map) {
+  std::size_t texels = 0;  // of one face, with borders
+  for (int i = 0; i < map.levels(); ++i) texels += static_cast<std::size_t>(map.width(i) + 2) * static_cast<std::size_t>(map.height(i) + 2);
+  return texels * (map.layout() == EnvironmentLayout::cube ? 6 : 1) * (map.format() == TexelFormat::rgba32f ? 16 : 8);
+}
+
 }  // namespace
 
 // Returns the panorama width that the view needs: texels in the center of the image span at most two pixels, up to a width of 4096.
@@ -120,7 +126,7 @@ int SceneEnvironments::face_size() const {
   return size;
 }
 
-std::shared_ptr<const EnvironmentMap> SceneEnvironments::environment_map(const std::string& path, const EnvironmentDescription& e) {
+SceneEnvironments::MapSource SceneEnvironments::source_of(const std::string& path, const EnvironmentDescription& e) {
   switch (e.type) {
     case EnvironmentType::equirect:
     case EnvironmentType::globe: return panorama(path, e);
@@ -128,16 +134,16 @@ std::shared_ptr<const EnvironmentMap> SceneEnvironments::environment_map(const s
       const std::array<fs::path, 6> files = read_for(path, [&] { return face_files(e); });
       std::string words = "cube ";
       for (const fs::path& file : files) words += recipe(file.string());
-      return used_.asset<EnvironmentMap>(words, [&] { return read_for(path, [&] { return read_cube(files, workers_); }); });
+      return {words, [=, this] { return read_for(path, [&] { return read_cube(files, workers_); }); }};
     }
     default: return generated_sky(e);
   }
 }
 
-std::shared_ptr<const EnvironmentMap> SceneEnvironments::panorama(const std::string& path, const EnvironmentDescription& e) {
+SceneEnvironments::MapSource SceneEnvironments::panorama(const std::string& path, const EnvironmentDescription& e) {
   if (const auto* color = std::get_if<Color>(&e.map)) {
     const glm::dvec3& c = color->linear;
-    return used_.asset<EnvironmentMap>(recipe("uniform", c.x, c.y, c.z), [&] { return uniform(*color); });
+    return {recipe("uniform", c.x, c.y, c.z), [color = *color] { return uniform(color); }};
   }
   TextureDescription texture;
   if (const auto* file = std::get_if<FilePath>(&e.map)) {
@@ -148,46 +154,56 @@ std::shared_ptr<const EnvironmentMap> SceneEnvironments::panorama(const std::str
   const int width = texture.width != 0 ? texture.width : panorama_width();
   switch (texture.source) {
     case TextureSource::file:
-      return used_.asset<EnvironmentMap>(recipe("panorama", texture.file.path.string()),
-                                         [&] { return read_panorama(texture.file.path, path + ".map"); });
+      return {recipe("panorama", texture.file.path.string()),
+              [path, file = texture.file.path] { return read_panorama(file, path + ".map"); }};
     case TextureSource::earth_color:
-      return used_.asset<EnvironmentMap>(recipe("earth_color panorama", width), [&] {
-        return EnvironmentMap(procedural_earth(width, width / 2, workers_), TexelFormat::srgb8a8);
-      });
+      return {recipe("earth_color panorama", width),
+              [=, this] { return EnvironmentMap(procedural_earth(width, width / 2, workers_), TexelFormat::srgb8a8); }};
     case TextureSource::moon_color:
-      return used_.asset<EnvironmentMap>(recipe("moon_color panorama", width),
-                                         [&] { return EnvironmentMap(maps_.moon_maps(width)->color, TexelFormat::srgb8a8); });
+      return {recipe("moon_color panorama", width),
+              [=, this] { return EnvironmentMap(maps_.moon_maps(width)->color, TexelFormat::srgb8a8); }};
     default: throw InputError(path + ".map: is not a color map; expected one");
   }
 }
 
-std::shared_ptr<const EnvironmentMap> SceneEnvironments::generated_sky(const EnvironmentDescription& e) {
+SceneEnvironments::MapSource SceneEnvironments::generated_sky(const EnvironmentDescription& e) const {
   const int size = e.size != 0 ? e.size : face_size();
+  const auto map = [this](const SkyFaces& faces) { return EnvironmentMap(faces, TexelFormat::rgba16f, &workers_); };
   if (e.type == EnvironmentType::night_sky) {
-    return used_.asset<EnvironmentMap>(recipe("night_sky", size, e.milky_way), [&] {
-      const NightSky sky{static_cast<float>(e.milky_way)};
-      return EnvironmentMap(procedural_night_sky(size, sky, workers_), TexelFormat::rgba16f, &workers_);
-    });
+    const NightSky sky{static_cast<float>(e.milky_way)};
+    return {recipe("night_sky", size, e.milky_way), [=, this] { return map(procedural_night_sky(size, sky, workers_)); }, true};
   }
   if (e.type == EnvironmentType::studio) {
-    return used_.asset<EnvironmentMap>(recipe("studio", size),
-                                       [&] { return EnvironmentMap(procedural_studio(size, workers_), TexelFormat::rgba16f, &workers_); });
+    return {recipe("studio", size), [=, this] { return map(procedural_studio(size, workers_)); }, true};
   }
   // The sun direction is given in world space, so rotating the sky moves the clouds but not the sun.
   const glm::dvec3 sun = unit_or_zero(glm::transpose(glm::dmat3(world_from_object({.rotation = e.rotation}))) * e.sun);
-  return used_.asset<EnvironmentMap>(recipe("day_sky", size, sun.x, sun.y, sun.z, e.clouds), [&] {
-    const DaySky sky{kMapFromWorld * glm::vec3(sun), static_cast<float>(e.clouds)};
-    return EnvironmentMap(procedural_day_sky(size, sky, workers_), TexelFormat::rgba16f, &workers_);
-  });
+  const DaySky sky{kMapFromWorld * glm::vec3(sun), static_cast<float>(e.clouds)};
+  return {recipe("day_sky", size, sun.x, sun.y, sun.z, e.clouds), [=, this] { return map(procedural_day_sky(size, sky, workers_)); }, true};
 }
 
-Environment SceneEnvironments::environment_of(const std::string& name, const EnvironmentDescription& e) {
-  Environment out;
-  out.map = environment_map("environments." + name, e).get();
+const EnvironmentMap* SceneEnvironments::map_of(const MapSource& source) {
+  if (source.is_shared) return used_.shared_asset<EnvironmentMap>(source.recipe, source.make, bytes_of).get();
+  return used_.asset<EnvironmentMap>(source.recipe, source.make).get();
+}
+
+const FilteredEnvironment* SceneEnvironments::filtered(const MapSource& source) {
+  constexpr int kSize = 128;
+  const std::string words = recipe("filtered", source.recipe);
+  const auto make = [&] { return FilteredEnvironment(*map_of(source), kSize, workers_); };
+  if (source.is_shared) {
+    const auto bytes = [](const FilteredEnvironment& f) { return bytes_of(f.radiance); };
+    return used_.shared_asset<FilteredEnvironment>(words, make, bytes).get();
+  }
+  map_of(source);  // so that both are dropped from the cache together
+  return used_.asset<FilteredEnvironment>(words, make).get();
+}
+
+SceneEnvironments::Placed SceneEnvironments::placed(const std::string& name, const EnvironmentDescription& e) {
   const glm::mat3 world_from_turned(glm::dmat3(world_from_object({.rotation = e.rotation})));
-  out.map_from_world = (e.type == EnvironmentType::globe ? kMapFromGlobe : kMapFromWorld) * glm::transpose(world_from_turned);
-  out.brightness = static_cast<float>(e.brightness);
-  return out;
+  return {source_of("environments." + name, e),
+          (e.type == EnvironmentType::globe ? kMapFromGlobe : kMapFromWorld) * glm::transpose(world_from_turned),
+          static_cast<float>(e.brightness)};
 }
 
 const std::pair<std::string, EnvironmentDescription>& SceneEnvironments::named(const std::string& name) const {
@@ -195,13 +211,13 @@ const std::pair<std::string, EnvironmentDescription>& SceneEnvironments::named(c
   return found == scene_.environments.end() ? scene_.environments.front() : *found;
 }
 
-EnvironmentBlend SceneEnvironments::background() {
+SceneEnvironments::PlacedBlend SceneEnvironments::placed_background() {
   const BackgroundDescription& b = scene_.background;
   const auto make = [&](const std::string& name) {
     const auto& [found, e] = named(name);
-    return environment_of(found, e);
+    return placed(found, e);
   };
-  EnvironmentBlend blend;
+  PlacedBlend blend;
   blend.weight = b.second.empty() ? 0.0f : static_cast<float>(b.weight);
   if (blend.weight < 1.0f) blend.first = make(b.environment);
   if (blend.weight > 0.0f) blend.second = make(b.second);
@@ -209,43 +225,42 @@ EnvironmentBlend SceneEnvironments::background() {
 }
 
 // Returns the environment that the scene's reflections show.
-EnvironmentBlend SceneEnvironments::reflected() {
-  EnvironmentBlend blend;
-  if (const std::string& name = scene_.reflections.environment; !name.empty()) {
-    blend.first = environment_of(name, named(name).second);
-  } else if (scene_.background.type == BackgroundType::environment) {
-    blend = background();
-  } else {
-    EnvironmentDescription color;
-    color.map = scene_.background.color;
-    blend.first = environment_of("background", color);
-  }
-  return blend;
+SceneEnvironments::PlacedBlend SceneEnvironments::placed_reflection() {
+  if (const std::string& name = scene_.reflections.environment; !name.empty()) return {placed(name, named(name).second), {}};
+  if (scene_.background.type == BackgroundType::environment) return placed_background();
+  EnvironmentDescription color;
+  color.map = scene_.background.color;
+  return {placed("background", color), {}};
 }
+
+EnvironmentBlend SceneEnvironments::blend_of(const PlacedBlend& placed) {
+  const auto environment_of = [&](const std::optional<Placed>& e) -> Environment {
+    if (!e) return {};
+    return {map_of(e->source), e->map_from_world, e->brightness};
+  };
+  return {environment_of(placed.first), environment_of(placed.second), placed.weight};
+}
+
+EnvironmentBlend SceneEnvironments::background() { return blend_of(placed_background()); }
 
 const EnvironmentBlend* SceneEnvironments::reflected_environment() {
   if (!scene_.reflections.on) return nullptr;
   if (reflected_environment_ == nullptr) {
-    reflected_environment_ = std::make_shared<const EnvironmentBlend>(reflected());
+    reflected_environment_ = std::make_shared<const EnvironmentBlend>(blend_of(placed_reflection()));
     used_.keep(reflected_environment_);
   }
   return reflected_environment_.get();
 }
 
 const EnvironmentLightBlend* SceneEnvironments::light() {
-  constexpr int kFilteredSize = 128;
   if (!scene_.reflections.on) return nullptr;
   if (light_ == nullptr) {
-    const EnvironmentBlend blend = reflected();
-    const auto filtered = [&](const Environment& e) -> EnvironmentLight {
-      if (e.map == nullptr) return {};
-      // The address identifies the map, because both assets are dropped from the cache together.
-      const auto address = std::to_string(reinterpret_cast<std::uintptr_t>(e.map));
-      const auto make = [&] { return FilteredEnvironment(*e.map, kFilteredSize, workers_); };
-      return {used_.asset<FilteredEnvironment>(recipe("filtered", address), make).get(), e.map_from_world, e.brightness};
+    const PlacedBlend blend = placed_reflection();
+    const auto light_of = [&](const std::optional<Placed>& e) -> EnvironmentLight {
+      if (!e) return {};
+      return {filtered(e->source), e->map_from_world, e->brightness};
     };
-    light_ =
-        std::make_shared<const EnvironmentLightBlend>(EnvironmentLightBlend{filtered(blend.first), filtered(blend.second), blend.weight});
+    light_ = std::make_shared<const EnvironmentLightBlend>(EnvironmentLightBlend{light_of(blend.first), light_of(blend.second), blend.weight});
     used_.keep(light_);
   }
   return light_.get();

@@ -3,7 +3,9 @@
 // The environments of a scene: those shown as the background, and those that light and are reflected by surfaces.
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -33,11 +35,32 @@ class SceneEnvironments {
   const EnvironmentLightBlend* light();
 
  private:
-  EnvironmentBlend reflected();
-  Environment environment_of(const std::string& name, const EnvironmentDescription& e);
-  std::shared_ptr<const EnvironmentMap> environment_map(const std::string& path, const EnvironmentDescription& e);
-  std::shared_ptr<const EnvironmentMap> panorama(const std::string& path, const EnvironmentDescription& e);
-  std::shared_ptr<const EnvironmentMap> generated_sky(const EnvironmentDescription& e);
+  // How to make the map of an environment.
+  struct MapSource {
+    std::string recipe;
+    std::function<EnvironmentMap()> make;
+    bool is_shared = false;  // by all scenes of the process
+  };
+  // An environment without its map.
+  struct Placed {
+    MapSource source;
+    glm::mat3 map_from_world;
+    float brightness;
+  };
+  struct PlacedBlend {
+    std::optional<Placed> first, second;
+    float weight = 0.0f;
+  };
+
+  PlacedBlend placed_background();
+  PlacedBlend placed_reflection();
+  Placed placed(const std::string& name, const EnvironmentDescription& e);
+  MapSource source_of(const std::string& path, const EnvironmentDescription& e);
+  MapSource panorama(const std::string& path, const EnvironmentDescription& e);
+  MapSource generated_sky(const EnvironmentDescription& e) const;
+  const EnvironmentMap* map_of(const MapSource& source);
+  const FilteredEnvironment* filtered(const MapSource& source);
+  EnvironmentBlend blend_of(const PlacedBlend& placed);
   int panorama_width() const;
   int face_size() const;
 

@@ -10,6 +10,7 @@
 
 #include "halfspace/core/resource_limits.h"
 #include "halfspace/render/asset_cache.h"
+#include "halfspace/render/shared_assets.h"
 #include "halfspace/scene/keys.h"
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
@@ -58,6 +59,12 @@ class UsedAssets {
   template <class T, class F>
   std::shared_ptr<const T> asset(const std::string& recipe, F make) {
     if (!cache_.contains(recipe)) cache_.add(recipe, std::make_shared<const T>(make()));
+    return existing<T>(recipe);
+  }
+  // Like the above, for an asset that all scenes of the process share.
+  template <class T, class F, class Bytes>
+  std::shared_ptr<const T> shared_asset(const std::string& recipe, const F& make, const Bytes& bytes) {
+    if (!cache_.contains(recipe)) cache_.add(recipe, SharedAssets::of_process().get<T>(recipe, make, bytes));
     return existing<T>(recipe);
   }
   // Adds an asset that is not in the cache.

@@ -45,8 +45,8 @@ class EnvironmentMap {
   template <class Texel>
   EnvironmentMap(const std::array<Image<Texel>, 6>& faces, TexelFormat format, const Workers* workers = nullptr);
 
-  /// Creates a cube map from one or more given levels. The faces of each level are half the size of those of the previous level. Texels are
-  /// linear; format is rgba16f or rgba32f.
+  /// Creates a cube map from one or more given levels. The faces of each level are half the size of those of the previous level, but at
+  /// least 1 texel. Texels are linear; format is rgba16f or rgba32f.
   EnvironmentMap(std::span<const std::array<Image<glm::vec4>, 6>> levels, TexelFormat format, const Workers* workers = nullptr);
 
   EnvironmentLayout layout() const { return layout_; }
@@ -55,6 +55,9 @@ class EnvironmentMap {
   /// Size of the panorama or of one face, without borders.
   int width(int level = 0) const { return image(level, 0).width() - (layout_ == EnvironmentLayout::cube ? 2 : 0); }
   int height(int level = 0) const { return image(level, 0).height() - 2; }
+
+  /// Returns whether the light from all directions is the same.
+  bool is_uniform() const;
 
   /// Returns the trilinearly filtered linear light from direction d_ms, which may have any length except 0. dx_ms and dy_ms are the changes
   /// in the direction to the next pixel to the right and to the next pixel up. All inputs are safe: if the direction is 0 or not finite,

@@ -165,11 +165,24 @@ EnvironmentMap::EnvironmentMap(std::span<const std::array<Image<glm::vec4>, 6>> 
   HS_CHECK_OP(levels.size(), >=, 1u);
   for (std::size_t level = 0; level < levels.size(); ++level) {
     for (const Image<glm::vec4>& face : levels[level]) {
-      HS_CHECK_OP(face.width(), ==, levels[0][0].width() >> level);
+      HS_CHECK_OP(face.width(), ==, std::max(levels[0][0].width() >> level, 1));
       HS_CHECK_OP(face.height(), ==, face.width());
     }
   }
   add_levels(levels, format, workers);
+}
+
+bool EnvironmentMap::is_uniform() const {
+  const glm::vec3 light(image(0, 0).value(0, 0, 0));
+  for (int face = 0; face < faces(); ++face) {
+    const Texture2D& texels = image(0, face);
+    for (int y = 0; y < texels.height(); ++y) {
+      for (int x = 0; x < texels.width(); ++x) {
+        if (glm::vec3(texels.value(0, x, y)) != light) return false;
+      }
+    }
+  }
+  return true;
 }
 
 template <class Texel>

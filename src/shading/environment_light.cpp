@@ -101,6 +101,9 @@ vec3<R> tangent_of(const vec3<R>& n) {
   return {fma(sign * n.x * n.x, a, R(1)), sign * n.x * n.y * a, -sign * n.x};
 }
 
+// The roughness for which a level is filtered.
+double roughness_of(int level) { return static_cast<double>(level) / (FilteredEnvironment::kLevels - 1); }
+
 Faces filtered_faces(const EnvironmentMap& base, int size, double roughness, const Workers& workers) {
   const std::vector<LobeSample> samples = lobe_samples(roughness, base.width());
   return filled_faces(size, workers, [&](const vec3<Real>& d, const glm::vec3&, const glm::vec3&) {
@@ -118,8 +121,29 @@ std::vector<Faces> filtered_levels(const EnvironmentMap& map, int size, const Wo
   }));
   const EnvironmentMap base(levels[0], TexelFormat::rgba32f, &workers);
   for (int i = 1; i < FilteredEnvironment::kLevels; ++i)
-    levels.push_back(filtered_faces(base, size >> i, static_cast<double>(i) / (FilteredEnvironment::kLevels - 1), workers));
+    levels.push_back(filtered_faces(base, size >> i, roughness_of(i), workers));
   return levels;
+}
+
+// The same for a map with this light from all directions: faces of one texel, whose filtered light has the same rounding errors.
+std::vector<Faces> uniform_levels(const glm::vec3& light, int base_size) {
+  std::vector<Faces> levels;
+  for (int i = 0; i < FilteredEnvironment::kLevels; ++i) {
+    glm::vec3 sum = light;
+    if (i > 0) {
+      sum = glm::vec3(0.0f);
+      for (const LobeSample& s : lobe_samples(roughness_of(i), base_size)) sum += light * s.weight;
+    }
+    levels.push_back(make_faces(1));
+    for (Image<glm::vec4>& face : levels.back()) face.at(0, 0) = glm::vec4(sum, 1.0f);
+  }
+  return levels;
+}
+
+std::vector<Faces> lobe_levels(const EnvironmentMap& map, int size, const Workers& workers) {
+  if (!map.is_uniform()) return filtered_levels(map, size, workers);
+  const vec3<float> light = map.sample_level<float>(vec3<float>(0, 0, 1), 0.0f);
+  return uniform_levels({light.x, light.y, light.z}, size);
 }
 
 // Sums of the light of a face times the first nine spherical harmonics, and of the weights of its texels.
@@ -165,7 +189,7 @@ std::array<glm::vec3, 9> harmonics_of(const Faces& faces, const Workers& workers
 }  // namespace
 
 FilteredEnvironment::FilteredEnvironment(const EnvironmentMap& map, int size, const Workers& workers)
-    : FilteredEnvironment(filtered_levels(map, size, workers), workers) {}
+    : FilteredEnvironment(lobe_levels(map, size, workers), workers) {}
 
 FilteredEnvironment::FilteredEnvironment(const std::vector<std::array<Image<glm::vec4>, 6>>& levels, const Workers& workers)
     : radiance(levels, TexelFormat::rgba32f, &workers), harmonics(harmonics_of(levels[0], workers)) {}

@@ -23,7 +23,7 @@ struct FilteredEnvironment {
   std::array<glm::vec3, 9> harmonics;  ///< irradiance / π = Σ harmonics[i]·basis i, with the constants of the basis included
 
   /// Prefilters a map. size: face width of level 0, a power of two that is at least 2^kLevels. The result is bit-identical for any number
-  /// of workers and any SIMD width.
+  /// of workers and any SIMD width. Uniform maps need no filtering, because their light is the same in every lobe.
   FilteredEnvironment(const EnvironmentMap& map, int size, const Workers& workers);
 
   /// Returns irradiance / π at a surface with the unit normal n_ms.

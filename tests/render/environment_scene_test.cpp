@@ -185,6 +185,47 @@ TEST(Reflections, UseTheSelectedEnvironment) {
   EXPECT_TRUE(reports(input_error([&] { middle({"reflections.environment=c"}); }), "test.json: reflections.environment", {"'c'", "a, b"}));
 }
 
+// ---- shared environments -----------------------------------------------------------------------------------------------
+
+// Returns the map that the first object of a scene reflects, or null.
+const EnvironmentMap* reflected_map(const PreparedScene& scene) {
+  const EnvironmentBlend* blend = std::visit(
+      [](const auto& shader) -> const EnvironmentBlend* {
+        if constexpr (requires { shader.reflected_environment; }) return shader.reflected_environment;
+        return nullptr;
+      },
+      scene.draws.front().shader);
+  return blend == nullptr ? nullptr : blend->first.map;
+}
+
+SceneDescription reflecting(const std::string& environment) {
+  return SceneFile::parse(R"({"version": 1, "objects": {"ball": {"reflection": 1}}, "environments": {"e": )" + environment +
+                              R"(}, "reflections": {"environment": "e"}})",
+                          "test.json", ".")
+      .description();
+}
+
+TEST(SharedEnvironments, AreMadeOncePerProcess) {
+  const Workers workers(1);
+  for (const char* environment : {R"({"type": "studio", "size": 32})", R"({"type": "day_sky", "size": 32})",
+                                  R"({"type": "night_sky", "size": 32})"}) {
+    SceneAssets first(workers), second(workers);
+    const SceneDescription scene = reflecting(environment);
+    const PreparedScene a = first.prepare(scene, 16, 16), b = second.prepare(scene, 16, 16);
+    ASSERT_NE(reflected_map(a), nullptr);
+    EXPECT_EQ(reflected_map(a), reflected_map(b)) << environment;
+  }
+}
+
+TEST(SharedEnvironments, AreNotMadeForValuesAndStayInTheCache) {
+  const Workers workers(1);
+  SceneAssets assets(workers);
+  const SceneDescription scene = reflecting(R"({"map": 0.5})");
+  const PreparedScene before = assets.prepare(scene, 16, 16);
+  EXPECT_EQ(reflected_map(assets.prepare_values(scene, 16, 16)), nullptr);
+  EXPECT_EQ(reflected_map(assets.prepare(scene, 16, 16)), reflected_map(before));
+}
+
 TEST(Reflections, AreWithinOneLsbOfDoubleForEveryNormalDetail) {
   for (const char* detail : {R"("normals": "pixel", "height": "relief")", R"("bump_map": "relief")", R"("normal": "none")"}) {
     const std::string text = std::string(R"({"version": 1, "textures": {"relief": {"source": "moon_height", "width": 256}},

@@ -115,6 +115,48 @@ TEST(Ggx, WhiteFurnace) {
   }
 }
 
+// Level 0 is not uniform, so that the map is filtered, but all lookups read the smaller levels, which are.
+EnvironmentMap filtered_although_uniform(const glm::vec3& light) {
+  std::vector<std::array<Image<glm::vec4>, 6>> levels;
+  for (int size = 256; size >= 1; size /= 2) {
+    levels.emplace_back();
+    for (Image<glm::vec4>& face : levels.back()) {
+      face = Image<glm::vec4>(size, size);
+      std::fill_n(face.data(), face.texels().size(), glm::vec4(light, 1.0f));
+    }
+  }
+  levels[0][0].at(7, 9).x += 1.0f;
+  return EnvironmentMap(levels, TexelFormat::rgba32f);
+}
+
+// The closed form for uniform maps has the bits of the filter, for any type of uniform map.
+TEST(Ggx, UniformMapsHaveTheBitsOfFilteredOnes) {
+  const Workers workers(2);
+  const glm::vec3 light(0.62f, 0.1f, 3.7f);
+  const EnvironmentMap map = filtered_although_uniform(light);
+  ASSERT_FALSE(map.is_uniform());
+  const FilteredEnvironment expected(map, 64, workers);
+  Image<glm::vec4> one(1, 1), many(8, 4);
+  one.at(0, 0) = glm::vec4(light, 1.0f);
+  std::fill_n(many.data(), many.texels().size(), glm::vec4(light, 1.0f));
+  for (const Image<glm::vec4>& panorama : {one, many}) {
+    const EnvironmentMap uniform_map(panorama, TexelFormat::rgba32f);
+    ASSERT_TRUE(uniform_map.is_uniform());
+    const FilteredEnvironment actual(uniform_map, 64, workers);
+    EXPECT_EQ(actual.radiance.width(), 1);
+    over_sphere(8, [&](const glm::dvec3& direction, double) {
+      const vec3<float> d{glm::vec3(direction)};
+      for (const float roughness : {0.0f, 0.1f, 0.2f, 0.45f, 0.8f, 1.0f}) {
+        const vec3<float> a = actual.specular(d, roughness), b = expected.specular(d, roughness);
+        EXPECT_TRUE(a.x == b.x && a.y == b.y && a.z == b.z) << roughness;
+      }
+      const vec3<float> a = actual.diffuse(d), b = expected.diffuse(d);
+      EXPECT_TRUE(a.x == b.x && a.y == b.y && a.z == b.z);
+      EXPECT_TRUE(a.x == light.x && a.y == light.y && a.z == light.z);
+    });
+  }
+}
+
 // Spheres seen from +z under the lamp. The reference is the integral of the environment times the reflection. The split-sum approximation
 // prefilters for a view along the normal, so its error is largest at grazing views of rough surfaces.
 TEST(Ggx, EnvironmentLightIsCloseToTheIntegralOnSpheres) {
