@@ -252,6 +252,13 @@ const EnvironmentBlend* SceneEnvironments::reflected_environment() {
   return reflected_environment_.get();
 }
 
+glm::dvec3 SceneEnvironments::mean_light() {
+  if (scene_.reflections.environment.empty()) return glm::dvec3(0.0);
+  const EnvironmentLightBlend* around = light();
+  if (around == nullptr) return glm::dvec3(0.0);
+  return glm::dvec3(around->first.map->harmonics[0] * around->first.brightness);
+}
+
 const EnvironmentLightBlend* SceneEnvironments::light() {
   if (!scene_.reflections.on) return nullptr;
   if (light_ == nullptr) {

@@ -33,6 +33,9 @@ class SceneEnvironments {
   const EnvironmentBlend* reflected_environment();
   // Returns the filtered environment that lights metallic-roughness surfaces, or null if reflections are off.
   const EnvironmentLightBlend* light();
+  // Returns the mean light of the environment that `reflections.environment` names, over all directions. 0 if none is named or reflections
+  // are off.
+  glm::dvec3 mean_light();
 
  private:
   // How to make the map of an environment.

@@ -47,6 +47,11 @@ void SceneSurfaces::report_unused_maps(const ObjectDescription& o, const std::st
   }
 }
 
+glm::dvec3 SceneSurfaces::ambient(const Color& factor) {
+  if (factor.linear == glm::dvec3(0.0)) return glm::dvec3(0.0);
+  return factor.linear * (lights_.ambient() + environments_.mean_light());
+}
+
 LitSurface SceneSurfaces::surface_of(const ObjectDescription& o, const std::string& path) {
   const SurfaceDescription& d = o.surface;
   LitSurface s;
@@ -56,7 +61,8 @@ LitSurface SceneSurfaces::surface_of(const ObjectDescription& o, const std::stri
   s.two_sided = d.two_sided || o.shape == Shape::plane;
   report_unused_maps(o, path);
   add_factor(s, kColor, d.tint.linear, d.color, o, path + ".color");
-  add_factor(s, kAmbient, d.ambient.linear * lights_.ambient(), d.ambient_map, o, path + ".ambient_map");
+  const glm::dvec3 around = d.shading == ShadingRate::none ? glm::dvec3(0.0) : ambient(d.ambient);
+  add_factor(s, kAmbient, around, d.ambient_map, o, path + ".ambient_map");
   add_factor(s, kDiffuse, d.diffuse.linear, d.diffuse_map, o, path + ".diffuse_map");
   add_factor(s, kSpecular, d.specular.linear, d.specular_map, o, path + ".specular_map");
   add_factor(s, kEmissive, d.emissive.linear, d.emissive_map, o, path + ".emissive_map");

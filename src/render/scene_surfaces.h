@@ -24,6 +24,8 @@ class SceneSurfaces {
   // Returns the surface of an object without its transforms and without a map for per-pixel normals. path: the path of the object, for
   // error messages.
   LitSurface surface_of(const ObjectDescription& o, const std::string& path);
+  // Returns the ambient light of a surface with this factor: that of the lights and the scene, and of the environment if one is named.
+  glm::dvec3 ambient(const Color& factor);
 
  private:
   void add_factor(LitSurface& s, MaterialFactor factor, const glm::dvec3& constant, const MapValue& map, const ObjectDescription& o,

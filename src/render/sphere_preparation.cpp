@@ -83,7 +83,7 @@ void SpherePreparation::add_particles(int object, const std::string& path, const
   const bool exact = p.sprite == ParticleSprite::exact;
   SphereImpostors s = impostors(exact && p.receives_shadow);
   s.point_scale = p.point_scale > 0.0 ? static_cast<float>(p.point_scale) : static_cast<float>(view_.width_px);
-  s.ambient = glm::vec3(p.ambient.linear * lights_.ambient());
+  s.ambient = glm::vec3(surfaces_.ambient(p.ambient));
   s.diffuse = glm::vec3(p.diffuse.linear);
   s.specular = glm::vec3(p.specular.linear);
   s.shininess = static_cast<float>(p.shininess);

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "halfspace/image/image_io.h"
+#include "halfspace/procedural/sky.h"
 #include "halfspace/scene/scene_file.h"
 #include "render/naive_picture.h"
 #include "support/folder_test.h"
@@ -183,6 +184,62 @@ TEST(Reflections, UseTheSelectedEnvironment) {
   EXPECT_EQ(middle({"reflections.on=false"}), glm::vec4(0, 0, 0, 1));
   EXPECT_EQ(middle({"ball.reflection=0"}), glm::vec4(0, 0, 0, 1));
   EXPECT_TRUE(reports(input_error([&] { middle({"reflections.environment=c"}); }), "test.json: reflections.environment", {"'c'", "a, b"}));
+}
+
+// ---- ambient light -----------------------------------------------------------------------------------------------------
+
+// Returns the light of the middle pixel, where the side of a surface is that no light reaches.
+glm::vec4 dark_side(const std::string& things, const std::vector<std::string>& settings = {}) {
+  SceneFile scene = SceneFile::parse(R"({"version": 1, "ambient": 0.25, "lights": {"back": {"direction": [0, 0, -1]}},
+    "environments": {"other": {"map": 8}, "around": {"map": [1, 0.5, 0.125], "brightness": 2}}, "reflections": {"environment": "around"}, )" +
+                                         things + "}",
+                                     "test.json", ".");
+  scene.set(settings);
+  return light_of(scene.description(), 9, 9).at(4, 4);
+}
+
+// color · ambient · A, where A is the ambient light of the scene plus the mean light of the environment. All factors are powers of two or
+// their sums, so the products are exact.
+TEST(EnvironmentLight, IsAmbientLightOfEveryKindOfShape) {
+  const glm::vec4 expected(0.5f * glm::vec3(2.25f, 1.25f, 0.5f), 1.0f);
+  for (const char* shading : {"phong", "gouraud", "flat", "provoking"})
+    EXPECT_EQ(dark_side(R"("objects": {"ball": {"color": 0.5, "shading": ")" + std::string(shading) + R"("}})"), expected) << shading;
+  EXPECT_EQ(dark_side(R"("objects": {"ball": {"shape": "sphere", "color": 0.5}})"), expected);
+  EXPECT_EQ(dark_side(R"("objects": {"ball": {"color": 0.25, "ambient": 2}})"), expected);
+  const std::string particle = R"("particles": {"count": 1, "radius": 1, "arrangement": "grid"})";  // its color depends on its position
+  EXPECT_NEAR(dark_side(particle).x, 9.0f * dark_side(particle, {"reflections.on=false"}).x, 1e-6f);
+}
+
+TEST(EnvironmentLight, IsAmbientLightOnlyIfTheEnvironmentIsNamed) {
+  const std::string ball = R"("objects": {"ball": {"color": 0.5}})";
+  const glm::vec4 without(glm::vec3(0.125f), 1.0f);
+  EXPECT_EQ(dark_side(ball, {"reflections.environment="}), without);
+  EXPECT_EQ(dark_side(ball, {"reflections.environment=", "background.type=environment"}), without);
+  EXPECT_EQ(dark_side(ball, {"reflections.on=false"}), without);
+  EXPECT_EQ(dark_side(ball, {"ball.ambient=0"}), glm::vec4(0, 0, 0, 1));
+  EXPECT_EQ(dark_side(ball, {"ball.shading=none"}), glm::vec4(0.5f, 0.5f, 0.5f, 1)) << "the color itself";
+}
+
+// The mean of the studio's light, integrated over a grid of directions. The filtered map has texels of up to 0.9 degrees, and its mean weights
+// them by their solid angles.
+TEST(EnvironmentLight, IsTheMeanOverAllDirections) {
+  const Workers workers(2);
+  const EnvironmentMap map(procedural_studio(256, workers), TexelFormat::rgba16f, &workers);
+  constexpr int kRows = 200;
+  double sum = 0.0, weights = 0.0;
+  for (int i = 0; i < kRows; ++i) {
+    const double theta = std::numbers::pi * (i + 0.5) / kRows;
+    for (int j = 0; j < 2 * kRows; ++j) {
+      const double phi = std::numbers::pi * j / kRows;
+      const vec3<float> d(glm::vec3(std::sin(theta) * std::cos(phi), std::cos(theta), std::sin(theta) * std::sin(phi)));
+      sum += static_cast<double>(map.sample_level<float>(d, 0.0f).x) * std::sin(theta);
+      weights += std::sin(theta);
+    }
+  }
+  SceneFile scene = SceneFile::parse(R"({"version": 1, "objects": {"ball": {}}, "environments": {"s": {"type": "studio", "size": 256}},
+    "reflections": {"environment": "s"}})",
+                                     "test.json", ".");
+  EXPECT_NEAR(light_of(scene.description(), 9, 9).at(4, 4).x, sum / weights, 1e-3 * sum / weights);
 }
 
 // ---- shared environments -----------------------------------------------------------------------------------------------
