@@ -89,6 +89,11 @@ void write_image(const std::filesystem::path& path, const Image<glm::u8vec4>& im
 ///         Alpha is dropped, negative values become 0, and infinities become 65504.
 void write_image(const std::filesystem::path& path, const Image<glm::vec4>& image, const ImageText& text = {});
 
+/// Encode an image as write_image() stores it, and return the bytes of the file. The format must match the type of the image (is_linear).
+/// name: begins error messages.
+std::vector<std::byte> encode_image(const Image<glm::u8vec4>& image, ImageFile format, const std::string& name, const ImageText& text = {});
+std::vector<std::byte> encode_image(const Image<glm::vec4>& image, ImageFile format, const std::string& name, const ImageText& text = {});
+
 struct ExrChannel;
 /// Returns the channels that write_image() stores for .exr. The image is not copied and must outlive them.
 std::vector<ExrChannel> color_channels(const Image<glm::vec4>& image);

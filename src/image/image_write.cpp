@@ -72,33 +72,25 @@ glm::vec3 rgbe_texel(const glm::vec4& t) {
   return color;
 }
 
-void write_hdr(const std::filesystem::path& path, const Image<glm::vec4>& image) {
-  HS_CHECK(!image.empty());
-  check_writable(path);
+std::vector<std::byte> encode_hdr(const std::string& name, const Image<glm::vec4>& image) {
   PictureHeader header;
   header.width = image.width();
   header.height = image.height();
   header.channels = 3;
   header.sample = Sample::float32;
-  write_file(path, encode_by_tool(path, "hdr", header, [&](int y, std::span<std::byte> row) {
-               std::byte* to = row.data();
-               for (const glm::vec4& texel : image.row(y)) {
-                 const glm::vec3 color = rgbe_texel(texel);
-                 std::memcpy(to, &color, sizeof color);
-                 to += sizeof color;
-               }
-             }));
+  return encode_by_tool(name, "hdr", header, [&](int y, std::span<std::byte> row) {
+    std::byte* to = row.data();
+    for (const glm::vec4& texel : image.row(y)) {
+      const glm::vec3 color = rgbe_texel(texel);
+      std::memcpy(to, &color, sizeof color);
+      to += sizeof color;
+    }
+  });
 }
 
-void write_tiff(const std::filesystem::path& path, const Image<glm::u8vec4>& image) {
-  check_writable(path);
+std::vector<std::byte> encode_tiff(const std::string& name, const Image<glm::u8vec4>& image) {
   const bool opaque = std::ranges::all_of(image.texels(), [](const glm::u8vec4& t) { return t.w == 255; });
-  write_file(path, encode_codes_by_tool(path, "tiff", image, opaque ? 3 : 4));
-}
-
-void write_jpeg(const std::filesystem::path& path, const Image<glm::u8vec4>& image) {
-  check_writable(path);
-  write_file(path, encode_jpeg(path, image));
+  return encode_codes_by_tool(name, "tiff", image, opaque ? 3 : 4);
 }
 
 [[noreturn]] void fail_for_memory(const std::filesystem::path& path) {
@@ -131,12 +123,26 @@ void write_data_png(const std::filesystem::path& path, const Image<glm::u8vec4>&
   write_file(path, encode_png(image, PngCodes::numbers));
 }
 
-void write_image(const std::filesystem::path& path, const Image<glm::u8vec4>& image, const ImageText& text) try {
-  const ImageFile file = checked_image_file(path, false);
-  if (file == ImageFile::png) return write_png(path, image, text);
-  file == ImageFile::jpeg ? write_jpeg(path, image) : write_tiff(path, image);
+std::vector<std::byte> encode_image(const Image<glm::u8vec4>& image, ImageFile format, const std::string& name, const ImageText& text) try {
+  HS_CHECK(!image.empty() && !is_linear(format));
+  if (format == ImageFile::png) return encode_png(image, PngCodes::srgb, text);
+  return format == ImageFile::jpeg ? encode_jpeg(name, image) : encode_tiff(name, image);
 } catch (const std::bad_alloc&) {
-  fail_for_memory(path);
+  fail_for_memory(name);
+}
+
+std::vector<std::byte> encode_image(const Image<glm::vec4>& image, ImageFile format, const std::string& name, const ImageText& text) try {
+  HS_CHECK(!image.empty() && is_linear(format));
+  if (format == ImageFile::hdr) return encode_hdr(name, image);
+  return encode_exr(name, image.width(), image.height(), color_channels(image), text);
+} catch (const std::bad_alloc&) {
+  fail_for_memory(name);
+}
+
+void write_image(const std::filesystem::path& path, const Image<glm::u8vec4>& image, const ImageText& text) {
+  const ImageFile format = checked_image_file(path, false);
+  check_writable(path);
+  write_file(path, encode_image(image, format, path.string(), text));
 }
 
 std::vector<ExrChannel> color_channels(const Image<glm::vec4>& image) {
@@ -146,11 +152,10 @@ std::vector<ExrChannel> color_channels(const Image<glm::vec4>& image) {
   return channels;
 }
 
-void write_image(const std::filesystem::path& path, const Image<glm::vec4>& image, const ImageText& text) try {
-  if (checked_image_file(path, true) == ImageFile::hdr) return write_hdr(path, image);
-  write_exr(path, image.width(), image.height(), color_channels(image), text);
-} catch (const std::bad_alloc&) {
-  fail_for_memory(path);
+void write_image(const std::filesystem::path& path, const Image<glm::vec4>& image, const ImageText& text) {
+  const ImageFile format = checked_image_file(path, true);
+  check_writable(path);
+  write_file(path, encode_image(image, format, path.string(), text));
 }
 
 void write_depth_exr(const std::filesystem::path& path, const Image<float>& depth) {
