@@ -49,8 +49,8 @@ class Scene(Contents):
 
     Scene() starts an empty scene, for add() and add_light(). Scene.load() opens a scene or a model file.
 
-    lighting: "studio" (the environment, key light and tone curve that are used for model files) or "none" (black background, no light,
-        no tone curve: colors are clamped to [0, 1]).
+    lighting: "studio" (the environment, key light, exposure and tone curve that are used for model files; the tone curve also applies to
+        background.color, so that white arrives as 215) or "none" (black background, no light, no tone curve: colors are clamped to [0, 1]).
     threads: number of threads; the default is one per core. The pictures do not depend on it.
 
     A scene is a mapping of its keys: scene["samples"], "ball" in scene, list(scene) and dict(scene) work.
@@ -85,7 +85,7 @@ class Scene(Contents):
         inside: whether the eye is inside the model.   floor: whether there is a shadow on a floor below the model.
         environment: image file of a panorama that lights the model.
         background: "#rrggbb", three linear numbers from 0 to 1, "environment" or "transparent". Colors are those before exposure and tone
-            mapping.
+            mapping: "#ffffff" arrives as 215 in the picture. For exact white, render with alpha=True and blend the picture with white.
         model_scene, animation, variant: scene, animation and material variant of the file: names, or indices from 0. `animation` and
             `variant` can also be called model_animation and model_variant, like the keys of an object.
         times: times in seconds at which the whole model is in view. The default is time 0.

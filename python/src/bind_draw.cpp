@@ -10,6 +10,7 @@
 #include "bindings.h"
 #include "draw_shader.h"
 #include "halfspace/core/parallel.h"
+#include "signals.h"
 
 namespace halfspace::python {
 
@@ -88,7 +89,7 @@ class ArrayPass {
       const py::gil_scoped_release release;
       Pass pass(width_, height_, color_target_, depth_target_, {.samples = samples_});
       for (const Draw& d : draws) d.add_to(pass);
-      statistics = pass.run(Workers(threads));
+      statistics = pass.run(Workers(threads, check_signals));
     } catch (const std::logic_error& e) {  // a failed check
       throw InputError(std::string("pass: the draws are invalid (") + e.what() + ")");
     }

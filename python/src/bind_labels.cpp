@@ -7,6 +7,7 @@
 
 #include "bindings.h"
 #include "halfspace/render/frame.h"
+#include "memory.h"
 #include "shots.h"
 
 namespace halfspace::python {
@@ -20,6 +21,13 @@ struct LabelImages {
   Image<glm::vec3> normal, camera_normal, albedo, position, barycentrics;
   Image<glm::vec2> uv;
   Image<uint32_t> object, instance, triangle;
+
+  /// Returns the bytes per pixel of the images with these names.
+  std::size_t pixel_bytes(const std::set<std::string>& names) {
+    std::size_t sum = 0;
+    for_each([&](const char* name, const auto& image, auto) { sum += names.contains(name) ? sizeof *image.data() : 0; });
+    return sum;
+  }
 
   /// Calls visit(name, image, member of FrameImages) for each label.
   template <class F>
@@ -50,7 +58,7 @@ struct Wanted {
   Shot shot(double time, const CameraDescription* camera) const {
     Shot shot = shot_of(time, camera);
     shot.transparent = alpha;
-    shot.unlit = !names.contains("color");
+    shot.color = names.contains("color");
     return shot;
   }
 };
@@ -76,16 +84,8 @@ py::array rgb_of(const Image<glm::u8vec4>& image) {
   return array;
 }
 
-py::dict labels(SceneCore& scene, int width, int height, double time, const CameraDescription* camera, const Names& names,
-                float background_depth, bool alpha) {
-  LabelImages images;
-  const Wanted wanted{names, background_depth, alpha};
-  const Shot shot = wanted.shot(time, camera);
-  const PictureSize size{width, height};
-  {
-    const py::gil_scoped_release release;
-    render_labels(images, wanted, size, scene.prepare(shot, size), scene.workers());
-  }
+// Moves the images with these names to arrays.
+py::dict arrays_of(LabelImages& images, const Names& names, bool alpha) {
   py::dict arrays;
   images.for_each([&]<class Texel>(const char* name, Image<Texel>& image, auto) {
     if (!names.contains(name)) return;
@@ -98,6 +98,21 @@ py::dict labels(SceneCore& scene, int width, int height, double time, const Came
     arrays[name] = array_of(std::move(image));
   });
   return arrays;
+}
+
+py::dict labels(SceneCore& scene, int width, int height, double time, const CameraDescription* camera, const Names& names,
+                float background_depth, bool alpha) {
+  LabelImages images;
+  const Wanted wanted{names, background_depth, alpha};
+  const Shot shot = wanted.shot(time, camera);
+  const PictureSize size{width, height};
+  return with_memory(size, images.pixel_bytes(names) + (names.contains("color") && !alpha ? 3 : 0), [&] {
+    {
+      const py::gil_scoped_release release;
+      render_labels(images, wanted, size, scene.prepare(shot, size), scene.workers());
+    }
+    return arrays_of(images, names, alpha);
+  });
 }
 
 /// Arrays of shape (N, height, width, ...) that a batch fills.
@@ -160,18 +175,21 @@ py::dict label_batch(SceneCore& scene, int width, int height, const std::vector<
   const Wanted wanted{names, background_depth, alpha};
   std::vector<Shot> shots;
   for (std::size_t i = 0; i < times.size(); ++i) shots.push_back(wanted.shot(times[i], cameras[i]));
-  const LabelArrays arrays(wanted, shots.size(), size);
-  std::atomic<std::size_t> finished = 0;
-  {
-    const py::gil_scoped_release release;
-    scene.for_each_shot(shots, size, [&](std::size_t i, const PreparedScene& prepared, const Workers& workers) {
-      LabelImages images;
-      render_labels(images, wanted, size, prepared, workers);
-      arrays.store(i, images);
-      report(progress, ++finished, shots.size());
-    });
-  }
-  return arrays.arrays();
+  const std::size_t pixel = LabelImages().pixel_bytes(names);
+  return with_memory(size, pixel * (shots.size() + scene.images_at_once(shots.size())), [&] {
+    const LabelArrays arrays(wanted, shots.size(), size);
+    std::atomic<std::size_t> finished = 0;
+    {
+      const py::gil_scoped_release release;
+      scene.for_each_shot(shots, size, [&](std::size_t i, const PreparedScene& prepared, const Workers& workers) {
+        LabelImages images;
+        render_labels(images, wanted, size, prepared, workers);
+        arrays.store(i, images);
+        report(progress, ++finished, shots.size());
+      });
+    }
+    return arrays.arrays();
+  });
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "bindings.h"
 #include "halfspace/core/float_mode.h"
 #include "matrices.h"
+#include "memory.h"
 #include "scene_core.h"
 #include "shots.h"
 
@@ -68,11 +69,11 @@ py::array render_picture(SceneCore& scene, int width, int height, double time, c
   shot.transparent = transparent;
   const PictureSize size{width, height};
   switch (kind) {
-    case PixelKind::rgb: return render_rgb(scene, shot, size);
-    case PixelKind::rgba: return render_whole<glm::u8vec4>(scene, shot, size);
+    case PixelKind::rgb: return with_memory(size, 4 + 3, [&] { return render_rgb(scene, shot, size); });
+    case PixelKind::rgba: return with_memory(size, 4, [&] { return render_whole<glm::u8vec4>(scene, shot, size); });
     case PixelKind::light: break;
   }
-  return render_whole<glm::vec4>(scene, shot, size);
+  return with_memory(size, 16, [&] { return render_whole<glm::vec4>(scene, shot, size); });
 }
 
 // Renders all shots and hands each image to copy(image, out), where `out` is its place in the array. Copying takes less than 0.1% of the
@@ -106,12 +107,15 @@ py::array render_batch(SceneCore& scene, int width, int height, const std::vecto
   for (Shot& shot : shots) shot.transparent = transparent;
   const PictureSize size{width, height};
   const auto copy = [](const Image<glm::u8vec4>& image, uint8_t* out) { copy_rgb(image.texels(), out); };
-  switch (kind) {
-    case PixelKind::rgb: return render_array<glm::u8vec4, uint8_t>(scene, shots, size, 3, progress, copy);
-    case PixelKind::rgba: return render_array<glm::u8vec4, uint8_t>(scene, shots, size, 4, progress, copy_texels<glm::u8vec4>);
-    case PixelKind::light: break;
-  }
-  return render_array<glm::vec4, float>(scene, shots, size, 4, progress, copy_texels<glm::vec4>);
+  const std::size_t pixel = kind == PixelKind::rgb ? 3 : kind == PixelKind::rgba ? 4 : 16, image = kind == PixelKind::light ? 16 : 4;
+  return with_memory(size, pixel * shots.size() + image * scene.images_at_once(shots.size()), [&] {
+    switch (kind) {
+      case PixelKind::rgb: return render_array<glm::u8vec4, uint8_t>(scene, shots, size, 3, progress, copy);
+      case PixelKind::rgba: return render_array<glm::u8vec4, uint8_t>(scene, shots, size, 4, progress, copy_texels<glm::u8vec4>);
+      case PixelKind::light: break;
+    }
+    return render_array<glm::vec4, float>(scene, shots, size, 4, progress, copy_texels<glm::vec4>);
+  });
 }
 
 glm::dvec3 vector_of(const py::handle& value) {

@@ -2,6 +2,7 @@
 //
 // The extension module halfspace._core.
 #include <exception>
+#include <new>
 #include <stdexcept>
 
 #include "bindings.h"
@@ -10,6 +11,7 @@
 #include "halfspace/core/parallel.h"
 #include "halfspace/core/tool_folder.h"
 #include "halfspace/scene/scene_file.h"
+#include "memory.h"
 #include "messages.h"
 
 namespace halfspace::python {
@@ -35,12 +37,23 @@ void translate_input_error(std::exception_ptr raised) {
   }
 }
 
+void translate_bad_alloc(std::exception_ptr raised) {
+  try {
+    if (raised) std::rethrow_exception(raised);
+  } catch (const MemoryShortage& e) {
+    PyErr_SetString(PyExc_MemoryError, e.what());
+  } catch (const std::bad_alloc&) {
+    PyErr_SetString(PyExc_MemoryError, allocation_problem().c_str());
+  }
+}
+
 }  // namespace
 
 PYBIND11_MODULE(_core, m) {
   set_check_handler(throw_failed_check);
   input_error = py::register_exception<InputError>(m, "InputError", PyExc_ValueError).ptr();
   py::register_exception_translator(translate_input_error);
+  py::register_exception_translator(translate_bad_alloc);
   py::register_exception<OutputError>(m, "OutputError", PyExc_OSError);
   m.attr("version") = HALFSPACE_VERSION;
   m.attr("lanes") = kLanes;

@@ -2,7 +2,6 @@
 #include "scene_core.h"
 
 #include <algorithm>
-#include <atomic>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -12,6 +11,8 @@
 #include "halfspace/render/scene_places.h"
 #include "halfspace/scene/scene_paths.h"
 #include "messages.h"
+#include "shot_queue.h"
+#include "signals.h"
 
 namespace halfspace::python {
 
@@ -71,16 +72,28 @@ std::optional<std::array<glm::dvec3, 2>> bounds_of(const PreparedScene& scene) {
 
 }  // namespace
 
+void SceneMutex::lock() {
+  if (owner_ == std::this_thread::get_id())
+    throw InputError("scene: is used by a signal handler while the same thread prepares it; expected another scene in the handler");
+  mutex_.lock();
+  owner_ = std::this_thread::get_id();
+}
+
+void SceneMutex::unlock() {
+  owner_ = std::thread::id();
+  mutex_.unlock();
+}
+
 SceneCore::SceneCore(OpenedScene opened, int threads)
     : state_{std::move(opened.scene), {}, {}},
       camera_names_(std::move(opened.camera_names)),
-      workers_(threads),
+      workers_(threads, check_signals),
       assets_(workers_, warner()) {
   if (opened.model != nullptr) state_.models[opened.model_file.string()] = opened.model;
 }
 
-SceneCore::SceneCore(const SceneCore& other, const std::lock_guard<std::mutex>&)
-    : state_(other.state_), camera_names_(other.camera_names_), workers_(other.threads()), assets_(other.assets_, workers_, warner()) {}
+SceneCore::SceneCore(const SceneCore& other, const std::lock_guard<SceneMutex>&)
+    : state_(other.state_), camera_names_(other.camera_names_), workers_(other.threads(), check_signals), assets_(other.assets_, workers_, warner()) {}
 
 std::shared_ptr<SceneCore> SceneCore::copy() const {
   const std::lock_guard lock(mutex_);
@@ -164,7 +177,7 @@ std::string SceneCore::print() const {
 std::optional<std::array<glm::dvec3, 2>> SceneCore::bounds() {
   const std::lock_guard lock(mutex_);
   if (bounds_known_) return bounds_;
-  Shot shot{.camera = CameraDescription{}, .unlit = true};  // any camera: nothing is culled
+  Shot shot{.camera = CameraDescription{}, .color = false};  // any camera: nothing is culled
   bounds_ = bounds_of(state_.prepare(shot, {16, 16}, assets_));
   bounds_known_ = true;
   return bounds_;
@@ -219,10 +232,6 @@ SceneDescription SceneCore::State::description(const Shot& shot) const {
     for (const glm::dmat4& transform : found->second) object.instances.push_back({.matrix = transform});
     object.visible = object.visible && !found->second.empty();
   }
-  if (shot.unlit) {
-    for (auto& [name, light] : description.lights) light.shadow = false;
-    description.head.ambient = Color{glm::dvec3(1.0)};
-  }
   if (shot.transparent) description.background.type = BackgroundType::transparent;
   if (shot.camera) {
     description.cameras = {{"shot", *shot.camera}};
@@ -235,7 +244,7 @@ PreparedScene SceneCore::State::prepare(const Shot& shot, PictureSize size, Scen
   const SceneDescription shown = description(shot);
   for (const auto& [file, model] : models) assets.add_model(file, model);  // assets drop models that a frame does not use
   try {
-    return assets.prepare(shown, size.width, size.height);
+    return shot.color ? assets.prepare(shown, size.width, size.height) : assets.prepare_values(shown, size.width, size.height);
   } catch (const InputError& e) {
     throw InputError(message_in_scene(scene, e.what()));
   }
@@ -279,22 +288,15 @@ void SceneCore::for_each_shot(std::span<const Shot> shots, PictureSize size,
   lock.unlock();
   render(0, *first, workers_);
   first.reset();
-  const int teams = static_cast<int>(std::min<std::size_t>(shots.size() - 1, static_cast<std::size_t>(workers_.threads())));
-  std::atomic<std::size_t> next = 1;
+  const int teams = static_cast<int>(images_at_once(shots.size() - 1));
+  ShotQueue queue(1, shots.size());
   // A separate team, because threads that wait for the lock in render() must not occupy the threads that prepare() needs while it holds the
   // lock.
   const Workers team(workers_.threads());
   team.for_each(teams, [&](int) {
-    const Workers own(1);
+    const Workers own(1, [&queue] { queue.check(); });
     SceneAssets assets(shared, own, warner());
-    try {
-      for (std::size_t i = next++; i < shots.size(); i = next++) {
-        render(i, state.prepare(shots[i], size, assets), own);
-      }
-    } catch (...) {
-      next = shots.size();
-      throw;
-    }
+    queue.work([&](std::size_t i) { render(i, state.prepare(shots[i], size, assets), own); });
   });
 }
 

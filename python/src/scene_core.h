@@ -4,7 +4,9 @@
 // images. All functions are thread-safe and are called without the GIL, because they wait for each other.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <atomic>
 #include <functional>
 #include <map>
 #include <memory>
@@ -13,6 +15,7 @@
 #include <set>
 #include <span>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "halfspace/core/parallel.h"
@@ -32,9 +35,23 @@ struct Shot {
   double time = 0.0;                          ///< seconds
   std::optional<CameraDescription> camera{};  ///< replaces the camera of the scene
   bool transparent = false;                   ///< alpha is 0 where nothing is drawn, and the background is omitted
-  bool unlit = false;                         ///< no color is needed: skips shadow maps, and the warning about missing lights
+  bool color = true;                          ///< false: no color is needed, see SceneAssets::prepare_values
 };
 
+/// A mutex for which a thread that already holds it does not wait. This happens in a signal handler of Python that uses the scene that its
+/// thread prepares.
+class SceneMutex {
+ public:
+  /// Throws InputError if this thread holds the mutex.
+  void lock();
+  void unlock();
+
+ private:
+  std::mutex mutex_;
+  std::atomic<std::thread::id> owner_{};  ///< the thread that holds the mutex
+};
+
+/// The functions that render end with an exception when a signal handler of Python raises one (signals.h). The scene is unchanged.
 class SceneCore {
  public:
   SceneCore(OpenedScene opened, int threads);
@@ -87,6 +104,8 @@ class SceneCore {
   /// Returns the warnings since the last call.
   std::vector<std::string> take_warnings();
   int threads() const { return workers_.threads(); }
+  /// Returns how many of `shots` images for_each_shot() renders at the same time.
+  std::size_t images_at_once(std::size_t shots) const { return std::min(shots, static_cast<std::size_t>(threads())); }
   const Workers& workers() const { return workers_; }
 
  private:
@@ -100,13 +119,13 @@ class SceneCore {
     PreparedScene prepare(const Shot& shot, PictureSize size, SceneAssets& assets) const;
   };
 
-  SceneCore(const SceneCore& other, const std::lock_guard<std::mutex>&);
+  SceneCore(const SceneCore& other, const std::lock_guard<SceneMutex>&);
   std::function<void(const std::string&)> warner() {
     return [this](const std::string& problem) { warn(problem); };
   }
   void warn(const std::string& problem);
 
-  mutable std::mutex mutex_;  ///< guards the state, its bounds, the assets and the picture
+  mutable SceneMutex mutex_;  ///< guards the state, its bounds, the assets and the picture
   State state_;
   bool bounds_known_ = false;
   std::optional<std::array<glm::dvec3, 2>> bounds_;        ///< valid if bounds_known_

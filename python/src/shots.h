@@ -23,11 +23,11 @@ inline std::vector<Shot> shots_of(const std::vector<double>& times, const std::v
   return shots;
 }
 
-/// Calls progress(done, total) with the GIL held. Also lets Python handle signals, so that a batch can be interrupted.
+/// Calls progress(done, total) with the GIL held.
 inline void report(const py::object& progress, std::size_t done, std::size_t total) {
+  if (progress.is_none()) return;
   const py::gil_scoped_acquire acquire;
-  if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-  if (!progress.is_none()) progress(done, total);
+  progress(done, total);
 }
 
 }  // namespace halfspace::python

@@ -106,3 +106,18 @@ def test_a_patch_changes_the_scene_file():
         scene["ball.radius"]
     with pytest.raises(halfspace.InputError, match="shape"):
         scene.merge({"objects": {"ball": {"shape": "bal"}}})
+
+
+def test_a_shape_in_the_studio_has_no_black_side():
+    scene = halfspace.Scene()
+    scene.merge({"objects": {"ball": {"shape": "uv_sphere"}}})
+    labels = scene.labels(["color", "mask"], size=(80, 60), camera=halfspace.Camera.look_at((1, -4, -3)))  # behind the key light
+    assert labels["color"][labels["mask"]].min() > 100
+    scene["reflections.on"] = False
+    assert scene.labels(["color"], size=(80, 60), camera=halfspace.Camera.look_at((1, -4, -3)))["color"].min() == 0
+
+
+def test_the_tone_curve_applies_to_a_white_background():
+    scene = halfspace.Scene()
+    scene["background.color"] = 1
+    assert (scene.render((8, 8)) == 215).all()  # the number in the guide
