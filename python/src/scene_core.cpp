@@ -93,7 +93,10 @@ SceneCore::SceneCore(OpenedScene opened, int threads)
 }
 
 SceneCore::SceneCore(const SceneCore& other, const std::lock_guard<SceneMutex>&)
-    : state_(other.state_), camera_names_(other.camera_names_), workers_(other.threads(), check_signals), assets_(other.assets_, workers_, warner()) {}
+    : state_(other.state_),
+      camera_names_(other.camera_names_),
+      workers_(other.threads(), check_signals),
+      assets_(other.assets_, workers_, warner()) {}
 
 std::shared_ptr<SceneCore> SceneCore::copy() const {
   const std::lock_guard lock(mutex_);

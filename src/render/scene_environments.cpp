@@ -267,7 +267,8 @@ const EnvironmentLightBlend* SceneEnvironments::light() {
       if (!e) return {};
       return {filtered(e->source), e->map_from_world, e->brightness};
     };
-    light_ = std::make_shared<const EnvironmentLightBlend>(EnvironmentLightBlend{light_of(blend.first), light_of(blend.second), blend.weight});
+    light_ =
+        std::make_shared<const EnvironmentLightBlend>(EnvironmentLightBlend{light_of(blend.first), light_of(blend.second), blend.weight});
     used_.keep(light_);
   }
   return light_.get();

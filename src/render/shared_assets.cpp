@@ -12,8 +12,8 @@ namespace halfspace::inline HS_LANES_NAMESPACE {
 SharedAssets& SharedAssets::of_process() {
   static auto* const kAssets = new SharedAssets;  // never destroyed, because threads may still use it while the process exits
   // A child process must not inherit a mutex that another thread holds.
-  static const int kError = ::pthread_atfork([] { kAssets->mutex_.lock(); }, [] { kAssets->mutex_.unlock(); },
-                                             [] { kAssets->mutex_.unlock(); });
+  static const int kError =
+      ::pthread_atfork([] { kAssets->mutex_.lock(); }, [] { kAssets->mutex_.unlock(); }, [] { kAssets->mutex_.unlock(); });
   if (kError != 0) throw std::bad_alloc();
   return *kAssets;
 }

@@ -109,7 +109,9 @@ Section section_of(ReflectionsDescription& r) {
   using T = ReflectionsDescription;
   static const std::vector<Key> keys{
       key<&T::on>("on", "Whether reflections are rendered"),
-      key<&T::environment>("environment", "Name of the environment that surfaces reflect, whose mean light is also ambient light; empty: the background, without ambient light"),
+      key<&T::environment>("environment",
+                           "Name of the environment that surfaces reflect, whose mean light is also ambient light; empty: the background, "
+                           "without ambient light"),
   };
   return {{keys, &r}};
 }

@@ -120,8 +120,7 @@ std::vector<Faces> filtered_levels(const EnvironmentMap& map, int size, const Wo
     return map.sample<Real>(d, vec3<Real>(right), vec3<Real>(down));
   }));
   const EnvironmentMap base(levels[0], TexelFormat::rgba32f, &workers);
-  for (int i = 1; i < FilteredEnvironment::kLevels; ++i)
-    levels.push_back(filtered_faces(base, size >> i, roughness_of(i), workers));
+  for (int i = 1; i < FilteredEnvironment::kLevels; ++i) levels.push_back(filtered_faces(base, size >> i, roughness_of(i), workers));
   return levels;
 }
 

@@ -220,8 +220,8 @@ TEST(EnvironmentLight, IsAmbientLightOnlyIfTheEnvironmentIsNamed) {
   EXPECT_EQ(dark_side(ball, {"ball.shading=none"}), glm::vec4(0.5f, 0.5f, 0.5f, 1)) << "the color itself";
 }
 
-// The mean of the studio's light, integrated over a grid of directions. The filtered map has texels of up to 0.9 degrees, and its mean weights
-// them by their solid angles.
+// The mean of the studio's light, integrated over a grid of directions. The filtered map has texels of up to 0.9 degrees, and its mean
+// weights them by their solid angles.
 TEST(EnvironmentLight, IsTheMeanOverAllDirections) {
   const Workers workers(2);
   const EnvironmentMap map(procedural_studio(256, workers), TexelFormat::rgba16f, &workers);
@@ -264,8 +264,8 @@ SceneDescription reflecting(const std::string& environment) {
 
 TEST(SharedEnvironments, AreMadeOncePerProcess) {
   const Workers workers(1);
-  for (const char* environment : {R"({"type": "studio", "size": 32})", R"({"type": "day_sky", "size": 32})",
-                                  R"({"type": "night_sky", "size": 32})"}) {
+  for (const char* environment :
+       {R"({"type": "studio", "size": 32})", R"({"type": "day_sky", "size": 32})", R"({"type": "night_sky", "size": 32})"}) {
     SceneAssets first(workers), second(workers);
     const SceneDescription scene = reflecting(environment);
     const PreparedScene a = first.prepare(scene, 16, 16), b = second.prepare(scene, 16, 16);
