@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "halfspace/model/gltf_indices.h"
 
-#include <algorithm>
-
 namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
@@ -53,14 +51,6 @@ std::vector<uint32_t> list_of_primitives(GltfMode mode, std::vector<uint32_t> in
     case GltfMode::triangle_fan: return triangles_of_fan(indices);
   }
   return indices;
-}
-
-std::vector<uint32_t> compact_indices(std::vector<uint32_t>& indices) {
-  std::vector<uint32_t> used = indices;
-  std::ranges::sort(used);
-  used.erase(std::unique(used.begin(), used.end()), used.end());
-  for (uint32_t& index : indices) index = static_cast<uint32_t>(std::ranges::lower_bound(used, index) - used.begin());
-  return used;
 }
 
 }  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -18,7 +18,4 @@ MeshTopology topology_of(GltfMode mode);
 /// Converts strips, loops and fans into lists. Incomplete lines and triangles at the end are dropped.
 std::vector<uint32_t> list_of_primitives(GltfMode mode, std::vector<uint32_t> indices);
 
-/// Renumbers the vertices in `indices` from 0, keeping their order, and returns their former indices.
-std::vector<uint32_t> compact_indices(std::vector<uint32_t>& indices);
-
 }  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -11,7 +11,9 @@
 #include "halfspace/model/gltf_indices.h"
 #include "halfspace/model/gltf_materials.h"
 #include "halfspace/model/gltf_vertices.h"
+#include "halfspace/model/mesh_vertices.h"
 #include "halfspace/model/normals.h"
+#include "halfspace/model/single_mesh.h"
 #include "halfspace/model/tangents.h"
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
@@ -69,9 +71,11 @@ class MeshReader {
       return document_.warn_at(json, "", "has no vertices or no indices; it is skipped");
     }
     std::vector<uint32_t> subset;
-    if (!mesh.indices.empty() && mesh.indices.size() < count) subset = compact_indices(mesh.indices);
+    if (!mesh.indices.empty()) subset = compact_indices(mesh.indices, count);
     read_material(json, mesh);
     read_vertices(accessors_, json, count, subset, model_.materials[static_cast<std::size_t>(mesh.material)].uv_sets, mesh);
+    skip_infinite_primitives(json, mesh);
+    if (mesh.positions.empty()) return document_.warn_at(json, "", "has no finite positions; it is skipped");
     complete(json, mesh);
     if (!mesh.targets.empty() || !mesh.joints.empty()) owner.deformed_vertices += mesh.positions.size();
     owner.parts.push_back(static_cast<int>(model_.meshes.size()));
@@ -99,6 +103,22 @@ class MeshReader {
     // A strip of n vertices has fewer than n triangles, and a growing vector needs up to twice its size.
     document_.take_memory(json, list.size(), 6 * sizeof(uint32_t));
     return list_of_primitives(mode, std::move(list));
+  }
+
+  // Removes the primitives with positions that are not finite, and the vertices that only they use.
+  void skip_infinite_primitives(const GltfValue& json, ModelMesh& mesh) {
+    const auto finite = [&](uint32_t vertex) { return is_finite(glm::dvec3(mesh.positions[vertex])); };
+    if (std::ranges::all_of(mesh.positions, [](const glm::vec3& p) { return is_finite(glm::dvec3(p)); })) return;
+    if (mesh.indices.empty()) {
+      document_.take_memory(json, mesh.positions.size(), sizeof(uint32_t));
+      mesh.indices.resize(mesh.positions.size());
+      std::iota(mesh.indices.begin(), mesh.indices.end(), 0u);
+    }
+    const std::size_t skipped = remove_primitives(mesh.topology, mesh.indices, finite);
+    if (mesh.indices.empty()) return mesh.positions.clear();
+    document_.take_memory(json, mesh.positions.size(), bytes_per_vertex(mesh));
+    document_.warn_at(json, "", fmt::format("{} points, lines or triangles with positions that are not finite; skipped", skipped));
+    remove_unused_vertices(mesh);
   }
 
   void read_material(const GltfValue& json, ModelMesh& mesh) {
@@ -137,6 +157,9 @@ class MeshReader {
       document_.take_memory(json, mesh.indices.size(), bytes_per_vertex(mesh) + kNormalBytes);
       add_flat_normals(mesh);
       mesh.computed_normals = true;
+    } else if (const std::size_t replaced = replace_missing_normals(mesh); replaced > 0) {
+      document_.warn_at(json, "attributes.NORMAL",
+                        fmt::format("{} normals that are zero or not finite are computed from the triangles", replaced));
     }
     const int uv_set = tangent_set(mesh);
     if (!mesh.tangents.empty() || uv_set < 0) return;

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "halfspace/model/normals.h"
+#include "halfspace/model/single_mesh.h"
 #include "halfspace/model/text_lines.h"
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
@@ -41,41 +42,40 @@ class VertexReader {
     return accessor;
   }
 
+  // Positions may be infinite or NaN.
   std::vector<glm::vec3> positions(const char* key) {
     const GltfAccessor source = accessor(key);
     std::vector<glm::vec3> values = accessors_.read<glm::vec3>(source, subset_);
-    const auto bad = std::ranges::find_if_not(values, [](const glm::vec3& p) { return is_bounded(p, kMaxPosition); });
-    if (bad != values.end()) {
-      document_.fail(*source.json,
-                     fmt::format("position {} is not finite or exceeds 1e18; expected smaller finite positions", bad - values.begin()));
-    }
+    const auto bad =
+        std::ranges::find_if(values, [](const glm::vec3& p) { return is_finite(glm::dvec3(p)) && !is_bounded(p, kMaxPosition); });
+    if (bad != values.end())
+      document_.fail(*source.json, fmt::format("position {} exceeds 1e18; expected smaller positions", bad - values.begin()));
     return values;
   }
 
-  // Vectors that are too large or not finite are replaced by 0.
+  // Vectors that are too large or not finite are replaced.
   template <class V>
-  std::vector<V> bounded(const char* key, float limit) {
+  std::vector<V> bounded(const char* key, float limit, const V& replacement = V(0.0f)) {
     const GltfAccessor source = accessor(key);
     std::vector<V> values = accessors_.read<V>(source, subset_);
-    bool replaced = false;
+    std::size_t replaced = 0;
     for (V& v : values) {
       if (is_bounded(v, limit)) continue;
-      v = V(0.0f);
-      replaced = true;
+      v = replacement;
+      ++replaced;
     }
-    if (replaced) document_.warn_at(*source.json, "", "has values that are not finite or too large; they are replaced by 0");
+    if (replaced > 0) {
+      document_.warn_at(*source.json, "",
+                        fmt::format("{} values that are not finite or too large are replaced by {}", replaced, replacement[0]));
+    }
     return values;
   }
 
+  // Normals that have no direction become 0.
   std::vector<glm::vec3> normals() {
-    std::vector<glm::vec3> values = bounded<glm::vec3>("NORMAL", kMaxPosition);
-    bool replaced = false;
-    for (glm::vec3& n : values) {
-      const double length = glm::length(glm::dvec3(n));
-      replaced = replaced || length == 0.0;
-      n = length == 0.0 ? glm::vec3(0.0f, 1.0f, 0.0f) : unit_vector(glm::dvec3(n));
-    }
-    if (replaced) document_.warn_at(attributes_, "NORMAL", "has normals of length 0; they are replaced by (0, 1, 0)");
+    const GltfAccessor source = accessor("NORMAL");
+    std::vector<glm::vec3> values = accessors_.read<glm::vec3>(source, subset_);
+    for (glm::vec3& n : values) n = is_bounded(n, kMaxPosition) && n != glm::vec3(0.0f) ? unit_vector(glm::dvec3(n)) : glm::vec3(0.0f);
     return values;
   }
 
@@ -98,9 +98,9 @@ class VertexReader {
     std::vector<glm::vec4> values;
     const GltfAccessor source = accessor("COLOR_0");
     if (source.width == 3) {
-      for (const glm::vec3& c : bounded<glm::vec3>("COLOR_0", kMaxPosition)) values.emplace_back(c, 1.0f);
+      for (const glm::vec3& c : bounded<glm::vec3>("COLOR_0", kMaxPosition, glm::vec3(1.0f))) values.emplace_back(c, 1.0f);
     } else {
-      values = bounded<glm::vec4>("COLOR_0", kMaxPosition);
+      values = bounded<glm::vec4>("COLOR_0", kMaxPosition, glm::vec4(1.0f));
     }
     for (glm::vec4& c : values) c = glm::clamp(c, 0.0f, 1.0f);
     return values;
@@ -164,7 +164,7 @@ void read_skin_attributes(GltfDocument& document, VertexReader& reader, ModelMes
 
 MorphTarget read_target(VertexReader reader, const ModelMesh& mesh) {
   MorphTarget target;
-  if (reader.has("POSITION")) target.positions = reader.positions("POSITION");
+  if (reader.has("POSITION")) target.positions = reader.bounded<glm::vec3>("POSITION", kMaxPosition);
   if (reader.has("NORMAL") && !mesh.normals.empty()) target.normals = reader.bounded<glm::vec3>("NORMAL", kMaxPosition);
   if (reader.has("TANGENT") && !mesh.tangents.empty()) target.tangents = reader.bounded<glm::vec3>("TANGENT", kMaxPosition);
   return target;

@@ -8,9 +8,10 @@
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
 
-/// Reads the attributes of a primitive for all vertices, or for a subset. Positions that are not finite are errors. Values that are not
-/// finite in other attributes are replaced, with a warning. Normals and tangents are normalized. Tangents without normals are skipped, and
-/// so are attributes that a mesh does not have. uv_sets: the indices of the sets of texture coordinates to read, or -1.
+/// Reads the attributes of a primitive for all vertices, or for a subset. Positions may be infinite or NaN, and normals that have no
+/// direction are 0. Values that are not finite in other attributes are replaced, with a warning. Normals and tangents are normalized.
+/// Tangents without normals are skipped, and so are attributes that a mesh does not have. uv_sets: the indices of the sets of texture
+/// coordinates to read, or -1.
 void read_vertices(GltfAccessors& accessors, const GltfValue& primitive, std::size_t count, GltfSubset subset,
                    const std::array<int, 2>& uv_sets, ModelMesh& mesh);
 

@@ -24,4 +24,8 @@ void add_flat_normals(ModelMesh& mesh);
 /// vertices at creases are split.
 void add_smooth_normals(ModelMesh& mesh, float crease_degrees, std::span<const uint32_t> groups = {});
 
+/// Replaces normals that are 0 by the normals of the triangles around their vertices, weighted by area, or by (0, 1, 0) if the triangles
+/// have no area. Returns their number.
+std::size_t replace_missing_normals(ModelMesh& mesh);
+
 }  // namespace halfspace::inline HS_LANES_NAMESPACE

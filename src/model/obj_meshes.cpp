@@ -7,9 +7,10 @@
 #include <map>
 #include <tuple>
 
+#include "halfspace/model/face_triangles.h"
+#include "halfspace/model/mesh_vertices.h"
 #include "halfspace/model/normals.h"
 #include "halfspace/model/srgb_color.h"
-#include "halfspace/model/triangulate.h"
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
 
@@ -70,7 +71,9 @@ class MeshBuilder {
  public:
   MeshBuilder(const ObjText& obj, const glm::dvec3& origin, float crease_degrees)
       : obj_(obj), crease_degrees_(crease_degrees), origin_(origin), last_vertex_(obj.positions.size(), kNoIndex) {
-    for (const glm::vec3& color : obj.colors) {
+    if (obj.colors.empty()) return;
+    for (const ObjCorner& corner : obj.corners) {
+      const glm::vec3& color = obj.colors[corner.position];
       if (std::max({color.x, color.y, color.z}) > 1.0f) color_scale_ = 1.0f / 255.0f;
     }
   }
@@ -79,6 +82,7 @@ class MeshBuilder {
     corners_.clear();
     next_.clear();
     smoothing_.clear();
+    has_unused_ = false;
     ModelMesh mesh;
     mesh.name = group.name;
     mesh.topology = group.topology;
@@ -86,6 +90,7 @@ class MeshBuilder {
     mesh.origin = origin_;
     for (const uint32_t element : group.elements) add_element(mesh, group.has_normals, element);
     fill_vertices(mesh, group.has_normals);
+    if (has_unused_) remove_unused_vertices(mesh);
     first_vertex_ += static_cast<uint32_t>(corners_.size());
     if (mesh.topology == MeshTopology::triangles && !group.has_normals) {
       add_smooth_normals(mesh, crease_degrees_, smoothing_);
@@ -117,10 +122,10 @@ class MeshBuilder {
       mesh.indices.insert(mesh.indices.end(), polygon_.begin(), polygon_.end());
     } else {
       places_.clear();
-      triangles_.clear();
       for (const uint32_t v : polygon_) places_.push_back(obj_.positions[corners_[v].position]);
-      triangulate(places_, triangles_);
-      for (const uint32_t corner : triangles_) mesh.indices.push_back(polygon_[corner]);
+      const std::span<const uint32_t> triangles = triangles_.of(places_);
+      has_unused_ = has_unused_ || triangles.size() < 3 * (places_.size() - 2);
+      for (const uint32_t corner : triangles) mesh.indices.push_back(polygon_[corner]);
     }
     if (obj_.has_smoothing) smoothing_.resize(mesh.indices.size() / 3, smoothing);
   }
@@ -156,7 +161,9 @@ class MeshBuilder {
         const glm::vec2 uv = corner.uv == kNoIndex ? glm::vec2(0.0f) : obj_.uvs[corner.uv];
         mesh.uvs[0].emplace_back(uv.x, 1.0f - uv.y);
       }
-      if (!obj_.colors.empty()) mesh.colors.emplace_back(linear_from_srgb(obj_.colors[corner.position] * color_scale_), 1.0f);
+      if (obj_.colors.empty()) continue;
+      const glm::vec3& color = obj_.colors[corner.position];
+      mesh.colors.emplace_back(color.x < 0.0f ? glm::vec3(1.0f) : linear_from_srgb(color * color_scale_), 1.0f);
     }
   }
 
@@ -170,7 +177,9 @@ class MeshBuilder {
   std::vector<ObjCorner> corners_;
   std::vector<uint32_t> next_, smoothing_;
   // The current polygon.
-  std::vector<uint32_t> polygon_, triangles_;
+  std::vector<uint32_t> polygon_;
+  FaceTriangles triangles_;
+  bool has_unused_ = false;  // not all corners of all polygons of the mesh are in triangles
   std::vector<glm::dvec3> places_;
 };
 

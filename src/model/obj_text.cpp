@@ -5,12 +5,15 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
+#include <cmath>
 #include <set>
 #include <span>
 #include <unordered_map>
 
 #include "halfspace/core/check.h"
 #include "halfspace/model/normals.h"
+#include "halfspace/model/single_mesh.h"
 #include "halfspace/model/text_lines.h"
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
@@ -41,6 +44,7 @@ class ObjParser {
       if (const std::string_view word = take_word(rest); !word.empty() && word[0] != '#') statement(word, rest);
     }
     check_indices();
+    if (has_infinite_) skip_infinite_elements();
     return std::move(obj_);
   }
 
@@ -70,13 +74,13 @@ class ObjParser {
     warn_once("unknown", "unknown statement " + in_quotes(word) + " is ignored, like all other unknown statements");
   }
 
-  // Reads up to 7 numbers. Returns how many there are.
+  // Reads up to 7 numbers, which may be infinite or NaN. Returns how many there are.
   template <class OnBad>
   std::size_t numbers(std::string_view rest, std::array<double, 7>& values, OnBad on_bad) {
     std::size_t count = 0;
     for (std::string_view word = take_value(rest); !word.empty() && count < values.size(); word = take_value(rest)) {
-      const std::optional<double> value = number_in(word);
-      if (!value) on_bad(word);
+      const std::optional<double> value = parse_number(word);
+      if (!value || (std::isfinite(*value) && std::abs(*value) > kMaxModelNumber)) on_bad(word);
       values[count++] = value.value_or(0.0);
     }
     return count;
@@ -90,20 +94,29 @@ class ObjParser {
     });
     if (count < 3) fail(fmt::format("a vertex has {} coordinates; expected 3", count));
     if (count >= 6) {
-      obj_.colors.resize(obj_.positions.size(), glm::vec3(1.0f));
-      obj_.colors.emplace_back(v[3], v[4], v[5]);
+      obj_.colors.resize(obj_.positions.size(), kNoColor);
+      obj_.colors.push_back(color(v[3], v[4], v[5]));
     } else if (!obj_.colors.empty()) {
-      obj_.colors.emplace_back(1.0f);
+      obj_.colors.push_back(kNoColor);
     }
     obj_.positions.emplace_back(v[0], v[1], v[2]);
+    has_infinite_ = has_infinite_ || !is_finite(obj_.positions.back());
+  }
+
+  glm::vec3 color(double red, double green, double blue) {
+    const glm::dvec3 c(red, green, blue);
+    if (is_finite(c)) return glm::vec3(glm::max(c, 0.0));
+    warn_once("colors", "colors that are not finite are replaced by white");
+    return kNoColor;
   }
 
   void texture_coordinate(std::string_view rest) {
     std::array<double, 7> v{};
-    numbers(rest, v, [&](std::string_view word) {
-      warn_once("vt", fmt::format("cannot read {} as a texture coordinate; such coordinates are treated as 0", in_quotes(word)));
-    });
-    obj_.uvs.emplace_back(v[0], v[1]);
+    bool good = true;
+    numbers(rest, v, [&](std::string_view) { good = false; });
+    good = good && std::isfinite(v[0]) && std::isfinite(v[1]);
+    if (!good) warn_once("vt", "unusable texture coordinates (not numbers, or not finite) are replaced by 0");
+    obj_.uvs.push_back(good ? glm::vec2(v[0], v[1]) : glm::vec2(0.0f));
   }
 
   void normal(std::string_view rest) {
@@ -111,8 +124,8 @@ class ObjParser {
     bool good = true;
     const std::size_t count = numbers(rest, v, [&](std::string_view) { good = false; });
     const double largest = std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])});
-    if (!good || count < 3 || largest == 0.0) {
-      warn_once("vn", "unusable normals (not numbers, or zero) are replaced by computed ones");
+    if (!good || count < 3 || largest == 0.0 || !is_finite({v[0], v[1], v[2]})) {
+      warn_once("vn", "unusable normals (not finite numbers, or zero) are replaced by computed ones");
       obj_.normals.emplace_back(0.0f);
       return;
     }
@@ -157,17 +170,29 @@ class ObjParser {
 
   void element(MeshTopology topology, std::size_t min_corners, std::string_view rest) {
     const std::size_t first = obj_.corners.size();
-    for (std::string_view word = take_value(rest); !word.empty(); word = take_value(rest)) obj_.corners.push_back(corner(word));
+    // Neighboring corners with the same position are one corner. The ends of a polyline may meet.
+    const auto is_repeated = [&](std::size_t at) {
+      return obj_.corners.size() - first > 1 && obj_.corners[at].position == obj_.corners.back().position;
+    };
+    for (std::string_view word = take_value(rest); !word.empty(); word = take_value(rest)) {
+      obj_.corners.push_back(corner(word));
+      if (topology != MeshTopology::points && is_repeated(obj_.corners.size() - 2)) obj_.corners.pop_back();
+    }
+    while (topology == MeshTopology::triangles && is_repeated(first)) obj_.corners.pop_back();
     if (obj_.corners.size() - first < min_corners) {
       obj_.corners.resize(first);
-      return warn_once("few",
-                       fmt::format("an element has too few vertices (expected at least {}); such elements are skipped", min_corners));
+      return warn_once(
+          "few", fmt::format("an element has too few different vertices (expected at least {}); such elements are skipped", min_corners));
     }
+    add_element(topology, first);
+  }
+
+  void add_element(MeshTopology topology, std::size_t first_corner) {
     if (state_changed_ || obj_.states.back().topology != topology) {
       obj_.states.push_back({topology, material_, smoothing_, name_});
       state_changed_ = false;
     }
-    obj_.elements.push_back({static_cast<uint32_t>(first), static_cast<uint32_t>(obj_.states.size() - 1)});
+    obj_.elements.push_back({static_cast<uint32_t>(first_corner), static_cast<uint32_t>(obj_.states.size() - 1)});
   }
 
   void use_material(std::string_view name) {
@@ -205,11 +230,46 @@ class ObjParser {
     if (largest_normal_.index > obj_.normals.size()) warn_range("normals", largest_normal_.line, obj_.normals.size());
   }
 
+  // Skips faces, line segments and points with coordinates that are not finite.
+  void skip_infinite_elements() {
+    const std::vector<ObjElement> elements = std::move(obj_.elements);
+    const std::vector<ObjCorner> corners = std::move(obj_.corners);
+    obj_.elements.clear();
+    obj_.corners.clear();
+    std::size_t skipped = 0;
+    const auto finite = [&](const ObjCorner& c) { return is_finite(obj_.positions[c.position]); };
+    for (std::size_t i = 0; i < elements.size(); ++i) {
+      const std::size_t first = elements[i].first_corner, end = i + 1 < elements.size() ? elements[i + 1].first_corner : corners.size();
+      const std::span<const ObjCorner> all(corners.data() + first, end - first);
+      if (std::ranges::all_of(all, finite)) {
+        add_corners(elements[i].state, all);
+        continue;
+      }
+      ++skipped;
+      const MeshTopology topology = obj_.states[elements[i].state].topology;
+      if (topology == MeshTopology::triangles) continue;
+      // The finite parts of a polyline, or the finite points.
+      const std::size_t min_corners = topology == MeshTopology::lines ? 2 : 1;
+      for (std::size_t begin = 0, k = 0; k <= all.size(); ++k) {
+        if (k < all.size() && finite(all[k])) continue;
+        if (k - begin >= min_corners) add_corners(elements[i].state, all.subspan(begin, k - begin));
+        begin = k + 1;
+      }
+    }
+    if (skipped > 0) warnings_.push_back(fmt::format("{} faces, lines or points with coordinates that are not finite; skipped", skipped));
+  }
+
+  void add_corners(uint32_t state, std::span<const ObjCorner> corners) {
+    obj_.elements.push_back({static_cast<uint32_t>(obj_.corners.size()), state});
+    obj_.corners.insert(obj_.corners.end(), corners.begin(), corners.end());
+  }
+
   void warn_range(std::string_view what, std::size_t line, std::size_t count) {
     warnings_.push_back(fmt::format("line {}: indices of {} that are out of range (1 to {}) are ignored", line, what, count));
   }
 
   static constexpr std::size_t kMaxLibraries = 256;
+  static constexpr glm::vec3 kNoColor{-1.0f};
 
   const std::filesystem::path& file_;
   TextLines lines_;
@@ -221,7 +281,7 @@ class ObjParser {
   int material_ = -1;
   uint32_t smoothing_ = 0;
   std::string name_;
-  bool state_changed_ = true;
+  bool state_changed_ = true, has_infinite_ = false;
 };
 
 }  // namespace

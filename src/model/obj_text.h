@@ -43,10 +43,10 @@ struct ObjElement {
 };
 
 struct ObjText {
-  std::vector<glm::dvec3> positions;
-  std::vector<glm::vec3> colors;   ///< empty, or one per position, as written in the file
-  std::vector<glm::vec2> uvs;      ///< v = 0 is the bottom of the image
-  std::vector<glm::vec3> normals;  ///< unit length; 0 if the value in the file is not usable
+  std::vector<glm::dvec3> positions;  ///< may be infinite or NaN where no corner uses them
+  std::vector<glm::vec3> colors;      ///< empty, or one per position, as written in the file; negative if it has none
+  std::vector<glm::vec2> uvs;         ///< v = 0 is the bottom of the image
+  std::vector<glm::vec3> normals;     ///< unit length; 0 if the value in the file is not usable
   std::vector<ObjCorner> corners;
   std::vector<ObjElement> elements;
   std::vector<ObjState> states;
@@ -60,9 +60,10 @@ struct ObjText {
   }
 };
 
-/// Parses an OBJ file. Polygons have at least 3 corners, polylines have at least 2, and all position indices are in range. `file` is only
-/// used in messages. Throws InputError "FILE:LINE: problem; expected ..." for coordinates that cannot be read and for position indices out
-/// of range. Other invalid statements are ignored, with one warning for each kind. The text must be smaller than 4 GiB.
+/// Parses an OBJ file. Polygons have at least 3 corners, polylines have at least 2, neighboring corners have different positions, and all
+/// position indices are in range. Faces, lines and points with coordinates that are not finite are skipped, with one warning. `file` is
+/// only used in messages. Throws InputError "FILE:LINE: problem; expected ..." for coordinates that cannot be read and for position indices
+/// out of range. Other invalid statements are ignored, with one warning for each kind. The text must be smaller than 4 GiB.
 ObjText parse_obj(const std::filesystem::path& file, std::string_view text, std::vector<std::string>& warnings);
 
 }  // namespace halfspace::inline HS_LANES_NAMESPACE

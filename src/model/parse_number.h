@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <charconv>
-#include <limits>
 #include <optional>
 #include <string_view>
 
@@ -10,18 +8,9 @@
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
 
-/// Returns the value of a decimal number such as "-1.5e3", or nullopt if the word is not a number. Unlike number_in, it accepts "nan" and
-/// "inf", and returns infinity for numbers that are too large for a double. Readers skip vertices with such values.
-inline std::optional<double> parse_number(std::string_view word) {
-  if (word.starts_with('+')) word.remove_prefix(1);
-  if (word.empty() || word.front() == '+') return std::nullopt;
-  double value = 0.0;
-  const char* const end = word.data() + word.size();
-  const auto [at, error] = std::from_chars(word.data(), end, value);
-  if (at != end || error == std::errc::invalid_argument) return std::nullopt;
-  if (error == std::errc()) return value;
-  const bool is_tiny = word.find("e-") != std::string_view::npos || word.find("E-") != std::string_view::npos;
-  return is_tiny ? 0.0 : std::numeric_limits<double>::infinity();
-}
+/// Returns the value of a decimal number such as "-1.5e3", or nullopt if the word is not a number. Unlike number_in, it also returns values
+/// that are not finite: "nan", "inf" and "infinity" in any case, "nan(ind)", those of Microsoft's printf ("1.#QNAN", "-1.#IND00",
+/// "1.#INF"), and infinity for numbers that are too large for a double. Readers skip or replace what has such values.
+std::optional<double> parse_number(std::string_view word);
 
 }  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -6,39 +6,25 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <span>
 #include <utility>
 
 #include "halfspace/core/check.h"
-#include "halfspace/core/srgb.h"
 #include "halfspace/model/ply_values.h"
-#include "halfspace/model/srgb_color.h"
 #include "halfspace/model/text_lines.h"
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
-bool is_floating(PlyType type) { return type >= PlyType::float32; }
-
-/// Returns x clamped to [low, high], or low if x is NaN.
-double limited(double x, double low, double high) { return x >= low ? std::min(x, high) : low; }
-
-float linear_color(double value, PlyType type) {
-  if (is_floating(type)) return static_cast<float>(limited(value, 0.0, 1.0));
-  if (type == PlyType::uint16) return linear_from_srgb(static_cast<float>(limited(value, 0.0, 65535.0) / 65535.0));
-  return kSrgbToLinear[static_cast<std::size_t>(limited(value, 0.0, 255.0))];
+/// Returns the number as a float of at most kMaxModelNumber, or NaN if it is not finite.
+float limited(double x) {
+  if (!std::isfinite(x)) return std::numeric_limits<float>::quiet_NaN();
+  return static_cast<float>(std::clamp(x, -kMaxModelNumber, kMaxModelNumber));
 }
 
-float opacity(double value, PlyType type) {
-  const double one = is_floating(type) ? 1.0 : type == PlyType::uint16 ? 65535.0 : 255.0;
-  return static_cast<float>(limited(value, 0.0, one) / one);
-}
-
-glm::vec2 texture_coordinate(double u, double v) {
-  const auto coordinate = [](double x) { return static_cast<float>(limited(x, -kMaxModelNumber, kMaxModelNumber)); };
-  return {coordinate(u), coordinate(1.0 - v)};
-}
+glm::vec2 texture_coordinate(double u, double v) { return {limited(u), limited(1.0 - v)}; }
 
 /// Indices of properties in their element; -1 if the element does not have the property.
 template <std::size_t N>
@@ -66,13 +52,8 @@ struct ColorFields {
 
   /// row: the values of all properties.
   glm::vec4 color(std::span<const double> row) const {
-    glm::vec4 color(1.0f);
-    for (int i = 0; i < 3; ++i) {
-      const auto field = static_cast<std::size_t>(i);
-      color[i] = linear_color(row[static_cast<std::size_t>(rgb.properties[field])], types[field]);
-    }
-    if (alpha >= 0) color.w = opacity(row[static_cast<std::size_t>(alpha)], types[3]);
-    return color;
+    const auto value = [&](int property) { return limited(row[static_cast<std::size_t>(property)]); };
+    return {value(rgb.properties[0]), value(rgb.properties[1]), value(rgb.properties[2]), alpha < 0 ? 255.0f : value(alpha)};
   }
 
  private:
@@ -149,12 +130,13 @@ class ContentsReader {
     contents_.positions.reserve(element.count);
     if (has_normals) contents_.normals.reserve(element.count);
     if (has_uvs) contents_.uvs.reserve(element.count);
-    if (has_colors) contents_.colors.reserve(element.count);
+    if (has_colors) contents_.colors.values.reserve(element.count);
+    contents_.colors.types = color.types;
     const auto row = [&] {
       contents_.positions.push_back(vector(position));
       if (has_normals) contents_.normals.push_back(vector(normal));
       if (has_uvs) contents_.uvs.push_back(texture_coordinate(value(uv.properties[0]), value(uv.properties[1])));
-      if (has_colors) contents_.colors.push_back(color.color(row_));
+      if (has_colors) contents_.colors.values.push_back(color.color(row_));
     };
     for_each_row(element, row, [](std::size_t) { return false; });
   }
@@ -189,6 +171,7 @@ class ContentsReader {
     const ColorFields color(element);
     const bool in_strips = first("tristrips") != nullptr;  // strips have neither colors nor texture coordinates
     const bool has_uvs = uvs >= 0 && !in_strips, has_colors = color.rgb.present() && !in_strips;
+    contents_.face_colors.types = color.types;
     std::size_t length = 0;
     std::vector<double> uv_values;
     const auto list = [&](std::size_t p) {
@@ -205,7 +188,7 @@ class ContentsReader {
     };
     const auto row = [&] {
       contents_.lengths.push_back(static_cast<uint32_t>(length));
-      if (has_colors) contents_.face_colors.push_back(color.color(row_));
+      if (has_colors) contents_.face_colors.values.push_back(color.color(row_));
       if (!has_uvs) return;
       uv_values.resize(2 * length);  // MeshLab writes two numbers per corner
       for (std::size_t i = 0; i < length; ++i) {

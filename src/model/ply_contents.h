@@ -8,27 +8,27 @@
 #include <string_view>
 #include <vector>
 
+#include "halfspace/model/ply_colors.h"
 #include "halfspace/model/ply_header.h"
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
 
 struct PlyContents {
-  // One entry per vertex, or empty if the file has no such values. Only positions may be infinite or NaN.
+  // One entry per vertex, or empty if the file has no such values. All values may be infinite or NaN.
   std::vector<glm::dvec3> positions;
   std::vector<glm::dvec3> normals;  ///< not normalized
   std::vector<glm::vec2> uvs;       ///< v = 0 is the top row
-  std::vector<glm::vec4> colors;    ///< linear
+  PlyColors colors;
   // Faces are stored as one list of corners. Triangle strips are stored as triangles.
-  std::vector<uint32_t> lengths;       ///< corners of each face
-  std::vector<uint32_t> corners;       ///< vertices, in range
-  std::vector<glm::vec2> corner_uvs;   ///< one per corner, or empty
-  std::vector<glm::vec4> face_colors;  ///< one per face, or empty
-  std::vector<uint32_t> edges;         ///< pairs of vertices, in range
+  std::vector<uint32_t> lengths;      ///< corners of each face
+  std::vector<uint32_t> corners;      ///< vertices, in range
+  std::vector<glm::vec2> corner_uvs;  ///< one per corner, or empty
+  PlyColors face_colors;              ///< one per face, or empty
+  std::vector<uint32_t> edges;        ///< pairs of vertices, in range
 };
 
-/// Reads the data after the header. Unknown elements and properties are skipped. Integer colors are sRGB-encoded and are converted to
-/// linear colors; floating-point colors are already linear, from 0 to 1. Throws InputError "FILE: element 'NAME', row N: problem; expected
-/// ..." if the data is invalid.
+/// Reads the data after the header. Unknown elements and properties are skipped. Throws InputError "FILE: element 'NAME', row N: problem;
+/// expected ..." if the data is invalid.
 PlyContents read_ply_contents(const PlyHeader& header, std::string_view data, const std::string& file);
 
 }  // namespace halfspace::inline HS_LANES_NAMESPACE

@@ -13,6 +13,7 @@
 #include "halfspace/model/read_obj.h"
 #include "halfspace/model/read_ply.h"
 #include "halfspace/model/read_stl.h"
+#include "halfspace/model/stl_triangles.h"
 #include "halfspace/model/text_lines.h"
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
@@ -44,7 +45,7 @@ Reader reader_by_contents(std::span<const std::byte> bytes, std::string_view tex
   if (is_binary_stl(bytes)) return read_stl;
   const std::size_t begin = text.find_first_not_of(" \t\r\n");
   if (begin != std::string_view::npos && text[begin] == '{') return read_gltf;
-  return is_text_stl(bytes) ? read_stl : nullptr;
+  return is_text_stl(text) ? read_stl : nullptr;
 }
 
 Reader reader_by_extension(const std::string& extension) {

@@ -169,14 +169,19 @@ class MtlParser {
   }
 
   void take_option(const Option& option, std::string_view& rest, MtlTexture& texture) {
-    glm::vec3 values(option.name == "-s" ? 1.0f : 0.0f);
+    glm::vec3 values(option.name == "-s" || option.name == "-bm" ? 1.0f : 0.0f);
     std::string_view word;
     for (int i = 0; i < option.max_arguments; ++i) {
       std::string_view after = rest;
       const std::string_view next = take_word(after);
       const std::optional<double> value = number_in(next);
-      if (option.numbers && !value) break;
+      if (option.numbers && !parse_number(next)) break;
       word = next;
+      if (option.numbers && !value) {
+        warn_once(std::string(option.name), fmt::format("cannot use {} for option {}; it is ignored", in_quotes(next), option.name));
+        rest = after;
+        continue;
+      }
       values[i] = static_cast<float>(value.value_or(0.0));
       rest = after;
     }

@@ -15,6 +15,7 @@
 #include "halfspace/model/obj_text.h"
 #include "halfspace/model/read_mtl.h"
 #include "halfspace/model/references.h"
+#include "halfspace/model/single_mesh.h"
 #include "halfspace/model/text_lines.h"
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
@@ -28,11 +29,15 @@ constexpr std::size_t kMaxBytes = 0xffffffffu;
 std::string_view text_of(std::span<const std::byte> bytes) { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
 
 // If the file has no elements, its vertices are a point cloud.
-void add_points(ObjText& obj) {
+void add_points(ObjText& obj, std::vector<std::string>& warnings) {
   obj.states.push_back({MeshTopology::points, -1, 0, "points"});
   obj.elements.push_back({0, static_cast<uint32_t>(obj.states.size() - 1)});
-  obj.corners.resize(obj.positions.size());
-  for (std::size_t i = 0; i < obj.corners.size(); ++i) obj.corners[i] = {static_cast<uint32_t>(i), kNoIndex, kNoIndex};
+  for (uint32_t i = 0; i < obj.positions.size(); ++i) {
+    if (is_finite(obj.positions[i])) obj.corners.push_back({i, kNoIndex, kNoIndex});
+  }
+  if (obj.corners.empty()) throw InputError("no vertex has finite coordinates; expected at least one");
+  if (const std::size_t skipped = obj.positions.size() - obj.corners.size(); skipped > 0)
+    warnings.push_back(fmt::format("{} points with coordinates that are not finite; skipped", skipped));
 }
 
 // The material libraries of an OBJ file.
@@ -153,7 +158,11 @@ Model read_obj(const std::filesystem::path& file, std::span<const std::byte> byt
     throw InputError(fmt::format("{}: no vertices; expected an OBJ file with `v` and `f` statements", file.string()));
   if (obj.elements.empty()) {
     model.warnings.emplace_back("no faces, lines or points; the vertices are drawn as points");
-    add_points(obj);
+    try {
+      add_points(obj, model.warnings);
+    } catch (const InputError& e) {
+      throw InputError(fmt::format("{}: {}", file.string(), e.what()));
+    }
   }
   Libraries libraries(file, options, model.warnings);
   for (const std::string& names : obj.libraries) libraries.add(names);

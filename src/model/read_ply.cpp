@@ -4,19 +4,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <functional>
 #include <numeric>
 #include <optional>
 #include <utility>
 
 #include "halfspace/core/check.h"
+#include "halfspace/model/face_triangles.h"
 #include "halfspace/model/mesh_vertices.h"
 #include "halfspace/model/normals.h"
 #include "halfspace/model/ply_contents.h"
 #include "halfspace/model/references.h"
 #include "halfspace/model/single_mesh.h"
-#include "halfspace/model/triangulate.h"
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
 
@@ -33,87 +33,152 @@ struct Faces {
   std::size_t short_faces = 0, infinite_faces = 0;
 };
 
-Faces triangles_of(const PlyContents& ply) {
-  Faces faces;
-  faces.are_triangles = !ply.lengths.empty() && std::ranges::all_of(ply.lengths, [](uint32_t length) { return length == 3; }) &&
-                        std::ranges::all_of(ply.positions, [](const glm::dvec3& p) { return is_finite(p); });
-  if (faces.are_triangles) return faces;
-  faces.triangles.reserve(ply.corners.size());
-  std::vector<glm::dvec3> polygon;
-  std::vector<uint32_t> pieces;
-  uint32_t first = 0;
-  for (const uint32_t length : ply.lengths) {
-    const auto corners = std::span(ply.corners).subspan(first, length);
-    const uint32_t begin = std::exchange(first, first + length);
-    if (length < 3) {
-      ++faces.short_faces;
-    } else if (!std::ranges::all_of(corners, [&](uint32_t v) { return is_finite(ply.positions[v]); })) {
-      ++faces.infinite_faces;
-    } else if (length == 3) {
-      faces.triangles.insert(faces.triangles.end(), {begin, begin + 1, begin + 2});
-    } else {
-      polygon.clear();
-      pieces.clear();
-      for (const uint32_t v : corners) polygon.push_back(ply.positions[v]);
-      triangulate(polygon, pieces);
-      for (const uint32_t corner : pieces) faces.triangles.push_back(begin + corner);
-    }
+/// Returns whether every face is a triangle of three different finite vertices.
+bool are_plain_triangles(const PlyContents& ply) {
+  if (ply.lengths.empty() || !std::ranges::all_of(ply.lengths, [](uint32_t length) { return length == 3; })) return false;
+  for (std::size_t i = 0; i < ply.corners.size(); i += 3) {
+    const uint32_t a = ply.corners[i], b = ply.corners[i + 1], c = ply.corners[i + 2];
+    if (a == b || b == c || c == a) return false;
   }
-  return faces;
+  return std::ranges::all_of(ply.positions, [](const glm::dvec3& p) { return is_finite(p); });
 }
 
-/// Returns the normals normalized, or an empty list if one of them has no direction.
-std::vector<glm::vec3> unit_normals(const std::vector<glm::dvec3>& normals) {
-  std::vector<glm::vec3> units(normals.size());
-  for (std::size_t i = 0; i < normals.size(); ++i) {
-    const double length = std::sqrt(glm::dot(normals[i], normals[i]));
-    if (!(length > 0.0) || !std::isfinite(length)) return {};
-    units[i] = unit_vector(normals[i]);
+/// Converts faces to triangles.
+class FaceConverter {
+ public:
+  explicit FaceConverter(const PlyContents& ply) : ply_(ply) {}
+
+  Faces convert() {
+    faces_.are_triangles = are_plain_triangles(ply_);
+    if (faces_.are_triangles) return std::move(faces_);
+    faces_.triangles.reserve(ply_.corners.size());
+    uint32_t first = 0;
+    for (const uint32_t length : ply_.lengths) add(std::exchange(first, first + length), length);
+    return std::move(faces_);
   }
-  return units;
+
+ private:
+  // Neighboring corners at the same vertex count as one.
+  void add(uint32_t first, uint32_t length) {
+    corners_.clear();
+    for (uint32_t i = first; i < first + length; ++i) {
+      if (corners_.empty() || ply_.corners[i] != ply_.corners[corners_.back()]) corners_.push_back(i);
+    }
+    while (corners_.size() > 1 && ply_.corners[corners_.back()] == ply_.corners[corners_.front()]) corners_.pop_back();
+    const auto position = [&](uint32_t corner) { return ply_.positions[ply_.corners[corner]]; };
+    if (corners_.size() < 3) {
+      ++faces_.short_faces;
+    } else if (!std::ranges::all_of(corners_, [&](uint32_t corner) { return is_finite(position(corner)); })) {
+      ++faces_.infinite_faces;
+    } else if (corners_.size() == 3) {
+      faces_.triangles.insert(faces_.triangles.end(), corners_.begin(), corners_.end());
+    } else {
+      polygon_.clear();
+      for (const uint32_t corner : corners_) polygon_.push_back(position(corner));
+      for (const uint32_t i : triangles_.of(polygon_)) faces_.triangles.push_back(corners_[i]);
+    }
+  }
+
+  const PlyContents& ply_;
+  Faces faces_;
+  std::vector<uint32_t> corners_;
+  std::vector<glm::dvec3> polygon_;
+  FaceTriangles triangles_;
+};
+
+/// Selects vertices and all their data.
+void select_vertices(PlyContents& ply, std::span<const uint32_t> sources) {
+  select_items(ply.positions, sources);
+  select_items(ply.normals, sources);
+  select_items(ply.uvs, sources);
+  select_items(ply.colors.values, sources);
 }
 
 /// Gives every corner of a face its own vertex, because texture coordinates or colors differ between the faces around a vertex.
-void separate_corners(ModelMesh& mesh, const PlyContents& ply) {
-  copy_vertices(mesh, ply.corners);
-  if (!ply.corner_uvs.empty()) mesh.uvs[0] = ply.corner_uvs;
-  if (ply.face_colors.empty() || !mesh.colors.empty()) return;
-  mesh.colors.reserve(ply.corners.size());
+void separate_corners(PlyContents& ply) {
+  select_vertices(ply, ply.corners);
+  if (!ply.corner_uvs.empty()) ply.uvs = std::move(ply.corner_uvs);
+  if (ply.face_colors.values.empty() || !ply.colors.values.empty()) return;
+  ply.colors.types = ply.face_colors.types;
+  ply.colors.values.reserve(ply.corners.size());
   for (std::size_t face = 0; face < ply.lengths.size(); ++face) {
-    mesh.colors.insert(mesh.colors.end(), ply.lengths[face], ply.face_colors[face]);
+    ply.colors.values.insert(ply.colors.values.end(), ply.lengths[face], ply.face_colors.values[face]);
   }
 }
 
-void add_triangles(ModelMesh& mesh, PlyContents& ply, Faces faces, float crease_degrees) {
-  mesh.indices = std::move(faces.triangles);
-  if (!ply.corner_uvs.empty() || (!ply.face_colors.empty() && mesh.colors.empty())) {
+/// Returns the triangles as indices of vertices.
+std::vector<uint32_t> triangle_indices(PlyContents& ply, Faces faces) {
+  if (!ply.corner_uvs.empty() || (!ply.face_colors.values.empty() && ply.colors.values.empty())) {
     if (faces.are_triangles) {
-      mesh.indices.resize(ply.corners.size());
-      std::iota(mesh.indices.begin(), mesh.indices.end(), 0u);
+      faces.triangles.resize(ply.corners.size());
+      std::iota(faces.triangles.begin(), faces.triangles.end(), 0u);
     }
-    separate_corners(mesh, ply);
-  } else if (faces.are_triangles) {
-    mesh.indices = std::move(ply.corners);
-  } else {
-    for (uint32_t& corner : mesh.indices) corner = ply.corners[corner];
+    separate_corners(ply);
+    return std::move(faces.triangles);
   }
-  if (!mesh.normals.empty()) return;
-  add_smooth_normals(mesh, crease_degrees);
-  mesh.computed_normals = true;
+  if (faces.are_triangles) return std::move(ply.corners);
+  for (uint32_t& corner : faces.triangles) corner = ply.corners[corner];
+  return std::move(faces.triangles);
 }
 
-void add_lines_or_points(ModelMesh& mesh, const PlyContents& ply) {
+using Warn = std::function<void(std::size_t count, std::string_view what)>;
+
+/// Sets the topology and the indices of a mesh without faces.
+void set_lines_or_points(ModelMesh& mesh, const PlyContents& ply, const Warn& warn) {
   const auto finite = [&](uint32_t v) { return is_finite(ply.positions[v]); };
   mesh.topology = MeshTopology::lines;
   for (std::size_t i = 0; i + 1 < ply.edges.size(); i += 2) {
-    if (finite(ply.edges[i]) && finite(ply.edges[i + 1])) mesh.indices.insert(mesh.indices.end(), {ply.edges[i], ply.edges[i + 1]});
+    if (ply.edges[i] != ply.edges[i + 1]) mesh.indices.insert(mesh.indices.end(), {ply.edges[i], ply.edges[i + 1]});
   }
+  warn(remove_primitives(mesh.topology, mesh.indices, finite), "edges with coordinates that are not finite; skipped");
   if (!mesh.indices.empty()) return;
   mesh.topology = MeshTopology::points;
-  for (uint32_t v = 0; v < ply.positions.size(); ++v) {
-    if (finite(v)) mesh.indices.push_back(v);
+  mesh.indices.resize(ply.positions.size());
+  std::iota(mesh.indices.begin(), mesh.indices.end(), 0u);
+  warn(remove_primitives(mesh.topology, mesh.indices, finite), "points with coordinates that are not finite; skipped");
+  if (mesh.indices.empty()) throw InputError("no vertex has finite coordinates; expected at least one");
+}
+
+/// Sets the topology and the indices of a mesh, and removes the vertices that it does not use.
+void set_primitives(ModelMesh& mesh, PlyContents& ply, const Warn& warn) {
+  Faces faces = FaceConverter(ply).convert();
+  warn(faces.short_faces, "faces with fewer than 3 different vertices; skipped");
+  warn(faces.infinite_faces, "faces with coordinates that are not finite; skipped");
+  if (faces.are_triangles || !faces.triangles.empty()) {
+    mesh.indices = triangle_indices(ply, std::move(faces));
+  } else {
+    set_lines_or_points(mesh, ply, warn);
   }
-  if (mesh.indices.size() == ply.positions.size()) mesh.indices.clear();
+  const std::vector<uint32_t> used = compact_indices(mesh.indices, ply.positions.size());
+  if (!used.empty()) select_vertices(ply, used);
+  if (mesh.topology == MeshTopology::points) mesh.indices.clear();  // all that are left
+}
+
+/// Sets the normals, texture coordinates and colors of a mesh with positions. Replaces those that cannot be used.
+void set_attributes(ModelMesh& mesh, PlyContents& ply, const Warn& warn) {
+  std::size_t bad_uvs = 0, bad_colors = 0;
+  for (glm::vec2& uv : ply.uvs) {
+    if (std::isfinite(uv.x) && std::isfinite(uv.y)) continue;
+    uv = glm::vec2(0.0f);
+    ++bad_uvs;
+  }
+  mesh.uvs[0] = std::move(ply.uvs);
+  warn(bad_uvs, "texture coordinates that are not finite; replaced by 0");
+  mesh.colors = linear_ply_colors(ply.colors, bad_colors);
+  warn(bad_colors, "colors that are not finite; replaced by white");
+  if (ply.normals.empty()) return;
+  mesh.normals.resize(ply.normals.size(), glm::vec3(0.0f));
+  for (std::size_t i = 0; i < ply.normals.size(); ++i) {
+    const double length = std::sqrt(glm::dot(ply.normals[i], ply.normals[i]));
+    if (length > 0.0 && std::isfinite(length)) mesh.normals[i] = unit_vector(ply.normals[i]);
+  }
+  if (mesh.topology != MeshTopology::triangles) {  // without faces to compute a normal from
+    if (std::ranges::find(mesh.normals, glm::vec3(0.0f)) != mesh.normals.end()) mesh.normals.clear();
+    return;
+  }
+  const std::size_t replaced = replace_missing_normals(mesh);
+  warn(replaced, "normals that are zero or not finite; computed from the faces");
+  if (replaced == mesh.normals.size()) mesh.normals.clear();
 }
 
 /// Some programs write 0 as the opacity of all vertices.
@@ -139,28 +204,19 @@ Model model_of(PlyContents ply, const std::filesystem::path& file, const ReadMod
   if (ply.positions.empty()) throw InputError("no vertices; expected an element 'vertex' with at least one row");
   if (ply.corners.size() >= kMaxCorners)
     throw InputError(fmt::format("the faces have {} vertex indices; expected fewer than 2^32 - 1", ply.corners.size()));
-  std::vector<std::string> warnings;
-  const auto warn = [&](std::ptrdiff_t count, std::string_view what) {
-    if (count > 0) warnings.push_back(fmt::format("{} {}; skipped", count, what));
-  };
-  warn(std::ranges::count_if(ply.positions, [](const glm::dvec3& p) { return !is_finite(p); }),
-       "vertices whose coordinates are not finite");
-  ModelMesh mesh;
-  set_positions(mesh, ply.positions);
-  ignore_zero_opacity(ply.colors, warnings);
-  ignore_zero_opacity(ply.face_colors, warnings);
-  mesh.uvs[0] = std::move(ply.uvs);
-  mesh.colors = std::move(ply.colors);
-  mesh.normals = unit_normals(ply.normals);
-  if (mesh.normals.empty() && !ply.normals.empty()) warnings.emplace_back("a normal has no direction; the normals of the file are ignored");
   check_memory(ply.positions.size() * kBytesPerVertex + ply.corners.size() * kBytesPerTriangle, options);
-  Faces faces = triangles_of(ply);
-  warn(static_cast<std::ptrdiff_t>(faces.short_faces), "faces with fewer than 3 vertices");
-  warn(static_cast<std::ptrdiff_t>(faces.infinite_faces), "faces that use skipped vertices");
-  if (faces.are_triangles || !faces.triangles.empty()) {
-    add_triangles(mesh, ply, std::move(faces), options.crease_degrees);
-  } else {
-    add_lines_or_points(mesh, ply);
+  std::vector<std::string> warnings;
+  const auto warn = [&](std::size_t count, std::string_view what) {
+    if (count > 0) warnings.push_back(fmt::format("{} {}", count, what));
+  };
+  ModelMesh mesh;
+  set_primitives(mesh, ply, warn);
+  set_positions(mesh, ply.positions);
+  set_attributes(mesh, ply, warn);
+  ignore_zero_opacity(mesh.colors, warnings);
+  if (mesh.topology == MeshTopology::triangles && mesh.normals.empty()) {
+    add_smooth_normals(mesh, options.crease_degrees);
+    mesh.computed_normals = true;
   }
   Model model = single_mesh_model("PLY", file, std::move(mesh));
   model.warnings = std::move(warnings);

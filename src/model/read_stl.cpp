@@ -5,11 +5,13 @@
 
 #include <algorithm>
 #include <cstring>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 
 #include "halfspace/core/check.h"
+#include "halfspace/core/srgb.h"
 #include "halfspace/model/mesh_vertices.h"
 #include "halfspace/model/normals.h"
 #include "halfspace/model/position_ids.h"
@@ -41,15 +43,39 @@ std::size_t remove_infinite(StlTriangles& triangles) {
   return count - kept;
 }
 
-bool is_color(uint16_t attribute) { return (attribute & 0x8000) != 0; }
+/// The colors of the triangles of a file.
+class StlColors {
+ public:
+  explicit StlColors(const StlTriangles& triangles) : attributes_(triangles.attributes) {
+    if (!triangles.color) return;
+    const glm::u8vec4 c = *triangles.color;
+    part_ = glm::vec4(kSrgbToLinear[c.x], kSrgbToLinear[c.y], kSrgbToLinear[c.z], c.w == 0 ? 1.0f : static_cast<float>(c.w) / 255.0f);
+    has_own_ = std::ranges::any_of(attributes_, [](uint16_t attribute) { return attribute != 0; });
+  }
 
-/// Returns the linear color stored in an attribute, or gray if it does not contain a color.
-glm::vec4 color_of(uint16_t attribute) {
-  constexpr float kGray = 0.8f;
-  if (!is_color(attribute)) return {kGray, kGray, kGray, 1.0f};
-  const auto channel = [&](int shift) { return linear_from_srgb(static_cast<float>(attribute >> shift & 31) / 31.0f); };
-  return {channel(10), channel(5), channel(0), 1.0f};
-}
+  bool empty() const { return !part_ && std::ranges::none_of(attributes_, has_bit_15); }
+
+  /// Returns the linear color of a triangle.
+  glm::vec4 of(std::size_t triangle) const {
+    const uint16_t attribute = attributes_.empty() ? uint16_t{0} : attributes_[triangle];
+    if (part_) return has_bit_15(attribute) || !has_own_ ? *part_ : color(attribute, 0, 10);
+    constexpr float kGray = 0.8f;
+    return has_bit_15(attribute) ? color(attribute, 10, 0) : glm::vec4(kGray, kGray, kGray, 1.0f);
+  }
+
+ private:
+  static bool has_bit_15(uint16_t attribute) { return (attribute & 0x8000) != 0; }
+
+  // red_bit, blue_bit: the lowest bits of the channels.
+  static glm::vec4 color(uint16_t attribute, int red_bit, int blue_bit) {
+    const auto channel = [&](int bit) { return linear_from_srgb(static_cast<float>(attribute >> bit & 31) / 31.0f); };
+    return {channel(red_bit), channel(5), channel(blue_bit), 1.0f};
+  }
+
+  const std::vector<uint16_t>& attributes_;
+  std::optional<glm::vec4> part_;  // the color in the header
+  bool has_own_ = false;           // with part_: not all attributes are 0, which would be black
+};
 
 void join_vertices(ModelMesh& mesh) {
   const std::vector<uint32_t> ids = position_ids(mesh.positions);
@@ -69,8 +95,8 @@ ModelMesh mesh_of(const StlTriangles& triangles, float crease_degrees) {
   set_positions(mesh, triangles.corners);
   mesh.indices.resize(mesh.positions.size());
   for (uint32_t i = 0; i < mesh.indices.size(); ++i) mesh.indices[i] = i;
-  if (std::ranges::any_of(triangles.attributes, is_color)) {
-    for (const uint16_t attribute : triangles.attributes) mesh.colors.insert(mesh.colors.end(), 3, color_of(attribute));
+  if (const StlColors colors(triangles); !colors.empty()) {
+    for (std::size_t t = 0; t < triangles.corners.size() / 3; ++t) mesh.colors.insert(mesh.colors.end(), 3, colors.of(t));
   } else {
     join_vertices(mesh);
   }
@@ -81,7 +107,7 @@ ModelMesh mesh_of(const StlTriangles& triangles, float crease_degrees) {
 
 StlTriangles triangles_of(std::span<const std::byte> bytes, const std::string& file) {
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  if (!is_binary_stl(bytes) && is_text_stl(bytes)) return text_stl_triangles(text, file);
+  if (!is_binary_stl(bytes) && is_text_stl(text)) return text_stl_triangles(text, file);
   return binary_stl_triangles(bytes, file);
 }
 
@@ -92,14 +118,6 @@ bool is_binary_stl(std::span<const std::byte> bytes) {
   uint32_t count = 0;
   std::memcpy(&count, bytes.data() + 80, sizeof count);
   return bytes.size() == 84 + std::size_t{count} * 50;
-}
-
-bool is_text_stl(std::span<const std::byte> bytes) {
-  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  constexpr std::string_view kSolid = "solid";
-  const std::size_t begin = text.find_first_not_of(" \t\r\n");
-  return begin != std::string_view::npos &&
-         std::ranges::equal(text.substr(begin, kSolid.size()), kSolid, [](char a, char b) { return static_cast<char>(a | 0x20) == b; });
 }
 
 Model read_stl(const std::filesystem::path& file, std::span<const std::byte> bytes, const ReadModelOptions& options) {
@@ -115,6 +133,7 @@ Model read_stl(const std::filesystem::path& file, std::span<const std::byte> byt
     const std::size_t removed = remove_infinite(triangles);
     Model model = single_mesh_model("STL", file, mesh_of(triangles, options.crease_degrees));
     model.up = UpAxis::z;
+    model.warnings = std::move(triangles.warnings);
     if (removed > 0) model.warnings.push_back(fmt::format("{} triangles whose coordinates are not finite; skipped", removed));
     return model;
   } catch (const InputError& e) {

@@ -5,12 +5,41 @@
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
 
+namespace {
+
+// Returns the line without a comment: a word that begins with '#', or with a backslash and '#'.
+std::string_view without_comment(std::string_view line) {
+  const auto begins_word = [&](std::size_t at) { return at == 0 || is_blank(line[at - 1]); };
+  for (std::size_t at = line.find('#'); at != std::string_view::npos; at = line.find('#', at + 1)) {
+    if (begins_word(at) || (line[at - 1] == '\\' && begins_word(at - 1))) return line.substr(0, at);
+  }
+  return line;
+}
+
+// Returns the part of a line before the backslash that continues it, or nullopt if there is none.
+std::optional<std::string_view> before_continuation(std::string_view line) {
+  if (line.find('\\') == std::string_view::npos) return std::nullopt;
+  line = trimmed(without_comment(line));
+  if (!line.ends_with('\\')) return std::nullopt;
+  return line.substr(0, line.size() - 1);
+}
+
+// Returns whether the text has nothing but a comment.
+bool is_empty_line(std::string_view line) { return trimmed(without_comment(line)).empty(); }
+
+bool begins_with_number(std::string_view line) {
+  line = trimmed(line);
+  return !line.empty() && std::string_view("0123456789+-.").find(line[0]) != std::string_view::npos;
+}
+
+}  // namespace
+
 std::string_view TextLines::take() {
   const std::size_t end = std::min(text_.find(end_, at_), text_.size());
   std::string_view line = text_.substr(at_, end - at_);
   at_ = std::min(end + 1, text_.size());
   ++taken_;
-  if (line.ends_with('\r')) line.remove_suffix(1);
+  while (line.ends_with('\r')) line.remove_suffix(1);
   return line;
 }
 
@@ -18,15 +47,22 @@ bool TextLines::next() {
   if (at_ == text_.size()) return false;
   line_ = take();
   number_ = taken_;
-  if (!line_.ends_with('\\') || trimmed(line_).starts_with('#')) return true;
-  joined_.clear();
-  std::string_view part = line_;
-  while (part.ends_with('\\')) {
-    joined_.append(part.substr(0, part.size() - 1)) += ' ';
-    part = at_ == text_.size() ? std::string_view() : take();
-  }
-  line_ = joined_.append(part);
+  if (const std::optional<std::string_view> first = before_continuation(line_)) join_lines(*first);
   return true;
+}
+
+void TextLines::join_lines(std::string_view first) {
+  joined_ = first;
+  bool more = true;
+  while (more && at_ != text_.size()) {
+    const std::string_view part = take();
+    const std::optional<std::string_view> continued = before_continuation(part);
+    const bool is_empty = !continued && is_empty_line(part);
+    (joined_ += ' ') += is_empty ? std::string_view() : continued.value_or(part);
+    const std::string_view following = text_.substr(at_, text_.find(end_, at_) - at_);
+    more = continued || (is_empty && (is_empty_line(following) || begins_with_number(following)));
+  }
+  line_ = joined_;
 }
 
 std::string_view trimmed(std::string_view text) {

@@ -3,7 +3,6 @@
 // Lines, words and numbers of text files such as OBJ and MTL. All views point into the text or into the TextLines object.
 #pragma once
 
-#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <optional>
@@ -11,6 +10,7 @@
 #include <string_view>
 
 #include "halfspace/core/namespace.h"
+#include "halfspace/model/parse_number.h"
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
 
@@ -18,7 +18,8 @@ namespace halfspace::inline HS_LANES_NAMESPACE {
 inline constexpr double kMaxModelNumber = 1e18;
 
 /// Iterates over the lines of a text, without their ends ("\n", "\r\n", or "\r" if the text has no "\n"). A line that ends in a backslash
-/// continues on the next line, unless it is a comment that begins with '#'.
+/// continues on the next line. Blanks and a comment, which is a word that begins with '#' and all that follows it, may be after the
+/// backslash. Empty lines and lines with only a comment do not end a continued line if a line that begins with a number follows them.
 class TextLines {
  public:
   explicit TextLines(std::string_view text) : text_(text), end_(text.find('\n') == std::string_view::npos ? '\r' : '\n') {}
@@ -33,6 +34,7 @@ class TextLines {
 
  private:
   std::string_view take();
+  void join_lines(std::string_view first);
 
   std::string_view text_, line_;
   std::string joined_;
@@ -67,23 +69,11 @@ inline std::string_view take_value(std::string_view& rest) {
   return {};
 }
 
-/// Returns the value of a decimal number such as "-1.5e3", or nothing if the word is not a number, not finite, or larger than
+/// Returns the value of a decimal number such as "-1.5e3", or nullopt if the word is not a number, not finite, or larger than
 /// kMaxModelNumber. Numbers too small for a double are 0.
 inline std::optional<double> number_in(std::string_view word) {
-  if (word.starts_with('+')) {
-    word.remove_prefix(1);
-    if (word.starts_with('-')) return std::nullopt;
-  }
-  double value = 0.0;
-  const char* const end = word.data() + word.size();
-  const auto [at, error] = std::from_chars(word.data(), end, value);
-  if (at != end) return std::nullopt;
-  if (error == std::errc::result_out_of_range) {
-    const bool tiny = word.find("e-") != std::string_view::npos || word.find("E-") != std::string_view::npos;
-    return tiny ? std::optional<double>(0.0) : std::nullopt;
-  }
-  if (error != std::errc() || !(std::abs(value) <= kMaxModelNumber)) return std::nullopt;
-  return value;
+  const std::optional<double> value = parse_number(word);
+  return value && std::abs(*value) <= kMaxModelNumber ? value : std::nullopt;
 }
 
 /// Returns a name from a file in quotation marks for use in a message: control characters are replaced, and long names are cut.

@@ -164,6 +164,7 @@ TEST_F(Mtl, ReadsTextureOptions) {
   EXPECT_EQ(transformed("-s 2 4 1", {0.25f, 0.5f}), glm::vec2(0.5f, 2.0f));
   EXPECT_EQ(transformed("-o 0.5", {0.25f, 0.5f}), glm::vec2(0.75f, 0.5f));
   EXPECT_EQ(transformed("-s 2 2 -o 0.25 0.5 0", {0.25f, 0.5f}), glm::vec2(0.75f, 1.5f));
+  EXPECT_EQ(transformed("-s 1.#QNAN 4 1 -bm nan", {0.25f, 0.5f}), glm::vec2(0.25f, 2.0f)) << "ignored, and not the file name";
   EXPECT_EQ(sampler_of(material("map_Kd -clamp on a.png\n").base_color_map).wrap_t, Wrap::clamp);
   EXPECT_EQ(sampler_of(material("map_Kd -clamp off a.png\n").base_color_map).wrap_s, Wrap::repeat);
   for (const auto& [letter, channel] : {std::pair{'r', Channel::red},

@@ -122,8 +122,6 @@ TEST(Ply, ConvertsColorsAndTextureCoordinates) {
   EXPECT_EQ(mesh.normals[0], glm::vec3(0, 0, 1));
   EXPECT_EQ(model.materials[0].base_color, glm::vec4(1.0f));
   EXPECT_EQ(model.materials[0].alpha_mode, AlphaMode::blend);
-  const std::string linear = vertices(1) + "property float red\nproperty float green\nproperty float blue\n";
-  EXPECT_EQ(ply_model(ascii(linear, "0 0 0 0.5 2 nan")).meshes[0].colors[0], glm::vec4(0.5f, 1.0f, 0.0f, 1.0f));
 }
 
 TEST(Ply, IgnoresTheOpacityIfAllColorsAreTransparent) {
@@ -156,7 +154,8 @@ TEST(Ply, ReadsTriangleStrips) {
 TEST(Ply, WithoutFacesGivesPointsOrLines) {
   const ModelMesh points = ply_model(ascii(vertices(3), "0 0 0 nan 0 0 1 1 1")).meshes[0];
   EXPECT_EQ(points.topology, MeshTopology::points);
-  EXPECT_EQ(points.indices, (std::vector<uint32_t>{0, 2}));
+  EXPECT_EQ(points.positions.size(), 2u);
+  EXPECT_TRUE(points.indices.empty());
   EXPECT_TRUE(ply_model(ascii(vertices(3), kTriangleData)).meshes[0].indices.empty());
   const std::string edges = vertices(3) + "element edge 2\nproperty int vertex1\nproperty int vertex2\n";
   const ModelMesh lines = ply_model(ascii(edges, kTriangleData + "0 1 1 2")).meshes[0];
@@ -168,7 +167,111 @@ TEST(Ply, OmitsFacesThatCannotBeDrawn) {
   const std::string header = vertices(4) + "element face 3\nproperty list uchar int vertex_indices\n";
   const Model model = ply_model(ascii(header, kTriangleData + "inf 0 1e999\n3 0 1 2\n3 0 1 3\n2 0 1\n"));
   EXPECT_EQ(model.meshes[0].indices.size(), 3u);
+  EXPECT_EQ(model.meshes[0].positions.size(), 3u);
+  EXPECT_EQ(model.warnings.size(), 2u);
+}
+
+// 204, 102 and 51 are 0.8, 0.4 and 0.2 of 255, and 52428, 26214 and 13107 of 65535.
+TEST(Ply, ReadsTheSameColorFromAllTypes) {
+  const auto color = [](const std::string& type, const std::string& values) {
+    std::string header = vertices(2);
+    for (const char* name : {"red", "green", "blue", "alpha"}) header += "property " + type + " " + name + "\n";
+    return ply_model(ascii(header, "0 0 0 0 0 0 0 1 1 1 " + values)).meshes[0].colors.at(1);
+  };
+  const glm::vec4 expected(kSrgbToLinear[204], kSrgbToLinear[102], kSrgbToLinear[51], 0.2f);
+  for (const char* type : {"uchar", "short", "ushort", "int", "uint", "float", "double"})
+    EXPECT_EQ(color(type, "204 102 51 51"), expected) << type;
+  for (const char* type : {"ushort", "int", "uint", "float", "double"}) EXPECT_EQ(color(type, "52428 26214 13107 13107"), expected) << type;
+  for (const char* type : {"float", "double"}) {
+    EXPECT_EQ(color(type, "0.8 0.4 0.2 0.2"), expected) << type;
+    EXPECT_EQ(color(type, "204 102 51 0.2"), expected) << "opacity has its own range";
+    EXPECT_EQ(color(type, "1.0001 -1 0 1"), glm::vec4(1, 0, 0, 1)) << type;
+  }
+  EXPECT_EQ(color("char", "-52 102 51 51"), expected) << "a byte that is declared as signed";
+}
+
+TEST(Ply, OneValueAboveOneDecidesTheRangeOfAllColors) {
+  const std::string faces =
+      "element face 2\nproperty list uchar int vertex_indices\nproperty float red\nproperty float green\nproperty float blue\n";
+  const ModelMesh mesh = ply_model(ascii(vertices(3) + faces, kTriangleData + "3 0 1 2 1 0 0\n3 0 1 2 0 255 0\n")).meshes[0];
+  EXPECT_EQ(mesh.colors.at(0), glm::vec4(kSrgbToLinear[1], 0, 0, 1));
+  EXPECT_EQ(mesh.colors.at(3), glm::vec4(0, 1, 0, 1));
+}
+
+TEST(Ply, ReplacesAttributesThatAreNotFinite) {
+  const std::string header = vertices(3) +
+                             "property float red\nproperty float green\nproperty float blue\nproperty float s\nproperty float t\n"
+                             "property float nx\nproperty float ny\nproperty float nz\nelement face 1\nproperty list uchar int "
+                             "vertex_indices\n";
+  const Model model = ply_model(
+      ascii(header, "0 0 0 1 0 0 1.#INF 0 1 0 0\n1 0 0 nan 0 0 1 1 -1.#IND00 0 0\n0 1 0 1 0 0 0 -nan(ind) 1.#QNAN 0 1\n3 0 1 2\n"));
+  const ModelMesh& mesh = model.meshes[0];
+  EXPECT_EQ(mesh.colors, (std::vector<glm::vec4>{{1, 0, 0, 1}, {1, 1, 1, 1}, {1, 0, 0, 1}}));
+  EXPECT_EQ(mesh.uvs[0], (std::vector<glm::vec2>{{0, 0}, {1, 0}, {0, 0}}));
+  EXPECT_EQ(mesh.normals, (std::vector<glm::vec3>{{1, 0, 0}, {0, 0, 1}, {0, 0, 1}})) << "computed from the face";
+  EXPECT_FALSE(mesh.computed_normals);
   EXPECT_EQ(model.warnings.size(), 3u);
+}
+
+TEST(Ply, BinaryValuesThatAreNotFiniteAreReplaced) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  for (const char* const encoding : kPlyEncodings) {
+    PlyData data{encoding, {}};
+    for (const float x : {0.0f, 0.0f, 0.0f, nan, 1.0f, 0.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 5.0f, nan, 5.0f, 0.0f}) data.add(x);
+    data.add_list<uint32_t>({0, 1, 2}).add_list<uint32_t>({0, 1, 3});
+    const Model model =
+        ply_model(data.with_header("element vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+                                   "property float nx\nelement face 2\nproperty list uchar uint vertex_indices\n"));
+    EXPECT_EQ(model.meshes[0].positions.size(), 3u) << encoding;
+    EXPECT_EQ(model.meshes[0].origin, glm::dvec3(0.5, 0.5, 0.0));
+    EXPECT_EQ(model.warnings.size(), 1u);
+  }
+}
+
+TEST(Ply, IgnoresVerticesThatNoFaceUses) {
+  const std::string header = "element vertex 6\n" + kXyz + "property float red\nproperty float green\nproperty float blue\n" +
+                             "element face 1\nproperty list uchar int vertex_indices\n";
+  const Model model = ply_model(ascii(header,
+                                      "1e30 0 0 9 9 9\n0 0 0 1 0 0\n1000 0 0 255 0 0\n1 0 0 1 0 0\nnan 0 0 nan 0 0\n0 1 0 1 0 0\n"
+                                      "3 1 3 5\n"));
+  const ModelMesh& mesh = model.meshes[0];
+  EXPECT_EQ(mesh.origin, glm::dvec3(0.5, 0.5, 0.0));
+  EXPECT_EQ(mesh.positions.size(), 3u);
+  EXPECT_EQ(mesh.indices, (std::vector<uint32_t>{0, 1, 2}));
+  EXPECT_EQ(mesh.colors, std::vector<glm::vec4>(3, {1, 0, 0, 1})) << "unused colors do not decide the range";
+  EXPECT_TRUE(model.warnings.empty());
+}
+
+TEST(Ply, LinesUseTheirVertices) {
+  const std::string header = vertices(4) + "element edge 2\nproperty int vertex1\nproperty int vertex2\n";
+  const ModelMesh mesh = ply_model(ascii(header, "9 9 9 0 0 0 1 0 0 nan 0 0\n1 2 2 3\n")).meshes[0];
+  EXPECT_EQ(mesh.positions.size(), 2u);
+  EXPECT_EQ(mesh.indices, (std::vector<uint32_t>{0, 1}));
+}
+
+double area_of(const ModelMesh& mesh) {
+  double area = 0.0;
+  for (std::size_t t = 0; t < mesh.indices.size(); t += 3) {
+    const glm::dvec3 a(mesh.positions[mesh.indices[t]]), b(mesh.positions[mesh.indices[t + 1]]), c(mesh.positions[mesh.indices[t + 2]]);
+    area += 0.5 * glm::length(glm::cross(b - a, c - a));
+  }
+  return area;
+}
+
+// A concave pentagon of area 2.5, whose corners are repeated by index or by position.
+TEST(Ply, RepeatedCornersOfAFaceAreOneCorner) {
+  const std::string header = vertices(6) + "element face 1\nproperty list uchar int vertex_indices\n";
+  const std::string corners = "0 0 0 2 0 0 2 2 0 1 0.5 0 0 2 0 2 0 0\n";
+  for (const char* face : {"5 0 1 2 3 4", "9 0 0 1 1 2 3 3 4 4", "6 0 1 2 3 4 0", "6 0 1 5 2 3 4", "8 4 0 0 1 5 2 3 4"}) {
+    const Model model = ply_model(ascii(header, corners + face));
+    EXPECT_EQ(area_of(model.meshes[0]), 2.5) << face;
+    EXPECT_EQ(model.meshes[0].positions.size(), 5u) << face;
+    EXPECT_TRUE(model.warnings.empty()) << face;
+  }
+  const std::string two = vertices(4) + "element face 2\nproperty list uchar int vertex_indices\n";
+  const Model model = ply_model(ascii(two, kTriangleData + "9 9 9\n3 0 1 2\n3 3 3 1\n"));
+  EXPECT_EQ(model.meshes[0].positions.size(), 3u);
+  EXPECT_EQ(model.warnings.size(), 1u);
 }
 
 class PlyTexture : public FolderTest {};
