@@ -15,6 +15,7 @@
 #include "halfspace/core/units.h"
 #include "halfspace/core/vec.h"
 #include "halfspace/model/pose.h"
+#include "halfspace/model/up_axis_hint.h"
 #include "halfspace/render/model_fit.h"
 #include "halfspace/scene/scene_paths.h"
 
@@ -254,6 +255,9 @@ GeneratedScene model_scene(const std::filesystem::path& file, const ModelView& v
   Model contents = read_model(file, {.allow_outside = view.allow_outside});
   if (const std::string path = std::filesystem::absolute(file).string(); printable(path) != path)
     throw InputError(file.string() + ": the path has a control character or invalid UTF-8; expected a path that a scene file can contain");
+  if (view.up_axis == "auto") {
+    if (const std::string hint = up_axis_hint(contents); !hint.empty()) contents.warnings.push_back(hint);
+  }
   contents.up = up_axis_of(contents, view.up_axis);
   const std::string animation = animation_of(contents, view);
   const auto asset = std::make_shared<const ModelAsset>(std::move(contents), view.allow_outside);

@@ -17,6 +17,7 @@
 #include "halfspace/model/model.h"
 #include "halfspace/model/pose.h"
 #include "halfspace/model/position_ids.h"
+#include "halfspace/model/up_axis_hint.h"
 #include "halfspace/model/used_images.h"
 #include "halfspace/scene/scene_file.h"
 
@@ -173,6 +174,7 @@ std::string info_value_text(const std::string& key, const OrderedJson& value) {
 
 nlohmann::ordered_json model_info(const std::filesystem::path& file, bool allow_outside, std::optional<UpAxis> up) {
   Model model = read_described_model(file, allow_outside);
+  const std::string hint = up ? std::string() : up_axis_hint(model);
   model.up = up.value_or(model.up);
   const PosedModel posed = pose(model, {});
   std::size_t vertices = 0;
@@ -208,6 +210,7 @@ nlohmann::ordered_json model_info(const std::filesystem::path& file, bool allow_
   json["degenerate_triangles"] = problems.degenerate_triangles;
   json["open_edges"] = problems.open_edges;
   json["non_manifold_edges"] = problems.non_manifold_edges;
+  if (!hint.empty()) json["hint"] = hint;
   json["warnings"] = model.warnings;
   return json;
 }
@@ -217,6 +220,10 @@ std::string model_info_text(const nlohmann::ordered_json& info) {
   for (const auto& [key, value] : info.items()) {
     if (key == "warnings") {
       for (const OrderedJson& warning : value) text += "warning: " + printable(warning.get<std::string>()) + "\n";
+      continue;
+    }
+    if (key == "hint") {
+      text += "hint: " + value.get<std::string>() + "\n";
       continue;
     }
     std::string label = key;
