@@ -248,7 +248,7 @@ def test_an_orthographic_camera_can_be_read_as_matrices():
 
 
 def test_a_camera_read_and_created_again_is_the_same():
-    camera = halfspace.Camera.look_at((2, 1, 4), (0, 0.2, 0), fov=33)
+    camera = halfspace.Camera.look_at((2, 1, 4), (0, 0.2, 0), fov=33, near=0.1)
     again = halfspace.Camera.from_intrinsics(camera.intrinsics(SIZE), extrinsics=camera.extrinsics, near=0.1, far=1000)
     assert np.allclose(again.projection(SIZE), camera.projection(SIZE), rtol=1e-13, atol=1e-15)
     assert np.allclose(again.intrinsics(SIZE), camera.intrinsics(SIZE), rtol=1e-13, atol=1e-12) and np.allclose(again.pose, camera.pose)
@@ -256,6 +256,21 @@ def test_a_camera_read_and_created_again_is_the_same():
     assert np.allclose(given.intrinsics(SIZE), K, rtol=1e-14, atol=1e-13)  # two roundings per element
     with pytest.raises(halfspace.InputError, match="size: is 7; expected"):
         camera.intrinsics(7)
+
+
+def test_nothing_in_front_of_a_camera_without_a_near_plane_vanishes():
+    """A square is 1e-3 units in front of the camera. Its half size is twice the distance, so it fills a view of 90 degrees."""
+    scene = halfspace.Scene(lighting="none")
+    square = [[-2e-3, -2e-3, 0], [2e-3, -2e-3, 0], [2e-3, 2e-3, 0], [-2e-3, 2e-3, 0]]
+    scene.add(halfspace.Mesh(square, [[0, 1, 2], [0, 2, 3]], material=halfspace.Material((1, 1, 1))))
+    pose = np.eye(4)
+    pose[2, 3] = 1e-3
+    half = [[16, 0, 15.5], [0, 16, 15.5], [0, 0, 1]]
+    for camera in (halfspace.Camera.look_at((0, 0, 1e-3), fov=90), halfspace.Camera.from_pose(pose, fov=90),
+                   halfspace.Camera.from_intrinsics(half, pose=pose)):
+        depth = scene.labels(["depth"], size=(32, 32), camera=camera)["depth"]
+        assert np.allclose(depth, 1e-3, rtol=1e-6)
+        assert np.isfinite(camera.projection((32, 32))).all()
 
 
 def test_the_cameras_of_a_scene_can_be_read():
