@@ -178,10 +178,15 @@ void draw_naive(NaiveTarget<R>& target, const S& shader, const VertexView& verti
   const FloatMode float_mode;
   static_assert(!kUsesPrimitiveId<S>, "draw_naive() does not support primitive ids");
   using V = typename S::template Varyings<R>;
-  HS_CHECK_OP(indices.end_vertex(), <=, vertices.vertex_count);
-  HS_CHECK_OP(static_cast<std::size_t>(vertices.components), ==, (kComponents<typename S::template Attributes<R>>));
-  HS_CHECK_OP(target.depth.width(), ==, target.color.width());
-  HS_CHECK_OP(target.depth.height(), ==, target.color.height());
+  HS_CHECK_OP(indices.end_vertex(), <=, vertices.vertex_count,
+              "draw_naive: an index is too large; expected less than the number of vertices");
+  HS_CHECK_OP(static_cast<std::size_t>(vertices.components), ==, (kComponents<typename S::template Attributes<R>>),
+              "draw_naive: the vertex streams have another number of components than the attributes of the shader; expected one stream per "
+              "attribute");
+  HS_CHECK_OP(target.depth.width(), ==, target.color.width(),
+              "draw_naive: the depths have another width than the colors; expected images of one size");
+  HS_CHECK_OP(target.depth.height(), ==, target.color.height(),
+              "draw_naive: the depths have another height than the colors; expected images of one size");
   const Rect rect = state.viewport.value_or(Rect{0, 0, target.color.width(), target.color.height()});
   const Viewport viewport = make_viewport(rect, state.depth);
   Rect bounds = intersect({0, 0, target.color.width(), target.color.height()}, rect);

@@ -56,11 +56,14 @@ VertexStreams keep_streams(const VertexView& view, std::pmr::memory_resource& me
 PixelBounds to_bounds(const Rect& r) { return {r.x, r.y, r.x + r.width, r.y + r.height}; }
 
 void check_rect(const Rect& r, int smallest) {
-  HS_CHECK_OP(r.width, >=, smallest);
-  HS_CHECK_OP(r.height, >=, smallest);
-  HS_CHECK_OP(r.width, <=, kMaxTargetSize);
-  HS_CHECK_OP(r.height, <=, kMaxTargetSize);
-  HS_CHECK(r.x >= -kMaxTargetSize && r.x <= kMaxTargetSize && r.y >= -kMaxTargetSize && r.y <= kMaxTargetSize);
+  HS_CHECK_OP(r.width, >=, smallest,
+              "DrawState: the viewport or the scissor is too narrow; expected a width of at least 1, or 0 for the scissor");
+  HS_CHECK_OP(r.height, >=, smallest,
+              "DrawState: the viewport or the scissor is too low; expected a height of at least 1, or 0 for the scissor");
+  HS_CHECK_OP(r.width, <=, kMaxTargetSize, "DrawState: the viewport or the scissor is too wide; expected at most 16384");
+  HS_CHECK_OP(r.height, <=, kMaxTargetSize, "DrawState: the viewport or the scissor is too high; expected at most 16384");
+  HS_CHECK(r.x >= -kMaxTargetSize && r.x <= kMaxTargetSize && r.y >= -kMaxTargetSize && r.y <= kMaxTargetSize,
+           "DrawState: the origin of the viewport or the scissor is too far away; expected at most 16384 from 0");
 }
 
 // Checks that the image of a target has the size of the pass, width x height pixels, or is not needed.
@@ -81,7 +84,8 @@ void check_numbers(const DrawState& state) {
   HS_CHECK_OP(std::fabs(state.offset.slope), <, detail::kInfinity, "offset.slope: is not finite; expected a finite number");
   HS_CHECK_OP(std::fabs(state.offset.constant), <, detail::kInfinity, "offset.constant: is not finite; expected a finite number");
   HS_CHECK(state.offset.clamp == state.offset.clamp, "offset.clamp: is NaN; expected a number");
-  HS_CHECK(state.depth.range_near >= 0 && state.depth.range_near <= 1 && state.depth.range_far >= 0 && state.depth.range_far <= 1);
+  HS_CHECK(state.depth.range_near >= 0 && state.depth.range_near <= 1 && state.depth.range_far >= 0 && state.depth.range_far <= 1,
+           "DrawState: the depth range is outside of its limits; expected two depths from 0 to 1");
   if (state.query) HS_CHECK_OP(*state.query, <, kMaxQueries, "query: is too large; expected less than 65536");
   if (state.viewport) check_rect(*state.viewport, 1);
   if (state.scissor) check_rect(*state.scissor, 0);
@@ -186,9 +190,12 @@ int PassState::tile_size() const {
 
 void PassState::add_draw(const ShaderKernels& kernels, KeptShader shader, const VertexView& vertices,
                          std::shared_ptr<const Indices> indices, const DrawState& state) {
-  HS_CHECK_OP(int64_t{indices->first_vertex()} + state.base_vertex, >=, 0);
-  HS_CHECK_OP(int64_t{indices->end_vertex()} + state.base_vertex, <=, static_cast<int64_t>(vertices.vertex_count));
-  HS_CHECK_OP(std::size_t{state.instances}, <=, vertices.instance_count);
+  HS_CHECK_OP(int64_t{indices->first_vertex()} + state.base_vertex, >=, 0,
+              "Pass::draw: an index plus base_vertex is negative; expected vertices of the streams");
+  HS_CHECK_OP(int64_t{indices->end_vertex()} + state.base_vertex, <=, static_cast<int64_t>(vertices.vertex_count),
+              "Pass::draw: an index plus base_vertex is too large; expected less than the number of vertices");
+  HS_CHECK_OP(std::size_t{state.instances}, <=, vertices.instance_count,
+              "Pass::draw: there are more instances than rows of a per-instance stream; expected a row for each");
   check_numbers(state);
   if (state.order_independent) {
     HS_CHECK(attachments_.colors.size() == 1 && attachments_.has_color && attachments_.colors[0].format != ColorFormat::r32ui,
@@ -405,8 +412,9 @@ PassStatistics PassState::run(TileRunner& tiles, const Workers& workers) {
 }
 
 void PassState::set_post_step(PostStep post) {
-  HS_CHECK(!attachments_.colors.empty() && attachments_.colors[0].format != ColorFormat::none);
-  HS_CHECK(post.target.format != ColorFormat::none);
+  HS_CHECK(!attachments_.colors.empty() && attachments_.colors[0].format != ColorFormat::none,
+           "Pass::post: the pass has no color target; expected one");
+  HS_CHECK(post.target.format != ColorFormat::none, "Pass::post: the target has no format; expected an image");
   check_target(post.target, context_.width, context_.height);
   attachments_.post = std::move(post);
 }

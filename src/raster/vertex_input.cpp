@@ -19,17 +19,18 @@ VertexView bind_streams(std::span<const VertexStream> streams, std::size_t verte
   VertexView v{.streams = {}, .stream_count = static_cast<int>(streams.size()), .vertex_count = vertex_count};
   std::ranges::copy(streams, v.streams.begin());
   for (const VertexStream& s : streams) {
-    HS_CHECK_OP(s.stride, >=, 0);
-    HS_CHECK_OP(s.components, >=, 0);
-    HS_CHECK(s.data != nullptr || s.count == 0 || s.components == 0);
+    HS_CHECK_OP(s.stride, >=, 0, "make_vertex_view: the stride of a stream is negative; expected at least 0");
+    HS_CHECK_OP(s.components, >=, 0, "make_vertex_view: the number of components of a stream is negative; expected at least 0");
+    HS_CHECK(s.data != nullptr || s.count == 0 || s.components == 0, "make_vertex_view: a stream has rows but no data; expected an array");
     // gather uses 32-bit indices. The division avoids an overflow of the product.
-    HS_CHECK_OP(s.count, <=, ((std::size_t{1} << 31) - 1) / std::max<std::size_t>(static_cast<std::size_t>(s.stride), 1));
+    HS_CHECK_OP(s.count, <=, ((std::size_t{1} << 31) - 1) / std::max<std::size_t>(static_cast<std::size_t>(s.stride), 1),
+                "make_vertex_view: a stream is too long; expected fewer than 2^31 numbers");
     v.components += s.components;
     if (s.divisor != 0) {
       v.has_instance_streams = true;
       v.instance_count = std::min(v.instance_count, s.count * s.divisor);
     } else {
-      HS_CHECK_OP(s.count, ==, vertex_count);
+      HS_CHECK_OP(s.count, ==, vertex_count, "make_vertex_view: the streams have different lengths; expected one row per vertex in each");
     }
   }
   return v;

@@ -437,7 +437,7 @@ TEST(PostDeathTest, RequiresAColorAttachment) {
   Image<float> depth(8, 8);
   Image<glm::u8vec4> out(8, 8);
   Pass pass(8, 8, {}, d32f_target(depth));
-  EXPECT_DEATH(pass.post([]<class R>(const vec4<R>& c) { return c; }, rgba8_target(out)), "ColorFormat::none");
+  EXPECT_DEATH(pass.post([]<class R>(const vec4<R>& c) { return c; }, rgba8_target(out)), "no color target");
 }
 
 TEST(Post, RunsOnEveryPixelOnce) {
