@@ -11,15 +11,17 @@ namespace halfspace {
 
 namespace {
 
-// Quotes text that a shell would split or change. Control characters become question marks, because image formats do not store them.
-std::string quoted(const std::string& text) {
+// Quotes text that a shell would split or change. Control characters and bytes that are not UTF-8 are escaped, because image formats do not
+// store them.
+std::string quoted(const std::string& given) {
+  const std::string text = printable(given);
   const bool is_plain = !text.empty() && std::ranges::all_of(text, [](char c) {
     return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
            std::string_view("._-+,:#%@/").find(c) != std::string_view::npos;
   });
   if (is_plain) return text;
   std::string result = "'";
-  for (const char c : text) result += c == '\'' ? "'\\''" : std::string(1, (c >= 0 && c < ' ') || c == 0x7f ? '?' : c);
+  for (const char c : text) result += c == '\'' ? "'\\''" : std::string(1, c);
   return result + "'";
 }
 

@@ -73,14 +73,14 @@ std::size_t utf8_length(std::string_view text) {
   return length;
 }
 
-void append_escaped(unsigned char byte, std::string& out) {
+void append_hexadecimal(unsigned char byte, std::string& out) {
   constexpr std::string_view kDigits = "0123456789abcdef";
-  out += {'\\', 'x', kDigits[byte >> 4], kDigits[byte & 15]};
+  out += {kDigits[byte >> 4], kDigits[byte & 15]};
 }
 
 }  // namespace
 
-std::string printable(std::string_view text) {
+std::string escaped(std::string_view text, std::string_view prefix) {
   std::string out;
   out.reserve(text.size());
   while (!text.empty()) {
@@ -89,7 +89,10 @@ std::string printable(std::string_view text) {
     const std::string_view sequence = text.substr(0, std::max<std::size_t>(length, 1));
     const bool is_c1 = length == 2 && first == 0xc2 && static_cast<unsigned char>(text[1]) < 0xa0;  // U+0080 to U+009F
     if (length == 0 || first < 32 || first == 127 || is_c1) {
-      for (const char byte : sequence) append_escaped(static_cast<unsigned char>(byte), out);
+      for (const char byte : sequence) {
+        out += prefix;
+        append_hexadecimal(static_cast<unsigned char>(byte), out);
+      }
     } else {
       out += sequence;
     }
@@ -97,6 +100,8 @@ std::string printable(std::string_view text) {
   }
   return out;
 }
+
+std::string printable(std::string_view text) { return escaped(text, "\\x"); }
 
 std::string line_and_column(std::string_view text, std::size_t byte) {
   const std::string_view before = text.substr(0, std::min(byte == 0 ? 0 : byte - 1, text.size()));

@@ -24,8 +24,11 @@ std::string_view nearest_name(std::string_view wrong, std::span<const std::strin
 /// none is defined" if there are no names. Meant to be appended to an error line.
 std::string suggestion(std::string_view wrong, std::span<const std::string_view> names);
 
-/// Returns the text with every control character, and every byte that is not part of valid UTF-8, replaced by \xHH. Texts from files and
-/// file names can contain both.
+/// Returns the text with every byte of a control character, and every byte that is not part of valid UTF-8, replaced by `prefix` and two
+/// hexadecimal digits. Texts from files and file names can contain both.
+std::string escaped(std::string_view text, std::string_view prefix);
+
+/// The same with the prefix \x.
 std::string printable(std::string_view text);
 
 /// Returns "LINE:COLUMN" of a 1-based byte position in a text.

@@ -105,6 +105,7 @@ void apply_animation(const ModelAnimation& animation, double time, std::span<Mod
         node.morph_weights.resize(v.size());
         std::ranges::transform(v, node.morph_weights.begin(), [](double x) { return static_cast<float>(x); });
         break;
+      case AnimatedProperty::visibility: node.visible = v[0] != 0.0; break;
     }
   }
 }

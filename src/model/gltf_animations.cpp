@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -13,11 +14,18 @@ namespace halfspace::inline HS_LANES_NAMESPACE {
 
 namespace {
 
+// What a channel animates. The node is -1 if it is missing.
+struct ChannelTarget {
+  int node = -1;
+  std::string property;  // as in the file
+};
+
 std::optional<AnimatedProperty> property_of(std::string_view path) {
   if (path == "translation") return AnimatedProperty::translation;
   if (path == "rotation") return AnimatedProperty::rotation;
   if (path == "scale") return AnimatedProperty::scale;
   if (path == "weights") return AnimatedProperty::weights;
+  if (path == "extensions/KHR_node_visibility/visible") return AnimatedProperty::visibility;
   return std::nullopt;
 }
 
@@ -34,6 +42,26 @@ int target_count(const Model& model, const ModelNode& node) {
   return node.meshes.empty() ? 0 : static_cast<int>(model.meshes[static_cast<std::size_t>(node.meshes[0])].targets.size());
 }
 
+int width_of(AnimatedProperty property, const Model& model, const ModelNode& node) {
+  switch (property) {
+    case AnimatedProperty::weights: return target_count(model, node);
+    case AnimatedProperty::rotation: return 4;
+    case AnimatedProperty::visibility: return 1;
+    default: return 3;
+  }
+}
+
+// Returns the node and the property of a JSON pointer "/nodes/NODE/PROPERTY" (KHR_animation_pointer). Other pointers are returned whole.
+ChannelTarget target_of_pointer(const std::string& pointer, std::size_t nodes) {
+  constexpr std::string_view kNodes = "/nodes/";
+  if (!pointer.starts_with(kNodes)) return {-1, pointer};
+  const char* const end = pointer.data() + pointer.size();
+  int node = -1;
+  const auto [rest, error] = std::from_chars(pointer.data() + kNodes.size(), end, node);
+  if (error != std::errc() || rest == end || *rest != '/' || node < 0 || static_cast<std::size_t>(node) >= nodes) return {-1, pointer};
+  return {node, std::string(rest + 1, end)};
+}
+
 class ChannelReader {
  public:
   ChannelReader(GltfAccessors& accessors, const GltfValue& samplers, const Model& model)
@@ -42,22 +70,22 @@ class ChannelReader {
   /// Returns nullopt if the channel cannot be applied.
   std::optional<AnimationChannel> read(const GltfValue& json) {
     const GltfValue& target = document_.object(json, "target");
-    const std::string path = document_.string(target, "path");
+    const ChannelTarget animated = target_of(target);
     AnimationChannel channel;
-    channel.node = document_.index(target, "node", model_.nodes.size());
-    const std::optional<AnimatedProperty> property = property_of(path);
+    channel.node = animated.node;
+    const std::optional<AnimatedProperty> property = property_of(animated.property);
     if (!property) {
-      document_.warn("animations of " + gltf_quoted(path) + " are not supported; they are skipped");
+      document_.warn("animations of " + gltf_quoted(animated.property) + " are not supported; they are skipped");
       return std::nullopt;
     }
     if (channel.node < 0) return std::nullopt;  // permitted by the specification
     const ModelNode& node = model_.nodes[static_cast<std::size_t>(channel.node)];
-    if (node.matrix && *property != AnimatedProperty::weights) {
+    if (node.matrix && *property != AnimatedProperty::weights && *property != AnimatedProperty::visibility) {
       document_.warn_at(target, "node", "the node has a matrix; its animation is skipped");
       return std::nullopt;
     }
     channel.property = *property;
-    channel.width = *property == AnimatedProperty::weights ? target_count(model_, node) : *property == AnimatedProperty::rotation ? 4 : 3;
+    channel.width = width_of(*property, model_, node);
     if (channel.width == 0) {
       document_.warn_at(target, "path", "the node has no morph targets; its animation is skipped");
       return std::nullopt;
@@ -67,8 +95,16 @@ class ChannelReader {
   }
 
  private:
+  ChannelTarget target_of(const GltfValue& target) const {
+    const GltfValue* pointer = document_.extension(target, "KHR_animation_pointer");
+    if (pointer != nullptr) return target_of_pointer(document_.string(*pointer, "pointer"), model_.nodes.size());
+    const std::string path = document_.string(target, "path");
+    return {document_.index(target, "node", model_.nodes.size()), path};
+  }
+
   void read_keys(const GltfValue& sampler, AnimationChannel& channel) {
     channel.interpolation = interpolation_of(document_, sampler);
+    if (channel.property == AnimatedProperty::visibility) channel.interpolation = KeyInterpolation::step;  // the only one for Booleans
     const GltfAccessor input = accessors_.find(sampler, "input"), output = accessors_.find(sampler, "output");
     accessors_.check_width(input, 1);
     if (input.component != GltfComponent::float32) document_.fail(*input.json, "componentType", "is not a float; expected 5126");

@@ -40,6 +40,9 @@ class NodeReader {
     if (const GltfValue* light = document_.extension(json, "KHR_lights_punctual")) {
       node.light = document_.required_index(*light, "light", model_.lights.size());
     }
+    if (const GltfValue* visibility = document_.extension(json, "KHR_node_visibility")) {
+      node.visible = document_.find(*visibility, "visible") == nullptr || document_.boolean(*visibility, "visible");
+    }
     if (const GltfValue* instancing = document_.extension(json, "EXT_mesh_gpu_instancing")) read_instances(*instancing, node);
     read_mesh(json, node);
   }

@@ -9,7 +9,7 @@ namespace {
 
 // OpenGL constants.
 constexpr int kArrayBuffer = 34962, kElementArrayBuffer = 34963;
-constexpr int kUint16 = 5123, kUint32 = 5125, kFloat = 5126;
+constexpr int kUint8 = 5121, kUint16 = 5123, kUint32 = 5125, kFloat = 5126;
 
 }  // namespace
 
@@ -48,6 +48,12 @@ int GltfOutput::index_accessor(const std::vector<uint32_t>& values, std::size_t 
   if (vertices > kRestart) return accessor_of(view(std::as_bytes(std::span(values)), Use::indices), kUint32, values.size(), "SCALAR");
   const std::vector<uint16_t> narrow(values.begin(), values.end());
   return accessor_of(view(std::as_bytes(std::span(narrow)), Use::indices), kUint16, values.size(), "SCALAR");
+}
+
+int GltfOutput::flag_accessor(const std::vector<float>& values) {
+  std::vector<uint8_t> flags(values.size());
+  std::ranges::transform(values, flags.begin(), [](float x) { return static_cast<uint8_t>(x != 0.0f ? 1 : 0); });
+  return accessor_of(view(std::as_bytes(std::span(flags))), kUint8, flags.size(), "SCALAR");
 }
 
 int GltfOutput::joint_accessor(const std::vector<std::array<uint16_t, 4>>& values) {

@@ -57,6 +57,8 @@ class GltfOutput {
   }
   /// Adds an accessor of 16-bit or 32-bit indices.
   int index_accessor(const std::vector<uint32_t>& values, std::size_t vertices);
+  /// Adds an accessor of Booleans. false: 0.
+  int flag_accessor(const std::vector<float>& values);
   int joint_accessor(const std::vector<std::array<uint16_t, 4>>& values);
 
   /// Adds the minimum and maximum of the values, which glTF requires for positions and times.

@@ -178,6 +178,7 @@ struct ModelNode {
   std::vector<int> children;         ///< the hierarchy is a forest: every node has at most one parent and there are no cycles
   std::vector<int> meshes;
   int skin = -1, camera = -1, light = -1;
+  bool visible = true;                   ///< false: the meshes and lights of the node and of its descendants are not drawn
   std::vector<float> morph_weights;      ///< weights of the morph targets of the node's meshes; empty if all are 0
   std::vector<NodeTransform> instances;  ///< transforms of copies relative to the node; empty for a single copy
 };
@@ -216,7 +217,7 @@ struct ModelScene {
 
 // ---- animation -------------------------------------------------------------------------------------------------
 
-enum class AnimatedProperty : uint8_t { translation, rotation, scale, weights };
+enum class AnimatedProperty : uint8_t { translation, rotation, scale, weights, visibility };
 enum class KeyInterpolation : uint8_t { step, linear, cubic };
 
 /// The values of one property of one node over time.
@@ -226,7 +227,8 @@ struct AnimationChannel {
   KeyInterpolation interpolation = KeyInterpolation::linear;
   std::vector<float> times;   ///< seconds, strictly increasing
   std::vector<float> values;  ///< `width` numbers per keyframe; three times as many for `cubic`: in-tangent, value, out-tangent
-  int width = 3;              ///< numbers per value: 3, 4 (rotation as x, y, z, w), or the number of morph targets
+  /// Numbers per value: 3, 4 (rotation as x, y, z, w), the number of morph targets, or 1 (visibility: 0 is hidden).
+  int width = 3;
 };
 
 struct ModelAnimation {

@@ -77,8 +77,8 @@ class Poser {
   }
 
  private:
-  // Computes world_ for all nodes, because joints may be in another scene. If the transform of a node overflows, the node and its
-  // descendants are invalid.
+  // Computes world_ for all nodes, because joints may be in another scene, and whether the nodes and all their ancestors are visible. If
+  // the transform of a node overflows, the node and its descendants are invalid.
   void resolve_hierarchy() {
     const std::size_t n = nodes_.size();
     std::vector<bool> is_child(n);
@@ -87,6 +87,7 @@ class Poser {
     }
     world_.assign(n, world_from_model(model_.up));
     valid_.assign(n, true);
+    visible_.assign(n, true);
     std::vector<std::size_t> order;
     for (std::size_t i = 0; i < n; ++i) {
       if (!is_child[i]) order.push_back(i);
@@ -95,10 +96,12 @@ class Poser {
       const std::size_t i = order[k];
       world_[i] = world_[i] * matrix_of(nodes_[i]);
       valid_[i] = valid_[i] && is_bounded_transform(world_[i]);
+      visible_[i] = visible_[i] && nodes_[i].visible;
       for (const int child : nodes_[i].children) {
         const auto c = static_cast<std::size_t>(child);
         world_[c] = world_[i];
         valid_[c] = valid_[i];
+        visible_[c] = visible_[i];
         order.push_back(c);
       }
     }
@@ -106,7 +109,8 @@ class Poser {
 
   void add_node(std::size_t i) {
     const ModelNode& node = nodes_[i];
-    if (node.camera >= 0) result_.cameras.push_back({node.camera, without_scale(world_[i])});
+    if (node.camera >= 0) result_.cameras.push_back({node.camera, static_cast<int>(i), without_scale(world_[i])});
+    if (!visible_[i]) return;
     if (node.light >= 0) result_.lights.push_back({node.light, without_scale(world_[i])});
     for (const int mesh : node.meshes) add_mesh(mesh, node, world_[i]);
   }
@@ -205,7 +209,7 @@ class Poser {
   const PoseOptions& options_;
   std::vector<ModelNode> nodes_;
   std::vector<glm::dmat4> world_;
-  std::vector<bool> valid_;
+  std::vector<bool> valid_, visible_;
   std::map<std::tuple<int, int, std::vector<float>>, std::shared_ptr<const ModelMesh>> deformed_;
   std::map<const ModelMesh*, Box> boxes_;
   PosedModel result_;

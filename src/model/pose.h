@@ -27,6 +27,7 @@ struct PosedMesh {
 
 struct PosedCamera {
   int camera = 0;
+  int node = 0;
   glm::dmat4 world_from_camera{1.0};  ///< without scale
 };
 

@@ -48,15 +48,17 @@ const char* path_of(AnimatedProperty property) {
     case AnimatedProperty::translation: return "translation";
     case AnimatedProperty::rotation: return "rotation";
     case AnimatedProperty::scale: return "scale";
-    case AnimatedProperty::weights: break;
+    case AnimatedProperty::weights: return "weights";
+    case AnimatedProperty::visibility: break;
   }
-  return "weights";
+  return "pointer";
 }
 
 // Writes the channel's values as vectors with the width of its property.
 int key_accessor(const AnimationChannel& channel, GltfOutput& out) {
   constexpr auto kOther = GltfOutput::Use::other;
   if (channel.property == AnimatedProperty::weights) return out.accessor(channel.values, kOther);
+  if (channel.property == AnimatedProperty::visibility) return out.flag_accessor(channel.values);
   if (channel.property == AnimatedProperty::rotation) {
     std::vector<glm::vec4> values;
     for (std::size_t i = 0; i + 3 < channel.values.size(); i += 4)
@@ -69,6 +71,17 @@ int key_accessor(const AnimationChannel& channel, GltfOutput& out) {
   return out.accessor(values, kOther);
 }
 
+OutputJson target_json(const AnimationChannel& channel, GltfOutput& out) {
+  OutputJson target = {{"path", path_of(channel.property)}};
+  if (channel.property == AnimatedProperty::visibility) {
+    const std::string pointer = "/nodes/" + std::to_string(channel.node) + "/extensions/KHR_node_visibility/visible";
+    out.extend(target, "KHR_animation_pointer", {{"pointer", pointer}});
+  } else {
+    target["node"] = channel.node;
+  }
+  return target;
+}
+
 OutputJson animation_json(const ModelAnimation& animation, GltfOutput& out) {
   OutputJson json;
   if (!animation.name.empty()) json["name"] = animation.name;
@@ -78,8 +91,7 @@ OutputJson animation_json(const ModelAnimation& animation, GltfOutput& out) {
     const char* interpolation = channel.interpolation == KeyInterpolation::step     ? "STEP"
                                 : channel.interpolation == KeyInterpolation::linear ? "LINEAR"
                                                                                     : "CUBICSPLINE";
-    json["channels"].push_back(
-        {{"sampler", json["channels"].size()}, {"target", {{"node", channel.node}, {"path", path_of(channel.property)}}}});
+    json["channels"].push_back({{"sampler", json["channels"].size()}, {"target", target_json(channel, out)}});
     json["samplers"].push_back({{"input", times}, {"interpolation", interpolation}, {"output", key_accessor(channel, out)}});
   }
   return json;

@@ -23,7 +23,7 @@ class NodeWriter {
 
   void write() {
     write_meshes();
-    for (const ModelNode& node : model_.nodes) out_.add("nodes", node_json(node));
+    for (std::size_t i = 0; i < model_.nodes.size(); ++i) out_.add("nodes", node_json(static_cast<int>(i)));
     for (std::size_t i = 0; i < model_.nodes.size(); ++i) add_moved_meshes(i);
     for (const ModelScene& scene : model_.scenes) write_scene(scene);
     out_.json["scene"] = model_.scene;
@@ -141,13 +141,24 @@ class NodeWriter {
     if (t.scale != glm::dvec3(1.0)) json["scale"] = json_array(t.scale);
   }
 
-  OutputJson node_json(const ModelNode& node) {
+  // An animation can only refer to a property that exists.
+  bool has_animated_visibility(int node) const {
+    return std::ranges::any_of(model_.animations, [&](const ModelAnimation& animation) {
+      return std::ranges::any_of(animation.channels, [&](const AnimationChannel& channel) {
+        return channel.property == AnimatedProperty::visibility && channel.node == node;
+      });
+    });
+  }
+
+  OutputJson node_json(int index) {
+    const ModelNode& node = model_.nodes[static_cast<std::size_t>(index)];
     OutputJson json = OutputJson::object();
     if (!node.name.empty()) json["name"] = node.name;
     add_transform(json, node);
     if (!node.children.empty()) json["children"] = node.children;
     if (node.camera >= 0) json["camera"] = node.camera;
     if (node.light >= 0) out_.extend(json, "KHR_lights_punctual", {{"light", node.light}});
+    if (!node.visible || has_animated_visibility(index)) out_.extend(json, "KHR_node_visibility", {{"visible", node.visible}});
     const std::vector<std::vector<int>> lists = lists_of(node);
     for (const std::vector<int>& list : lists) {
       if (draws_itself(node, list)) add_mesh(json, node, list);

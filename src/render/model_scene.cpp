@@ -17,6 +17,7 @@
 #include "halfspace/model/pose.h"
 #include "halfspace/model/up_axis_hint.h"
 #include "halfspace/render/model_fit.h"
+#include "halfspace/scene/path_text.h"
 #include "halfspace/scene/scene_paths.h"
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
@@ -138,6 +139,7 @@ OrderedJson cameras_of(const ModelPoses& poses, const ModelBounds& b, const Fram
                        std::map<std::string, std::string>& names) {
   OrderedJson cameras = {{kFittedCamera, fitted_camera(poses, b, frame, view)}};
   std::set<std::string> used{kFittedCamera};
+  std::map<std::string, std::string> names_of_nodes;
   for (const PosedCamera& placed : poses.first().cameras) {
     const ModelCamera& c = poses.model().cameras[static_cast<std::size_t>(placed.camera)];
     const glm::dvec3 eye(placed.world_from_camera[3]), ahead(-placed.world_from_camera[2]);
@@ -156,8 +158,11 @@ OrderedJson cameras_of(const ModelPoses& poses, const ModelBounds& b, const Fram
     }
     const std::string name = scene_name(c.name, "camera", used);
     if (!c.name.empty()) names.try_emplace(c.name, name);
+    if (const std::string& node = poses.model().nodes[static_cast<std::size_t>(placed.node)].name; !node.empty())
+      names_of_nodes.try_emplace(node, name);
     cameras[name] = std::move(camera);
   }
+  names.merge(names_of_nodes);  // names of cameras take precedence
   return cameras;
 }
 
@@ -253,8 +258,6 @@ UpAxis up_axis_of(const Model& model, const std::string& name) { return name == 
 GeneratedScene model_scene(const std::filesystem::path& file, const ModelView& view) {
   const FloatMode float_mode;
   Model contents = read_model(file, {.allow_outside = view.allow_outside});
-  if (const std::string path = std::filesystem::absolute(file).string(); printable(path) != path)
-    throw InputError(file.string() + ": the path has a control character or invalid UTF-8; expected a path that a scene file can contain");
   if (view.up_axis == "auto") {
     if (const std::string hint = up_axis_hint(contents); !hint.empty()) contents.warnings.push_back(hint);
   }
@@ -272,12 +275,12 @@ GeneratedScene model_scene(const std::filesystem::path& file, const ModelView& v
   const ModelBounds b = bounds_of(poses, file);
   const Frame frame = frame_of(b, file);
   const bool own_lights = !posed.lights.empty();
-  OrderedJson scene = {{"version", 1}, {"title", file.filename().string()}, {"samples", 4}, {"camera", kFittedCamera}};
+  OrderedJson scene = {{"version", 1}, {"title", printable(file.filename().string())}, {"samples", 4}, {"camera", kFittedCamera}};
   std::map<std::string, std::string> camera_names;
   scene["cameras"] = cameras_of(poses, b, frame, view, camera_names);
   scene["lights"] = own_lights ? lights_of(model, posed, frame) : key_light(view);
   OrderedJson environment = {{"type", "studio"}, {"size", 256}, {"brightness", 0.75}};
-  if (!view.environment.empty()) environment = {{"type", "equirect"}, {"map", view.environment}};
+  if (!view.environment.empty()) environment = {{"type", "equirect"}, {"map", scene_text(view.environment)}};
   scene["environments"] = {{"around", environment}};
   scene["reflections"] = {{"environment", "around"}};
   if (view.background == "environment") {
@@ -291,7 +294,7 @@ GeneratedScene model_scene(const std::filesystem::path& file, const ModelView& v
   }
   scene["post"] = {{"hdr", true}, {"tone", "aces"}, {"exposure", 0.62}};
   scene["shadow"] = {{"method", "pcf7"}, {"resolution", shadow_map_width(posed.lights.size())}, {"faces", "both"}};
-  OrderedJson object = {{"shape", "file"}, {"file", std::filesystem::absolute(file).lexically_normal().string()}};
+  OrderedJson object = {{"shape", "file"}, {"file", scene_text(std::filesystem::absolute(file).lexically_normal())}};
   if (frame.origin != glm::dvec3(0.0)) object["position"] = json_of(-frame.origin * frame.scale);
   if (frame.scale != 1.0) object["scale"] = json_of(glm::dvec3(frame.scale));
   if (view.up_axis != "auto") object["up_axis"] = view.up_axis;

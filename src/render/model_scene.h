@@ -41,7 +41,7 @@ struct ModelView {
 struct GeneratedScene {
   std::string text;
   std::shared_ptr<const ModelAsset> model;
-  std::map<std::string, std::string> camera_names;  ///< names in the file and the corresponding names in the scene
+  std::map<std::string, std::string> camera_names;  ///< names of cameras and of their nodes in the file, and the names in the scene
 };
 
 /// Returns true if the file has the extension of a model format.

@@ -10,6 +10,7 @@
 #include "halfspace/core/check.h"
 #include "halfspace/core/srgb.h"
 #include "halfspace/core/text.h"
+#include "halfspace/scene/path_text.h"
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
 
@@ -95,14 +96,14 @@ void check_plain_text(const std::string& text, const std::string& path, const Re
 
 // Empty text means no file.
 FilePath file_from(const std::string& text, const std::string& path, const ReadContext& c) {
-  check_plain_text(text, path, c);
-  if (text.empty()) return {};
-  if (std::filesystem::path(text).is_relative() && c.directory.empty()) {
-    fail(c, path, "'" + text + "' is relative, but its base directory does not exist; expected an absolute path");
+  const std::optional<std::string> bytes = path_of_scene_text(text);
+  if (!bytes) fail(c, path, "contains a control character; expected the path of a file");
+  const std::string& file = *bytes;
+  if (file.empty()) return {};
+  if (std::filesystem::path(file).is_relative() && c.directory.empty()) {
+    fail(c, path, "'" + file + "' is relative, but its base directory does not exist; expected an absolute path");
   }
-  const std::filesystem::path whole = (c.directory / text).lexically_normal();
-  check_plain_text(whole.string(), path, c);
-  return {whole};
+  return {(c.directory / file).lexically_normal()};
 }
 
 // Rejects a word that is not the name of a texture and does not look like a file: it is probably a misspelled texture name.
@@ -293,12 +294,12 @@ Json value_of(const Field& field) {
     case KeyType::vector: return json_of_vector(as<glm::dvec3>(field.value));
     case KeyType::color: return json_of_vector(as<Color>(field.value).linear);
     case KeyType::text: return as<std::string>(field.value);
-    case KeyType::file: return as<FilePath>(field.value).path.string();
+    case KeyType::file: return scene_text(as<FilePath>(field.value).path);
     case KeyType::map: {
       const auto& map = as<MapValue>(field.value);
       if (const auto* color = std::get_if<Color>(&map)) return json_of_vector(color->linear);
       if (const auto* texture = std::get_if<TextureName>(&map)) return texture->name;
-      return std::get<FilePath>(map).path.string();
+      return scene_text(std::get<FilePath>(map).path);
     }
     case KeyType::numbers: return numbers(as<Numbers>(field.value));
     case KeyType::keyframes: {

@@ -78,7 +78,7 @@ TEST_F(ModelChoices, CamerasAndLightsMayHaveAnyName) {
                            "ber",
                            "view", ""}) {
     const int camera = file.add("cameras", {{"name", name}, {"type", "perspective"}, {"perspective", {{"yfov", 0.8}, {"znear", 0.1}}}});
-    file.add("nodes", {{"camera", camera}, {"translation", {0.3 * camera, 0, 3}}});
+    file.add("nodes", {{"name", std::string("Node of ") + name}, {"camera", camera}, {"translation", {0.3 * camera, 0, 3}}});
   }
   file.json["extensionsUsed"] = {"KHR_lights_punctual"};
   for (const char* name : {"Point Light.001", "point_light_001"})
@@ -93,11 +93,13 @@ TEST_F(ModelChoices, CamerasAndLightsMayHaveAnyName) {
     EXPECT_TRUE(scene.at("cameras").contains(name)) << name << printed.out;
   EXPECT_TRUE(scene.at("lights").contains("point_light_001"));
   EXPECT_TRUE(scene.at("lights").contains("point_light_001_1"));
-  // A camera can be selected by its name in the file and by the name in the scene.
+  // A camera can be selected by its name in the file, the name of its node, and the name in the scene.
+  EXPECT_EQ(render({"a.gltf", "--camera", "Node of MY CAM", "-o", "node.png"}).err, "");
   EXPECT_EQ(render({"a.gltf", "--camera", "MY CAM", "-o", "file.png"}).err, "");
   EXPECT_EQ(render({"a.gltf", "--camera", "my_cam_2", "-o", "scene.png"}).err, "");
   EXPECT_EQ(render({"a.gltf", "--camera", "My Cam", "-o", "other.png"}).err, "");
   EXPECT_TRUE(picture("file.png") == picture("scene.png"));
+  EXPECT_TRUE(picture("file.png") == picture("node.png"));
   EXPECT_FALSE(picture("file.png") == picture("other.png"));
 }
 

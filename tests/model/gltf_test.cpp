@@ -281,6 +281,38 @@ TEST(Gltf, ReadsAnimations) {
   EXPECT_NE(model.warnings[0].find("'pointer'"), std::string::npos);
 }
 
+TEST(Gltf, ReadsVisibilityAndPointersToNodes) {
+  GltfBuilder file;
+  file.json["extensionsRequired"] = file.json["extensionsUsed"] = {"KHR_node_visibility", "KHR_animation_pointer"};
+  const auto node = [](GltfJson visibility) { return GltfJson{{"extensions", {{"KHR_node_visibility", std::move(visibility)}}}}; };
+  file.add("nodes", node({{"visible", false}}));
+  file.add("nodes", node(GltfJson::object()));
+  const int times = file.accessor<float>({0, 1}, 1), flags = file.accessor<uint8_t>({0, 7}, 1);
+  const int moves = file.accessor<float>({1, 2, 3, 4, 5, 6}, 3);
+  const auto channel = [](int sampler, const char* pointer) {
+    const GltfJson extensions = {{"KHR_animation_pointer", {{"pointer", pointer}}}};
+    return GltfJson{{"sampler", sampler}, {"target", {{"path", "pointer"}, {"extensions", extensions}}}};
+  };
+  file.add("animations", {{"samplers", {{{"input", times}, {"output", flags}}, {{"input", times}, {"output", moves}}}},
+                          {"channels",
+                           {channel(0, "/nodes/1/extensions/KHR_node_visibility/visible"), channel(1, "/nodes/0/translation"),
+                            channel(1, "/materials/0/emissiveFactor"), channel(1, "/nodes/2/translation")}}});
+  const Model model = file.read();
+  EXPECT_FALSE(model.nodes.at(0).visible);
+  EXPECT_TRUE(model.nodes.at(1).visible);
+  const std::vector<AnimationChannel>& channels = model.animations.at(0).channels;
+  ASSERT_EQ(channels.size(), 2u);
+  EXPECT_EQ(channels[0].property, AnimatedProperty::visibility);
+  EXPECT_EQ(channels[0].interpolation, KeyInterpolation::step);
+  EXPECT_EQ(channels[0].node, 1);
+  EXPECT_EQ(channels[0].values, (std::vector<float>{0, 7}));
+  EXPECT_EQ(channels[1].property, AnimatedProperty::translation);
+  EXPECT_EQ(channels[1].node, 0);
+  ASSERT_EQ(model.warnings.size(), 2u);
+  EXPECT_NE(model.warnings[0].find("/materials/0/emissiveFactor"), std::string::npos);
+  EXPECT_NE(model.warnings[1].find("/nodes/2/translation"), std::string::npos);
+}
+
 TEST(Gltf, ReadsGlbAndExternalBuffers) {
   GltfBuilder file;
   file.mesh_node({{"attributes", {{"POSITION", file.triangle()}}}});

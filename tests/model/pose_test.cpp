@@ -253,6 +253,30 @@ TEST(Pose, PlacesCamerasWithoutScaleAndLights) {
   EXPECT_EQ(posed.lights.at(0).world_from_light[3], glm::dvec4(1, 2, 3, 1));
 }
 
+// A node is drawn if it and all its ancestors are visible. Cameras are not affected (KHR_node_visibility).
+TEST(Pose, OmitsHiddenNodesWithTheirDescendants) {
+  Model model = pose_model();
+  model.cameras.resize(1);
+  model.lights.resize(1);
+  model.nodes.resize(3);
+  for (std::size_t i = 0; i < 3; ++i) model.nodes[i].meshes = {0};
+  model.nodes[0].children = {1};
+  model.nodes[2].camera = model.nodes[2].light = 0;
+  model.scenes[0].roots = {0, 2};
+  EXPECT_EQ(pose(model, {}).meshes.size(), 3u);
+  model.nodes[0].visible = false;
+  EXPECT_EQ(pose(model, {}).meshes.size(), 1u);
+  model.nodes[2].visible = false;
+  const PosedModel posed = pose(model, {});
+  EXPECT_TRUE(posed.meshes.empty() && posed.lights.empty());
+  EXPECT_EQ(posed.cameras.at(0).node, 2);
+  AnimationChannel shown = channel(AnimatedProperty::visibility, KeyInterpolation::step, {0, 1}, {0, 1});
+  shown.width = 1;
+  model.animations = {{"", {shown}}};
+  EXPECT_EQ(pose(model, {.animation = 0, .time = 0.9}).meshes.size(), 0u);
+  EXPECT_EQ(pose(model, {.animation = 0, .time = 1.0}).meshes.size(), 2u);
+}
+
 TEST(Pose, OmitsNodesWhoseTransformOverflows) {
   Model model = pose_model();
   model.nodes[0].children = {1};

@@ -409,10 +409,21 @@ TEST(SceneFile, RejectsControlCharacters) {
   SceneFile scene = SceneFile::open("earth");
   for (const std::string& bad : {std::string("\xff"), std::string("a\nb"), std::string("a\0b", 3), std::string("\x1b[31m")}) {
     EXPECT_TRUE(reports(input_error([&] { scene.set("title=" + bad); }), "--set: title", {"control character"}));
-    EXPECT_TRUE(reports(input_error([&] { scene.set("earth.color=" + bad); }), "--set: earth.color", {"control character"}));
   }
+  EXPECT_TRUE(reports(input_error([&] { scene.set(std::string("earth.color=a\0b", 15)); }), "--set: earth.color", {"control character"}));
   EXPECT_NO_THROW(scene.set("title=Lüneburg – 月"));
   EXPECT_NE(scene.print().find("月"), std::string::npos);
+}
+
+// Paths can contain any bytes except zeros.
+TEST(SceneFile, KeepsTheBytesOfPaths) {
+  SceneFile scene = SceneFile::open("earth");
+  const std::string path = "/a \xe9\n\x7f\\x41 月.png";
+  scene.set("earth.height=" + path);
+  const auto path_in = [](const SceneFile& s) { return std::get<FilePath>(s.description().objects.at(0).second.height).path.string(); };
+  EXPECT_EQ(path_in(scene), path);
+  EXPECT_EQ(path_in(SceneFile::parse(scene.print(), "copy", "/")), path);
+  EXPECT_NE(scene.print().find(R"("/a \u0000e9\u00000a\u00007f\\x41 月.png")"), std::string::npos);
 }
 
 TEST(SceneFile, RejectsTooManyNames) {
