@@ -9,6 +9,7 @@
 #include "halfspace/explain/stage_terms.h"
 #include "halfspace/explain/stage_tone.h"
 #include "halfspace/raster/pipeline/sample_pattern.h"
+#include "halfspace/shading/terminator.h"
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
 
@@ -44,6 +45,7 @@ Image<glm::u8vec4> shadow_factors(const Image<glm::vec4>& with, const Image<glm:
 
 struct SurfaceAt {
   glm::vec3 position_rws, face_ws, normal_ws;
+  SmoothSurface smooth;
 };
 
 const PreparedDraw* draw_at(const PageInput& in, int x, int y) {
@@ -53,6 +55,26 @@ const PreparedDraw* draw_at(const PageInput& in, int x, int y) {
     if (d.source.object == static_cast<int>(object) && instance == first && !d.source.streams.positions.empty()) return &d;
   }
   return nullptr;
+}
+
+// corners: of the triangle at pixel p. side: −1 if its clockwise side is visible, otherwise 1.
+SmoothSurface smooth_surface(const PageInput& in, const PreparedDraw& draw, const std::array<glm::dvec3, 3>& corners, double side,
+                             const glm::ivec2& p) {
+  if (draw.source.streams.normals.empty()) return {};
+  const glm::dmat3 turn = glm::transpose(glm::inverse(glm::dmat3(draw.source.world_from_object)));
+  if (glm::determinant(turn) < 0.0) side = -side;
+  const glm::vec3 weights = in.values.barycentrics.at(p.x, p.y);
+  std::array<vec3<double>, 3> points, normals;
+  glm::dvec3 sum(0.0);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const uint32_t vertex = (*draw.indices)[std::size_t{in.values.triangle.at(p.x, p.y)} * 3 + k];
+    const glm::dvec3 n = side * unit_or_zero(turn * glm::dvec3(draw.source.streams.normals[vertex]));
+    points[k] = vec3<double>(corners[k]);
+    normals[k] = vec3<double>(n);
+    sum += n * double{weights[static_cast<int>(k)]};
+  }
+  const double height = smooth_height<double>(points, normals, {double{weights.x}, double{weights.y}, double{weights.z}});
+  return {glm::vec3(unit_or_zero(sum)), static_cast<float>(height)};
 }
 
 // Returns the surface at a pixel, or nullopt if it is not part of a mesh.
@@ -67,15 +89,16 @@ std::optional<SurfaceAt> surface_at(const PageInput& in, int x, int y) {
   }
   const glm::dvec3 position = glm::dvec3(in.values.position.at(x, y)) - in.scene.view.eye_ws;
   glm::dvec3 face = glm::normalize(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
-  if (glm::dot(face, position) > 0.0) face = -face;
-  return SurfaceAt{glm::vec3(position), glm::vec3(face), in.values.normal.at(x, y)};
+  const double side = glm::dot(face, position) > 0.0 ? -1.0 : 1.0;
+  face *= side;
+  return SurfaceAt{glm::vec3(position), glm::vec3(face), in.values.normal.at(x, y), smooth_surface(in, *draw, corners, side, {x, y})};
 }
 
 std::optional<ShadowLookup> lookup_at(const PageInput& in, const Light& light, int x, int y) {
   const std::optional<SurfaceAt> s = surface_at(in, x, y);
   if (!s) return std::nullopt;
   const glm::vec2 window(static_cast<float>(x) + 0.5f, static_cast<float>(in.scene.view.height_px - y) - 0.5f);
-  return shadow_lookup(light, s->position_rws, s->face_ws, s->normal_ws, window);
+  return shadow_lookup(light, s->position_rws, s->face_ws, s->normal_ws, window, s->smooth);
 }
 
 // Returns the pixel whose shadow lookup the page shows. Searches every fourth pixel in x and y for the partially shadowed pixel nearest to

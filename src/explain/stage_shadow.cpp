@@ -25,14 +25,15 @@ void look_around(const ShadowView& view, const ShadowCoordinates<float>& p, Shad
 }  // namespace
 
 ShadowLookup shadow_lookup(const Light& light, const glm::vec3& position_rws, const glm::vec3& face_ws, const glm::vec3& normal_ws,
-                           const glm::vec2& window) {
+                           const glm::vec2& window, const SmoothSurface& smooth) {
   const Shadow& shadow = *light.shadow;
   ShadowLookup out;
   const vec3<float> l_ws = light_at<float>(light, vec3<float>(position_rws)).l_ws;
   out.position_rws = position_rws;
   out.normal_ws = normal_ws;
   out.to_light_ws = {l_ws.x, l_ws.y, l_ws.z};
-  const ShadowReceiver<float> at{vec3<float>(position_rws), vec3<float>(face_ws), vec3<float>(normal_ws), l_ws, window.x, window.y};
+  const ShadowReceiver<float> at{vec3<float>(position_rws),     vec3<float>(face_ws), vec3<float>(normal_ws), l_ws, window.x, window.y,
+                                 vec3<float>(smooth.normal_ws), smooth.height};
   out.factor = shadow_factor(shadow, at);
   for (std::size_t v = 0; v < shadow.views.size(); ++v) {
     const ShadowView& view = shadow.views[v];

@@ -29,9 +29,16 @@ struct ShadowLookup {
   std::array<float, kShadowSide * kShadowSide> lit{};     ///< 1 if the texel does not occlude the point
 };
 
+/// The members of ShadowReceiver that describe the smooth surface.
+struct SmoothSurface {
+  glm::vec3 normal_ws{0.0f};
+  float height = 0.0f;
+};
+
 /// Looks up a surface point in the shadow of a light, with the functions that shaders call.
+/// smooth: the surface that the vertex normals describe.
 ShadowLookup shadow_lookup(const Light& light, const glm::vec3& position_rws, const glm::vec3& face_ws, const glm::vec3& normal_ws,
-                           const glm::vec2& window);
+                           const glm::vec2& window, const SmoothSurface& smooth = {});
 
 /// Returns the map of a view as a gray picture, at most `size` texels wide. Empty texels are 0; nearer to the light is brighter. The range
 /// of depths is scaled to the range of gray values.

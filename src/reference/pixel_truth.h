@@ -27,9 +27,10 @@ struct ShadowPicture {
   double draw_ms;         ///< time of the pass in milliseconds
 };
 
-/// Draws the shadow of a light. If `with_shadow` is false, the light is drawn as if it had no shadow map.
+/// Draws the shadow of a light. If `with_shadow` is false, the light is drawn as if it had no shadow map. shading_normals: as in
+/// ShadowMask; null: those of the vertices.
 ShadowPicture draw_shadow_picture(const LightChoice& light, const View& view, int width, int height, bool with_shadow,
-                                  const Workers& workers);
+                                  const Workers& workers, const Image<glm::vec3>* shading_normals = nullptr);
 
 /// The camera ray through a point (x, y) of the image, in pixels from the top-left corner. Pixel centers are at + 0.5.
 struct PictureRay {

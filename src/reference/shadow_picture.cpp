@@ -45,7 +45,7 @@ ShadowMask mask_of(const PlacedMesh& placed, const View& view) {
 }  // namespace
 
 ShadowPicture draw_shadow_picture(const LightChoice& choice, const View& view, int width, int height, bool with_shadow,
-                                  const Workers& workers) {
+                                  const Workers& workers, const Image<glm::vec3>* shading_normals) {
   const PreparedScene& scene = *choice.scene;
   const PreparedLight& light = scene.lights[choice.index];
   ShadowPicture out{Image<glm::vec4>(width, height), Image<float>(width, height), 0.0};
@@ -61,6 +61,9 @@ ShadowPicture draw_shadow_picture(const LightChoice& choice, const View& view, i
     shader.light = light.light;
     if (!with_shadow || !placed.receives_shadow) shader.light.shadow = nullptr;
     shader.mesh = static_cast<float>(m);
+    if (shading_normals != nullptr) shader.shading_normals = &shading_normals->texels().data()->x;
+    shader.width = width;
+    shader.height = height;
     const DrawState state = opaque_state(placed.two_sided ? CullMode::none : CullMode::back, placed.mirrored());
     pass.draw(shader, make_vertex_view(stream(mesh.positions), stream(mesh.normals), stream(mesh.triangles)), state);
   }

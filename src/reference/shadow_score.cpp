@@ -8,9 +8,11 @@
 
 #include "halfspace/core/trig_double.h"
 #include "halfspace/geometry/camera.h"
+#include "halfspace/render/frame.h"
 #include "halfspace/render/shadow/shadow_views.h"
 #include "halfspace/scene/lights.h"
 #include "halfspace/shading/shadow_bias.h"
+#include "halfspace/shading/terminator.h"
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
 
@@ -21,7 +23,48 @@ enum class PixelKind : uint8_t { nothing, sides_differ, compared };
 struct Pixels {
   Image<PixelKind> kind;
   Image<std::optional<RayHit>> hits;
+  Image<float> shading_l;  // cosine of the angle between shading normal and light, where only the shading normal faces the light
 };
+
+// Returns the normals that the surfaces are lit with, and zero vectors where the frame does not show the mesh that the rays hit.
+Image<glm::vec3> shading_normals(const PreparedScene& scene, const Image<std::optional<RayHit>>& hits, const Workers& workers) {
+  Image<glm::vec3> normals(hits.width(), hits.height());
+  Image<uint32_t> objects(hits.width(), hits.height());
+  FrameImages images;
+  images.normal = &normals;
+  images.object = &objects;
+  render_frame(scene, images, workers);
+  for (int y = 0; y < hits.height(); ++y) {
+    for (int x = 0; x < hits.width(); ++x) {
+      const std::optional<RayHit>& hit = hits.at(x, y);
+      if (!hit || static_cast<uint32_t>(scene.meshes[static_cast<std::size_t>(hit->mesh)].object) != objects.at(x, y))
+        normals.at(x, y) = glm::vec3(0.0f);
+    }
+  }
+  return normals;
+}
+
+// A point of the smooth surface above a triangle.
+struct SmoothPoint {
+  glm::dvec3 position_rws, normal_ws;
+};
+
+// to_eye: 1 if the eye is on the side of the triangle from which it is counter-clockwise, otherwise −1.
+SmoothPoint smooth_point(const PlacedMesh& mesh, const RayHit& hit, const glm::dvec3& eye_ws, double to_eye) {
+  const double side = mesh.mirrored() ? -to_eye : to_eye;
+  const glm::dmat3 normal_from_object = glm::transpose(glm::inverse(glm::dmat3(mesh.world_from_object)));
+  std::array<vec3<double>, 3> p, n;
+  glm::dvec3 normal(0.0);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const uint32_t vertex = (*mesh.indices)[3 * std::size_t{hit.triangle} + k];
+    const glm::dvec3 unit = side * unit_or_zero(normal_from_object * glm::dvec3(mesh.normals[vertex]));
+    p[k] = vec3<double>(glm::dvec3(mesh.world_from_object * glm::dvec4(glm::dvec3(mesh.positions[vertex]), 1.0)) - eye_ws);
+    n[k] = vec3<double>(unit);
+    normal += hit.weights[k] * unit;
+  }
+  normal = unit_or_zero(normal);
+  return {hit.position_rws + normal * smooth_height(p, n, hit.weights), normal};
+}
 
 // Returns the world-space width of a shadow map texel at a position, in the view that a lookup at that position would use.
 double texel_at(const Shadow& shadow, const glm::dvec3& position_rws) {
@@ -142,6 +185,24 @@ void score_false_pixels(ShadowComparison& c, const Pixels& pixels, const Shadow&
   divide(c.score.false_light, c.score.shadowed);
 }
 
+void score_sides(ShadowComparison& c, const Pixels& pixels) {
+  SidesScore& s = c.score.sides;
+  int64_t false_shadow = 0, false_light = 0;
+  for (int y = 0; y < c.map.height(); ++y) {
+    for (int x = 0; x < c.map.width(); ++x) {
+      if (pixels.kind.at(x, y) != PixelKind::sides_differ || c.truth.at(x, y) < 0.0f) continue;
+      const float error = c.map.at(x, y) - c.truth.at(x, y);
+      ++(c.truth.at(x, y) > 0.5f ? s.lit : s.shadowed);
+      false_shadow += error < -0.5f;
+      false_light += error > 0.5f;
+      s.error += static_cast<double>(std::abs(error) * pixels.shading_l.at(x, y));
+    }
+  }
+  s.false_shadow = static_cast<double>(false_shadow) / static_cast<double>(std::max<int64_t>(1, s.lit));
+  s.false_light = static_cast<double>(false_light) / static_cast<double>(std::max<int64_t>(1, s.shadowed));
+  s.error /= static_cast<double>(std::max<int64_t>(1, s.lit + s.shadowed));
+}
+
 void score_means(ShadowComparison& c, const Pixels& pixels) {
   double penumbra_sum = 0.0, sum = 0.0;
   int64_t penumbra = 0, compared = 0, differ = 0;
@@ -158,6 +219,7 @@ void score_means(ShadowComparison& c, const Pixels& pixels) {
       penumbra_sum += error;
     }
   }
+  score_sides(c, pixels);
   c.score.sides_differ = static_cast<double>(differ) / static_cast<double>(std::max<int64_t>(1, differ + compared));
   c.score.error = sum / static_cast<double>(std::max<int64_t>(1, compared));
   c.score.penumbra_error = penumbra_sum / static_cast<double>(std::max<int64_t>(1, penumbra));
@@ -180,32 +242,40 @@ ShadowComparison compare_shadow(const LightChoice& choice, const RayScene& rays,
   const Shadow& shadow = light.light.shadow == nullptr ? kNone : *light.light.shadow;
   const RayLight ray_light{light.light, static_cast<double>(shadow.settings.light_radius),
                            shadow.settings.light_radius > 0.0f ? rays_per_pixel : 1};
-  const ShadowPicture picture = draw_shadow_picture(choice, view, width, height, true, workers);
   ShadowComparison out{Image<float>(width, height), Image<float>(width, height), Image<float>(width, height), {}};
-  Pixels pixels{Image<PixelKind>(width, height), primary_hits(rays, view, width, height, workers)};
+  Pixels pixels{Image<PixelKind>(width, height), primary_hits(rays, view, width, height, workers), Image<float>(width, height)};
+  const Image<glm::vec3> normals = shading_normals(*choice.scene, pixels.hits, workers);
+  const ShadowPicture picture = draw_shadow_picture(choice, view, width, height, true, workers, &normals);
   std::vector<float> errors(static_cast<std::size_t>(height));
   workers.for_each(height, [&](int y) {
     for (int x = 0; x < width; ++x) {
       out.map.at(x, y) = out.truth.at(x, y) = -1.0f;
       const glm::vec4& mask = picture.mask.at(x, y);
+      const uint32_t seed = static_cast<uint32_t>(y) * static_cast<uint32_t>(width) + static_cast<uint32_t>(x);
       const std::optional<RayHit>& hit = pixels.hits.at(x, y);
       // At silhouettes, the rasterizer and the rays may show different surfaces. compare_visibility counts these pixels.
-      if (!hit || static_cast<float>(hit->mesh + 1) != mask.z || !choice.scene->meshes[static_cast<std::size_t>(hit->mesh)].receives_shadow)
-        continue;
+      if (!hit || static_cast<float>(hit->mesh + 1) != mask.z) continue;
+      const PlacedMesh& mesh = choice.scene->meshes[static_cast<std::size_t>(hit->mesh)];
+      if (!mesh.receives_shadow) continue;
       const IncidentLight<double> arriving = light_at<double>(light.light, hit->position_rws);
       const PictureRay ray = picture_ray(view, width, height, x + 0.5, y + 0.5);
       const double side = glm::dot(hit->face_normal_ws, glm::dvec3(ray.direction_ws)) < 0.0 ? 1.0 : -1.0;
       const double face_l = side * glm::dot(hit->face_normal_ws, glm::dvec3(arriving.l_ws));
       if ((face_l > 0.0) != (mask.y > 0.0f)) {
         pixels.kind.at(x, y) = PixelKind::sides_differ;
+        if (mask.y <= 0.0f) continue;
+        const SmoothPoint smooth = smooth_point(mesh, *hit, view.eye_ws, side);
+        const bool away = glm::dot(smooth.normal_ws, glm::dvec3(arriving.l_ws)) <= 0.0;
+        out.truth.at(x, y) = away ? 0.0f : light_truth(casters, ray_light, smooth.position_rws, smooth.normal_ws, seed).share;
+        out.map.at(x, y) = mask.x;
+        pixels.shading_l.at(x, y) = mask.y;
         continue;
       }
       pixels.kind.at(x, y) = PixelKind::compared;
       out.map.at(x, y) = out.truth.at(x, y) = 0.0f;
       if (face_l <= 0.0) continue;
       out.facing.at(x, y) = static_cast<float>(face_l);
-      const LightTruth truth = light_truth(casters, ray_light, hit->position_rws, hit->face_normal_ws,
-                                           static_cast<uint32_t>(y) * static_cast<uint32_t>(width) + static_cast<uint32_t>(x));
+      const LightTruth truth = light_truth(casters, ray_light, hit->position_rws, hit->face_normal_ws, seed);
       out.truth.at(x, y) = truth.share;
       out.map.at(x, y) = mask.x;
       errors[static_cast<std::size_t>(y)] = std::max(errors[static_cast<std::size_t>(y)], truth.standard_error);

@@ -17,12 +17,23 @@ struct DistanceShares {
   double within_1 = 0.0, from_1_to_3 = 0.0, beyond_3 = 0.0;
 };
 
+/// Pixels at which only the shading normal faces the light. In the reference, the smooth surface of smooth_height (shading/terminator.h) is
+/// lit where its normal faces the light and a ray from it reaches the light. Opposite pixels, at which only the triangle faces the light,
+/// are dark with every method.
+struct SidesScore {
+  int64_t lit = 0, shadowed = 0;  ///< pixel counts according to the rays
+  double false_shadow = 0.0;      ///< pixels with |map − rays| > 0.5, as a fraction of the lit pixels
+  double false_light = 0.0;       ///< pixels with |map − rays| > 0.5, as a fraction of the shadowed pixels
+  double error = 0.0;             ///< mean of n·l |map − rays|, where n is the shading normal
+};
+
 /// Score of one light of one scene. Pixels that face away from the light count as dark in both the map and the reference.
 struct ShadowScore {
   std::string scene, light, method, bias;
   int resolution = 0;
   int64_t lit = 0, shadowed = 0;  ///< pixel counts according to the rays; a pixel is lit if more than half of the light arrives
-  double sides_differ = 0.0;      ///< fraction of pixels excluded because only one of face normal and shading normal faces the light
+  double sides_differ = 0.0;      ///< fraction of pixels where only one of face normal and shading normal faces the light
+  SidesScore sides;               ///< errors at these pixels; they are not included in the following members
   DistanceShares false_shadow;    ///< pixels with |map − rays| > 0.5, as fractions of the lit pixels
   DistanceShares false_light;     ///< pixels with |map − rays| > 0.5, as fractions of the shadowed pixels
   EdgeDistance edge_px;           ///< distance from the shadow edges of the map to the exact edges

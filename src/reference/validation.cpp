@@ -57,6 +57,12 @@ std::string json_report(const Validation& validation) {
                     {"lit_pixels", s.lit},
                     {"shadowed_pixels", s.shadowed},
                     {"sides_differ", s.sides_differ},
+                    {"sides",
+                     {{"lit_pixels", s.sides.lit},
+                      {"shadowed_pixels", s.sides.shadowed},
+                      {"false_shadow", s.sides.false_shadow},
+                      {"false_light", s.sides.false_light},
+                      {"error", s.sides.error}}},
                     {"false_shadow", to_json(s.false_shadow)},
                     {"false_light", to_json(s.false_light)},
                     {"edge_px", {{"mean", s.edge_px.mean}, {"p95", s.edge_px.p95}, {"max", s.edge_px.max}}},
@@ -104,8 +110,12 @@ std::string text_report(const Validation& validation) {
       text += fmt::format("    soft: mean error {:.4f} in penumbrae, {:.4f} overall; standard error of the rays at most {:.4f}\n",
                           s.penumbra_error, s.error, s.truth_error);
     if (s.sides_differ > 0.0)
-      text += fmt::format("    {:.3f} % of pixels not counted: only the face normal or only the shading normal faces the light\n",
-                          100 * s.sides_differ);
+      text += fmt::format(
+          "    not included: {:.3f} % of pixels, where only the face normal or only the shading normal faces the light\n"
+          "    of those where only the shading normal does: {:.4f} % of {} lit px in false shadow, {:.4f} % of {} shadowed px in false "
+          "light, "
+          "mean error {:.5f}\n",
+          100 * s.sides_differ, 100 * s.sides.false_shadow, s.sides.lit, 100 * s.sides.false_light, s.sides.shadowed, s.sides.error);
   }
   const VisibilityScore& v = validation.visibility;
   if (validation.lights.empty() && v.pixels == 0) return text;  // without lights, visibility is not compared either

@@ -2,6 +2,7 @@
 #include "halfspace/render/detail_maps.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "halfspace/core/check.h"
 #include "halfspace/geometry/displaced_sphere.h"
@@ -20,6 +21,7 @@ DetailMap DetailMaps::slopes_of(const Relief& relief, const ObjectDescription& o
                      TexelFormat::rgba16f, &workers_);
   });
   d.map = map.get();
+  d.mesh_level = static_cast<float>(std::bit_width(static_cast<unsigned>(std::max(1, width / o.longitudes))) - 1);
   d.sampler = make_sampler(maps_.use_of(o.height, o).texture);
   d.sampler.wrap_t = Wrap::clamp;
   return d;

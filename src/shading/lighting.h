@@ -47,9 +47,16 @@ struct SurfacePoint {
   vec3<R> n_ws;  ///< unit normal; a point with a zero or NaN normal receives no light
   vec3<R> v_ws;  ///< unit vector towards the eye
   // Used only for shadows; may be left unset if no light has one.
-  vec3<R> face_ws{};   ///< unit normal of the triangle, on the visible side
-  R x_px{0}, y_px{0};  ///< window coordinates
+  vec3<R> face_ws{};        ///< unit normal of the triangle, on the visible side
+  R x_px{0}, y_px{0};       ///< window coordinates
+  vec3<R> smooth_ws{R(0)};  ///< n_ws without the detail of a normal map; zero: the same as n_ws
+  R smooth_height{0};       ///< height of the smooth surface above the triangle (shading/terminator.h)
 };
+
+template <class R>
+HS_INLINE ShadowReceiver<R> shadow_receiver(const SurfacePoint<R>& p, const vec3<R>& l_ws) {
+  return {p.position_rws, p.face_ws, p.n_ws, l_ws, p.x_px, p.y_px, p.smooth_ws, p.smooth_height};
+}
 
 /// The light that a source sends to a point, before shadowing.
 template <class R>
@@ -101,8 +108,7 @@ HS_INLINE Illumination<R> illuminate(const LightRange& lights, LightModel model,
     if (none(arriving.strength > R(0))) continue;
     const R n_l = dot(p.n_ws, arriving.l_ws);
     if (light.shadow != nullptr && any(n_l > R(0)))  // skip the lookup if no lane faces the light
-      arriving.strength *=
-          shadow_factor(*light.shadow, ShadowReceiver<R>{p.position_rws, p.face_ws, p.n_ws, arriving.l_ws, p.x_px, p.y_px});
+      arriving.strength *= shadow_factor(*light.shadow, shadow_receiver(p, arriving.l_ws));
     sum.diffuse += light.diffuse * (max(n_l, R(0)) * arriving.strength);
     if (model == LightModel::lambert) continue;
     const R highlight = unit_pow(highlight_cosine(model, p, arriving.l_ws, n_l), shininess);

@@ -15,6 +15,7 @@
 #include "halfspace/shading/ggx.h"
 #include "halfspace/shading/placed_surface.h"
 #include "halfspace/shading/sheen.h"
+#include "halfspace/shading/terminator.h"
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
 
@@ -226,6 +227,17 @@ struct MetallicSurface : MetallicMaterial {
     return two_sided ? n * select(px.front_facing, R(1), R(-1)) : n;
   }
 
+  /// Sets the normal of the triangle and the smooth surface above it.
+  template <class R>
+  HS_INLINE void set_triangle(const Varyings<R>& in, const Pixel<R>& px, SurfacePoint<R>& p) const {
+    using V = Varyings<R>;
+    const vec3<R> p_x = px.ddx(&V::position_rws), p_y = px.ddy(&V::position_rws);
+    const R side = two_sided ? select(px.front_facing, R(1), R(-1)) : R(1);
+    p.face_ws = face_towards(cross(p_x, p_y), p.v_ws);
+    if constexpr (kTangents) p.smooth_ws = normalize_or_zero(in.normal_ws) * side;
+    p.smooth_height = smooth_height(in.normal_ws, px.ddx(&V::normal_ws) * side, px.ddy(&V::normal_ws) * side, p_x, p_y);
+  }
+
   /// A reflecting layer at a pixel.
   template <class R>
   struct Layer {
@@ -246,7 +258,6 @@ struct MetallicSurface : MetallicMaterial {
 
   template <class R>
   HS_INLINE vec3<R> shaded(const Varyings<R>& in, const Pixel<R>& px, const Texels<R>& texels, const vec3<R>& base) const {
-    using V = Varyings<R>;
     const vec3<R> v_ws = to_eye(in.position_rws), n_ws = normal_at(in, px, texels.normal);
     const R metal = clamp(R(metallic) * texels.number[kMetallicMap], R(0), R(1));
     const R strength = R(specular) * texels.number[kSpecularMap];
@@ -268,7 +279,7 @@ struct MetallicSurface : MetallicMaterial {
     }
 
     SurfacePoint<R> p{in.position_rws, n_ws, v_ws, n_ws, px.x, px.y};
-    if (shadowed) p.face_ws = face_towards(cross(px.ddx(&V::position_rws), px.ddy(&V::position_rws)), v_ws);
+    if (shadowed) set_triangle(in, px, p);
     vec3<R> sum = emissive * texels.emissive;
     vec3<R> coat_sum(R(0));
     const LightRange reaching = lights.at_pixel(px.x, px.y);
@@ -278,7 +289,7 @@ struct MetallicSurface : MetallicMaterial {
       const R n_l = dot(n_ws, arriving.l_ws), coat_n_l = has_coat ? dot(coat.n_ws, arriving.l_ws) : R(0);
       R received = arriving.strength;
       if (light.shadow != nullptr && any(n_l > R(0) || coat_n_l > R(0)))
-        received *= shadow_factor(*light.shadow, ShadowReceiver<R>{p.position_rws, p.face_ws, p.n_ws, arriving.l_ws, p.x_px, p.y_px});
+        received *= shadow_factor(*light.shadow, shadow_receiver(p, arriving.l_ws));
       const R share = select(n_l > R(0), received, R(0));
       const vec3<R> h = normalize_or_zero(arriving.l_ws + v_ws);
       const R fresnel = schlick_weight(dot(v_ws, h));

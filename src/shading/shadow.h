@@ -9,7 +9,8 @@
 namespace halfspace::inline HS_LANES_NAMESPACE {
 
 /// Returns the fraction of the light that reaches the point, from 0 (in shadow) to 1 (lit). The first view that contains the point
-/// with the whole filter kernel is used. Points outside all views or behind the light are lit.
+/// with the whole filter kernel is used. Points outside all views or behind the light are lit. In addition, light fades where the smooth
+/// surface turns away from the light but the shading normal does not (terminator_fraction in shading/terminator.h).
 template <class R>
 R shadow_factor(const Shadow& shadow, const ShadowReceiver<R>& at);
 

@@ -39,17 +39,39 @@ HS_INLINE R tangent_of(R cosine, float limit) {
 /// Returns the offset in texels that ShadowBias::automatic applies. Within the triangle, its plane is sufficient. Neighboring triangles
 /// deviate from that plane by an amount that grows with the radius of the filter and with the angle of incidence. Half a texel is added for
 /// the rounding of depths within a texel. The radius is capped at the radius of pcf7: pcss reaches farther, but only for occluders that are
-/// far away. tangent: of the angle between the light and the normal of the plane on the lit side. The offset of a triangle that faces away
-/// from the light is therefore large only at grazing angles, as near the terminator of a smooth mesh, where the triangle is lit.
+/// far away. tangent: of the angle between the light and the normal of the plane.
 template <class R>
 HS_INLINE R automatic_depth_offset(const ShadowSettings& s, R tangent) {
   return R(kAutomaticDepthOffset) * fma(R(1.0f + min(filter_reach(s), 4.0f)), tangent, R(1));
 }
 
+/// Projects the receiver to the view and applies ShadowBias::automatic. If the triangle faces the light, texels are compared with its
+/// plane. Otherwise, they are compared with the smooth surface above it (shading/terminator.h): at its height, with the plane of its
+/// normal.
+///
+/// At a grazing angle, a bias that depends on this angle alone moves the point over hundreds of texels and past the objects that shade it.
+/// Where the shading normal is at a grazing angle as well, hardly any light is reflected. Where a normal map turns it to the light, the
+/// point would be bright. The tangent is therefore limited by that of the shading normal. A triangle that faces the light needs up to twice
+/// as much, because the triangles next to it lean more than the surface.
+template <class R>
+HS_INLINE ShadowCoordinates<R> automatic_coordinates(const ShadowView& view, const ShadowSettings& s, const ShadowReceiver<R>& at) {
+  const MaskOf<R> away = dot(at.face_normal_ws, at.to_light_ws) <= R(0);
+  const vec3<R> smooth_ws = smooth_normal(at), normal_ws = select(away, smooth_ws, at.face_normal_ws);
+  const vec3<R> position_rws = at.position_rws + smooth_ws * select(away, at.smooth_height, R(0));
+  const R limit = tangent_of(clamp(dot(at.shading_normal_ws, at.to_light_ws), R(0), R(1)), kSteepestSlope) * select(away, R(1), R(2));
+  const R tangent = min(tangent_of(clamp(abs(dot(normal_ws, at.to_light_ws)), R(0), R(1)), kSteepestSlope), limit);
+
+  ShadowCoordinates<R> p = shadow_coordinates(view, position_rws);
+  set_plane(view, position_rws, normal_ws, clamp(R(2) * limit, R(1), R(kSteepestSlope)), p);
+  p.depth += depth_of_texel(view, p.w) * automatic_depth_offset(s, tangent);
+  return p;
+}
+
 /// Projects the receiver to the view and applies the bias of the settings.
 template <class R>
 HS_INLINE ShadowCoordinates<R> biased_coordinates(const ShadowView& view, const ShadowSettings& s, const ShadowReceiver<R>& at) {
-  const R towards = dot(at.face_normal_ws, at.to_light_ws), cosine = clamp(towards, R(0), R(1));
+  if (s.bias == ShadowBias::automatic) return automatic_coordinates(view, s, at);
+  const R cosine = clamp(dot(at.face_normal_ws, at.to_light_ws), R(0), R(1));
   if (s.bias == ShadowBias::normal_offset) return normal_offset_coordinates(view, at, cosine, s.constant * filter_reach(s));
 
   ShadowCoordinates<R> p = shadow_coordinates(view, at.position_rws);
@@ -60,16 +82,12 @@ HS_INLINE ShadowCoordinates<R> biased_coordinates(const ShadowView& view, const 
     case ShadowBias::angle: p.depth += texel * max(R(s.slope) * (R(1) - cosine), R(s.constant)); break;
     case ShadowBias::original: p.depth += R(0.0005f); break;
     case ShadowBias::receiver_plane:
-      set_plane(view, at.position_rws, at.face_normal_ws, s.max_slope, p);
+      set_plane(view, at.position_rws, at.face_normal_ws, R(s.max_slope), p);
       p.depth += texel * R(s.constant);
       break;
     case ShadowBias::adaptive:  // a ten-thousandth of the depth range of the view, in addition to the plane
-      set_plane(view, at.position_rws, at.shading_normal_ws, s.max_slope, p);
+      set_plane(view, at.position_rws, at.shading_normal_ws, R(s.max_slope), p);
       p.depth += R((view.far - view.near) * 1e-4f * view.depth_per_unit) / (p.w * p.w);
-      break;
-    case ShadowBias::automatic:
-      set_plane(view, at.position_rws, at.face_normal_ws, kSteepestSlope, p);
-      p.depth += texel * automatic_depth_offset(s, tangent_of(clamp(abs(towards), R(0), R(1)), kSteepestSlope));
       break;
     default: break;
   }

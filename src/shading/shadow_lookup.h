@@ -6,6 +6,7 @@
 #include "halfspace/shading/shadow.h"
 #include "halfspace/shading/shadow_bias.h"
 #include "halfspace/shading/shadow_filter.h"
+#include "halfspace/shading/terminator.h"
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
 
@@ -22,7 +23,7 @@ R shadow_factor(const Shadow& shadow, const ShadowReceiver<R>& at) {
     open = open && !here;
     if (none(open)) break;
   }
-  return light;
+  return light * terminator_fraction(dot(smooth_normal(at), at.to_light_ws), dot(at.shading_normal_ws, at.to_light_ws));
 }
 
 }  // namespace halfspace::inline HS_LANES_NAMESPACE

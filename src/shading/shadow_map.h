@@ -13,6 +13,7 @@
 #include <span>
 
 #include "halfspace/core/image.h"
+#include "halfspace/core/lane_math.h"
 #include "halfspace/core/vec.h"
 #include "halfspace/shading/light_types.h"
 
@@ -47,7 +48,7 @@ struct Shadow {
   ShadowSettings settings;
 };
 
-/// The surface point that is tested for shadow. All vectors are unit vectors.
+/// The surface point that is tested for shadow. All vectors are unit vectors unless stated otherwise.
 template <class R>
 struct ShadowReceiver {
   vec3<R> position_rws;
@@ -55,6 +56,15 @@ struct ShadowReceiver {
   vec3<R> shading_normal_ws;  ///< the normal that is used for lighting
   vec3<R> to_light_ws;
   R x_px, y_px;  ///< window coordinates; they determine the rotation of the disks of vogel and pcss
+  /// The shading normal without the detail of a normal map: interpolated from the vertices. Zero: the same as shading_normal_ws.
+  vec3<R> smooth_normal_ws{R(0)};
+  R smooth_height{0};  ///< height of the smooth surface above the triangle (shading/terminator.h), in world units
 };
+
+/// Returns the smooth normal, or the shading normal if there is none.
+template <class R>
+HS_INLINE vec3<R> smooth_normal(const ShadowReceiver<R>& at) {
+  return select(dot(at.smooth_normal_ws, at.smooth_normal_ws) > R(0), at.smooth_normal_ws, at.shading_normal_ws);
+}
 
 }  // namespace halfspace::inline HS_LANES_NAMESPACE

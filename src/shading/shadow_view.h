@@ -3,6 +3,8 @@
 // Projects points into shadow maps.
 #pragma once
 
+#include <type_traits>
+
 #include "halfspace/core/lane_math.h"
 #include "halfspace/shading/map_row.h"
 #include "halfspace/shading/shadow_map.h"
@@ -43,11 +45,11 @@ HS_INLINE MaskOf<R> holds(const ShadowView& view, const ShadowCoordinates<R>& p,
 /// Sets the depth slopes of p from the plane through position_rws with the given normal. A plane in world space is also a plane in
 /// window space, so the slopes are the same at every texel. They are limited to max_slope times the depth of a texel.
 template <class R>
-HS_INLINE void set_plane(const ShadowView& view, const vec3<R>& position_rws, const vec3<R>& normal_ws, float max_slope,
+HS_INLINE void set_plane(const ShadowView& view, const vec3<R>& position_rws, const vec3<R>& normal_ws, std::type_identity_t<R> max_slope,
                          ShadowCoordinates<R>& p) {
   const vec4<R> plane = view.clip_plane_from_rws * vec4<R>(normal_ws, -dot(normal_ws, position_rws));
   const R per_texel(2.0f / static_cast<float>(view.size));
-  const R limit = depth_of_texel(view, p.w) * R(max_slope);
+  const R limit = depth_of_texel(view, p.w) * max_slope;
   const R scale = select(plane.z != R(0), -per_texel / plane.z, R(0));
   p.depth_dx = clamp(plane.x * scale, -limit, limit);
   p.depth_dy = clamp(plane.y * scale, -limit, limit);

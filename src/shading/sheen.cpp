@@ -125,7 +125,7 @@ vec3<R> with_sheen(const vec3<R>& below, const SheenLayer<R>& sheen, const Surfa
     if (!any(n_l > R(0))) continue;
     R received = arriving.strength;
     if (light.shadow != nullptr)
-      received *= shadow_factor(*light.shadow, ShadowReceiver<R>{p.position_rws, p.face_ws, p.n_ws, arriving.l_ws, p.x_px, p.y_px});
+      received *= shadow_factor(*light.shadow, shadow_receiver(p, arriving.l_ws));
     const vec3<R> sine = cross(p.n_ws, normalize_or_zero(arriving.l_ws + p.v_ws));
     const R share = lobe.reflection(sqrt(dot(sine, sine)), masking_v, lobe.masking.of(max(n_l, R(1e-6f))), n_v);
     reflected += light.specular * select(n_l > R(0), received * share, R(0));

@@ -7,6 +7,7 @@
 #include "halfspace/shading/contract.h"
 #include "halfspace/shading/reflection.h"
 #include "halfspace/shading/surface_detail.h"
+#include "halfspace/shading/terminator.h"
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
 
@@ -183,8 +184,27 @@ struct SurfaceShader : LitSurface {
     const vec3<R> n_ws = normalize_or_zero(detailed_normal(in, px));
     const vec3<R> lit_ws = two_sided ? n_ws * select(px.front_facing, R(1), R(-1)) : n_ws;
     SurfacePoint<R> p{position, lit_ws, to_eye(position), lit_ws, px.x, px.y};
-    if (shadowed) p.face_ws = face_normal(px, p.v_ws);
+    if (shadowed) {
+      p.face_ws = face_normal(px, p.v_ws);
+      set_smooth_surface(in, px, p);
+    }
     return p;
+  }
+
+  /// Sets the smooth surface above the triangle. The vertices of a displaced sphere have no normals. Instead, its normals are those of the
+  /// slope map, filtered to the size of a triangle, and its height is 0, because its triangles are small.
+  template <class R>
+  HS_INLINE void set_smooth_surface(const Varyings<R>& in, const Pixel<R>& px, SurfacePoint<R>& p) const {
+    using V = Varyings<R>;
+    const R side = two_sided ? select(px.front_facing, R(1), R(-1)) : R(1);
+    if constexpr (kSlopes) {
+      const vec3<R> slope(detail.map->template sample_level<R>(detail.sampler, in.uv, R(detail.mesh_level)));
+      p.smooth_ws = normalize_or_zero(normal_from_object * normal_from_slopes(normalize_or_zero(in.position_os), slope)) * side;
+    } else {
+      if constexpr (normal_detail != NormalDetail::none) p.smooth_ws = normalize_or_zero(in.normal_ws) * side;
+      p.smooth_height = smooth_height(in.normal_ws, px.ddx(&V::normal_ws) * side, px.ddy(&V::normal_ws) * side, px.ddx(&V::position_rws),
+                                      px.ddy(&V::position_rws));
+    }
   }
 
   /// Returns the unit normal of the triangle on the side of the eye, or zero if it is seen edge-on.

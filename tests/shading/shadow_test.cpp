@@ -261,6 +261,54 @@ TEST(ShadowBias, FacesThatFaceAwayStayInShadow) {
   }
 }
 
+TEST(ShadowBias, GrazingFacesOfBumpySurfacesStayInShadow) {
+  // The same occluder, 57 texels away. The triangle is within half a degree of the light's direction, on either side, and a normal map turns
+  // the shading normal to 60 degrees. The smooth normal is at 80 degrees, so the light does not fade (cos 80 is 0.35 cos 60). A bias of the
+  // triangle's own angle is over 100 texels. The tangent of 60 degrees, 1.7, gives 0.5 · (1 + 3 · 3.5) + 2 · 6.9 = 20 texels at most.
+  Map map(64);
+  map.fill([](double, double) { return 0.9; });
+  const auto at_angle = [](double degrees) {
+    const double angle = degrees * std::numbers::pi / 180.0;
+    return vec3<float>(glm::vec3(glm::dvec3(std::sin(angle), 0.0, std::cos(angle))));
+  };
+  for (const double degrees : {89.5, 89.7, 89.9, 90.1, 90.3, 90.5}) {
+    ShadowReceiver<float> point = receiver({0.1f, 0.2f, -0.9f});
+    point.face_normal_ws = at_angle(degrees);
+    point.shading_normal_ws = at_angle(60.0);
+    point.smooth_normal_ws = at_angle(80.0);
+    EXPECT_EQ(shadow_factor(shadow_of(map.view, ShadowFilter::pcf3, ShadowBias::automatic), point), 0.0f) << degrees;
+  }
+}
+
+TEST(ShadowBias, TrianglesThatFaceAwayAreLitAtTheHeightOfTheSmoothSurface) {
+  // Without a normal map, the smooth surface faces the light at 60 degrees, 20 texels above the triangle. The occluder is 10 texels above the
+  // triangle. The bias, 0.5 · (1 + 3 · 1.7) texels, is less than that.
+  Map map(64);
+  const double texel = 2.0 / 64.0;
+  map.fill([&](double, double) { return -0.5 + 10.0 * texel; });
+  ShadowReceiver<float> point = receiver({0.0f, 0.0f, -0.5f}, {0.8f, 0.0f, -0.6f});
+  point.shading_normal_ws = vec3<float>(glm::vec3(0.8660254f, 0.0f, 0.5f));
+  const Shadow shadow = shadow_of(map.view, ShadowFilter::hard, ShadowBias::automatic);
+  EXPECT_EQ(shadow_factor(shadow, point), 0.0f);
+  point.smooth_height = static_cast<float>(20.0 * texel);
+  EXPECT_EQ(shadow_factor(shadow, point), 1.0f);
+  point.face_normal_ws = vec3<float>(glm::vec3(0.8f, 0.0f, 0.6f));  // a triangle that faces the light keeps its own position
+  EXPECT_EQ(shadow_factor(shadow, point), 0.0f);
+}
+
+TEST(ShadowFactor, FadesWhereOnlyTheMappedNormalFacesTheLight) {
+  Map map(64);
+  map.fill([](double, double) { return -1.0; });  // nothing in front of the point
+  const Shadow shadow = shadow_of(map.view, ShadowFilter::pcf3, ShadowBias::automatic);
+  ShadowReceiver<float> point = receiver({0, 0, 0});
+  point.shading_normal_ws = vec3<float>(glm::vec3(0.6f, 0.0f, 0.8f));
+  EXPECT_EQ(shadow_factor(shadow, point), 1.0f);
+  for (const auto& [cosine, expected] : {std::pair{0.3f, 1.0f}, {0.1f, 0.5f}, {0.0f, 0.0f}, {-0.3f, 0.0f}}) {
+    point.smooth_normal_ws = vec3<float>(glm::vec3(std::sqrt(1.0f - cosine * cosine), 0.0f, cosine));
+    EXPECT_FLOAT_EQ(shadow_factor(shadow, point), expected) << cosine;
+  }
+}
+
 // Returns the fraction of a tilted floor that shadows itself. The floor is drawn into the map at texel centers.
 double false_shadow(ShadowFilter filter, ShadowBias bias, double degrees) {
   const double slope = std::tan(degrees * std::numbers::pi / 180.0);
