@@ -262,9 +262,10 @@ TEST(ShadowBias, FacesThatFaceAwayStayInShadow) {
 }
 
 TEST(ShadowBias, GrazingFacesOfBumpySurfacesStayInShadow) {
-  // The same occluder, 57 texels away. The triangle is within half a degree of the light's direction, on either side, and a normal map turns
-  // the shading normal to 60 degrees. The smooth normal is at 80 degrees, so the light does not fade (cos 80 is 0.35 cos 60). A bias of the
-  // triangle's own angle is over 100 texels. The tangent of 60 degrees, 1.7, gives 0.5 · (1 + 3 · 3.5) + 2 · 6.9 = 20 texels at most.
+  // The same occluder, 57 texels away. The triangle is within half a degree of the light's direction, on either side, and a normal map
+  // turns the shading normal to 60 degrees. The smooth normal is at 80 degrees, so the light does not fade (cos 80 is 0.35 cos 60). A bias
+  // of the triangle's own angle is over 100 texels. The tangent of 60 degrees, 1.7, gives 0.5 · (1 + 3 · 3.5) + 2 · 6.9 = 20 texels at
+  // most.
   Map map(64);
   map.fill([](double, double) { return 0.9; });
   const auto at_angle = [](double degrees) {
@@ -281,8 +282,8 @@ TEST(ShadowBias, GrazingFacesOfBumpySurfacesStayInShadow) {
 }
 
 TEST(ShadowBias, TrianglesThatFaceAwayAreLitAtTheHeightOfTheSmoothSurface) {
-  // Without a normal map, the smooth surface faces the light at 60 degrees, 20 texels above the triangle. The occluder is 10 texels above the
-  // triangle. The bias, 0.5 · (1 + 3 · 1.7) texels, is less than that.
+  // Without a normal map, the smooth surface faces the light at 60 degrees, 20 texels above the triangle. The occluder is 10 texels above
+  // the triangle. The bias, 0.5 · (1 + 3 · 1.7) texels, is less than that.
   Map map(64);
   const double texel = 2.0 / 64.0;
   map.fill([&](double, double) { return -0.5 + 10.0 * texel; });

@@ -64,11 +64,12 @@ TEST(Stability, TheTerminatorOfASmoothBallHasNoSteps) {
   }
   // Normals of adjacent vertices differ by 15 degrees, so that a triangle can face away where the cosine of the shading normal is 0.13. Our
   // bound is half of a code of an 8-bit image.
-  record_and_check({27, "shadow terminator",
-                    "a ball of 24 sectors, maps of 512 to 4096 texels; triangles that face away in shadow, as with rays, vs. lookups on the "
-                    "smooth surface",
-                    "largest difference from the shade of a smooth ball, where the light is 1"},
-                   common, 0.05, ours, 0.002);
+  record_and_check(
+      {27, "shadow terminator",
+       "a ball of 24 sectors, maps of 512 to 4096 texels; triangles that face away in shadow, as with rays, vs. lookups on the "
+       "smooth surface",
+       "largest difference from the shade of a smooth ball, where the light is 1"},
+      common, 0.05, ours, 0.002);
 }
 
 // The fraction of the light in a scene's first shadow, looked up as is common: without the smooth surface, and with a slope bias.
