@@ -198,7 +198,7 @@ struct SurfaceShader : LitSurface {
     using V = Varyings<R>;
     const R side = two_sided ? select(px.front_facing, R(1), R(-1)) : R(1);
     if constexpr (kSlopes) {
-      const vec3<R> slope(detail.map->template sample_level<R>(detail.sampler, in.uv, R(detail.mesh_level)));
+      const vec3<R> slope(detail.map->template sample_level<R>(detail.sampler, in.uv, R(static_cast<float>(detail.mesh_level))));
       p.smooth_ws = normalize_or_zero(normal_from_object * normal_from_slopes(normalize_or_zero(in.position_os), slope)) * side;
     } else {
       if constexpr (normal_detail != NormalDetail::none) p.smooth_ws = normalize_or_zero(in.normal_ws) * side;
