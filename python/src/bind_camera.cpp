@@ -14,7 +14,7 @@ namespace halfspace::python {
 namespace {
 
 // Returns the matrices of a camera for an image of width x height pixels: the inverse of matrix_camera().
-CameraMatrices matrices_of(const CameraDescription& c, int width, int height) {
+CameraMatrices camera_matrices_of(const CameraDescription& c, int width, int height) {
   if (c.matrices) return *c.matrices;
   const View view = make_view(c, width, height);
   const double aspect = static_cast<double>(width) / height;
@@ -49,9 +49,9 @@ void bind_camera(py::module_& m) {
                     c.far = far;
                     return c;
                   })
-      .def("pose", [](const CameraDescription& c) { return array_of(matrices_of(c, 1, 1).world_from_camera); })
+      .def("pose", [](const CameraDescription& c) { return array_of(camera_matrices_of(c, 1, 1).world_from_camera); })
       .def("projection",
-           [](const CameraDescription& c, int width, int height) { return array_of(matrices_of(c, width, height).clip_from_camera); })
+           [](const CameraDescription& c, int width, int height) { return array_of(camera_matrices_of(c, width, height).clip_from_camera); })
       // The arguments of look_at().
       .def("look_at_arguments", [](const CameraDescription& c) {
         const auto vector = [](const glm::dvec3& v) { return Vector{v.x, v.y, v.z}; };

@@ -19,7 +19,7 @@ namespace halfspace::python {
 
 namespace {
 
-using Release = py::call_guard<py::gil_scoped_release>;
+using WithoutGil = py::call_guard<py::gil_scoped_release>;
 
 std::string json_text(const nlohmann::ordered_json& json) { return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace); }
 
@@ -53,12 +53,12 @@ std::pair<std::string, std::string> compare_of(const ComparedImage& a, const Com
 }  // namespace
 
 void bind_files(py::module_& m) {
-  m.def("model_info", &info_of, Release());
+  m.def("model_info", &info_of, WithoutGil());
   m.def("program_info", [] { return json_text(program_info(HALFSPACE_VERSION)); });
-  m.def("export_model", &export_model, Release());
+  m.def("export_model", &export_model, WithoutGil());
   m.def("is_model_format", [](const std::string& out) { return model_format_of(out).has_value(); });
   py::class_<ComparedImage>(m, "ComparedImage")
-      .def_static("read", &read_compared_image, Release())
+      .def_static("read", &read_compared_image, WithoutGil())
       .def_static(
           "codes",
           [](const std::string& name, const Array<uint8_t>& array) {
@@ -71,7 +71,7 @@ void bind_files(py::module_& m) {
             return ComparedImage{name, light_of(array)};
           },
           py::arg("name"), py::arg("light").noconvert());
-  m.def("compare", &compare_of, Release());
+  m.def("compare", &compare_of, WithoutGil());
 }
 
 }  // namespace halfspace::python
