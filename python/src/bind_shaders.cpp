@@ -185,8 +185,8 @@ Shader sky(const Lens& lens, const py::array& panorama, float brightness) {
   return {SceneShader(s), {"corners"}, {map}};
 }
 
-Light light_of(LightType type, const Vector& place, const Vector& diffuse, const Vector& specular, const Vector& attenuation,
-               const Vector& axis, float cos_inner, float cos_outer, float inverse_range) {
+Light make_light(LightType type, const Vector& place, const Vector& diffuse, const Vector& specular, const Vector& attenuation,
+                 const Vector& axis, float cos_inner, float cos_outer, float inverse_range) {
   Light light;
   light.type = type;
   light.position_rws = vec_of(place);
@@ -211,7 +211,7 @@ void bind_shaders(py::module_& m) {
       .value("lambert", LightModel::lambert)
       .value("phong", LightModel::phong)
       .value("blinn_phong", LightModel::blinn_phong);
-  py::class_<Light>(m, "Light").def(py::init(&light_of));
+  py::class_<Light>(m, "Light").def(py::init(&make_light));
   py::class_<Placing>(m, "Placing")
       .def(py::init([](const Array<double>& clip_from_world, const Array<double>& world_from_object, const std::array<double, 3>& eye,
                        const std::vector<Light>& lights, bool two_sided) {
