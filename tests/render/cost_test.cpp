@@ -91,6 +91,13 @@ vec3<Counted> Texture2D::sample_rgb<Counted>(const Sampler& sampler, const vec2<
   return {c.x, c.y, c.z};
 }
 
+template <>
+vec4<Counted> Texture2D::sample_level<Counted>(const Sampler& sampler, const vec2<Counted>& uv, std::type_identity_t<Counted> lod) const {
+  ++counts.now->fetches;
+  const vec4<double> c = sample_level<double>(sampler, vec2<double>(uv.x.value, uv.y.value), lod.value);
+  return {c.x, c.y, c.z, c.w};
+}
+
 // A lookup in an environment counts as one fetch.
 template <>
 vec3<Counted> EnvironmentMap::sample<Counted>(const vec3<Counted>& d_ms, const vec3<Counted>& dx_ms, const vec3<Counted>& dy_ms) const {
@@ -272,8 +279,9 @@ const std::vector<Row> kTable{
     {"earth", {"earth.shading=none"}, {{1, 2, 0}}},
     {"earth", {"earth.shading=none", "earth.textured=false"}, {{0, 0, 0}}},
     {"earth", {"earth.shading=gouraud", "earth.textured=false"}, {{0, 3, 0}}, 0, 1},
-    // color, and slopes of a displaced sphere, which are looked up by position
-    {"moon", {}, {{2, 5, 1}}, 1},
+    // color, and slopes of a displaced sphere, which are looked up by position; with a shadow, also the slopes of the mesh
+    {"moon", {}, {{3, 5, 1}}, 1},
+    {"moon", {"shadow.method=none"}, {{2, 5, 1}}},
     {"moon-normals", {}, {{1, 8, 1}, {2, 5, 1}}},
     {"moon-tessellation", {}, {{1, 8, 1}}},
     {"shadow-plane", {}, {{0, 6, 1}, {1, 8, 1}}, 1},

@@ -14,7 +14,7 @@
 namespace halfspace {
 namespace {
 
-constexpr std::size_t kHalf = SharedAssets::kMaxBytes / 2;
+constexpr std::size_t kHalfLimit = SharedAssets::kMaxBytes / 2;
 
 // Returns the asset with this recipe, an integer that claims to have this size, and counts in `made` how often one is made.
 std::shared_ptr<const int> get(SharedAssets& assets, const std::string& recipe, std::size_t bytes, int& made) {
@@ -35,9 +35,9 @@ TEST(SharedAssets, MakeEachAssetOnce) {
 TEST(SharedAssets, DropTheOneThatHasNotBeenUsedForTheLongestTime) {
   SharedAssets assets;
   int made = 0;
-  const std::weak_ptr<const int> a = get(assets, "a", kHalf, made), b = get(assets, "b", kHalf, made);
+  const std::weak_ptr<const int> a = get(assets, "a", kHalfLimit, made), b = get(assets, "b", kHalfLimit, made);
   EXPECT_FALSE(a.expired() || b.expired());
-  get(assets, "a", kHalf, made);
+  get(assets, "a", kHalfLimit, made);
   get(assets, "c", 1, made);
   EXPECT_TRUE(b.expired());
   EXPECT_FALSE(a.expired());
@@ -47,7 +47,7 @@ TEST(SharedAssets, DropTheOneThatHasNotBeenUsedForTheLongestTime) {
 TEST(SharedAssets, DoNotKeepWhatExceedsTheLimit) {
   SharedAssets assets;
   int made = 0;
-  const std::weak_ptr<const int> small = get(assets, "small", kHalf, made);
+  const std::weak_ptr<const int> small = get(assets, "small", kHalfLimit, made);
   const std::weak_ptr<const int> large = get(assets, "large", SharedAssets::kMaxBytes + 1, made);
   EXPECT_TRUE(large.expired());
   EXPECT_FALSE(small.expired());
