@@ -430,7 +430,7 @@ TEST_F(Models, PathsAndWarningsArePrintable) {
 // Paths are bytes, which need not be UTF-8: of the model, of files that it refers to, and of the output.
 TEST_F(Models, PathsMayContainAnyBytes) {
   Image<glm::u8vec4> red(2, 2);
-  std::ranges::fill(red.texels(), glm::u8vec4(255, 0, 0, 255));
+  std::fill_n(red.data(), red.texels().size(), glm::u8vec4(255, 0, 0, 255));
   write_image(directory / "red\xe9.png", red);
   write("m\xe9.mtl", "newmtl red\nillum 0\nmap_Kd red\xe9.png\n");
   const std::string quad = "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nusemtl red\nf 1/1 2/2 3/3 4/1\n";

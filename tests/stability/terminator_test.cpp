@@ -12,17 +12,17 @@
 namespace halfspace::stability {
 namespace {
 
-constexpr int kWidth = 320, kHeight = 180;
+constexpr int kBallWidth = 320, kBallHeight = 180;
 
 // A frame of a scene whose light is white, with the ray hits and shading normals of its pixels.
 struct LitFrame {
   LitFrame(const SceneDescription& description, const Workers& workers)
-      : assets(workers), scene(assets.prepare(description, kWidth, kHeight)), rays(scene.meshes, scene.view.eye_ws) {
+      : assets(workers), scene(assets.prepare(description, kBallWidth, kBallHeight)), rays(scene.meshes, scene.view.eye_ws) {
     FrameImages images;
     images.light = &light;
     images.normal = &normal;
     render_frame(scene, images, workers);
-    hits = primary_hits(rays, scene.view, kWidth, kHeight, workers);
+    hits = primary_hits(rays, scene.view, kBallWidth, kBallHeight, workers);
   }
   glm::dvec3 to_light() const { return glm::dvec3(scene.lights.at(0).light.position_rws); }
   double shading_l(int x, int y) const { return glm::dot(glm::dvec3(normal.at(x, y)), to_light()); }
@@ -31,15 +31,15 @@ struct LitFrame {
   SceneAssets assets;
   PreparedScene scene;
   RayScene rays;
-  Image<glm::vec4> light{kWidth, kHeight};
-  Image<glm::vec3> normal{kWidth, kHeight};
+  Image<glm::vec4> light{kBallWidth, kBallHeight};
+  Image<glm::vec3> normal{kBallWidth, kBallHeight};
   Image<std::optional<RayHit>> hits;
 };
 
 template <class F>
 void for_each_hit(const LitFrame& frame, const F& visit) {
-  for (int y = 0; y < kHeight; ++y)
-    for (int x = 0; x < kWidth; ++x)
+  for (int y = 0; y < kBallHeight; ++y)
+    for (int x = 0; x < kBallWidth; ++x)
       if (frame.hits.at(x, y)) visit(x, y);
 }
 
