@@ -34,7 +34,7 @@ constexpr std::array kRanges{
     QuoteRange{"lighting", "shading/lighting.h", "for (const Light& light : lights) {", "sum.specular += light.specular"},
     QuoteRange{"lighting", "shading/lit_surface.h", "static HS_INLINE vec3<R> reflected(", "return m[kColor]"},
     QuoteRange{"shadows", "shading/shadow_view.h", "HS_INLINE R lit(const ShadowCoordinates<R>& p", "return select("},
-    QuoteRange{"shadows", "shading/shadow_bias.h", "case ShadowBias::automatic:", "automatic_depth_offset(s, tangent_of"},
+    QuoteRange{"shadows", "shading/shadow_bias.h", "const R tangent = min(tangent_of(", "automatic_depth_offset(s, tangent)"},
     QuoteRange{"tone", "shading/tone.h", "HS_INLINE R tone_curve(ToneCurve curve", "case ToneCurve::aces:"},
     QuoteRange{"srgb", "core/srgb_curve.h", "static constexpr FixedPower power_of", "return min(select("},
     QuoteRange{"samples", "raster/tile/resolve.cpp", "// Returns the mean of `samples` colors.", "for (Real& x : mean)"},

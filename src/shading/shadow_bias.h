@@ -51,14 +51,17 @@ HS_INLINE R automatic_depth_offset(const ShadowSettings& s, R tangent) {
 ///
 /// At a grazing angle, a bias that depends on this angle alone moves the point over hundreds of texels and past the objects that shade it.
 /// Where the shading normal is at a grazing angle as well, hardly any light is reflected. Where a normal map turns it to the light, the
-/// point would be bright. The tangent is therefore limited by that of the shading normal. A triangle that faces the light needs up to twice
-/// as much, because the triangles next to it lean more than the surface.
+/// point would be bright. The tangent is therefore limited by that of the shading normal. A triangle that faces the light needs more,
+/// because it or the triangles next to it lean more than the surface: at least twice as much, and without a limit if no map turns the normal
+/// towards the light.
 template <class R>
 HS_INLINE ShadowCoordinates<R> automatic_coordinates(const ShadowView& view, const ShadowSettings& s, const ShadowReceiver<R>& at) {
   const MaskOf<R> away = dot(at.face_normal_ws, at.to_light_ws) <= R(0);
   const vec3<R> smooth_ws = smooth_normal(at), normal_ws = select(away, smooth_ws, at.face_normal_ws);
   const vec3<R> position_rws = at.position_rws + smooth_ws * select(away, at.smooth_height, R(0));
-  const R limit = tangent_of(clamp(dot(at.shading_normal_ws, at.to_light_ws), R(0), R(1)), kSteepestSlope) * select(away, R(1), R(2));
+  const R shading_l = clamp(dot(at.shading_normal_ws, at.to_light_ws), R(0), R(1)), smooth_l = dot(smooth_ws, at.to_light_ws);
+  const R turned = clamp(R(1) - smooth_l / max(shading_l, R(1e-6f)), R(1e-3f), R(1));  // 0: no map, or it turns the normal away
+  const R limit = tangent_of(shading_l, kSteepestSlope) * select(away, R(1), R(2) / turned);
   const R tangent = min(tangent_of(clamp(abs(dot(normal_ws, at.to_light_ws)), R(0), R(1)), kSteepestSlope), limit);
 
   ShadowCoordinates<R> p = shadow_coordinates(view, position_rws);
