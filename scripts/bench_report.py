@@ -18,7 +18,7 @@ CHARTS = Path("docs/results/benchmark")
 
 def later_commits(commit):
     """The number of commits after the measured one that changed the renderer. 0 if the commit is unknown."""
-    count = subprocess.run(["git", "rev-list", "--count", f"{commit.removesuffix('-dirty')}..HEAD", "--", "src"], capture_output=True, text=True)
+    count = subprocess.run(["git", "rev-list", "--count", f"{commit.removesuffix('-dirty')}..HEAD", "--", ":/src"], capture_output=True, text=True)
     return int(count.stdout) if count.returncode == 0 else 0
 
 

@@ -415,7 +415,7 @@ TEST_F(Models, PathsAndWarningsArePrintable) {
   write("bad\nname.obj", "v 0 0\n");
   const Outcome line = run({"render", "bad\nname.obj", "--size", "32x18", "-o", "a.png"});
   EXPECT_EQ(line.exit_code, 3);
-  EXPECT_TRUE(line.err.starts_with("halfspace: bad\\x0aname.obj: ")) << line.err;
+  EXPECT_TRUE(line.err.starts_with("halfspace: bad\\x0aname.obj:1: ")) << line.err;
   EXPECT_EQ(lines_of(line.err), 1);
   write("bad\nname.obj", cube(0.0, 1.0));
   EXPECT_NE(run({"info", "bad\nname.obj"}).out.find("bad\\x0aname.obj\n"), std::string::npos);

@@ -161,7 +161,7 @@ TEST_F(Outputs, TextOfPicturesIsPrintable) {
   fs::copy_file(directory / "scene.json", directory / "it's a\ttab.json");
   const Outcome o = run({"render", "it's a\ttab.json", "--size", "96x64", "-o", "a.png"});
   EXPECT_EQ(o.exit_code, 0) << o.err;
-  EXPECT_TRUE(has("a.png", R"(halfspace render 'it'\''s a?tab.json')")) << bytes("a.png");
+  EXPECT_TRUE(has("a.png", R"(halfspace render 'it'\''s a\x09tab.json')")) << bytes("a.png");
 }
 
 TEST_F(Outputs, OptionsAreChecked) {
