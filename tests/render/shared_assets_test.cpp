@@ -71,6 +71,7 @@ TEST(SharedAssets, ThreadsThatStartTogetherShareOneResult) {
 
 TEST(SharedAssets, CanBeUsedAfterAForkWhileOtherThreadsUseThem) {
   if (kSanitized) GTEST_SKIP() << "ThreadSanitizer does not support threads after fork()";
+  SharedAssets::of_process();  // a child that is forked during the first use would wait for it, as for any static variable of a function
   std::atomic<bool> done = false;
   const std::jthread other([&] {
     for (int i = 0, made = 0; !done; ++i) get(SharedAssets::of_process(), "fork " + std::to_string(i % 3), 1, made);
