@@ -50,8 +50,8 @@ void bind_camera(py::module_& m) {
                     return c;
                   })
       .def("pose", [](const CameraDescription& c) { return array_of(camera_matrices_of(c, 1, 1).world_from_camera); })
-      .def("projection",
-           [](const CameraDescription& c, int width, int height) { return array_of(camera_matrices_of(c, width, height).clip_from_camera); })
+      .def("projection", [](const CameraDescription& c, int width,
+                            int height) { return array_of(camera_matrices_of(c, width, height).clip_from_camera); })
       // The arguments of look_at().
       .def("look_at_arguments", [](const CameraDescription& c) {
         const auto vector = [](const glm::dvec3& v) { return Vector{v.x, v.y, v.z}; };

@@ -42,6 +42,8 @@ class LightRange {
     std::size_t i_;
   };
 
+  /// No lights.
+  LightRange() = default;
   /// All elements. Implicit, as for a span.
   LightRange(std::span<const Light> lights) : lights_(lights.data()), count_(lights.size()) {}
   template <class Array>
@@ -53,9 +55,9 @@ class LightRange {
   Iterator end() const { return {lights_, numbers_, count_}; }
 
  private:
-  const Light* lights_;
+  const Light* lights_ = nullptr;
   const uint32_t* numbers_ = nullptr;
-  std::size_t count_;
+  std::size_t count_ = 0;
 };
 
 /// Lights, and optionally the cells of the window that they reach. Refers to both and owns neither.

@@ -17,13 +17,13 @@ struct MapCoordinates {
 /// Shaders inherit from this struct.
 struct PlacedSurface {
   glm::mat4 clip_from_object;
-  glm::mat4 world_from_object;    ///< to camera-relative world space (_rws, see Light)
-  glm::mat3 normal_from_object;   ///< inverse transpose of the upper left 3x3 of world_from_object
-  float handedness = 1.0f;        ///< −1 if world_from_object mirrors, otherwise 1
-  glm::vec3 to_eye_ws{0.0f};      ///< orthographic: the constant unit vector towards the eye; perspective: 0
-  LightSet lights;                ///< not owned
-  bool shadowed = false;          ///< at least one light has a shadow
-  bool two_sided = false;         ///< flip the normal of back faces for lighting
+  glm::mat4 world_from_object;   ///< to camera-relative world space (_rws, see Light)
+  glm::mat3 normal_from_object;  ///< inverse transpose of the upper left 3x3 of world_from_object
+  float handedness = 1.0f;       ///< −1 if world_from_object mirrors, otherwise 1
+  glm::vec3 to_eye_ws{0.0f};     ///< orthographic: the constant unit vector towards the eye; perspective: 0
+  LightSet lights;               ///< not owned
+  bool shadowed = false;         ///< at least one light has a shadow
+  bool two_sided = false;        ///< flip the normal of back faces for lighting
 
   template <class R>
   HS_INLINE vec3<R> position_rws(const vec3<R>& position_os) const {

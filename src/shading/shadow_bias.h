@@ -52,8 +52,8 @@ HS_INLINE R automatic_depth_offset(const ShadowSettings& s, R tangent) {
 /// At a grazing angle, a bias that depends on this angle alone moves the point over hundreds of texels and past the objects that shade it.
 /// Where the shading normal is at a grazing angle as well, hardly any light is reflected. Where a normal map turns it to the light, the
 /// point would be bright. The tangent is therefore limited by that of the shading normal. A triangle that faces the light needs more,
-/// because it or the triangles next to it lean more than the surface: at least twice as much, and without a limit if no map turns the normal
-/// towards the light.
+/// because it or the triangles next to it lean more than the surface: at least twice as much, and without a limit if no map turns the
+/// normal towards the light.
 template <class R>
 HS_INLINE ShadowCoordinates<R> automatic_coordinates(const ShadowView& view, const ShadowSettings& s, const ShadowReceiver<R>& at) {
   const MaskOf<R> away = dot(at.face_normal_ws, at.to_light_ws) <= R(0);

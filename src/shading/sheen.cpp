@@ -124,8 +124,7 @@ vec3<R> with_sheen(const vec3<R>& below, const SheenLayer<R>& sheen, const Surfa
     const R n_l = dot(p.n_ws, arriving.l_ws);
     if (!any(n_l > R(0))) continue;
     R received = arriving.strength;
-    if (light.shadow != nullptr)
-      received *= shadow_factor(*light.shadow, shadow_receiver(p, arriving.l_ws));
+    if (light.shadow != nullptr) received *= shadow_factor(*light.shadow, shadow_receiver(p, arriving.l_ws));
     const vec3<R> sine = cross(p.n_ws, normalize_or_zero(arriving.l_ws + p.v_ws));
     const R share = lobe.reflection(sqrt(dot(sine, sine)), masking_v, lobe.masking.of(max(n_l, R(1e-6f))), n_v);
     reflected += light.specular * select(n_l > R(0), received * share, R(0));

@@ -69,8 +69,8 @@ struct SphereImpostor : SphereImpostors {
     if constexpr (exact) lit_cs = c + h.n_cs * in.radius.value;
     const vec3<R> position_rws = world_from_camera * lit_cs, n_ws = world_from_camera * h.n_cs;
     const vec3<R> v_ws = lens.perspective ? normalize_or_zero(-position_rws) : vec3<R>(to_eye_ws);
-    const Illumination<R> light = illuminate(lights.at_pixel(px.x, px.y), model, R(shininess),
-                                             SurfacePoint<R>{position_rws, n_ws, v_ws, n_ws, px.x, px.y});
+    const Illumination<R> light =
+        illuminate(lights.at_pixel(px.x, px.y), model, R(shininess), SurfacePoint<R>{position_rws, n_ws, v_ws, n_ws, px.x, px.y});
     const vec3<R> color = in.color.value * (ambient + diffuse * light.diffuse) + specular * light.specular + emissive;
     return {vec4<R>(color, R(1)), h.seen, lens.window_depth(h.t, h.t_low)};
   }

@@ -4,9 +4,9 @@
 //
 // A lookup takes coordinates (s, t) with their screen-space derivatives or a level of detail, and returns linear RGBA. It follows
 // OpenGL 4.6, sections 8.14 (scale factor, wrapping, minification, magnification) and 8.15, and EXT_texture_filter_anisotropic.
-// Row 0 of the image is t = 0. Images have their top row first, so t points down in the picture, whereas y points up in the window. A shader
-// that samples a rendered image at the same place needs s = 0.5 + 0.5·x and t = 0.5 − 0.5·y of normalized device coordinates (x, y). OpenGL
-// differs: row 0 of its framebuffers is the bottom row, so that t = 0.5 + 0.5·y there.
+// Row 0 of the image is t = 0. Images have their top row first, so t points down in the picture, whereas y points up in the window. A
+// shader that samples a rendered image at the same place needs s = 0.5 + 0.5·x and t = 0.5 − 0.5·y of normalized device coordinates (x, y).
+// OpenGL differs: row 0 of its framebuffers is the bottom row, so that t = 0.5 + 0.5·y there.
 //
 // Filtering uses integers (rgba8, r8, r16, and alpha of srgb8a8) or linear values (color of srgb8a8, the float formats, and all formats if
 // an axis wraps to the border color). Texel fractions are rounded to 1/32768, which is the resolution of a float position at texel 256 and

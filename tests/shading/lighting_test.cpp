@@ -185,7 +185,7 @@ TEST(Lighting, LightsAddUpAndNoLightsIsBlack) {
   const Illumination<float> both = illuminate<float>(std::vector<Light>{a, b}, LightModel::phong, 3.0f, p);
   EXPECT_EQ(both.diffuse, glm::vec3(1, 0.5f, 0));
   EXPECT_EQ(both.specular, glm::vec3(1, 0.5f, 0));
-  EXPECT_EQ(illuminate<float>(std::span<const Light>{}, LightModel::phong, 3.0f, p).diffuse, glm::vec3(0.0f));
+  EXPECT_EQ(illuminate<float>({}, LightModel::phong, 3.0f, p).diffuse, glm::vec3(0.0f));
 }
 
 }  // namespace
