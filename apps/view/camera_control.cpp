@@ -96,7 +96,7 @@ void apply_movement(CameraDescription& camera, Action movement, double seconds) 
 void widen_depth_range(CameraDescription& camera) {
   const double distance = glm::distance(camera.position, camera.target);
   camera.near = 0.0;
-  camera.far = std::max(camera.far, 30.0 * distance);
+  if (camera.far != 0.0) camera.far = std::max(camera.far, 30.0 * distance);
 }
 
 }  // namespace halfspace

@@ -77,13 +77,14 @@ class Camera:
 
     @classmethod
     def look_at(cls, position: Any, target: Any = (0.0, 0.0, 0.0), up: Any = (0.0, 1.0, 0.0), *, fov: Optional[float] = None,
-                height: Optional[float] = None, near: Optional[float] = None, far: float = 1000.0) -> "Camera":
+                height: Optional[float] = None, near: Optional[float] = None, far: Optional[float] = None) -> "Camera":
         """Returns a camera at `position` that looks at `target`, both in world space.
 
         fov: full vertical angle of view in degrees, 0.01 to 179. The default is 45.
         height: if given, the camera is orthographic, and this is the height of the view volume in scene units. Excludes fov.
-        near, far: distances of the clipping planes along the view axis in scene units; 0 < near < far. The default of near is so small
-            that nothing in front of the camera is clipped. Depth is as precise as with any other near plane.
+        near, far: distances of the clipping planes along the view axis in scene units; 0 < near < far. By default, nothing in front of
+            the camera is clipped, and depth is as precise as with any other planes. The depth of an orthographic camera is linear; its
+            far plane is by default 1000 units behind the near plane.
         """
         eye, aim, top = _check.vector("position", position), _check.vector("target", target), _check.vector("up", up)
         line = np.subtract(aim, eye)
@@ -96,12 +97,12 @@ class Camera:
         angle = 45.0 if fov is None else _check.number("fov", fov, 0.01, 179.0)
         tall = 0.0 if height is None else _check.number("height", height, 1e-9, 1e9)
         _check_planes(near, far)
-        camera = _core.Camera.look_at(eye, aim, top, angle, tall, 0.0 if near is None else float(near), float(far))
+        camera = _core.Camera.look_at(eye, aim, top, angle, tall, 0.0 if near is None else float(near), 0.0 if far is None else float(far))
         made_by = {"position": eye, "target": aim, "up": top, "fov": fov, "height": height, "near": near, "far": far}
         return cls(lambda width, height: camera, f"Camera.look_at({eye}, {aim})", ("look_at", made_by))
 
     @classmethod
-    def from_pose(cls, pose: Any, *, fov: float = 45.0, near: Optional[float] = None, far: float = 1000.0) -> "Camera":
+    def from_pose(cls, pose: Any, *, fov: float = 45.0, near: Optional[float] = None, far: Optional[float] = None) -> "Camera":
         """Returns a perspective camera with a pose: camera to world, OpenGL axes, shape (4, 4). See look_at for the other arguments."""
         world = _pose(pose, None)
         fov = _check.number("fov", fov, 0.01, 179.0)
@@ -130,7 +131,7 @@ class Camera:
         return cls(lambda width, height: camera, "Camera.from_matrices(...)", ("from_matrices", {"projection": clip, "pose": world}))
 
     @classmethod
-    def from_intrinsics(cls, K: Any, *, extrinsics: Any = None, pose: Any = None, near: Optional[float] = None, far: float = 1000.0) -> "Camera":
+    def from_intrinsics(cls, K: Any, *, extrinsics: Any = None, pose: Any = None, near: Optional[float] = None, far: Optional[float] = None) -> "Camera":
         """Returns a calibrated camera, as in OpenCV.
 
         K: [[fx, skew, cx], [0, fy, cy], [0, 0, 1]] in pixels of the rendered image. Pixel centers are at integers: (0, 0) is the center of
@@ -138,7 +139,7 @@ class Camera:
         extrinsics: [R | t], world to camera, with OpenCV's axes (x right, y down, z forward), shape (3, 4) or (4, 4); or
         pose: camera to world, with OpenGL's axes (x right, y up, z backward), shape (4, 4).
             Rotations may be rounded to float32 or 4 decimals; the nearest exact rotation is used. Scale is rejected.
-        near, far: distances of the clipping planes along the view axis in scene units; 0 < near < far. See look_at for the default of near.
+        near, far: distances of the clipping planes along the view axis in scene units; 0 < near < far. See look_at for the defaults.
         """
         k = _check.numbers("K", K, (3, 3))
         if k[1, 0] != 0.0 or k[2].tolist() != [0.0, 0.0, 1.0] or k[0, 0] <= 0.0 or k[1, 1] <= 0.0:
@@ -160,21 +161,24 @@ def _make(method: str, arguments: Dict[str, Any]) -> Camera:
     return getattr(Camera, method)(**arguments)
 
 
-def _check_planes(near: Optional[float], far: float) -> None:
-    _check.number("far", far, 1e-9, 1e12)
-    if near is None:
-        return
-    _check.number("near", near, 1e-9, 1e9)
-    if near >= far:
+def _check_planes(near: Optional[float], far: Optional[float]) -> None:
+    if far is not None:
+        _check.number("far", far, 1e-9, 1e12)
+    if near is not None:
+        _check.number("near", near, 1e-9, 1e9)
+    if near is not None and far is not None and near >= far:
         raise fail("far", f"is {far}", f"more than near, {near}")
 
 
-def _frustum(scale_x: float, scale_y: float, skew: float, center_x: float, center_y: float, near: Optional[float], far: float) -> np.ndarray:
+def _frustum(scale_x: float, scale_y: float, skew: float, center_x: float, center_y: float, near: Optional[float],
+             far: Optional[float]) -> np.ndarray:
     """Returns a projection: x_clip = scale_x x + skew y + center_x w, y_clip = scale_y y + center_y w, w = -z."""
-    if near is None:  # the near plane clips nothing, and far can still be computed from the matrix
-        near = 2.0**-30 * far
-    return np.array([[scale_x, skew, -center_x, 0.0], [0.0, scale_y, -center_y, 0.0],
-                     [0.0, 0.0, -(far + near) / (far - near), -2.0 * far * near / (far - near)], [0.0, 0.0, -1.0, 0.0]])
+    if near is None:  # clips nothing, and far can still be computed from the matrix
+        near = 2.0**-30 * (1.0 if far is None else far)
+    if far is None:  # beyond everything, as in far_plane() in src/render/view.cpp
+        far = 2.0**33
+    a, b = -(far + near) / (far - near), -2.0 * far * near / (far - near)
+    return np.array([[scale_x, skew, -center_x, 0.0], [0.0, scale_y, -center_y, 0.0], [0.0, 0.0, a, b], [0.0, 0.0, -1.0, 0.0]])
 
 
 def _matrices(world: np.ndarray, clip: np.ndarray) -> Any:

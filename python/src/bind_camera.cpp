@@ -21,8 +21,8 @@ CameraMatrices camera_matrices_of(const CameraDescription& c, int width, int hei
   CameraMatrices m;
   const glm::dvec3 axes[] = {view.right_ws, view.up_ws, -view.forward_ws, view.eye_ws};
   for (int i = 0; i < 4; ++i) m.world_from_camera[i] = glm::dvec4(axes[i], i == 3 ? 1.0 : 0.0);
-  m.clip_from_camera = c.type == Projection::perspective ? perspective_gl(c.fov * kRadiansPerDegree, aspect, near_plane(c), c.far)
-                                                         : orthographic_gl(c.height, aspect, near_plane(c), c.far);
+  m.clip_from_camera = c.type == Projection::perspective ? perspective_gl(c.fov * kRadiansPerDegree, aspect, near_plane(c), far_plane(c))
+                                                         : orthographic_gl(c.height, aspect, near_plane(c), far_plane(c));
   return m;
 }
 
@@ -56,9 +56,10 @@ void bind_camera(py::module_& m) {
       .def("look_at_arguments", [](const CameraDescription& c) {
         const auto vector = [](const glm::dvec3& v) { return Vector{v.x, v.y, v.z}; };
         const bool perspective = c.type == Projection::perspective;
+        const auto plane = [](double distance) { return distance == 0.0 ? py::object(py::none()) : py::cast(distance); };
         return py::dict("position"_a = vector(c.position), "target"_a = vector(c.target), "up"_a = vector(c.up),
                         "fov"_a = perspective ? py::cast(c.fov) : py::none(), "height"_a = perspective ? py::none() : py::cast(c.height),
-                        "near"_a = c.near == 0.0 ? py::object(py::none()) : py::cast(c.near), "far"_a = c.far);
+                        "near"_a = plane(c.near), "far"_a = plane(c.far));
       });
 }
 

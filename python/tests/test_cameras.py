@@ -249,7 +249,7 @@ def test_an_orthographic_camera_can_be_read_as_matrices():
 
 def test_a_camera_read_and_created_again_is_the_same():
     camera = halfspace.Camera.look_at((2, 1, 4), (0, 0.2, 0), fov=33, near=0.1)
-    again = halfspace.Camera.from_intrinsics(camera.intrinsics(SIZE), extrinsics=camera.extrinsics, near=0.1, far=1000)
+    again = halfspace.Camera.from_intrinsics(camera.intrinsics(SIZE), extrinsics=camera.extrinsics, near=0.1)
     assert np.allclose(again.projection(SIZE), camera.projection(SIZE), rtol=1e-13, atol=1e-15)
     assert np.allclose(again.intrinsics(SIZE), camera.intrinsics(SIZE), rtol=1e-13, atol=1e-12) and np.allclose(again.pose, camera.pose)
     given = halfspace.Camera.from_intrinsics(K, pose=look_at_pose((2.0, 1.5, 4.0), (0, 0, 0)))
@@ -286,3 +286,16 @@ def test_the_cameras_of_a_scene_can_be_read():
     for wrong in ("", "clsoe", 3):
         with pytest.raises(halfspace.InputError, match="^camera: "):
             scene.view(wrong)
+
+
+def test_default_planes_cut_off_nothing():
+    """A wall at a distance of 200 km and a small quad at 2 mm, with all kinds of perspective cameras."""
+    scene = halfspace.Scene(lighting="none")
+    scene.add(halfspace.Mesh(*QUAD, material=WHITE), [[1e6, 0, 0, 0], [0, 1e6, 0, 0], [0, 0, 1, -2e5], [0, 0, 0, 1]])
+    scene.add(halfspace.Mesh(*QUAD, material=WHITE), [[1e-4, 0, 0, 0], [0, 1e-4, 0, 0], [0, 0, 1, -2e-3], [0, 0, 0, 1]])
+    for camera in (halfspace.Camera.look_at((0, 0, 0), (0, 0, -1)), halfspace.Camera.from_pose(np.eye(4)),
+                   halfspace.Camera.from_intrinsics(np.array([[40.0, 0, 15.5], [0, 40, 15.5], [0, 0, 1]]), pose=np.eye(4))):
+        depth = scene.labels(["depth"], size=(32, 32), camera=camera)["depth"]
+        # Depth is rounded to float, and interpolated from float positions: 3e-7 of the largest coordinate.
+        np.testing.assert_allclose(depth[0, 0], 2e5, rtol=5e-6)
+        np.testing.assert_allclose(depth[16, 16], 2e-3, rtol=5e-6)

@@ -4,6 +4,7 @@
 #include "halfspace/render/scene_maps.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -55,7 +56,10 @@ double distance_of_ball(const ObjectDescription& o, const glm::dmat4& world_from
 double depth_of_plane(const ObjectDescription& o, const glm::dmat4& world_from_object, const View& view) {
   const glm::dvec3 corner(0.5 * o.size, relief_height(o), 0.5 * o.size);
   double nearest = std::numeric_limits<double>::infinity();
-  for (const glm::dvec3& p : common_corners(frustum_corners(view.clip_from_world * world_from_object), {-corner, corner})) {
+  const glm::dmat4 object_from_world = glm::inverse(world_from_object);
+  std::array<glm::dvec3, 8> frustum = frustum_corners(view);
+  for (glm::dvec3& p : frustum) p = glm::dvec3(object_from_world * glm::dvec4(p, 1.0));
+  for (const glm::dvec3& p : common_corners(frustum, {-corner, corner})) {
     nearest = std::min(nearest, glm::dot(glm::dvec3(world_from_object * glm::dvec4(p, 1.0)) - view.eye_ws, view.forward_ws));
   }
   return nearest;

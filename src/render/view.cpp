@@ -66,7 +66,7 @@ bool is_rigid(const glm::dmat4& m) {
 void set_planes(CameraDescription& c, double a, double b) {
   if (c.type == Projection::perspective) {
     c.near = b / (a - 1.0);
-    c.far = a == -1.0 ? std::numeric_limits<double>::infinity() : b / (a + 1.0);
+    c.far = a == -1.0 ? kFarthest : b / (a + 1.0);  // a is -1 for an infinite far plane
   } else {
     c.near = (b + 1.0) / a;
     c.far = (b - 1.0) / a;
@@ -99,22 +99,30 @@ CameraDescription matrix_camera(const CameraMatrices& matrices) {
   return c;
 }
 
-double near_plane(const CameraDescription& c) { return c.near == 0.0 && c.type == Projection::perspective ? 0x1p-40 * c.far : c.near; }
+double near_plane(const CameraDescription& c) {
+  if (c.near != 0.0 || c.type == Projection::orthographic) return c.near;
+  return c.far == 0.0 ? 0x1p-30 : 0x1p-40 * c.far;
+}
+
+double far_plane(const CameraDescription& c) {
+  if (c.far != 0.0) return c.far;
+  return c.type == Projection::perspective ? kFarthest : c.near + 1000.0;
+}
 
 View make_view(const CameraDescription& c, int width, int height) {
   const FloatMode float_mode;
   if (c.matrices) return matrix_view(c, width, height);
-  const double near = near_plane(c);
+  const double near = near_plane(c), far = far_plane(c);
   const double aspect = static_cast<double>(width) / height;
   const glm::dmat4 view = look_at(c.position, c.target, c.up);
   const glm::dvec3 right(view[0][0], view[1][0], view[2][0]), up(view[0][1], view[1][1], view[2][1]),
       back(view[0][2], view[1][2], view[2][2]);
   const SinCosDouble half = sincos_radians(0.5 * c.fov * kRadiansPerDegree);
-  View v{{}, c.position, glm::dvec3(0.0), -back, right, up, 0.0, half.sin / half.cos, near, c.far, width, height};
+  View v{{}, c.position, glm::dvec3(0.0), -back, right, up, 0.0, half.sin / half.cos, near, far, width, height};
   if (c.type == Projection::perspective) {
-    v.clip_from_world = perspective_reversed(c.fov * kRadiansPerDegree, aspect, near, c.far) * view;
+    v.clip_from_world = perspective_reversed(c.fov * kRadiansPerDegree, aspect, near, far) * view;
   } else {
-    v.clip_from_world = orthographic_reversed(c.height, aspect, near, c.far) * view;
+    v.clip_from_world = orthographic_reversed(c.height, aspect, near, far) * view;
     v.to_eye_ws = back;
   }
   v.tan_x = v.tan_y * aspect;

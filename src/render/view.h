@@ -28,11 +28,19 @@ struct View {
 CameraDescription matrix_camera(const CameraMatrices& matrices);
 
 /// Returns the distance of the near plane. If CameraDescription::near is 0, it is so near that it cuts off nothing that is in front of the
-/// eye: far · 2^-40 for a perspective camera (a nanometer if far is a kilometer), and 0 for an orthographic one.
+/// eye: far · 2^-40 for a perspective camera (a nanometer if far is a kilometer), and 0 for an orthographic one. If the far plane is
+/// chosen as well, it is at 2^-30.
 ///
 /// A perspective camera can afford this because depth is a float with reversed Z: near / distance. Its relative precision is the same at
-/// every distance and for every near plane. tests/render/near_plane_test.cpp measures this.
+/// every distance and for all planes. tests/render/near_plane_test.cpp measures this.
 double near_plane(const CameraDescription& camera);
+
+/// Returns the distance of the far plane. If CameraDescription::far is 0, it is at kFarthest for a perspective camera. The depth of an
+/// orthographic camera is linear, so that a distant far plane makes it coarse; it is then 1000 units behind the near plane.
+double far_plane(const CameraDescription& camera);
+
+/// A far plane that cuts off nothing: coordinates of scenes are at most 10^9, and so distances at most 2√3 · 10^9.
+inline constexpr double kFarthest = 0x1p33;
 
 /// Returns the view of a camera for an image of width x height pixels, with reversed Z.
 View make_view(const CameraDescription& camera, int width, int height);

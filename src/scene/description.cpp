@@ -110,7 +110,8 @@ Section section_of(CameraDescription& c) {
       key<&T::height>("height", "Height of the view volume", {.unit = "units", .low = kTiny, .high = kMaxCount, .only = "orthographic"}),
       key<&T::near>("near", "Distance of the near plane; 0: so near that it cuts off nothing",
                     {.unit = "units", .low = 0, .high = kMaxCount}),
-      key<&T::far>("far", "Distance to the far plane", {.unit = "units", .low = kTiny, .high = kMaxCount}),
+      key<&T::far>("far", "Distance of the far plane; 0: beyond everything (perspective), or 1000 behind the near plane (orthographic)",
+                   {.unit = "units", .low = 0, .high = kMaxCount}),
   };
   return {{keys, &c}};
 }

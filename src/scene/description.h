@@ -34,9 +34,9 @@ struct CameraDescription {
   glm::dvec3 position{0, 0, 5};  ///< world space
   glm::dvec3 target{0, 0, 0};    ///< world space
   glm::dvec3 up{0, 1, 0};
-  double fov = 45.0;                ///< vertical, in degrees
-  double height = 2.0;              ///< height of the view volume, in scene units
-  double near = 0.0, far = 1000.0;  ///< near may be 0; see near_plane() in render/view.h
+  double fov = 45.0;             ///< vertical, in degrees
+  double height = 2.0;           ///< height of the view volume, in scene units
+  double near = 0.0, far = 0.0;  ///< 0: chosen; see near_plane() and far_plane() in render/view.h
   /// Replaces all other members. No key sets it; see matrix_camera() in render/view.h.
   std::optional<CameraMatrices> matrices{};
 };

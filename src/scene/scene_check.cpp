@@ -33,7 +33,7 @@ constexpr int64_t kMaxDrawnVertices = int64_t{1} << 25;  // over all visible cop
 [[noreturn]] void reject(const std::string& where, const std::string& what) { throw InputError(where + ": " + what); }
 
 void check(const CameraDescription& c, const std::string& where) {
-  if (c.near >= c.far) reject(where + ".far", "expected a value greater than near");
+  if (c.far != 0.0 && c.near >= c.far) reject(where + ".far", "expected a value greater than near");
   if (c.target == c.position) reject(where + ".target", "equals position; expected another point");
   if (c.up == glm::dvec3(0.0)) reject(where + ".up", "is zero; expected a direction");
   const glm::dvec3 side = glm::cross(unit_or_zero(c.target - c.position), unit_or_zero(c.up));

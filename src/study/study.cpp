@@ -42,6 +42,7 @@ std::vector<StudyEntry> studies() {
           {"displacement", study_displacement},
           {"normals", study_normals},
           {"shadows", study_shadows},
+          {"terminator", study_terminator},
           {"texture_filter", study_texture_filter},
           {"antialiasing", study_antialiasing},
           {"depth", study_depth},

@@ -81,6 +81,7 @@ Study study_shading_rate(const StudyOptions& options, const Workers& workers);
 Study study_sphere_model(const StudyOptions& options, const Workers& workers);
 Study study_displacement(const StudyOptions& options, const Workers& workers);
 Study study_shadows(const StudyOptions& options, const Workers& workers);
+Study study_terminator(const StudyOptions& options, const Workers& workers);
 Study study_texture_filter(const StudyOptions& options, const Workers& workers);
 Study study_antialiasing(const StudyOptions& options, const Workers& workers);
 Study study_depth(const StudyOptions& options, const Workers& workers);

@@ -79,7 +79,7 @@ TEST_F(NearPlaneCli, ACameraOfASceneNeedsNoNearPlane) {
 }
 
 // A plain of 100 km, seen from a height of 2 m: the distance of each row has a closed form.
-TEST_F(NearPlaneCli, TheDepthOfATerrainOf100KilometersIsExact) {
+TEST_F(NearPlaneCli, TheDepthOfATerrainOf100KilometersIsWithinOnePercent) {
   write("plain.obj", "v -50000 0 -50000\nv -50000 0 50000\nv 50000 0 50000\nv 50000 0 -50000\nf 1 2 3 4\n");
   const Outcome o = run({"render", "plain.obj", "--eye", "0,2,0", "--look-at", "0,2,-1", "--fov", "60", "--no-floor", "--size", "200x200",
                          "--crop", "0,100,200,100", "--aov", "depth", "--aov-separate", "-o", "a.png"});

@@ -18,16 +18,7 @@ namespace program {
 
 using namespace halfspace;
 
-template <class R>
-R of_all_functions(R x) {
-  const R exact = abs(x) + floor(x) + sqrt(x) + fma(x, x, x) + min(x, R(1)) + max(x, R(0)) + clamp(x, R(0), R(1)) + round_even(x);
-  const R elementary = exp(x) + exp2(x) + log(x) + log2(x) + pow(x, x) + sin(x) + cos(x) + atan2(x, x) + atan(x) + asin(x) + acos(x);
-  const halfspace::vec3<R> a(x), b(R(1));
-  const R vectors = length(a) + dot(a, b) + mix(a, b, x).x + normalize(a).x + reflect(a, b).x + cross(a, b).x;
-  return exact + elementary + vectors + select(x > R(0), x, R(1));
-}
-
-int of_integers(int x) { return abs(x) + min(x, 2) + max(x, 2); }
+#include "core/using_namespace_functions.inc"
 
 }  // namespace program
 
@@ -36,16 +27,7 @@ namespace program_with_std {
 using namespace std;
 using namespace halfspace;
 
-template <class R>
-R of_all_functions(R x) {
-  const R exact = abs(x) + floor(x) + sqrt(x) + fma(x, x, x) + min(x, R(1)) + max(x, R(0)) + clamp(x, R(0), R(1)) + round_even(x);
-  const R elementary = exp(x) + exp2(x) + log(x) + log2(x) + pow(x, x) + sin(x) + cos(x) + atan2(x, x) + atan(x) + asin(x) + acos(x);
-  const halfspace::vec3<R> a(x), b(R(1));
-  const R vectors = length(a) + dot(a, b) + mix(a, b, x).x + normalize(a).x + reflect(a, b).x + cross(a, b).x;
-  return exact + elementary + vectors + select(x > R(0), x, R(1));
-}
-
-int of_integers(int x) { return abs(x) + min(x, 2) + max(x, 2); }
+#include "core/using_namespace_functions.inc"
 
 }  // namespace program_with_std
 

@@ -1,35 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A host program can recover from misuse: the check handler throws, and the pass can be destroyed afterwards.
-#include <stdexcept>
-
-#include "halfspace/core/check.h"
 #include "raster/raster_test.h"
+#include "support/throwing_checks.h"
 
 namespace halfspace::raster_test {
 namespace {
 
-class PassCheckTest : public testing::Test {
+class PassCheckTest : public ThrowingChecksTest {
  protected:
-  PassCheckTest() {
-    set_check_handler([](const CheckFailure& f) { throw std::logic_error(f.message); });
-  }
-  ~PassCheckTest() override { set_check_handler(nullptr); }
-
   Image<glm::vec4> image_{16, 16};
   const std::vector<glm::vec4> positions_{{-1, -1, 0, 1}, {3, -1, 0, 1}, {-1, 3, 0, 1}};
 };
-
-/// Returns the message that the throwing handler received, or "" if no check failed.
-template <class F>
-std::string failure_of(const F& function) {
-  try {
-    function();
-  } catch (const std::logic_error& e) {
-    return e.what();
-  }
-  return "";
-}
 
 /// A shader that fails a check when its fragments are shaded.
 struct FailingShader : ConstantShader {

@@ -3,37 +3,20 @@
 // A pass refuses images that are smaller than it, and numbers that would make it write or allocate out of bounds, in one line and before
 // anything is drawn.
 #include <limits>
-#include <stdexcept>
 
-#include "halfspace/core/check.h"
 #include "halfspace/raster/naive.h"
 #include "raster/raster_test.h"
+#include "support/throwing_checks.h"
 
 namespace halfspace::raster_test {
 namespace {
 
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN(), kInfinity = std::numeric_limits<float>::infinity();
 
-class MisuseTest : public testing::Test {
+class MisuseTest : public ThrowingChecksTest {
  protected:
-  MisuseTest() {
-    set_check_handler([](const CheckFailure& f) { throw std::logic_error(f.message); });
-  }
-  ~MisuseTest() override { set_check_handler(nullptr); }
-
   const std::vector<glm::vec4> positions_{{-1, -1, 0, 1}, {3, -1, 0, 1}, {-1, 3, 0, 1}};
 };
-
-/// Returns the message of the failed check, or "" if none failed.
-template <class F>
-std::string failure_of(const F& function) {
-  try {
-    function();
-  } catch (const std::logic_error& e) {
-    return e.what();
-  }
-  return "";
-}
 
 /// Checks that the target of an image fits only passes of its own size, whether it is loaded, stored or both.
 template <class Target>

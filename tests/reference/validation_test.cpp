@@ -79,6 +79,17 @@ TEST(Validation, EveryLightTypeIsCorrectBeyondATexelFromTheEdge) {
   }
 }
 
+TEST(Validation, ACasterCloseToALightCastsItsShadow) {
+  const ShadowScore s = validated("shadow-plane", {"lamp.position=[0,3,0]", "earth.position=[0,2.995,0]", "earth.scale=[0.002,0.002,0.002]",
+                                                   "ground.size=200"})
+                            .lights.at(0)
+                            .score;
+  EXPECT_GT(s.lit, 5000);
+  EXPECT_GT(s.shadowed, 500);
+  EXPECT_LE(s.false_shadow.from_1_to_3 + s.false_shadow.beyond_3, 1e-4);  // guaranteed for the shipped scenes
+  EXPECT_LE(s.false_light.from_1_to_3 + s.false_light.beyond_3, 1e-3);
+}
+
 TEST(Validation, DetectsAcneWithoutBiasAndLeaksWithTooMuch) {
   const ShadowScore none = score({"shadow.bias=none", "shadow.method=hard"});
   EXPECT_GT(none.false_shadow.beyond_3, 0.1);
@@ -168,6 +179,22 @@ TEST(Validation, ReportsContainAllFields) {
   EXPECT_EQ(rows[0]["bias"], "auto");
   EXPECT_EQ(rows[0]["resolution"], 2048);
   EXPECT_NE(text_report(v).find("unexplained"), std::string::npos);
+}
+
+// A coarse ball, whose triangles and smooth normals face the light in different regions.
+TEST(Validation, PixelsWhereOnlyOneNormalFacesTheLightAreAClassOfTheirOwn) {
+  const std::vector<std::string> coarse{"earth.latitudes=12", "earth.longitudes=24"};
+  const ShadowScore fine = score({}), s = score(coarse);
+  EXPECT_GT(s.sides_differ, 2.0 * fine.sides_differ);
+  const auto scored = static_cast<double>(s.sides.lit + s.sides.shadowed), compared = static_cast<double>(s.lit + s.shadowed);
+  const double differ = compared * s.sides_differ / (1.0 - s.sides_differ);
+  EXPECT_GT(scored, 50.0);
+  EXPECT_LT(scored, differ) << "where only the triangle faces the light, nothing is scored";
+  EXPECT_EQ(s.sides.false_shadow, 0.0) << "the lookup is on the smooth surface";
+  const Json sides = Json::parse(json_report(validated("shadow-plane", coarse))).at(0).at("sides");
+  EXPECT_EQ(sides.at("lit_pixels"), s.sides.lit);
+  EXPECT_EQ(sides.at("shadowed_pixels"), s.sides.shadowed);
+  EXPECT_EQ(sides.at("error"), s.sides.error);
 }
 
 TEST(Validation, ReportsThatNoLightHasShadows) {

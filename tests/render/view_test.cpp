@@ -111,7 +111,7 @@ TEST(MatrixCamera, AcceptsAnInfiniteFarPlane) {
   p[3][2] = -2.0 * 0.5;
   const CameraDescription c = matrix_camera({glm::dmat4(1.0), p});
   EXPECT_DOUBLE_EQ(c.near, 0.5);
-  EXPECT_EQ(c.far, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(c.far, kFarthest);
 }
 
 TEST(MatrixCamera, RejectsOtherMatrices) {

@@ -119,6 +119,9 @@ TEST(CameraControl, TheDepthRangeOnlyGrows) {
   widen_depth_range(c);
   EXPECT_EQ(c.near, wide.near);
   EXPECT_EQ(c.far, wide.far);
+  c.far = 0.0;
+  widen_depth_range(c);
+  EXPECT_EQ(c.far, 0.0) << "cuts off nothing; see far_plane()";
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "halfspace/core/float_mode.h"
@@ -12,6 +13,7 @@
 #include "halfspace/render/export/append_model.h"
 #include "halfspace/render/export/scene_materials.h"
 #include "halfspace/render/model_asset.h"
+#include "halfspace/render/view.h"
 #include "halfspace/scene/lights.h"
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
@@ -198,8 +200,8 @@ class SceneExporter {
     camera.fovy = c.fov * kRadiansPerDegree;
     camera.height = c.height;
     // Other viewers often have integer depth, which needs a near plane that is not extremely near.
-    camera.near = c.near == 0.0 && camera.perspective ? 1e-5 * c.far : c.near;
-    camera.far = c.far;
+    camera.far = c.far == 0.0 && camera.perspective ? std::numeric_limits<double>::infinity() : far_plane(c);
+    camera.near = c.near == 0.0 && camera.perspective ? 1e-5 * (c.far == 0.0 ? 1000.0 : c.far) : c.near;
     ModelNode node;
     node.name = name;
     node.camera = static_cast<int>(model_.cameras.size());

@@ -131,8 +131,9 @@ class ViewFinder {
   }
 
  private:
-  // Returns a distance slightly in front of the nearest caster, but at least far/1000, in case the light is among the casters.
-  static double near_end(double nearest, double far) { return std::max(std::min(0.9 * nearest, 0.5 * far), 1e-3 * far); }
+  // Returns a distance slightly in front of the nearest caster. If the light is among the casters, it is so near that it cuts off nothing,
+  // for the reason given at near_plane() in render/view.h.
+  static double near_end(double nearest, double far) { return std::max(std::min(0.9 * nearest, 0.5 * far), 0x1p-40 * far); }
 
   // Returns the range of distances along the view axis in which receivers are visible.
   std::pair<double, double> seen_distances() const {
@@ -163,7 +164,7 @@ class ViewFinder {
 }  // namespace
 
 ShadowScene shadow_scene(const View& view, const std::vector<PlacedMesh>& meshes, const std::vector<PlacedSpheres>& spheres) {
-  ShadowScene scene{{}, frustum_corners(view.clip_from_world), view.eye_ws, view.forward_ws};
+  ShadowScene scene{{}, frustum_corners(view), view.eye_ws, view.forward_ws};
   for (const PlacedMesh& m : meshes)
     scene.objects.push_back({&m, nullptr, bounds_along(m, glm::dmat3(1.0)), m.casts_shadow, m.receives_shadow});
   for (const PlacedSpheres& s : spheres)

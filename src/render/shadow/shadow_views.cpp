@@ -105,6 +105,16 @@ std::array<glm::dvec3, 8> frustum_corners(const glm::dmat4& clip_from_world) {
   return c;
 }
 
+std::array<glm::dvec3, 8> frustum_corners(const View& view) {
+  if (view.to_eye_ws != glm::dvec3(0.0)) return frustum_corners(view.clip_from_world);  // orthographic
+  std::array<glm::dvec3, 8> c;
+  for (std::size_t i = 0; i < 8; ++i) {
+    const glm::dvec3 side_ws = (i & 1) != 0 ? view.ray_x_ws : -view.ray_x_ws, up_ws = (i & 2) != 0 ? view.ray_y_ws : -view.ray_y_ws;
+    c[i] = view.eye_ws + ((i & 4) != 0 ? view.far : view.near) * (view.ray_ws + side_ws + up_ws);
+  }
+  return c;
+}
+
 std::array<glm::dvec3, 8> frustum_slice(const std::array<glm::dvec3, 8>& frustum, double from, double to) {
   std::array<glm::dvec3, 8> c;
   for (std::size_t i = 0; i < 4; ++i) {

@@ -9,7 +9,7 @@
 
 #include <glm/glm.hpp>
 
-#include "halfspace/core/namespace.h"
+#include "halfspace/render/view.h"
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
 
@@ -41,6 +41,9 @@ glm::dmat3 light_axes(const glm::dvec3& to_light_ws);
 
 /// Returns the corners of the view frustum, near ones first. clip_from_world must have reversed Z in [0, w].
 std::array<glm::dvec3, 8> frustum_corners(const glm::dmat4& clip_from_world);
+
+/// The same for the view of a camera. Exact also if the far plane is so distant that the inverse of the matrix is not.
+std::array<glm::dvec3, 8> frustum_corners(const View& view);
 
 /// Returns the part of a frustum between two fractions of the way from the near plane to the far plane, 0 ≤ from < to ≤ 1.
 std::array<glm::dvec3, 8> frustum_slice(const std::array<glm::dvec3, 8>& frustum, double from, double to);
