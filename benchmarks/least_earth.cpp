@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // halfspace-least-earth: measures the minimum time for an image of the Earth, as a reference for `halfspace render earth`
-// (scripts/start_to_file.py). It generates the maps of the scene, sleeps for the duration of a frame, and writes an existing image.
+// (scripts/bench/start_to_file.py). It generates the maps of the scene, sleeps for the duration of a frame, and writes an existing image.
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>

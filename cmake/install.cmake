@@ -242,9 +242,9 @@ function(halfspace_install_documents)
     list(APPEND more --view $<TARGET_FILE:halfspace-view>)
   endif()
   add_custom_command(OUTPUT ${folder}/man/man1/${page}
-    COMMAND Python3::Interpreter ${halfspace_SOURCE_DIR}/scripts/generate_man.py --program $<TARGET_FILE:halfspace> ${more} ${folder}
+    COMMAND Python3::Interpreter ${halfspace_SOURCE_DIR}/scripts/dev/generate_man.py --program $<TARGET_FILE:halfspace> ${more} ${folder}
     DEPENDS halfspace $<TARGET_NAME_IF_EXISTS:halfspace-bench> $<TARGET_NAME_IF_EXISTS:halfspace-view>
-      ${halfspace_SOURCE_DIR}/scripts/generate_man.py
+      ${halfspace_SOURCE_DIR}/scripts/dev/generate_man.py
     COMMENT "Generating manual pages and completions" VERBATIM)
   add_custom_target(halfspace_documents ALL DEPENDS ${folder}/man/man1/${page})
   install(DIRECTORY ${folder}/man/ DESTINATION ${CMAKE_INSTALL_MANDIR} COMPONENT runtime)

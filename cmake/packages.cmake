@@ -57,7 +57,7 @@ set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${halfspace_SOURCE_DIR}/cmake/debi
 set(CPACK_COMPONENT_PYTHON_DESCRIPTION "Python module.")
 find_package(Python3 REQUIRED COMPONENTS Interpreter)
 set(changelog ${halfspace_BINARY_DIR}/changelog.Debian.gz)
-execute_process(COMMAND ${Python3_EXECUTABLE} ${halfspace_SOURCE_DIR}/scripts/debian_changelog.py
+execute_process(COMMAND ${Python3_EXECUTABLE} ${halfspace_SOURCE_DIR}/scripts/dev/debian_changelog.py
   ${CPACK_DEBIAN_PACKAGE_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE} ${CPACK_PACKAGE_CONTACT} ${changelog} COMMAND_ERROR_IS_FATAL ANY)
 foreach(component runtime dev python)
   string(TOUPPER ${component} upper)

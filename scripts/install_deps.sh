@@ -3,7 +3,7 @@
 #
 #   scripts/install_deps.sh [--tests | --benchmarks] [--view] [--package=NAME]...
 #     --tests         also installs the packages that the tests need, including matplotlib for charts
-#     --benchmarks    also installs the packages that scripts/bench.sh needs
+#     --benchmarks    also installs the packages that scripts/bench/bench.sh needs
 #     --view          also installs the packages that halfspace-view and the tests of its window and of web pages need
 #     --package=NAME  also installs this package
 set -euo pipefail

@@ -157,7 +157,7 @@ consumer() {
 
 # Builds the programs of the lessons and their variants, and compares their output with the pictures of the lessons.
 lessons() {
-  build_gcc "lessons lesson-variants halfspace" && scripts/lesson_pictures.py check "$gcc"
+  build_gcc "lessons lesson-variants halfspace" && scripts/docs/lesson_pictures.py check "$gcc"
 }
 
 # Runs the tests of halfspace-view with AddressSanitizer. They fail if the stack trace of a leak contains one of our functions.
@@ -188,16 +188,16 @@ step shared            "shared"
 step portable          "portable"
 step consumer          "consumer"
 step pip               "python3 tests/consumer/pip_test.py"
-step packages          "needs debootstrap dpkg-dev && scripts/try_packages.sh"
-step install           "needs debootstrap && scripts/try_install.sh"
+step packages          "needs debootstrap dpkg-dev && scripts/dev/try_packages.sh"
+step install           "needs debootstrap && scripts/dev/try_install.sh"
 step lessons           "lessons"
 step fuzz              "fuzz"
 step benchmarks        "benchmarks"
-step compile-time      "scripts/shader_compile_time.sh g++ && scripts/shader_compile_time.sh clang++"
+step compile-time      "scripts/dev/shader_compile_time.sh g++ && scripts/dev/shader_compile_time.sh clang++"
 step order             "blended_order"
 step views             "random_views"
-step off-costs         "scripts/off_costs.sh"
-step mutate            "scripts/mutate.py"
+step off-costs         "scripts/dev/off_costs.sh"
+step mutate            "scripts/dev/mutate.py"
 
 if [ "${1:-}" = list ]; then
   printf '%s\n' "${names[@]}"

@@ -1,10 +1,10 @@
-# Variants of the lessons with the changes that their pages show. They are not built by default. scripts/lesson_pictures.py runs them.
+# Variants of the lessons with the changes that their pages show. They are not built by default. scripts/docs/lesson_pictures.py runs them.
 find_package(Python3 COMPONENTS Interpreter)
 add_custom_target(lesson-variants)
 if(NOT Python3_FOUND)
   return()
 endif()
-set(script ${PROJECT_SOURCE_DIR}/scripts/lesson_pictures.py)
+set(script ${PROJECT_SOURCE_DIR}/scripts/docs/lesson_pictures.py)
 set(pages ${PROJECT_SOURCE_DIR}/docs/tutorial/lessons)
 foreach(lesson ${lessons})
   string(REPLACE "lesson-" "" name ${lesson})

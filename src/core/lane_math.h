@@ -9,7 +9,7 @@
 // fma instruction; fma then calls libm, which is also exact but slow.)
 //
 // Method: split off the exponent or the quadrant exactly (Cody and Waite, Software Manual for the Elementary Functions, 1980), then
-// evaluate a minimax polynomial. The coefficients come from scripts/fit_polynomials.py, which also prints the error of each fit. Error
+// evaluate a minimax polynomial. The coefficients come from scripts/dev/fit_polynomials.py, which also prints the error of each fit. Error
 // bounds are in ulps of the exact result; correct rounding has an error of at most 0.5 ulp. The bounds were measured over all floats of the
 // domain, except for pow and atan2, which were measured on random pairs. tests/core/lane_math_test.cpp repeats part of the measurement. NaN
 // inputs give NaN unless stated otherwise.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Runs scripts/draw_charts.py.
+// Runs scripts/docs/draw_charts.py.
 #include <fcntl.h>
 #include <spawn.h>
 #include <sys/wait.h>

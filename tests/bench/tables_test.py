@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Tests the table values that scripts/bench_tables.py produces, the rule for when it shows a ratio, and the processor names from
-scripts/bench_measure.py."""
+"""Tests the table values that scripts/bench/bench_tables.py produces, the rule for when it shows a ratio, and the processor names from
+scripts/bench/bench_measure.py."""
 import re
 import sys
 import unittest
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts" / "bench"))
 sys.dont_write_bytecode = True
 import bench_measure  # noqa: E402
 import bench_report  # noqa: E402
@@ -67,7 +67,7 @@ class Tables(unittest.TestCase):
             self.assertTrue(bench_tables.sections(r, 249)[name].endswith(f"**{gaps}**"))
 
     def test_documents_state_the_gaps_of_their_run(self):
-        root = Path(bench_report.__file__).resolve().parents[1]
+        root = Path(__file__).resolve().parents[2]
         readme, page = ((root / name).read_text(encoding="utf-8") for name in bench_report.DOCUMENTS)
         commit = re.search(r"at commit (\w+)", readme)[1]
         self.assertIn(f"at commit {commit}", page)
@@ -105,9 +105,9 @@ class Tables(unittest.TestCase):
 
     def test_processors_with_the_same_name_are_distinguished(self):
         of_cores = "processor\t: 0\ncpu family\t: {}\nmodel\t\t: 17\nmodel name\t: AMD EPYC\n\nprocessor\t: 1\ncpu family\t: 9\nmodel name\t: other\n"
-        self.assertEqual("AMD EPYC (family 25, model 17)", bench_measure.cpu_name(of_cores.format(25)))
-        self.assertEqual("AMD EPYC (family 26, model 17)", bench_measure.cpu_name(of_cores.format(26)))
-        self.assertEqual("Some core", bench_measure.cpu_name("model name : Some core\n"))
+        self.assertEqual("AMD EPYC (family 25, model 17)", generated_sections.cpu_name(of_cores.format(25)))
+        self.assertEqual("AMD EPYC (family 26, model 17)", generated_sections.cpu_name(of_cores.format(26)))
+        self.assertEqual("Some core", generated_sections.cpu_name("model name : Some core\n"))
 
     def test_matrix_caps_ratios_in_the_mean(self):
         lines = bench_tables.state_table(results(), "matrix", "state", "plain").splitlines()

@@ -223,7 +223,7 @@ class Parser(unittest.TestCase):
                          [(None, ["halfspace list"]), ("it builds", ["cmake --preset nothing"]), (None, ["halfspace info --json"])])
 
     def test_missing_parts_are_found(self):
-        for command in ("cmake --preset nothing", "scripts/none.sh", "scripts/bench.sh --none", "halfspace render --none", "cmake -DHALFSPACE_NONE=1"):
+        for command in ("cmake --preset nothing", "scripts/none.sh", "scripts/bench/bench.sh --none", "halfspace render --none", "cmake -DHALFSPACE_NONE=1"):
             with self.subTest(command=command):
                 self.assertEqual(len(missing_parts(command)), 1)
 

@@ -79,7 +79,7 @@ class Lessons : public testing::TestWithParam<int> {};
 
 TEST_P(Lessons, DrawThePictureOfTheirPage) {
   const Lesson lesson = run_lesson(GetParam());
-  EXPECT_EQ(lesson.picture, lesson.in_docs) << lesson.name << ": scripts/lesson_pictures.py draws the pictures again";
+  EXPECT_EQ(lesson.picture, lesson.in_docs) << lesson.name << ": scripts/docs/lesson_pictures.py draws the pictures again";
 }
 
 TEST_P(Lessons, ReportAnOutputFileThatCannotBeWritten) {

@@ -13,7 +13,7 @@ namespace {
 
 TEST(StabilityTable, HasEveryRowAndTest) {
   std::ifstream file("docs/explanation/stability.md");  // tests run from the source tree
-  ASSERT_TRUE(file) << "docs/explanation/stability.md is missing; scripts/stability_table.py generates it";
+  ASSERT_TRUE(file) << "docs/explanation/stability.md is missing; scripts/docs/stability_table.py generates it";
   std::set<int> rows;
   std::set<std::string> named;
   for (std::string line; std::getline(file, line);) {
@@ -30,7 +30,7 @@ TEST(StabilityTable, HasEveryRowAndTest) {
     for (int t = 0; std::string(suite.name()) == "Stability" && t < suite.total_test_count(); ++t)
       tests.insert(suite.GetTestInfo(t)->name());
   }
-  EXPECT_EQ(named, tests) << "to update the table, run: scripts/stability_table.py build/release/bin/test-stability";
+  EXPECT_EQ(named, tests) << "to update the table, run: scripts/docs/stability_table.py build/release/bin/test-stability";
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Tests scripts/draw_charts.py: what a chart shows, whether its labels are readable, and its exit codes. Needs matplotlib."""
+"""Tests scripts/docs/draw_charts.py: what a chart shows, whether its labels are readable, and its exit codes. Needs matplotlib."""
 import copy
 import json
 import math
@@ -14,7 +14,7 @@ from itertools import combinations
 from pathlib import Path
 from unittest import mock
 
-SCRIPTS = Path(__file__).resolve().parents[2] / "scripts"
+SCRIPTS = Path(__file__).resolve().parents[2] / "scripts" / "docs"
 SKIPPED = 77  # ctest shows the test as skipped
 sys.path.insert(0, str(SCRIPTS))
 sys.dont_write_bytecode = True

@@ -10,7 +10,9 @@ import sys
 from pathlib import Path
 
 import bench_tables
-import generated_sections
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "docs"))
+import generated_sections  # noqa: E402
 
 DOCUMENTS = ["README.md", "docs/results/performance.md"]
 CHARTS = Path("docs/results/benchmark")

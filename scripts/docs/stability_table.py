@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Runs the stability tests and writes their results to docs/explanation/stability.md.
 
-    scripts/stability_table.py build/release/bin/test-stability      from the root of the source tree
+    scripts/docs/stability_table.py build/release/bin/test-stability      from the root of the source tree
 """
 import os
 import subprocess
@@ -17,7 +17,7 @@ HEAD = """# Stability where methods fail
 Each row is a known failure mode of renderers. The test runs the common method under conditions in which it should fail, and checks that it
 does fail. It then runs our method under the same conditions and compares its error with a bound. The sources in `tests/stability` give the
 reason for each bound. The columns "common" and "ours" contain the measured errors; 0 is correct.
-`scripts/stability_table.py build/release/bin/test-stability` generates the table.
+`scripts/docs/stability_table.py build/release/bin/test-stability` generates the table.
 
 {origin}.
 
@@ -32,7 +32,7 @@ def properties_of(case):
 
 def main():
     if len(sys.argv) != 2:
-        sys.exit("usage: scripts/stability_table.py PROGRAM, for example build/release/bin/test-stability")
+        sys.exit("usage: scripts/docs/stability_table.py PROGRAM, for example build/release/bin/test-stability")
     with tempfile.TemporaryDirectory() as folder:
         report = os.path.join(folder, "report.xml")
         run = subprocess.run([sys.argv[1], "--gtest_filter=Stability.*", "--gtest_output=xml:" + report], stdout=subprocess.PIPE, text=True)

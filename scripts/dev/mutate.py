@@ -2,11 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """Applies the faults of tests/faults to a copy of the source tree, one at a time, and checks that the tests detect each.
 
-  scripts/mutate.py [OPTION...]           all faults
-  scripts/mutate.py [OPTION...] N         fault N of the list
-  scripts/mutate.py [OPTION...] N M       faults N to M
-  scripts/mutate.py [OPTION...] NAME...   faults by file name, without .fault
-  scripts/mutate.py list                  numbers, file names and descriptions of the faults
+  scripts/dev/mutate.py [OPTION...]           all faults
+  scripts/dev/mutate.py [OPTION...] N         fault N of the list
+  scripts/dev/mutate.py [OPTION...] N M       faults N to M
+  scripts/dev/mutate.py [OPTION...] NAME...   faults by file name, without .fault
+  scripts/dev/mutate.py list                  numbers, file names and descriptions of the faults
     --resume      skips the faults that were caught before with the same sources
     --record      writes the name of the test that caught the fault into each fault file
     --copies N    number of faults tried at the same time, each in its own copy of the tree; default: half the number of cores
@@ -43,7 +43,7 @@ import time
 from dataclasses import dataclass
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[1]
+ROOT = Path(__file__).resolve().parents[2]
 FAULTS = ROOT / "tests" / "faults"
 WORK = ROOT / "build" / "mutate"
 RESULTS = WORK / "caught.txt"  # lines "KEY STEM"

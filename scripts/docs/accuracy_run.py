@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Runs all studies and shadow comparisons, and updates the generated parts of docs/results/accuracy.md and docs/results/charts.
 
-    scripts/accuracy_run.py build/release/bin/halfspace [FOLDER]      run from the root of the tree; takes several minutes
+    scripts/docs/accuracy_run.py build/release/bin/halfspace [FOLDER]      run from the root of the tree; takes several minutes
 
 With FOLDER, uses the files that an earlier run has written to that folder. The default folder is build/charts.
 """
@@ -49,7 +49,7 @@ def measure(program, folder):
 
 def main():
     if len(sys.argv) not in (2, 3):
-        sys.exit("usage: scripts/accuracy_run.py PROGRAM [FOLDER], for example build/release/bin/halfspace")
+        sys.exit("usage: scripts/docs/accuracy_run.py PROGRAM [FOLDER], for example build/release/bin/halfspace")
     folder = sys.argv[2] if len(sys.argv) == 3 else "build/charts"
     if len(sys.argv) == 2:
         measure(sys.argv[1], folder)

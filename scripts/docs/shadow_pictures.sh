@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 # Renders the pictures of docs/explanation/shadows.md: each shadow-map artifact, and the same scene without it.
 #
-#   scripts/shadow_pictures.sh [PROGRAM [DIRECTORY]]
+#   scripts/docs/shadow_pictures.sh [PROGRAM [DIRECTORY]]
 set -euo pipefail
-cd "$(dirname "$0")/.."
+cd "$(dirname "$0")/../.."
 program=${1:-build/release/bin/halfspace}
 out=${2:-docs/explanation/shadows}
 scenes=$(mktemp -d)

@@ -9,13 +9,15 @@ import datetime
 import itertools
 import json
 import os
-import platform
 import statistics
 import subprocess
 import sys
 import time
 from dataclasses import dataclass, field
 from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "docs"))
+from generated_sections import cpu_name  # noqa: E402
 
 SPHERES = [f"sphere_{light}_{count}" for light in ("phong", "gouraud", "flat") for count in ("20k", "200k", "2m")]
 
@@ -55,21 +57,6 @@ class Progress:
         print(f"\r\033[K{self.done}/{self.total}  {what}  {left / 60:.0f} min left", end="", file=sys.stderr, flush=True)
         if self.done == self.total:
             print("\r\033[K", end="", file=sys.stderr)
-
-
-def cpu_name(cpuinfo):
-    """Returns the name of the processor with its family and model. Processors with the same name ("AMD EPYC") can differ in speed by a
-    factor of two.
-
-    cpuinfo is the content of /proc/cpuinfo."""
-    fields = {}
-    for line in cpuinfo.splitlines():
-        key, _, value = line.partition(":")
-        fields.setdefault(key.strip(), value.strip())
-    name = fields.get("model name", platform.machine())
-    if "cpu family" not in fields:
-        return name
-    return f"{name} (family {fields['cpu family']}, model {fields['model']})"
 
 
 def machine():

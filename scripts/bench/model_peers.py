@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Renders model files with halfspace and with f3d, compares the times, and draws both pictures side by side.
 
-  scripts/model_peers.py PROGRAM FOLDER|FILE... [--rounds 5] [--size 1280x720]
-  for example: xvfb-run scripts/model_peers.py build/release/bin/halfspace ../shared/data/gltf
+  scripts/bench/model_peers.py PROGRAM FOLDER|FILE... [--rounds 5] [--size 1280x720]
+  for example: xvfb-run scripts/bench/model_peers.py build/release/bin/halfspace ../shared/data/gltf
 
 A time is the wall time from the start of the process to the finished PNG file, with the defaults of both programs. The programs take turns.
 The first round only warms the caches; the median of the other rounds is printed. f3d needs a display (DISPLAY), for example Xvfb, which

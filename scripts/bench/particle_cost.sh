@@ -2,9 +2,9 @@
 # Measures the cost per sphere for 100,000 and 1,000,000 particles. The cost is the CPU time of a complete image on one thread minus the
 # time of an image without spheres. Runs are interleaved, and the shortest run of each kind is used. Additional scene keys can be given.
 #
-#   scripts/particle_cost.sh [PROGRAM [--set KEY=VALUE...]]     default: build/release/bin/halfspace
+#   scripts/bench/particle_cost.sh [PROGRAM [--set KEY=VALUE...]]     default: build/release/bin/halfspace
 set -euo pipefail
-cd "$(dirname "$0")/.."
+cd "$(dirname "$0")/../.."
 program=${1:-build/release/bin/halfspace}
 [ $# -eq 0 ] || shift
 picture=$(mktemp --suffix=.png)

@@ -1,8 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """Selects the data for the benchmark charts from the results of bench_measure.py. draw_charts.py draws them as PNG and SVG, which needs
 matplotlib."""
+import sys
+from pathlib import Path
+
 from bench_tables import COMPARED, intensity, sweep_series
-from draw_charts import COLORS, LIGHT, finish_axes, legend_beside, new_panels, save, use_theme
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "docs"))
+from draw_charts import COLORS, LIGHT, finish_axes, legend_beside, new_panels, save, use_theme  # noqa: E402
 
 PROGRAM_COLORS = dict(zip(("halfspace native", "llvmpipe", "Embree", "halfspace v3", "SwiftShader"), (COLORS[k] for k in (0, 1, 2, 5, 7))))
 RATIOS = (0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50)

@@ -4,7 +4,7 @@
 # Renders every model file of some folders and writes a contact sheet to out/models.png, with the pictures in out/models.
 # Needs ImageMagick (montage).
 #
-#   scripts/model_sheet.sh PROGRAM FOLDER...     for example: scripts/model_sheet.sh build/release/bin/halfspace ../shared/data/gltf
+#   scripts/docs/model_sheet.sh PROGRAM FOLDER...     for example: scripts/docs/model_sheet.sh build/release/bin/halfspace ../shared/data/gltf
 set -euo pipefail
 if [ $# -lt 2 ]; then
   echo "model_sheet.sh: expected a program and at least one folder" >&2

@@ -2,14 +2,14 @@
 # Measures Halfspace, llvmpipe, SwiftShader, Embree and the machine's peak rates in one run. Writes the results as JSON, Markdown tables and
 # charts. Programs that are not installed (SwiftShader from Chromium, Embree) are skipped with a message.
 #
-#   scripts/bench.sh [--quick] [--docs] [--out DIR] [ARGUMENT...]
+#   scripts/bench/bench.sh [--quick] [--docs] [--out DIR] [ARGUMENT...]
 #     --quick   runs one short round, which takes a few minutes instead of about an hour
 #     --docs    also updates the tables in docs/results/performance.md and README.md, and the charts in docs/results/benchmark
 #     --out     output folder (default: build/bench/results)
-#   Other arguments are passed to scripts/bench_measure.py: --only, --threads, --sizes, --rounds, --seconds, --no-sweeps, --no-matrix,
+#   Other arguments are passed to scripts/bench/bench_measure.py: --only, --threads, --sizes, --rounds, --seconds, --no-sweeps, --no-matrix,
 #   --no-scenes.
 set -euo pipefail
-cd "$(dirname "$0")/.."
+cd "$(dirname "$0")/../.."
 
 out=build/bench/results
 measure=()
@@ -37,6 +37,6 @@ build v3 x86-64-v3 halfspace-bench
 
 rm -rf build/bench/truths  # the definition of a workload may have changed
 mkdir -p "$out"
-python3 scripts/bench_measure.py --native build/bench/native/bin --v3 build/bench/v3/bin --truths build/bench/truths \
+python3 scripts/bench/bench_measure.py --native build/bench/native/bin --v3 build/bench/v3/bin --truths build/bench/truths \
   --out "$out/results.json" "${measure[@]}"
-/usr/bin/python3 scripts/bench_report.py "$out/results.json" --out "$out" "${report[@]}"
+/usr/bin/python3 scripts/bench/bench_report.py "$out/results.json" --out "$out" "${report[@]}"

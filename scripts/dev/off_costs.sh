@@ -3,9 +3,9 @@
 # feature. The x86-64-v3 build is compared with a build from which a patch in tests/off has removed the feature's code path. The difference
 # must be at most 1%.
 #
-#   scripts/off_costs.sh [FEATURE...]     default: all patches in tests/off, which takes several minutes
+#   scripts/dev/off_costs.sh [FEATURE...]     default: all patches in tests/off, which takes several minutes
 set -euo pipefail
-cd "$(dirname "$0")/.."
+cd "$(dirname "$0")/../.."
 command -v valgrind > /dev/null || { echo "off_costs.sh: valgrind is missing (Debian and Ubuntu: valgrind)" >&2; exit 1; }
 
 root=$PWD

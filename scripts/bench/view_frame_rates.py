@@ -15,7 +15,7 @@ import statistics
 import subprocess
 import tempfile
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 DATA = ROOT.parent / "shared" / "data"
 SPHERE = """{ "version": 1, "cameras": { "main": { "position": [0, 0.5, 3], "fov": 45 } },
   "lights": { "sun": { "type": "directional", "direction": [1, 1, 1] } },

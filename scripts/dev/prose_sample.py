@@ -14,7 +14,7 @@ import re
 import subprocess
 import sys
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 CONTROL = pathlib.Path("/usr/include/meshoptimizer.h")
 LINES_AFTER = 5
 COUNTS = {"comment": 100, "document": 100, "message": 50, "control": 50}

@@ -2,7 +2,7 @@
 # Runs scripts/install.sh in a fresh root of a Debian release, renders there, builds C++ projects and a Python extension module, and
 # uninstalls. Needs root privileges and debootstrap; debian_roots.sh lists the environment variables.
 #
-#   scripts/try_install.sh [bookworm | trixie]...      default: both
+#   scripts/dev/try_install.sh [bookworm | trixie]...      default: both
 source "$(dirname "$0")/debian_roots.sh"
 [ $# -gt 0 ] || set -- bookworm trixie
 

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Measures how long models with a million triangles take to load, in comparison with tinygltf and tinyobjloader.
 
-  scripts/model_loading.py PROGRAM [--rounds 5] [--columns 1000]
-  for example: scripts/model_loading.py build/release/bin/halfspace
+  scripts/bench/model_loading.py PROGRAM [--rounds 5] [--columns 1000]
+  for example: scripts/bench/model_loading.py build/release/bin/halfspace
 
 The model is a grid of 2 · 500 · columns triangles over a wavy surface, each different. It is written as GLB, as OBJ with and without normals
 and as binary PLY. The time of Halfspace is the stage read_ms of `halfspace render --stats=json`: from the start of the command to meshes that
@@ -18,12 +18,14 @@ import array
 import json
 import math
 import os
-import platform
 import statistics
 import struct
 import subprocess
 import sys
 from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "docs"))
+from generated_sections import cpu_name  # noqa: E402
 
 FOLDER = Path("build/model-loading")
 ROWS = 500
@@ -150,13 +152,6 @@ def our_ms(program, file):
     return json.loads(out)["read_ms"]
 
 
-def cpu_name():
-    for line in Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines():
-        if line.startswith("model name"):
-            return line.split(":", 1)[1].strip()
-    return platform.processor()
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program")
@@ -171,7 +166,8 @@ def main():
     write_obj(grid, FOLDER / "bare.obj", False)
     write_ply(grid, FOLDER / "grid.ply")
     peer = build_peer()
-    print(f"{len(grid.triangles) // 3} triangles, {cpu_name()}, {os.cpu_count()} cores, load {os.getloadavg()[0]:.1f}\n")
+    cpu = cpu_name(Path("/proc/cpuinfo").read_text(encoding="utf-8"))
+    print(f"{len(grid.triangles) // 3} triangles, {cpu}, {os.cpu_count()} cores, load {os.getloadavg()[0]:.1f}\n")
     print("| model | Halfspace | peer | its time | Halfspace / peer |\n|---|---|---|---|---|")
     misses = 0
     for name, file in files.items():

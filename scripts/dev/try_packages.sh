@@ -2,7 +2,7 @@
 # Builds the Debian packages in a fresh root of a Debian release, installs them in a second fresh root, renders there, and builds C++
 # projects and a Python extension module with them. Needs root privileges and debootstrap; debian_roots.sh lists the environment variables.
 #
-#   scripts/try_packages.sh [bookworm | trixie]...      default: both
+#   scripts/dev/try_packages.sh [bookworm | trixie]...      default: both
 source "$(dirname "$0")/debian_roots.sh"
 [ $# -gt 0 ] || set -- bookworm trixie
 

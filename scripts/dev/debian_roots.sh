@@ -4,7 +4,7 @@
 # HALFSPACE_ROOTS: a different folder for the roots. HALFSPACE_MIRROR: a Debian mirror. HALFSPACE_CCACHE: the ccache folder that all builds
 # in roots share.
 set -euo pipefail
-cd "$(dirname "${BASH_SOURCE[0]}")/.."
+cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 fail() { echo "$(basename "$0"): $*" >&2; exit 1; }
 [ "$(id -u)" -eq 0 ] && command -v debootstrap > /dev/null || fail "needs root and debootstrap"
 roots=${HALFSPACE_ROOTS:-$PWD/build/roots}

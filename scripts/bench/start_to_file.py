@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Measures the time of `halfspace render earth --size 512x512` from process start to finished file, and compares it with a minimum.
 
-  scripts/start_to_file.py [--bin DIR] [--rounds N]     default: build/release/bin, 15
-  scripts/start_to_file.py --before DIR [--scenes NAME,...] [--bin DIR] [--rounds N]
+  scripts/bench/start_to_file.py [--bin DIR] [--rounds N]     default: build/release/bin, 15
+  scripts/bench/start_to_file.py --before DIR [--scenes NAME,...] [--bin DIR] [--rounds N]
 
 The minimum is given by halfspace-least-earth (a build target): it links the same libraries, generates the maps of the scene, sleeps for the
 duration of an additional frame and writes the same pixels. It runs in two variants: with color and height maps, and with normal maps
@@ -59,7 +59,7 @@ def compare_builds(programs, scenes, rounds):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--bin", type=Path, default=Path(__file__).parent.parent / "build/release/bin")
+    parser.add_argument("--bin", type=Path, default=Path(__file__).resolve().parents[2] / "build/release/bin")
     parser.add_argument("--rounds", type=int, default=15)
     parser.add_argument("--before", type=Path, help="folder of a halfspace program to compare with")
     parser.add_argument("--scenes", default="day-night,shapes", help="with --before: scenes to render")

@@ -3,7 +3,7 @@
 # one, divided by 8.
 # Usage: shader_compile_time.sh [COMPILER]
 set -euo pipefail
-cd "$(dirname "$0")/.."
+cd "$(dirname "$0")/../.."
 compiler=${1:-g++}
 work=$(mktemp -d)
 mkdir "$work/include" && ln -s "$PWD/src" "$work/include/halfspace"

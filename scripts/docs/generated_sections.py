@@ -6,14 +6,28 @@
 """
 import datetime
 import os
+import platform
 import re
 import subprocess
 import sys
 from pathlib import Path
 
-from bench_measure import cpu_name
-
 SECTION = re.compile(r"(<!-- generated: ([\w-]+) -->\n).*?(<!-- /generated -->)", re.DOTALL)
+
+
+def cpu_name(cpuinfo):
+    """Returns the name of the processor with its family and model. Processors with the same name ("AMD EPYC") can differ in speed by a
+    factor of two.
+
+    cpuinfo is the content of /proc/cpuinfo."""
+    fields = {}
+    for line in cpuinfo.splitlines():
+        key, _, value = line.partition(":")
+        fields.setdefault(key.strip(), value.strip())
+    name = fields.get("model name", platform.machine())
+    if "cpu family" not in fields:
+        return name
+    return f"{name} (family {fields['cpu family']}, model {fields['model']})"
 
 
 def origin():

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # Renders the pictures at the top of the README into docs/images.
 #
-#   scripts/readme_pictures.sh [PROGRAM]     default: build/release/bin/halfspace
+#   scripts/docs/readme_pictures.sh [PROGRAM]     default: build/release/bin/halfspace
 set -euo pipefail
-cd "$(dirname "$0")/.."
+cd "$(dirname "$0")/../.."
 program=${1:-build/release/bin/halfspace}
 
 render() {

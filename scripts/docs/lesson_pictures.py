@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Draws the pictures of the lessons, and applies the changes that the lessons show to their programs.
 
-  scripts/lesson_pictures.py draw BUILD            builds and runs all programs and variants, and writes docs/tutorial/lessons/images with
+  scripts/docs/lesson_pictures.py draw BUILD            builds and runs all programs and variants, and writes docs/tutorial/lessons/images with
                                                    `convert` of ImageMagick
-  scripts/lesson_pictures.py check BUILD           the same, but compares with the existing pictures, with `halfspace compare`
-  scripts/lesson_pictures.py write NAME VARIANT OUT  writes the source of one variant; CMake calls this
+  scripts/docs/lesson_pictures.py check BUILD           the same, but compares with the existing pictures, with `halfspace compare`
+  scripts/docs/lesson_pictures.py write NAME VARIANT OUT  writes the source of one variant; CMake calls this
 
 A lesson shows changes to its program as diff blocks: "wrong" is the block in the section "Break the program" of the lesson, and
 "solution" is the block of the lesson in teachers.md. The old lines of a change must occur exactly once in the program, apart from their
@@ -18,7 +18,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[1]
+ROOT = Path(__file__).resolve().parents[2]
 PROGRAMS = ROOT / "apps" / "lessons"
 PAGES = ROOT / "docs" / "tutorial" / "lessons"
 VARIANTS = ("wrong", "solution")
