@@ -20,7 +20,8 @@ set(halfspace_public_headers
   procedural/earth.h procedural/moon.h procedural/noise.h procedural/patterns.h procedural/sky.h
   scene/animation.h scene/description.h scene/keys.h scene/scene_check.h scene/scene_file.h
   model/model.h model/pose.h
-  render/frame.h render/model_asset.h render/model_fit.h render/model_scene.h render/particles.h render/prepared_scene.h render/view.h
+  render/frame.h render/model_asset.h render/model_fit.h render/model_scene.h render/model_view.h render/particles.h
+  render/prepared_scene.h render/view.h
   reference/ray_scene.h reference/shadow_score.h reference/validation.h)
 
 # Sets the file names of the library of a module and installs it. The name of a shared library contains the number of lanes, because programs

@@ -10,7 +10,6 @@
 #include "halfspace/model/file_bytes.h"
 #include "halfspace/model/gltf_meshopt.h"
 #include "halfspace/model/gltf_uri.h"
-#include "halfspace/model/read_gltf.h"
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
 

@@ -14,6 +14,9 @@
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
 
+/// Returns whether a file is a binary glTF file, by its first four bytes.
+bool is_glb(std::span<const std::byte> bytes);
+
 /// The parts of a glTF file.
 struct GltfChunks {
   std::string_view json;

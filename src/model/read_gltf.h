@@ -9,9 +9,6 @@
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
 
-/// Returns whether a file is a binary glTF file, by its first four bytes.
-bool is_glb(std::span<const std::byte> bytes);
-
 /// Reads a glTF 2.0 file, text or binary, whose contents are `bytes`, and the buffers that it refers to. Images are located but not read.
 /// Primitives without a material get the default material of glTF. Throws InputError "FILE: PLACE: problem; expected ...", where PLACE is
 /// the path of the value in the file, for example "accessors[3].count".

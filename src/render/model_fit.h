@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "halfspace/model/pose.h"
-#include "halfspace/render/model_scene.h"
+#include "halfspace/render/model_view.h"
 
 namespace halfspace::inline HS_LANES_NAMESPACE {
 

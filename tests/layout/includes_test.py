@@ -67,6 +67,35 @@ THIRD_PARTY = {
     "embree": "reference/ray_scene.cpp",
 }
 
+# Files of src/ that include each other in a circle. A header and the source file of its name count as one. The list may only shrink.
+KNOWN_CIRCLES = [
+    {"core/check", "core/task_check"},
+    {"explain/page", "explain/page_data", "explain/page_history"},
+    {"model/write_formats", "model/write_model"},
+    {"raster/primitives/setup_clipped", "raster/primitives/setup_points_lines"},
+    {"raster/shade/late_tests", "raster/shade/shade_immediate"},
+    {
+        "render/model_materials",
+        "render/model_preparation",
+        "render/prepared_scene",
+        "render/scene_background",
+        "render/scene_draws",
+        "render/scene_lights",
+        "render/scene_preparation",
+        "render/scene_surfaces",
+        "render/shadow/shadow_fit",
+        "render/shadow/shadow_renderer",
+        "render/shape_preparation",
+        "render/sphere_preparation",
+        "render/surface_draw",
+        "render/wireframe",
+    },
+    {"scene/animation", "scene/scene_check"},
+    {"scene/description", "scene/shape_tessellation", "scene/shapes"},
+    {"shading/shadow", "shading/shadow_lookup"},
+    {"shading/texels", "shading/texture"},
+]
+
 # Folders whose headers are included by their path relative to the folder.
 PROGRAM_FOLDERS = ["apps", "benchmarks", "tests"]
 
@@ -159,6 +188,27 @@ def angle_includes(text):
     return re.findall(r"^\s*#\s*include\s*<([^>]+)>", text, re.M)
 
 
+def circles(files):
+    """Returns the sets of files that include each other, directly or indirectly. files: (path relative to src/, included paths). A header
+    and the source file of its name count as one file, without an extension."""
+    arrows = {}
+    for file, included in files:
+        name = file.rsplit(".", 1)[0]
+        arrows.setdefault(name, set()).update(i.rsplit(".", 1)[0] for i in included)
+
+    def reached(name):
+        seen, waiting = set(), [name]
+        while waiting:
+            for other in arrows.get(waiting.pop(), set()) - seen:
+                seen.add(other)
+                waiting.append(other)
+        return seen
+
+    reach = {name: reached(name) for name in arrows}
+    found = {frozenset(b for b in reach[a] if a in reach.get(b, set())) for a in arrows if a in reach[a]}
+    return [set(circle) for circle in sorted(found, key=sorted) if len(circle) > 1]
+
+
 def problems():
     found = []
     exists = lambda path: (ROOT / path).is_file()
@@ -173,6 +223,11 @@ def problems():
 class Tree(unittest.TestCase):
     def test_every_include_follows_the_layout(self):
         self.assertEqual(problems(), [])
+
+    def test_no_circle_of_files_is_added(self):
+        files = [(file.removeprefix("src/"), [i.removeprefix("halfspace/") for i in quoted_includes(text)]) for file, text in sources()
+                 if file.startswith("src/")]
+        self.assertEqual(circles(files), KNOWN_CIRCLES)
 
     def test_every_folder_of_src_is_a_module(self):
         folders = {p.name for p in (ROOT / "src").iterdir() if p.is_dir()}
@@ -190,6 +245,11 @@ class Checks(unittest.TestCase):
         self.assertIn("scene may include", self.check("src/scene/keys.h", "halfspace/shading/tone.h", {"src/shading/tone.h"}))
         self.assertIsNone(self.check("src/scene/keys.h", "halfspace/shading/sampler.h", {"src/shading/sampler.h"}))
         self.assertIsNone(self.check("src/render/view.h", "halfspace/core/vec.h", {"src/core/vec.h"}))
+
+    def test_circles(self):
+        self.assertEqual(circles([("a.h", ["b.h"]), ("b.cpp", ["b.h", "c.h"]), ("c.h", ["a.h"]), ("d.h", ["a.h"])]), [{"a", "b", "c"}])
+        self.assertEqual(circles([("a.cpp", ["a.h"]), ("a.h", ["b.h"]), ("b.h", [])]), [])
+        self.assertEqual(circles([("a.h", ["b.h"]), ("b.h", ["a.h"]), ("x.h", ["y.h"]), ("y.h", ["x.h", "a.h"])]), [{"a", "b"}, {"x", "y"}])
 
     def test_include_against_the_order_of_phases(self):
         files = {"src/raster/shade/fragment_batch.h", "src/raster/tile/tile.h", "src/raster/pass.h"}

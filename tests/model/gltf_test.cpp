@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "halfspace/core/check.h"
+#include "halfspace/model/gltf_buffers.h"
 #include "halfspace/model/pose.h"
 #include "model/gltf_builder.h"
 #include "support/files.h"
