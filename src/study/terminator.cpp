@@ -33,20 +33,6 @@ SceneFile terminator_scene(int longitudes, int relief) {
   return file;
 }
 
-// Returns the mean normals, weighted by area, of the triangles around each vertex, in world space. The Moon's own vertices have none: its
-// normals are those of a map.
-std::vector<glm::dvec3> vertex_normals(const PlacedMesh& mesh) {
-  const glm::dmat3 turn = glm::transpose(glm::inverse(glm::dmat3(mesh.world_from_object)));
-  std::vector<glm::dvec3> normals(mesh.positions.size(), glm::dvec3(0.0));
-  for (std::size_t i = 0; i + 2 < mesh.indices->size(); i += 3) {
-    const auto corner = [&](std::size_t k) { return glm::dvec3(mesh.positions[(*mesh.indices)[i + k]]); };
-    const glm::dvec3 area = glm::cross(corner(1) - corner(0), corner(2) - corner(0));
-    for (std::size_t k = 0; k < 3; ++k) normals[(*mesh.indices)[i + k]] += area;
-  }
-  for (glm::dvec3& n : normals) n = unit_or_zero(turn * n);
-  return normals;
-}
-
 struct TerminatorFrame {
   TerminatorFrame(SceneAssets& assets, int longitudes, int relief, int width, int height, const Workers& workers)
       : scene(assets.prepare(terminator_scene(longitudes, relief).at(0.0), width, height)),
@@ -56,7 +42,6 @@ struct TerminatorFrame {
     FrameImages images;
     images.normal = &normal;
     render_frame(scene, images, workers);
-    for (const PlacedMesh& mesh : scene.meshes) smooth_normals.push_back(vertex_normals(mesh));
   }
   glm::dvec3 to_light() const { return glm::dvec3(scene.lights.front().light.position_rws); }
 
@@ -64,19 +49,18 @@ struct TerminatorFrame {
   RayScene rays;
   Image<std::optional<RayHit>> hits;
   Image<glm::vec3> normal;
-  std::vector<std::vector<glm::dvec3>> smooth_normals;  // of the vertices of each mesh
 };
 
 vec3<float> single(const glm::dvec3& v) { return vec3<float>(glm::vec3(v)); }
 
 TerminatorPixel pixel_of(const TerminatorFrame& frame, const RayHit& hit, const glm::dvec3& shading) {
   const PlacedMesh& mesh = frame.scene.meshes[static_cast<std::size_t>(hit.mesh)];
-  const std::vector<glm::dvec3>& normals = frame.smooth_normals[static_cast<std::size_t>(hit.mesh)];
+  const glm::dmat3 turn = glm::transpose(glm::inverse(glm::dmat3(mesh.world_from_object)));
   std::array<vec3<double>, 3> p, n;
   glm::dvec3 normal(0.0), hanika(0.0);
   for (std::size_t k = 0; k < 3; ++k) {
     const uint32_t vertex = (*mesh.indices)[std::size_t{hit.triangle} * 3 + k];
-    const glm::dvec3 unit = normals[vertex];
+    const glm::dvec3 unit = unit_or_zero(turn * glm::dvec3(mesh.normals[vertex]));
     const glm::dvec3 corner =
         glm::dvec3(mesh.world_from_object * glm::dvec4(glm::dvec3(mesh.positions[vertex]), 1.0)) - frame.scene.view.eye_ws;
     p[k] = vec3<double>(corner);
