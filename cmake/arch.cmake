@@ -87,12 +87,10 @@ endif()
 message(STATUS "halfspace: ${HALFSPACE_ARCH}, ${lanes} lanes")
 
 add_library(halfspace_flags INTERFACE)
-# Headers are included as "halfspace/MODULE/FILE.h". This path is a symbolic link in the build tree and a folder in an installation.
-file(MAKE_DIRECTORY ${halfspace_BINARY_DIR}/include)
-file(CREATE_LINK ${halfspace_SOURCE_DIR}/src ${halfspace_BINARY_DIR}/include/halfspace SYMBOLIC)
+# Headers are included as "halfspace/MODULE/FILE.h". include/halfspace is a symbolic link to src.
 include(GNUInstallDirs)
 target_include_directories(halfspace_flags INTERFACE
-  $<BUILD_INTERFACE:${halfspace_BINARY_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  $<BUILD_INTERFACE:${halfspace_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
 set_target_properties(halfspace_flags PROPERTIES EXPORT_NAME flags)
 target_compile_features(halfspace_flags INTERFACE cxx_std_20)
 set(HALFSPACE_BUILD_LANES ${lanes})
@@ -127,7 +125,7 @@ target_compile_options(halfspace_flags INTERFACE
 # prints wherever vectors are passed by value that are wider than the registers. Macros such as __FILE__ contain paths relative to the source
 # tree, so that binaries do not name the folder they were built in. Unique symbols would keep a shared object loaded after dlclose().
 add_compile_options(-fno-math-errno -Wno-psabi -fmacro-prefix-map=${halfspace_SOURCE_DIR}/=
-  -fmacro-prefix-map=${halfspace_BINARY_DIR}/include/= $<$<CXX_COMPILER_ID:GNU>:-fno-gnu-unique>)
+  -fmacro-prefix-map=${halfspace_SOURCE_DIR}/include/= $<$<CXX_COMPILER_ID:GNU>:-fno-gnu-unique>)
 if(arch_macros MATCHES "__AVX512F__")
   add_compile_options(-mprefer-vector-width=512)
 endif()

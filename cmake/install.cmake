@@ -8,20 +8,22 @@ set(halfspace_modules core shading raster image geometry procedural scene model 
 
 # Public headers. The headers that these include are installed as well. docs/reference/api.md describes the same list.
 set(halfspace_public_headers
-  core/check.h core/cpu.h core/half.h core/image.h core/lane_math.h core/lanes.h core/parallel.h core/srgb.h core/tool_folder.h core/units.h
-  core/vec.h
-  shading/colored_primitives.h shading/contract.h shading/depth_only.h shading/environment.h shading/environment_sky.h shading/light_types.h
-  shading/lighting.h shading/lit_surface.h shading/masked_depth.h shading/metallic_surface.h shading/packed_texels.h
-  shading/placed_surface.h shading/sampler.h shading/shadow.h shading/shadow_catcher.h shading/shadow_map.h shading/sphere_depth.h
-  shading/sphere_impostor.h shading/star_sky.h shading/surface_shader.h shading/texture.h shading/tone.h shading/tone_types.h
+  core/check.h core/cpu.h core/half.h core/image.h core/lane_math.h core/lanes.h core/parallel.h core/srgb.h core/tool_folder.h
+  core/units.h core/vec.h
+  shading/contract.h shading/environment/environment.h shading/environment/environment_sky.h shading/environment/star_sky.h
+  shading/values/light_types.h shading/light/lighting.h shading/shadow/shadow.h shading/shadow/shadow_map.h shading/sphere/sphere_depth.h
+  shading/sphere/sphere_impostor.h shading/surface/colored_primitives.h shading/surface/depth_only.h shading/surface/lit_surface.h
+  shading/surface/masked_depth.h shading/surface/metallic_surface.h shading/surface/shadow_catcher.h shading/surface/surface_shader.h
+  shading/surface/surface_uniforms.h shading/texture/packed_texels.h shading/texture/sampler.h shading/texture/texture.h
+  shading/values/tone.h shading/values/tone_types.h
   raster/draw_state.h raster/naive.h raster/pass.h raster/statistics.h raster/target.h raster/vertex_input.h
   image/image_difference.h image/image_io.h
   geometry/camera.h geometry/displaced_sphere.h geometry/height_field.h geometry/mesh.h geometry/normal_map.h geometry/shapes.h
   procedural/earth.h procedural/moon.h procedural/noise.h procedural/patterns.h procedural/sky.h
   scene/animation.h scene/description.h scene/keys.h scene/scene_check.h scene/scene_file.h
-  model/model.h model/pose.h
-  render/frame.h render/model_asset.h render/model_fit.h render/model_scene.h render/model_view.h render/particles.h
-  render/prepared_scene.h render/view.h
+  model/model.h model/pose/pose.h
+  render/assets/model_asset.h render/frame/frame.h render/model_file/frame_model.h render/model_file/model_scene.h
+  render/model_file/model_view.h render/particles.h render/prepared_scene.h render/scene_assets.h render/view.h
   reference/ray_scene.h reference/shadow_score.h reference/validation.h)
 
 # Sets the file names of the library of a module and installs it. The name of a shared library contains the number of lanes, because programs
@@ -100,7 +102,7 @@ if(BUILD_SHARED_LIBS)
 endif()
 
 # Shared libraries export the functions of headers that are installed or used by another module or a program. They do not export the
-# functions of other headers, of the private folders of raster, or of the model writers, which share a header. Static libraries are left
+# functions of other headers, of the private folders of raster, or of the model writers. Static libraries are left
 # unchanged, because a unity build does not combine sources that have their own options.
 function(halfspace_hide_private_functions sources)
   if(NOT BUILD_SHARED_LIBS)
@@ -110,7 +112,7 @@ function(halfspace_hide_private_functions sources)
     file(RELATIVE_PATH header ${halfspace_SOURCE_DIR}/src ${source})
     string(REGEX REPLACE "[.]cpp$" ".h" header ${header})
     if(source MATCHES "[.]cpp$" AND NOT header IN_LIST halfspace_exported_headers
-        AND (EXISTS ${halfspace_SOURCE_DIR}/src/${header} OR header MATCHES "^(raster/.*/|model/write_)"))
+        AND (EXISTS ${halfspace_SOURCE_DIR}/src/${header} OR header MATCHES "^(raster/.*/|model/.*/write_)"))
       set_property(SOURCE ${source} APPEND PROPERTY COMPILE_OPTIONS -fvisibility=hidden)
     endif()
   endforeach()

@@ -17,7 +17,7 @@ function(halfspace_add_processor_check target)
   endif()
   halfspace_cpu_needs(${arch} needs)
   target_sources(${target} PRIVATE ${halfspace_SOURCE_DIR}/src/core/cpu.cpp)
-  target_include_directories(${target} PRIVATE ${halfspace_BINARY_DIR}/include)
+  target_include_directories(${target} PRIVATE ${halfspace_SOURCE_DIR}/include)
   target_compile_options(${target} PRIVATE -march=x86-64)
   target_compile_definitions(${target} PRIVATE HALFSPACE_NEEDS="${needs}" HALFSPACE_ARCH="${arch}" HALFSPACE_LANES=${HALFSPACE_BUILD_LANES}
     $<$<BOOL:${HALFSPACE_PORTABLE}>:HALFSPACE_PORTABLE>)

@@ -12,7 +12,7 @@ packages=(g++ cmake ninja-build libglm-dev libtbb-dev libopenimageio-dev libopen
   libfmt-dev libmeshoptimizer-dev libdraco-dev libembree-dev pybind11-dev python3-dev python3-numpy)
 benchmark_packages=(libvulkan1)
 test_packages=(patch python3-jsonschema python3-matplotlib python3-pytest python3-pip python3-setuptools python3-wheel libgtest-dev
-  libbenchmark-dev libegl-dev libepoxy-dev libgl1-mesa-dri qemu-user)
+  libbenchmark-dev libegl-dev libepoxy-dev libgl1-mesa-dri qemu-user universal-ctags)
 document_packages=(doxygen man-db)
 view_packages=(libsdl2-dev libimgui-dev libx11-dev chromium chromium-driver python3-selenium xvfb openbox wmctrl xdotool imagemagick)
 

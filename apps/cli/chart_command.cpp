@@ -6,14 +6,14 @@
 #include <string>
 #include <vector>
 
-#include "cli/arguments.h"
 #include "cli/charting.h"
 #include "cli/commands.h"
-#include "cli/errors.h"
+#include "command_line/arguments.h"
+#include "command_line/errors.h"
 #include "halfspace/core/parallel.h"
 #include "halfspace/core/text.h"
 #include "halfspace/image/atomic_output.h"
-#include "halfspace/study/study_files.h"
+#include "study/study_files.h"
 
 namespace halfspace {
 

@@ -2,7 +2,7 @@
 #include "cli/charting.h"
 
 #include "halfspace/core/cpu.h"
-#include "halfspace/study/study_files.h"
+#include "study/study_files.h"
 
 namespace halfspace {
 

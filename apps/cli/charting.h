@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "halfspace/core/parallel.h"
-#include "halfspace/study/study.h"
+#include "study/study.h"
 
 namespace halfspace {
 

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "cli/limit_arguments.h"
-#include "cli/model_arguments.h"
 #include "cli/output_arguments.h"
+#include "command_line/limit_arguments.h"
+#include "command_line/model_arguments.h"
 
 namespace halfspace {
 

@@ -4,13 +4,13 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "cli/arguments.h"
 #include "cli/commands.h"
-#include "cli/errors.h"
+#include "command_line/arguments.h"
+#include "command_line/errors.h"
 #include "halfspace/image/atomic_output.h"
 #include "halfspace/image/image_io.h"
-#include "halfspace/render/image_comparison.h"
-#include "halfspace/render/input_files.h"
+#include "halfspace/render/frame/image_comparison.h"
+#include "halfspace/render/model_file/input_files.h"
 
 namespace halfspace {
 

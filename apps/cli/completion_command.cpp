@@ -4,8 +4,8 @@
 #include <iostream>
 
 #include "cli/commands.h"
-#include "cli/errors.h"
-#include "halfspace/study/study.h"
+#include "command_line/errors.h"
+#include "study/study.h"
 
 namespace halfspace {
 

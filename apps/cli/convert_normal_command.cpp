@@ -3,15 +3,15 @@
 // `halfspace convert-normal HEIGHT -o NORMAL`: converts a height map to a normal map.
 #include <string>
 
-#include "cli/arguments.h"
 #include "cli/commands.h"
-#include "cli/errors.h"
+#include "command_line/arguments.h"
+#include "command_line/errors.h"
 #include "halfspace/core/check.h"
 #include "halfspace/core/parallel.h"
 #include "halfspace/geometry/normal_map.h"
 #include "halfspace/image/atomic_output.h"
 #include "halfspace/image/image_io.h"
-#include "halfspace/render/input_files.h"
+#include "halfspace/render/model_file/input_files.h"
 
 namespace halfspace {
 

@@ -7,15 +7,16 @@
 
 #include <iostream>
 
-#include "cli/arguments.h"
-#include "cli/command_line.h"
 #include "cli/commands.h"
-#include "cli/errors.h"
-#include "cli/scene_arguments.h"
 #include "cli/stage_display.h"
+#include "command_line/arguments.h"
+#include "command_line/command_line.h"
+#include "command_line/errors.h"
+#include "command_line/scene_arguments.h"
 #include "halfspace/core/check.h"
 #include "halfspace/image/atomic_output.h"
-#include "halfspace/render/input_files.h"
+#include "halfspace/render/model_file/input_files.h"
+#include "halfspace/render/scene_assets.h"
 #include "halfspace/scene/scene_file.h"
 
 namespace halfspace {

@@ -8,8 +8,8 @@
 #include <string>
 
 #include "cli/commands.h"
+#include "explain/pixel_history.h"
 #include "halfspace/core/parallel.h"
-#include "halfspace/explain/pixel_history.h"
 
 namespace halfspace {
 

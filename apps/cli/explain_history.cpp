@@ -2,7 +2,7 @@
 //
 // The history of a pixel as text and as JSON.
 #include "cli/explain_command.h"
-#include "halfspace/explain/history_text.h"
+#include "explain/history_text.h"
 
 namespace halfspace {
 

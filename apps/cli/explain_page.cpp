@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The page of `halfspace explain`.
-#include "halfspace/explain/page.h"
+#include "explain/page.h"
 
-#include "cli/errors.h"
 #include "cli/explain_command.h"
 #include "cli/render_comment.h"
-#include "halfspace/render/model_scene.h"
+#include "command_line/errors.h"
+#include "halfspace/render/model_file/model_scene.h"
 
 namespace halfspace {
 

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // `halfspace export SCENE -o FILE`: writes a scene or a model as glTF, OBJ, PLY or STL.
-#include "cli/arguments.h"
-#include "cli/command_line.h"
 #include "cli/commands.h"
-#include "cli/errors.h"
-#include "cli/scene_arguments.h"
 #include "cli/stage_display.h"
+#include "command_line/arguments.h"
+#include "command_line/command_line.h"
+#include "command_line/errors.h"
+#include "command_line/scene_arguments.h"
 #include "halfspace/core/parallel.h"
 #include "halfspace/render/export/export_files.h"
-#include "halfspace/render/model_scene.h"
+#include "halfspace/render/model_file/model_scene.h"
+#include "halfspace/render/scene_assets.h"
 #include "halfspace/scene/scene_file.h"
 
 namespace halfspace {

@@ -5,10 +5,10 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.h"
-#include "cli/errors.h"
 #include "cli/stage_display.h"
+#include "command_line/errors.h"
 #include "halfspace/core/cpu.h"
-#include "halfspace/render/model/model_info.h"
+#include "halfspace/render/model_file/model_info.h"
 #include "halfspace/render/program_info.h"
 
 namespace halfspace {

@@ -9,7 +9,7 @@
 
 #include "cli/commands.h"
 #include "halfspace/core/check.h"
-#include "halfspace/render/model_scene.h"
+#include "halfspace/render/model_file/model_scene.h"
 #include "halfspace/scene/scene_file.h"
 #include "halfspace/scene/scene_paths.h"
 

@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "cli/command_line.h"
 #include "cli/commands.h"
-#include "cli/errors.h"
-#include "cli/options.h"
+#include "command_line/command_line.h"
+#include "command_line/errors.h"
+#include "command_line/options.h"
 
 namespace halfspace {
 

@@ -6,7 +6,8 @@
 #include <chrono>
 #include <cstring>
 
-#include "halfspace/render/naive_render.h"
+#include "halfspace/render/frame/frame.h"
+#include "halfspace/render/frame/naive_render.h"
 
 namespace halfspace {
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string>
 
-#include "halfspace/render/frame.h"
+#include "halfspace/render/frame/frame.h"
 
 namespace halfspace {
 

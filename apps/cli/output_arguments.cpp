@@ -7,7 +7,7 @@
 #include <cstring>
 #include <span>
 
-#include "cli/errors.h"
+#include "command_line/errors.h"
 #include "halfspace/core/text.h"
 #include "halfspace/image/exr_header.h"
 

@@ -9,9 +9,9 @@
 #include <variant>
 #include <vector>
 
-#include "cli/arguments.h"
+#include "command_line/arguments.h"
 #include "halfspace/image/image_io.h"
-#include "halfspace/render/frame.h"
+#include "halfspace/render/frame/frame.h"
 
 namespace halfspace {
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include "cli/errors.h"
+#include "command_line/errors.h"
 #include "halfspace/core/text.h"
 #include "halfspace/image/image_comment.h"
 

@@ -11,25 +11,26 @@
 #include <string>
 #include <vector>
 
-#include "cli/arguments.h"
-#include "cli/command_line.h"
 #include "cli/commands.h"
-#include "cli/errors.h"
-#include "cli/frames.h"
 #include "cli/output_files.h"
 #include "cli/render_comment.h"
-#include "cli/scene_arguments.h"
 #include "cli/stage_display.h"
 #include "cli/statistics.h"
+#include "command_line/arguments.h"
+#include "command_line/command_line.h"
+#include "command_line/errors.h"
+#include "command_line/frames.h"
+#include "command_line/scene_arguments.h"
 #include "halfspace/core/check.h"
 #include "halfspace/core/parallel.h"
 #include "halfspace/core/text.h"
 #include "halfspace/image/atomic_output.h"
 #include "halfspace/image/image_io.h"
-#include "halfspace/render/input_files.h"
-#include "halfspace/render/naive_render.h"
+#include "halfspace/render/frame/naive_render.h"
+#include "halfspace/render/model_file/input_files.h"
+#include "halfspace/render/prepare/wireframe.h"
 #include "halfspace/render/prepared_scene.h"
-#include "halfspace/render/wireframe.h"
+#include "halfspace/render/scene_assets.h"
 #include "halfspace/scene/scene_file.h"
 
 namespace halfspace {
@@ -163,9 +164,9 @@ PreparedScene prepare(const RenderJob& job, double seconds, SceneAssets& assets,
   SceneDescription scene = job.scene.at(seconds);
   try {
     if (job.allowed) {
-      FittedScene fitted = assets.fit(scene, job.size.width, job.size.height, *job.allowed);
-      scene = std::move(fitted.scene);
-      report.choices = std::move(fitted.choices);
+      SceneWithinError chosen = assets.choose_within_error(scene, job.size.width, job.size.height, *job.allowed);
+      scene = std::move(chosen.scene);
+      report.choices = std::move(chosen.choices);
     }
     if (job.wireframe) scene.shadow.method = ShadowMethod::none;
     PreparedScene prepared = assets.prepare(scene, job.size.width, job.size.height);
@@ -221,7 +222,8 @@ SceneFile chosen(const RenderJob& job) {
   const Workers workers(job.threads);
   SceneAssets assets(workers);
   std::vector<std::string> settings;
-  for (const ModelChoice& c : assets.fit(scene.at(job.time), job.size.width, job.size.height, *job.allowed).choices) {
+  for (const ApproximationChoice& c :
+       assets.choose_within_error(scene.at(job.time), job.size.width, job.size.height, *job.allowed).choices) {
     if (c.is_setting) settings.push_back(c.key + "=" + c.value);
   }
   scene.set(settings);

@@ -6,7 +6,7 @@
 
 #include <chrono>
 
-#include "cli/frames.h"
+#include "command_line/frames.h"
 #include "halfspace/core/text.h"
 
 namespace halfspace {

@@ -41,7 +41,7 @@ std::string text_report(const RenderReport& r) {
       fmt::format("{}, {}x{}, {} thread{}: {}\n", r.scene, r.width, r.height, r.threads, r.threads == 1 ? "" : "s", r.output);
   for_each_stage(r, [&](const char* name, double ms) { text += fmt::format("{:20}{:.1f}\n", name, ms); });
   for (const Count& c : kCounts) text += fmt::format("{:20}{}\n", c.name, r.counts.*c.member);
-  for (const ModelChoice& c : r.choices) text += fmt::format("{}={}  ({})\n", c.key, c.value, c.why);
+  for (const ApproximationChoice& c : r.choices) text += fmt::format("{}={}  ({})\n", c.key, c.value, c.why);
   return text;
 }
 
@@ -51,7 +51,7 @@ std::string json_report(const RenderReport& r) {
   for_each_stage(r, [&](const char* name, double ms) { json[name] = ms; });
   for (const Count& c : kCounts) json["counts"][c.name] = r.counts.*c.member;
   json["choices"] = nlohmann::ordered_json::array();
-  for (const ModelChoice& c : r.choices) json["choices"].push_back({{"key", c.key}, {"value", c.value}, {"why", c.why}});
+  for (const ApproximationChoice& c : r.choices) json["choices"].push_back({{"key", c.key}, {"value", c.value}, {"why", c.why}});
   return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 

@@ -6,7 +6,7 @@
 
 #include "cli/naive_picture.h"
 #include "halfspace/raster/statistics.h"
-#include "halfspace/render/model/model_choice.h"
+#include "halfspace/render/error_budget/approximation_choice.h"
 
 namespace halfspace {
 
@@ -23,9 +23,9 @@ struct RenderReport {
   double write_ms = 0;    ///< encoding and writing the images
   PassStatistics counts;
   bool spheres_without_wireframe = false;
-  int pictures = 0, empty_pictures = 0;  ///< an empty picture shows only the background color
-  NaiveReport naive;                     ///< report of --naive
-  std::vector<ModelChoice> choices;      ///< settings chosen by --max-error for the last image
+  int pictures = 0, empty_pictures = 0;      ///< an empty picture shows only the background color
+  NaiveReport naive;                         ///< report of --naive
+  std::vector<ApproximationChoice> choices;  ///< settings chosen by --max-error for the last image
 };
 
 /// Calls visit(name, milliseconds) for each stage of a run.

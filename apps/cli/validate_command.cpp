@@ -7,18 +7,19 @@
 #include <filesystem>
 #include <iostream>
 
-#include "cli/arguments.h"
 #include "cli/charting.h"
 #include "cli/commands.h"
-#include "cli/errors.h"
-#include "cli/scene_arguments.h"
+#include "command_line/arguments.h"
+#include "command_line/errors.h"
+#include "command_line/scene_arguments.h"
 #include "halfspace/core/parallel.h"
 #include "halfspace/image/atomic_output.h"
 #include "halfspace/image/image_io.h"
 #include "halfspace/reference/shadow_table.h"
-#include "halfspace/render/input_files.h"
+#include "halfspace/render/model_file/input_files.h"
+#include "halfspace/render/scene_assets.h"
 #include "halfspace/scene/scene_file.h"
-#include "halfspace/study/shadow_study.h"
+#include "study/shadow_study.h"
 
 namespace halfspace {
 

@@ -6,8 +6,8 @@
 
 #include "halfspace/image/image_io.h"
 #include "halfspace/raster/pass.h"
-#include "halfspace/shading/texture.h"
-#include "halfspace/shading/tone.h"
+#include "halfspace/shading/texture/texture.h"
+#include "halfspace/shading/values/tone.h"
 
 using namespace halfspace;
 

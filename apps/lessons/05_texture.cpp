@@ -8,7 +8,7 @@
 #include "halfspace/geometry/shapes.h"
 #include "halfspace/image/image_io.h"
 #include "halfspace/raster/pass.h"
-#include "halfspace/shading/texture.h"
+#include "halfspace/shading/texture/texture.h"
 
 using namespace halfspace;
 

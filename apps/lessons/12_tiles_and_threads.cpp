@@ -8,7 +8,7 @@
 #include "halfspace/geometry/shapes.h"
 #include "halfspace/image/image_io.h"
 #include "halfspace/raster/pass.h"
-#include "halfspace/shading/colored_primitives.h"
+#include "halfspace/shading/surface/colored_primitives.h"
 
 using namespace halfspace;
 constexpr int kWidth = 896, kHeight = 448, kTriangles = 20480, kParts = 8, kRepeats = 20;

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "view/frame_maker.h"
+#include "halfspace/render/frame/frame.h"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 
-#include "halfspace/render/opened_scene.h"
+#include "halfspace/render/model_file/opened_scene.h"
+#include "halfspace/render/scene_assets.h"
 
 namespace halfspace {
 

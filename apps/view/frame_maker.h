@@ -9,8 +9,9 @@
 #include <string>
 
 #include "halfspace/core/image.h"
-#include "halfspace/render/opened_scene.h"
+#include "halfspace/render/model_file/opened_scene.h"
 #include "halfspace/render/prepared_scene.h"
+#include "halfspace/render/scene_assets.h"
 #include "view/overlay.h"
 #include "view/picked_pixel.h"
 

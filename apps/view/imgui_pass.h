@@ -6,7 +6,7 @@
 #include "halfspace/core/image.h"
 #include "halfspace/core/parallel.h"
 #include "halfspace/raster/pass.h"
-#include "halfspace/shading/texture.h"
+#include "halfspace/shading/texture/texture.h"
 
 struct ImDrawData;
 struct ImDrawList;

@@ -6,11 +6,11 @@
 
 #include <iostream>
 
-#include "cli/arguments.h"
-#include "cli/command_line.h"
-#include "cli/errors.h"
-#include "cli/options.h"
-#include "cli/scene_arguments.h"
+#include "command_line/arguments.h"
+#include "command_line/command_line.h"
+#include "command_line/errors.h"
+#include "command_line/options.h"
+#include "command_line/scene_arguments.h"
 #include "view/ui_scale.h"
 #include "view/view_app.h"
 

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "halfspace/render/prepared_scene.h"
+#include "halfspace/render/scene_assets.h"
 
 namespace halfspace {
 

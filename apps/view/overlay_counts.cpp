@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "halfspace/explain/pixel_history.h"
-#include "halfspace/explain/stage_geometry.h"
+#include "explain/pixel_history.h"
+#include "explain/stage_geometry.h"
+#include "halfspace/render/frame/add_draw.h"
 #include "view/overlay.h"
 
 namespace halfspace {

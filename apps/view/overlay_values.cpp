@@ -4,7 +4,7 @@
 #include <cmath>
 #include <map>
 
-#include "halfspace/render/frame.h"
+#include "halfspace/render/frame/frame.h"
 #include "view/overlay.h"
 
 namespace halfspace {
@@ -30,7 +30,7 @@ ColorMap color_map_of(const PreparedDraw& draw) {
         if constexpr (std::derived_from<S, LitSurface>) {
           return map_of(shader.factors[kColor].map, shader.factors[kColor].sampler, glm::mat2(1.0f));
         } else if constexpr (std::derived_from<S, MetallicMaterial>) {
-          const PlacedMap& m = shader.maps[kBaseColorMap];
+          const MaterialMap& m = shader.maps[kBaseColorMap];
           return map_of(m.map, m.sampler, glm::mat2(m.uv_transform[0], m.uv_transform[1]));
         } else {
           return {};
@@ -39,7 +39,8 @@ ColorMap color_map_of(const PreparedDraw& draw) {
       draw.shader);
 }
 
-// Returns the rounded mip level for the derivatives of the texel coordinates in x and y. The formula is that of shading/footprint.h.
+// Returns the rounded mip level for the derivatives of the texel coordinates in x and y. The formula is that of
+// shading/texture/footprint.h.
 int level_of(const ColorMap& map, const glm::vec2& dx, const glm::vec2& dy) {
   const float a = glm::length(map.uv_transform * dx * map.size), b = glm::length(map.uv_transform * dy * map.size);
   const float longer = std::max(a, b), shorter = std::max(std::min(a, b), 1e-6f);

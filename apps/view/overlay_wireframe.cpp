@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <array>
 
-#include "halfspace/shading/colored_primitives.h"
+#include "halfspace/shading/surface/colored_primitives.h"
 #include "view/overlay.h"
 
 namespace halfspace {

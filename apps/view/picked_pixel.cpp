@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <span>
 
-#include "halfspace/explain/history_text.h"
+#include "explain/history_text.h"
 
 namespace halfspace {
 

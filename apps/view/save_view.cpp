@@ -9,7 +9,8 @@
 #include "halfspace/core/check.h"
 #include "halfspace/image/atomic_output.h"
 #include "halfspace/image/image_io.h"
-#include "halfspace/render/frame.h"
+#include "halfspace/render/frame/frame.h"
+#include "halfspace/render/scene_assets.h"
 
 namespace halfspace {
 

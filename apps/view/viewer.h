@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "halfspace/render/opened_scene.h"
+#include "halfspace/render/model_file/opened_scene.h"
 #include "view/actions.h"
 #include "view/overlay.h"
 #include "view/scene_changes.h"

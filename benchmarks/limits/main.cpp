@@ -7,8 +7,8 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "cli/arguments.h"
-#include "cli/command_line.h"
+#include "command_line/arguments.h"
+#include "command_line/command_line.h"
 #include "halfspace/core/cpu.h"
 #include "halfspace/core/lanes.h"
 #include "limits/limits.h"

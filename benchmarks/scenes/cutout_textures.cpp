@@ -5,7 +5,7 @@
 
 #include "halfspace/core/trig_double.h"
 #include "scenes/texel_painter.h"
-#include "workload_random.h"
+#include "workloads/workload_random.h"
 
 namespace halfspace {
 

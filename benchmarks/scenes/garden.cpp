@@ -6,7 +6,7 @@
 #include "scenes/scene_kinds.h"
 #include "scenes/scene_plants.h"
 #include "scenes/scene_textures.h"
-#include "workload_random.h"
+#include "workloads/workload_random.h"
 
 namespace halfspace {
 

@@ -4,7 +4,7 @@
 
 #include "halfspace/core/trig_double.h"
 #include "scenes/garden_parts.h"
-#include "workload_random.h"
+#include "workloads/workload_random.h"
 
 namespace halfspace::garden {
 

@@ -5,7 +5,8 @@
 
 #include "halfspace/geometry/camera.h"
 #include "scenes/scene_kinds.h"
-#include "workload_canvas.h"
+#include "workloads/workload_assets.h"
+#include "workloads/workload_canvas.h"
 
 namespace halfspace {
 
@@ -53,6 +54,10 @@ Scene make_scene(SceneKind kind) {
     case SceneKind::workshop: return make_workshop();
   }
   return {};
+}
+
+std::shared_ptr<const Scene> shared_scene(WorkloadAssets& assets, SceneKind kind) {
+  return assets.once<Scene>("scene " + std::to_string(static_cast<int>(kind)), [kind] { return make_scene(kind); });
 }
 
 SceneView scene_view(const Scene& scene, const SceneCamera& camera, WorkloadSize size) {

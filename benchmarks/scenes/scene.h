@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "matrix_scene.h"
-#include "workload.h"
+#include "matrix/matrix_scene.h"
+#include "workloads/workload.h"
 
 namespace halfspace {
 
@@ -81,6 +81,8 @@ struct Scene {
 };
 
 Scene make_scene(SceneKind kind);
+/// Returns the scene of `assets`, which make_scene() creates at the first call.
+std::shared_ptr<const Scene> shared_scene(WorkloadAssets& assets, SceneKind kind);
 
 /// Data of a frame with one camera, in addition to the scene.
 struct SceneView {

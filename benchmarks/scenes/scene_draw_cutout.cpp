@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "halfspace/shading/depth_only.h"
+#include "halfspace/shading/surface/depth_only.h"
 #include "scenes/scene_draw.h"
 
 namespace halfspace {

@@ -5,7 +5,7 @@
 
 #include "halfspace/shading/contract.h"
 #include "scenes/scene.h"
-#include "workload_shadow.h"
+#include "workloads/workload_shadow.h"
 
 namespace halfspace {
 

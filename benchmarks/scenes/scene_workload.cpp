@@ -2,8 +2,8 @@
 //
 // The scenes as workloads, drawn by Halfspace.
 #include "scenes/scene_draw.h"
-#include "workload_assets.h"
-#include "workload_canvas.h"
+#include "workloads/workload_assets.h"
+#include "workloads/workload_canvas.h"
 
 namespace halfspace {
 
@@ -63,7 +63,7 @@ std::span<const WorkloadKind> scene_workloads() {
     std::vector<WorkloadKind> all;
     for (const SceneRow& row : scene_rows()) {
       all.push_back({row.name, row.what, [&row](WorkloadSize size, WorkloadAssets& assets) {
-                       return std::make_unique<SceneWorkload>(assets.scene(row.kind), row.camera, size);
+                       return std::make_unique<SceneWorkload>(shared_scene(assets, row.kind), row.camera, size);
                      }});
     }
     return all;

@@ -5,7 +5,7 @@
 #include "scenes/scene_plants.h"
 #include "scenes/scene_textures.h"
 #include "scenes/workshop_contents.h"
-#include "workload_random.h"
+#include "workloads/workload_random.h"
 
 namespace halfspace {
 

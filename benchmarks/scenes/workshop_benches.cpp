@@ -2,7 +2,7 @@
 #include <array>
 
 #include "scenes/workshop_contents.h"
-#include "workload_random.h"
+#include "workloads/workload_random.h"
 
 namespace halfspace::workshop {
 

@@ -3,9 +3,9 @@
 // Vertex shading, clipping, setup, binning and visibility. Items are vertices or triangles.
 #include "halfspace/raster/primitives/clip.h"
 #include "halfspace/raster/primitives/vertex_stage.h"
-#include "halfspace/shading/depth_only.h"
-#include "sphere_camera.h"
+#include "halfspace/shading/surface/depth_only.h"
 #include "stages/stage_pass.h"
+#include "workloads/sphere_camera.h"
 
 namespace halfspace {
 

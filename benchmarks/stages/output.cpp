@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Blending, resolve, tone mapping and store. Items are pixels.
-#include "halfspace/shading/tone.h"
+#include "halfspace/shading/values/tone.h"
 #include "stages/stage_pass.h"
-#include "workload_constant.h"
-#include "workload_tone.h"
+#include "workloads/workload_constant.h"
+#include "workloads/workload_tone.h"
 
 namespace halfspace {
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Interpolation, fragment shaders and texture lookups. Items are pixels.
-#include "halfspace/shading/star_sky.h"
-#include "halfspace/shading/surface_shader.h"
-#include "sphere_camera.h"
+#include "halfspace/shading/environment/star_sky.h"
+#include "halfspace/shading/surface/surface_shader.h"
 #include "stages/stage_pass.h"
-#include "workload_constant.h"
-#include "workload_floor.h"
-#include "workload_layers.h"
-#include "workload_shadow.h"
-#include "workload_varyings.h"
+#include "workloads/sphere_camera.h"
+#include "workloads/workload_constant.h"
+#include "workloads/workload_floor.h"
+#include "workloads/workload_layers.h"
+#include "workloads/workload_shadow.h"
+#include "workloads/workload_varyings.h"
 
 namespace halfspace {
 

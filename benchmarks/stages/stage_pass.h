@@ -6,9 +6,9 @@
 
 #include <benchmark/benchmark.h>
 
-#include "workload_assets.h"
-#include "workload_canvas.h"
-#include "workload_geometry.h"
+#include "workloads/workload_assets.h"
+#include "workloads/workload_canvas.h"
+#include "workloads/workload_geometry.h"
 
 namespace halfspace {
 

@@ -10,6 +10,7 @@
 #include "bindings.h"
 #include "draw_shader.h"
 #include "halfspace/core/parallel.h"
+#include "halfspace/render/frame/add_draw.h"
 #include "signals.h"
 
 namespace halfspace::python {

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "bindings.h"
-#include "halfspace/render/frame.h"
+#include "halfspace/render/frame/frame.h"
 #include "memory.h"
 #include "shots.h"
 

@@ -6,10 +6,10 @@
 #include <optional>
 
 #include "bindings.h"
-#include "halfspace/model/normals.h"
-#include "halfspace/model/pose.h"
-#include "halfspace/model/single_mesh.h"
-#include "halfspace/render/model_asset.h"
+#include "halfspace/model/geometry/normals.h"
+#include "halfspace/model/geometry/single_mesh.h"
+#include "halfspace/model/pose/pose.h"
+#include "halfspace/render/assets/model_asset.h"
 
 namespace halfspace::python {
 

@@ -8,10 +8,10 @@
 #include "bindings.h"
 #include "halfspace/core/text.h"
 #include "halfspace/image/image_io.h"
-#include "halfspace/model/pose.h"
+#include "halfspace/model/pose/pose.h"
+#include "halfspace/render/assets/model_asset.h"
 #include "halfspace/render/export/embed_images.h"
 #include "halfspace/render/export/pack_maps.h"
-#include "halfspace/render/model_asset.h"
 
 namespace halfspace::python {
 

@@ -25,7 +25,7 @@ Shader colored(const Array<double>& clip_from_object, const std::array<float, 4>
 }
 
 // Sets the transforms of a surface. The positions of lights are relative to the eye.
-void place(PlacedSurface& s, const glm::dmat4& clip_from_world, glm::dmat4 world, const glm::dvec3& eye) {
+void place(SurfaceUniforms& s, const glm::dmat4& clip_from_world, glm::dmat4 world, const glm::dvec3& eye) {
   s.clip_from_object = glm::mat4(clip_from_world * world);
   world[3] -= glm::dvec4(eye, 0.0);
   s.world_from_object = glm::mat4(world);
@@ -50,7 +50,7 @@ std::shared_ptr<const std::vector<Light>> seen_lights(const std::vector<Light>& 
   return moved;
 }
 
-void place(PlacedSurface& s, const Placing& p, Shader& out) {
+void place(SurfaceUniforms& s, const Placing& p, Shader& out) {
   const glm::dvec3 eye = dvec_of(p.eye);
   place(s, matrix_of(p.clip_from_world), matrix_of(p.world_from_object), eye);
   const auto lights = seen_lights(p.lights, eye);
@@ -134,7 +134,7 @@ Shader depth_only(const Array<double>& clip_from_object, const Map& map, float o
   const glm::mat4 clip(matrix_of(clip_from_object));
   if (!map.texels) return {DepthOnly{clip}, {"positions"}};
   Shader out;
-  PlacedMap alpha{.map = add_texture(out, map, TexelFormat::rgba8), .sampler = map.sampler, .channel = {0, 0, 0, 1}};
+  MaterialMap alpha{.map = add_texture(out, map, TexelFormat::rgba8), .sampler = map.sampler, .channel = {0, 0, 0, 1}};
   out.shader = MaskedDepth<false>{clip, OpacityTest{{alpha, {}}, opacity, cutoff}};
   out.attributes = {"positions", "uvs"};
   return out;

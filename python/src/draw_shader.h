@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "halfspace/render/prepared_scene.h"
-#include "halfspace/shading/depth_only.h"
+#include "halfspace/shading/surface/depth_only.h"
 
 namespace halfspace::python {
 

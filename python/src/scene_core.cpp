@@ -8,7 +8,8 @@
 
 #include "halfspace/core/check.h"
 #include "halfspace/render/export/export_files.h"
-#include "halfspace/render/scene_places.h"
+#include "halfspace/render/prepare/scene_places.h"
+#include "halfspace/render/scene_assets.h"
 #include "halfspace/scene/scene_paths.h"
 #include "messages.h"
 #include "shot_queue.h"

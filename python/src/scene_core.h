@@ -19,8 +19,9 @@
 #include <vector>
 
 #include "halfspace/core/parallel.h"
-#include "halfspace/render/opened_scene.h"
+#include "halfspace/render/model_file/opened_scene.h"
 #include "halfspace/render/prepared_scene.h"
+#include "halfspace/render/scene_assets.h"
 #include "halfspace/render/view.h"
 
 namespace halfspace::python {

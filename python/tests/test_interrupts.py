@@ -84,7 +84,7 @@ def test_a_pass_ends_at_the_next_tile(timer):
     p = draw.Pass(image, samples=8)
 
     def run():
-        for _ in range(200):  # each draw is blended over the whole image
+        for _ in range(50):  # each draw is blended over the whole image; more draws would make a task of the setup take seconds
             p.draw(draw.colored(np.eye(4)), positions=triangle, colors=colors, state=draw.State(blend="alpha"))
         p.run()
 

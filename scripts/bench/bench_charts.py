@@ -101,7 +101,7 @@ def roofline(results, folder):
 
 
 def triangles_of_size(area):
-    return max(16, min(1_000_000, int(4e6 / area)))  # must match benchmarks/sweeps.cpp
+    return max(16, min(1_000_000, int(4e6 / area)))  # must match benchmarks/workloads/sweeps.cpp
 
 
 def draw_all(results, folder):

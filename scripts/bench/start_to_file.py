@@ -5,10 +5,10 @@
   scripts/bench/start_to_file.py [--bin DIR] [--rounds N]     default: build/release/bin, 15
   scripts/bench/start_to_file.py --before DIR [--scenes NAME,...] [--bin DIR] [--rounds N]
 
-The minimum is given by halfspace-least-earth (a build target): it links the same libraries, generates the maps of the scene, sleeps for the
+The minimum is given by halfspace-start-to-file-bound (a build target): it links the same libraries, generates the maps of the scene, sleeps for the
 duration of an additional frame and writes the same pixels. It runs in two variants: with color and height maps, and with normal maps
 derived from the heights as well. The three programs are interleaved, and the minimum and median of each are printed. The time that
-halfspace-least-earth spends on reading the pixels is subtracted.
+halfspace-start-to-file-bound spends on reading the pixels is subtracted.
 
 With --before, the same time is measured for other scenes (default: day-night,shapes) at 1920x1080, alternating between the program in --bin
 and the one in the folder DIR.
@@ -66,7 +66,7 @@ def main():
     arguments = parser.parse_args()
     if arguments.before:
         return compare_builds([str(arguments.before / "halfspace"), str(arguments.bin / "halfspace")], arguments.scenes.split(","), arguments.rounds)
-    program, least = str(arguments.bin / "halfspace"), str(arguments.bin / "halfspace-least-earth")
+    program, least = str(arguments.bin / "halfspace"), str(arguments.bin / "halfspace-start-to-file-bound")
     with tempfile.TemporaryDirectory() as folder:
         picture, copy = os.path.join(folder, "earth.png"), os.path.join(folder, "copy.png")
         frame = frame_ms(program, folder)

@@ -51,7 +51,7 @@ RESULTS = WORK / "caught.txt"  # lines "KEY STEM"
 # Test programs that can detect a fault in a folder, in the order in which they run. Most faults are detected by the first one.
 TESTS = {
     "src/core/": ["core", "raster", "property", "conformance", "shading"],
-    "src/explain/": ["explain"],
+    "apps/explain/": ["explain"],
     "src/geometry/": ["geometry", "render"],
     "src/image/": ["image", "cli"],
     "src/model/": ["model", "render"],
@@ -62,7 +62,7 @@ TESTS = {
     "src/render/": ["render", "reference"],
     "src/scene/": ["scene", "render", "cli"],
     "src/shading/": ["shading", "raster", "property", "conformance"],
-    "src/study/": ["study"],
+    "apps/study/": ["study"],
 }
 
 

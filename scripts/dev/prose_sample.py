@@ -111,7 +111,7 @@ def candidates():
         add("comment", path, line_comments(path, "#"))
     for path in tracked("*.py"):
         add("comment", path, docstrings(path))
-    for path in tracked("src/explain/page/*.js"):
+    for path in tracked("apps/explain/page/*.js"):
         add("comment", path, line_comments(path, "//"))
         add("message", path, page_texts(path))
     for path in tracked("*.md"):

@@ -6,11 +6,10 @@ set -euo pipefail
 cd "$(dirname "$0")/../.."
 compiler=${1:-g++}
 work=$(mktemp -d)
-mkdir "$work/include" && ln -s "$PWD/src" "$work/include/halfspace"
 trap 'rm -rf "$work"' EXIT
 unit() {
   echo '#include "halfspace/raster/pass.h"'
-  echo '#include "halfspace/shading/surface_shader.h"'
+  echo '#include "halfspace/shading/surface/surface_shader.h"'
   echo 'using namespace halfspace;'
   for i in $(seq "$1"); do
     echo "struct Shader$i : SurfaceShader<ShadingRate::phong, true> {};"
@@ -22,7 +21,7 @@ seconds() {
   local begin end
   begin=$(date +%s.%N)
   "$compiler" -std=c++20 -O3 -march=native -ffp-contract=off -fno-math-errno -Wno-psabi -DGLM_FORCE_XYZW_ONLY -DGLM_FORCE_EXPLICIT_CTOR \
-    -DHALFSPACE_LANES="${HALFSPACE_LANES:-16}" -I"$work/include" -c "$work/unit.cpp" -o "$work/unit.o"
+    -DHALFSPACE_LANES="${HALFSPACE_LANES:-16}" -Iinclude -c "$work/unit.cpp" -o "$work/unit.o"
   end=$(date +%s.%N)
   awk -v a="$begin" -v b="$end" 'BEGIN { print b - a }'
 }

@@ -16,7 +16,7 @@ import os
 import sys
 from pathlib import Path
 
-NO_MATPLOTLIB = 69  # EX_UNAVAILABLE; must match src/study/draw_charts.cpp
+NO_MATPLOTLIB = 69  # EX_UNAVAILABLE; must match apps/study/draw_charts.cpp
 SYSTEM_PYTHON = "/usr/bin/python3"
 
 try:

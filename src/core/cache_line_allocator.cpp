@@ -7,7 +7,7 @@
 #include <cstring>
 #include <new>
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -45,4 +45,4 @@ void free_lines(void* memory, std::size_t bytes) noexcept {
   }
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -10,7 +10,7 @@
 
 #include "halfspace/core/namespace.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Allocates zeroed memory that starts on a cache line boundary, so that code can write whole lines. Blocks of 4 MiB or more are mapped
 /// directly from the system, on huge pages where available. The kernel clears each such page on the thread that first touches it.
@@ -39,4 +39,4 @@ struct CacheLineAllocator {
   friend bool operator==(const CacheLineAllocator&, const CacheLineAllocator&) { return true; }
 };
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -19,7 +19,7 @@
 
 #include "halfspace/core/namespace.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Thrown for invalid user input. what() is a single line that names the place, the problem and what was expected.
 class InputError : public std::runtime_error {
@@ -88,7 +88,7 @@ template <class A, class B>
 
 }  // namespace detail
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES
 
 // These are macros because they need the text of the condition and the location of the caller. A check that passes costs
 // one comparison; failure handling is out of line. Checks that a caller of the public API can fail have a second argument: the

@@ -5,7 +5,7 @@
 
 #include "halfspace/core/namespace.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Returns the direction through the point (s, t) of a cube map face, in cube map space. face is 0 to 5 for +x, −x, +y, −y,
 /// +z, −z; s and t are in [−1, 1], and t points down. The direction is not normalized: its component along the axis of the
@@ -21,4 +21,4 @@ inline glm::dvec3 cube_direction(int face, double s, double t) {
   }
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -7,7 +7,7 @@
 
 #include "halfspace/core/namespace.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Allocator for containers whose resize() default-initializes new elements instead of clearing them. Use it when the
 /// elements are overwritten anyway.
@@ -31,4 +31,4 @@ struct DefaultInitAllocator : std::allocator<T> {
   }
 };
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -6,7 +6,7 @@
 
 #include "halfspace/core/lane_math.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Computes x^y for an exponent 0 < y <= 1 that is known in advance, such as the gamma of a display. Cheaper than unit_pow,
 /// which has to compute a logarithm.
@@ -86,4 +86,4 @@ class FixedPower {
   std::array<int32_t, 16> low_{}, high_{};  // bits of 2^(i·y) and 2^((16·i − 127)·y)
 };
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

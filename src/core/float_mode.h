@@ -5,7 +5,7 @@
 
 #include "halfspace/core/namespace.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Sets the default IEEE mode for the current thread (round to nearest, denormals kept, exceptions masked) and restores the
 /// previous mode on destruction. Host programs and libraries such as Embree change the mode, and results must not depend on
@@ -34,4 +34,4 @@ class FloatMode {
   unsigned short saved_x87_ = 0;
 };
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

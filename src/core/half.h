@@ -8,7 +8,7 @@
 
 #include "halfspace/core/lanes.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// The largest finite half.
 inline constexpr float kMaxHalf = 65504.0f;
@@ -115,4 +115,4 @@ HS_INLINE IntN<W> float_to_finite_half(RealN<W> x) {
   return float_to_half(finite_half_range(x));
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -7,7 +7,7 @@
 
 #include "halfspace/core/lanes.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Returns a·b modulo 2^32.
 template <class I>
@@ -35,4 +35,4 @@ HS_INLINE R unit_fraction(IntOf<R> hash) {
   return to_real<R>((hash >> 8) & 0xffffff) * R(0x1p-24f);
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

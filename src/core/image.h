@@ -8,7 +8,7 @@
 #include "halfspace/core/cache_line_allocator.h"
 #include "halfspace/core/check.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// A 2D array of texels or pixels, stored row by row without padding. Row 0 is the top row of an image and corresponds to
 /// t = 0 of a texture. The image owns its memory, and copying it copies the texels. Accessors require coordinates inside the
@@ -51,4 +51,4 @@ class Image {
   Texels texels_;
 };
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -8,7 +8,7 @@
 
 #include "halfspace/core/lanes.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Loads one byte per lane, from 0 to 255. p need not be aligned.
 template <class I>
@@ -64,4 +64,4 @@ HS_INLINE Int add_bytes(Int a, Int b) { return std::bit_cast<Int>(detail::bytes_
 /// Subtracts unsigned bytes of b from those of a; differences below 0 become 0.
 HS_INLINE Int subtract_bytes(Int a, Int b) { return std::bit_cast<Int>(detail::bytes_of(a) - detail::bytes_of(min_bytes(a, b))); }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

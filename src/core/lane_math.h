@@ -23,7 +23,7 @@
 
 #include "halfspace/core/lanes.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace detail {
 
@@ -395,4 +395,4 @@ HS_INLINE R acos(R x) {
   }
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

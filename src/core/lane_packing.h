@@ -9,7 +9,7 @@
 
 #include "halfspace/core/lanes.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace detail {
 
@@ -84,4 +84,4 @@ HS_INLINE uint32_t unpack_bits(uint32_t mask, uint32_t lanes) {
 #endif
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

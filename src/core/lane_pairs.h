@@ -11,7 +11,7 @@
 
 #include "halfspace/core/transpose.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 template <class H>
 struct RealPair;
@@ -236,4 +236,4 @@ HS_INLINE void set_lane(IntPair<H>& r, int i, int32_t x) {
   i < kWidthOf<H> ? set_lane(r.low, i, x) : set_lane(r.high, i - kWidthOf<H>, x);
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

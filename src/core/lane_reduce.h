@@ -7,7 +7,7 @@
 
 #include "halfspace/core/lanes.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace detail {
 
@@ -40,4 +40,4 @@ HS_INLINE float max_lane(RealN<W> v) {
   return detail::reduced<W / 2>(v, [](RealN<W> a, RealN<W> b) { return max(a, b); });
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -25,7 +25,7 @@
 #define HS_INLINE inline __attribute__((always_inline))
 #define HS_FLATTEN __attribute__((flatten))
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace detail {
 
@@ -639,4 +639,4 @@ HS_INLINE R difference_of_products(R a, std::type_identity_t<R> b, std::type_ide
   return fma(a, b, -cd) + error;
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The inline namespace of all names of Halfspace. It is named after the SIMD width, so that object files and libraries that were compiled
-// for different widths do not link with each other, and can be loaded into one process. Code that uses Halfspace does not name it.
+// for different widths do not link with each other, and can be loaded into one process. Code that uses Halfspace does not name it. Files of
+// Halfspace open it as "namespace halfspace::HS_LANES".
 #pragma once
 
 // Each #error below falls back to one lane, so that no further errors hide the message.
@@ -25,4 +26,13 @@
 
 #define HS_JOIN_EXPANDED(a, b) a##b
 #define HS_JOIN(a, b) HS_JOIN_EXPANDED(a, b)
-#define HS_LANES_NAMESPACE HS_JOIN(lanes, HALFSPACE_LANES)
+#define HS_LANES HS_JOIN(lanes, HALFSPACE_LANES)
+
+// The namespace is declared inline only here, because editors and ctags do not understand "namespace a::inline MACRO". Clang warns where it
+// is opened again without the word, although that means the same.
+#ifdef __clang__
+#pragma clang diagnostic ignored "-Winline-namespace-reopened-noninline"
+#endif
+namespace halfspace {
+inline namespace HS_LANES {}
+}  // namespace halfspace

@@ -20,7 +20,7 @@
 #include "halfspace/core/float_mode.h"
 #include "halfspace/core/task_check.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -136,4 +136,4 @@ int Workers::cores() {
   return n == 0 ? 1 : static_cast<int>(n);
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

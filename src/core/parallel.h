@@ -10,7 +10,7 @@
 
 #include "halfspace/core/namespace.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// A team of threads. Results must never depend on the number of threads, which only determines who runs a task.
 class Workers {
@@ -45,4 +45,4 @@ class Workers {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -9,7 +9,7 @@
 
 #include "halfspace/core/namespace.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// SplitMix64 (Steele, Lea and Flood, "Fast splittable pseudorandom number generators", OOPSLA 2014). Draw only one number per statement or
 /// use braces, because the evaluation order of function arguments is unspecified. Committed hashes depend on the numbers.
@@ -36,4 +36,4 @@ class SplitMix64 {
   uint64_t state_;
 };
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <mutex>
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -112,4 +112,4 @@ void check_primitive_limit(uint64_t primitives, const std::string& place) {
                    std::to_string(limit) + " (--max-primitives)");
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -9,7 +9,7 @@
 
 #include "halfspace/core/check.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// A file needs more than a limit permits. Programs end with this error even where they tolerate other invalid files.
 class LimitError : public InputError {
@@ -70,4 +70,4 @@ void check_pixel_limit(uint64_t width, uint64_t height, const std::string& place
 /// many times, so its size does not limit the rendering time.
 void check_primitive_limit(uint64_t primitives, const std::string& place);
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

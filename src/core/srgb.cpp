@@ -5,7 +5,7 @@
 // the closest value is at a relative distance of 2^-35.
 #include "halfspace/core/srgb.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -79,4 +79,4 @@ alignas(64) constexpr std::array<float, 256> kSrgbToLinear = make_decode_table()
 alignas(64) constexpr detail::SrgbPairs detail::kSrgbPairs = make_pairs();
 constexpr std::array<int32_t, detail::kSrgbBuckets> detail::kSrgbEncode = kTable.entries;
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

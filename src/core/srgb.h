@@ -12,7 +12,7 @@
 
 #include "halfspace/core/lane_pairs.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace detail {
 
@@ -121,4 +121,4 @@ HS_INLINE IntOf<R> linear_to_unorm8(R x) {
   }
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

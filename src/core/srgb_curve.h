@@ -4,7 +4,7 @@
 #include "halfspace/core/fixed_power.h"
 #include "halfspace/core/lane_math.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Encodes a linear value x in [0, 1] with the sRGB transfer function (IEC 61966-2-1). The result is in [0, 1] and not quantized. For 8-bit
 /// values use linear_to_srgb (core/srgb.h), which is exact.
@@ -15,4 +15,4 @@ HS_INLINE R srgb_curve(R x) {
   return min(select(x <= R(0.0031308f), R(12.92f) * x, power), R(1.0f));
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Forwards a check that fails in a task to the thread that called Workers::for_each. Used by parallel.cpp and check.cpp only.
+// Forwards a check that fails in a task to the thread that called Workers::for_each. Used by parallel.cpp and check_handler.cpp only.
 #pragma once
 
 #include "halfspace/core/check.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE::detail {
+namespace halfspace::HS_LANES::detail {
 
 /// Thrown by a check that fails in a task while a handler is set. It does not derive from std::exception, so that a task that
 /// catches its own exceptions does not swallow it.
@@ -28,4 +28,4 @@ class TaskScope {
 /// Reports a failure that was caught after the tasks ended, to the enclosing task if there is one and otherwise to the handler.
 [[noreturn]] void report_from_task(const TaskCheckFailure& failure);
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE::detail
+}  // namespace halfspace::HS_LANES::detail

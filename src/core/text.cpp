@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 bool has_word(std::string_view text, std::string_view word) {
   while (!text.empty()) {
@@ -130,4 +130,4 @@ std::string json_problem(const std::exception& e) {
   return what;
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -8,7 +8,7 @@
 
 #include "halfspace/core/namespace.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Returns true if the text, words separated by single spaces, contains the word.
 bool has_word(std::string_view text, std::string_view word);
@@ -41,4 +41,4 @@ std::size_t position_of_quoted(std::string_view text, std::string_view message);
 /// Returns the reason in the message of an exception of nlohmann_json, without error number and position, on one line.
 std::string json_problem(const std::exception& e);
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -9,7 +9,7 @@
 #include <system_error>
 #include <vector>
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -60,4 +60,4 @@ std::filesystem::path find_tool(const char* name) {
   return {};
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

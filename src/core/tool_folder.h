@@ -5,7 +5,7 @@
 
 #include "halfspace/core/namespace.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Sets the folder that contains the decoder programs (halfspace-image-tool and others), for the whole process. By default, and with an
 /// empty path, they are found relative to the program or shared library that contains this code. Thread-safe; files that are being read are
@@ -17,4 +17,4 @@ void set_tool_folder(const std::filesystem::path& folder);
 /// the installation keeps the decoder programs.
 std::filesystem::path find_tool(const char* name);
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

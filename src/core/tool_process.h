@@ -11,7 +11,7 @@
 
 #include "halfspace/core/namespace.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Owns a process and the channels to and from it.
 class ToolProcess {
@@ -50,4 +50,4 @@ class ToolProcess {
   pid_t child_ = -1;
 };
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

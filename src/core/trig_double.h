@@ -11,7 +11,7 @@
 
 #include "halfspace/core/namespace.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 struct SinCosDouble {
   double sin, cos;
@@ -70,4 +70,4 @@ inline SinCosDouble sincos_turns(double turns) {
 /// Returns the sine and cosine of an angle in radians. The division by 2π adds one rounding.
 inline SinCosDouble sincos_radians(double radians) { return sincos_turns(radians / (2.0 * std::numbers::pi)); }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 glm::dvec3 unit_or_zero(const glm::dvec3& v) {
   const double largest = std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)});
@@ -15,4 +15,4 @@ glm::dvec3 unit_or_zero(const glm::dvec3& v) {
   return scaled / std::sqrt(glm::dot(scaled, scaled));
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

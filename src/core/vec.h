@@ -24,7 +24,7 @@
 
 #include "halfspace/core/lanes.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 template <int L, Number R>
 struct VecN;
@@ -232,4 +232,4 @@ HS_INLINE VecN<L, R> select(MaskOf<R> m, const VecN<L, R>& a, const VecN<L, R>& 
 /// Returns v divided by its length, or zero if v is zero. No intermediate result overflows or underflows, for any length of v.
 glm::dvec3 unit_or_zero(const glm::dvec3& v);
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

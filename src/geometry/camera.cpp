@@ -11,7 +11,7 @@
 #include "halfspace/core/trig_double.h"
 #include "halfspace/core/vec.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -102,4 +102,4 @@ glm::mat3 normal_matrix(const glm::dmat4& world_from_object) {
   return glm::mat3(glm::transpose(glm::inverse(glm::dmat3(world_from_object))));
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -10,7 +10,7 @@
 
 #include "halfspace/core/namespace.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// World space to view space. eye and target must differ, and up must not be parallel to their difference.
 glm::dmat4 look_at(const glm::dvec3& eye, const glm::dvec3& target, const glm::dvec3& up);
@@ -33,4 +33,4 @@ glm::dmat4 orthographic_reversed(double height, double aspect, double near, doub
 /// length. The upper 3x3 part must be invertible.
 glm::mat3 normal_matrix(const glm::dmat4& world_from_object);
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

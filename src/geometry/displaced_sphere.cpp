@@ -10,7 +10,7 @@
 #include "halfspace/geometry/double_vectors.h"
 #include "halfspace/geometry/shapes.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -103,4 +103,4 @@ Image<glm::vec4> slope_map(const HeightField& field, int width, int height, doub
   return map;
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

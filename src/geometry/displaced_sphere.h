@@ -23,7 +23,7 @@
 #include "halfspace/geometry/height_field.h"
 #include "halfspace/geometry/mesh.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Whether the vertex normals of a displaced sphere are computed from the displaced surface or, for comparison, the undisplaced sphere.
 enum class ReliefNormals { displaced, undisplaced };
@@ -58,4 +58,4 @@ Image<glm::vec4> slope_map(const HeightField& field, int width, int height, doub
 /// Returns (g_east, g_north, 1 + g/r) at (u, v), 0 < v < 1.
 glm::dvec3 slopes_at(const HeightField& field, double u, double v, double radius, double height_scale, double zero_level);
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -7,7 +7,7 @@
 #include "halfspace/core/float_mode.h"
 #include "halfspace/geometry/shapes.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -71,4 +71,4 @@ Mesh cube(float size, int segments, const Displacement* displacement) {
   return mesh.take();
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

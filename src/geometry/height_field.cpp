@@ -11,7 +11,7 @@
 #include "halfspace/core/lane_math.h"
 #include "halfspace/core/trig_double.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -277,4 +277,4 @@ HeightField HeightField::filtered(int max_width, const Workers& workers) const {
   return coarse;
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -8,7 +8,7 @@
 #include "halfspace/core/image.h"
 #include "halfspace/core/parallel.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// The value of a height field at one point, and its derivatives with respect to u and v, each of which spans the map from 0 to 1.
 struct HeightSample {
@@ -68,4 +68,4 @@ class HeightField {
   Image<float> texels_;
 };
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -6,7 +6,7 @@
 
 #include "halfspace/core/float_mode.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -47,4 +47,4 @@ Image<uint16_t> codes16(const Image<float>& heights) {
   return codes;
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -7,9 +7,9 @@
 #include <glm/glm.hpp>
 
 #include "halfspace/core/image.h"
-#include "halfspace/shading/sampler.h"
+#include "halfspace/shading/texture/sampler.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Returns (∂h/∂u, ∂h/∂v, 0, 0) at the texel centers; u and v span the map from 0 to 1. Slopes are central differences that follow
 /// the wrap mode. At edges that do not wrap they are one-sided differences. Filtering is linear, so filtered slopes are the slopes
@@ -19,4 +19,4 @@ Image<glm::vec4> height_slopes(const Image<float>& heights, Wrap wrap_s, Wrap wr
 /// Converts heights to 16-bit unorm, clamped to [0, 1].
 Image<uint16_t> codes16(const Image<float>& heights);
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -12,7 +12,7 @@
 #include "halfspace/geometry/double_vectors.h"
 #include "halfspace/geometry/shapes.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -174,4 +174,4 @@ Mesh icosphere(int level, float radius, const Displacement* displacement) {
   return Icosphere(level, static_cast<double>(radius), displacement).make();
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -7,7 +7,7 @@
 
 #include "halfspace/core/namespace.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Indexed triangle list, counter-clockwise when seen from the front. Every non-empty stream has one entry per vertex. Normals have
 /// unit length. `tangents` may be empty. Otherwise xyz points along increasing u, and cross(normal, xyz)·w along decreasing v (v =
@@ -20,4 +20,4 @@ struct Mesh {
   std::vector<uint32_t> indices;
 };
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -5,7 +5,7 @@
 
 #include "halfspace/core/float_mode.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 Image<glm::u8vec4> normal_map(const Image<float>& heights, double strength, MapEdges edges, const Workers& workers) {
   const FloatMode float_mode;
@@ -24,4 +24,4 @@ Image<glm::u8vec4> normal_map(const Image<float>& heights, double strength, MapE
   return map;
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

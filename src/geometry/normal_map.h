@@ -7,7 +7,7 @@
 #include "halfspace/core/parallel.h"
 #include "halfspace/geometry/height_field.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Returns the tangent-space normal map of a map of heights in [0, 1], with red along u and green up. A height of 1 corresponds to
 /// `strength` texels. With x to the right and y down, in texels,
@@ -19,4 +19,4 @@ namespace halfspace::inline HS_LANES_NAMESPACE {
 /// `heights` must be at least two texels wide and one high.
 Image<glm::u8vec4> normal_map(const Image<float>& heights, double strength, MapEdges edges, const Workers& workers);
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

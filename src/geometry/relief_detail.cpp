@@ -7,7 +7,7 @@
 
 #include "halfspace/core/lane_math.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -78,4 +78,4 @@ double ReliefDetail::error(double columns) const {
   return levels_.back().error;
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -6,7 +6,7 @@
 #include "halfspace/core/image.h"
 #include "halfspace/core/parallel.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Estimates the detail that a height map loses on coarser meshes. The error is the 99.9th percentile of the absolute difference
 /// between the map and the map averaged to fewer columns.
@@ -26,4 +26,4 @@ class ReliefDetail {
   std::vector<Level> levels_;  // in order of decreasing columns, starting at the map's width
 };
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -8,7 +8,7 @@
 #include "halfspace/core/float_mode.h"
 #include "halfspace/geometry/shapes.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -174,4 +174,4 @@ Mesh torus(float radius, float tube, int bands, int sectors, const Displacement*
   return mesh.take();
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -4,7 +4,7 @@
 #include "halfspace/core/check.h"
 #include "halfspace/core/float_mode.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -65,4 +65,4 @@ Mesh uv_sphere(int latitudes, int longitudes, float radius) {
   return mesh;
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -10,7 +10,7 @@
 #include "halfspace/core/trig_double.h"
 #include "halfspace/geometry/surface_mesh.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// A sphere around the origin with `latitudes` ≥ 2 bands and `longitudes` ≥ 3 sectors:
 ///
@@ -88,4 +88,4 @@ Mesh plane(float size, int segments = 1, const Displacement* displacement = null
 /// edges of each face, over a fraction kFadeWidth of its width.
 Mesh cube(float size, int segments = 1, const Displacement* displacement = nullptr);
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

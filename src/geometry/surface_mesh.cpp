@@ -5,7 +5,7 @@
 
 #include "halfspace/geometry/double_vectors.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -61,4 +61,4 @@ void SurfaceMesh::add_grid(int first, int columns, int rows) {
   }
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -16,7 +16,7 @@
 #include "halfspace/geometry/height_field.h"
 #include "halfspace/geometry/mesh.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Heights that displace a shape: g = scale · (h(u, v) − zero), in the unit of the shape, positive outwards. The field must have
 /// the edge mode documented for the shape and be filtered to the tessellation.
@@ -75,4 +75,4 @@ class SurfaceMesh {
   Mesh mesh_;
 };
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -13,7 +13,7 @@
 #include "halfspace/core/float_mode.h"
 #include "halfspace/geometry/shapes.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -76,4 +76,4 @@ Mesh torus_knot(float radius, float tube, int bands, int sectors, const Displace
   return mesh.take();
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

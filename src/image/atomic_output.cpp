@@ -18,7 +18,7 @@
 #include "halfspace/core/check.h"
 #include "halfspace/image/image_errors.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -167,4 +167,4 @@ void remove_unfinished_output() noexcept {
   if (unfinished) ::unlink(unfinished_name);
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -9,7 +9,7 @@
 
 #include "halfspace/core/namespace.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Writes the bytes to path, replacing an existing file, and creates missing directories. An existing file keeps its permissions; if path
 /// is a symbolic link, its target is replaced. Standard output (under any name) and other files that are not regular files are written in
@@ -30,4 +30,4 @@ void make_directory(const std::filesystem::path& path);
 /// Removes the temporary file that is being written, if any. Async-signal-safe, for use in signal handlers.
 void remove_unfinished_output() noexcept;
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -17,7 +17,7 @@
 #include "halfspace/core/check.h"
 #include "halfspace/image/image_errors.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -116,4 +116,4 @@ std::vector<std::byte> encode_exr(const std::filesystem::path& path, int width, 
   return stream.take();
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

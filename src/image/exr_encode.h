@@ -10,7 +10,7 @@
 
 #include "halfspace/image/image_io.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 inline constexpr std::size_t sample_bytes(ExrSample s) { return s == ExrSample::float16 ? 2 : 4; }
 
@@ -19,4 +19,4 @@ inline constexpr std::size_t sample_bytes(ExrSample s) { return s == ExrSample::
 std::vector<std::byte> encode_exr(const std::filesystem::path& path, int width, int height, std::span<const ExrChannel> channels,
                                   const ImageText& text);
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

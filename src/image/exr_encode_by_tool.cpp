@@ -9,7 +9,7 @@
 #include "halfspace/image/image_errors.h"
 #include "halfspace/image/image_tool.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -44,4 +44,4 @@ std::vector<std::byte> encode_exr(const std::filesystem::path& path, int width, 
   });
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

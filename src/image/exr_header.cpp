@@ -7,7 +7,7 @@
 #include <fstream>
 #include <string_view>
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -83,4 +83,4 @@ std::vector<std::string> exr_channel_names(const std::filesystem::path& file) { 
 
 std::string exr_comment(const std::filesystem::path& file) { return attribute(file, "comments", "string"); }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -6,7 +6,7 @@
 #include "halfspace/image/image_source.h"
 #include "halfspace/image/png.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 std::string image_comment(const std::filesystem::path& path) {
   try {
@@ -17,4 +17,4 @@ std::string image_comment(const std::filesystem::path& path) {
   }
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

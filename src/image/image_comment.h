@@ -6,10 +6,10 @@
 
 #include "halfspace/core/namespace.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Returns the comment that a PNG or OpenEXR file stores (ImageText::comment in image_io.h), without decoding pixels. Returns an empty
 /// string if the file cannot be read, has another format or has no comment.
 std::string image_comment(const std::filesystem::path& path);
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

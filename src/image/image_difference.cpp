@@ -13,7 +13,7 @@
 #include "halfspace/core/lane_math.h"
 #include "halfspace/core/srgb_curve.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -168,4 +168,4 @@ Image<glm::u8vec4> difference_colors(const Image<float>& differences) {
   return out;
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -8,7 +8,7 @@
 
 #include "halfspace/core/image.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Differences over red, green and blue, and over alpha unless both images are fully opaque. 8-bit values are divided by 255.
 struct ImageDifference {
@@ -37,4 +37,4 @@ Image<float> difference_map(const Image<glm::vec4>& a, const Image<glm::vec4>& b
 /// Maps differences to colors on a logarithmic scale: black for 0, blue at 1/255, then red and yellow, and white at 1 and above.
 Image<glm::u8vec4> difference_colors(const Image<float>& differences);
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

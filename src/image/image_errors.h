@@ -8,7 +8,7 @@
 
 #include "halfspace/core/check.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 [[noreturn]] inline void fail_reading(const std::filesystem::path& path, const std::string& what) {
   throw InputError(path.string() + ": " + what);
@@ -18,4 +18,4 @@ namespace halfspace::inline HS_LANES_NAMESPACE {
   throw OutputError(path.string() + ": " + what);
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

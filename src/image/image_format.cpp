@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -94,4 +94,4 @@ std::string describe_contents(std::string_view head) {
   return "it begins with the bytes" + bytes;
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -11,7 +11,7 @@
 
 #include "halfspace/core/namespace.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Lists for messages: formats that store 8- or 16-bit integers, and all formats.
 inline constexpr const char* kCodeFormats = "PNG, JPEG, TIFF, TGA, BMP, GIF, WebP, PNM, PSD or DDS";
@@ -37,4 +37,4 @@ std::string describe_contents(std::string_view head);
 /// Returns the extension of path in ASCII lower case, including the dot.
 std::string lower_case_extension(const std::filesystem::path& path);
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

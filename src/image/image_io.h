@@ -29,7 +29,7 @@
 #include "halfspace/core/image.h"
 #include "halfspace/core/tool_folder.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Formats in which images can be written.
 enum class ImageFile { png, jpeg, tiff, exr, hdr };
@@ -118,4 +118,4 @@ struct ExrChannel {
 /// are R, G, B and possibly A as half floats, or Z as floats.
 void write_exr(const std::filesystem::path& path, int width, int height, std::span<const ExrChannel> channels, const ImageText& text = {});
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -8,7 +8,7 @@
 
 #include "halfspace/core/resource_limits.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 inline constexpr uint32_t kMaxImageEdge = 32768;  // same as Texture2D::kMaxSize
 inline constexpr uint64_t kMaxImagePixels = ResourceLimits::kMaxPixels;
@@ -33,4 +33,4 @@ inline uint64_t decoding_memory(uint64_t width, uint64_t height, uint64_t bytes_
   return width * height * bytes_per_pixel + texture_memory(width, height, bytes_per_pixel);
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

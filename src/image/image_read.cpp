@@ -12,7 +12,7 @@
 #include "halfspace/image/image_tool.h"
 #include "halfspace/image/png.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -86,4 +86,4 @@ Image<glm::vec4> read_linear(std::span<const std::byte> file, const std::string&
   return read_memory(file, name, kAllFormats, linear_of);
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -12,7 +12,7 @@
 #include "halfspace/core/lane_math.h"
 #include "halfspace/core/srgb.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -108,4 +108,4 @@ Image<glm::vec4> to_linear(ColorPicture picture, bool premultiplied, const std::
   return std::visit([&](auto&& image) { return linear(std::move(image), premultiplied, name); }, std::move(picture));
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

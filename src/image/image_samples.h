@@ -10,7 +10,7 @@
 
 #include "halfspace/core/image.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// A decoded file: 8-bit, 16-bit or floating-point values.
 using ColorPicture = std::variant<Image<glm::u8vec4>, Image<glm::u16vec4>, Image<glm::vec4>>;
@@ -29,4 +29,4 @@ Image<float> to_numbers(GrayPicture picture, const std::string& name);
 /// but infinities become ±65504 and NaN throws. Premultiplied colors are divided by their alpha where it is positive.
 Image<glm::vec4> to_linear(ColorPicture picture, bool premultiplied, const std::string& name);
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -7,7 +7,7 @@
 #include "halfspace/image/image_source.h"
 #include "halfspace/image/png.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -51,4 +51,4 @@ ImageSize image_size(const std::filesystem::path& path) {
   return image_size(source.bytes(), source.name());
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

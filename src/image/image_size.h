@@ -8,7 +8,7 @@
 
 #include "halfspace/core/namespace.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 struct ImageSize {
   int width = 0, height = 0;
@@ -19,4 +19,4 @@ struct ImageSize {
 ImageSize image_size(const std::filesystem::path& path);
 ImageSize image_size(std::span<const std::byte> file, const std::string& name);
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -13,7 +13,7 @@
 #include "halfspace/image/image_errors.h"
 #include "halfspace/image/png.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -112,4 +112,4 @@ int ImageSource::descriptor() {
   return descriptor_;
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

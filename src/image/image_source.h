@@ -13,7 +13,7 @@
 
 #include "halfspace/image/image_format.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// An image file on disk or in memory. Members throw InputError, with a message that begins with the path or name.
 class ImageSource {
@@ -47,4 +47,4 @@ class ImageSource {
   std::optional<ToolFormat> tool_format_;
 };
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -18,7 +18,7 @@
 #include "halfspace/image/image_limits.h"
 #include "halfspace/image/tool_pool.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -227,4 +227,4 @@ std::filesystem::path find_image_tool() { return find_tool(kImageToolName); }
 
 std::filesystem::path find_jpeg_tool() { return find_tool(kJpegToolName); }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -16,7 +16,7 @@
 #include "halfspace/image/image_source.h"
 #include "halfspace/image/tool/protocol.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Decodes a file that is not PNG: JPEG by halfspace-jpeg-tool, if it is installed, and everything else by halfspace-image-tool. Throws
 /// InputError if the file is damaged or crashes the decoder, or if the program is not installed.
@@ -40,4 +40,4 @@ std::filesystem::path find_image_tool();
 /// The same for halfspace-jpeg-tool.
 std::filesystem::path find_jpeg_tool();
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

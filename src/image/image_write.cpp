@@ -18,7 +18,7 @@
 #include "halfspace/image/jpeg_encode.h"
 #include "halfspace/image/png.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -171,4 +171,4 @@ void write_exr(const std::filesystem::path& path, int width, int height, std::sp
   fail_for_memory(path);
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -7,7 +7,7 @@
 #include "halfspace/image/image_errors.h"
 #include "halfspace/image/jpeg_errors.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -73,4 +73,4 @@ std::vector<std::byte> encode_jpeg(const std::filesystem::path& path, const Imag
   return encoder.file();
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

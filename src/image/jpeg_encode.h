@@ -10,10 +10,10 @@
 
 #include "halfspace/core/image.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Encodes 8-bit sRGB values at quality 95 without chroma subsampling. Alpha is dropped. The image must not be empty. Throws OutputError,
 /// with a message that begins with path, if the image is too large for the format (65500 pixels per side). Nothing is written to path.
 std::vector<std::byte> encode_jpeg(const std::filesystem::path& path, const Image<glm::u8vec4>& image);
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -4,10 +4,10 @@
 #include "halfspace/image/image_tool.h"
 #include "halfspace/image/jpeg_encode.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 std::vector<std::byte> encode_jpeg(const std::filesystem::path& path, const Image<glm::u8vec4>& image) {
   return encode_codes_by_tool(path, "jpeg", image, 3);
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -15,7 +15,7 @@
 
 #include "halfspace/core/namespace.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Receives the errors of one jpeg_decompress_struct or jpeg_compress_struct. Must not move.
 class JpegErrors {
@@ -59,4 +59,4 @@ class JpegErrors {
   char text_[JMSG_LENGTH_MAX] = "";
 };
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -12,7 +12,7 @@
 
 #include "halfspace/image/image_limits.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -156,4 +156,4 @@ std::string png_comment(std::span<const std::byte> bytes) {
   return comment == chunks.end() ? std::string() : std::string(comment->text, comment->length);
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

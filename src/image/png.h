@@ -13,7 +13,7 @@
 #include "halfspace/image/image_io.h"
 #include "halfspace/image/image_samples.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// The meaning of the 8-bit values in a file.
 enum class PngCodes { srgb, numbers };
@@ -35,4 +35,4 @@ ColorPicture decode_png(std::span<const std::byte> bytes, const std::string& nam
 /// Returns ImageText::comment of a PNG file, or an empty string if the bytes before the pixels are not valid or have none.
 std::string png_comment(std::span<const std::byte> bytes);
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

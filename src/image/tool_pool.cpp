@@ -9,7 +9,7 @@
 
 #include "halfspace/core/parallel.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -77,4 +77,4 @@ void ToolPool::abandon() {
 ToolPool& image_tool_pool() { return pools().image; }
 ToolPool& jpeg_tool_pool() { return pools().jpeg; }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

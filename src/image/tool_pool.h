@@ -10,7 +10,7 @@
 
 #include "halfspace/core/tool_process.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// The tools of one kind. There is one per image that is being decoded, but at most min(cores, 4). Thread-safe.
 class ToolPool {
@@ -66,4 +66,4 @@ class ToolPool {
 ToolPool& image_tool_pool();
 ToolPool& jpeg_tool_pool();
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -19,9 +19,9 @@
 
 #include "halfspace/core/image.h"
 #include "halfspace/core/resource_limits.h"
-#include "halfspace/shading/sampler.h"
+#include "halfspace/shading/texture/sampler.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 // ---- textures --------------------------------------------------------------------------------------------------
 
@@ -280,4 +280,4 @@ struct ReadModelOptions {
 /// "FILE: PLACE: problem; expected ..." if the file cannot be read.
 Model read_model(const std::filesystem::path& file, const ReadModelOptions& options = {});
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

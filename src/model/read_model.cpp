@@ -7,16 +7,16 @@
 
 #include "halfspace/core/check.h"
 #include "halfspace/core/float_mode.h"
-#include "halfspace/model/file_bytes.h"
+#include "halfspace/model/gltf/read_gltf.h"
 #include "halfspace/model/model.h"
-#include "halfspace/model/read_gltf.h"
-#include "halfspace/model/read_obj.h"
-#include "halfspace/model/read_ply.h"
-#include "halfspace/model/read_stl.h"
-#include "halfspace/model/stl_triangles.h"
-#include "halfspace/model/text_lines.h"
+#include "halfspace/model/obj/read_obj.h"
+#include "halfspace/model/ply/read_ply.h"
+#include "halfspace/model/stl/read_stl.h"
+#include "halfspace/model/stl/stl_triangles.h"
+#include "halfspace/model/text/file_bytes.h"
+#include "halfspace/model/text/text_lines.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -96,4 +96,4 @@ Model read_model(const std::filesystem::path& file, const ReadModelOptions& opti
   return reader_of(file, contents)(file, contents, limited);
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

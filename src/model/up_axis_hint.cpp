@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -47,4 +47,4 @@ std::string up_axis_hint(const Model& model) {
   return "z probably points up, according to the bounds, but y is drawn as up; try --up-axis z (or confirm with --up-axis y)";
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

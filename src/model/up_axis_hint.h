@@ -5,7 +5,7 @@
 
 #include "halfspace/model/model.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Returns a sentence that suggests --up-axis z if the bounds of an OBJ or PLY model, whose formats do not say which axis points up, make
 /// it likely; empty otherwise. Either of these is likely only if z points up:
@@ -15,4 +15,4 @@ namespace halfspace::inline HS_LANES_NAMESPACE {
 /// both.
 std::string up_axis_hint(const Model& model);
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "halfspace/model/used_images.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 std::vector<bool> used_images(const Model& model) {
   std::vector<bool> used(model.images.size());
@@ -16,4 +16,4 @@ std::vector<bool> used_images(const Model& model) {
   return used;
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

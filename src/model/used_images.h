@@ -7,9 +7,9 @@
 
 #include "halfspace/model/model.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Returns, for each image of a model, whether a texture of a material shows it. Images that are only converted to others are not included.
 std::vector<bool> used_images(const Model& model);
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -3,33 +3,18 @@
 // Writes models as glTF, OBJ, PLY and STL.
 #pragma once
 
-#include <cstddef>
 #include <filesystem>
 #include <optional>
-#include <span>
-#include <string>
-#include <vector>
 
 #include "halfspace/model/model.h"
+#include "halfspace/model/written_model.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 enum class ModelFormat : uint8_t { glb, gltf, obj, ply, stl };
 
 /// Returns the format for the extension of a file name (case-insensitive), or nothing if it is not that of a model.
 std::optional<ModelFormat> model_format_of(const std::filesystem::path& file);
-
-/// One of the files of a model.
-struct ModelFile {
-  std::string name;  ///< without folders
-  std::vector<std::byte> bytes;
-};
-
-/// A model as files, the main file first. Files refer to each other by name and belong in the same folder.
-struct WrittenModel {
-  std::vector<ModelFile> files;
-  std::vector<std::string> warnings;  ///< one line for each kind of data that the format cannot store
-};
 
 /// Converts a model to files of the format. `file` gives their names. Images must be in memory (ModelImage::bytes) as PNG or JPEG; others
 /// are omitted, with a warning if a material uses them.
@@ -46,7 +31,4 @@ struct WrittenModel {
 /// store, and OutputError if it contains more than the format can address.
 WrittenModel written_model(const Model& model, const std::filesystem::path& file, ModelFormat format);
 
-/// Returns ".png" or ".jpg" for an image in a format that all glTF readers support, otherwise an empty string.
-std::string image_extension(std::span<const std::byte> image);
-
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -12,7 +12,7 @@
 #include "halfspace/geometry/shapes.h"
 #include "halfspace/procedural/noise.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE::procedural {
+namespace halfspace::HS_LANES::procedural {
 
 namespace {
 
@@ -249,4 +249,4 @@ void add_rays(const Crater& c, CraterRow& row) {
   });
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE::procedural
+}  // namespace halfspace::HS_LANES::procedural

@@ -9,7 +9,7 @@
 
 #include "halfspace/core/lanes.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE::procedural {
+namespace halfspace::HS_LANES::procedural {
 
 /// One impact crater: a bowl or a flat floor with walls, a rim that slopes down into a blanket of ejecta, and a central peak in
 /// large craters.
@@ -61,4 +61,4 @@ void stamp(const Crater& crater, CraterRow& row);
 /// Adds the rays of a crater, if it has rays.
 void add_rays(const Crater& crater, CraterRow& row);
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE::procedural
+}  // namespace halfspace::HS_LANES::procedural

@@ -13,7 +13,7 @@
 #include "halfspace/procedural/noise.h"
 #include "halfspace/procedural/palette.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -190,4 +190,4 @@ Image<glm::vec4> procedural_earth_normals(const Image<float>& heights, const Wor
   return map;
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

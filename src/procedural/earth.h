@@ -6,7 +6,7 @@
 #include "halfspace/core/image.h"
 #include "halfspace/core/parallel.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Returns a procedural Earth as an equirectangular color map (8-bit sRGB, alpha 255): continents with mountains, climate by
 /// latitude and height, shaded seas, polar caps. Row 0 is the north. Everything is computed on the sphere of uv_sphere, so the left
@@ -27,4 +27,4 @@ EarthMaps procedural_earth_maps(int width, int height, const Workers& workers);
 /// heights. The map has the size of the height map; heights are smoothed by one texel.
 Image<glm::vec4> procedural_earth_normals(const Image<float>& heights, const Workers& workers);
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -14,7 +14,7 @@
 #include "halfspace/procedural/noise.h"
 #include "halfspace/procedural/palette.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -257,4 +257,4 @@ MoonMaps procedural_moon(int width, const Workers& workers) {
   return maps;
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -7,7 +7,7 @@
 #include "halfspace/core/image.h"
 #include "halfspace/core/parallel.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Equirectangular maps in the layout of uv_sphere: row 0 is the north, and the center of the map is the center of the near side.
 struct MoonMaps {
@@ -21,4 +21,4 @@ struct MoonMaps {
 /// width / 2. The result depends only on the width, bit for bit.
 MoonMaps procedural_moon(int width, const Workers& workers);
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -7,7 +7,7 @@
 #include "halfspace/core/hash.h"
 #include "halfspace/core/trig_double.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE::procedural {
+namespace halfspace::HS_LANES::procedural {
 
 namespace {
 
@@ -155,4 +155,4 @@ Longitudes longitudes_of(int width) {
   return l;
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE::procedural
+}  // namespace halfspace::HS_LANES::procedural

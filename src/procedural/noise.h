@@ -9,7 +9,7 @@
 
 #include "halfspace/core/vec.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE::procedural {
+namespace halfspace::HS_LANES::procedural {
 
 using Vec = vec3<Real>;
 
@@ -54,4 +54,4 @@ struct Longitudes {
 
 Longitudes longitudes_of(int width);
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE::procedural
+}  // namespace halfspace::HS_LANES::procedural

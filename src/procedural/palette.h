@@ -8,7 +8,7 @@
 #include "halfspace/core/lane_math.h"
 #include "halfspace/procedural/noise.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE::procedural {
+namespace halfspace::HS_LANES::procedural {
 
 /// Broadcasts a color to all lanes.
 HS_INLINE Vec tint(const glm::vec3& c) { return Vec(Real(c.x), Real(c.y), Real(c.z)); }
@@ -17,4 +17,4 @@ HS_INLINE Vec tint(const glm::vec3& c) { return Vec(Real(c.x), Real(c.y), Real(c
 HS_INLINE Vec blend(const Vec& a, const Vec& b, Real t) { return Vec(lerp(a.x, b.x, t), lerp(a.y, b.y, t), lerp(a.z, b.z, t)); }
 HS_INLINE Vec blend(const Vec& a, const glm::vec3& b, Real t) { return blend(a, tint(b), t); }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE::procedural
+}  // namespace halfspace::HS_LANES::procedural

@@ -12,7 +12,7 @@
 #include "halfspace/procedural/noise.h"
 #include "halfspace/procedural/palette.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -212,4 +212,4 @@ PatternMaps procedural_pattern(Pattern pattern, int width, const Workers& worker
   return maps;
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

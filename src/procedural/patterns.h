@@ -9,7 +9,7 @@
 #include "halfspace/core/image.h"
 #include "halfspace/core/parallel.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Content of a pattern, with v pointing down:
 ///   checkerboard  8 x 8 squares, white in the first corner
@@ -36,4 +36,4 @@ inline constexpr int kMinPattern = 64, kMaxPattern = 2048;
 /// texels. The result depends, bit for bit, only on the pattern and the width.
 PatternMaps procedural_pattern(Pattern pattern, int width, const Workers& workers);
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

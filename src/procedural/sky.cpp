@@ -11,7 +11,7 @@
 #include "halfspace/procedural/noise.h"
 #include "halfspace/procedural/palette.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -161,4 +161,4 @@ SkyFaces procedural_night_sky(int size, const NightSky& sky, const Workers& work
       size, [&](const Vec& d) { return night_light(d, sky); }, workers);
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

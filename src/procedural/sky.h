@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Procedural skies as the six faces of a cube map, in the face order and orientation of shading/environment.h. In map space, z points
-// forward, which is −z in world space. Values are linear; 1 is the radiance of a white surface in the noon sun.
+// Procedural skies as the six faces of a cube map, in the face order and orientation of shading/environment/environment.h. In map space, z
+// points forward, which is −z in world space. Values are linear; 1 is the radiance of a white surface in the noon sun.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 #include "halfspace/core/image.h"
 #include "halfspace/core/parallel.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 using SkyFaces = std::array<Image<glm::vec4>, 6>;
 
@@ -34,4 +34,4 @@ SkyFaces procedural_night_sky(int size, const NightSky& sky, const Workers& work
 /// luminance is 0.1 to 6.
 SkyFaces procedural_studio(int size, const Workers& workers);
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

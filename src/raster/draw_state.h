@@ -12,7 +12,7 @@
 
 #include "halfspace/core/namespace.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// A rectangle of pixels in window coordinates (origin at the lower left): [x, x + width) × [y, y + height).
 struct Rect {
@@ -213,4 +213,4 @@ constexpr bool draws_points(const DrawState& s) {
   return s.topology == Topology::points || (!is_lines(s.topology) && s.polygon_mode == PolygonMode::point);
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -22,7 +22,7 @@
 #include "halfspace/raster/visibility/depth_stencil_test.h"
 #include "halfspace/shading/contract.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Render target of the naive pipeline: linear color and window depth, top row first.
 template <class R>
@@ -204,4 +204,4 @@ void draw_naive(NaiveTarget<R>& target, const S& shader, const VertexView& verti
   }
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -15,7 +15,7 @@
 #include "halfspace/raster/primitives/vertex_stage.h"
 #include "halfspace/raster/tile/blend.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -460,4 +460,4 @@ PassStatistics run_with(Pass& pass, TileRunner& tiles, const Workers& workers) {
   return detail::PassAccess::state_of(pass).run(tiles, workers);
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -23,7 +23,7 @@
 #include "halfspace/raster/target.h"
 #include "halfspace/raster/vertex_input.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Options of a pass. `samples` and `supersample` affect the rendered image. The others affect speed and memory use, except that bin_budget
 /// can change the result of order-independent blending (DrawState::order_independent) and contents that are not defined
@@ -132,4 +132,4 @@ class Pass {
   std::unique_ptr<detail::PassState> state_;
 };
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

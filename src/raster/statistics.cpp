@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "halfspace/raster/statistics.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 PassStatistics& PassStatistics::operator+=(const PassStatistics& o) {
   vertices_in += o.vertices_in;
@@ -30,4 +30,4 @@ void PassStatistics::add_to_query(std::size_t query, uint64_t samples) {
   queries[query] += samples;
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

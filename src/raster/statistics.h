@@ -6,7 +6,7 @@
 
 #include "halfspace/core/namespace.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Counters of a pass. They do not depend on the number of threads. samples_tested can vary with the SIMD width, because it depends on
 /// which blocks are rejected by hierarchical Z.
@@ -42,4 +42,4 @@ struct PassStatistics {
   friend bool operator==(const PassStatistics&, const PassStatistics&) = default;
 };
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

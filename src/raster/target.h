@@ -12,7 +12,7 @@
 
 #include "halfspace/core/image.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 using U16Vec4 = glm::vec<4, uint16_t>;
 
@@ -136,4 +136,4 @@ inline DepthTarget d32f_target(Image<float>& image, float clear_value) {
   return target;
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

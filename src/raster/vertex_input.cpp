@@ -3,7 +3,7 @@
 
 #include <limits>
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace detail {
 
@@ -98,4 +98,4 @@ std::span<const VertexStream> at_instance(const VertexStreams& vertices, uint32_
   return moved;
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

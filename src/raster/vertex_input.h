@@ -14,7 +14,7 @@
 #include "halfspace/core/aggregate_reflection.h"
 #include "halfspace/core/check.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Array of floats with one row per vertex or group of instances. A row contains one attribute, or several consecutive ones.
 struct VertexStream {
@@ -207,4 +207,4 @@ class Indices {
   std::vector<uint32_t> used_, restarts_;
 };
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 std::vector<double> edge_distances(const std::vector<glm::ivec2>& from, const std::vector<glm::ivec2>& to, int width, int height) {
   if (to.empty()) return {};
@@ -45,4 +45,4 @@ EdgeDistance wrong_band_width(const Image<uint8_t>& wrong, int finer) {
   return {width(depth.mean), width(depth.p95), width(depth.max)};
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -6,7 +6,7 @@
 
 #include "halfspace/core/image.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Statistics of the distance between two sets of edges, in pixels; 0 if there are none.
 struct EdgeDistance {
@@ -25,4 +25,4 @@ std::vector<double> edge_distances(const std::vector<glm::ivec2>& from, const st
 /// of `wrong`; the result is in pixels of the original image. Returns 0 if no pixel is wrong.
 EdgeDistance wrong_band_width(const Image<uint8_t>& wrong, int finer);
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

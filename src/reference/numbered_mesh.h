@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "halfspace/shading/depth_only.h"
-#include "halfspace/shading/sphere_depth.h"
+#include "halfspace/shading/sphere/sphere_depth.h"
+#include "halfspace/shading/surface/depth_only.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Writes the number of a mesh to the red channel.
 struct NumberedMesh : DepthOnly {
@@ -28,4 +28,4 @@ struct NumberedSphere : SphereDepth {
   }
 };
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -11,7 +11,7 @@
 #include "halfspace/geometry/camera.h"
 #include "halfspace/scene/lights.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -136,4 +136,4 @@ LightTruth light_truth(const RayScene& casters, const RayLight& light, const glm
   return {static_cast<float>(share), n > 1 ? static_cast<float>(std::sqrt(share * (1.0 - share) / n)) : 0.0f};
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

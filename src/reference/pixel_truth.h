@@ -12,7 +12,7 @@
 #include "halfspace/reference/ray_scene.h"
 #include "halfspace/render/view.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Selects PreparedScene::lights[index].
 struct LightChoice {
@@ -70,4 +70,4 @@ struct RayLight {
 LightTruth light_truth(const RayScene& casters, const RayLight& light, const glm::dvec3& position_rws, const glm::dvec3& face_normal_ws,
                        uint32_t seed);
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -14,7 +14,7 @@
 #include "halfspace/core/check.h"
 #include "halfspace/core/float_mode.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -159,4 +159,4 @@ bool RayScene::occluded(const glm::vec3& origin_rws, const glm::vec3& direction_
   return is_occluded(impl_->scene.get(), ray);
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

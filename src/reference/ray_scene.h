@@ -13,7 +13,7 @@
 
 #include "halfspace/render/prepared_scene.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// The point where a ray hits the scene. Suffix _rws: relative to the eye_ws passed to RayScene, with the axes of world space.
 struct RayHit {
@@ -47,4 +47,4 @@ class RayScene {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

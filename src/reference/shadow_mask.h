@@ -5,10 +5,10 @@
 #pragma once
 
 #include "halfspace/shading/contract.h"
-#include "halfspace/shading/lighting.h"
-#include "halfspace/shading/terminator.h"
+#include "halfspace/shading/light/lighting.h"
+#include "halfspace/shading/shadow/terminator.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Output: (fraction of the light that arrives according to the shadow map, or 1 without a map; dot product of shading normal and light
 /// direction; 1 + mesh; triangle). Where the triangle faces away from the light, the fraction includes terminator_fraction.
@@ -70,4 +70,4 @@ struct ShadowMask {
   }
 };
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

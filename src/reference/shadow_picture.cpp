@@ -10,7 +10,7 @@
 #include "halfspace/reference/pixel_truth.h"
 #include "halfspace/reference/shadow_mask.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -73,4 +73,4 @@ ShadowPicture draw_shadow_picture(const LightChoice& choice, const View& view, i
   return out;
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

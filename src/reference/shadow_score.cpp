@@ -8,13 +8,13 @@
 
 #include "halfspace/core/trig_double.h"
 #include "halfspace/geometry/camera.h"
-#include "halfspace/render/frame.h"
+#include "halfspace/render/frame/frame.h"
 #include "halfspace/render/shadow/shadow_views.h"
 #include "halfspace/scene/lights.h"
-#include "halfspace/shading/shadow_bias.h"
-#include "halfspace/shading/terminator.h"
+#include "halfspace/shading/shadow/shadow_bias.h"
+#include "halfspace/shading/shadow/terminator.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -300,4 +300,4 @@ ShadowComparison compare_shadow(const LightChoice& choice, const RayScene& rays,
   return out;
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -9,7 +9,7 @@
 #include "halfspace/reference/edge_distance.h"
 #include "halfspace/reference/pixel_truth.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Fractions of pixels by their distance from the exact shadow edge. The distance is measured perpendicular to the light, in shadow map
 /// texels, and the filter radius is subtracted.
@@ -17,9 +17,9 @@ struct DistanceShares {
   double within_1 = 0.0, from_1_to_3 = 0.0, beyond_3 = 0.0;
 };
 
-/// Pixels at which only the shading normal faces the light. In the reference, the smooth surface of smooth_height (shading/terminator.h) is
-/// lit where its normal faces the light and a ray from it reaches the light. Opposite pixels, at which only the triangle faces the light,
-/// are dark with every method.
+/// Pixels at which only the shading normal faces the light. In the reference, the smooth surface of smooth_height
+/// (shading/shadow/terminator.h) is lit where its normal faces the light and a ray from it reaches the light. Opposite pixels, at which
+/// only the triangle faces the light, are dark with every method.
 struct SidesScore {
   int64_t lit = 0, shadowed = 0;  ///< pixel counts according to the rays
   double false_shadow = 0.0;      ///< pixels with |map − rays| > 0.5, as a fraction of the lit pixels
@@ -56,4 +56,4 @@ struct ShadowComparison {
 ShadowComparison compare_shadow(const LightChoice& light, const RayScene& rays, const RayScene& casters, int width, int height,
                                 int rays_per_pixel, const Workers& workers);
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -6,9 +6,10 @@
 #include <numbers>
 
 #include "halfspace/core/trig_double.h"
+#include "halfspace/render/scene_assets.h"
 #include "halfspace/scene/scene_file.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -103,4 +104,4 @@ std::string csv_line(const TableRow& row) {
                      s.false_light.beyond_3, s.edge_px.mean, s.edge_px.p95, s.edge_px.max, s.error, s.map_ms, s.lookup_ms);
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

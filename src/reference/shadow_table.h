@@ -9,7 +9,7 @@
 
 #include "halfspace/reference/validation.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// One combination of scene and shadow settings.
 struct ShadowCase {
@@ -39,4 +39,4 @@ std::vector<TableRow> shadow_table(bool full, const ValidationOptions& options, 
 std::string csv_header();
 std::string csv_line(const TableRow& row);
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -7,9 +7,9 @@
 
 #include "halfspace/raster/pass.h"
 #include "halfspace/reference/numbered_mesh.h"
-#include "halfspace/render/sphere_camera.h"
+#include "halfspace/render/shadow/sphere_camera.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -63,4 +63,4 @@ EdgeDistance silhouette_distance(const Image<int>& picture, const Image<int>& tr
   return wrong_band_width(wrong, finer);
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

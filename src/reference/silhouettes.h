@@ -8,7 +8,7 @@
 #include "halfspace/reference/edge_distance.h"
 #include "halfspace/render/prepared_scene.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// The value of seen_objects for particles.
 inline constexpr int kParticlesSeen = -1;
@@ -21,4 +21,4 @@ Image<int> seen_objects(const PreparedScene& scene, int finer, const Workers& wo
 /// seen_objects with the same `finer`; the result is in pixels of the scene's view.
 EdgeDistance silhouette_distance(const Image<int>& picture, const Image<int>& truth, int finer);
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

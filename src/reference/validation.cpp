@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "halfspace/reference/validation.h"
+#include "halfspace/render/scene_assets.h"
 
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -144,4 +145,4 @@ Image<glm::u8vec4> difference_picture(const ShadowComparison& c) {
   return out;
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

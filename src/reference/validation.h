@@ -7,8 +7,9 @@
 #include <vector>
 
 #include "halfspace/reference/shadow_score.h"
+#include "halfspace/render/scene_assets.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 struct ValidationOptions {
   int width = 960, height = 540;
@@ -34,4 +35,4 @@ Image<glm::u8vec4> light_picture(const Image<float>& light);
 /// Draws the reference in gray with the errors of the map on top: red is wrongly shadowed, blue wrongly lit.
 Image<glm::u8vec4> difference_picture(const ShadowComparison& comparison);
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

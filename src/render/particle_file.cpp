@@ -11,7 +11,7 @@
 #include "halfspace/render/particles.h"
 #include "halfspace/scene/keys.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -113,4 +113,4 @@ Particles read_particles(const std::filesystem::path& path, const ParticlesDescr
   return out;
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

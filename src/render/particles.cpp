@@ -9,7 +9,7 @@
 #include "halfspace/core/hash.h"
 #include "halfspace/core/trig_double.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -121,4 +121,4 @@ Particles make_particles(const ParticlesDescription& p) {
   return out;
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -9,7 +9,7 @@
 #include "halfspace/core/vec.h"
 #include "halfspace/scene/description.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Spheres in structure-of-arrays layout, one element per sphere.
 struct Particles {
@@ -33,4 +33,4 @@ Particles make_particles(const ParticlesDescription& p);
 /// particle_radius(p), and the default color is white. Throws InputError with the file, the line, the problem and what was expected.
 Particles read_particles(const std::filesystem::path& path, const ParticlesDescription& p);
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -1,18 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "halfspace/render/prepared_scene.h"
 
-#include <array>
-#include <typeindex>
-
-#include "halfspace/core/float_mode.h"
-#include "halfspace/render/model/model_chooser.h"
-#include "halfspace/render/model_preparation.h"
-#include "halfspace/render/scene_environments.h"
-#include "halfspace/render/scene_maps.h"
-#include "halfspace/render/scene_places.h"
-#include "halfspace/render/scene_preparation.h"
-
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 DrawState opaque_state(CullMode cull, bool mirrored) {
   DrawState state;
@@ -29,46 +18,4 @@ DrawState sprite_state() {
   return state;
 }
 
-void SceneAssets::expect(const SceneDescription& scene, int width, int height) {
-  const View view = make_view(camera_of(scene), width, height);
-  UsedAssets used(cache_);
-  SceneMaps maps(scene, view, minimum_.map_widths, used, workers_);
-  for (const auto& [name, object] : scene.objects) {
-    if (object.visible) minimum_.map_widths[name] = maps.width_for(object);
-  }
-  minimum_.environments = SceneEnvironments(scene, view, minimum_.environments, maps, used, workers_).sizes();
-}
-
-void SceneAssets::add_model(const std::filesystem::path& file, std::shared_ptr<const ModelAsset> model) {
-  warn_of(file, model->model, warnings_);
-  const std::string key = model_recipe(file, model->allow_outside);
-  cache_.add(key, std::move(model));
-}
-
-FittedScene SceneAssets::fit(const SceneDescription& scene, int width, int height, const AllowedError& allowed) {
-  const FloatMode float_mode;
-  const View view = make_view(camera_of(scene), width, height);
-  UsedAssets used(cache_);
-  SceneMaps maps(scene, view, minimum_.map_widths, used, workers_);
-  return ModelChooser(scene, view, maps, used, workers_).fit(allowed);
-}
-
-PreparedScene SceneAssets::prepare(const SceneDescription& scene, int width, int height) {
-  const FloatMode float_mode;
-  PreparedScene prepared = ScenePreparation(scene, width, height, minimum_, cache_, warnings_, workers_).prepare();
-  cache_.remove_unwanted();
-  return prepared;
-}
-
-PreparedScene SceneAssets::prepare_values(SceneDescription scene, int width, int height) {
-  const FloatMode float_mode;
-  for (auto& [name, light] : scene.lights) light.shadow = false;
-  scene.head.ambient = Color{glm::dvec3(1.0)};  // no warning that nothing lights the scene
-  scene.reflections.on = false;
-  scene.background.type = BackgroundType::color;
-  PreparedScene prepared = ScenePreparation(scene, width, height, minimum_, cache_, warnings_, workers_).prepare();
-  cache_.remove_unwanted(std::array<std::type_index, 2>{typeid(EnvironmentMap), typeid(FilteredEnvironment)});
-  return prepared;
-}
-
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -15,24 +15,20 @@
 #include "halfspace/core/parallel.h"
 #include "halfspace/geometry/mesh.h"
 #include "halfspace/raster/pass.h"
-#include "halfspace/render/asset_cache.h"
-#include "halfspace/render/minimum_sizes.h"
-#include "halfspace/render/model/model_choice.h"
 #include "halfspace/render/particles.h"
 #include "halfspace/render/view.h"
-#include "halfspace/render/warnings.h"
 #include "halfspace/scene/description.h"
-#include "halfspace/shading/colored_primitives.h"
-#include "halfspace/shading/environment_sky.h"
-#include "halfspace/shading/masked_depth.h"
-#include "halfspace/shading/metallic_surface.h"
-#include "halfspace/shading/shadow_catcher.h"
-#include "halfspace/shading/shadow_map.h"
-#include "halfspace/shading/sphere_impostor.h"
-#include "halfspace/shading/star_sky.h"
-#include "halfspace/shading/surface_shader.h"
+#include "halfspace/shading/environment/environment_sky.h"
+#include "halfspace/shading/environment/star_sky.h"
+#include "halfspace/shading/shadow/shadow_map.h"
+#include "halfspace/shading/sphere/sphere_impostor.h"
+#include "halfspace/shading/surface/colored_primitives.h"
+#include "halfspace/shading/surface/masked_depth.h"
+#include "halfspace/shading/surface/metallic_surface.h"
+#include "halfspace/shading/surface/shadow_catcher.h"
+#include "halfspace/shading/surface/surface_shader.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// All shaders that a scene can use. Every std::visit over this type instantiates all of them, so only a few translation units may do so.
 using SceneShader = std::variant<SurfaceShader<ShadingRate::none, false>, SurfaceShader<ShadingRate::none, true>,            //
@@ -58,7 +54,7 @@ struct MeshStreams {
   std::span<const glm::vec2> uvs, second_uvs;
 };
 
-/// The origin of a draw, for the values of a frame other than its color (render/frame.h).
+/// The origin of a draw, for the values of a frame other than its color (render/frame/frame.h).
 struct DrawSource {
   int object = -1;                    ///< as in FrameImages::object; −1: the background
   int instance = 0;                   ///< copy · parts of the model + part
@@ -81,9 +77,6 @@ DrawState opaque_state(CullMode cull, bool mirrored);
 
 /// Returns the draw state of spheres drawn as points.
 DrawState sprite_state();
-
-/// Adds a draw to a pass, with the given state.
-void add_draw(Pass& pass, const PreparedDraw& draw, const DrawState& state);
 
 /// A mesh and its transform, for shadow maps and ray tracing.
 struct PlacedMesh {
@@ -131,48 +124,4 @@ struct PreparedScene {
   std::vector<std::shared_ptr<const void>> assets;
 };
 
-struct ModelAsset;
-
-/// Creates the textures, meshes and maps that scene descriptions require. Assets are cached until a frame is prepared that does not
-/// use them.
-class SceneAssets {
- public:
-  /// warn: called with one line for each problem that does not prevent rendering, such as a missing texture of a model.
-  explicit SceneAssets(const Workers& workers, std::function<void(const std::string&)> warn = {})
-      : workers_(workers), warnings_(std::move(warn)) {}
-
-  /// Shares the assets of `other`. Both can then be used by different threads. Frames that were announced to `other` are ignored.
-  SceneAssets(const SceneAssets& other, const Workers& workers, std::function<void(const std::string&)> warn)
-      : workers_(workers), warnings_(std::move(warn)), cache_(other.cache_) {}
-
-  /// Provides the contents of a model file that has already been read, so that `prepare` does not read it again.
-  void add_model(const std::filesystem::path& file, std::shared_ptr<const ModelAsset> model);
-
-  /// Announces a frame that will be rendered. From then on, generated maps without an explicit width are at least as fine as that frame
-  /// needs. If all frames of a range are announced before the first is rendered, maps do not change in between. width and height are the
-  /// image size in pixels.
-  void expect(const SceneDescription& scene, int width, int height);
-
-  /// Returns the same scene with the cheapest models that keep the image within the allowed error (docs/results/accuracy.md). The choice
-  /// depends only on the scene and on models of error and cost, so it is the same on every machine. Throws the same exceptions as prepare.
-  FittedScene fit(const SceneDescription& scene, int width, int height, const AllowedError& allowed);
-
-  /// Prepares a frame of width x height pixels. Throws InputError with a message that begins with the key if a file cannot be used.
-  PreparedScene prepare(const SceneDescription& scene, int width, int height);
-
-  /// The same for a frame without color (render/frame.h). Lights, shadows, reflections and the background are not prepared. Environments
-  /// stay in the cache for later frames.
-  PreparedScene prepare_values(SceneDescription scene, int width, int height);
-
- private:
-  const Workers& workers_;
-  Warnings warnings_;
-  AssetCache cache_;
-  MinimumSizes minimum_;
-};
-
-/// Renders only the color of a frame. See render_frame() in render/frame.h for the meaning of the images and for other values.
-PassStatistics render(const PreparedScene& scene, Image<glm::u8vec4>& picture, const Workers& workers);
-PassStatistics render(const PreparedScene& scene, Image<glm::vec4>& light, const Workers& workers);
-
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

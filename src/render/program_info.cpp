@@ -7,9 +7,9 @@
 #include "halfspace/core/lanes.h"
 #include "halfspace/core/parallel.h"
 #include "halfspace/image/image_tool.h"
-#include "halfspace/model/draco_process.h"
+#include "halfspace/model/gltf/draco_process.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -34,4 +34,4 @@ nlohmann::ordered_json program_info(const std::string& version) {
   return json;
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

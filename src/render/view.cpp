@@ -12,7 +12,7 @@
 #include "halfspace/core/units.h"
 #include "halfspace/geometry/camera.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -209,4 +209,4 @@ glm::dmat4 world_from_object(const Placement& p) {
   return m;
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -6,7 +6,7 @@
 #include "halfspace/core/vec.h"
 #include "halfspace/scene/description.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 struct View {
   glm::dmat4 clip_from_world;
@@ -60,4 +60,4 @@ bool is_outside(const View& view, const glm::dvec3& center_ws, double radius);
 /// Returns the transform of a placement: scale, then rotation, then translation.
 glm::dmat4 world_from_object(const Placement& placement);
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -7,10 +7,10 @@
 
 #include "halfspace/core/check.h"
 #include "halfspace/core/trig_double.h"
-#include "halfspace/scene/scene_check.h"
+#include "halfspace/scene/object_keys.h"
 #include "halfspace/scene/scene_paths.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -112,4 +112,4 @@ void animate(SceneDescription& scene, const AnimationDescription& a, const std::
   read_value(field, value.size() == 1 ? Json(value[0]) : Json(value), a.target, {source + ": " + path, {}, {}});
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

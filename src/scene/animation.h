@@ -5,7 +5,7 @@
 
 #include "halfspace/scene/description.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Checks that the animation's target exists and matches its values. Throws InputError.
 void check_animation(SceneDescription& scene, const AnimationDescription& animation, const std::string& path, const std::string& source);
@@ -19,4 +19,4 @@ void check_animation(SceneDescription& scene, const AnimationDescription& animat
 void animate(SceneDescription& scene, const AnimationDescription& animation, const std::string& path, const std::string& source,
              double seconds);
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -11,11 +11,11 @@
 #include <vector>
 
 #include "halfspace/scene/keys.h"
-#include "halfspace/shading/light_types.h"
-#include "halfspace/shading/sampler.h"
-#include "halfspace/shading/tone_types.h"
+#include "halfspace/shading/texture/sampler.h"
+#include "halfspace/shading/values/light_types.h"
+#include "halfspace/shading/values/tone_types.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Named items, in file order.
 template <class T>
@@ -131,8 +131,8 @@ struct SurfaceDescription {
 /// Returns the key of the first map of a surface, or an empty string if it has none.
 std::string_view first_map(const SurfaceDescription& s);
 
-/// `sphere` has no mesh: it is ray traced per pixel (shading/sphere_impostor.h), and its surface cannot have maps. `file` is a model file,
-/// which has its own materials. Each shape has a row in the table in scene/shapes.cpp.
+/// `sphere` has no mesh: it is ray traced per pixel (shading/sphere/sphere_impostor.h), and its surface cannot have maps. `file` is a model
+/// file, which has its own materials. Each shape has a row in the table in scene/shapes.cpp.
 enum class Shape : uint8_t { uv_sphere, icosphere, sphere, plane, cube, cylinder, cone, torus, torus_knot, file };
 inline constexpr std::size_t kShapes = 10;
 /// The up axis of a model file. `automatic`: z for STL, otherwise y.
@@ -183,7 +183,7 @@ struct ObjectDescription {
 
 enum class EnvironmentType : uint8_t { equirect, globe, cube, day_sky, night_sky, studio };
 
-/// Light from infinitely far away, as a function of direction (see shading/environment.h).
+/// Light from infinitely far away, as a function of direction (see shading/environment/environment.h).
 struct EnvironmentDescription {
   EnvironmentType type = EnvironmentType::equirect;
   MapValue map = Color{glm::dvec3(1.0)};  ///< if it is a texture, only its source is used
@@ -265,7 +265,7 @@ inline constexpr int kMaxParticles = 1000000;
 
 enum class ParticleArrangement : uint8_t { helix, grid, ball, galaxy };
 
-/// Spheres drawn as points (render/particles.h, shading/sphere_impostor.h).
+/// Spheres drawn as points (render/particles.h, shading/sphere/sphere_impostor.h).
 struct ParticlesDescription {
   ParticleSprite sprite = ParticleSprite::original;
   int count = 0;  ///< number of generated spheres; 0: none
@@ -385,4 +385,4 @@ void for_each_single(Scene& scene, F&& visit) {
   visit("time", "The time of day", scene.time);
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Key tables, continued from description.cpp: particles, environments, background, reflections and post-processing.
+// Key tables, continued from description_keys.cpp: particles, environments, background, reflections and post-processing.
 #include "halfspace/scene/description.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 template <>
 struct ChoiceNames<EnvironmentType> {
@@ -135,4 +135,4 @@ Section section_of(PostDescription& p) {
   return {{keys, &p}};
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -12,7 +12,7 @@
 #include "halfspace/core/text.h"
 #include "halfspace/scene/path_text.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -370,4 +370,4 @@ Json schema_of(const Key& key) {
   return schema;
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -16,7 +16,7 @@
 
 #include "halfspace/core/namespace.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 using Json = nlohmann::ordered_json;
 
@@ -176,4 +176,4 @@ std::string expectation(const Key& key);
 /// Returns the JSON Schema (draft 2020-12) of the key's value.
 Json schema_of(const Key& key);
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

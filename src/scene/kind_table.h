@@ -12,7 +12,7 @@
 
 #include "halfspace/core/text.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Returns true if row i describes enumerator i for every i, so that enumerators can index the table. value: the member that holds the
 /// enumerator.
@@ -45,4 +45,4 @@ const char* names_with(const Kind (&kinds)[n], std::string_view key) {
   return list.c_str();
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -3,7 +3,7 @@
 
 #include "halfspace/scene/kind_table.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -26,4 +26,4 @@ const LightKind& kind_of(LightType type) { return kKinds[static_cast<std::size_t
 
 const char* lights_with(std::string_view key) { return names_with(kKinds, key); }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

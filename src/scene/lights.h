@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The properties of each light type, as a table with one row per type. light_at() in shading/lighting.h computes the light.
+// The properties of each light type, as a table with one row per type. light_at() in shading/light/lighting.h computes the light.
 #pragma once
 
 #include <array>
 #include <string_view>
 
 #include "halfspace/scene/keys.h"
-#include "halfspace/shading/light_types.h"
+#include "halfspace/shading/values/light_types.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 inline constexpr std::size_t kLightTypes = 3;
 
@@ -35,4 +35,4 @@ const LightKind& kind_of(LightType type);
 /// the program ends.
 const char* lights_with(std::string_view key);
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -7,7 +7,7 @@
 #include "halfspace/core/text.h"
 #include "halfspace/scene/scene_paths.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -60,4 +60,4 @@ void check_material_overrides(const SceneDescription& scene, const ObjectDescrip
   });
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

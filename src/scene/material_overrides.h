@@ -8,7 +8,7 @@
 
 #include "halfspace/scene/description.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Returns an error about a name that no material of the scene has: "no material 'red'; expected ...".
 std::string no_material(const SceneDescription& scene, std::string_view name);
@@ -21,4 +21,4 @@ const SurfaceDescription* override_of(const SceneDescription& scene, const Objec
 /// names a material that the scene does not have.
 void check_material_overrides(const SceneDescription& scene, const ObjectDescription& o, const std::string& where);
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -5,7 +5,7 @@
 
 #include "halfspace/core/text.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 std::string scene_text(const std::filesystem::path& path) { return escaped(path.string(), std::string_view("\0", 1)); }
 
@@ -26,4 +26,4 @@ std::optional<std::string> path_of_scene_text(std::string_view text) {
   return bytes;
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

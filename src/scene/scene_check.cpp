@@ -16,10 +16,11 @@
 #include "halfspace/scene/animation.h"
 #include "halfspace/scene/lights.h"
 #include "halfspace/scene/material_overrides.h"
+#include "halfspace/scene/object_keys.h"
 #include "halfspace/scene/scene_paths.h"
 #include "halfspace/scene/shapes.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -138,8 +139,6 @@ void check_effect(ObjectDescription& o, const std::string& where) {
   }
 }
 
-bool is_uniformly_scaled(const Placement& p) { return glm::abs(p.scale) == glm::dvec3(std::fabs(p.scale.x)); }
-
 // Checks that the ancestors of an object exist and form no cycle, and that exact spheres stay round.
 void check_parents(SceneDescription& scene, const ObjectDescription& object, const std::string& where) {
   std::size_t generations = 0;
@@ -169,36 +168,6 @@ void check_environments(SceneDescription& scene, const std::string& source) {
 }
 
 }  // namespace
-
-std::string_view mesh_only_key(const ObjectDescription& o) {
-  const SurfaceDescription& s = o.surface;
-  if (is_map(o.height)) return "height";
-  if (const std::string_view map = first_map(s); !map.empty()) return map;
-  if (s.reflection.linear != glm::dvec3(0.0)) return "reflection";
-  if (s.shading != ShadingRate::phong) return "shading";
-  if (s.two_sided) return "two_sided";
-  if (!is_uniformly_scaled(o.placement)) return "scale";
-  return std::ranges::all_of(o.instances, is_uniformly_scaled) ? "" : kInstances;
-}
-
-std::string lack_of_effect(const ObjectDescription& o, std::string_view key) {
-  if (o.shape != Shape::file) return {};
-  static const std::vector<std::string_view> surface_keys = [] {
-    SurfaceDescription surface;
-    std::vector<std::string_view> names;
-    for (const Field& field : fields_of(section_of(surface))) names.emplace_back(field.key->name);
-    return names;
-  }();
-  if (key == "height" || key.starts_with("height_")) return "has no effect on a model; expected another shape, or no such key";
-  if (!o.material.empty() || std::ranges::find(surface_keys, key) == surface_keys.end()) return {};
-  return "has no effect on a model with its own materials; expected the key material as well, or no such key";
-}
-
-bool has_uniformly_scaled_ancestors(const SceneDescription& scene, const ObjectDescription& o) {
-  if (o.parent.empty()) return true;
-  const ObjectDescription* parent = find_named(scene.objects, o.parent);
-  return is_uniformly_scaled(parent->placement) && has_uniformly_scaled_ancestors(scene, *parent);
-}
 
 void check_mesh_limits(const Named<ObjectDescription>& objects, const std::string& source) {
   int64_t vertices = 0, copies = 0;
@@ -243,4 +212,4 @@ void check_scene(SceneDescription& scene, const std::string& source) {
   check_mesh_limits(scene.objects, source);
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

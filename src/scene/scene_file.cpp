@@ -16,10 +16,11 @@
 #include "halfspace/core/text.h"
 #include "halfspace/scene/animation.h"
 #include "halfspace/scene/material_overrides.h"
+#include "halfspace/scene/object_keys.h"
 #include "halfspace/scene/scene_check.h"
 #include "halfspace/scene/scene_paths.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -378,4 +379,4 @@ SceneDescription SceneFile::with_materials_at(double time) const {
 
 std::string SceneFile::print() const { return json_of(description_).dump(2) + "\n"; }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

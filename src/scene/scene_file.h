@@ -11,7 +11,7 @@
 
 #include "halfspace/scene/description.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// A scene that is built into the program.
 struct ShippedScene {
@@ -67,4 +67,4 @@ class SceneFile {
 /// Returns the JSON Schema of scene files.
 std::string scene_schema();
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

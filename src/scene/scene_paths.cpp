@@ -10,7 +10,7 @@
 #include "halfspace/core/check.h"
 #include "halfspace/core/text.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -210,4 +210,4 @@ std::string object_path(const SceneDescription& scene, int object) {
   return (object < objects ? "objects." : "particle_systems.") + name;
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -10,7 +10,7 @@
 
 #include "halfspace/scene/description.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Key of an object's list of placements.
 inline constexpr std::string_view kInstances = "instances";
@@ -49,8 +49,8 @@ Section section_at(SceneDescription& scene, std::span<const std::string> words);
 /// Returns the reserved words at the top level of a scene file.
 std::vector<std::string_view> top_words(SceneDescription& scene);
 
-/// Returns the name of the object or particle system with the given index in FrameImages::object (render/frame.h): "particles" for the
-/// first particle system, and "background" for −1.
+/// Returns the name of the object or particle system with the given index in FrameImages::object (render/frame/frame.h): "particles" for
+/// the first particle system, and "background" for −1.
 std::string object_name(const SceneDescription& scene, int object);
 /// Like object_name, but returns the path, for example "objects.moon".
 std::string object_path(const SceneDescription& scene, int object);
@@ -71,4 +71,4 @@ std::vector<std::string_view> names_of(const Named<T>& list) {
   return names;
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

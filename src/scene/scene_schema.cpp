@@ -5,7 +5,7 @@
 
 #include "halfspace/scene/scene_paths.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -52,4 +52,4 @@ std::string scene_schema() {
   return out.dump(2) + "\n";
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

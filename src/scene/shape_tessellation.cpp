@@ -8,7 +8,7 @@
 
 #include "halfspace/core/trig_double.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -100,4 +100,4 @@ void knot_parts(Object& o, int parts, bool) {
   o.longitudes = scaled(parts, std::sqrt(2.0 * knot_bend(o) / o.tube));
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

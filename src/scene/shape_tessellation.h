@@ -5,7 +5,7 @@
 
 #include "halfspace/scene/description.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 // ---- chord_error ------------------------------------------------------------------------------------------------
 
@@ -33,4 +33,4 @@ void cone_parts(ObjectDescription& o, int parts, bool places_maps);
 void torus_parts(ObjectDescription& o, int parts, bool places_maps);
 void knot_parts(ObjectDescription& o, int parts, bool places_maps);
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -8,7 +8,7 @@
 #include "halfspace/scene/kind_table.h"
 #include "halfspace/scene/shape_tessellation.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -209,4 +209,4 @@ int part_step(int minimum) {
 
 const char* shapes_with(std::string_view key) { return names_with(kKinds, key); }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The properties of each shape that do not require its mesh, as a table with one row per shape. render/shape_mesh.cpp creates the meshes.
+// The properties of each shape that do not require its mesh, as a table with one row per shape. render/prepare/shape_mesh.cpp creates the
+// meshes.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +9,7 @@
 
 #include "halfspace/scene/description.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// The names of the shapes, in the order of the table.
 template <>
@@ -78,4 +79,4 @@ inline ObjectDescription with_parts(ObjectDescription o, int parts, bool places_
 /// Returns ShapeKind::chord_error of the object.
 inline double chord_error(const ObjectDescription& o) { return kind_of(o).chord_error(o); }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

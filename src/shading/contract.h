@@ -37,7 +37,7 @@
 
 #include "halfspace/shading/pixel.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Identifies the vertex that a vertex function computes.
 template <class R>
@@ -403,4 +403,4 @@ template <class S>
 inline constexpr bool kIsConstant =
     !HasPrimitive<S> && HasFragmentFunctionOfVaryings<S> && kComponents<typename S::template Varyings<float>> == 0 && !kDiscards<S>;
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -25,7 +25,7 @@
 
 #include "halfspace/shading/varyings.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// The triangle of each lane, prepared for interpolation. Positions are window coordinates in 24.8 fixed point.
 template <class R>
@@ -226,4 +226,4 @@ struct Pixel {
   }
 };
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

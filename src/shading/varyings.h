@@ -12,7 +12,7 @@
 #include "halfspace/core/aggregate_reflection.h"
 #include "halfspace/core/vec.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// A varying with the value of the provoking vertex on the whole triangle (flat in GLSL).
 template <class T>
@@ -160,4 +160,4 @@ HS_INLINE T from_components(const std::array<R, kComponents<T>>& a) {
   return t;
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

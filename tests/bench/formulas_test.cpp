@@ -10,8 +10,8 @@
 #include <optional>
 #include <string_view>
 
-#include "workload.h"
-#include "workload_assets.h"
+#include "workloads/workload.h"
+#include "workloads/workload_assets.h"
 
 namespace halfspace {
 

@@ -2,14 +2,14 @@
 //
 // Draws every row of the matrix once. Rows with opaque triangles and one sample are compared with double-precision references;
 // peers_test.cpp compares the others with OpenGL.
-#include "matrix.h"
+#include "matrix/matrix.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "picture_errors.h"
-#include "workload_assets.h"
+#include "workloads/picture_errors.h"
+#include "workloads/workload_assets.h"
 
 namespace halfspace {
 

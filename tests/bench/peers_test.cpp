@@ -7,12 +7,12 @@
 #include "bench/program.h"
 #include "halfspace/geometry/shapes.h"
 #include "halfspace/model/write_model.h"
-#include "matrix.h"
-#include "model_workload.h"
+#include "matrix/matrix.h"
 #include "scenes/scene.h"
 #include "support/errors.h"
 #include "support/files.h"
-#include "sweeps.h"
+#include "workloads/model_workload.h"
+#include "workloads/sweeps.h"
 
 #ifndef HALFSPACE_BENCH_GL_PROGRAM
 #define HALFSPACE_BENCH_GL_PROGRAM ""

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "workload_assets.h"
+#include "workloads/workload_assets.h"
 
 namespace halfspace {
 
@@ -55,7 +55,7 @@ TEST(Scenes, HaveFifteenRows) {
 
 TEST(Scenes, HaveTheStatedContents) {
   for (const SceneKind kind : kKinds) {
-    const Scene& scene = *shared_assets().scene(kind);
+    const Scene& scene = *shared_scene(shared_assets(), kind);
     EXPECT_GE(scene.triangles(), 50'000u);
     EXPECT_LE(scene.triangles(), 500'000u);
     EXPECT_GE(scene.textures.size(), 10u);
@@ -71,7 +71,7 @@ TEST(Scenes, HaveTheStatedContents) {
 
 TEST(Scenes, BlendedObjectsAreDrawnLastAndBackToFront) {
   for (const SceneRow& row : scene_rows()) {
-    const Scene& scene = *shared_assets().scene(row.kind);
+    const Scene& scene = *shared_scene(shared_assets(), row.kind);
     const SceneCamera& camera = scene.cameras[static_cast<std::size_t>(row.camera)];
     const SceneView view = scene_view(scene, camera, kSceneSize);
     ASSERT_EQ(view.order.size(), scene.objects.size());
@@ -106,7 +106,7 @@ int inverted_triangles(const Scene& scene, const SceneMesh& mesh) {
 
 TEST(Scenes, NormalsPointToTheFront) {
   for (const SceneKind kind : kKinds) {
-    const Scene& scene = *shared_assets().scene(kind);
+    const Scene& scene = *shared_scene(shared_assets(), kind);
     for (const SceneObject& object : scene.objects) {
       if (!scene.material(object).two_sided) {
         EXPECT_EQ(inverted_triangles(scene, scene.mesh(object)), 0) << "mesh " << object.mesh;

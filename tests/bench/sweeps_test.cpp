@@ -7,9 +7,9 @@
 #include <filesystem>
 
 #include "bench/program.h"
-#include "picture_errors.h"
-#include "sweeps.h"
-#include "workload_assets.h"
+#include "workloads/picture_errors.h"
+#include "workloads/sweeps.h"
+#include "workloads/workload_assets.h"
 
 namespace halfspace {
 

@@ -12,9 +12,9 @@
 #include <ostream>
 #include <string>
 
-#include "picture_errors.h"
-#include "workload.h"
-#include "workload_assets.h"
+#include "workloads/picture_errors.h"
+#include "workloads/workload.h"
+#include "workloads/workload_assets.h"
 
 namespace halfspace {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Light that is encoded twice must not compile, and the error must contain: Encoded.
-#include "halfspace/shading/tone.h"
+#include "halfspace/shading/values/tone.h"
 
 using namespace halfspace;
 

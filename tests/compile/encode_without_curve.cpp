@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Scene light that is encoded without a tone curve must not compile, and the error must contain: SceneLight.
-#include "halfspace/shading/tone.h"
+#include "halfspace/shading/values/tone.h"
 
 using namespace halfspace;
 

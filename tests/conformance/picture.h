@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "halfspace/shading/texture.h"
+#include "halfspace/shading/texture/texture.h"
 #include "property/scene.h"
 
 namespace halfspace::conformance {

@@ -3,7 +3,8 @@
 // Renders a shipped scene, writes it to a file and reads the file: scene TOOL_FOLDER OUTPUT. If TOOL_FOLDER is empty, the library finds the
 // decoders itself.
 #include <halfspace/image/image_io.h>
-#include <halfspace/render/prepared_scene.h>
+#include <halfspace/render/frame/frame.h>
+#include <halfspace/render/scene_assets.h>
 #include <halfspace/scene/scene_file.h>
 
 #include <cstdio>

@@ -6,12 +6,13 @@
 
 #include <nlohmann/json.hpp>
 
+#include "explain/page.h"
+#include "explain/page_encode.h"
+#include "explain/page_history.h"
+#include "explain/page_quotes.h"
 #include "explain/prepared.h"
-#include "halfspace/explain/page.h"
-#include "halfspace/explain/page_encode.h"
-#include "halfspace/explain/page_history.h"
-#include "halfspace/explain/page_quotes.h"
 #include "halfspace/image/png.h"
+#include "halfspace/render/frame/frame.h"
 #include "support/files.h"
 #include "support/long_tests.h"
 
@@ -117,7 +118,7 @@ TEST(Page, QuotesAreTheLinesOfTheSources) {
   for (const QuoteRange& range : quote_ranges()) {
     const Quote q = quote(range);
     ASSERT_NE(q.line, 0) << range.file << ": no lines from '" << range.from << "' to '" << range.to << "'";
-    const std::string file = read_bytes("src/" + q.file);
+    const std::string file = read_bytes(q.file);
     std::size_t at = 0;
     for (int line = 1; line < q.line; ++line) at = file.find('\n', at) + 1;
     const std::string first = q.text.substr(0, q.text.find('\n'));

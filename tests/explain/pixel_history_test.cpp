@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Compares pixel histories of complete scenes with the rendered pictures.
-#include "halfspace/explain/pixel_history.h"
+#include "explain/pixel_history.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "halfspace/explain/history_text.h"
-#include "halfspace/render/frame.h"
+#include "explain/history_text.h"
+#include "halfspace/render/frame/frame.h"
+#include "halfspace/render/scene_assets.h"
 #include "halfspace/scene/scene_file.h"
 #include "support/files.h"
 #include "support/workers.h"

@@ -7,8 +7,9 @@
 #include <functional>
 #include <string>
 
-#include "halfspace/explain/pixel_history.h"
-#include "halfspace/explain/stage_geometry.h"
+#include "explain/pixel_history.h"
+#include "explain/stage_geometry.h"
+#include "halfspace/render/scene_assets.h"
 #include "halfspace/scene/scene_file.h"
 
 namespace halfspace {

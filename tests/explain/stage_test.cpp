@@ -3,15 +3,16 @@
 // Compares the data of the stages with values computed by hand, and with the pipeline itself.
 #include <gtest/gtest.h>
 
+#include "explain/fragment_values.h"
 #include "explain/prepared.h"
-#include "halfspace/explain/fragment_values.h"
-#include "halfspace/explain/stage_example.h"
-#include "halfspace/explain/stage_geometry.h"
-#include "halfspace/explain/stage_pictures.h"
-#include "halfspace/explain/stage_shadow.h"
-#include "halfspace/explain/stage_terms.h"
-#include "halfspace/explain/stage_tone.h"
+#include "explain/stage_example.h"
+#include "explain/stage_geometry.h"
+#include "explain/stage_pictures.h"
+#include "explain/stage_shadow.h"
+#include "explain/stage_terms.h"
+#include "explain/stage_tone.h"
 #include "halfspace/raster/pipeline/pixel_box.h"
+#include "halfspace/render/frame/frame.h"
 
 namespace halfspace {
 namespace {

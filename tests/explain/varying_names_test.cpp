@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Compares the names of varyings with the headers of the shaders.
-#include "halfspace/explain/varying_names.h"
+#include "explain/varying_names.h"
 
 #include <gtest/gtest.h>
 
@@ -35,13 +35,13 @@ void expect_names(const std::string& header) {
 }
 
 TEST(VaryingNames, MatchTheHeaders) {
-  expect_names<SurfaceShader<ShadingRate::phong, true>>("surface_shader.h");
-  expect_names<MetallicSurface<MetallicStreams::full>>("metallic_surface.h");
-  expect_names<SphereImpostor<true>>("sphere_impostor.h");
-  expect_names<StarSky>("star_sky.h");
-  expect_names<EnvironmentSky>("environment_sky.h");
-  expect_names<ColoredPrimitives>("colored_primitives.h");
-  expect_names<ShadowCatcher>("shadow_catcher.h");
+  expect_names<SurfaceShader<ShadingRate::phong, true>>("surface/surface_shader.h");
+  expect_names<MetallicSurface<MetallicStreams::full>>("surface/metallic_surface.h");
+  expect_names<SphereImpostor<true>>("sphere/sphere_impostor.h");
+  expect_names<StarSky>("environment/star_sky.h");
+  expect_names<EnvironmentSky>("environment/environment_sky.h");
+  expect_names<ColoredPrimitives>("surface/colored_primitives.h");
+  expect_names<ShadowCatcher>("surface/shadow_catcher.h");
 }
 
 }  // namespace

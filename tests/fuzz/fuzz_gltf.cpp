@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fuzz/fuzz_model.h"
 #include "halfspace/core/tool_folder.h"
-#include "halfspace/model/read_gltf.h"
+#include "halfspace/model/gltf/read_gltf.h"
 
 // Draco meshes are decoded by a separate program. Starting it would take most of the time, and it is not instrumented.
 extern "C" int LLVMFuzzerInitialize(int*, char***) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fuzz/fuzz_model.h"
-#include "halfspace/model/read_ply.h"
+#include "halfspace/model/ply/read_ply.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, std::size_t size) {
   return halfspace::fuzz_model(halfspace::read_ply, "a.ply", data, size);

@@ -11,8 +11,8 @@
 
 #include "halfspace/core/check.h"
 #include "halfspace/model/model.h"
-#include "halfspace/model/pose.h"
-#include "halfspace/render/model_fit.h"
+#include "halfspace/model/pose/pose.h"
+#include "halfspace/render/model_file/frame_model.h"
 
 namespace halfspace {
 
@@ -69,7 +69,7 @@ inline void check_fitted_view(const ModelPoses& poses) {
   for (const double seconds : {0.0, 1.0}) {
     ModelView view;
     view.turn_seconds = seconds;
-    const FittedView fitted = fitted_view(poses, bounds, view);
+    const FramedView fitted = frame_model(poses, bounds, view);
     for (int i = 0; i < 3; ++i) HS_CHECK(std::isfinite(fitted.eye[i]) && std::isfinite(fitted.target[i]));
   }
 }

@@ -9,8 +9,8 @@
 #include <string_view>
 
 #include "halfspace/model/model.h"
-#include "halfspace/model/mtl_materials.h"
-#include "halfspace/model/read_mtl.h"
+#include "halfspace/model/obj/mtl_materials.h"
+#include "halfspace/model/obj/read_mtl.h"
 
 namespace halfspace {
 

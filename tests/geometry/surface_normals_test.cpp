@@ -11,7 +11,7 @@
 #include "halfspace/geometry/height_slopes.h"
 #include "halfspace/geometry/shapes.h"
 #include "halfspace/raster/pass.h"
-#include "halfspace/shading/surface_shader.h"
+#include "halfspace/shading/surface/surface_shader.h"
 #include "support/constants.h"
 
 namespace halfspace {

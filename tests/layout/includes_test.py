@@ -3,7 +3,7 @@
 """Checks every #include "..." of the tree against the layout in CONTRIBUTING.md.
 
   includes_test.py          runs the checks and the tests of the checks
-  includes_test.py --list   prints the dependencies between modules and between the phases of raster
+  includes_test.py --list   prints the dependencies between modules and between the rooms of each module
 """
 
 import re
@@ -24,31 +24,62 @@ MODULES = {
     "scene": ["core"],
     "model": ["core"],
     "render": ["raster", "image", "procedural", "scene", "model"],
-    "explain": ["render"],
     "reference": ["render"],
-    "study": ["reference"],
 }
 # Headers with only enums and plain structs, which do not include any SIMD headers. Scene descriptions and models may include these, too.
-PLAIN_HEADERS = {"shading/sampler.h", "shading/light_types.h", "shading/tone_types.h"}
+PLAIN_HEADERS = {"shading/texture/sampler.h", "shading/values/light_types.h", "shading/values/tone_types.h"}
 
-# The phases within raster, lowest first. A file may include files of its own phase and of lower phases.
-RASTER_PHASES = [
-    ["draw_state", "target", "vertex_input", "statistics"],
-    ["pipeline/"],
-    ["primitives/"],
-    ["tile/"],
-    ["trace/"],
-    ["visibility/"],
-    ["shade/"],
-    ["loop/", "detail/"],
-    ["pass", "naive"],
-    ["inspect/"],
-]
+# The rooms of modules, lowest first: folders, or the names of files without extensions at the top of the module. A file may include files of
+# its own row and of lower rows. The rooms of raster are the phases of the pipeline.
+ROOMS = {
+    "raster": [
+        ["draw_state", "target", "vertex_input", "statistics"],
+        ["pipeline/"],
+        ["primitives/"],
+        ["tile/"],
+        ["trace/"],
+        ["visibility/"],
+        ["shade/"],
+        ["loop/", "detail/"],
+        ["pass", "naive"],
+        ["inspect/"],
+    ],
+    "shading": [
+        ["varyings", "pixel", "contract"],
+        ["values/", "texture/"],
+        ["shadow/"],
+        ["light/"],
+        ["environment/"],
+        ["surface/"],
+        ["sphere/"],
+    ],
+    "model": [
+        ["model", "written_model"],
+        ["text/", "used_images"],
+        ["pose/", "geometry/"],
+        ["draco_tool/"],
+        ["gltf/", "obj/", "ply/", "stl/"],
+        ["read_model", "write_model", "up_axis_hint"],
+    ],
+    "render": [
+        ["view", "particles", "particle_file", "prepared_scene"],
+        ["assets/"],
+        ["shadow/"],
+        ["prepare/"],
+        ["frame/"],
+        ["error_budget/"],
+        ["scene_assets"],
+        ["model_file/"],
+        ["export/"],
+        ["program_info"],
+    ],
+    "benchmarks": [["workloads/"], ["matrix/"], ["scenes/"], ["runner/", "limits/"], ["stages/", "peers/"]],
+}
 # The only files and folders outside of src/raster that may include files of its folders, which are private.
 RASTER_PRIVATE_USERS = [
-    "src/explain/",  # shows the results of every stage
+    "apps/explain/",  # shows the results of every stage
     "benchmarks/stages/",  # measures the stages one by one
-    "benchmarks/multisample.cpp",  # gives the peers the same sample positions
+    "benchmarks/workloads/multisample.cpp",  # gives the peers the same sample positions
     "tests/consumer/packet_positions.cpp",  # loads packet functions of two SIMD widths into one process
     "tests/raster/",
     "tests/explain/",
@@ -62,39 +93,10 @@ THIRD_PARTY = {
     "jpeglib.h": "image/jpeg_errors.h",
     "spng.h": "image/png.cpp",
     "tbb/": "core/parallel.cpp",
-    "meshoptimizer.h": "model/gltf_meshopt.cpp",
+    "meshoptimizer.h": "model/gltf/gltf_meshopt.cpp",
     "draco/": "model/draco_tool/",
     "embree": "reference/ray_scene.cpp",
 }
-
-# Files of src/ that include each other in a circle. A header and the source file of its name count as one. The list may only shrink.
-KNOWN_CIRCLES = [
-    {"core/check", "core/task_check"},
-    {"explain/page", "explain/page_data", "explain/page_history"},
-    {"model/write_formats", "model/write_model"},
-    {"raster/primitives/setup_clipped", "raster/primitives/setup_points_lines"},
-    {"raster/shade/late_tests", "raster/shade/shade_immediate"},
-    {
-        "render/model_materials",
-        "render/model_preparation",
-        "render/prepared_scene",
-        "render/scene_background",
-        "render/scene_draws",
-        "render/scene_lights",
-        "render/scene_preparation",
-        "render/scene_surfaces",
-        "render/shadow/shadow_fit",
-        "render/shadow/shadow_renderer",
-        "render/shape_preparation",
-        "render/sphere_preparation",
-        "render/surface_draw",
-        "render/wireframe",
-    },
-    {"scene/animation", "scene/scene_check"},
-    {"scene/description", "scene/shape_tessellation", "scene/shapes"},
-    {"shading/shadow", "shading/shadow_lookup"},
-    {"shading/texels", "shading/texture"},
-]
 
 # Folders whose headers are included by their path relative to the folder.
 PROGRAM_FOLDERS = ["apps", "benchmarks", "tests"]
@@ -108,13 +110,22 @@ def allowed_modules(module):
     return allowed
 
 
-def raster_phase(path):
-    """Returns the row in RASTER_PHASES of a file of raster, for example 'raster/tile/blend.h', or None."""
-    rest = path.removeprefix("raster/")
-    for row, names in enumerate(RASTER_PHASES):
+def room_row(module, path):
+    """Returns the row in ROOMS of a file, for example 3 for 'tile/blend.h' in raster, or None."""
+    for row, names in enumerate(ROOMS[module]):
         for name in names:
-            if rest.startswith(name) if name.endswith("/") else rest.rsplit(".", 1)[0] == name:
+            if path.startswith(name) if name.endswith("/") else path.rsplit(".", 1)[0] == name:
                 return row
+    return None
+
+
+def check_rooms(module, includer, included):
+    """Returns the problem with an include within a module, or None. Both paths are relative to the module."""
+    from_row, to_row = room_row(module, includer), room_row(module, included)
+    if from_row is None or to_row is None:
+        return f"includes {included}: one of the two files does not belong to a room of {module}"
+    if to_row > from_row:
+        return f"includes {included}: {ROOMS[module][from_row][0]} is below {ROOMS[module][to_row][0]}"
     return None
 
 
@@ -137,12 +148,8 @@ def check_library_include(includer, included):
         return f"includes {included}: {module} may include {', '.join(sorted(allowed_modules(module)))}"
     if includer in PLAIN_HEADERS and included not in PLAIN_HEADERS | {"core/namespace.h"}:
         return f"includes {included}: plain headers may only include other plain headers"
-    if module == target == "raster":
-        from_row, to_row = raster_phase(includer), raster_phase(included)
-        if from_row is None or to_row is None:
-            return f"includes {included}: one of the two files does not belong to a phase of raster"
-        if to_row > from_row:
-            return f"includes {included}: {RASTER_PHASES[from_row][0]} is below {RASTER_PHASES[to_row][0]}"
+    if module == target and module in ROOMS:
+        return check_rooms(module, includer.removeprefix(module + "/"), included.removeprefix(module + "/"))
     return None
 
 
@@ -159,6 +166,8 @@ def check_include(file, spelled, exists):
         return check_library_include(file.removeprefix("src/"), included) if file.startswith("src/") else None
     if file.startswith("src/"):
         return f'includes "{spelled}": expected "halfspace/MODULE/FILE.h"'
+    if file.startswith("benchmarks/") and exists("benchmarks/" + spelled):
+        return check_rooms("benchmarks", file.removeprefix("benchmarks/"), spelled)
     if any(exists(f"{folder}/{spelled}") for folder in PROGRAM_FOLDERS):
         return None
     return f'includes "{spelled}": expected "halfspace/MODULE/FILE.h" or a path from {", ".join(PROGRAM_FOLDERS)}'
@@ -189,8 +198,8 @@ def angle_includes(text):
 
 
 def circles(files):
-    """Returns the sets of files that include each other, directly or indirectly. files: (path relative to src/, included paths). A header
-    and the source file of its name count as one file, without an extension."""
+    """Returns the sets of files that include each other, directly or indirectly. files: (path, included paths). A header and the source file
+    of its name count as one file, without an extension."""
     arrows = {}
     for file, included in files:
         name = file.rsplit(".", 1)[0]
@@ -224,10 +233,10 @@ class Tree(unittest.TestCase):
     def test_every_include_follows_the_layout(self):
         self.assertEqual(problems(), [])
 
-    def test_no_circle_of_files_is_added(self):
-        files = [(file.removeprefix("src/"), [i.removeprefix("halfspace/") for i in quoted_includes(text)]) for file, text in sources()
-                 if file.startswith("src/")]
-        self.assertEqual(circles(files), KNOWN_CIRCLES)
+    def test_no_files_of_src_and_apps_include_each_other_in_a_circle(self):
+        name = lambda path: path.removeprefix("halfspace/").removeprefix("src/").removeprefix("apps/")
+        files = [(name(file), [name(i) for i in quoted_includes(text)]) for file, text in sources() if file.startswith(("src/", "apps/"))]
+        self.assertEqual(circles(files), [])
 
     def test_every_folder_of_src_is_a_module(self):
         folders = {p.name for p in (ROOT / "src").iterdir() if p.is_dir()}
@@ -242,8 +251,8 @@ class Checks(unittest.TestCase):
 
     def test_include_against_the_order_of_modules(self):
         self.assertIn("core may include", self.check("src/core/check.h", "halfspace/scene/keys.h", {"src/scene/keys.h"}))
-        self.assertIn("scene may include", self.check("src/scene/keys.h", "halfspace/shading/tone.h", {"src/shading/tone.h"}))
-        self.assertIsNone(self.check("src/scene/keys.h", "halfspace/shading/sampler.h", {"src/shading/sampler.h"}))
+        self.assertIn("scene may include", self.check("src/scene/keys.h", "halfspace/shading/values/tone.h", {"src/shading/values/tone.h"}))
+        self.assertIsNone(self.check("src/scene/keys.h", "halfspace/shading/texture/sampler.h", {"src/shading/texture/sampler.h"}))
         self.assertIsNone(self.check("src/render/view.h", "halfspace/core/vec.h", {"src/core/vec.h"}))
 
     def test_circles(self):
@@ -251,38 +260,43 @@ class Checks(unittest.TestCase):
         self.assertEqual(circles([("a.cpp", ["a.h"]), ("a.h", ["b.h"]), ("b.h", [])]), [])
         self.assertEqual(circles([("a.h", ["b.h"]), ("b.h", ["a.h"]), ("x.h", ["y.h"]), ("y.h", ["x.h", "a.h"])]), [{"a", "b"}, {"x", "y"}])
 
-    def test_include_against_the_order_of_phases(self):
+    def test_include_against_the_order_of_rooms(self):
         files = {"src/raster/shade/fragment_batch.h", "src/raster/tile/tile.h", "src/raster/pass.h"}
         self.assertIn("is below", self.check("src/raster/tile/tile.h", "halfspace/raster/shade/fragment_batch.h", files))
         self.assertIn("is below", self.check("src/raster/loop/tile_worker.cpp", "halfspace/raster/pass.h", files))
         self.assertIsNone(self.check("src/raster/shade/fragment_batch.h", "halfspace/raster/tile/tile.h", files))
+        files = {"src/model/obj/read_obj.h", "src/render/newroom/file.h", "benchmarks/scenes/scene.h"}
+        self.assertIn("is below", self.check("src/model/text/text_lines.h", "halfspace/model/obj/read_obj.h", files))
+        self.assertIn("does not belong", self.check("src/render/view.h", "halfspace/render/newroom/file.h", files))
+        self.assertIn("is below", self.check("benchmarks/workloads/fills.cpp", "scenes/scene.h", files))
+        self.assertIsNone(self.check("benchmarks/runner/main.cpp", "scenes/scene.h", files))
 
     def test_only_listed_files_include_private_folders_of_raster(self):
         files = {"src/raster/tile/tile.h", "src/raster/pass.h"}
         for file in "src/render/view.cpp", "apps/cli/main.cpp", "benchmarks/stages.cpp", "tests/bench/rows_test.cpp":
             self.assertIn("private", self.check(file, "halfspace/raster/tile/tile.h", files))
             self.assertIsNone(self.check(file, "halfspace/raster/pass.h", files))
-        for file in "src/explain/page.cpp", "src/raster/shade/fragment_kernel.h", "benchmarks/stages/geometry.cpp":
+        for file in "apps/explain/page.cpp", "src/raster/shade/fragment_kernel.h", "benchmarks/stages/geometry.cpp":
             self.assertIsNone(self.check(file, "halfspace/raster/tile/tile.h", files))
 
     def test_every_user_of_private_folders_of_raster_exists(self):
         self.assertEqual([p for p in RASTER_PRIVATE_USERS if not (ROOT / p).exists()], [])
 
     def test_public_files_are_at_the_top_of_raster(self):
-        public = {name for row in RASTER_PHASES for name in row if not name.endswith("/")}
+        public = {name for row in ROOMS["raster"] for name in row if not name.endswith("/")}
         self.assertEqual({p.stem for p in (ROOT / "src" / "raster").iterdir() if p.is_file()}, public)
 
     def test_plain_headers_stay_plain(self):
         files = {"src/core/lanes.h"}
-        self.assertIn("plain header", self.check("src/shading/sampler.h", "halfspace/core/lanes.h", files))
+        self.assertIn("plain header", self.check("src/shading/texture/sampler.h", "halfspace/core/lanes.h", files))
 
     def test_other_spellings(self):
-        files = {"src/core/check.h", "apps/cli/arguments.h"}
-        self.assertIn("expected", self.check("src/core/check.cpp", "check.h", files))
-        self.assertIn("expected", self.check("src/core/check.cpp", "core/check.h", files))
+        files = {"src/core/check.h", "apps/command_line/arguments.h"}
+        self.assertIn("expected", self.check("src/core/check_handler.cpp", "check.h", files))
+        self.assertIn("expected", self.check("src/core/check_handler.cpp", "core/check.h", files))
         self.assertIn("expected", self.check("apps/cli/main.cpp", "arguments.h", files))
         self.assertIn("does not exist", self.check("apps/cli/main.cpp", "halfspace/cli/arguments.h", files))
-        self.assertIsNone(self.check("apps/cli/main.cpp", "cli/arguments.h", files))
+        self.assertIsNone(self.check("apps/cli/main.cpp", "command_line/arguments.h", files))
 
     def test_third_party_headers_stay_in_their_files(self):
         self.assertIn("only", check_third_party("src/render/view.cpp", "tbb/parallel_for.h"))
@@ -290,7 +304,7 @@ class Checks(unittest.TestCase):
 
 
 def print_arrows():
-    modules, phases = {}, {}
+    modules, rooms = {}, {}
     for file, text in sources():
         if not file.startswith("src/"):
             continue
@@ -300,12 +314,12 @@ def print_arrows():
             a, b = includer.split("/")[0], included.split("/")[0]
             if a != b:
                 modules[a, b] = modules.get((a, b), 0) + 1
-            elif a == "raster":
-                row = lambda path: RASTER_PHASES[raster_phase(path)][0]
-                if row(includer) != row(included):
-                    key = (row(includer), row(included))
-                    phases[key] = phases.get(key, 0) + 1
-    for title, arrows in ("modules", modules), ("raster", phases):
+            else:
+                room = lambda path: path.rsplit("/", 1)[0]
+                if room(includer) != room(included):
+                    key = (room(includer), room(included))
+                    rooms[key] = rooms.get(key, 0) + 1
+    for title, arrows in ("modules", modules), ("rooms", rooms):
         print(f"{title}: {len(arrows)} dependencies")
         for (a, b), count in sorted(arrows.items()):
             print(f"  {a} -> {b}: {count}")

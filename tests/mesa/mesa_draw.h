@@ -12,7 +12,7 @@
 #include "halfspace/raster/draw_state.h"
 #include "halfspace/raster/target.h"
 #include "halfspace/raster/vertex_input.h"
-#include "halfspace/shading/texture.h"
+#include "halfspace/shading/texture/texture.h"
 
 namespace halfspace::test {
 

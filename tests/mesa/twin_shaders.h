@@ -5,7 +5,7 @@
 #pragma once
 
 #include "halfspace/shading/contract.h"
-#include "halfspace/shading/texture.h"
+#include "halfspace/shading/texture/texture.h"
 
 namespace halfspace::test {
 
@@ -21,7 +21,7 @@ HS_INLINE vec2<R> blinn_phong(const vec3<R>& p, const vec3<R>& n, const glm::vec
 }
 
 /// Prepended to every GLSL source. transform() is our mat4 × vec4; it adds in the same order, which `precise` preserves. level_of_detail()
-/// matches the function of that name in shading/texture.h, computed from the differences that GLSL provides.
+/// matches the function of that name in shading/texture/texture.h, computed from the differences that GLSL provides.
 inline constexpr const char* kSharedGlsl = R"(#version 450 core
     vec4 transform(mat4 m, vec4 p) {
       precise vec4 r = (m[0] * p.x + m[1] * p.y) + (m[2] * p.z + m[3] * p.w);

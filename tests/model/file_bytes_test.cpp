@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "halfspace/model/file_bytes.h"
+#include "halfspace/model/text/file_bytes.h"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>

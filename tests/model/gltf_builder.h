@@ -11,7 +11,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "halfspace/model/read_gltf.h"
+#include "halfspace/model/gltf/read_gltf.h"
 
 namespace halfspace {
 

@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "halfspace/core/tool_folder.h"
-#include "halfspace/model/gltf_draco.h"
+#include "halfspace/model/gltf/gltf_draco.h"
 #include "model/gltf_builder.h"
 #include "support/errors.h"
 #include "support/long_tests.h"

@@ -10,8 +10,8 @@
 #include <random>
 
 #include "halfspace/core/check.h"
-#include "halfspace/model/file_bytes.h"
-#include "halfspace/model/pose.h"
+#include "halfspace/model/pose/pose.h"
+#include "halfspace/model/text/file_bytes.h"
 #include "model/gltf_builder.h"
 #include "support/errors.h"
 #include "support/files.h"

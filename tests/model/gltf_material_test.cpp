@@ -5,7 +5,7 @@
 
 #include <numbers>
 
-#include "halfspace/model/specular_glossiness.h"
+#include "halfspace/model/gltf/specular_glossiness.h"
 #include "model/gltf_builder.h"
 #include "support/files.h"
 #include "support/temporary_folder.h"

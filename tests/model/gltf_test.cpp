@@ -8,8 +8,8 @@
 #include <numbers>
 
 #include "halfspace/core/check.h"
-#include "halfspace/model/gltf_buffers.h"
-#include "halfspace/model/pose.h"
+#include "halfspace/model/gltf/gltf_buffers.h"
+#include "halfspace/model/pose/pose.h"
 #include "model/gltf_builder.h"
 #include "support/files.h"
 #include "support/temporary_folder.h"

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "halfspace/model/read_mtl.h"
+#include "halfspace/model/obj/read_mtl.h"
 #include "model/obj_reading.h"
 
 namespace halfspace {

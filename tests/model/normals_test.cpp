@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "halfspace/model/normals.h"
+#include "halfspace/model/geometry/normals.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "halfspace/model/read_obj.h"
+#include "halfspace/model/obj/read_obj.h"
 #include "support/files.h"
 #include "support/temporary_folder.h"
 

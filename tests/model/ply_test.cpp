@@ -8,7 +8,7 @@
 #include <string>
 
 #include "halfspace/core/srgb.h"
-#include "halfspace/model/normals.h"
+#include "halfspace/model/geometry/normals.h"
 #include "model/ply_text.h"
 #include "model/test_meshes.h"
 #include "support/errors.h"

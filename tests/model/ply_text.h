@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "halfspace/model/read_ply.h"
+#include "halfspace/model/ply/read_ply.h"
 
 namespace halfspace {
 

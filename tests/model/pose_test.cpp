@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "halfspace/model/pose.h"
+#include "halfspace/model/pose/pose.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "halfspace/model/animation.h"
-#include "halfspace/model/deform.h"
+#include "halfspace/model/pose/animation.h"
+#include "halfspace/model/pose/deform.h"
 
 namespace halfspace {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "halfspace/model/references.h"
+#include "halfspace/model/text/references.h"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 
 #include "halfspace/core/srgb.h"
 #include "halfspace/model/model.h"
-#include "halfspace/model/pose.h"
+#include "halfspace/model/pose/pose.h"
 #include "support/files.h"
 
 namespace halfspace {

@@ -7,8 +7,8 @@
 #include <string>
 
 #include "halfspace/core/srgb.h"
-#include "halfspace/model/normals.h"
-#include "halfspace/model/read_stl.h"
+#include "halfspace/model/geometry/normals.h"
+#include "halfspace/model/stl/read_stl.h"
 #include "model/test_meshes.h"
 #include "support/errors.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "halfspace/model/tangents.h"
+#include "halfspace/model/geometry/tangents.h"
 
 #include <gtest/gtest.h>
 

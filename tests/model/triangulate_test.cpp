@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "halfspace/model/triangulate.h"
+#include "halfspace/model/geometry/triangulate.h"
 
 #include <gtest/gtest.h>
 

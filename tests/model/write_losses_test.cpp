@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "halfspace/model/normals.h"
+#include "halfspace/model/geometry/normals.h"
 #include "halfspace/model/write_model.h"
 #include "model/gltf_builder.h"
 #include "model/obj_reading.h"

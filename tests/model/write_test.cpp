@@ -7,9 +7,9 @@
 
 #include <numbers>
 
-#include "halfspace/model/normals.h"
-#include "halfspace/model/pose.h"
-#include "halfspace/model/read_stl.h"
+#include "halfspace/model/geometry/normals.h"
+#include "halfspace/model/pose/pose.h"
+#include "halfspace/model/stl/read_stl.h"
 #include "model/gltf_builder.h"
 #include "model/obj_reading.h"
 #include "model/ply_text.h"

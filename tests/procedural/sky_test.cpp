@@ -8,8 +8,8 @@
 
 #include "halfspace/core/cube_map.h"
 #include "halfspace/core/srgb.h"
-#include "halfspace/shading/environment.h"
-#include "halfspace/shading/tone.h"
+#include "halfspace/shading/environment/environment.h"
+#include "halfspace/shading/values/tone.h"
 #include "support/expected_hash.h"
 #include "support/hash.h"
 #include "support/test_output.h"

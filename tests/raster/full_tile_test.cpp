@@ -9,7 +9,7 @@
 #include <deque>
 #include <set>
 
-#include "halfspace/shading/depth_only.h"
+#include "halfspace/shading/surface/depth_only.h"
 #include "raster/raster_test.h"
 
 namespace halfspace::raster_test {

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Compares the values of a frame with rays through the pixel centers. Hits are computed in double precision.
-#include "halfspace/render/frame.h"
+#include "halfspace/render/frame/frame.h"
 
 #include <gtest/gtest.h>
 
 #include "halfspace/reference/ray_scene.h"
+#include "halfspace/render/scene_assets.h"
 #include "halfspace/scene/scene_file.h"
 #include "support/workers.h"
 

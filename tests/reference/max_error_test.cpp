@@ -12,6 +12,8 @@
 #include "halfspace/image/image_difference.h"
 #include "halfspace/reference/silhouettes.h"
 #include "halfspace/reference/validation.h"
+#include "halfspace/render/frame/frame.h"
+#include "halfspace/render/scene_assets.h"
 #include "halfspace/scene/scene_file.h"
 #include "halfspace/scene/shapes.h"
 #include "support/workers.h"
@@ -106,8 +108,8 @@ TEST(MaxError, OutlinesOfRandomViewsAreWithinTheLimit) {
     RandomView view = random_view(seed);
     view.scene.shadow.method = ShadowMethod::none;
     SceneAssets assets(two_workers());
-    const FittedScene fitted = assets.fit(view.scene, kWidth, kHeight, {kAskedPx, std::nullopt});
-    const Image<int> ours = seen_objects(assets.prepare(fitted.scene, kWidth, kHeight), kFiner, two_workers());
+    const SceneWithinError chosen = assets.choose_within_error(view.scene, kWidth, kHeight, {kAskedPx, std::nullopt});
+    const Image<int> ours = seen_objects(assets.prepare(chosen.scene, kWidth, kHeight), kFiner, two_workers());
     const Image<int> truth = seen_objects(assets.prepare(finest(view.scene), kWidth, kHeight), kFiner, two_workers());
     tally.add(silhouette_distance(ours, truth, kFiner).max, view.name);
   }
@@ -124,10 +126,10 @@ TEST(MaxError, ShadowEdgesOfRandomViewsAreWithinTheLimit) {
     const RandomView view = random_view(seed);
     if (view.scene.shadow.method == ShadowMethod::none) continue;
     SceneAssets assets(two_workers());
-    FittedScene fitted = assets.fit(view.scene, kWidth, kHeight, {kAskedPx, std::nullopt});
-    fitted.scene.shadow.footprint *= kFiner;  // in pixels of the finer image
+    SceneWithinError chosen = assets.choose_within_error(view.scene, kWidth, kHeight, {kAskedPx, std::nullopt});
+    chosen.scene.shadow.footprint *= kFiner;  // in pixels of the finer image
     const ValidationOptions options{kFiner * kWidth, kFiner * kHeight, 1};
-    for (const ShadowComparison& light : validate(view.name, fitted.scene, options, assets, two_workers()).lights) {
+    for (const ShadowComparison& light : validate(view.name, chosen.scene, options, assets, two_workers()).lights) {
       Image<uint8_t> wrong(light.map.width(), light.map.height());
       std::ranges::transform(light.map.texels(), light.truth.texels(), wrong.data(),
                              [](float map, float truth) { return static_cast<uint8_t>(std::abs(map - truth) > 0.5f); });
@@ -152,8 +154,8 @@ TEST(MaxError, ColorsOfRandomViewsAreWithinTheLimit) {
     truth.post.format = LightFormat::rgba32f;
     SceneAssets assets(two_workers());
     Image<glm::u8vec4> ours(kLarger * kWidth, kLarger * kHeight), theirs(kLarger * kWidth, kLarger * kHeight);
-    const FittedScene fitted = assets.fit(view.scene, ours.width(), ours.height(), {std::nullopt, kAskedCodes});
-    render(assets.prepare(fitted.scene, ours.width(), ours.height()), ours, two_workers());
+    const SceneWithinError chosen = assets.choose_within_error(view.scene, ours.width(), ours.height(), {std::nullopt, kAskedCodes});
+    render(assets.prepare(chosen.scene, ours.width(), ours.height()), ours, two_workers());
     render(assets.prepare(truth, ours.width(), ours.height()), theirs, two_workers());
     tally.add(255.0 * compare_images(ours, theirs).p999, view.name);
   }

@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "halfspace/reference/validation.h"
+#include "halfspace/render/scene_assets.h"
 #include "halfspace/scene/scene_file.h"
 #include "support/long_tests.h"
 #include "support/random.h"

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "halfspace/reference/validation.h"
+#include "halfspace/render/scene_assets.h"
 #include "halfspace/scene/scene_file.h"
 #include "support/workers.h"
 

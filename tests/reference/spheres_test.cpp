@@ -7,8 +7,10 @@
 
 #include "halfspace/reference/numbered_mesh.h"
 #include "halfspace/reference/ray_scene.h"
+#include "halfspace/render/frame/frame.h"
+#include "halfspace/render/scene_assets.h"
 #include "halfspace/scene/scene_file.h"
-#include "halfspace/shading/sphere_impostor.h"
+#include "halfspace/shading/sphere/sphere_impostor.h"
 #include "support/workers.h"
 
 namespace halfspace {

@@ -11,6 +11,7 @@
 
 #include <nlohmann/json.hpp>
 #include "halfspace/reference/shadow_table.h"
+#include "halfspace/render/scene_assets.h"
 #include "halfspace/scene/scene_file.h"
 #include "support/workers.h"
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Conversion of specular-glossiness textures, checked against the definitions of both models.
-#include "halfspace/render/converted_images.h"
+#include "halfspace/render/assets/converted_images.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "halfspace/model/specular_glossiness.h"
+#include "halfspace/model/gltf/specular_glossiness.h"
 
 namespace halfspace {
 namespace {

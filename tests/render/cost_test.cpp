@@ -64,6 +64,7 @@ template <>
 struct std::numeric_limits<halfspace::Counted> : std::numeric_limits<double> {};
 
 #include "halfspace/raster/naive.h"
+#include "halfspace/render/scene_assets.h"
 
 namespace halfspace {
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "halfspace/render/scene_assets.h"
 #include "halfspace/scene/scene_file.h"
 #include "render/naive_picture.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Tests the final stage of rendering: automatic exposure, tone curves and encodings applied per tile, and the memory use of HDR.
-#include "halfspace/render/display.h"
+#include "halfspace/render/frame/display.h"
 
 #include <gtest/gtest.h>
 
@@ -13,8 +13,10 @@
 
 #include "halfspace/core/half.h"
 #include "halfspace/raster/shade/tile_memory.h"
+#include "halfspace/render/frame/frame.h"
+#include "halfspace/render/scene_assets.h"
 #include "halfspace/scene/scene_file.h"
-#include "halfspace/shading/tone.h"
+#include "halfspace/shading/values/tone.h"
 #include "render/naive_picture.h"
 #include "support/sanitized.h"
 

@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "halfspace/render/frame/frame.h"
+#include "halfspace/render/scene_assets.h"
 #include "halfspace/scene/scene_file.h"
 #include "render/naive_picture.h"
 #include "support/constants.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Tests render_frame(): AOVs with closed forms, transparent backgrounds, crops and 16-bit pictures.
-#include "halfspace/render/frame.h"
+#include "halfspace/render/frame/frame.h"
 
 #include <gtest/gtest.h>
 
@@ -10,6 +10,7 @@
 #include <set>
 
 #include "halfspace/core/srgb_curve.h"
+#include "halfspace/render/scene_assets.h"
 #include "halfspace/scene/scene_file.h"
 #include "support/workers.h"
 

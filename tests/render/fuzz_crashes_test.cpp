@@ -13,7 +13,7 @@
 
 #include "fuzz/model_checks.h"
 #include "fuzz/mtl_model.h"
-#include "halfspace/model/file_bytes.h"
+#include "halfspace/model/text/file_bytes.h"
 #include "support/files.h"
 #include "support/sanitized.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Tests the lists of lights per cell of the window, and that a light outside of the picture costs neither a shadow map nor shading.
-#include "halfspace/render/light_cells.h"
+#include "halfspace/render/prepare/light_cells.h"
 
 #include <gtest/gtest.h>
 
@@ -10,9 +10,11 @@
 #include <set>
 
 #include "halfspace/core/trig_double.h"
+#include "halfspace/render/frame/frame.h"
 #include "halfspace/render/prepared_scene.h"
+#include "halfspace/render/scene_assets.h"
 #include "halfspace/scene/scene_file.h"
-#include "halfspace/shading/lighting.h"
+#include "halfspace/shading/light/lighting.h"
 
 namespace halfspace {
 namespace {

@@ -6,8 +6,9 @@
 #include <vector>
 
 #include "halfspace/model/model.h"
-#include "halfspace/render/model_asset.h"
+#include "halfspace/render/assets/model_asset.h"
 #include "halfspace/render/prepared_scene.h"
+#include "halfspace/render/scene_assets.h"
 #include "halfspace/scene/scene_file.h"
 
 namespace halfspace {

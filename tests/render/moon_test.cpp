@@ -7,6 +7,7 @@
 
 #include "halfspace/core/check.h"
 #include "halfspace/geometry/displaced_sphere.h"
+#include "halfspace/render/scene_assets.h"
 #include "halfspace/scene/scene_file.h"
 #include "render/naive_picture.h"
 #include "support/constants.h"

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "halfspace/render/naive_draws.h"
-#include "halfspace/render/naive_render.h"
+#include "halfspace/render/frame/naive_draws.h"
+#include "halfspace/render/frame/naive_render.h"
 
 namespace halfspace {
 

@@ -8,7 +8,9 @@
 
 #include "halfspace/core/check.h"
 #include "halfspace/core/srgb.h"
+#include "halfspace/render/frame/frame.h"
 #include "halfspace/render/prepared_scene.h"
+#include "halfspace/render/scene_assets.h"
 
 namespace halfspace {
 

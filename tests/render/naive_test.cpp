@@ -5,7 +5,9 @@
 
 #include <cstring>
 
-#include "halfspace/render/naive_render.h"
+#include "halfspace/render/frame/frame.h"
+#include "halfspace/render/frame/naive_render.h"
+#include "halfspace/render/scene_assets.h"
 #include "halfspace/scene/scene_file.h"
 #include "render/naive_picture.h"
 

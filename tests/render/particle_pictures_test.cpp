@@ -3,7 +3,9 @@
 // Compares images of particles with spheres, cones and Phong's formula, computed in double.
 #include <cmath>
 
+#include "halfspace/render/frame/frame.h"
 #include "halfspace/render/prepared_scene.h"
+#include "halfspace/render/scene_assets.h"
 #include "halfspace/scene/scene_file.h"
 #include "support/folder_test.h"
 

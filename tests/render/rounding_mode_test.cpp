@@ -7,8 +7,9 @@
 #include <cfenv>
 
 #include "halfspace/model/model.h"
-#include "halfspace/render/model_scene.h"
+#include "halfspace/render/model_file/model_scene.h"
 #include "halfspace/render/prepared_scene.h"
+#include "halfspace/render/scene_assets.h"
 #include "halfspace/scene/scene_file.h"
 #include "support/files.h"
 #include "support/temporary_folder.h"

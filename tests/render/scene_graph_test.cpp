@@ -4,7 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "halfspace/model/model.h"
-#include "halfspace/render/model_asset.h"
+#include "halfspace/render/assets/model_asset.h"
+#include "halfspace/render/scene_assets.h"
 #include "halfspace/scene/scene_file.h"
 #include "render/naive_picture.h"
 

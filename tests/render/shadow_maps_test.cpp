@@ -4,8 +4,9 @@
 #include <gtest/gtest.h>
 
 #include "halfspace/render/prepared_scene.h"
+#include "halfspace/render/scene_assets.h"
 #include "halfspace/scene/scene_file.h"
-#include "halfspace/shading/shadow_view.h"
+#include "halfspace/shading/shadow/shadow_view.h"
 
 namespace halfspace {
 namespace {

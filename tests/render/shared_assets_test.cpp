@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "halfspace/render/shared_assets.h"
+#include "halfspace/render/assets/shared_assets.h"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>

@@ -7,8 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "halfspace/render/scene_assets.h"
 #include "halfspace/scene/scene_file.h"
-#include "halfspace/shading/tone.h"
+#include "halfspace/shading/values/tone.h"
 #include "render/naive_picture.h"
 
 namespace halfspace {

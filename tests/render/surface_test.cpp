@@ -8,6 +8,8 @@
 #include <numbers>
 
 #include "halfspace/image/image_io.h"
+#include "halfspace/render/frame/frame.h"
+#include "halfspace/render/scene_assets.h"
 #include "halfspace/scene/scene_file.h"
 #include "render/naive_picture.h"
 #include "support/errors.h"

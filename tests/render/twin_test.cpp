@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "halfspace/render/frame/frame.h"
+#include "halfspace/render/scene_assets.h"
 #include "halfspace/scene/scene_file.h"
 #include "render/naive_picture.h"
 #include "support/expected_hash.h"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "halfspace/core/check.h"
-#include "halfspace/scene/scene_check.h"
+#include "halfspace/scene/object_keys.h"
 #include "halfspace/scene/scene_file.h"
 #include "support/errors.h"
 

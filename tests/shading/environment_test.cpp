@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Tests the mapping from directions to texels, continuity, and mip level selection.
-#include "halfspace/shading/environment.h"
+#include "halfspace/shading/environment/environment.h"
 
 #include <gtest/gtest.h>
 

@@ -8,9 +8,9 @@
 #include <numbers>
 
 #include "halfspace/core/cube_map.h"
-#include "halfspace/shading/environment_light.h"
-#include "halfspace/shading/ggx.h"
-#include "halfspace/shading/metallic_surface.h"
+#include "halfspace/shading/environment/environment_light.h"
+#include "halfspace/shading/light/ggx.h"
+#include "halfspace/shading/surface/metallic_surface.h"
 
 namespace halfspace {
 

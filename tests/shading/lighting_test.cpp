@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Compares lighting at a point with closed-form results. Formulas are tested in double; robustness is also tested in float.
-#include "halfspace/shading/lighting.h"
+#include "halfspace/shading/light/lighting.h"
 
 #include <gtest/gtest.h>
 

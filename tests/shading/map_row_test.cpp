@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "halfspace/shading/map_row.h"
+#include "halfspace/shading/texture/map_row.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "halfspace/shading/reflection.h"
+#include "halfspace/shading/environment/reflection.h"
 
 #include <gtest/gtest.h>
 

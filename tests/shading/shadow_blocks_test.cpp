@@ -6,8 +6,8 @@
 #include <random>
 
 #include "halfspace/core/lane_pairs.h"
-#include "halfspace/shading/shadow_blocks.h"
-#include "halfspace/shading/shadow_filter.h"
+#include "halfspace/shading/shadow/shadow_blocks.h"
+#include "halfspace/shading/shadow/shadow_filter.h"
 
 namespace halfspace {
 

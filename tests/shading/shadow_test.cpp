@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Compares shadow lookups with brute force and closed forms, using small synthetic shadow maps.
-#include "halfspace/shading/shadow.h"
+#include "halfspace/shading/shadow/shadow.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <random>
 #include <vector>
 
-#include "halfspace/shading/shadow_lookup.h"
+#include "halfspace/shading/shadow/shadow_lookup.h"
 
 namespace halfspace {
 namespace {

@@ -9,9 +9,9 @@
 #include <numbers>
 
 #include "halfspace/core/lane_pairs.h"
-#include "halfspace/shading/ggx.h"
-#include "halfspace/shading/metallic_surface.h"
-#include "halfspace/shading/sheen.h"
+#include "halfspace/shading/environment/sheen.h"
+#include "halfspace/shading/light/ggx.h"
+#include "halfspace/shading/surface/metallic_surface.h"
 
 namespace halfspace {
 

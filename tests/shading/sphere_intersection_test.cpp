@@ -2,7 +2,7 @@
 //
 // Tests ray-sphere intersection in float. Visibility, depth and normal are compared with the textbook quadratic in long double, which is
 // independent of the algorithm under test. Screen-space bounds must contain every pixel of the sphere.
-#include "halfspace/shading/sphere_intersection.h"
+#include "halfspace/shading/sphere/sphere_intersection.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "halfspace/shading/star_sky.h"
+#include "halfspace/shading/environment/star_sky.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Compares normals from normal maps and height maps with their expected values.
-#include "halfspace/shading/surface_detail.h"
+#include "halfspace/shading/surface/surface_detail.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "halfspace/shading/terminator.h"
+#include "halfspace/shading/shadow/terminator.h"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-#include "halfspace/shading/texture.h"
+#include "halfspace/shading/texture/texture.h"
 
 namespace halfspace::test {
 

@@ -2,7 +2,7 @@
 //
 // Tests Texture2D against hand-computed values, the invariants that its header documents, and an independent reference in double. Results
 // must be bit-identical at every width.
-#include "halfspace/shading/texture.h"
+#include "halfspace/shading/texture/texture.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Tests the tone curves for every half-float value, the display encodings, and dithering.
-#include "halfspace/shading/tone.h"
+#include "halfspace/shading/values/tone.h"
 
 #include <gtest/gtest.h>
 

@@ -10,9 +10,9 @@
 
 #include "halfspace/core/lane_math.h"
 #include "halfspace/core/srgb.h"
-#include "halfspace/shading/lighting.h"
-#include "halfspace/shading/surface_detail.h"
-#include "halfspace/shading/tone.h"
+#include "halfspace/shading/light/lighting.h"
+#include "halfspace/shading/surface/surface_detail.h"
+#include "halfspace/shading/values/tone.h"
 #include "stability/lane_hash.h"
 #include "stability/regime.h"
 #include "support/constants.h"

@@ -7,7 +7,7 @@
 #include "halfspace/geometry/height_slopes.h"
 #include "halfspace/geometry/shapes.h"
 #include "halfspace/raster/pass.h"
-#include "halfspace/shading/surface_detail.h"
+#include "halfspace/shading/surface/surface_detail.h"
 #include "stability/regime.h"
 #include "support/constants.h"
 

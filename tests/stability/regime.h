@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Known failure modes of renderers. Each test runs the common method under conditions in which it is known to fail, and then our method for
-// comparison. The results are recorded in the test report, from which scripts/docs/stability_table.py generates docs/explanation/stability.md.
+// comparison. The results are recorded in the test report, from which scripts/docs/stability_table.py generates
+// docs/explanation/stability.md.
 #pragma once
 
 #include <gtest/gtest.h>

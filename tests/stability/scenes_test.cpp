@@ -5,10 +5,12 @@
 #include <numbers>
 #include <set>
 
+#include "halfspace/render/frame/frame.h"
 #include "halfspace/render/prepared_scene.h"
+#include "halfspace/render/scene_assets.h"
 #include "halfspace/scene/scene_file.h"
-#include "halfspace/study/study.h"
 #include "stability/regime.h"
+#include "study/study.h"
 
 namespace halfspace::stability {
 namespace {

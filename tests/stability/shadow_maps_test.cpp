@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "halfspace/reference/validation.h"
+#include "halfspace/render/scene_assets.h"
 #include "halfspace/scene/scene_file.h"
 #include "stability/regime.h"
 

@@ -5,7 +5,8 @@
 #include <cmath>
 
 #include "halfspace/reference/validation.h"
-#include "halfspace/render/frame.h"
+#include "halfspace/render/frame/frame.h"
+#include "halfspace/render/scene_assets.h"
 #include "halfspace/scene/scene_file.h"
 #include "stability/regime.h"
 

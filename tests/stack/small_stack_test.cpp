@@ -13,7 +13,8 @@
 #include <vector>
 
 #include "halfspace/core/parallel.h"
-#include "halfspace/render/frame.h"
+#include "halfspace/render/frame/frame.h"
+#include "halfspace/render/scene_assets.h"
 #include "halfspace/scene/scene_file.h"
 #include "support/random.h"
 #include "support/sanitized.h"

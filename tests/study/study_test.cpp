@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Compares the components that the studies share with values known in closed form.
-#include "halfspace/study/study.h"
+#include "study/study.h"
 
 #include <gtest/gtest.h>
 
@@ -9,9 +9,9 @@
 #include <numbers>
 #include <set>
 
-#include "halfspace/study/polygon_area.h"
-#include "halfspace/study/shadow_study.h"
-#include "halfspace/study/study_files.h"
+#include "study/polygon_area.h"
+#include "study/shadow_study.h"
+#include "study/study_files.h"
 
 namespace halfspace {
 namespace {

@@ -6,8 +6,9 @@
 
 #include <algorithm>
 
-#include "halfspace/render/frame.h"
-#include "halfspace/render/opened_scene.h"
+#include "halfspace/render/frame/frame.h"
+#include "halfspace/render/model_file/opened_scene.h"
+#include "halfspace/render/scene_assets.h"
 #include "support/workers.h"
 #include "view/save_view.h"
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "peers/embree/ray_packet.h"
-#include "sphere_camera.h"
+#include "workloads/sphere_camera.h"
 
 namespace halfspace {
 

@@ -5,8 +5,8 @@
 
 #include <span>
 
-#include "sweeps.h"
-#include "workload.h"
+#include "workloads/sweeps.h"
+#include "workloads/workload.h"
 
 namespace halfspace {
 

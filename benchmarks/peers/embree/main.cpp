@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // halfspace-bench-embree: draws the sphere workloads by ray casting with Embree.
-#include "bench_program.h"
 #include "halfspace/core/cpu.h"
 #include "halfspace/core/lanes.h"
 #include "peers/embree/embree_workload.h"
+#include "runner/bench_program.h"
 
 int main(int argc, char** argv) {
   using namespace halfspace;

@@ -7,7 +7,7 @@
 
 #include "halfspace/core/lanes.h"
 #include "halfspace/core/vec.h"
-#include "workload_assets.h"
+#include "workloads/workload_assets.h"
 
 namespace halfspace {
 

@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "peers/gl/gl_workload.h"
-#include "sphere_camera.h"
+#include "workloads/sphere_camera.h"
 
 namespace halfspace::gl {
 

@@ -3,7 +3,7 @@
 // aniso_floor: a textured plane that reaches almost to the horizon, with anisotropic filtering.
 #include "peers/gl/gl_families.h"
 #include "peers/gl/gl_workload.h"
-#include "workload_geometry.h"
+#include "workloads/workload_geometry.h"
 
 namespace halfspace::gl {
 

@@ -3,10 +3,10 @@
 // layers_b2f, layers_f2b, blend_10, alpha_test, depth_prepass: ten quads over the whole image.
 #include <optional>
 
-#include "layer_mesh.h"
 #include "peers/gl/gl_families.h"
 #include "peers/gl/gl_workload.h"
 #include "peers/gl/glsl_light.h"
+#include "workloads/layer_mesh.h"
 
 namespace halfspace::gl {
 

@@ -6,13 +6,13 @@
 #include <memory>
 #include <optional>
 
-#include "matrix_scene.h"
+#include "matrix/matrix_scene.h"
 #include "peers/gl/gl_enums.h"
 #include "peers/gl/gl_matrix_glsl.h"
 #include "peers/gl/gl_objects.h"
 #include "peers/gl/gl_state.h"
-#include "workload_assets.h"
-#include "workload_canvas.h"
+#include "workloads/workload_assets.h"
+#include "workloads/workload_canvas.h"
 
 namespace halfspace {
 

@@ -12,10 +12,10 @@
 #include "halfspace/core/check.h"
 #include "halfspace/core/cube_map.h"
 #include "halfspace/render/prepared_scene.h"
-#include "halfspace/shading/environment_light.h"
-#include "model_workload.h"
+#include "halfspace/shading/environment/environment_light.h"
 #include "peers/gl/gl_model_glsl.h"
 #include "peers/gl/gl_workload.h"
+#include "workloads/model_workload.h"
 
 namespace halfspace {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "workload.h"
+#include "workloads/workload.h"
 
 namespace halfspace {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// GLSL versions of MetallicSurface<MetallicStreams::basic> (halfspace/shading/metallic_surface.h), without clearcoat and sheen, and of the
-// tone curve that follows it.
+// GLSL versions of MetallicSurface<MetallicStreams::basic> (halfspace/shading/surface/metallic_surface.h), without clearcoat and sheen, and
+// of the tone curve that follows it.
 #pragma once
 
 #include <string_view>

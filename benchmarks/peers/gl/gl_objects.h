@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "halfspace/core/image.h"
-#include "halfspace/shading/texture.h"
-#include "workload.h"
+#include "halfspace/shading/texture/texture.h"
+#include "workloads/workload.h"
 
 namespace halfspace {
 

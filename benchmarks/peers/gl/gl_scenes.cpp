@@ -8,7 +8,7 @@
 #include "peers/gl/gl_workload.h"
 #include "peers/gl/glsl_light.h"
 #include "scenes/scene.h"
-#include "workload_shadow.h"
+#include "workloads/workload_shadow.h"
 
 namespace halfspace {
 
@@ -66,7 +66,7 @@ class GlScene final : public GlWorkload {
  public:
   GlScene(const GlInput& in, const SceneRow& row)
       : GlWorkload(in),
-        scene_(in.assets.scene(row.kind)),
+        scene_(shared_scene(in.assets, row.kind)),
         view_(scene_view(*scene_, scene_->cameras[static_cast<std::size_t>(row.camera)], in.size)),
         map_({kShadowMapSize, kShadowMapSize}, 0, true),
         mesh_(floats_of(std::span<const SceneVertex>(scene_->vertices)), {3, 3, 2}, scene_->indices),

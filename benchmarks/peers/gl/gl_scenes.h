@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "workload.h"
+#include "workloads/workload.h"
 
 namespace halfspace {
 

@@ -4,8 +4,8 @@
 #include "peers/gl/gl_families.h"
 #include "peers/gl/gl_workload.h"
 #include "peers/gl/glsl_light.h"
-#include "workload_geometry.h"
-#include "workload_shadow.h"
+#include "workloads/workload_geometry.h"
+#include "workloads/workload_shadow.h"
 
 namespace halfspace::gl {
 

@@ -3,7 +3,7 @@
 // clear, fill, tiny_1m, draws_10k and the series triangle_size: one color per draw call, positions in normalized device coordinates.
 #include "peers/gl/gl_families.h"
 #include "peers/gl/gl_workload.h"
-#include "workload_geometry.h"
+#include "workloads/workload_geometry.h"
 
 namespace halfspace::gl {
 

@@ -4,7 +4,7 @@
 #include "peers/gl/gl_families.h"
 #include "peers/gl/gl_workload.h"
 #include "peers/gl/glsl_light.h"
-#include "workload_geometry.h"
+#include "workloads/workload_geometry.h"
 
 namespace halfspace::gl {
 

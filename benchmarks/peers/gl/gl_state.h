@@ -7,7 +7,7 @@
 
 #include "halfspace/raster/draw_state.h"
 #include "halfspace/raster/target.h"
-#include "halfspace/shading/sampler.h"
+#include "halfspace/shading/texture/sampler.h"
 
 namespace halfspace {
 

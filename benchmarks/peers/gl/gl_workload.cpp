@@ -4,8 +4,8 @@
 #include <functional>
 #include <map>
 
-#include "layer_mesh.h"
 #include "peers/gl/gl_families.h"
+#include "workloads/layer_mesh.h"
 
 namespace halfspace {
 

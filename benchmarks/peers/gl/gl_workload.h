@@ -4,10 +4,10 @@
 #pragma once
 
 #include "peers/gl/gl_objects.h"
-#include "sweeps.h"
-#include "workload.h"
-#include "workload_assets.h"
-#include "workload_canvas.h"
+#include "workloads/sweeps.h"
+#include "workloads/workload.h"
+#include "workloads/workload_assets.h"
+#include "workloads/workload_canvas.h"
 
 namespace halfspace {
 

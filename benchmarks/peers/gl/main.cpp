@@ -4,13 +4,13 @@
 #include <map>
 #include <optional>
 
-#include "bench_program.h"
-#include "cli/errors.h"
+#include "command_line/errors.h"
 #include "peers/gl/gl_context.h"
 #include "peers/gl/gl_matrix.h"
 #include "peers/gl/gl_model.h"
 #include "peers/gl/gl_scenes.h"
 #include "peers/gl/gl_workload.h"
+#include "runner/bench_program.h"
 
 namespace halfspace {
 

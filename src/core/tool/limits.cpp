@@ -11,7 +11,7 @@
 #include <ctime>
 #include <thread>
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 // PR_SET_PDEATHSIG would not work: it signals the end of the thread that started this process, which may be long before its program ends.
 void exit_with_reader() {
@@ -48,4 +48,4 @@ void limit_time(unsigned seconds) {
   ::alarm(5 * seconds);
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -7,7 +7,7 @@
 
 #include "halfspace/core/namespace.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Ends this process when the reader of standard output is gone.
 void exit_with_reader();
@@ -18,4 +18,4 @@ void limit_memory(uint64_t bytes);
 /// Ends this process after another `seconds` of CPU time, or after five times as many seconds of elapsed time.
 void limit_time(unsigned seconds);
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

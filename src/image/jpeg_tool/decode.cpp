@@ -11,7 +11,7 @@
 #include "halfspace/image/tool/mapped_file.h"
 #include "halfspace/image/tool/protocol.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -108,4 +108,4 @@ bool decode_and_answer(const ReadRequest& request) {
   return true;
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

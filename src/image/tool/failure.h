@@ -7,7 +7,7 @@
 
 #include "halfspace/image/tool/protocol.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// The reason why a tool cannot fulfill a request. The text is one line of the form "problem; what was expected".
 struct Failure {
@@ -40,4 +40,4 @@ inline void report_failure(const Failure& failure) {
   put_answer(header, failure.text);
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -10,7 +10,7 @@
 
 #include "halfspace/image/tool/failure.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// The bytes of an open file. If another program truncates the file, reading its bytes kills this process. The parent process reports this
 /// like any other crash of the decoder.
@@ -31,4 +31,4 @@ class MappedFile {
   void* start_;
 };
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

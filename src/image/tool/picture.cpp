@@ -7,7 +7,7 @@
 #include <limits>
 #include <type_traits>
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -106,4 +106,4 @@ Picture in_window(const Picture& p, const Window& place, const Window& window) {
   return out;
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

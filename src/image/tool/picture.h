@@ -8,7 +8,7 @@
 
 #include "halfspace/image/tool/protocol.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Pixels in rows without padding, with interleaved channels.
 struct Picture {
@@ -43,4 +43,4 @@ Picture upright(Picture p, int orientation);
 /// Returns the part of p that is inside `window`; the rest of the window is 0. place: where p is.
 Picture in_window(const Picture& p, const Window& place, const Window& window);
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

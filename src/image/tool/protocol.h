@@ -21,7 +21,7 @@
 
 #include "halfspace/core/namespace.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 inline constexpr const char* kImageToolName = "halfspace-image-tool";
 inline constexpr const char* kJpegToolName = "halfspace-jpeg-tool";
@@ -64,4 +64,4 @@ inline constexpr std::size_t row_bytes(const PictureHeader& h) {
   return static_cast<std::size_t>(h.width) * h.channels * sample_bytes(h.sample);
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

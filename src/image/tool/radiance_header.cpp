@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 int radiance_orientation(std::string_view file) {
   const std::size_t end = file.find("\n\n");  // an empty line ends the header
@@ -19,4 +19,4 @@ int radiance_orientation(std::string_view file) {
   return from_bottom ? (from_right ? 3 : 4) : (from_right ? 2 : 1);
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

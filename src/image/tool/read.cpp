@@ -21,7 +21,7 @@
 #include "halfspace/image/tool/radiance_header.h"
 #include "halfspace/image/tool/read_webp.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -188,4 +188,4 @@ bool read_and_answer(const ReadRequest& request) {
   return true;
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -3,7 +3,7 @@
 
 #include "halfspace/image/tool/service.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Largest number of channels that a file may have.
 inline constexpr int kMaxChannels = 64;
@@ -12,4 +12,4 @@ inline constexpr int kMaxChannels = 64;
 /// not handle further requests.
 bool read_and_answer(const ReadRequest& request);
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

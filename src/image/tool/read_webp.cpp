@@ -3,7 +3,7 @@
 
 #include "halfspace/image/tool/mapped_file.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 #if HALFSPACE_HAS_WEBP
 
@@ -31,4 +31,4 @@ std::optional<Picture> read_webp(const ReadRequest&) { return std::nullopt; }
 
 #endif
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

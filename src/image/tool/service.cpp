@@ -13,7 +13,7 @@
 #include "halfspace/image/tool/failure.h"
 #include "halfspace/image/tool/protocol.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -103,4 +103,4 @@ void check_claimed_size(const ReadRequest& request, int64_t width, int64_t heigh
   }
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -9,7 +9,7 @@
 
 #include "halfspace/core/namespace.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 struct ReadRequest {
   /// An open file. The service closes it after the request.
@@ -42,4 +42,4 @@ void receive(void* memory, std::size_t bytes);
 /// contain. bytes_per_pixel: size of a decoded pixel, with all channels.
 void check_claimed_size(const ReadRequest& request, int64_t width, int64_t height, uint64_t bytes_per_pixel);
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

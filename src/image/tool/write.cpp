@@ -17,7 +17,7 @@
 #include "halfspace/image/tool/protocol.h"
 #include "halfspace/image/tool/service.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -115,4 +115,4 @@ bool write_and_answer(const std::string& format) {
   return false;
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -7,7 +7,7 @@
 #include <limits>
 #include <memory>
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -106,4 +106,4 @@ DecodedDraco decode_draco(std::span<const char> stream, std::span<const uint32_t
   return decoded;
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

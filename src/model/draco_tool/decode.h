@@ -9,7 +9,7 @@
 
 #include "halfspace/model/draco_tool/protocol.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// The reason why a stream was rejected. The text is one line of the form "problem; what was expected".
 struct DracoFailure {
@@ -27,4 +27,4 @@ struct DecodedDraco {
 /// Decodes a stream. Throws DracoFailure, or std::bad_alloc.
 DecodedDraco decode_draco(std::span<const char> stream, std::span<const uint32_t> ids, uint64_t max_bytes);
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -15,7 +15,7 @@
 #include "halfspace/core/tool/limits.h"
 #include "halfspace/model/draco_tool/decode.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -82,7 +82,7 @@ bool serve_one() {
 
 }  // namespace
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES
 
 int main(int argc, char** argv) {
   if (argc != 2 || argv[1] != std::string_view("serve")) {

@@ -15,7 +15,7 @@
 
 #include "halfspace/core/namespace.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 inline constexpr const char* kDracoToolName = "halfspace-draco-tool";
 inline constexpr uint32_t kDracoToolMagic = 0x31544448;  // "HDT1": the digit is the protocol version
@@ -41,4 +41,4 @@ struct DracoAttributeHeader {
   uint32_t width = 0;      ///< components per point, 1 to 4
 };
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

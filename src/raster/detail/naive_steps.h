@@ -16,7 +16,7 @@
 #include "halfspace/raster/primitives/vertex_stage.h"
 #include "halfspace/shading/contract.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE::naive {
+namespace halfspace::HS_LANES::naive {
 
 template <class R>
 inline constexpr bool kIsFloat = std::is_same_v<R, float>;
@@ -192,4 +192,4 @@ class NaiveDepthPlane {
   bool small_;
 };
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE::naive
+}  // namespace halfspace::HS_LANES::naive

@@ -15,7 +15,7 @@
 #include "halfspace/raster/shade/fragment_kernel.h"
 #include "halfspace/raster/tile/post_step.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace detail {
 
@@ -174,4 +174,4 @@ void draw(PassState& state, const S& shader, const VertexView& vertices, std::sh
 
 }  // namespace detail
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

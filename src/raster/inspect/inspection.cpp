@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "halfspace/raster/inspect/inspection.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -117,4 +117,4 @@ void TriangleInspector::find(TriangleId id, InspectedTriangle& out) const {
   out.position_cs = clip_positions(*out.draw, range.instance, out.index);
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

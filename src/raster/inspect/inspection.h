@@ -14,7 +14,7 @@
 #include "halfspace/raster/shade/triangle_attributes.h"
 #include "halfspace/raster/trace/fragment_trace.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Runs a pass like Pass::run(), but calls tiles.run() in each round instead of drawing the tiles.
 PassStatistics run_with(Pass& pass, TileRunner& tiles, const Workers& workers);
@@ -52,4 +52,4 @@ class TriangleInspector {
   std::vector<std::vector<SubmittedPrimitive>> primitives_;  // for each chunk
 };
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

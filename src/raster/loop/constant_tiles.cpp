@@ -9,7 +9,7 @@
 #include "halfspace/raster/shade/fragment_batch.h"
 #include "halfspace/raster/visibility/full_tile.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 PixelBounds tile_pixels(const PassContext& context, int tile_x0, int tile_x1, int tile_y) {
   const int size = context.tile_size;
@@ -79,4 +79,4 @@ void fill_images(const PassContext& context, const Attachments& attachments, con
     fill_depth(attachments.depth, context.width, context.height, area.pixels);
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -7,7 +7,7 @@
 #include "halfspace/raster/pipeline/pass_context.h"
 #include "halfspace/raster/tile/attachments.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Returns the pixels of tiles [tile_x0, tile_x1) in a row of tiles, clipped to the render target.
 PixelBounds tile_pixels(const PassContext& context, int tile_x0, int tile_x1, int tile_y);
@@ -32,4 +32,4 @@ struct ConstantArea {
 /// Writes the color of the area to the images, and the clear depth if draw is null. Does nothing if the area is empty.
 void fill_images(const PassContext& context, const Attachments& attachments, const ConstantArea& area);
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

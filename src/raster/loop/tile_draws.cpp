@@ -11,7 +11,7 @@
 #include "halfspace/raster/visibility/full_tile.h"
 #include "halfspace/raster/visibility/visibility.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -188,4 +188,4 @@ void draw_tile(const PassContext& context, bool has_color, int tile_x, int tile_
 template void draw_tile(const PassContext&, bool, int, int, TileMemory&, PassStatistics&);
 template void draw_tile(const PassContext&, bool, int, int, TileMemory&, TracedStatistics&);
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

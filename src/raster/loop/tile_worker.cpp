@@ -14,7 +14,7 @@
 #include "halfspace/raster/trace/tile_trace.h"
 #include "halfspace/raster/visibility/full_tile.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -258,4 +258,4 @@ void run_tiles(const PassContext& context, const Attachments& attachments, Round
   TileWorker<PassStatistics, true>(context, attachments, round, nullptr, ms).run(workers, statistics);
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

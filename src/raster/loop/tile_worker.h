@@ -11,7 +11,7 @@
 #include "halfspace/raster/tile/attachments.h"
 #include "halfspace/raster/trace/fragment_trace.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Allocates the buffers that hold the attachments between rounds.
 void keep_between_flushes(const PassContext& context, Attachments& attachments);
@@ -36,4 +36,4 @@ class TileRunner {
                    PassStatistics& statistics) = 0;
 };
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

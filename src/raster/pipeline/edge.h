@@ -9,7 +9,7 @@
 #include "halfspace/core/lanes.h"
 #include "halfspace/raster/pipeline/pipeline_data.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Directed edge (ex, ey) starting at (x0, y0), with the edge function E(x, y) = ex·(y − y0) − ey·(x − x0). E is positive to the left of
 /// the edge, which is the inside of a counter-clockwise triangle. Coordinates are in 1/256 px, and E is in (1/256 px)².
@@ -42,4 +42,4 @@ HS_INLINE I fill_bias(I ex, I ey) {
 }
 inline int32_t fill_bias(const Edge& e) { return fill_bias(e.ex, e.ey); }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

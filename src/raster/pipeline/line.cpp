@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -75,4 +75,4 @@ PixelBounds line_bounds(const Triangle& t, int pixels, const PixelBounds& b) {
   return {std::max(b.x0, range.first), std::max(b.y0, across0), std::min(b.x1, range.end), std::min(b.y1, across1)};
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

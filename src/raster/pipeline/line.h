@@ -14,7 +14,7 @@
 #include "halfspace/raster/pipeline/edge.h"
 #include "halfspace/raster/pipeline/pipeline_data.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Returns the width of a line, rounded to an integer number of pixels from 1 to 4096.
 inline int line_pixels(float width) { return width <= 1.0f ? 1 : static_cast<int>(std::nearbyint(std::min(width, 4096.0f))); }
@@ -36,4 +36,4 @@ std::array<BandEdge, 2> band_edges(const Triangle& line, int pixels);
 /// Returns a conservative bounding box of the covered pixels, clipped to bounds.
 PixelBounds line_bounds(const Triangle& line, int pixels, const PixelBounds& bounds);
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -14,7 +14,7 @@
 #include "halfspace/raster/target.h"
 #include "halfspace/shading/varyings.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 struct PrimitiveBatch;
 struct FragmentBatch;
@@ -117,4 +117,4 @@ inline const Draw& draw_of(const PassContext& context, TriangleId id) {
   return context.draws[chunk.ranges[chunk.range_of(index_in_chunk(id))].draw];
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -3,7 +3,7 @@
 
 #include <mutex>
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -68,4 +68,4 @@ void return_pass_memory(PassMemory memory) {
   k.idle.push_back(std::move(memory));
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

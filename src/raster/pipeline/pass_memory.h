@@ -8,7 +8,7 @@
 
 #include "halfspace/raster/pipeline/pass_context.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Buffers of a pass. Their contents are unspecified.
 struct PassMemory {
@@ -27,4 +27,4 @@ PassMemory take_pass_memory();
 /// Returns memory to the pool, or frees it if the pool would exceed 256 MB.
 void return_pass_memory(PassMemory memory);
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

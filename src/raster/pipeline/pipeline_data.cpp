@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "halfspace/raster/pipeline/pipeline_data.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 void Chunk::clear() {
   ranges.clear();
@@ -22,4 +22,4 @@ std::size_t Chunk::bytes() const {
          (clip_varyings.capacity() + primitives.capacity()) * sizeof(float);
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -18,7 +18,7 @@
 #include "halfspace/raster/statistics.h"
 #include "halfspace/raster/vertex_input.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 // ---- window coordinates ----------------------------------------------------------------------------------------
 
@@ -262,4 +262,4 @@ constexpr TriangleId triangle_id(uint32_t chunk, uint32_t triangle) { return chu
 constexpr uint32_t chunk_of(TriangleId id) { return id >> 16; }
 constexpr uint32_t index_in_chunk(TriangleId id) { return id & 0xffff; }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -3,7 +3,7 @@
 
 #include "halfspace/raster/pipeline/line.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -22,4 +22,4 @@ PixelBounds pixel_bounds(const Draw& draw, const Triangle& t, const PixelBounds&
   return pixel_bounds(draw, t, b, {at.x, at.x}, {at.y, at.y});
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -9,7 +9,7 @@
 #include "halfspace/raster/pipeline/pass_context.h"
 #include "halfspace/raster/pipeline/sample_pattern.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 template <class T>
 HS_INLINE T min_of(const std::array<T, 3>& v) {
@@ -43,4 +43,4 @@ PixelBounds pixel_bounds(const Draw& draw, const Triangle& t, const PixelBounds&
 /// Returns the pixels whose sample at position `at` is in the bounding box of a primitive, clipped to bounds.
 PixelBounds pixel_bounds(const Draw& draw, const Triangle& t, const PixelBounds& bounds, const SamplePosition& at);
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

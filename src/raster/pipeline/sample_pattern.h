@@ -8,7 +8,7 @@
 
 #include "halfspace/raster/pipeline/pipeline_data.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 inline constexpr int kMaxSamples = 8;
 
@@ -67,4 +67,4 @@ constexpr SamplePlane sample_plane(int samples, int sample, int tile_size) {
 /// Returns the maximum tile size for which all samples fit into the storage of a tile.
 constexpr int largest_tile(int samples) { return samples == 1 ? kMaxTileSize : samples == 8 ? kMaxTileSize / 4 : kMaxTileSize / 2; }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -9,7 +9,7 @@
 #include "halfspace/core/transpose.h"
 #include "halfspace/raster/pipeline/pipeline_data.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 template <class T>
 HS_INLINE void swap_lanes(Mask m, T& a, T& b) {
@@ -48,4 +48,4 @@ HS_INLINE std::array<Int, 4> load_vertices_and_flags(const F& triangle) {
   return load_aos4<Int>([&](int k) { return reinterpret_cast<const std::byte*>(triangle(k)) + offsetof(Triangle, vertex); });
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -9,7 +9,7 @@
 #include "halfspace/core/lanes.h"
 #include "halfspace/raster/pipeline/pipeline_data.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Minimum w of visible points. It keeps 1/w and x/w finite for all |x| ≤ guard·w.
 inline constexpr float kMinW = 0x1p-96f;
@@ -73,4 +73,4 @@ HS_INLINE WindowVertex<R> window_vertex(const Viewport& v, const DepthState& dep
           outcode(v, depth, x, y, z, w)};
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

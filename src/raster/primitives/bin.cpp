@@ -9,7 +9,7 @@
 #include "halfspace/raster/pipeline/pixel_box.h"
 #include "halfspace/raster/pipeline/triangle_lanes.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -161,4 +161,4 @@ std::span<const uint16_t> bin_of(const Chunk& chunk, int tile_x, int tile_y) {
   return std::span(chunk.bin_triangles).subspan(chunk.bin_start[tile], chunk.bin_start[tile + 1] - chunk.bin_start[tile]);
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -6,7 +6,7 @@
 #include "halfspace/core/check.h"
 #include "halfspace/raster/pipeline/window.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -149,4 +149,4 @@ void interpolate_corner(const ClipCorner& c, const std::array<double, 3>& w, con
   }
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -14,7 +14,7 @@
 
 #include "halfspace/raster/pipeline/pass_context.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// In exact arithmetic, clipping a triangle by n planes results in at most 3 + n corners. With rounding, an edge can be bent so that a
 /// plane cuts it twice.
@@ -91,4 +91,4 @@ inline Fan fan_of(const ClipVertex* v, uint32_t count) {
   return fan;
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

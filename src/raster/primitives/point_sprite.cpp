@@ -5,7 +5,7 @@
 
 #include "halfspace/raster/pipeline/window.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 void make_point_sprites(const Draw& draw, const float* clip, const float* extra, int count, const ScreenVertex* screen,
                         const Outcode* outcodes, PointSpriteRect* out) {
@@ -29,4 +29,4 @@ void make_point_sprites(const Draw& draw, const float* clip, const float* extra,
   }
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -5,11 +5,11 @@
 
 #include "halfspace/raster/pipeline/pass_context.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Computes the rectangles of `count` points. clip and extra have the layout of VertexBatch; extra is only read if the vertex function sets
 /// the size or bounds.
 void make_point_sprites(const Draw& draw, const float* clip, const float* extra, int count, const ScreenVertex* screen,
                         const Outcode* outcodes, PointSpriteRect* out);
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

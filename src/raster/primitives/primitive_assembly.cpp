@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -76,4 +76,4 @@ std::array<uint32_t, 3> Assembly::next_of_run() {
   return {};
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

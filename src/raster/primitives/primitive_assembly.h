@@ -11,7 +11,7 @@
 
 #include "halfspace/raster/pipeline/pass_context.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Sets d.primitive_count and d.runs.
 void count_primitives(Draw& d);
@@ -63,4 +63,4 @@ class Assembly {
   uint32_t run_end_ = 0;  ///< number of primitives in the run
 };
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

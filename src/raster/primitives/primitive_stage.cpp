@@ -5,7 +5,7 @@
 
 #include "halfspace/raster/primitives/primitive_assembly.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -130,4 +130,4 @@ std::vector<SubmittedPrimitive> submitted_primitives(const PassContext& context,
   return out;
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -10,7 +10,7 @@
 #include "halfspace/raster/pipeline/pass_context.h"
 #include "halfspace/shading/contract.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Triangles for a primitive kernel: varyings of the three vertices, in submission order.
 struct PrimitiveBatch {
@@ -66,4 +66,4 @@ HS_FLATTEN void primitive_kernel(const void* shader, const PrimitiveBatch& batch
 
 }  // namespace detail
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

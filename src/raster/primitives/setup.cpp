@@ -4,13 +4,15 @@
 #include <algorithm>
 #include <bit>
 
+#include "halfspace/raster/primitives/append_lines.h"
 #include "halfspace/raster/primitives/clip.h"
 #include "halfspace/raster/primitives/setup_clipped.h"
-#include "halfspace/raster/primitives/setup_points_lines.h"
+#include "halfspace/raster/primitives/setup_lines.h"
+#include "halfspace/raster/primitives/setup_points.h"
 #include "halfspace/raster/primitives/setup_range.h"
 #include "halfspace/raster/primitives/setup_simd.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -169,4 +171,4 @@ uint32_t max_triangles_per_primitive(const Draw& draw, int samples) {
   return corners;
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

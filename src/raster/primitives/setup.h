@@ -7,7 +7,7 @@
 
 #include "halfspace/raster/pipeline/pass_context.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Fills chunk.triangles from chunk.ranges.
 void set_up_chunk(const PassContext& context, Chunk& chunk);
@@ -15,4 +15,4 @@ void set_up_chunk(const PassContext& context, Chunk& chunk);
 /// Returns the maximum number of elements of Chunk::triangles that one primitive of a draw can become.
 uint32_t max_triangles_per_primitive(const Draw& draw, int samples);
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "halfspace/raster/primitives/setup_clipped.h"
 
-#include "halfspace/raster/primitives/setup_points_lines.h"
+#include "halfspace/raster/primitives/append_lines.h"
+#include "halfspace/raster/primitives/setup_points.h"
 #include "halfspace/raster/primitives/vertex_stage.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -102,4 +103,4 @@ void set_up_clipped(SetupRange& r, const PrimitiveSlots& slots, ClipFunction cli
   r.note_source(before, slots);
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

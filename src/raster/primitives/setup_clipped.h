@@ -7,7 +7,7 @@
 #include "halfspace/raster/primitives/clip.h"
 #include "halfspace/raster/primitives/setup_range.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 using ClipFunction = ClipPolygon (*)(const Viewport&, const DepthState&, const std::array<glm::vec4, 3>&, const ClipDistances&);
 
@@ -15,4 +15,4 @@ using ClipFunction = ClipPolygon (*)(const Viewport&, const DepthState&, const s
 /// the polygon mode. is_cut: the primitive needs clipping. (A primitive that needs none can be passed to get its clip vertices.)
 void set_up_clipped(SetupRange& range, const PrimitiveSlots& slots, ClipFunction clip, bool is_cut);
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

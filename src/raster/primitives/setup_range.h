@@ -7,7 +7,7 @@
 #include "halfspace/raster/primitives/primitive_assembly.h"
 #include "halfspace/raster/primitives/setup_scalar.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Vertex slots of a primitive, in the order of its indices. A point has the same slot three times, and a line has its second slot twice.
 using PrimitiveSlots = std::array<uint32_t, 3>;
@@ -89,4 +89,4 @@ struct SetupRange {
   }
 };
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

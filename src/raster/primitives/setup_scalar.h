@@ -5,7 +5,7 @@
 
 #include "halfspace/raster/pipeline/pass_context.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Maximum extent of a small triangle. In any tile that it touches, all edge functions fit in int32 without a shift. A sample is at most
 /// (63 + 64)·256 < 2^15 sub-pixels from a vertex, and an edge is at most 63·256 < 2^14 sub-pixels long in x and y. The difference of two
@@ -23,4 +23,4 @@ enum class Facing : uint8_t { by_winding, front, back };
 Cull set_up_triangle(const Draw& draw, const PassContext& context, const std::array<const ScreenVertex*, 3>& v,
                      const std::array<uint32_t, 3>& index, uint32_t provoking, Facing facing, Triangle& out);
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

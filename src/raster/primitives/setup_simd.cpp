@@ -11,7 +11,7 @@
 #include "halfspace/raster/primitives/setup_scalar.h"
 #include "halfspace/raster/primitives/small_coverage.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -144,4 +144,4 @@ void TriangleBatch::write(Triangle* out) const {
   store_aos4<Int>({v[0], v[1], v[2], flags_}, words_from(10));
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

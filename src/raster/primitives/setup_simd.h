@@ -7,7 +7,7 @@
 #include "halfspace/core/lanes.h"
 #include "halfspace/raster/pipeline/pass_context.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 class TriangleBatch {
  public:
@@ -48,4 +48,4 @@ class TriangleBatch {
   uint32_t kept_ = 0, large_ = 0;
 };
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

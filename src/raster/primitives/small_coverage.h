@@ -11,7 +11,7 @@
 #include "halfspace/raster/pipeline/edge.h"
 #include "halfspace/raster/pipeline/pixel_box.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Coverage is tested sample by sample for boxes of at most this many pixels per side.
 inline constexpr int kCoverSide = 4;
@@ -51,4 +51,4 @@ HS_INLINE I covered_flags(const PixelBox<I>& box, I centers) {
   return select(box.fits_in(kCoverSide, rows), centers << static_cast<int>(kCoveredShift), I(0));
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

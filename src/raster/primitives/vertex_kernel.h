@@ -9,7 +9,7 @@
 #include "halfspace/raster/pipeline/pipeline_data.h"
 #include "halfspace/shading/contract.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace detail {
 
@@ -96,4 +96,4 @@ HS_FLATTEN void vertex_kernel(const void* shader, const VertexBatch& batch) {
 
 }  // namespace detail
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -9,7 +9,7 @@
 #include "halfspace/raster/pipeline/window.h"
 #include "halfspace/raster/primitives/point_sprite.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -143,4 +143,4 @@ Outcode shade_vertices(const Draw& draw, std::size_t begin, std::size_t end, Sha
   return any;
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -6,7 +6,7 @@
 
 #include "halfspace/raster/pipeline/pass_context.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Returns the transform from clip space to window coordinates. The viewport is in pixels.
 Viewport make_viewport(const Rect& viewport, const DepthState& depth);
@@ -21,4 +21,4 @@ std::size_t shaded_bytes(const Draw& draw);
 /// Allocates memory for all vertices that the draw uses.
 void allocate_vertices(const Draw& draw, ShadedVertices& out);
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 void constant_colors(const Draw& draw, FragmentOutput& out) { draw.kernels.fragment(draw.shader.get(), {{.count = 1}, &out}); }
 
@@ -16,4 +16,4 @@ void write_colors(const Draw& draw, const FragmentOutput& out, std::size_t i, st
   }
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -12,7 +12,7 @@
 #include "halfspace/raster/tile/write_programs.h"
 #include "halfspace/raster/visibility/visibility.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Batch colors, plus the keep masks and depths if the shader returns them.
 struct FragmentOutput {
@@ -49,4 +49,4 @@ void constant_colors(const Draw& draw, FragmentOutput& out);
 /// Writes the colors in out to the tile. packets[k] receives all colors of packet i + k of the batch.
 void write_colors(const Draw& draw, const FragmentOutput& out, std::size_t i, std::span<const PacketMask> packets, Tile& tile);
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -8,7 +8,7 @@
 #include "halfspace/raster/shade/packet_merge.h"
 #include "halfspace/raster/tile/tile_format.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE::detail {
+namespace halfspace::HS_LANES::detail {
 
 /// Window coordinates of the pixels of two packets, and the positions of their centroid varyings.
 struct PacketPixels {
@@ -255,4 +255,4 @@ HS_FLATTEN void visibility_kernel(const void* shader, const VisibilityBatch& bat
   }
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE::detail
+}  // namespace halfspace::HS_LANES::detail

@@ -5,13 +5,14 @@
 
 #include <bit>
 
-#include "halfspace/raster/shade/shade_immediate.h"
+#include "halfspace/raster/shade/packed_fragments.h"
 #include "halfspace/raster/tile/blend_formulas.h"
+#include "halfspace/raster/tile/layers.h"
 #include "halfspace/raster/tile/tile_format.h"
 #include "halfspace/raster/trace/tile_trace.h"
 #include "halfspace/raster/visibility/depth_stencil_test.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 // Data that all fragments share.
 template <class S>
@@ -90,4 +91,4 @@ void add_to_layers(const Shading& c, const FragmentOutput& out, std::size_t i, i
   if constexpr (kTracesShading<Shading>) c.statistics.trace->add_layers(id, packet, bits(mask), bits(merged));
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -3,7 +3,7 @@
 
 #include <bit>
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 std::size_t unpack(const ShaderKernels& kernels, const FragmentOutput& packed, std::size_t first, std::span<const PacketMask> packets,
                    FragmentOutput& out) {
@@ -28,4 +28,4 @@ void write_packed(const FragmentOutput& packed, std::span<const PacketMask> pack
   }
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -6,7 +6,7 @@
 #include "halfspace/raster/shade/fragment_batch.h"
 #include "halfspace/raster/visibility/packed_pixels.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 struct PackedFragments {
   PackedPixels pixels;
@@ -21,4 +21,4 @@ std::size_t unpack(const ShaderKernels& kernels, const FragmentOutput& packed, s
 /// Writes the colors of packed pixels to the packets to which they belong. packed: the output of a batch with `pixels`.
 void write_packed(const FragmentOutput& packed, std::span<const PacketMask> packets, const WriteTarget& to);
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

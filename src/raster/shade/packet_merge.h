@@ -11,7 +11,7 @@
 #include "halfspace/core/transpose.h"
 #include "halfspace/raster/shade/triangle_attributes.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace detail {
 
@@ -265,4 +265,4 @@ HS_INLINE void find_triangles(const PacketBatch& batch, int n, RecentTriangles<V
 
 }  // namespace detail
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

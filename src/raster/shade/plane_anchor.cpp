@@ -6,7 +6,7 @@
 
 #include "halfspace/raster/primitives/setup_scalar.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -60,4 +60,4 @@ PlaneAnchor plane_anchor(const std::array<PlaneCorner, 3>& corner, const PlaneCe
   return a;
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

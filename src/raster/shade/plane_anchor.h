@@ -22,7 +22,7 @@
 
 #include "halfspace/core/namespace.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Vertex of a triangle in window coordinates.
 struct PlaneCorner {
@@ -59,4 +59,4 @@ struct PlaneAnchor {
 /// Returns the anchor of a triangle with counter-clockwise vertices for the pixels of a cell.
 PlaneAnchor plane_anchor(const std::array<PlaneCorner, 3>& corner, const PlaneCell& cell);
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

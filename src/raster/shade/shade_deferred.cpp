@@ -9,7 +9,7 @@
 #include "halfspace/raster/visibility/block_edges.h"
 #include "halfspace/raster/visibility/centroid.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -266,4 +266,4 @@ void shade_deferred(const PassContext& context, Tile& tile, DeferredShading& mem
 template void shade_deferred(const PassContext&, Tile&, DeferredShading&, PassStatistics&);
 template void shade_deferred(const PassContext&, Tile&, DeferredShading&, TracedStatistics&);
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

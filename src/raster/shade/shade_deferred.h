@@ -6,7 +6,7 @@
 #include "halfspace/raster/shade/packed_fragments.h"
 #include "halfspace/raster/shade/visible_work.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Scratch memory for shade_deferred(). shade_queued() uses the first two members.
 struct DeferredShading {
@@ -28,4 +28,4 @@ void shade_deferred(const PassContext& context, Tile& tile, DeferredShading& mem
 template <class Statistics>
 void shade_full_tile(const PassContext& context, TriangleId id, Tile& tile, DeferredShading& memory, Statistics& statistics);
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

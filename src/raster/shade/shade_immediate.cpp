@@ -7,7 +7,7 @@
 #include "halfspace/raster/shade/late_tests.h"
 #include "halfspace/raster/visibility/centroid.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -137,4 +137,4 @@ template void shade_immediate(const PassContext&, const Draw&, TriangleId, Visib
 template void shade_immediate(const PassContext&, const Draw&, TriangleId, VisibilityMode, const CoverageList&, Tile&, TransparentLayers&,
                               FragmentOutput&, TracedStatistics&);
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -6,7 +6,7 @@
 #include "halfspace/raster/shade/packed_fragments.h"
 #include "halfspace/raster/tile/layers.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Shades the packets of one triangle: runs the remaining tests, and blends and writes colors, or adds them to `layers` for draws with
 /// DrawState::order_independent. output: scratch memory. Statistics: see visibility/visibility.h.
@@ -20,4 +20,4 @@ template <class Statistics>
 void shade_queued(const DrawInTile& d, PacketQueue& queue, TransparentLayers& layers, FragmentOutput& output, PackedFragments& packed,
                   Statistics& statistics);
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

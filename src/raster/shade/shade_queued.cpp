@@ -7,7 +7,7 @@
 #include "halfspace/raster/shade/late_tests.h"
 #include "halfspace/raster/visibility/centroid.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -158,4 +158,4 @@ void shade_queued(const DrawInTile& d, PacketQueue& queue, TransparentLayers& la
 template void shade_queued(const DrawInTile&, PacketQueue&, TransparentLayers&, FragmentOutput&, PackedFragments&, PassStatistics&);
 template void shade_queued(const DrawInTile&, PacketQueue&, TransparentLayers&, FragmentOutput&, PackedFragments&, TracedStatistics&);
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

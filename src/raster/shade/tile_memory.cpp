@@ -4,7 +4,7 @@
 #include <mutex>
 #include <utility>
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -39,4 +39,4 @@ TileMemoryLease::~TileMemoryLease() {
   p.first_idle = std::move(memory_);
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

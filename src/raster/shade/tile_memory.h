@@ -10,7 +10,7 @@
 #include "halfspace/raster/tile/tile.h"
 #include "halfspace/raster/visibility/visibility.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 struct TileMemory {
   Tile tile;
@@ -37,4 +37,4 @@ class TileMemoryLease {
   std::unique_ptr<TileMemory> memory_;
 };
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -6,7 +6,7 @@
 
 #include "halfspace/raster/pipeline/triangle_lanes.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -199,4 +199,4 @@ bool gather_rows(const PassContext& context, const TriangleId* ids, uint32_t lan
   return true;
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

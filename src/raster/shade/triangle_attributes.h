@@ -9,7 +9,7 @@
 #include "halfspace/raster/shade/plane_anchor.h"
 #include "halfspace/shading/contract.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Data of one triangle, independent of how it is stored.
 struct TriangleSource {
@@ -179,4 +179,4 @@ HS_INLINE TriangleScalars<kComponents<V>, with_id> scalars_of(const PassContext&
 
 }  // namespace detail
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

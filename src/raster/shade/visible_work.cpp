@@ -8,7 +8,7 @@
 
 #include "halfspace/core/lane_pairs.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -219,4 +219,4 @@ std::size_t take_sorted_draw(std::span<ShadingWork>& work, std::span<PacketMask>
   return taken;
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -7,7 +7,7 @@
 
 #include "halfspace/raster/visibility/visibility.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Pixels of a packet that show the same draw.
 struct ShadingWork {
@@ -40,4 +40,4 @@ std::size_t take_draw(std::span<ShadingWork>& work, std::span<PacketMask> packet
 /// The same for work that is sorted by draw.
 std::size_t take_sorted_draw(std::span<ShadingWork>& work, std::span<PacketMask> packets);
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

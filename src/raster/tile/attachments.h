@@ -8,7 +8,7 @@
 #include "halfspace/raster/target.h"
 #include "halfspace/raster/tile/post_step.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 struct Attachments {
   std::vector<ColorTarget> colors;
@@ -25,4 +25,4 @@ struct Round {
   bool first, last;
 };
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

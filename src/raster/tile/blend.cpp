@@ -5,7 +5,7 @@
 #include "halfspace/raster/tile/tile_format.h"
 #include "halfspace/raster/tile/write_programs.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -88,4 +88,4 @@ bool uses_second_source(const BlendState& blend) {
   return second(blend.source_color) || second(blend.destination_color) || second(blend.source_alpha) || second(blend.destination_alpha);
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

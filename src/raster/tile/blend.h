@@ -8,7 +8,7 @@
 
 #include "halfspace/raster/tile/tile.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Returns the colors of a packet as linear floats. The format of the buffer must not be none.
 PacketColor read_color(const ColorBuffer& buffer, int packet);
@@ -28,4 +28,4 @@ void write_batch(ColorBuffer& buffer, std::span<const PacketMask> packets, const
 /// Returns true if a blend factor refers to the second color.
 bool uses_second_source(const BlendState& blend);
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -6,7 +6,7 @@
 #include "halfspace/core/lane_bytes.h"
 #include "halfspace/raster/tile/blend_formulas.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Returns true if the operation does not scale the existing color: it adds a term to it, subtracts a term from it, or selects one of two
 /// colors. Then only the other term has to be rounded, and both are combined as bytes.
@@ -89,4 +89,4 @@ HS_INLINE Int blended_codes(const Operation& o, const ColorBuffer& buffer, std::
   return combines_codes(o) ? detail::combined_codes(o, codes, from) : detail::summed_codes(o, dst_codes, from);
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

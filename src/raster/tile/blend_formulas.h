@@ -5,7 +5,7 @@
 
 #include "halfspace/raster/tile/tile_format.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Values that blend factors refer to. With a fixed-point attachment, src1 and constant must be clamped before use.
 struct BlendSources {
@@ -206,4 +206,4 @@ HS_INLINE PacketColor blended_color(const Operation& o, const PacketColor& dst, 
   return blend_sums(o, in_range, dst, {in_range, dst, src1, constant, fixed_point});
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

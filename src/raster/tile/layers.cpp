@@ -5,7 +5,7 @@
 
 #include "halfspace/raster/tile/blend.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -78,4 +78,4 @@ void TransparentLayers::write(ColorBuffer& buffer) {
   used_.clear();
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -10,7 +10,7 @@
 
 #include "halfspace/raster/tile/tile.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 class TransparentLayers {
  public:
@@ -51,4 +51,4 @@ class TransparentLayers {
   std::array<int16_t, kPackets> index_{};  // for each packet, the index of its stack plus 1, or 0 if it has none
 };
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

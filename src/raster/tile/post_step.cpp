@@ -3,7 +3,7 @@
 
 #include "halfspace/raster/tile/blend.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 void run_post_step(const PostStep& post, int target_width, int target_height, const Tile& tile, ColorBuffer& scratch) {
   constexpr std::size_t kPostBatch = 16;
@@ -25,4 +25,4 @@ void run_post_step(const PostStep& post, int target_width, int target_height, co
   store_color(post.target, target_width, target_height, ImageSamples::one, tile, scratch);
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -11,7 +11,7 @@
 #include "halfspace/raster/target.h"
 #include "halfspace/raster/tile/tile.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Packets of a tile at the end of the pass, and their colors, which the kernel replaces.
 struct PostBatch {
@@ -52,4 +52,4 @@ void post_kernel(const void* function, const PostBatch& batch) {
 
 }  // namespace detail
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

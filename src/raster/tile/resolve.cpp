@@ -3,7 +3,7 @@
 
 #include "halfspace/raster/tile/tile_format.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -78,4 +78,4 @@ void resolve_color(const Tile& tile, ColorBuffer& color) {
   });
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

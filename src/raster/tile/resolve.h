@@ -5,9 +5,9 @@
 
 #include "halfspace/raster/tile/blend.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Does nothing if there is one sample per pixel.
 void resolve_color(const Tile& tile, ColorBuffer& color);
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

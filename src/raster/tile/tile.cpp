@@ -3,7 +3,7 @@
 
 #include "halfspace/core/lane_reduce.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 void refresh_hiz(Tile& tile, int block) {
   const float* depth = &tile.depth[static_cast<std::size_t>(block) * kPixelsPerBlock];
@@ -22,4 +22,4 @@ void refresh_hiz(Tile& tile, int block) {
   tile.hiz_is_stale[b] = false;
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -15,7 +15,7 @@
 #include "halfspace/raster/pipeline/sample_pattern.h"
 #include "halfspace/raster/target.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 inline constexpr int kBlockSize = 8;
 inline constexpr int kBlocksPerRow = kMaxTileSize / kBlockSize;
@@ -145,4 +145,4 @@ inline void finish_stores() { _mm_sfence(); }
 /// Recomputes the exact depth bounds of a block.
 void refresh_hiz(Tile& tile, int block);
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -7,7 +7,7 @@
 #include "halfspace/raster/tile/tile_format.h"
 #include "halfspace/raster/tile/tile_layout.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -84,4 +84,4 @@ void fill_depth(const DepthTarget& target, int width, int height, const PixelBou
              [&]<class C>(C) { fill_rows(C::store(clear, target.stencil_clear_value), target.data, width, height, pixels); });
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 PixelBytes encode_pixel(ColorFormat format, const PacketColor& color) {
   PixelBytes bytes{};
@@ -49,4 +49,4 @@ void fill_buffer(ColorBuffer& buffer, const PacketColor& color) {
   }
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -9,7 +9,7 @@
 #include "halfspace/core/srgb.h"
 #include "halfspace/raster/tile/tile.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 // ---- color -----------------------------------------------------------------------------------------------------
 
@@ -196,4 +196,4 @@ void with_codec(DepthFormat format, F f) {
   }
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -8,7 +8,7 @@
 
 #include "halfspace/raster/tile/tile.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 constexpr std::array<uint8_t, kPixelsPerBlock> make_z_order() {
   std::array<uint8_t, kPixelsPerBlock> place{};
@@ -110,4 +110,4 @@ HS_INLINE bool for_each_two_rows(const Tile& tile, const ImageLayout& place, F f
   return true;
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

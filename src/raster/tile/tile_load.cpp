@@ -4,7 +4,7 @@
 #include "halfspace/raster/tile/tile_format.h"
 #include "halfspace/raster/tile/tile_layout.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -104,4 +104,4 @@ void load_depth(const DepthTarget& target, int width, int height, ImageSamples s
   for (int b = 0; b < kBlocks; ++b) refresh_hiz(tile, b);
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

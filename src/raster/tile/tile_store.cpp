@@ -5,7 +5,7 @@
 #include "halfspace/raster/tile/tile_format.h"
 #include "halfspace/raster/tile/tile_layout.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -114,4 +114,4 @@ void store_depth(const DepthTarget& target, int width, int height, ImageSamples 
   });
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -5,7 +5,7 @@
 
 #include "halfspace/raster/tile/blend_codes.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -153,4 +153,4 @@ WritePrograms write_programs(ColorFormat format, const AttachmentState& s) {
   }
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -8,7 +8,7 @@
 
 #include "halfspace/raster/tile/tile.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Writes one color per packet, in the order of the packets. src1: second colors, for dual-source blending.
 using WriteProgram = void (*)(ColorBuffer& buffer, std::span<const PacketMask> packets, const PacketColor* src, const PacketColor* src1,
@@ -30,4 +30,4 @@ struct WriteTarget {
   AttachmentState state{};
 };
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -10,7 +10,7 @@
 
 #include "halfspace/raster/target.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// The outcome of a fragment.
 enum class FragmentOutcome : uint8_t {
@@ -64,4 +64,4 @@ struct PassTrace {
   std::vector<glm::vec4> resolved;
 };
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

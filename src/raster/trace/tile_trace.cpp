@@ -5,7 +5,7 @@
 
 #include "halfspace/core/check.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -173,4 +173,4 @@ void record_resolved(const Tile& tile, PassTrace& out) {
   });
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -10,7 +10,7 @@
 #include "halfspace/raster/tile/tile.h"
 #include "halfspace/raster/trace/fragment_trace.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// The fragments of the tile that a task works on. All `lanes` parameters are bit masks.
 class TileTrace {
@@ -73,4 +73,4 @@ void record_values(const Tile& tile, PassTrace& out);
 /// Copies the colors of all pixels of the tile to PassTrace::resolved. The samples must have been resolved.
 void record_resolved(const Tile& tile, PassTrace& out);
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -8,7 +8,7 @@
 
 #include "halfspace/raster/visibility/tile_edges.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace detail {
 inline constexpr int kPacketColumns = kMaxTileSize / kPacketWidth, kPacketRows = kMaxTileSize / kPacketHeight;
@@ -79,4 +79,4 @@ HS_INLINE Mask inside(const TileRect& r, int packet_x, int packet_y) {
   return (x >= Int(r.x0)) & (x < Int(r.x1)) & (y >= Int(r.y0)) & (y < Int(r.y1));
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -3,7 +3,7 @@
 
 #include "halfspace/raster/pipeline/edge.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -46,4 +46,4 @@ const SamplePosition* find_centroids(const PacketBatch& batch, std::span<SampleP
   return out.data();
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

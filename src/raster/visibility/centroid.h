@@ -9,7 +9,7 @@
 #include "halfspace/raster/pipeline/pass_context.h"
 #include "halfspace/raster/visibility/packet_batch.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Returns true if a draw has centroid varyings whose positions must be computed: if its shader runs once for several samples.
 inline bool needs_centroids(const Draw& draw, int samples) { return draw.kernels.uses_centroid && samples > 1 && !draw.shades_samples; }
@@ -18,4 +18,4 @@ inline bool needs_centroids(const Draw& draw, int samples) { return draw.kernels
 /// center. The batch must not be packed.
 const SamplePosition* find_centroids(const PacketBatch& batch, std::span<SamplePosition> out);
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -8,7 +8,7 @@
 #include "halfspace/core/lane_reduce.h"
 #include "halfspace/raster/tile/tile.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 enum class BlockTest : uint8_t { none_passes, some_may, all_pass };
 
@@ -70,4 +70,4 @@ inline BlockTest test_tile(CompareOp op, const Tile& tile, float low, float high
   return test_bounds(op, low, high, min_lane(low_lanes), max_lane(high_lanes));
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -9,7 +9,7 @@
 #include "halfspace/raster/tile/tile_format.h"
 #include "halfspace/raster/visibility/tile_edges.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Bounds of a triangle's depth, represented as in Tile::depth.
 struct DepthBounds {
@@ -130,4 +130,4 @@ class DepthPlane {
   int32_t dx_ = 0, dy_ = 0;
 };
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

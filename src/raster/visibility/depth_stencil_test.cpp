@@ -3,7 +3,7 @@
 
 #include "halfspace/core/lane_bytes.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -59,4 +59,4 @@ bool updates_stencil(const DrawState& state) {
   return updates(state.stencil->front) || updates(state.stencil->back);
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

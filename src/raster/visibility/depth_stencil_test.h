@@ -6,7 +6,7 @@
 
 #include "halfspace/raster/tile/tile.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Compares z with the stored depth in each lane (OpenGL 4.6, section 17.3.4). NaN only passes not_equal and always.
 template <Number R>
@@ -50,4 +50,4 @@ inline const StencilFace* stencil_face(const DrawState& state, const Tile& tile,
   return front_facing ? &state.stencil->front : &state.stencil->back;
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

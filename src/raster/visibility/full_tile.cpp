@@ -4,7 +4,7 @@
 #include "halfspace/raster/visibility/depth_bounds.h"
 #include "halfspace/raster/visibility/trace_rejected.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -86,4 +86,4 @@ void FullTileOccluder::write_depth() {
   write();
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

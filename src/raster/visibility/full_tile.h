@@ -11,7 +11,7 @@
 #include "halfspace/raster/trace/tile_trace.h"
 #include "halfspace/raster/visibility/visibility.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// The pending occluder of a tile, if any: a triangle that all pixels show but that has not been written yet. For draws without color, only
 /// its depth is pending.
@@ -86,4 +86,4 @@ inline bool cover_together(const Triangle& t, const Triangle& u, const PixelBoun
   return a && b && a->ex == -b->ex && a->ey == -b->ey && a->x0 + a->ex == b->x0 && a->y0 + a->ey == b->y0;
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

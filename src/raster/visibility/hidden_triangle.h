@@ -10,7 +10,7 @@
 #include "halfspace/raster/visibility/trace_rejected.h"
 #include "halfspace/raster/visibility/visibility.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Returns true if f(block) returns true for all blocks of the tile that overlap a rectangle. Stops at the first that does not.
 template <class F>
@@ -46,4 +46,4 @@ void trace_hidden(const DrawInTile& d, const Triangle& t, TriangleId id, const T
   }
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -13,7 +13,7 @@
 #include "halfspace/raster/visibility/packet_queue.h"
 #include "halfspace/raster/visibility/visibility.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Returns true for draws with depth test "less" whose depth is tested before and after the shader, such as alpha-tested draws.
 inline bool lists_undecided(const DrawInTile& d) {
@@ -197,4 +197,4 @@ class ListWriter {
   std::size_t sample_ = 0;  // current sample of a multisampled tile
 };
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -12,7 +12,7 @@
 #include "halfspace/raster/visibility/depth_stencil_test.h"
 #include "halfspace/raster/visibility/visibility.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// The most common state of draws: depth test "less" with depth writes.
 inline bool writes_nearest(const DrawInTile& d) {
@@ -117,4 +117,4 @@ class OpaqueWriter {
   bool tests_depth_, writes_depth_, writes_id_;
 };
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

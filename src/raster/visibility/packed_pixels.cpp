@@ -6,7 +6,7 @@
 #include "halfspace/core/lane_packing.h"
 #include "halfspace/raster/pipeline/pass_context.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -85,4 +85,4 @@ uint16_t unpack_keep(const uint16_t* packed, std::size_t first, uint32_t lanes) 
   return static_cast<uint16_t>(unpack_bits(bits >> first % kLanes, lanes));
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -11,7 +11,7 @@
 #include "halfspace/core/lane_packing.h"
 #include "halfspace/raster/visibility/packet_batch.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 struct Draw;
 
@@ -68,4 +68,4 @@ HS_INLINE Real unpack_values(const float* packed, std::size_t first, uint32_t la
   return unpack_lanes(load<Real>(packed + first), lanes);
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

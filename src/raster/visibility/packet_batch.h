@@ -5,7 +5,7 @@
 
 #include "halfspace/raster/tile/tile.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 struct PassContext;
 
@@ -35,4 +35,4 @@ struct VisibilityBatch : PacketBatch {
   Real* depth;
 };
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

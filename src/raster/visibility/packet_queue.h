@@ -6,7 +6,7 @@
 
 #include "halfspace/raster/visibility/packet_batch.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// The VisibilityMode of the draw determines whether the packets have passed the depth test. In a multisampled tile, packets are numbered
 /// as in the sample plane of sample 0, and each has the lanes and depths of all samples.
@@ -47,4 +47,4 @@ struct PacketQueue {
   alignas(64) std::array<Real, kDepthCapacity> depth;
 };
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

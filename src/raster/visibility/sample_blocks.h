@@ -14,7 +14,7 @@
 #include "halfspace/raster/visibility/sample_set.h"
 #include "halfspace/raster/visibility/trace_rejected.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Edge functions of a triangle at the samples of a tile. Represented as in TileEdges; the values of an edge are 0 if all samples of the
 /// tile are inside it.
@@ -317,4 +317,4 @@ void rasterize_all_samples(const DrawInTile& d, const Triangle& t, TriangleId id
   rasterize_sampled_triangle<false>(d, samples, t, rect, id, writer);
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

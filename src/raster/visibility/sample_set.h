@@ -8,7 +8,7 @@
 
 #include "halfspace/raster/visibility/visibility.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// The samples in the sample mask of a draw. All arrays except `index` have one element per sample of the tile.
 struct SampleSet {
@@ -63,4 +63,4 @@ HS_INLINE void write_samples(Writer& writer, const SampleSet& set, TriangleId id
   if constexpr (QueuesPixels<Writer>) writer.end_packet();
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -5,7 +5,7 @@
 
 #include "halfspace/raster/tile/tile_format.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Larger triangles are rasterized in blocks.
 inline constexpr int kMaxSmallSpan = 48;  // px
@@ -34,4 +34,4 @@ inline SmallDepth small_depth(const Triangle& t, float depth_low, float depth_hi
   return {Real(t.z0), Real(t.z_edge1), Real(t.z_edge2), Real(depth_low), Real(high)};
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

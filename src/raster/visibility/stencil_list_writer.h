@@ -7,7 +7,7 @@
 
 #include "halfspace/raster/visibility/list_writer.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// See ListWriter. Call begin() before each triangle and before tests(), which depends on the face of the triangle.
 template <class S, bool multisampled>
@@ -97,4 +97,4 @@ class StencilListWriter : public ListWriter<S, multisampled> {
   bool updates_;  // stencil values; only in VisibilityMode::early
 };
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -10,7 +10,7 @@
 #include "halfspace/raster/visibility/depth_stencil_test.h"
 #include "halfspace/raster/visibility/visibility.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// For draws whose visibility depends only on coverage, the depth test and the stencil test (Rasterizer::stencil).
 template <class S>
@@ -78,4 +78,4 @@ class StencilWriter {
   bool tests_, writes_depth_, writes_id_;
 };
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -9,7 +9,7 @@
 #include "halfspace/raster/pipeline/line.h"
 #include "halfspace/raster/visibility/visibility.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Finds the covered pixel of each column or row. A sample is covered if it is between the two edges of the line (see BandEdge), whose
 /// distance along the minor axis is exactly one pixel.
@@ -74,4 +74,4 @@ void rasterize_thin_line(const DrawInTile& d, const Triangle& t, const PixelBoun
   }
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -12,7 +12,7 @@
 #include "halfspace/raster/pipeline/sample_pattern.h"
 #include "halfspace/raster/tile/tile.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// One sample of every pixel of a tile. Pixels are numbered by their position in the tile's storage, so the number of a pixel also selects
 /// the packet that stores the sample (raster/pipeline/sample_pattern.h).
@@ -79,4 +79,4 @@ inline TileEdges tile_edges(const Draw& draw, const Triangle& t, const SampleGri
   return r;
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

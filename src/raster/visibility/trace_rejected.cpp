@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -66,4 +66,4 @@ void trace_rejected_tile(const RejectedPrimitive& p, TileTrace& trace) {
   trace_rejected_tile(p, *std::ranges::min_element(p.d.tile.hiz_min), *std::ranges::max_element(p.d.tile.hiz_max), trace);
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

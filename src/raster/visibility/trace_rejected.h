@@ -9,7 +9,7 @@
 #include "halfspace/raster/visibility/depth_bounds.h"
 #include "halfspace/raster/visibility/visibility.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// A triangle, point or line in one sample plane of a tile.
 struct RejectedPrimitive {
@@ -29,4 +29,4 @@ void trace_rejected_tile(const RejectedPrimitive& primitive, float stored_low, f
 /// The same, with the bounds over all blocks of the tile.
 void trace_rejected_tile(const RejectedPrimitive& primitive, TileTrace& trace);
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -8,7 +8,7 @@
 #include "halfspace/raster/visibility/depth_stencil_test.h"
 #include "halfspace/raster/visibility/visibility.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Packets of one triangle that wait for the visibility function.
 struct PendingPackets {
@@ -44,4 +44,4 @@ struct TriangleVisit {
   float low = 0.0f, high = 1.0f;  ///< bounds of the triangle's depth
 };
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -16,7 +16,7 @@
 #include "halfspace/raster/visibility/packet_batch.h"
 #include "halfspace/raster/visibility/packet_queue.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Pixels that one triangle covers in a tile.
 struct CoverageList {
@@ -116,4 +116,4 @@ Mask depth_test(const DepthState& state, const Tile& tile, int packet, Real z, M
 /// Writes z to the lanes in mask if depth writes are enabled, and keeps the depth bounds of the block valid.
 void write_depth(const DepthState& state, Tile& tile, int packet, Real z, Mask mask);
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -14,7 +14,7 @@
 #include "halfspace/raster/visibility/triangle_visit.h"
 #include "halfspace/raster/visibility/visibility.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -277,4 +277,4 @@ void rasterize(const DrawInTile& d, uint32_t chunk, uint32_t index, CoverageList
 template void rasterize(const DrawInTile&, uint32_t, uint32_t, CoverageList*, PassStatistics&);
 template void rasterize(const DrawInTile&, uint32_t, uint32_t, CoverageList*, TracedStatistics&);
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

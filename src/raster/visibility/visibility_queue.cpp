@@ -10,7 +10,7 @@
 #include "halfspace/raster/visibility/opaque_writer.h"
 #include "halfspace/raster/visibility/packed_pixels.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -121,4 +121,4 @@ void decide_queued(const DrawInTile& d, PacketQueue& queue, Statistics& statisti
 template void decide_queued(const DrawInTile&, PacketQueue&, PassStatistics&);
 template void decide_queued(const DrawInTile&, PacketQueue&, TracedStatistics&);
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -12,7 +12,7 @@
 #include "halfspace/raster/visibility/stencil_list_writer.h"
 #include "halfspace/raster/visibility/stencil_writer.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -224,4 +224,4 @@ template std::size_t rasterize_small_samples_queued(const DrawInTile&, uint32_t,
 template std::size_t rasterize_small_samples_queued(const DrawInTile&, uint32_t, std::span<const uint16_t>, PacketQueue&,
                                                     TracedStatistics&);
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -15,7 +15,7 @@
 #include "halfspace/raster/visibility/stencil_list_writer.h"
 #include "halfspace/raster/visibility/stencil_writer.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -275,4 +275,4 @@ std::size_t rasterize_small_queued(const DrawInTile& d, uint32_t chunk, std::spa
 template std::size_t rasterize_small_queued(const DrawInTile&, uint32_t, std::span<const uint16_t>, PacketQueue&, PassStatistics&);
 template std::size_t rasterize_small_queued(const DrawInTile&, uint32_t, std::span<const uint16_t>, PacketQueue&, TracedStatistics&);
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -7,14 +7,14 @@
 #include "halfspace/core/resource_limits.h"
 #include "halfspace/image/image_io.h"
 #include "halfspace/image/png.h"
-#include "halfspace/model/file_bytes.h"
-#include "halfspace/model/specular_glossiness.h"
+#include "halfspace/model/gltf/specular_glossiness.h"
+#include "halfspace/model/text/file_bytes.h"
 #include "halfspace/model/used_images.h"
 #include "halfspace/model/write_model.h"
-#include "halfspace/render/converted_images.h"
+#include "halfspace/render/assets/converted_images.h"
 #include "halfspace/render/export/scene_materials.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -113,4 +113,4 @@ void embed_images(Model& model, const std::string& file) {
   embed_used(model, used, file);
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

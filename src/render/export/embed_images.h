@@ -5,7 +5,7 @@
 
 #include "halfspace/model/model.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Loads the images that materials use into memory, and removes the contents of all others. Images that are neither PNG nor JPEG are
 /// encoded as PNG with 8 bits per channel, and so are the results of conversions (ModelImage::converted). An image that cannot be read
@@ -16,4 +16,4 @@ namespace halfspace::inline HS_LANES_NAMESPACE {
 /// Throws LimitError.
 void embed_images(Model& model, const std::string& file);
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

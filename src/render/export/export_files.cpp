@@ -5,9 +5,10 @@
 #include "halfspace/image/atomic_output.h"
 #include "halfspace/render/export/embed_images.h"
 #include "halfspace/render/export/pack_maps.h"
-#include "halfspace/render/input_files.h"
+#include "halfspace/render/model_file/input_files.h"
+#include "halfspace/render/scene_assets.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -48,4 +49,4 @@ void write_files(const std::filesystem::path& out, const std::vector<ModelFile>&
   for (std::size_t i = files.size(); i-- > 0;) write_file(out.parent_path() / files[i].name, files[i].bytes);
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

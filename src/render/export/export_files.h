@@ -11,8 +11,9 @@
 
 #include "halfspace/model/write_model.h"
 #include "halfspace/render/export/scene_model.h"
+#include "halfspace/render/scene_assets.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// A model to export, the name of its file or scene in messages, and the files that it was made from, which are not overwritten.
 struct ExportSource {
@@ -37,4 +38,4 @@ std::vector<ModelFile> exported_files(ExportSource source, const std::filesystem
 /// Writes the files to the folder of `out`. The main file is written last, so that it never refers to missing files. Throws OutputError.
 void write_files(const std::filesystem::path& out, const std::vector<ModelFile>& files);
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -10,9 +10,9 @@
 #include "halfspace/core/srgb.h"
 #include "halfspace/image/image_io.h"
 #include "halfspace/image/png.h"
-#include "halfspace/render/soft_mask.h"
+#include "halfspace/render/prepare/soft_mask.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -152,4 +152,4 @@ void pack_maps(Model& model, const std::string& file) {
   for (ModelMaterial& material : model.materials) packer.pack(material);
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

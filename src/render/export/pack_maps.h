@@ -5,7 +5,7 @@
 
 #include "halfspace/model/model.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Combines material maps that glTF stores in one image: metalness (blue) with roughness (green), and base color with opacity. Moves the
 /// specular map to the alpha channel. The new images are 8-bit PNGs with the size of the larger map. Maps stay unchanged if they already
@@ -13,4 +13,4 @@ namespace halfspace::inline HS_LANES_NAMESPACE {
 /// or scene file, which begins messages about images.
 void pack_maps(Model& model, const std::string& file);
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

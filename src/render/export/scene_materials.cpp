@@ -6,7 +6,7 @@
 
 #include "halfspace/image/png.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -82,4 +82,4 @@ TextureUse SceneMaterials::texture_use(const Texture2D* texture, const Sampler& 
   return use;
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -10,7 +10,7 @@
 #include "halfspace/model/model.h"
 #include "halfspace/render/prepared_scene.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// The vertex streams of a prepared draw that a model stores.
 struct DrawnMesh {
@@ -38,4 +38,4 @@ class SceneMaterials {
   std::map<std::pair<const Texture2D*, bool>, int> images_;  // image index by texture and whether green is flipped
 };
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

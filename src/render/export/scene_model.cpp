@@ -9,14 +9,15 @@
 #include "halfspace/core/float_mode.h"
 #include "halfspace/core/trig_double.h"
 #include "halfspace/core/units.h"
-#include "halfspace/model/normals.h"
+#include "halfspace/model/geometry/normals.h"
+#include "halfspace/render/assets/model_asset.h"
 #include "halfspace/render/export/append_model.h"
 #include "halfspace/render/export/scene_materials.h"
-#include "halfspace/render/model_asset.h"
+#include "halfspace/render/scene_assets.h"
 #include "halfspace/render/view.h"
 #include "halfspace/scene/lights.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -278,4 +279,4 @@ Model scene_model(SceneDescription scene, SceneAssets& assets, bool with_lights,
   return exporter.model(with_lights);
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

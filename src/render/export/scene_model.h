@@ -17,8 +17,9 @@
 
 #include "halfspace/model/model.h"
 #include "halfspace/render/prepared_scene.h"
+#include "halfspace/render/scene_assets.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// Models in memory, by the file names that objects have.
 using MemoryModels = std::map<std::string, std::shared_ptr<const ModelAsset>>;
@@ -28,4 +29,4 @@ using MemoryModels = std::map<std::string, std::shared_ptr<const ModelAsset>>;
 /// files that are not read. Throws InputError if a file that the scene refers to cannot be used.
 Model scene_model(SceneDescription scene, SceneAssets& assets, bool with_lights = true, const MemoryModels& models = {});
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -9,7 +9,7 @@
 #include "halfspace/geometry/camera.h"
 #include "halfspace/scene/lights.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -197,4 +197,4 @@ std::vector<LightView> fitted_views(const ShadowScene& scene, const LightDescrip
   return finder.cube(light.position);
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

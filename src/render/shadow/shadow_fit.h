@@ -10,7 +10,7 @@
 #include "halfspace/render/shadow/shadow_views.h"
 #include "halfspace/render/view.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// A mesh or a set of spheres, and its bounds. One of the two pointers is null. Not owned.
 struct ShadowExtent {
@@ -39,4 +39,4 @@ bool is_outside(const glm::dmat4& clip_from_world, const Box& box_ws);
 std::vector<LightView> fitted_views(const ShadowScene& scene, const LightDescription& light, const ShadowDescription& shadow, int size,
                                     double margin);
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

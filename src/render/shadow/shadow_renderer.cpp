@@ -9,14 +9,14 @@
 #include "halfspace/core/trig_double.h"
 #include "halfspace/core/units.h"
 #include "halfspace/render/shadow/moment_map.h"
-#include "halfspace/render/sphere_camera.h"
+#include "halfspace/render/shadow/sphere_camera.h"
 #include "halfspace/scene/lights.h"
-#include "halfspace/shading/depth_only.h"
-#include "halfspace/shading/shadow_bias.h"
-#include "halfspace/shading/shadow_blocks.h"
-#include "halfspace/shading/sphere_depth.h"
+#include "halfspace/shading/shadow/shadow_bias.h"
+#include "halfspace/shading/shadow/shadow_blocks.h"
+#include "halfspace/shading/sphere/sphere_depth.h"
+#include "halfspace/shading/surface/depth_only.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -195,4 +195,4 @@ RenderedShadow ShadowRenderer::render(const std::string& name, const LightDescri
   return out;
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -11,7 +11,7 @@
 #include "halfspace/render/shadow/shadow_fit.h"
 #include "halfspace/render/view.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 // The shadow of a light, and the maps that it refers to.
 struct RenderedShadow {
@@ -41,4 +41,4 @@ class ShadowRenderer {
   const Workers& workers_;
 };
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

@@ -10,7 +10,7 @@
 #include "halfspace/core/vec.h"
 #include "halfspace/geometry/camera.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 namespace {
 
@@ -198,4 +198,4 @@ std::vector<double> cascade_splits(double near, double far, int count, double we
   return splits;
 }
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

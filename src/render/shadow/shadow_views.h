@@ -11,7 +11,7 @@
 
 #include "halfspace/render/view.h"
 
-namespace halfspace::inline HS_LANES_NAMESPACE {
+namespace halfspace::HS_LANES {
 
 /// A view from a light, in world space and double precision. Depth is reversed, with clip depth in [0, w].
 struct LightView {
@@ -68,4 +68,4 @@ std::array<LightView, 6> cube_views(const glm::dvec3& position, double near, dou
 /// between uniform (weight 0) and geometric (weight 1) steps (Zhang et al., "Parallel-split shadow maps", VRCIA 2006).
 std::vector<double> cascade_splits(double near, double far, int count, double weight);
 
-}  // namespace halfspace::inline HS_LANES_NAMESPACE
+}  // namespace halfspace::HS_LANES

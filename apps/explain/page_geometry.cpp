@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <bit>
+
+#include "explain/page_data.h"
+#include "explain/page_encode.h"
+#include "halfspace/core/hash.h"
+#include "halfspace/raster/pipeline/edge.h"
+#include "halfspace/raster/pipeline/pixel_box.h"
+#include "halfspace/raster/pipeline/sample_pattern.h"
+#include "halfspace/scene/scene_paths.h"
+
+namespace halfspace {
+
+namespace {
+
+// kMaxWireTriangles limits the wireframe of the example's draw and, separately, that of all other draws. A larger wireframe is a random
+// sample of runs of kWireRun consecutive triangles, which are usually neighbors. Every n-th run would follow the rows of the mesh instead,
+// and a sphere would look like a spiral. kMaxClipped limits the clipped triangles.
+constexpr std::size_t kMaxWireTriangles = 12000, kWireRun = 8, kMaxClipped = 24;
+
+// Returns true for one in `every` runs of primitives, on average.
+bool is_in_sample(uint32_t primitive, std::size_t every) {
+  const auto run = static_cast<int32_t>(primitive / kWireRun);
+  return static_cast<uint32_t>(mix_bits(run)) % every == 0;
+}
+
+PageJson json_of_triangle(const PassContext& context, const Draw& draw, const Triangle& t) {
+  PageJson json{{"x", t.x},
+                {"y", t.y},
+                {"z0", t.z0},
+                {"z_edge1", t.z_edge1},
+                {"z_edge2", t.z_edge2},
+                {"z_max", t.z_max},
+                {"front", t.is(kFrontFacing)},
+                {"small", t.is(kSmall)},
+                {"clipped", t.is(kClipped)}};
+  const auto json_of_box = [](const PixelBounds& b) { return PageJson{b.x0, b.y0, b.x1, b.y1}; };
+  json["box"] = json_of_box(pixel_bounds(draw, t, draw.bounds, context.samples_at));
+  for (int s = 0; s < context.samples; ++s)
+    json["boxes"].push_back(json_of_box(pixel_bounds(draw, t, draw.bounds, sample_position(context.samples, s))));
+  json["covered"] = covered_pixels(context, draw, t);
+  if (t.is(kPointSprite | kLine)) return json;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Edge e = edge_of(t, i);
+    json["edges"].push_back({{"x0", e.x0}, {"y0", e.y0}, {"ex", e.ex}, {"ey", e.ey}, {"bias", fill_bias(e)}});
+  }
+  return json;
+}
+
+PageJson json_of_vertex(const StageVertex& v) {
+  PageJson json{{"index", v.index}};
+  const auto put = [&](const char* key, const std::optional<glm::dvec3>& p) {
+    if (p) json[key] = json_of(*p);
+  };
+  put("os", v.position_os);
+  put("ws", v.position_ws);
+  put("vs", v.position_vs);
+  json["clip"] = json_of(glm::dvec4(v.clip));
+  json["ndc"] = json_of(glm::dvec3(v.ndc));
+  json["x"] = v.window.x;
+  json["y"] = v.window.y;
+  json["z"] = v.window.z;
+  json["inv_w"] = v.window.inv_w;
+  json["outcode"] = v.outcode;
+  return json;
+}
+
+int example_sample(const PageInput& in) { return in.visible == nullptr ? 0 : in.visible->sample; }
+
+// Returns the index of the triangle that covers the visible sample of the example pixel. A clipped primitive consists of several triangles.
+std::size_t shown_triangle(const PageInput& in, const Draw& draw, const std::vector<Triangle>& triangles) {
+  const int y = in.trace.height - 1 - in.pixel.y;
+  const auto covered = [&](const Triangle& t) { return covers(in.context, draw, t, in.pixel.x, y, example_sample(in)); };
+  const auto found = std::ranges::find_if(triangles, covered);
+  return found == triangles.end() ? 0 : static_cast<std::size_t>(found - triangles.begin());
+}
+
+// Returns the covered samples of each pixel of the 8x8 block of the example pixel as bits, row by row from the lower left.
+PageJson block_coverage_json(const PageInput& in, const Draw& draw, const Triangle& t) {
+  const int x0 = in.pixel.x / 8 * 8, y0 = (in.trace.height - 1 - in.pixel.y) / 8 * 8;
+  PageJson json = PageJson::array();
+  for (int i = 0; i < 64; ++i) {
+    int bits = 0;
+    for (int s = 0; s < in.context.samples; ++s) bits |= int{covers(in.context, draw, t, x0 + i % 8, y0 + i / 8, s)} << s;
+    json.push_back(bits);
+  }
+  return json;
+}
+
+bool is_triangle(const Draw& draw) { return !draws_points(draw.state) && !is_lines(draw.state.topology); }
+
+// Returns the world-space positions of the vertices of a primitive, or nullopt if its draw has no mesh.
+std::optional<std::array<glm::vec3, 3>> corners_ws(const PageInput& in, const StagePrimitive& p) {
+  const PreparedDraw& draw = in.scene.draws[p.draw];
+  const std::span<const glm::vec3> positions = draw.source.streams.positions;
+  if (positions.empty()) return std::nullopt;
+  const StageExample e = stage_example(in.scene, in.context, in.geometry, static_cast<uint32_t>(&p - in.geometry.primitives.data()));
+  std::array<glm::vec3, 3> out;
+  for (std::size_t k = 0; k < 3; ++k) out[k] = glm::vec3(e.vertices[k].position_ws.value_or(glm::dvec3(0.0)));
+  return out;
+}
+
+// Returns the height of a triangle above its longest edge, in pixels.
+double height_of(const Triangle& t) {
+  double longest = 1.0;
+  for (std::size_t i = 0; i < 3; ++i) longest = std::max(longest, std::hypot(t.x[(i + 1) % 3] - t.x[i], t.y[(i + 1) % 3] - t.y[i]));
+  const double area = static_cast<double>(int64_t{t.x[1] - t.x[0]} * (t.y[2] - t.y[0]) - int64_t{t.y[1] - t.y[0]} * (t.x[2] - t.x[0]));
+  return std::fabs(area) / longest / kSubPixels;
+}
+
+// Returns the largest distance by which affine interpolation displaces a value along an edge of a triangle, in pixels.
+double affine_error(const Triangle& t, const std::array<float, 3>& inv_w) {
+  double error = 0.0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t k = (i + 1) % 3;
+    const double q = std::sqrt(static_cast<double>(inv_w[i]) / static_cast<double>(inv_w[k]));
+    const double length = std::hypot(t.x[k] - t.x[i], t.y[k] - t.y[i]) / kSubPixels;
+    error = std::max(error, std::fabs(1.0 - q) / (1.0 + q) * std::min(length, 4096.0));
+  }
+  return error;
+}
+
+bool is_on_screen(const PassContext& context, const Triangle& t) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (t.x[i] < 0 || t.x[i] > context.width * kSubPixels || t.y[i] < 0 || t.y[i] > context.height * kSubPixels) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+PageJson json_of(const glm::dvec2& v) { return {v.x, v.y}; }
+PageJson json_of(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
+PageJson json_of(const glm::dvec4& v) { return {v.x, v.y, v.z, v.w}; }
+PageJson json_of(const glm::dmat4& m) {
+  PageJson json = PageJson::array();
+  for (int c = 0; c < 4; ++c) {
+    for (int r = 0; r < 4; ++r) json.push_back(m[c][r]);
+  }
+  return json;
+}
+
+PageJson draws_json(const PageInput& in) {
+  static constexpr std::array kCull{"none", "front", "back", "front and back"};
+  PageJson json = PageJson::array();
+  for (std::size_t i = 0; i < in.scene.draws.size(); ++i) {
+    const PreparedDraw& draw = in.scene.draws[i];
+    const Draw& d = in.context.draws[i];
+    json.push_back({{"object", object_name(in.description, draw.source.object)},
+                    {"copy", draw.source.instance},
+                    {"kind", draws_points(draw.state)        ? "points"
+                             : is_lines(draw.state.topology) ? "lines"
+                                                             : "triangles"},
+                    {"vertices", d.vertex_count},
+                    {"primitives", d.primitive_count * draw.state.instances},
+                    {"cull", kCull[static_cast<std::size_t>(draw.state.cull)]},
+                    {"layered", draw.state.order_independent},
+                    {"blended", draw.state.blend.has_value()},
+                    {"world_from_object", json_of(draw.source.world_from_object)}});
+  }
+  return json;
+}
+
+PageJson transforms_json(const PageInput& in) {
+  const View& v = in.scene.view;
+  const StageTransforms t = stage_transforms(v);
+  return {{"view_from_world", json_of(t.view_from_world)},
+          {"clip_from_view", json_of(t.clip_from_view)},
+          {"perspective", v.to_eye_ws == glm::dvec3(0.0)},
+          {"near", v.near},
+          {"far", v.far},
+          {"eye", json_of(v.eye_ws)}};
+}
+
+PageJson example_json(const PageInput& in) {
+  if (in.primitive == kNoPrimitive) return nullptr;
+  const StageExample e = stage_example(in.scene, in.context, in.geometry, in.primitive);
+  PageJson json{{"draw", e.primitive.draw},
+                {"instance", e.primitive.instance},
+                {"primitive", e.primitive.index},
+                {"object", object_name(in.description, in.scene.draws[e.primitive.draw].source.object)},
+                {"corners", e.corners}};
+  for (int k = 0; k < e.corners; ++k) json["vertices"].push_back(json_of_vertex(e.vertices[static_cast<std::size_t>(k)]));
+  const Draw& draw = in.context.draws[e.primitive.draw];
+  for (const Triangle& t : e.triangles) json["triangles"].push_back(json_of_triangle(in.context, draw, t));
+  if (!e.triangles.empty()) {
+    const std::size_t shown = shown_triangle(in, draw, e.triangles);
+    json["shown"] = shown;
+    json["block"] = block_coverage_json(in, draw, e.triangles[shown]);
+  }
+  if (e.sprite) json["sprite"] = {e.sprite->x0, e.sprite->y0, e.sprite->x1, e.sprite->y1};
+  return json;
+}
+
+PageJson outcomes_json(const PageInput& in) {
+  std::array<uint64_t, kStageOutcomes> counts{};
+  for (const StagePrimitive& p : in.geometry.primitives) ++counts[static_cast<std::size_t>(p.outcome)];
+  return counts;
+}
+
+PageJson clip_json(const PageInput& in) {
+  PageJson json = PageJson::array();
+  const std::vector<StagePrimitive>& all = in.geometry.primitives;
+  for (uint32_t i = 0; i < all.size() && json.size() < kMaxClipped; ++i) {
+    if (all[i].outcome != StageOutcome::clipped || !is_triangle(in.context.draws[all[i].draw])) continue;
+    const StageClip c = stage_clip(in.context, in.geometry, i);
+    PageJson item{{"object", object_name(in.description, in.scene.draws[all[i].draw].source.object)}, {"primitive", all[i].index}};
+    for (const glm::vec4& v : c.clip) item["before"].push_back(json_of(glm::dvec4(v)));
+    for (int k = 0; k < c.polygon.count; ++k) {
+      const ClipCorner& corner = c.polygon.corners[static_cast<std::size_t>(k)];
+      item["after"].push_back({{"clip", json_of(corner.pos_clip)}, {"weights", json_of(corner.weights)}, {"vertex", corner.vertex}});
+      item["window"].push_back(json_of(c.window[static_cast<std::size_t>(k)]));
+    }
+    json.push_back(item);
+  }
+  return json;
+}
+
+PageJson wireframe_json(const PageInput& in) {
+  const std::vector<StagePrimitive>& all = in.geometry.primitives;
+  const uint32_t example = in.primitive == kNoPrimitive ? kNoPrimitive : all[in.primitive].draw;
+  const auto own = static_cast<std::size_t>(std::ranges::count(all, example, &StagePrimitive::draw));
+  const auto step_for = [](std::size_t count) { return (count + kMaxWireTriangles - 1) / kMaxWireTriangles; };
+  const std::size_t step = step_for(all.size() - own), own_step = step_for(own);
+  std::vector<glm::vec3> positions;
+  std::vector<uint16_t> draws;
+  std::vector<uint8_t> outcomes;
+  for (uint32_t i = 0; i < all.size(); ++i) {
+    const std::size_t every = all[i].draw == example ? own_step : step;
+    if (i != in.primitive && !is_in_sample(i, every)) continue;
+    const auto corners = corners_ws(in, all[i]);
+    if (!corners) continue;
+    positions.insert(positions.end(), corners->begin(), corners->end());
+    draws.push_back(static_cast<uint16_t>(all[i].draw));
+    outcomes.push_back(static_cast<uint8_t>(all[i].outcome));
+  }
+  return {{"step", step},
+          {"own_step", own_step},
+          {"count", draws.size()},
+          {"positions", packed_planes(std::span<const glm::vec3>(positions))},
+          {"draws", packed_planes(std::span<const uint16_t>(draws))},
+          {"outcomes", packed_planes(std::span<const uint8_t>(outcomes))}};
+}
+
+PageJson bins_json(const PageInput& in) {
+  const PassContext& c = in.context;
+  return {{"tile", c.tile_size}, {"columns", c.tiles_x}, {"rows", c.tiles_y}, {"counts", triangles_per_tile(c)}};
+}
+
+PageJson perspective_json(const PageInput& in) {
+  double worst = -1.0;
+  PageJson json = nullptr;
+  for (uint32_t i = 0; i < in.geometry.primitives.size(); ++i) {
+    const StagePrimitive& p = in.geometry.primitives[i];
+    if (p.outcome != StageOutcome::kept || !is_triangle(in.context.draws[p.draw])) continue;
+    const Triangle& t = in.geometry.triangles[p.first_triangle];
+    if (!is_on_screen(in.context, t)) continue;
+    const std::array<uint32_t, 3> slots = slots_of(in.context, p);
+    std::array<float, 3> inv_w;
+    std::array<std::array<int32_t, 2>, 3> xy;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const ScreenVertex& v = in.context.shaded[p.draw].screen[slots[k]];
+      inv_w[k] = v.inv_w;
+      xy[k] = {v.x, v.y};
+    }
+    const Triangle ordered{.x = {xy[0][0], xy[1][0], xy[2][0]},
+                           .y = {xy[0][1], xy[1][1], xy[2][1]},
+                           .z0 = 0,
+                           .z_edge1 = 0,
+                           .z_edge2 = 0,
+                           .z_max = 0,
+                           .vertex = {},
+                           .flags = 0};
+    const double error = affine_error(ordered, inv_w), visible = std::min(error, height_of(ordered));  // avoids slivers
+    if (!(visible > worst)) continue;
+    worst = visible;
+    json = {{"object", object_name(in.description, in.scene.draws[p.draw].source.object)},
+            {"primitive", p.index},
+            {"xy", xy},
+            {"inv_w", inv_w},
+            {"error", error}};
+  }
+  return json;
+}
+
+}  // namespace halfspace

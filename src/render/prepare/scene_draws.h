@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "halfspace/render/prepared_scene.h"
+
+namespace halfspace::HS_LANES {
+
+// What the objects and particles of a scene draw.
+struct SceneDraws {
+  std::vector<PreparedDraw> opaque, blended;  // blended surfaces are drawn after everything opaque
+  std::vector<PlacedMesh> meshes;
+  std::vector<PlacedSpheres> spheres;
+  bool needs_light = false;  // whether a surface has been added that is black without light
+};
+
+}  // namespace halfspace::HS_LANES
