@@ -6,7 +6,7 @@
 
 #include "halfspace/raster/primitives/bin.h"
 #include "halfspace/raster/shade/shade_deferred.h"
-#include "halfspace/raster/shade/shade_immediate.h"
+#include "halfspace/raster/shade/shade_queued.h"
 #include "halfspace/raster/trace/tile_trace.h"
 #include "halfspace/raster/visibility/full_tile.h"
 #include "halfspace/raster/visibility/visibility.h"
@@ -66,7 +66,7 @@ class TileDraws {
         const Draw& draw = context_.draws[chunk.ranges[chunk.triangles[t].range()].draw];
         if (!here || &here->draw != &draw) begin_draw(draw, here);
         const uint64_t passed_before = statistics_.samples_passed;
-        const std::size_t small = here->rasterizer != Rasterizer::general && !occluder.is_pending() ? small_run(chunk, bin.subspan(i)) : 0;
+        const std::size_t small = occluder.is_pending() ? 0 : small_run(chunk, bin.subspan(i));
         for (std::size_t k = i; k < i + std::max<std::size_t>(small, 1); ++k) {
           prefetch(ahead(k + kTrianglesAhead));
           if (here->fetches_vertices) prefetch_vertex(context_, chunk, ahead(k + kVerticesAhead));
@@ -134,7 +134,7 @@ class TileDraws {
     if (d->draw.state.query) statistics_.add_to_query(*d->draw.state.query, statistics_.samples_passed - passed_before);
   }
 
-  // Draws small triangles of one draw, 1 to W, whose rasterizer is not `general`. Returns how many were drawn.
+  // Draws small triangles of one draw, 1 to W. Returns how many were drawn.
   std::size_t draw_small(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices) {
     if (d.rasterizer != Rasterizer::queued) {
       rasterize_small(d, chunk, indices, statistics_);
@@ -147,22 +147,14 @@ class TileDraws {
 
   void draw_triangle(const DrawInTile& d, uint32_t chunk, uint16_t index) {
     const Triangle& t = context_.chunks[chunk].triangles[index];
-    if (d.rasterizer == Rasterizer::opaque || d.rasterizer == Rasterizer::stencil) {
-      if (is_small_triangle(t)) return rasterize_small(d, chunk, {&index, 1}, statistics_);
-      return rasterize_opaque(d, t, triangle_id(chunk, index), statistics_);
-    }
     if (d.rasterizer == Rasterizer::queued) {
       rasterize_queued(d, t, triangle_id(chunk, index), memory_.queue, statistics_);
       if (memory_.queue.is_full()) finish_queue(d);
-      return;
+    } else if (is_small_triangle(t)) {
+      rasterize_small(d, chunk, {&index, 1}, statistics_);
+    } else {
+      rasterize_opaque(d, t, triangle_id(chunk, index), statistics_);
     }
-    if (shades_later(d.mode)) return rasterize(d, chunk, index, nullptr, statistics_);
-    CoverageList& list = memory_.coverage;
-    list.count = 0;
-    rasterize(d, chunk, index, &list, statistics_);
-    if (list.count != 0)
-      shade_immediate(context_, d.draw, triangle_id(chunk, index), d.mode, list, d.tile, memory_.layers, memory_.shading.output,
-                      statistics_);
   }
 
   // Blends the transparent layers over the colors of the tile. Pixels that are visible behind them have been shaded.

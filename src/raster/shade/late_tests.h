@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The steps after an immediate draw has shaded its fragments: discarding, late depth and stencil tests, layers.
+// The steps after a queued draw has shaded its fragments: discarding, late depth and stencil tests, layers.
 #pragma once
 
 #include <bit>
@@ -25,8 +25,7 @@ struct ImmediateShading {
   Tile& tile;
   TransparentLayers& layers;
   FragmentOutput& output;
-  const StencilFace* stencil;  // null: no stencil test after shading
-  bool tests_late;             // depth is tested after shading
+  bool tests_stencil;  // after shading
   Statistics& statistics;
 };
 template <class Shading>
@@ -61,20 +60,20 @@ Real late_depth(const Shading& c, const FragmentOutput& out, std::size_t i, Real
 
 // Runs the tests that come after the shader on packet i of a batch, with depth z. Returns the lanes to draw; writes depth and stencil.
 template <class Shading>
-Mask late_tests(const Shading& c, const FragmentOutput& out, std::size_t i, int packet, Mask mask, Real z, [[maybe_unused]] TriangleId id) {
+Mask late_tests(const Shading& c, const FragmentOutput& out, std::size_t i, int packet, Mask mask, Real z, TriangleId id) {
   const DepthState& state = c.draw.state.depth;
   if (c.draw.kernels.discards) mask = mask & mask_from_bits<Mask>(out.keep[i]);
   if constexpr (kTracesShading<Shading>) {
     c.statistics.trace->set_depth(id, packet, bits(mask), z, load<Real>(&c.tile.depth[static_cast<std::size_t>(packet) * kLanes]));
     c.statistics.trace->set_outcome(id, packet, bits(mask), FragmentOutcome::depth_failed);  // unless something else follows
   }
-  if (c.stencil != nullptr) {
-    const auto [stencil_passed, passed] =
-        test_and_update_stencil(*c.stencil, c.tile, packet, mask, tests_depth(state, c.tile), state.compare, z);
+  if (c.tests_stencil) {
+    const StencilFace& face = *stencil_face(c.draw.state, c.tile, triangle_of(c.context, id).is(kFrontFacing));
+    const auto [stencil_passed, passed] = test_and_update_stencil(face, c.tile, packet, mask, tests_depth(state, c.tile), state.compare, z);
     if constexpr (kTracesShading<Shading>)
       c.statistics.trace->set_outcome(id, packet, bits(mask & !stencil_passed), FragmentOutcome::stencil_failed);
     mask = passed;
-  } else if (c.tests_late) {
+  } else {
     mask = depth_test(state, c.tile, packet, z, mask);
   }
   c.statistics.samples_passed += static_cast<uint64_t>(std::popcount(bits(mask)));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-//
-// Shades the packets of a PacketQueue.
+#include "halfspace/raster/shade/shade_queued.h"
+
 #include <algorithm>
 #include <bit>
 
@@ -40,18 +40,25 @@ void write_queued(const Shading& c, std::span<const PacketMask> packets, const T
   }
 }
 
-// Finishes sample s of packets of the queue; see finish_batch().
-template <class Shading>
-void finish_sample_batch(const Shading& c, PacketQueue& queue, std::size_t begin, std::size_t n, int s) {
-  std::array<PacketMask, kPacketBatch> packets;
-  for (std::size_t i = 0; i < n; ++i) {
-    PacketMask& p = packets[i] = queue.sample(c.tile, begin + i, s);
+// Finishes sample s of n packets, which are `packets` in the tile's storage and were shaded as packets 0, 1, ... of the output. index(i):
+// number of packet i in the queue; ids: triangles of the packets.
+template <class Shading, class Index>
+void finish_sample(const Shading& c, PacketQueue& queue, std::span<PacketMask> packets, const TriangleId* ids, int s, const Index& index) {
+  for (std::size_t i = 0; i < packets.size(); ++i) {
+    PacketMask& p = packets[i];
     if (p.lanes != 0 && c.draw.covers_by_alpha)
       p.lanes = static_cast<uint16_t>(p.lanes & bits(alpha_covers(c.output.packet_color(0, i)[3], c.tile.samples, s)));
-    if (p.lanes != 0 && c.mode != VisibilityMode::early)
-      p.lanes = finish_queued(c, p, i, queue.sample_depth(c.tile, begin + i, s), queue.ids[begin + i]);
+    if (p.lanes != 0 && c.mode != VisibilityMode::early) p.lanes = finish_queued(c, p, i, queue.sample_depth(c.tile, index(i), s), ids[i]);
   }
-  if (!c.draw.state.order_independent) write_queued(c, std::span(packets).first(n), &queue.ids[begin]);
+  if (!c.draw.state.order_independent) write_queued(c, std::span<const PacketMask>(packets), ids);
+}
+
+// The same for n packets of the queue that were shaded once for all samples. begin: number of the first packet.
+template <class Shading>
+void finish_sample_of_pixels(const Shading& c, PacketQueue& queue, std::size_t begin, std::size_t n, int s) {
+  std::array<PacketMask, kPacketBatch> packets;
+  for (std::size_t i = 0; i < n; ++i) packets[i] = queue.sample(c.tile, begin + i, s);
+  finish_sample(c, queue, std::span(packets).first(n), &queue.ids[begin], s, [begin](std::size_t i) { return begin + i; });
 }
 
 // Returns the buffer to which the colors of the queue can be written directly, if no test follows the shader.
@@ -85,7 +92,7 @@ template <class Shading>
 void finish_batch(const Shading& c, PacketQueue& queue, std::size_t begin, std::size_t n, const WriteTarget& target) {
   if (c.tile.samples > 1) {
     if (target.program != nullptr) return write_samples(c.tile, c.output, queue, begin, n, target);
-    for (int s = 0; s < c.tile.samples; ++s) finish_sample_batch(c, queue, begin, n, s);
+    for (int s = 0; s < c.tile.samples; ++s) finish_sample_of_pixels(c, queue, begin, n, s);
     return;
   }
   PacketMask* packets = &queue.packets[begin];
@@ -140,19 +147,48 @@ std::size_t shade_packed(const Shading& c, PacketQueue& queue, std::size_t begin
   return count;
 }
 
+// Shades each covered sample of the queue separately. The order of the packets of one sample is kept; samples do not affect each other.
+template <class Shading>
+void shade_each_sample(const Shading& c, PacketQueue& queue) {
+  for (int s = 0; s < c.tile.samples; ++s) {
+    const QueuedSample sample(c.context, c.tile, queue, s);
+    c.statistics.fragments_shaded += pixel_count(sample.packets());
+    for (std::size_t begin = 0; begin < sample.count(); begin += kPacketBatch) {
+      const std::size_t n = std::min(std::size_t{kPacketBatch}, sample.count() - begin);
+      c.draw.kernels.fragment(c.draw.shader.get(), {sample.batch(begin, n), &c.output});
+      std::array<PacketMask, kPacketBatch> packets;
+      std::ranges::copy(sample.packets().subspan(begin, n), packets.begin());
+      if constexpr (kTracesShading<Shading>) {
+        for (std::size_t i = 0; i < n; ++i) trace_shaded(c, c.output, i, packets[i], sample.ids()[begin + i]);
+      }
+      finish_sample(c, queue, std::span(packets).first(n), sample.ids() + begin, s, [&](std::size_t i) { return sample.index(begin + i); });
+    }
+  }
+}
+
+// Shades each pixel of the queue once.
+template <class Shading>
+void shade_each_pixel(const Shading& c, PacketQueue& queue, PackedFragments& packed) {
+  const auto count = static_cast<std::size_t>(queue.count);
+  const std::span<const PacketMask> packets = std::span(queue.packets).first(count);
+  c.statistics.fragments_shaded += pixel_count(packets);
+  const bool packs = !kTracesShading<Shading> && packs_queue(c.draw, c.tile, packets);
+  const WriteTarget target = queue_target(c);
+  for (std::size_t begin = 0; begin < count;)
+    begin += packs ? shade_packed(c, queue, begin, packed, target) : shade_batch(c, queue, begin, target);
+}
+
 }  // namespace
 
 template <class Statistics>
 void shade_queued(const DrawInTile& d, PacketQueue& queue, TransparentLayers& layers, FragmentOutput& output, PackedFragments& packed,
                   Statistics& statistics) {
-  const ImmediateShading<Statistics> c{d.context, d.draw, d.mode, d.tile, layers, output, nullptr, true, statistics};
-  const auto count = static_cast<std::size_t>(queue.count);
-  const std::span<const PacketMask> packets = std::span(queue.packets).first(count);
-  statistics.fragments_shaded += pixel_count(packets);
-  const bool packs = !kTraces<Statistics> && packs_queue(d.draw, d.tile, packets);
-  const WriteTarget target = queue_target(c);
-  for (std::size_t begin = 0; begin < count;)
-    begin += packs ? shade_packed(c, queue, begin, packed, target) : shade_batch(c, queue, begin, target);
+  const ImmediateShading<Statistics> c{d.context, d.draw, d.mode, d.tile, layers, output, d.postpones_stencil, statistics};
+  if (d.tile.samples > 1 && d.draw.shades_samples) {
+    shade_each_sample(c, queue);
+  } else {
+    shade_each_pixel(c, queue, packed);
+  }
   queue.count = 0;
 }
 template void shade_queued(const DrawInTile&, PacketQueue&, TransparentLayers&, FragmentOutput&, PackedFragments&, PassStatistics&);

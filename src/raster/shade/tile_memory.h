@@ -14,7 +14,6 @@ namespace halfspace::HS_LANES {
 
 struct TileMemory {
   Tile tile;
-  CoverageList coverage;
   PacketQueue queue;
   DeferredShading shading;
   TransparentLayers layers;

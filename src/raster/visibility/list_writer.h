@@ -17,13 +17,13 @@ namespace halfspace::HS_LANES {
 
 /// Returns true for draws with depth test "less" whose depth is tested before and after the shader, such as alpha-tested draws.
 inline bool lists_undecided(const DrawInTile& d) {
-  return d.tests && d.mode != VisibilityMode::early && d.mode != VisibilityMode::cover_only && !d.draw.kernels.writes_depth &&
-         d.draw.state.depth.compare == CompareOp::less;
+  return d.tests && !d.postpones_stencil && d.mode != VisibilityMode::early && d.mode != VisibilityMode::cover_only &&
+         !d.draw.kernels.writes_depth && d.draw.state.depth.compare == CompareOp::less;
 }
 
 /// Queues the packets of a draw. In VisibilityMode::early, depth is tested and written before a packet is queued. In all other modes, depth
-/// is tested after the shader; lanes that already fail the test are dropped if they cannot pass it later. multisampled: for multisampled
-/// tiles, where write() adds to the current packet. undecided: compiled for draws with lists_undecided().
+/// is tested after the shader; lanes that already fail the test are dropped if they cannot pass it later and do not update stencil values.
+/// multisampled: for multisampled tiles, where write() adds to the current packet. undecided: compiled for draws with lists_undecided().
 template <class S, bool multisampled, bool undecided = false>
 class ListWriter {
  public:
@@ -36,7 +36,7 @@ class ListWriter {
         statistics_(statistics),
         compare_(d.draw.state.depth.compare),
         tests_early_(d.mode == VisibilityMode::early),
-        may_reject_(d.tests && (tests_early_ || (!d.draw.kernels.writes_depth && fails_for_good(compare_)))),
+        may_reject_(d.tests && (tests_early_ || (!d.draw.kernels.writes_depth && !d.postpones_stencil && fails_for_good(compare_)))),
         writes_depth_(tests_early_ && d.tests && d.draw.state.depth.write),
         lists_depth_(!tests_early_ && d.mode != VisibilityMode::cover_only),
         has_test_(d.tests) {}

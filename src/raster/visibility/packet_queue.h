@@ -4,6 +4,8 @@
 // several triangles, so the shader runs on full batches even if triangles are small.
 #pragma once
 
+#include <span>
+
 #include "halfspace/raster/visibility/packet_batch.h"
 
 namespace halfspace::HS_LANES {
@@ -45,6 +47,52 @@ struct PacketQueue {
   std::array<SampleLanes, kCapacity> sample_lanes;
   /// Depth of the triangle, represented as in Tile::depth; see sample_depth(). Not valid for VisibilityMode::early and cover_only.
   alignas(64) std::array<Real, kDepthCapacity> depth;
+};
+
+/// The packets of a queue that cover one sample, for draws that shade each sample. Packets have their numbers in the plane of the sample.
+class QueuedSample {
+ public:
+  /// The arguments must outlive this object. The tile must be multisampled.
+  QueuedSample(const PassContext& context, const Tile& tile, const PacketQueue& queue, int sample)
+      : context_(context),
+        tile_(tile),
+        plane_(sample_plane(tile.samples, sample, tile.size)),
+        position_(sample_position(tile.samples, sample)) {
+    for (int k = 0; k < queue.count; ++k) {
+      const auto i = static_cast<std::size_t>(k);
+      const PacketMask packet = queue.sample(tile, i, sample);
+      packets_[count_] = packet;
+      ids_[count_] = queue.ids[i];
+      index_[count_] = static_cast<uint16_t>(k);
+      count_ += packet.lanes != 0 ? 1 : 0;
+    }
+  }
+
+  std::size_t count() const { return count_; }
+  /// Returns the number of packet i in the queue.
+  std::size_t index(std::size_t i) const { return index_[i]; }
+  std::span<const PacketMask> packets() const { return {packets_.data(), count_}; }
+  const TriangleId* ids() const { return ids_.data(); }
+  /// Returns n packets for a kernel that evaluates the shader at the sample, starting with packet `begin`.
+  PacketBatch batch(std::size_t begin, std::size_t n) const {
+    return {.context = &context_,
+            .tile_x0 = tile_.x0 - plane_.x,
+            .tile_y0 = tile_.y0 - plane_.y,
+            .position = position_,
+            .packet_ids = &ids_[begin],
+            .packets = &packets_[begin],
+            .count = static_cast<int>(n)};
+  }
+
+ private:
+  const PassContext& context_;
+  const Tile& tile_;
+  SamplePlane plane_;
+  SamplePosition position_;
+  std::size_t count_ = 0;
+  std::array<PacketMask, PacketQueue::kCapacity> packets_;
+  std::array<TriangleId, PacketQueue::kCapacity> ids_;
+  std::array<uint16_t, PacketQueue::kCapacity> index_;
 };
 
 }  // namespace halfspace::HS_LANES

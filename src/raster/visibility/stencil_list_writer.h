@@ -9,6 +9,9 @@
 
 namespace halfspace::HS_LANES {
 
+/// Returns true for queued draws with a stencil test before the shader.
+inline bool tests_stencil_early(const DrawInTile& d) { return tests_stencil(d.draw.state, d.tile) && !d.postpones_stencil; }
+
 /// See ListWriter. Call begin() before each triangle and before tests(), which depends on the face of the triangle.
 template <class S, bool multisampled>
 class StencilListWriter : public ListWriter<S, multisampled> {

@@ -12,7 +12,8 @@
 
 namespace halfspace::HS_LANES {
 
-/// For draws whose visibility depends only on coverage, the depth test and the stencil test (Rasterizer::stencil).
+/// For draws whose visibility depends only on coverage, the depth test and the stencil test (Rasterizer::stencil), and for the packets that
+/// the shader keeps if the stencil test follows the shader.
 template <class S>
 class StencilWriter {
  public:
@@ -40,19 +41,16 @@ class StencilWriter {
   template <class Z>
   HS_INLINE bool write(TriangleId id, int packet, uint32_t covered, const Z& z_at, [[maybe_unused]] bool passes = false) {
     statistics_.samples_tested += static_cast<uint64_t>(std::popcount(covered));
-    const std::size_t first = static_cast<std::size_t>(packet) * kLanes;
     const Real z = tests_ || kTraces<Statistics> ? z_at() : Real(0.0f);
-    const auto [stencil_passed, passed] =
-        test_and_update_stencil(*face_, tile_, packet, mask_from_bits<Mask>(covered), tests_, compare_op(), z);
-    const uint32_t lanes = bits(passed);
-    if constexpr (kTraces<Statistics>) trace(id, packet, covered, bits(stencil_passed), lanes, z);
-    statistics_.samples_passed += static_cast<uint64_t>(std::popcount(lanes));
-    if (writes_depth_) store(&tile_.depth[first], select(passed, z, load<Real>(&tile_.depth[first])));
-    if (writes_id_) {
-      TriangleId* ids = &tile_.visibility[first];
-      store(ids, select(passed, Int(std::bit_cast<int32_t>(id)), load<Int>(ids)));
-    }
-    return lanes != 0;
+    if constexpr (kTraces<Statistics>)
+      statistics_.trace->add(id, packet, covered, FragmentOutcome::stencil_failed, z, stored_depth(packet), tests_);
+    return test_and_write(id, packet, covered, z);
+  }
+
+  /// See OpaqueWriter.
+  bool write_decided(TriangleId id, int packet, uint32_t kept, const Real& z) {
+    if constexpr (kTraces<Statistics>) statistics_.trace->set_depth(id, packet, kept, z, stored_depth(packet));
+    return test_and_write(id, packet, kept, z);
   }
 
   HS_INLINE void write_pixel(TriangleId id, std::size_t pixel, float z) {
@@ -62,13 +60,29 @@ class StencilWriter {
   }
 
  private:
-  // Records tested fragments before depth is written.
-  void trace(TriangleId id, int packet, uint32_t covered, uint32_t stencil_passed, uint32_t passed, Real z) {
-    const Real old = load<Real>(&tile_.depth[static_cast<std::size_t>(packet) * kLanes]);
-    const auto add = [&](uint32_t lanes, FragmentOutcome outcome) { statistics_.trace->add(id, packet, lanes, outcome, z, old, tests_); };
-    add(passed, writes_id_ ? FragmentOutcome::hidden_before_shading : FragmentOutcome::depth_only);
-    add(stencil_passed & ~passed, FragmentOutcome::depth_failed);
-    add(covered & ~stencil_passed, FragmentOutcome::stencil_failed);
+  Real stored_depth(int packet) const { return load<Real>(&tile_.depth[static_cast<std::size_t>(packet) * kLanes]); }
+
+  HS_INLINE bool test_and_write(TriangleId id, int packet, uint32_t covered, const Real& z) {
+    const auto [stencil_passed, passed] =
+        test_and_update_stencil(*face_, tile_, packet, mask_from_bits<Mask>(covered), tests_, compare_op(), z);
+    const uint32_t lanes = bits(passed);
+    if constexpr (kTraces<Statistics>) set_outcomes(id, packet, covered, bits(stencil_passed), lanes);
+    statistics_.samples_passed += static_cast<uint64_t>(std::popcount(lanes));
+    const std::size_t first = static_cast<std::size_t>(packet) * kLanes;
+    if (writes_depth_) store(&tile_.depth[first], select(passed, z, load<Real>(&tile_.depth[first])));
+    if (writes_id_) {
+      TriangleId* ids = &tile_.visibility[first];
+      store(ids, select(passed, Int(std::bit_cast<int32_t>(id)), load<Int>(ids)));
+    }
+    return lanes != 0;
+  }
+
+  // Corrects the outcome of fragments that have been recorded.
+  void set_outcomes(TriangleId id, int packet, uint32_t covered, uint32_t stencil_passed, uint32_t passed) {
+    const auto set = [&](uint32_t lanes, FragmentOutcome outcome) { statistics_.trace->set_outcome(id, packet, lanes, outcome); };
+    set(passed, writes_id_ ? FragmentOutcome::hidden_before_shading : FragmentOutcome::depth_only);
+    set(stencil_passed & ~passed, FragmentOutcome::depth_failed);
+    set(covered & ~stencil_passed, FragmentOutcome::stencil_failed);
   }
 
   const Draw& draw_;

@@ -30,20 +30,12 @@ bool fetches_vertices_ahead(const Draw& draw, VisibilityMode mode) {
   return mode != VisibilityMode::deferred || draws_points(draw.state) || draw.indices->used_count() < draw.primitive_count;
 }
 
-// Returns true if the shader's visibility function must be called before the fragment function.
-bool must_run_visibility_function(const Draw& draw, VisibilityMode mode) {
-  return shades_later(mode) && draw.kernels.visibility != nullptr;
-}
-
 }  // namespace
 
 Rasterizer choose_rasterizer(const Draw& draw, VisibilityMode mode, const Tile& tile) {
-  const bool shader_decides = !shades_later(mode) || must_run_visibility_function(draw, mode);
-  if (!shader_decides) return tests_stencil(draw.state, tile) ? Rasterizer::stencil : Rasterizer::opaque;
-  if (tile.samples > 1 && draw.shades_samples) return Rasterizer::general;
-  // If the shader decides which fragments update the stencil values, the stencil test must wait for the shader.
-  const bool postpones_stencil = tests_stencil(draw.state, tile) && mode != VisibilityMode::early && updates_stencil(draw.state);
-  return postpones_stencil ? Rasterizer::general : Rasterizer::queued;
+  const bool shader_decides = !shades_later(mode) || draw.kernels.visibility != nullptr;
+  if (shader_decides) return Rasterizer::queued;
+  return tests_stencil(draw.state, tile) ? Rasterizer::stencil : Rasterizer::opaque;
 }
 
 DrawInTile::DrawInTile(const PassContext& f, const Draw& d, VisibilityMode m, Tile& t)
@@ -56,7 +48,8 @@ DrawInTile::DrawInTile(const PassContext& f, const Draw& d, VisibilityMode m, Ti
              std::min(d.bounds.y1, t.y0 + t.height)},
       needs_bounds_test(bounds != PixelBounds{t.x0, t.y0, t.x0 + t.size, t.y0 + t.size}),
       tests(tests_depth(d.state.depth, t)),
-      runs_visibility_function(must_run_visibility_function(d, m)),
+      postpones_stencil(rasterizer == Rasterizer::queued && m != VisibilityMode::early && tests_stencil(d.state, t) &&
+                        updates_stencil(d.state)),
       fetches_vertices(fetches_vertices_ahead(d, m)) {}
 
 Mask depth_test(const DepthState& state, const Tile& tile, int packet, Real z, Mask mask) {

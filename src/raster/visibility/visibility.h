@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Visibility. Input: one triangle and one tile. Output for deferred draws: the depth and visible triangle of each pixel in the tile. Output
-// for queued draws: the packets of all triangles, in submission order. Output for other immediate draws: the packets of the triangle to
-// shade now, ordered by sample.
+// Visibility. Input: one triangle and one tile. Output for draws whose visibility does not depend on the shader: the depth and visible
+// triangle of each pixel in the tile. Output for other draws: the packets of all triangles, in submission order, in a queue.
 //
 // Coverage is exact, because edge functions are computed in integer arithmetic (raster/pipeline/edge.h). Depth is z0 + E1·z_edge1 +
 // E2·z_edge2. Both products are non-negative, so it keeps its relative accuracy. E is exact for small triangles; otherwise it is computed
@@ -17,15 +16,6 @@
 #include "halfspace/raster/visibility/packet_queue.h"
 
 namespace halfspace::HS_LANES {
-
-/// Pixels that one triangle covers in a tile.
-struct CoverageList {
-  std::array<PacketMask, kPackets> packets;
-  int count = 0;
-  std::array<int, kMaxSamples> sample_end;  ///< end of each sample's packets
-  /// Depth of the covered pixels, represented as in Tile::depth. Only valid for test_only, where a mask bit is set.
-  alignas(64) std::array<float, kMaxTilePixels> depth;
-};
 
 /// What happens to the samples of a triangle before they are shaded.
 enum class VisibilityMode : uint8_t {
@@ -46,8 +36,7 @@ VisibilityMode visibility_mode(const Draw& draw);
 enum class Rasterizer : uint8_t {
   opaque,   ///< only coverage and depth: rasterize_opaque()
   stencil,  ///< coverage, depth and the stencil test: rasterize_opaque()
-  queued,   ///< the shader, which runs per pixel, and a stencil test that can precede it: rasterize_queued()
-  general   ///< all other draws: rasterize()
+  queued    ///< the shader: rasterize_queued()
 };
 
 /// Returns the rasterizer for a draw with the given mode.
@@ -65,17 +54,13 @@ struct DrawInTile {
   PixelBounds bounds;             ///< bounds of the draw in the tile
   bool needs_bounds_test;         ///< covered pixels of the tile can be outside bounds
   bool tests;                     ///< depth is tested, before or after shading
-  bool runs_visibility_function;  ///< the shader's visibility function must be called
+  bool postpones_stencil;         ///< the stencil test follows the shader, which decides which fragments update the stencil values
   bool fetches_vertices;          ///< prefetch vertices
 };
 
 // Statistics is PassStatistics, or TracedStatistics, which traces fragments (raster/trace/tile_trace.h).
 
-/// Rasterizes triangle `index` of chunk `chunk` in the tile (visibility_general.cpp). list may only be null if shades_later(d.mode).
-template <class Statistics>
-void rasterize(const DrawInTile& d, uint32_t chunk, uint32_t index, CoverageList* list, Statistics& statistics);
-
-/// The same for a triangle of an opaque draw, with or without a stencil test (visibility_blocks.cpp; in multisampled tiles,
+/// Rasterizes a triangle of an opaque draw in the tile, with or without a stencil test (visibility_blocks.cpp; in multisampled tiles,
 /// sample_blocks.h).
 template <class Statistics>
 void rasterize_opaque(const DrawInTile& d, const Triangle& t, TriangleId id, Statistics& statistics);

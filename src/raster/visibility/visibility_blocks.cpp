@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Visibility of draws where only coverage, depth and the stencil test determine visibility, and of queued draws. The results are the same
-// as those of visibility_general.cpp, which supports all draws. Most small triangles are drawn by visibility_small.cpp and
-// visibility_samples.cpp; sample_blocks.h has the loops over the blocks of multisampled tiles.
+// Visibility of all primitives but most small triangles, which visibility_small.cpp and visibility_samples.cpp draw. sample_blocks.h has
+// the loops over the blocks of multisampled tiles.
 #include <algorithm>
 
 #include "halfspace/raster/pipeline/pixel_box.h"
@@ -215,12 +214,10 @@ template void rasterize_opaque(const DrawInTile&, const Triangle&, TriangleId, T
 template <class Statistics>
 void rasterize_queued(const DrawInTile& d, const Triangle& t, TriangleId id, PacketQueue& queue, Statistics& statistics) {
   if (d.tile.samples > 1) {
-    if (tests_stencil(d.draw.state, d.tile))
-      return rasterize_all_samples(d, t, id, StencilListWriter<Statistics, true>(d, queue, statistics));
+    if (tests_stencil_early(d)) return rasterize_all_samples(d, t, id, StencilListWriter<Statistics, true>(d, queue, statistics));
     return rasterize_all_samples(d, t, id, ListWriter<Statistics, true>(d, queue, statistics));
   }
-  if (tests_stencil(d.draw.state, d.tile))
-    return rasterize_one_sample(d, t, id, StencilListWriter<Statistics, false>(d, queue, statistics));
+  if (tests_stencil_early(d)) return rasterize_one_sample(d, t, id, StencilListWriter<Statistics, false>(d, queue, statistics));
   if (lists_undecided(d)) return rasterize_one_sample(d, t, id, ListWriter<Statistics, false, true>(d, queue, statistics));
   rasterize_one_sample(d, t, id, ListWriter<Statistics, false>(d, queue, statistics));
 }

@@ -9,6 +9,7 @@
 #include "halfspace/raster/visibility/depth_bounds.h"
 #include "halfspace/raster/visibility/opaque_writer.h"
 #include "halfspace/raster/visibility/packed_pixels.h"
+#include "halfspace/raster/visibility/stencil_writer.h"
 
 namespace halfspace::HS_LANES {
 
@@ -26,7 +27,7 @@ class DecidedPackets {
  public:
   DecidedPackets(const DrawInTile& d, PacketQueue& queue, Writer& writer) : d_(d), queue_(queue), writer_(writer) {}
 
-  // Finishes n packets of the queue. result(i, lanes) returns the keep mask and the depth of packet i.
+  // Finishes n packets of the queue, all samples of each. result(i, lanes) returns the keep mask and the depth of packet i.
   template <class F>
   HS_INLINE void finish_batch(std::size_t begin, std::size_t n, F result) {
     for (std::size_t i = 0; i < n; ++i) {
@@ -36,11 +37,14 @@ class DecidedPackets {
         finish(queue_.ids[k], queue_.packets[k], keep, depth, queue_.depth[k]);
         continue;
       }
-      for (int s = 0; s < d_.tile.samples; ++s) {
-        const PacketMask sample = queue_.sample(d_.tile, k, s);
-        if (sample.lanes != 0) finish(queue_.ids[k], sample, keep, depth, queue_.sample_depth(d_.tile, k, s));
-      }
+      for (int s = 0; s < d_.tile.samples; ++s) finish_sample(k, s, keep, depth);
     }
+  }
+
+  // Finishes sample s of packet k of the queue.
+  HS_INLINE void finish_sample(std::size_t k, int s, uint32_t keep, Real depth) {
+    const PacketMask sample = queue_.sample(d_.tile, k, s);
+    if (sample.lanes != 0) finish(queue_.ids[k], sample, keep, depth, queue_.sample_depth(d_.tile, k, s));
   }
 
  private:
@@ -54,6 +58,7 @@ class DecidedPackets {
     const DepthFormat format = d_.tile.depth_format;
     const bool replaces = draw.kernels.writes_depth;
     if (replaces) z = depth_value(format, clamp(depth, Real(draw.depth_low), Real(draw.depth_high)));
+    if constexpr (Writer::kTestsStencil) writer_.begin(triangle_of(d_.context, id));
     if (!writer_.write_decided(id, sample.packet, kept, z) || !writer_.writes_depth()) return;
     const int block = sample.packet / kPacketsPerBlock;
     if (replaces) {
@@ -78,12 +83,9 @@ class DecidedPackets {
   DepthBounds bounds_{};
 };
 
-}  // namespace
-
-template <class Statistics>
-void decide_queued(const DrawInTile& d, PacketQueue& queue, Statistics& statistics) {
-  OpaqueWriter writer(d, statistics);
-  DecidedPackets decided(d, queue, writer);
+// Decides the packets of the queue with one call of the visibility function per pixel.
+template <class Writer>
+void decide_pixels(const DrawInTile& d, PacketQueue& queue, DecidedPackets<Writer>& decided) {
   PackedPixels packed;
   Decisions decisions;
   const auto end = static_cast<std::size_t>(queue.count);
@@ -116,7 +118,38 @@ void decide_queued(const DrawInTile& d, PacketQueue& queue, Statistics& statisti
     }
     begin += n;
   }
+}
+
+// The same with one call per sample.
+template <class Writer>
+void decide_samples(const DrawInTile& d, const PacketQueue& queue, DecidedPackets<Writer>& decided) {
+  Decisions decisions;
+  for (int s = 0; s < d.tile.samples; ++s) {
+    const QueuedSample sample(d.context, d.tile, queue, s);
+    if (sample.count() == 0) continue;
+    d.draw.kernels.visibility(d.draw.shader.get(), {sample.batch(0, sample.count()), decisions.keep.data(), decisions.depth.data()});
+    for (std::size_t i = 0; i < sample.count(); ++i)
+      decided.finish_sample(sample.index(i), s, decisions.keep[i], d.draw.kernels.writes_depth ? decisions.depth[i] : Real(0.0f));
+  }
+}
+
+template <class Writer>
+void decide_with(const DrawInTile& d, PacketQueue& queue, Writer writer) {
+  DecidedPackets decided(d, queue, writer);
+  if (d.tile.samples > 1 && d.draw.shades_samples) {
+    decide_samples(d, queue, decided);
+  } else {
+    decide_pixels(d, queue, decided);
+  }
   queue.count = 0;
+}
+
+}  // namespace
+
+template <class Statistics>
+void decide_queued(const DrawInTile& d, PacketQueue& queue, Statistics& statistics) {
+  if (d.postpones_stencil) return decide_with(d, queue, StencilWriter<Statistics>(d, statistics));
+  decide_with(d, queue, OpaqueWriter<Statistics>(d, statistics));
 }
 template void decide_queued(const DrawInTile&, PacketQueue&, PassStatistics&);
 template void decide_queued(const DrawInTile&, PacketQueue&, TracedStatistics&);

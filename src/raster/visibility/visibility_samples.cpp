@@ -217,7 +217,7 @@ std::size_t rasterize_small_samples_queued(const DrawInTile& d, uint32_t chunk, 
                                            Statistics& statistics) {
   const auto large = [&](const Triangle& t, TriangleId id) { rasterize_queued(d, t, id, queue, statistics); };
   const auto write_with = [&](auto writer) { return write_triangles(d, chunk, indices, writer, large, [&] { return !queue.is_full(); }); };
-  if (tests_stencil(d.draw.state, d.tile)) return write_with(StencilListWriter<Statistics, true>(d, queue, statistics));
+  if (tests_stencil_early(d)) return write_with(StencilListWriter<Statistics, true>(d, queue, statistics));
   return write_with(ListWriter<Statistics, true>(d, queue, statistics));
 }
 template std::size_t rasterize_small_samples_queued(const DrawInTile&, uint32_t, std::span<const uint16_t>, PacketQueue&, PassStatistics&);

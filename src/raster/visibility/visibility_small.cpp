@@ -268,7 +268,7 @@ std::size_t rasterize_small_queued(const DrawInTile& d, uint32_t chunk, std::spa
     } while (++k < indices.size() && !queue.is_full());
     return k;
   };
-  if (tests_stencil(d.draw.state, d.tile)) return write_all(StencilListWriter<Statistics, false>(d, queue, statistics));
+  if (tests_stencil_early(d)) return write_all(StencilListWriter<Statistics, false>(d, queue, statistics));
   if (lists_undecided(d)) return write_all(ListWriter<Statistics, false, true>(d, queue, statistics));
   return write_all(ListWriter<Statistics, false>(d, queue, statistics));
 }
