@@ -11,15 +11,15 @@ namespace {
 
 using detail::consists_of_floats;
 
-struct Vertex {
+struct PlainVertex {
   glm::vec3 position;
   glm::vec2 uv;
 };
-struct Derived : Vertex {
+struct Derived : PlainVertex {
   float weight;
 };
 struct Nested {
-  Vertex vertex;
+  PlainVertex vertex;
   float weight;
 };
 struct Arrays {
@@ -35,7 +35,7 @@ struct Bytes {
   uint8_t r, g, b, a;
 };
 struct NestedInteger {
-  Vertex vertex;
+  PlainVertex vertex;
   int joint;
 };
 struct IntegerAtTheEnd {
@@ -50,7 +50,7 @@ enum class Kind : uint32_t {};
 
 static_assert(consists_of_floats<float>() && consists_of_floats<glm::vec3>() && consists_of_floats<glm::mat4>());
 static_assert(consists_of_floats<vec4<float>>() && consists_of_floats<std::array<float, 3>>() && consists_of_floats<float[3]>());
-static_assert(consists_of_floats<Vertex>() && consists_of_floats<Derived>() && consists_of_floats<Nested>() &&
+static_assert(consists_of_floats<PlainVertex>() && consists_of_floats<Derived>() && consists_of_floats<Nested>() &&
               consists_of_floats<Arrays>());
 static_assert(consists_of_floats<ConstantShader::Attributes<float>>());
 static_assert(!consists_of_floats<uint32_t>() && !consists_of_floats<int32_t>() && !consists_of_floats<double>() &&

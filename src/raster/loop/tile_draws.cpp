@@ -101,6 +101,9 @@ class TileDraws {
   void begin_draw(const Draw& draw, std::optional<DrawInTile>& here) {
     finish_draw(here);
     here.emplace(context_, draw, visibility_mode(draw), memory_.tile);
+    rasterize_ = rasterize_function<Statistics>(here->path);
+    rasterize_small_ = memory_.tile.samples > 1 ? rasterize_small_samples_function<Statistics>(here->path)
+                                                : rasterize_small_function<Statistics>(here->path);
     if (draw.layer_group != layer_group_) write_layers();
     layer_group_ = draw.layer_group;
     if (draw.state.order_independent && memory_.layers.empty()) memory_.layers.clear(prefers_greater(draw.state.depth.compare));
@@ -134,27 +137,21 @@ class TileDraws {
     if (d->draw.state.query) statistics_.add_to_query(*d->draw.state.query, statistics_.samples_passed - passed_before);
   }
 
-  // Draws small triangles of one draw, 1 to W. Returns how many were drawn.
+  // Draws small triangles of one draw, 1 to W. Returns how many were drawn, at least 1.
   std::size_t draw_small(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices) {
-    if (d.rasterizer != Rasterizer::queued) {
-      rasterize_small(d, chunk, indices, statistics_);
-      return indices.size();
-    }
-    const std::size_t count = rasterize_small_queued(d, chunk, indices, memory_.queue, statistics_);
+    const std::size_t count = rasterize_small_(d, chunk, indices, memory_.queue, statistics_);
     if (memory_.queue.is_full()) finish_queue(d);
     return count;
   }
 
   void draw_triangle(const DrawInTile& d, uint32_t chunk, uint16_t index) {
     const Triangle& t = context_.chunks[chunk].triangles[index];
-    if (d.rasterizer == Rasterizer::queued) {
-      rasterize_queued(d, t, triangle_id(chunk, index), memory_.queue, statistics_);
-      if (memory_.queue.is_full()) finish_queue(d);
-    } else if (is_small_triangle(t)) {
-      rasterize_small(d, chunk, {&index, 1}, statistics_);
-    } else {
-      rasterize_opaque(d, t, triangle_id(chunk, index), statistics_);
+    if (is_small_triangle(t)) {
+      draw_small(d, chunk, {&index, 1});
+      return;
     }
+    rasterize_(d, t, triangle_id(chunk, index), memory_.queue, statistics_);
+    if (memory_.queue.is_full()) finish_queue(d);
   }
 
   // Blends the transparent layers over the colors of the tile. Pixels that are visible behind them have been shaded.
@@ -167,6 +164,8 @@ class TileDraws {
   bool has_color_;
   TileMemory& memory_;
   Statistics& statistics_;
+  RasterizeFunction<Statistics> rasterize_ = nullptr;  // of the current draw
+  RasterizeSmallFunction<Statistics> rasterize_small_ = nullptr;
   bool pending_ = false;      // Tile::visibility is in use: pixels may have been drawn that are not shaded yet
   uint32_t layer_group_ = 0;  // of the current draw
 };

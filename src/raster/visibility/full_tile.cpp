@@ -18,7 +18,7 @@ DepthBounds depth_of(const DrawInTile& d, const Triangle& t) {
 
 template <class Statistics>
 bool FullTileOccluder::test_or_write(const DrawInTile& d, const Triangle& t, TriangleId id, Statistics& statistics) {
-  const bool is_opaque = d.rasterizer == Rasterizer::opaque;
+  const bool is_opaque = d.path == TilePath::nearest || d.path == TilePath::opaque;
   const bool replaces_depth = d.tile.depth_format == DepthFormat::none || (d.tests && d.draw.state.depth.write);
   const bool is_occluder =
       may_cover(t) && is_opaque && d.tile.size == kMaxTileSize && replaces_depth && !d.needs_bounds_test && covers_tile(d, t);

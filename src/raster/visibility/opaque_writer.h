@@ -14,12 +14,7 @@
 
 namespace halfspace::HS_LANES {
 
-/// The most common state of draws: depth test "less" with depth writes.
-inline bool writes_nearest(const DrawInTile& d) {
-  return d.tests && d.draw.state.depth.write && d.draw.state.depth.compare == CompareOp::less;
-}
-
-/// Tests and writes the triangles of an opaque draw in a tile. nearest: compiled for draws with writes_nearest().
+/// Tests and writes the triangles of an opaque draw in a tile. nearest: compiled for TilePath::nearest.
 template <class S, bool nearest = false>
 class OpaqueWriter {
  public:
@@ -48,7 +43,7 @@ class OpaqueWriter {
     return test_and_write(id, packet, covered, z_at);
   }
 
-  /// The same for lanes that the shader keeps. A ListWriter has already counted them as tested. z: their depth.
+  /// The same for lanes that the shader keeps. A QueueWriter has already counted them as tested. z: their depth.
   bool write_decided(TriangleId id, int packet, uint32_t kept, const Real& z) {
     if constexpr (kTraces<Statistics>) trace_decided(id, packet, kept, z);
     return test_and_write(id, packet, kept, [&] { return z; });
@@ -85,7 +80,7 @@ class OpaqueWriter {
                            tests());
     statistics_.trace->add(id, packet, covered & ~passed, FragmentOutcome::depth_failed, z, old, tests());
   }
-  // The same for fragments that a ListWriter has recorded.
+  // The same for fragments that a QueueWriter has recorded.
   void trace_decided(TriangleId id, int packet, uint32_t kept, Real z) {
     const Real old = load<Real>(&tile_.depth[static_cast<std::size_t>(packet) * kLanes]);
     const uint32_t passed = tests() ? kept & bits(compare(compare_op(), z, old)) : kept;

@@ -12,7 +12,7 @@
 
 namespace halfspace::HS_LANES {
 
-/// For draws whose visibility depends only on coverage, the depth test and the stencil test (Rasterizer::stencil), and for the packets that
+/// For draws whose visibility depends only on coverage, the depth test and the stencil test (TilePath::stencil), and for the packets that
 /// the shader keeps if the stencil test follows the shader.
 template <class S>
 class StencilWriter {

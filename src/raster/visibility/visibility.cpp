@@ -30,26 +30,53 @@ bool fetches_vertices_ahead(const Draw& draw, VisibilityMode mode) {
   return mode != VisibilityMode::deferred || draws_points(draw.state) || draw.indices->used_count() < draw.primitive_count;
 }
 
+// Returns true if the shader decides which fragments update the stencil values, so that the stencil test must follow it.
+bool postpones_stencil(const Draw& draw, VisibilityMode mode, const Tile& tile) {
+  const bool shader_decides = mode == VisibilityMode::test_only || mode == VisibilityMode::cover_only || draw.kernels.visibility != nullptr;
+  return shader_decides && mode != VisibilityMode::early && tests_stencil(draw.state, tile) && updates_stencil(draw.state);
+}
+
 }  // namespace
 
-Rasterizer choose_rasterizer(const Draw& draw, VisibilityMode mode, const Tile& tile) {
+std::span<const PathRow> path_rows() {
+  static constexpr PathRow rows[] = {
+      {TilePath::nearest, "nearest", "coverage, depth", "less, with writes", "depth, triangle ids"},
+      {TilePath::opaque, "opaque", "coverage, depth", "any", "depth, triangle ids"},
+      {TilePath::stencil, "stencil", "coverage, depth, stencil test", "any", "depth, stencil values, triangle ids"},
+      {TilePath::queued, "queued", "the shader, or its order of execution", "any", "queue of packets"},
+      {TilePath::queued_less, "queued_less", "the shader", "less, tested before and after the shader; one sample", "queue of packets"},
+      {TilePath::queued_stencil, "queued_stencil", "a stencil test before the shader, the shader", "any",
+       "stencil values, queue of packets"},
+  };
+  return rows;
+}
+
+TilePath choose_path(const Draw& draw, VisibilityMode mode, const Tile& tile) {
+  const DepthState& depth = draw.state.depth;
+  const bool tests = tests_depth(depth, tile), is_less = tests && depth.compare == CompareOp::less;
+  const bool has_stencil = tests_stencil(draw.state, tile);
   const bool shader_decides = !shades_later(mode) || draw.kernels.visibility != nullptr;
-  if (shader_decides) return Rasterizer::queued;
-  return tests_stencil(draw.state, tile) ? Rasterizer::stencil : Rasterizer::opaque;
+  if (!shader_decides) {
+    if (has_stencil) return TilePath::stencil;
+    return is_less && depth.write ? TilePath::nearest : TilePath::opaque;
+  }
+  if (postpones_stencil(draw, mode, tile)) return TilePath::queued;
+  if (has_stencil) return TilePath::queued_stencil;
+  const bool tests_twice = mode != VisibilityMode::early && mode != VisibilityMode::cover_only && !draw.kernels.writes_depth;
+  return is_less && tests_twice && tile.samples == 1 ? TilePath::queued_less : TilePath::queued;
 }
 
 DrawInTile::DrawInTile(const PassContext& f, const Draw& d, VisibilityMode m, Tile& t)
     : context(f),
       draw(d),
       mode(m),
-      rasterizer(choose_rasterizer(d, m, t)),
+      path(choose_path(d, m, t)),
       tile(t),
       bounds{std::max(d.bounds.x0, t.x0), std::max(d.bounds.y0, t.y0), std::min(d.bounds.x1, t.x0 + t.width),
              std::min(d.bounds.y1, t.y0 + t.height)},
       needs_bounds_test(bounds != PixelBounds{t.x0, t.y0, t.x0 + t.size, t.y0 + t.size}),
       tests(tests_depth(d.state.depth, t)),
-      postpones_stencil(rasterizer == Rasterizer::queued && m != VisibilityMode::early && tests_stencil(d.state, t) &&
-                        updates_stencil(d.state)),
+      postpones_stencil(HS_LANES::postpones_stencil(d, m, t)),
       fetches_vertices(fetches_vertices_ahead(d, m)) {}
 
 Mask depth_test(const DepthState& state, const Tile& tile, int packet, Real z, Mask mask) {

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <span>
+#include <string_view>
 
 #include "halfspace/raster/tile/tile.h"
 #include "halfspace/raster/visibility/depth_plane.h"
@@ -32,15 +33,26 @@ constexpr bool shades_later(VisibilityMode mode) { return mode == VisibilityMode
 /// Returns the mode for a draw. Depth is tested before shading where this does not change the result (OpenGL 4.6, section 15.2.4).
 VisibilityMode visibility_mode(const Draw& draw);
 
-/// The functions that rasterize the triangles of a draw in a tile, by what determines visibility.
-enum class Rasterizer : uint8_t {
-  opaque,   ///< only coverage and depth: rasterize_opaque()
-  stencil,  ///< coverage, depth and the stencil test: rasterize_opaque()
-  queued    ///< the shader: rasterize_queued()
-};
+/// How the triangles of a draw get from the bins of a tile to the visibility buffer or to the queue. Each path is compiled for small
+/// triangles and for all other primitives, and for tiles with one sample and with several samples per pixel.
+enum class TilePath : uint8_t { nearest, opaque, stencil, queued, queued_less, queued_stencil };
 
-/// Returns the rasterizer for a draw with the given mode.
-Rasterizer choose_rasterizer(const Draw& draw, VisibilityMode mode, const Tile& tile);
+/// One row of the table of paths.
+struct PathRow {
+  TilePath path;
+  std::string_view name;
+  std::string_view decided_by;   ///< what decides which fragments are visible
+  std::string_view depth_state;  ///< the depth states for which the path is compiled
+  std::string_view output;
+};
+/// Returns the rows of all paths, in the order of TilePath. docs/explanation/architecture.md shows this table.
+std::span<const PathRow> path_rows();
+
+/// Returns the path of a draw with the given mode.
+TilePath choose_path(const Draw& draw, VisibilityMode mode, const Tile& tile);
+
+/// Returns true if the triangles of a path are queued until the shader runs.
+constexpr bool is_queued(TilePath path) { return path >= TilePath::queued; }
 
 /// Values that all triangles of a draw in one tile share.
 struct DrawInTile {
@@ -49,40 +61,37 @@ struct DrawInTile {
   const PassContext& context;
   const Draw& draw;
   VisibilityMode mode;
-  Rasterizer rasterizer;
+  TilePath path;
   Tile& tile;
-  PixelBounds bounds;             ///< bounds of the draw in the tile
-  bool needs_bounds_test;         ///< covered pixels of the tile can be outside bounds
-  bool tests;                     ///< depth is tested, before or after shading
-  bool postpones_stencil;         ///< the stencil test follows the shader, which decides which fragments update the stencil values
-  bool fetches_vertices;          ///< prefetch vertices
+  PixelBounds bounds;      ///< bounds of the draw in the tile
+  bool needs_bounds_test;  ///< covered pixels of the tile can be outside bounds
+  bool tests;              ///< depth is tested, before or after shading
+  bool postpones_stencil;  ///< the stencil test follows the shader, which decides which fragments update the stencil values
+  bool fetches_vertices;   ///< prefetch vertices
 };
 
 // Statistics is PassStatistics, or TracedStatistics, which traces fragments (raster/trace/tile_trace.h).
 
-/// Rasterizes a triangle of an opaque draw in the tile, with or without a stencil test (visibility_blocks.cpp; in multisampled tiles,
-/// sample_blocks.h).
+/// Rasterizes a primitive in the tile. Queued paths add its packets to the queue, others ignore the queue.
 template <class Statistics>
-void rasterize_opaque(const DrawInTile& d, const Triangle& t, TriangleId id, Statistics& statistics);
-/// The same for a triangle of a queued draw. Its packets are listed in the queue until the shader runs.
+using RasterizeFunction = void (*)(const DrawInTile& d, const Triangle& t, TriangleId id, PacketQueue& queue, Statistics& statistics);
+/// Returns the function of a path for any primitive (visibility_blocks.cpp; in multisampled tiles, sample_blocks.h).
 template <class Statistics>
-void rasterize_queued(const DrawInTile& d, const Triangle& t, TriangleId id, PacketQueue& queue, Statistics& statistics);
-/// Returns true if the triangle can be drawn by rasterize_small().
-inline bool is_small_triangle(const Triangle& t) { return (t.flags & (kSmall | kPointSprite)) == kSmall; }
-/// Rasterizes small triangles of an opaque draw, with or without a stencil test, in order. indices: 1 to W triangles of the chunk.
-template <class Statistics>
-void rasterize_small(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, Statistics& statistics);
-/// The same for a queued draw. Stops when the queue is full. Returns the number of triangles that were added to the queue, at least 1.
-template <class Statistics>
-std::size_t rasterize_small_queued(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, PacketQueue& queue,
-                                   Statistics& statistics);
+RasterizeFunction<Statistics> rasterize_function(TilePath path);
 
-/// The same two functions for a multisampled tile (visibility_samples.cpp).
+/// Returns true if a triangle can be drawn by the function for small triangles.
+inline bool is_small_triangle(const Triangle& t) { return (t.flags & (kSmall | kPointSprite)) == kSmall; }
+/// Rasterizes small triangles, in order. indices: 1 to W triangles of the chunk. Queued paths stop when the queue is full. Returns the
+/// number of triangles that were drawn, at least 1.
 template <class Statistics>
-void rasterize_small_samples(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, Statistics& statistics);
+using RasterizeSmallFunction = std::size_t (*)(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, PacketQueue& queue,
+                                               Statistics& statistics);
+/// Returns the function of a path for small triangles, with one sample per pixel (visibility_small.cpp) and several
+/// (visibility_samples.cpp).
 template <class Statistics>
-std::size_t rasterize_small_samples_queued(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, PacketQueue& queue,
-                                           Statistics& statistics);
+RasterizeSmallFunction<Statistics> rasterize_small_function(TilePath path);
+template <class Statistics>
+RasterizeSmallFunction<Statistics> rasterize_small_samples_function(TilePath path);
 
 /// Runs the visibility function for all packets of a queue, tests and writes them, and empties the queue (visibility_queue.cpp). d: the
 /// draw of the queue, with shades_later(d.mode).

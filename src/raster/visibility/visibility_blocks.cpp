@@ -5,11 +5,8 @@
 #include <algorithm>
 
 #include "halfspace/raster/pipeline/pixel_box.h"
-#include "halfspace/raster/visibility/list_writer.h"
-#include "halfspace/raster/visibility/opaque_writer.h"
+#include "halfspace/raster/visibility/path_writer.h"
 #include "halfspace/raster/visibility/sample_blocks.h"
-#include "halfspace/raster/visibility/stencil_list_writer.h"
-#include "halfspace/raster/visibility/stencil_writer.h"
 #include "halfspace/raster/visibility/thin_line.h"
 #include "halfspace/raster/visibility/trace_rejected.h"
 
@@ -169,10 +166,10 @@ void rasterize_one_sample(const DrawInTile& d, const Triangle& t, TriangleId id,
 }
 
 // Rasterizes a primitive in any tile.
-template <class Writer>
-void rasterize_with(const DrawInTile& d, const Triangle& t, TriangleId id, Writer writer) {
-  if (d.tile.samples > 1) return rasterize_all_samples(d, t, id, writer);
-  rasterize_one_sample(d, t, id, writer);
+template <TilePath path, class Statistics>
+void rasterize(const DrawInTile& d, const Triangle& t, TriangleId id, PacketQueue& queue, Statistics& statistics) {
+  if (d.tile.samples > 1) return rasterize_all_samples(d, t, id, path_writer<path, true>(d, queue, statistics));
+  rasterize_one_sample(d, t, id, path_writer<path, false>(d, queue, statistics));
 }
 
 }  // namespace
@@ -203,25 +200,10 @@ void write_full_tile(const DrawInTile& d, const Triangle& t, TriangleId id) {
 }
 
 template <class Statistics>
-void rasterize_opaque(const DrawInTile& d, const Triangle& t, TriangleId id, Statistics& statistics) {
-  if (d.rasterizer == Rasterizer::stencil) return rasterize_with(d, t, id, StencilWriter<Statistics>(d, statistics));
-  if (writes_nearest(d)) return rasterize_with(d, t, id, OpaqueWriter<Statistics, true>(d, statistics));
-  rasterize_with(d, t, id, OpaqueWriter<Statistics>(d, statistics));
+RasterizeFunction<Statistics> rasterize_function(TilePath path) {
+  return with_path(path, []<TilePath p>() -> RasterizeFunction<Statistics> { return rasterize<p, Statistics>; });
 }
-template void rasterize_opaque(const DrawInTile&, const Triangle&, TriangleId, PassStatistics&);
-template void rasterize_opaque(const DrawInTile&, const Triangle&, TriangleId, TracedStatistics&);
-
-template <class Statistics>
-void rasterize_queued(const DrawInTile& d, const Triangle& t, TriangleId id, PacketQueue& queue, Statistics& statistics) {
-  if (d.tile.samples > 1) {
-    if (tests_stencil_early(d)) return rasterize_all_samples(d, t, id, StencilListWriter<Statistics, true>(d, queue, statistics));
-    return rasterize_all_samples(d, t, id, ListWriter<Statistics, true>(d, queue, statistics));
-  }
-  if (tests_stencil_early(d)) return rasterize_one_sample(d, t, id, StencilListWriter<Statistics, false>(d, queue, statistics));
-  if (lists_undecided(d)) return rasterize_one_sample(d, t, id, ListWriter<Statistics, false, true>(d, queue, statistics));
-  rasterize_one_sample(d, t, id, ListWriter<Statistics, false>(d, queue, statistics));
-}
-template void rasterize_queued(const DrawInTile&, const Triangle&, TriangleId, PacketQueue&, PassStatistics&);
-template void rasterize_queued(const DrawInTile&, const Triangle&, TriangleId, PacketQueue&, TracedStatistics&);
+template RasterizeFunction<PassStatistics> rasterize_function(TilePath);
+template RasterizeFunction<TracedStatistics> rasterize_function(TilePath);
 
 }  // namespace halfspace::HS_LANES

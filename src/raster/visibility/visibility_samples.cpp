@@ -5,12 +5,9 @@
 #include "halfspace/raster/pipeline/pixel_box.h"
 #include "halfspace/raster/pipeline/triangle_lanes.h"
 #include "halfspace/raster/visibility/hidden_triangle.h"
-#include "halfspace/raster/visibility/list_writer.h"
-#include "halfspace/raster/visibility/opaque_writer.h"
+#include "halfspace/raster/visibility/path_writer.h"
 #include "halfspace/raster/visibility/sample_set.h"
 #include "halfspace/raster/visibility/small_triangle.h"
-#include "halfspace/raster/visibility/stencil_list_writer.h"
-#include "halfspace/raster/visibility/stencil_writer.h"
 
 namespace halfspace::HS_LANES {
 
@@ -179,49 +176,34 @@ class SampledPackets {
   std::array<Covered, kMaxPackets + 1> list_;  // the element after the last one may be written
 };
 
-// Draws triangles until may_continue() returns false. Returns their number.
-template <class Writer, class Large, class MayContinue>
-std::size_t write_triangles(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, Writer writer,
-                            const Large& rasterize_large, const MayContinue& may_continue) {
+template <TilePath path, class Statistics>
+std::size_t rasterize_small_samples(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, PacketQueue& queue,
+                                    Statistics& statistics) {
   const SampleSet samples(d);
   if (samples.count == 0) return indices.size();
   const SampledTriangles triangles(d, samples, d.context.chunks[chunk], indices);
+  auto writer = path_writer<path, true>(d, queue, statistics);
   std::size_t k = 0;
   do {
     const Triangle& t = d.context.chunks[chunk].triangles[indices[k]];
     const TriangleId id = triangle_id(chunk, indices[k]);
     if constexpr (requires { writer.begin(t); }) writer.begin(t);
     if (triangles.is_wide(k)) {
-      rasterize_large(t, id);
+      rasterize_function<Statistics>(path)(d, t, id, queue, statistics);
     } else if (!reject_hidden(d, samples, t, id, triangles.rect(k), writer)) {
       SampledPackets(d, samples, triangles, k, t, id, writer).visit();
     }
-  } while (++k < indices.size() && may_continue());
+  } while (++k < indices.size() && !(is_queued(path) && queue.is_full()));
   return k;
 }
 
 }  // namespace
 
 template <class Statistics>
-void rasterize_small_samples(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, Statistics& statistics) {
-  const auto large = [&](const Triangle& t, TriangleId id) { rasterize_opaque(d, t, id, statistics); };
-  const auto write_with = [&](auto writer) { write_triangles(d, chunk, indices, writer, large, [] { return true; }); };
-  if (d.rasterizer == Rasterizer::stencil) return write_with(StencilWriter<Statistics>(d, statistics));
-  write_with(OpaqueWriter<Statistics>(d, statistics));
+RasterizeSmallFunction<Statistics> rasterize_small_samples_function(TilePath path) {
+  return with_path(path, []<TilePath p>() -> RasterizeSmallFunction<Statistics> { return rasterize_small_samples<p, Statistics>; });
 }
-template void rasterize_small_samples(const DrawInTile&, uint32_t, std::span<const uint16_t>, PassStatistics&);
-template void rasterize_small_samples(const DrawInTile&, uint32_t, std::span<const uint16_t>, TracedStatistics&);
-
-template <class Statistics>
-std::size_t rasterize_small_samples_queued(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, PacketQueue& queue,
-                                           Statistics& statistics) {
-  const auto large = [&](const Triangle& t, TriangleId id) { rasterize_queued(d, t, id, queue, statistics); };
-  const auto write_with = [&](auto writer) { return write_triangles(d, chunk, indices, writer, large, [&] { return !queue.is_full(); }); };
-  if (tests_stencil_early(d)) return write_with(StencilListWriter<Statistics, true>(d, queue, statistics));
-  return write_with(ListWriter<Statistics, true>(d, queue, statistics));
-}
-template std::size_t rasterize_small_samples_queued(const DrawInTile&, uint32_t, std::span<const uint16_t>, PacketQueue&, PassStatistics&);
-template std::size_t rasterize_small_samples_queued(const DrawInTile&, uint32_t, std::span<const uint16_t>, PacketQueue&,
-                                                    TracedStatistics&);
+template RasterizeSmallFunction<PassStatistics> rasterize_small_samples_function(TilePath);
+template RasterizeSmallFunction<TracedStatistics> rasterize_small_samples_function(TilePath);
 
 }  // namespace halfspace::HS_LANES

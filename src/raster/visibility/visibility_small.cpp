@@ -9,11 +9,8 @@
 #include "halfspace/raster/pipeline/triangle_lanes.h"
 #include "halfspace/raster/primitives/small_coverage.h"
 #include "halfspace/raster/visibility/hidden_triangle.h"
-#include "halfspace/raster/visibility/list_writer.h"
-#include "halfspace/raster/visibility/opaque_writer.h"
+#include "halfspace/raster/visibility/path_writer.h"
 #include "halfspace/raster/visibility/small_triangle.h"
-#include "halfspace/raster/visibility/stencil_list_writer.h"
-#include "halfspace/raster/visibility/stencil_writer.h"
 
 namespace halfspace::HS_LANES {
 
@@ -238,41 +235,26 @@ HS_INLINE void write_triangle(const DrawInTile& d, const SmallTriangles& triangl
   }
 }
 
+template <TilePath path, class Statistics>
+std::size_t rasterize_small(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, PacketQueue& queue,
+                            Statistics& statistics) {
+  const SmallTriangles triangles(d, d.context.chunks[chunk], indices);
+  const auto large = [&](const Triangle& t, TriangleId id) { rasterize_function<Statistics>(path)(d, t, id, queue, statistics); };
+  auto writer = path_writer<path, false>(d, queue, statistics);
+  std::size_t k = 0;
+  do {
+    write_triangle(d, triangles, k, chunk, indices[k], writer, large);
+  } while (++k < indices.size() && !(is_queued(path) && queue.is_full()));
+  return k;
+}
+
 }  // namespace
 
 template <class Statistics>
-void rasterize_small(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, Statistics& statistics) {
-  if (d.tile.samples > 1) return rasterize_small_samples(d, chunk, indices, statistics);
-  const SmallTriangles triangles(d, d.context.chunks[chunk], indices);
-  const auto large = [&](const Triangle& t, TriangleId id) { rasterize_opaque(d, t, id, statistics); };
-  const auto write_all = [&](auto writer) {
-    for (std::size_t k = 0; k < indices.size(); ++k) write_triangle(d, triangles, k, chunk, indices[k], writer, large);
-  };
-  if (d.rasterizer == Rasterizer::stencil) return write_all(StencilWriter<Statistics>(d, statistics));
-  if (writes_nearest(d)) return write_all(OpaqueWriter<Statistics, true>(d, statistics));
-  write_all(OpaqueWriter<Statistics>(d, statistics));
+RasterizeSmallFunction<Statistics> rasterize_small_function(TilePath path) {
+  return with_path(path, []<TilePath p>() -> RasterizeSmallFunction<Statistics> { return rasterize_small<p, Statistics>; });
 }
-template void rasterize_small(const DrawInTile&, uint32_t, std::span<const uint16_t>, PassStatistics&);
-template void rasterize_small(const DrawInTile&, uint32_t, std::span<const uint16_t>, TracedStatistics&);
-
-template <class Statistics>
-std::size_t rasterize_small_queued(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, PacketQueue& queue,
-                                   Statistics& statistics) {
-  if (d.tile.samples > 1) return rasterize_small_samples_queued(d, chunk, indices, queue, statistics);
-  const SmallTriangles triangles(d, d.context.chunks[chunk], indices);
-  const auto large = [&](const Triangle& t, TriangleId id) { rasterize_queued(d, t, id, queue, statistics); };
-  const auto write_all = [&](auto writer) {
-    std::size_t k = 0;
-    do {
-      write_triangle(d, triangles, k, chunk, indices[k], writer, large);
-    } while (++k < indices.size() && !queue.is_full());
-    return k;
-  };
-  if (tests_stencil_early(d)) return write_all(StencilListWriter<Statistics, false>(d, queue, statistics));
-  if (lists_undecided(d)) return write_all(ListWriter<Statistics, false, true>(d, queue, statistics));
-  return write_all(ListWriter<Statistics, false>(d, queue, statistics));
-}
-template std::size_t rasterize_small_queued(const DrawInTile&, uint32_t, std::span<const uint16_t>, PacketQueue&, PassStatistics&);
-template std::size_t rasterize_small_queued(const DrawInTile&, uint32_t, std::span<const uint16_t>, PacketQueue&, TracedStatistics&);
+template RasterizeSmallFunction<PassStatistics> rasterize_small_function(TilePath);
+template RasterizeSmallFunction<TracedStatistics> rasterize_small_function(TilePath);
 
 }  // namespace halfspace::HS_LANES

@@ -15,22 +15,16 @@
 
 namespace halfspace::HS_LANES {
 
-/// Returns true for draws with depth test "less" whose depth is tested before and after the shader, such as alpha-tested draws.
-inline bool lists_undecided(const DrawInTile& d) {
-  return d.tests && !d.postpones_stencil && d.mode != VisibilityMode::early && d.mode != VisibilityMode::cover_only &&
-         !d.draw.kernels.writes_depth && d.draw.state.depth.compare == CompareOp::less;
-}
-
 /// Queues the packets of a draw. In VisibilityMode::early, depth is tested and written before a packet is queued. In all other modes, depth
 /// is tested after the shader; lanes that already fail the test are dropped if they cannot pass it later and do not update stencil values.
-/// multisampled: for multisampled tiles, where write() adds to the current packet. undecided: compiled for draws with lists_undecided().
-template <class S, bool multisampled, bool undecided = false>
-class ListWriter {
+/// multisampled: for multisampled tiles, where write() adds to the current packet. less: compiled for TilePath::queued_less.
+template <class S, bool multisampled, bool less = false>
+class QueueWriter {
  public:
   using Statistics = S;
   static constexpr bool kTestsStencil = false;
 
-  ListWriter(const DrawInTile& d, PacketQueue& queue, Statistics& statistics)
+  QueueWriter(const DrawInTile& d, PacketQueue& queue, Statistics& statistics)
       : tile_(d.tile),
         queue_(queue),
         statistics_(statistics),
@@ -38,17 +32,17 @@ class ListWriter {
         tests_early_(d.mode == VisibilityMode::early),
         may_reject_(d.tests && (tests_early_ || (!d.draw.kernels.writes_depth && !d.postpones_stencil && fails_for_good(compare_)))),
         writes_depth_(tests_early_ && d.tests && d.draw.state.depth.write),
-        lists_depth_(!tests_early_ && d.mode != VisibilityMode::cover_only),
+        queues_depth_(!tests_early_ && d.mode != VisibilityMode::cover_only),
         has_test_(d.tests) {}
 
   Statistics& statistics() const { return statistics_; }
-  bool tests() const { return undecided || may_reject_; }
-  bool writes_depth() const { return !undecided && writes_depth_; }
-  CompareOp compare_op() const { return undecided ? CompareOp::less : compare_; }
+  bool tests() const { return less || may_reject_; }
+  bool writes_depth() const { return !less && writes_depth_; }
+  CompareOp compare_op() const { return less ? CompareOp::less : compare_; }
 
   /// Returns true if covered packets can be added without computing depths: the draw neither lists nor writes depths, no fragments are
   /// traced, and nothing is tested or the depth test passes everywhere.
-  bool adds_untested(bool passes) const { return !kTraces<Statistics> && !lists_depth() && !writes_depth() && (passes || !tests()); }
+  bool adds_untested(bool passes) const { return !kTraces<Statistics> && !queues_depth() && !writes_depth() && (passes || !tests()); }
   /// Adds the packets of a block without testing them. lanes_at(p): covered lanes of packet p of the block.
   template <class LanesAt>
   HS_INLINE void add_block(TriangleId id, int block, const LanesAt& lanes_at) requires(!multisampled) {
@@ -98,7 +92,7 @@ class ListWriter {
     uint32_t passed = covered;
     const bool rejects = tests() && (!passes || writes_depth());
     Real z(0.0f);
-    if (rejects || lists_depth()) z = z_at();
+    if (rejects || queues_depth()) z = z_at();
     if (rejects) {
       float* depth = &tile_.depth[static_cast<std::size_t>(packet) * kLanes];
       const Real old = load<Real>(depth);
@@ -125,7 +119,7 @@ class ListWriter {
     statistics_.samples_tested += kLanes;
     if constexpr (kTraces<Statistics>) trace(id, packet, kAllBits<Mask>, z_at());
     Real z(0.0f);
-    if (writes_depth() || lists_depth()) z = z_at();
+    if (writes_depth() || queues_depth()) z = z_at();
     if (writes_depth()) store(&tile_.depth[static_cast<std::size_t>(packet) * kLanes], z);
     add(id, packet, kAllBits<Mask>, z);
   }
@@ -138,7 +132,7 @@ class ListWriter {
     const auto i = static_cast<std::size_t>(queue_.count);
     queue_.packets[i] = {static_cast<uint16_t>(packet), static_cast<uint16_t>(lanes)};
     queue_.ids[i] = id;
-    if (lists_depth()) queue_.depth[i] = z;
+    if (queues_depth()) queue_.depth[i] = z;
     queue_.count += lanes != 0 ? 1 : 0;
   }
   // Adds a pixel to the last element of the queue if it has the same packet and triangle, otherwise as a new element.
@@ -152,18 +146,18 @@ class ListWriter {
     if (!is_same) {
       p = {static_cast<uint16_t>(packet), 0};
       queue_.ids[i] = id;
-      if (lists_depth()) queue_.depth[i] = Real(0.0f);
+      if (queues_depth()) queue_.depth[i] = Real(0.0f);
     }
     p.lanes = static_cast<uint16_t>(p.lanes | bit);
-    if (lists_depth()) set_lane(queue_.depth[i], lane, z);
+    if (queues_depth()) set_lane(queue_.depth[i], lane, z);
   }
 
   Tile& tile_;
 
  private:
   // Returns true if the depth test before the shader is the only one.
-  bool is_final() const { return !undecided && tests_early_; }
-  bool lists_depth() const { return undecided || lists_depth_; }
+  bool is_final() const { return !less && tests_early_; }
+  bool queues_depth() const { return less || queues_depth_; }
 
   void count_untested(int covered) {
     statistics_.samples_tested += static_cast<uint64_t>(covered);
@@ -186,13 +180,13 @@ class ListWriter {
     const auto i = static_cast<std::size_t>(queue_.count);
     queue_.packets[i].lanes = static_cast<uint16_t>(queue_.packets[i].lanes | lanes);
     queue_.sample_lanes[i][sample_] = static_cast<uint16_t>(lanes);
-    if (lists_depth()) queue_.sample_depth(tile_, i, static_cast<int>(sample_)) = z;
+    if (queues_depth()) queue_.sample_depth(tile_, i, static_cast<int>(sample_)) = z;
   }
 
   PacketQueue& queue_;
   Statistics& statistics_;
   CompareOp compare_;
-  bool tests_early_, may_reject_, writes_depth_, lists_depth_;
+  bool tests_early_, may_reject_, writes_depth_, queues_depth_;
   bool has_test_;           // depth is tested before or after the shader
   std::size_t sample_ = 0;  // current sample of a multisampled tile
 };

@@ -1,32 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Runs the stencil test for packets before they are added to a PacketQueue. Replaces ListWriter for draws with a stencil test that can
+// Runs the stencil test for packets before they are added to a PacketQueue. Replaces QueueWriter for draws with a stencil test that can
 // precede the shader: the draw does not update the stencil values, or only coverage, the depth test and the stencil test decide which
-// fragments do (Rasterizer::queued).
+// fragments do (TilePath::queued_stencil).
 #pragma once
 
-#include "halfspace/raster/visibility/list_writer.h"
+#include "halfspace/raster/visibility/queue_writer.h"
 
 namespace halfspace::HS_LANES {
 
-/// Returns true for queued draws with a stencil test before the shader.
-inline bool tests_stencil_early(const DrawInTile& d) { return tests_stencil(d.draw.state, d.tile) && !d.postpones_stencil; }
-
-/// See ListWriter. Call begin() before each triangle and before tests(), which depends on the face of the triangle.
+/// See QueueWriter. Call begin() before each triangle and before tests(), which depends on the face of the triangle.
 template <class S, bool multisampled>
-class StencilListWriter : public ListWriter<S, multisampled> {
-  using Base = ListWriter<S, multisampled>;
+class StencilQueueWriter : public QueueWriter<S, multisampled> {
+  using Base = QueueWriter<S, multisampled>;
 
  public:
   static constexpr bool kTestsStencil = true;
 
-  StencilListWriter(const DrawInTile& d, PacketQueue& queue, S& statistics)
+  StencilQueueWriter(const DrawInTile& d, PacketQueue& queue, S& statistics)
       : Base(d, queue, statistics), state_(d.draw.state), tests_depth_(d.tests), updates_(updates_stencil(d.draw.state)) {}
 
   /// Returns true if fragments that fail the depth test have no effect.
   bool tests() const { return Base::tests() && (!updates_ || (face_->fail == StencilOp::keep && face_->depth_fail == StencilOp::keep)); }
 
-  /// See ListWriter. Each packet needs a stencil test.
+  /// See QueueWriter. Each packet needs a stencil test.
   bool adds_untested(bool) const { return false; }
   /// Starts a triangle and selects its stencil state.
   void begin(const Triangle& t) { face_ = stencil_face(state_, tile_, t.is(kFrontFacing)); }

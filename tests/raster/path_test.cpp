@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The table of the paths from the bin to the visibility buffer or the queue: what it says, and the choice for each kind of draw.
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <string>
+
+#include "halfspace/raster/visibility/visibility.h"
+#include "support/files.h"
+
+namespace halfspace {
+
+namespace {
+
+void shade_nothing(const void*, const FragmentBatch&) {}
+void keep_nothing(const void*, const VisibilityBatch&) {}
+
+// A draw as PassState::add() would create it.
+struct TestDraw {
+  ShaderKernels kernels;
+  DrawState state;
+  bool deferred = true;
+  int samples = 1;
+
+  TestDraw() { kernels.fragment = shade_nothing; }
+
+  TilePath path() const {
+    const auto tile = std::make_unique<Tile>();
+    tile->samples = samples;
+    tile->depth_format = DepthFormat::d32f;
+    tile->has_stencil = true;
+    Draw draw(kernels, KeptShader(nullptr, [](const void*) {}), nullptr, {}, state);
+    draw.deferred = deferred;
+    draw.writes_color = true;
+    return choose_path(draw, visibility_mode(draw), *tile);
+  }
+};
+
+std::string name_of(TilePath path) { return std::string(path_rows()[static_cast<std::size_t>(path)].name); }
+
+TEST(Paths, TheDocumentShowsTheTable) {
+  std::string table;
+  for (const PathRow& row : path_rows()) {
+    EXPECT_EQ(&row, &path_rows()[static_cast<std::size_t>(row.path)]) << row.name;
+    table += "| `" + std::string(row.name) + "` | " + std::string(row.decided_by) + " | " + std::string(row.depth_state) + " | " +
+             std::string(row.output) + " |\n";
+  }
+  EXPECT_NE(read_bytes("docs/explanation/architecture.md").find(table), std::string::npos) << "expected in the document:\n" << table;
+}
+
+TEST(Paths, OpaqueDrawsAreDistinguishedByTheirDepthState) {
+  TestDraw draw;
+  EXPECT_EQ(name_of(draw.path()), "nearest");
+  draw.samples = 4;
+  EXPECT_EQ(name_of(draw.path()), "nearest");
+  draw.state.depth.write = false;
+  EXPECT_EQ(name_of(draw.path()), "opaque");
+  draw.state.depth = {.compare = CompareOp::greater};
+  EXPECT_EQ(name_of(draw.path()), "opaque");
+  draw.state.depth.test = false;
+  EXPECT_EQ(name_of(draw.path()), "opaque");
+  draw.state.stencil = StencilState{};
+  EXPECT_EQ(name_of(draw.path()), "stencil");
+}
+
+TEST(Paths, DrawsWhoseShaderDecidesAreQueued) {
+  TestDraw blended;
+  blended.deferred = false;
+  EXPECT_EQ(name_of(blended.path()), "queued");
+  blended.state.stencil = StencilState{};
+  EXPECT_EQ(name_of(blended.path()), "queued_stencil");
+
+  TestDraw masked;
+  masked.kernels.discards = true;
+  masked.kernels.visibility = keep_nothing;
+  EXPECT_EQ(name_of(masked.path()), "queued_less");
+  masked.samples = 4;
+  EXPECT_EQ(name_of(masked.path()), "queued");
+  masked.samples = 1;
+  masked.kernels.writes_depth = true;
+  EXPECT_EQ(name_of(masked.path()), "queued");
+}
+
+TEST(Paths, TheStencilTestFollowsTheShaderIfItUpdatesValuesOfDiscardedFragments) {
+  TestDraw masked;
+  masked.kernels.discards = true;
+  masked.kernels.visibility = keep_nothing;
+  masked.state.stencil = StencilState{};
+  EXPECT_EQ(name_of(masked.path()), "queued_stencil");  // the values are not updated
+  masked.state.stencil->front.pass = StencilOp::replace;
+  EXPECT_EQ(name_of(masked.path()), "queued");
+}
+
+}  // namespace
+
+}  // namespace halfspace
