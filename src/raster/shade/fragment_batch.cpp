@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "halfspace/raster/tile/blend.h"
+
 namespace halfspace::HS_LANES {
 
 void constant_colors(const Draw& draw, FragmentOutput& out) { draw.kernels.fragment(draw.shader.get(), {{.count = 1}, &out}); }

@@ -7,10 +7,9 @@
 #include <span>
 
 #include "halfspace/core/lanes.h"
-#include "halfspace/raster/tile/blend.h"
 #include "halfspace/raster/tile/tile.h"
 #include "halfspace/raster/tile/write_programs.h"
-#include "halfspace/raster/visibility/visibility.h"
+#include "halfspace/raster/visibility/packet_batch.h"
 
 namespace halfspace::HS_LANES {
 
