@@ -72,15 +72,7 @@ std::array<uint32_t, 3> slots_of(const PassContext& context, const StagePrimitiv
 std::array<glm::vec4, 3> clip_positions(const PassContext& context, const StagePrimitive& primitive) {
   const FloatMode mode;
   const Draw& draw = context.draws[primitive.draw];
-  const std::array<uint32_t, 3> index = Assembly(draw, primitive.index).next();
-  alignas(64) std::array<float, 4 * kVertexBatch> rows;
-  StreamStorage storage;
-  draw.kernels.position(draw.shader.get(),
-                        {at_instance(draw.vertices, primitive.instance, storage), index.data(), 0, 3, 0, draw.state.base_vertex,
-                         static_cast<int32_t>(primitive.instance), nullptr, rows.data(), nullptr});
-  std::array<glm::vec4, 3> out;
-  for (std::size_t i = 0; i < 3; ++i) out[i] = {rows[i], rows[kVertexBatch + i], rows[2 * kVertexBatch + i], rows[3 * kVertexBatch + i]};
-  return out;
+  return clip_positions(draw, primitive.instance, Assembly(draw, primitive.index).next());
 }
 
 bool covers(const PassContext& context, const Draw& draw, const Triangle& t, int x, int y, int sample) {

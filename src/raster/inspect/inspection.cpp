@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "halfspace/raster/inspect/inspection.h"
 
+#include "halfspace/raster/primitives/vertex_stage.h"
+
 namespace halfspace::HS_LANES {
 
 namespace {
@@ -69,17 +71,6 @@ class VisitSetUp : public TileRunner {
   const std::function<void(const PassContext&, int)>& visit_;
   int round_ = 0;
 };
-
-// Runs the vertex function for three vertices of a draw and returns their positions.
-std::array<glm::vec4, 3> clip_positions(const Draw& draw, uint32_t instance, const std::array<uint32_t, 3>& index) {
-  alignas(64) std::array<float, 4 * kVertexBatch> rows{};
-  StreamStorage storage;
-  draw.kernels.position(draw.shader.get(), {at_instance(draw.vertices, instance, storage), index.data(), 0, 3, 0, draw.state.base_vertex,
-                                            static_cast<int32_t>(instance), nullptr, rows.data(), nullptr});
-  std::array<glm::vec4, 3> out;
-  for (std::size_t i = 0; i < 3; ++i) out[i] = {rows[i], rows[kVertexBatch + i], rows[2 * kVertexBatch + i], rows[3 * kVertexBatch + i]};
-  return out;
-}
 
 }  // namespace
 

@@ -12,7 +12,7 @@
 #include "halfspace/raster/shade/tile_memory.h"
 #include "halfspace/raster/tile/resolve.h"
 #include "halfspace/raster/trace/tile_trace.h"
-#include "halfspace/raster/visibility/full_tile.h"
+#include "halfspace/raster/visibility/area_coverage.h"
 
 namespace halfspace::HS_LANES {
 

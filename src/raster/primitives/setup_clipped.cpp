@@ -9,21 +9,6 @@ namespace halfspace::HS_LANES {
 
 namespace {
 
-// Runs the vertex stage again for the clip-space positions of a primitive.
-std::array<glm::vec4, 3> clip_space_positions(const SetupRange& r, const PrimitiveSlots& slots) {
-  alignas(64) std::array<float, 4 * kVertexBatch> rows;
-  const std::array<uint32_t, 3> index{slots[0] + r.slot_base, slots[1] + r.slot_base, slots[2] + r.slot_base};
-  StreamStorage storage;
-  const Draw& draw = r.draw;
-  draw.kernels.position(draw.shader.get(), {at_instance(draw.vertices, r.instance, storage), index.data(), 0, 3, 0, draw.state.base_vertex,
-                                            static_cast<int32_t>(r.instance), nullptr, rows.data(), nullptr});
-  std::array<glm::vec4, 3> pos_clip;
-  for (std::size_t i = 0; i < 3; ++i) {
-    pos_clip[i] = {rows[i], rows[kVertexBatch + i], rows[2 * kVertexBatch + i], rows[3 * kVertexBatch + i]};
-  }
-  return pos_clip;
-}
-
 // Adds the corners to the chunk's clip vertices and returns the index of the first one. All of them get the flat varyings of the
 // provoking vertex. w: clip-space w of the three vertices.
 uint32_t add_corners(SetupRange& r, const ClipPolygon& polygon, const PrimitiveSlots& slots, const std::array<double, 3>& w) {
@@ -86,7 +71,8 @@ Cull append_pieces(SetupRange& r, const ClipPolygon& polygon, uint32_t first, co
 }  // namespace
 
 void set_up_clipped(SetupRange& r, const PrimitiveSlots& slots, ClipFunction clip, bool is_cut) {
-  const std::array<glm::vec4, 3> pos_clip = clip_space_positions(r, slots);
+  const std::array<glm::vec4, 3> pos_clip =
+      clip_positions(r.draw, r.instance, {slots[0] + r.slot_base, slots[1] + r.slot_base, slots[2] + r.slot_base});
   ClipDistances distances{{}, r.shaded.clip_distance_count};
   for (std::size_t i = 0; i < 3 && distances.count != 0; ++i) distances.vertex[i] = r.clip_distances_of(slots[i]);
   const ClipPolygon polygon = clip(r.draw.viewport, r.draw.state.depth, pos_clip, distances);

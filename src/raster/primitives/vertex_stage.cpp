@@ -100,6 +100,24 @@ void allocate_vertices(const Draw& draw, ShadedVertices& out) {
   if (out.has_sprites) out.sprites.reset(n);
 }
 
+std::array<glm::vec4, 3> clip_positions(const Draw& draw, uint32_t instance, const std::array<uint32_t, 3>& index) {
+  alignas(64) std::array<float, 4 * kVertexBatch> rows;
+  StreamStorage storage;
+  draw.kernels.position(draw.shader.get(), {.streams = at_instance(draw.vertices, instance, storage),
+                                            .ids = index.data(),
+                                            .first = 0,
+                                            .count = 3,
+                                            .slot_base = 0,
+                                            .base_vertex = draw.state.base_vertex,
+                                            .instance = static_cast<int32_t>(instance),
+                                            .varyings = nullptr,
+                                            .clip = rows.data(),
+                                            .extra = nullptr});
+  std::array<glm::vec4, 3> out;
+  for (std::size_t i = 0; i < 3; ++i) out[i] = {rows[i], rows[kVertexBatch + i], rows[2 * kVertexBatch + i], rows[3 * kVertexBatch + i]};
+  return out;
+}
+
 Outcode shade_vertices(const Draw& draw, std::size_t begin, std::size_t end, ShadedVertices& out) {
   alignas(64) std::array<float, 4 * kVertexBatch> clip;
   std::array<ScreenVertex, kVertexBatch> screen;
@@ -117,9 +135,16 @@ Outcode shade_vertices(const Draw& draw, std::size_t begin, std::size_t end, Sha
     b += static_cast<std::size_t>(count);
     const uint32_t slot_base = out.first - instance * out.count;
     const uint32_t* ids = used.empty() ? nullptr : used.data() + local;
-    draw.kernels.vertex(draw.shader.get(),
-                        {at_instance(draw.vertices, instance, storage), ids, out.first + static_cast<uint32_t>(local), count, slot_base,
-                         draw.state.base_vertex, static_cast<int32_t>(instance), out.varyings.get(), clip.data(), extra.data()});
+    draw.kernels.vertex(draw.shader.get(), {.streams = at_instance(draw.vertices, instance, storage),
+                                            .ids = ids,
+                                            .first = out.first + static_cast<uint32_t>(local),
+                                            .count = count,
+                                            .slot_base = slot_base,
+                                            .base_vertex = draw.state.base_vertex,
+                                            .instance = static_cast<int32_t>(instance),
+                                            .varyings = out.varyings.get(),
+                                            .clip = clip.data(),
+                                            .extra = extra.data()});
     const auto slot_of = [&](int i) {
       return std::size_t{(ids != nullptr ? ids[i] : out.first + static_cast<uint32_t>(local) + static_cast<uint32_t>(i)) - slot_base};
     };

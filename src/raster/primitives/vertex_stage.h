@@ -21,4 +21,8 @@ std::size_t shaded_bytes(const Draw& draw);
 /// Allocates memory for all vertices that the draw uses.
 void allocate_vertices(const Draw& draw, ShadedVertices& out);
 
+/// Runs the vertex function for three vertices of an instance and returns their clip-space positions. index: as in the index list of the
+/// draw.
+std::array<glm::vec4, 3> clip_positions(const Draw& draw, uint32_t instance, const std::array<uint32_t, 3>& index);
+
 }  // namespace halfspace::HS_LANES
