@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Instantiates the metallic-roughness shaders with normal maps of scenes.
+#include "halfspace/render/frame/add_shader_draw_kernels.h"
+
+namespace halfspace::HS_LANES {
+
+template void add_shader_draw(Pass&, const MetallicSurface<MetallicStreams::detailed>&, const PreparedDraw&, const DrawState&);
+template void add_shader_draw(Pass&, const MetallicSurface<MetallicStreams::detailed, true>&, const PreparedDraw&, const DrawState&);
+template void add_shader_draw(Pass&, const MetallicSurface<MetallicStreams::full>&, const PreparedDraw&, const DrawState&);
+template void add_shader_draw(Pass&, const MetallicSurface<MetallicStreams::full, true>&, const PreparedDraw&, const DrawState&);
+
+}  // namespace halfspace::HS_LANES

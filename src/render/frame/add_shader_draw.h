@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Adds the draw of one type of shader. Kernels take long to compile, so the function is instantiated in several translation units:
+// add_surface_draws.cpp, add_phong_draws.cpp, add_metallic_draws.cpp, add_detailed_metallic_draws.cpp and add_other_draws.cpp.
+#pragma once
+
+#include "halfspace/render/prepared_scene.h"
+
+namespace halfspace::HS_LANES {
+
+/// shader: that of the draw.
+template <class S>
+void add_shader_draw(Pass& pass, const S& shader, const PreparedDraw& draw, const DrawState& state);
+
+}  // namespace halfspace::HS_LANES
