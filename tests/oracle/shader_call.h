@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Calls of the functions of a shader, for one vertex or one position. Input: its type and uniforms. Output: the structs of shader_data.h.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "halfspace/raster/draw_state.h"
+#include "halfspace/shading/contract.h"
+#include "oracle/interpolation.h"
+#include "oracle/shader_data.h"
+#include "oracle/window.h"
+
+namespace halfspace::oracle::detail {
+
+inline void take_vertex(const glm::vec4& v, ShadedVertex& out) { out.pos_clip = v; }
+template <std::size_t N>
+void take_vertex(const PerVertex<float, N>& v, ShadedVertex& out) {
+  out.pos_clip = v.position;
+  out.point_size = v.point_size;
+  out.clip_distances.assign(v.clip_distance.begin(), v.clip_distance.end());
+}
+inline void take_vertex(const PointSpriteVertex<float>& v, ShadedVertex& out) {
+  out.pos_clip = {0.0f, 0.0f, v.depth, v.drawn ? 1.0f : -1.0f};
+  out.has_bounds = true;
+  out.low = v.low;
+  out.high = v.high;
+}
+
+template <class T>
+std::vector<float> components_of(const T& t) {
+  const auto a = to_components<float>(t);
+  return {a.begin(), a.end()};
+}
+
+template <class T>
+T struct_of(const std::vector<float>& components) {
+  std::array<float, kComponents<T>> a{};
+  for (std::size_t i = 0; i < a.size(); ++i) a[i] = components[i];
+  return from_components<T, float>(a);
+}
+
+template <class S>
+FragmentResult call_shader(const S& shader, const PrimitiveOf<S, float>& face, const WindowTriangle& t, const Surface& s,
+                           const DepthState& state, const Point& at, const Point& centroid) {
+  using V = typename S::template Varyings<float>;
+  constexpr std::size_t n = kComponents<V>;
+  const SurfacePoint p = surface_point(s, t, state, at), inside = surface_point(s, t, state, centroid);
+  ComponentLanes<float, n> components{};
+  std::array<float, n> values{};
+  for (std::size_t i = 0; i < n; ++i) {
+    components.value0[i] = s.value0[i];
+    components.delta1[i] = s.delta1[i];
+    components.delta2[i] = s.delta2[i];
+    const Interpolation mode = kInterpolations<V>[i];
+    values[i] = component_at(s, mode == Interpolation::centroid ? inside : p, mode, i);
+  }
+  Pixel<float> px;
+  px.x = static_cast<float>(at.x) / 256.0f;
+  px.y = static_cast<float>(at.y) / 256.0f;
+  px.find_z = [](const Pixel<float>& pixel) { return *static_cast<const float*>(pixel.z_source); };
+  px.z_source = &p.z;
+  px.front_facing = t.front;
+  px.triangle = &s.lanes;
+  px.component_lanes = &components;
+  px.weights = p.weights;
+  px.dx = p.dx;
+  px.dy = p.dy;
+  px.quad_x = static_cast<float>(at.x / 256 % 2);
+  px.quad_y = static_cast<float>(at.y / 256 % 2);
+  FragmentResult result;
+  if constexpr (HasFragmentFunction<S>) {
+    const auto fragment = call_fragment<S, float>(shader, from_components<V, float>(values), face, px);
+    for (std::size_t i = 0; i < kColors<S>; ++i) result.colors.push_back(halfspace::detail::nth_color(fragment.color, i));
+    if constexpr (kDiscards<S>) result.keep = fragment.keep;
+    if constexpr (kWritesDepth<S>) result.depth = fragment.depth;
+  }
+  return result;
+}
+
+template <class S>
+ShaderFacts facts_of() {
+  ShaderFacts facts;
+  facts.interpolations = kInterpolations<typename S::template Varyings<float>>;
+  facts.has_fragment = HasFragmentFunction<S>;
+  if constexpr (HasFragmentFunction<S>) facts.writes_depth = kWritesDepth<S>;
+  return facts;
+}
+
+}  // namespace halfspace::oracle::detail
