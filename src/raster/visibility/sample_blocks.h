@@ -152,7 +152,7 @@ class SampleBlocks {
   /// Writes a block that is covered everywhere. z_at: as in write_listed().
   template <class Depth>
   void write_whole(const Depth& z_at) {
-    if constexpr (QueuesPixels<Writer> || Writer::kTestsStencil) {
+    if constexpr (Writer::kQueues || Writer::kTestsStencil) {
       SampleLanes lanes{};
       for (const std::size_t s : kept()) lanes[s] = static_cast<uint16_t>(kAllBits<Mask>);
       for (int p = 0; p < kPacketsPerBlock; ++p) write(p, lanes, z_at);
@@ -307,7 +307,7 @@ void rasterize_sampled_point(const DrawInTile& d, const SampleSet& samples, cons
 /// Rasterizes a triangle or point at all samples in the sample mask of the draw. The tile must be multisampled.
 template <class Writer>
 void rasterize_all_samples(const DrawInTile& d, const Triangle& t, TriangleId id, Writer writer) {
-  if constexpr (requires { writer.begin(t); }) writer.begin(t);
+  writer.begin(t);
   const SampleSet samples(d);
   const PixelBounds b = pixel_bounds(d.draw, t, d.bounds, d.context.samples_at);
   if (samples.count == 0 || b.empty()) return;

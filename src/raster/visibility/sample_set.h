@@ -35,12 +35,6 @@ struct SampleSet {
   std::array<int, kMaxSamples> shift;  ///< distance of packets from those of sample 0
 };
 
-/// A writer that adds packets of pixels with all their samples to a queue.
-template <class Writer>
-concept QueuesPixels = requires(Writer& writer) {
-  writer.begin_packet(TriangleId{}, 0);
-};
-
 /// Tests and writes the covered samples of a packet of pixels. packet: its number in the plane of sample 0; lanes: covered lanes, 0 for
 /// samples that are not in the set; passes: bit s: the depth test passes in all covered lanes of sample s; z_at(s): returns their depth.
 /// Calls wrote(s, packet) for samples of which a lane has passed, with the number of the packet in the plane of the sample, but only if the
@@ -48,19 +42,19 @@ concept QueuesPixels = requires(Writer& writer) {
 template <class Writer, class Depth, class Wrote>
 HS_INLINE void write_samples(Writer& writer, const SampleSet& set, TriangleId id, int packet, const SampleLanes& lanes, uint32_t passes,
                              const Depth& z_at, const Wrote& wrote) {
-  if constexpr (QueuesPixels<Writer>) {
+  if constexpr (Writer::kQueues) {
     if (writer.adds_untested(passes == ~0u)) return writer.add_untested(id, packet, lanes);
     writer.begin_packet(id, packet);
   }
   for (std::size_t s = 0; s < set.tile_samples; ++s) {
     if (lanes[s] == 0) continue;
-    if constexpr (QueuesPixels<Writer>) writer.begin_sample(s);
+    if constexpr (Writer::kQueues) writer.begin_sample(s);
     const int at = packet + set.shift[s];
     const bool has_passed = writer.write(
         id, at, lanes[s], [&] { return z_at(s); }, (passes >> s & 1) != 0);
     if (has_passed && writer.writes_depth()) wrote(s, at);
   }
-  if constexpr (QueuesPixels<Writer>) writer.end_packet();
+  if constexpr (Writer::kQueues) writer.end_packet();
 }
 
 }  // namespace halfspace::HS_LANES

@@ -44,7 +44,7 @@ std::span<const PathRow> path_rows() {
       {TilePath::opaque, "opaque", "coverage, depth", "any", "depth, triangle ids"},
       {TilePath::stencil, "stencil", "coverage, depth, stencil test", "any", "depth, stencil values, triangle ids"},
       {TilePath::queued, "queued", "the shader, or its order of execution", "any", "queue of packets"},
-      {TilePath::queued_less, "queued_less", "the shader", "less, tested before and after the shader; one sample", "queue of packets"},
+      {TilePath::queued_less, "queued_less", "the shader", "less, tested before and after the shader", "queue of packets"},
       {TilePath::queued_stencil, "queued_stencil", "a stencil test before the shader, the shader", "any",
        "stencil values, queue of packets"},
   };
@@ -63,7 +63,7 @@ TilePath choose_path(const Draw& draw, VisibilityMode mode, const Tile& tile) {
   if (postpones_stencil(draw, mode, tile)) return TilePath::queued;
   if (has_stencil) return TilePath::queued_stencil;
   const bool tests_twice = mode != VisibilityMode::early && mode != VisibilityMode::cover_only && !draw.kernels.writes_depth;
-  return is_less && tests_twice && tile.samples == 1 ? TilePath::queued_less : TilePath::queued;
+  return is_less && tests_twice ? TilePath::queued_less : TilePath::queued;
 }
 
 DrawInTile::DrawInTile(const PassContext& f, const Draw& d, VisibilityMode m, Tile& t)

@@ -5,20 +5,14 @@
 #include <algorithm>
 
 #include "halfspace/raster/pipeline/pixel_box.h"
-#include "halfspace/raster/visibility/path_writer.h"
 #include "halfspace/raster/visibility/sample_blocks.h"
 #include "halfspace/raster/visibility/thin_line.h"
 #include "halfspace/raster/visibility/trace_rejected.h"
+#include "halfspace/raster/visibility/writer.h"
 
 namespace halfspace::HS_LANES {
 
 namespace {
-
-// A writer that can add the packets of a block without testing them.
-template <class Writer>
-concept QueuesBlocks = requires(Writer& writer) {
-  writer.add_block(TriangleId{}, 0, [](int) { return 0u; });
-};
 
 // Finds the covered packets of one block after the other and writes them.
 template <bool small, class Writer>
@@ -36,7 +30,7 @@ class BlockPackets {
 
   // Writes a block that is covered everywhere and passes everywhere. x, y: its corner.
   void write_whole(int block, int x, int y) {
-    if constexpr (QueuesBlocks<Writer>) {
+    if constexpr (Writer::kQueues) {
       if (writer_.adds_untested(true)) return writer_.add_block(id_, block, [](int) { return kAllBits<Mask>; });
     }
     for (int p = 0; p < kPacketsPerBlock; ++p)
@@ -51,7 +45,7 @@ class BlockPackets {
       const uint32_t lanes = kAllBits<Mask> & ~negative_bits((corner[0] + step[0]) | (corner[1] + step[1]) | (corner[2] + step[2]));
       return is_cut ? lanes & bits(inside(rect_, x + packet_x(p), y + packet_y(p))) : lanes;
     };
-    if constexpr (QueuesBlocks<Writer>) {
+    if constexpr (Writer::kQueues) {
       if (writer_.adds_untested(passes)) return writer_.add_block(id_, block, lanes_at);
     }
     // Whether a packet has covered lanes is nearly random and a branch would often be mispredicted, so the code has none.
@@ -149,7 +143,7 @@ void rasterize_point(const DrawInTile& d, const Triangle& t, const SampleGrid& g
 // Rasterizes a primitive in a tile with one sample per pixel.
 template <class Writer>
 void rasterize_one_sample(const DrawInTile& d, const Triangle& t, TriangleId id, Writer writer) {
-  if constexpr (requires { writer.begin(t); }) writer.begin(t);
+  writer.begin(t);
   const SampleGrid grid(d.tile, 0);
   const PixelBounds b = pixel_bounds(d.draw, t, d.bounds, grid.position);
   if (b.empty()) return;
@@ -168,8 +162,8 @@ void rasterize_one_sample(const DrawInTile& d, const Triangle& t, TriangleId id,
 // Rasterizes a primitive in any tile.
 template <TilePath path, class Statistics>
 void rasterize(const DrawInTile& d, const Triangle& t, TriangleId id, PacketQueue& queue, Statistics& statistics) {
-  if (d.tile.samples > 1) return rasterize_all_samples(d, t, id, path_writer<path, true>(d, queue, statistics));
-  rasterize_one_sample(d, t, id, path_writer<path, false>(d, queue, statistics));
+  if (d.tile.samples > 1) return rasterize_all_samples(d, t, id, Writer<path, true, Statistics>(d, &queue, statistics));
+  rasterize_one_sample(d, t, id, Writer<path, false, Statistics>(d, &queue, statistics));
 }
 
 }  // namespace
@@ -188,7 +182,7 @@ void write_full_tile(const DrawInTile& d, const Triangle& t, TriangleId id) {
   const DepthPlane<false> plane(t, tile_edges.bias, d.draw, grid, d.tile.depth_format);
   const BlockEdges edges(tile_edges);
   PassStatistics counted_before;
-  OpaqueWriter<PassStatistics> writer(d, counted_before);
+  Writer<TilePath::opaque, false, PassStatistics> writer(d, nullptr, counted_before);
   if (d.mode == VisibilityMode::depth_only && !writer.writes_depth()) return;
   for (int p = 0; p < kPackets; ++p) writer.write_whole(id, p, [&] { return plane.at(edges, packet_x(p), packet_y(p)); });
   if (!writer.writes_depth()) return;

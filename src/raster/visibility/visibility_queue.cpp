@@ -7,9 +7,8 @@
 
 #include "halfspace/raster/visibility/centroid.h"
 #include "halfspace/raster/visibility/depth_bounds.h"
-#include "halfspace/raster/visibility/opaque_writer.h"
 #include "halfspace/raster/visibility/packed_pixels.h"
-#include "halfspace/raster/visibility/stencil_writer.h"
+#include "halfspace/raster/visibility/writer.h"
 
 namespace halfspace::HS_LANES {
 
@@ -148,8 +147,8 @@ void decide_with(const DrawInTile& d, PacketQueue& queue, Writer writer) {
 
 template <class Statistics>
 void decide_queued(const DrawInTile& d, PacketQueue& queue, Statistics& statistics) {
-  if (d.postpones_stencil) return decide_with(d, queue, StencilWriter<Statistics>(d, statistics));
-  decide_with(d, queue, OpaqueWriter<Statistics>(d, statistics));
+  if (d.postpones_stencil) return decide_with(d, queue, Writer<TilePath::stencil, false, Statistics>(d, &queue, statistics));
+  decide_with(d, queue, Writer<TilePath::opaque, false, Statistics>(d, &queue, statistics));
 }
 template void decide_queued(const DrawInTile&, PacketQueue&, PassStatistics&);
 template void decide_queued(const DrawInTile&, PacketQueue&, TracedStatistics&);

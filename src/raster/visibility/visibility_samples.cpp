@@ -5,9 +5,9 @@
 #include "halfspace/raster/pipeline/pixel_box.h"
 #include "halfspace/raster/pipeline/triangle_lanes.h"
 #include "halfspace/raster/visibility/hidden_triangle.h"
-#include "halfspace/raster/visibility/path_writer.h"
 #include "halfspace/raster/visibility/sample_set.h"
 #include "halfspace/raster/visibility/small_triangle.h"
+#include "halfspace/raster/visibility/writer.h"
 
 namespace halfspace::HS_LANES {
 
@@ -182,12 +182,12 @@ std::size_t rasterize_small_samples(const DrawInTile& d, uint32_t chunk, std::sp
   const SampleSet samples(d);
   if (samples.count == 0) return indices.size();
   const SampledTriangles triangles(d, samples, d.context.chunks[chunk], indices);
-  auto writer = path_writer<path, true>(d, queue, statistics);
+  Writer<path, true, Statistics> writer(d, &queue, statistics);
   std::size_t k = 0;
   do {
     const Triangle& t = d.context.chunks[chunk].triangles[indices[k]];
     const TriangleId id = triangle_id(chunk, indices[k]);
-    if constexpr (requires { writer.begin(t); }) writer.begin(t);
+    writer.begin(t);
     if (triangles.is_wide(k)) {
       rasterize_function<Statistics>(path)(d, t, id, queue, statistics);
     } else if (!reject_hidden(d, samples, t, id, triangles.rect(k), writer)) {

@@ -9,8 +9,8 @@
 #include "halfspace/raster/pipeline/triangle_lanes.h"
 #include "halfspace/raster/primitives/small_coverage.h"
 #include "halfspace/raster/visibility/hidden_triangle.h"
-#include "halfspace/raster/visibility/path_writer.h"
 #include "halfspace/raster/visibility/small_triangle.h"
+#include "halfspace/raster/visibility/writer.h"
 
 namespace halfspace::HS_LANES {
 
@@ -223,7 +223,7 @@ HS_INLINE void write_triangle(const DrawInTile& d, const SmallTriangles& triangl
                               Writer& writer, const Large& rasterize_large) {
   const TriangleId id = triangle_id(chunk, index);
   const Triangle& t = d.context.chunks[chunk].triangles[index];
-  if constexpr (requires { writer.begin(t); }) writer.begin(t);
+  writer.begin(t);
   if (triangles.is_known(k)) {
     triangles.for_each_pixel(k, [&](std::size_t pixel, float z) { writer.write_pixel(id, pixel, z); });
   } else if (triangles.is_wide(k)) {
@@ -240,7 +240,7 @@ std::size_t rasterize_small(const DrawInTile& d, uint32_t chunk, std::span<const
                             Statistics& statistics) {
   const SmallTriangles triangles(d, d.context.chunks[chunk], indices);
   const auto large = [&](const Triangle& t, TriangleId id) { rasterize_function<Statistics>(path)(d, t, id, queue, statistics); };
-  auto writer = path_writer<path, false>(d, queue, statistics);
+  Writer<path, false, Statistics> writer(d, &queue, statistics);
   std::size_t k = 0;
   do {
     write_triangle(d, triangles, k, chunk, indices[k], writer, large);
