@@ -3,6 +3,7 @@
 // The table of the paths from the bin to the visibility buffer or the queue: what it says, and the choice for each kind of draw.
 #include <gtest/gtest.h>
 
+#include <deque>
 #include <memory>
 #include <string>
 
@@ -20,21 +21,26 @@ void keep_nothing(const void*, const VisibilityBatch&) {}
 struct TestDraw {
   ShaderKernels kernels;
   DrawState state;
-  bool deferred = true;
+  bool deferred = true, has_stencil = true;
+  DepthFormat depth_format = DepthFormat::d32f;
   int samples = 1;
+  PassContext context{};
+  std::unique_ptr<Tile> tile = std::make_unique<Tile>();
+  std::deque<Draw> draws;  // a DrawInTile refers to its draw
 
   TestDraw() { kernels.fragment = shade_nothing; }
 
-  TilePath path() const {
-    const auto tile = std::make_unique<Tile>();
+  DrawInTile in_tile() {
     tile->samples = samples;
-    tile->depth_format = DepthFormat::d32f;
-    tile->has_stencil = true;
+    tile->depth_format = depth_format;
+    tile->has_stencil = has_stencil;
     Draw draw(kernels, KeptShader(nullptr, [](const void*) {}), nullptr, {}, state);
     draw.deferred = deferred;
     draw.writes_color = true;
-    return choose_path(draw, visibility_mode(draw), *tile);
+    draws.push_back(std::move(draw));
+    return DrawInTile(context, draws.back(), visibility_mode(draws.back()), *tile);
   }
+  TilePath path() { return in_tile().path; }
 };
 
 std::string name_of(TilePath path) { return std::string(path_rows()[static_cast<std::size_t>(path)].name); }
@@ -62,6 +68,12 @@ TEST(Paths, OpaqueDrawsAreDistinguishedByTheirDepthState) {
   EXPECT_EQ(name_of(draw.path()), "opaque");
   draw.state.stencil = StencilState{};
   EXPECT_EQ(name_of(draw.path()), "stencil");
+  draw.has_stencil = false;
+  EXPECT_EQ(name_of(draw.path()), "opaque");
+
+  TestDraw without_depth;
+  without_depth.depth_format = DepthFormat::none;
+  EXPECT_EQ(name_of(without_depth.path()), "opaque");
 }
 
 TEST(Paths, DrawsWhoseShaderDecidesAreQueued) {
@@ -87,8 +99,20 @@ TEST(Paths, TheStencilTestFollowsTheShaderIfItUpdatesValuesOfDiscardedFragments)
   masked.kernels.visibility = keep_nothing;
   masked.state.stencil = StencilState{};
   EXPECT_EQ(name_of(masked.path()), "queued_stencil");  // the values are not updated
+  EXPECT_FALSE(masked.in_tile().postpones_stencil);
   masked.state.stencil->front.pass = StencilOp::replace;
   EXPECT_EQ(name_of(masked.path()), "queued");
+  EXPECT_TRUE(masked.in_tile().postpones_stencil);
+  masked.has_stencil = false;
+  EXPECT_EQ(name_of(masked.path()), "queued_less");
+  EXPECT_FALSE(masked.in_tile().postpones_stencil);
+
+  TestDraw blended;  // coverage, depth and the stencil test decide which values are updated
+  blended.deferred = false;
+  blended.state.stencil = StencilState{};
+  blended.state.stencil->front.pass = StencilOp::replace;
+  EXPECT_EQ(name_of(blended.path()), "queued_stencil");
+  EXPECT_FALSE(blended.in_tile().postpones_stencil);
 }
 
 }  // namespace

@@ -43,10 +43,11 @@ std::span<const PathRow> path_rows() {
       {TilePath::nearest, "nearest", "coverage, depth", "less, with writes", "depth, triangle ids"},
       {TilePath::opaque, "opaque", "coverage, depth", "any", "depth, triangle ids"},
       {TilePath::stencil, "stencil", "coverage, depth, stencil test", "any", "depth, stencil values, triangle ids"},
-      {TilePath::queued, "queued", "the shader, or its order of execution", "any", "queue of packets"},
+      {TilePath::queued, "queued", "the shader, the order of execution, or a stencil test after the shader", "any",
+       "queue of packets; depth if no test follows the shader"},
       {TilePath::queued_less, "queued_less", "the shader", "less, tested before and after the shader", "queue of packets"},
-      {TilePath::queued_stencil, "queued_stencil", "a stencil test before the shader, the shader", "any",
-       "stencil values, queue of packets"},
+      {TilePath::queued_stencil, "queued_stencil", "a stencil test before the shader, then as above", "any",
+       "queue of packets; depth and stencil values if no test follows the shader"},
   };
   return rows;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Visibility. Input: one triangle and one tile. Output for draws whose visibility does not depend on the shader: the depth and visible
-// triangle of each pixel in the tile. Output for other draws: the packets of all triangles, in submission order, in a queue.
+// Visibility. Input: primitives of a draw and one tile. Output: the depth and visible triangle of each pixel in the tile or, on queued
+// paths, the packets of all primitives, in submission order, in a queue.
 //
 // Coverage is exact, because edge functions are computed in integer arithmetic (raster/pipeline/edge.h). Depth is z0 + E1·z_edge1 +
 // E2·z_edge2. Both products are non-negative, so it keeps its relative accuracy. E is exact for small triangles; otherwise it is computed
@@ -22,9 +22,9 @@ namespace halfspace::HS_LANES {
 enum class VisibilityMode : uint8_t {
   deferred,    ///< test, write depth and triangle id
   depth_only,  ///< test, write depth; there is no color to shade
-  early,       ///< test, write depth, list samples that pass
-  test_only,   ///< test, list samples that pass and their depth; depth is written after shading
-  cover_only   ///< list covered samples; depth is tested after shading, because the shader replaces it
+  early,       ///< test, write depth, queue samples that pass
+  test_only,   ///< test, queue samples that pass and their depth; depth is written after shading
+  cover_only   ///< queue covered samples; depth is tested after shading, because the shader replaces it
 };
 
 /// Returns true if visibility is complete without the fragment function, which runs later or never.
@@ -35,7 +35,7 @@ VisibilityMode visibility_mode(const Draw& draw);
 
 /// How the triangles of a draw get from the bins of a tile to the visibility buffer or to the queue. Each path is compiled for small
 /// triangles and for all other primitives, and for tiles with one sample and with several samples per pixel.
-enum class TilePath : uint8_t { nearest, opaque, stencil, queued, queued_less, queued_stencil };
+enum class TilePath : uint8_t { nearest, opaque, stencil, queued, queued_less, queued_stencil };  // queued paths come last
 
 /// One row of the table of paths.
 struct PathRow {

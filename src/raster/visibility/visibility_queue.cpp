@@ -147,8 +147,8 @@ void decide_with(const DrawInTile& d, PacketQueue& queue, Writer writer) {
 
 template <class Statistics>
 void decide_queued(const DrawInTile& d, PacketQueue& queue, Statistics& statistics) {
-  if (d.postpones_stencil) return decide_with(d, queue, Writer<TilePath::stencil, false, Statistics>(d, &queue, statistics));
-  decide_with(d, queue, Writer<TilePath::opaque, false, Statistics>(d, &queue, statistics));
+  if (d.postpones_stencil) return decide_with(d, queue, Writer<TilePath::stencil, false, Statistics>(d, nullptr, statistics));
+  decide_with(d, queue, Writer<TilePath::opaque, false, Statistics>(d, nullptr, statistics));
 }
 template void decide_queued(const DrawInTile&, PacketQueue&, PassStatistics&);
 template void decide_queued(const DrawInTile&, PacketQueue&, TracedStatistics&);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What happens with the covered packets that the loops over primitives find: the stencil and depth tests before the shader, and then the
-// visibility buffer or, on queued paths, the queue. There is one writer per path.
+// visibility buffer or, on queued paths, the queue. decide_queued() uses the writers of `opaque` and `stencil` after the shader, at any
+// sample count.
 #pragma once
 
 #include <bit>
@@ -16,8 +17,8 @@ namespace halfspace::HS_LANES {
 
 /// Tests and writes the primitives of a draw in a tile. On queued paths, depth is tested and written before a packet is queued in
 /// VisibilityMode::early. In all other modes, depth is tested after the shader; lanes that already fail the test are dropped if they cannot
-/// pass it later and do not update stencil values. multisampled: for multisampled tiles; on queued paths, write() then adds to the current
-/// packet.
+/// pass it later and do not update stencil values. multisampled: for multisampled tiles, in which write() of a queued path adds to the
+/// current packet, and there is no write_pixel().
 template <TilePath path, bool multisampled, class S>
 class Writer {
  public:
