@@ -189,7 +189,7 @@ class Package(unittest.TestCase):
         for width in (lanes, other_width(lanes)):
             objects.append(str(TEMPORARY / f"packets{width}.so"))
             flags = [f for f in package_flags() if not f.startswith(("-I", "-DHALFSPACE_LANES"))]
-            expect(COMPILER, "-std=c++20", "-shared", "-fPIC", *flags, f"-DHALFSPACE_LANES={width}", f"-I{BUILD / 'include'}",
+            expect(COMPILER, "-std=c++20", "-shared", "-fPIC", *flags, f"-DHALFSPACE_LANES={width}", f"-I{ROOT / 'include'}",
                    HERE / "packet_positions.cpp", "-o", objects[-1])
         # RTLD_GLOBAL lets the second object use the symbols of the first.
         code = """import ctypes, sys
