@@ -28,8 +28,8 @@
 #define HS_JOIN(a, b) HS_JOIN_EXPANDED(a, b)
 #define HS_LANES HS_JOIN(lanes, HALFSPACE_LANES)
 
-// The namespace is declared inline only here, because editors and ctags do not understand "namespace a::inline MACRO". Clang warns where it
-// is opened again without the word, although that means the same.
+// The namespace is declared inline only here, because editors and ctags do not understand "namespace a::inline MACRO". Clang warns when it
+// is reopened without `inline`, although the meaning is the same. The warning stays off in files that include Halfspace.
 #ifdef __clang__
 #pragma clang diagnostic ignored "-Winline-namespace-reopened-noninline"
 #endif

@@ -9,7 +9,8 @@
 namespace halfspace::HS_LANES {
 
 /// Counters of a pass. They do not depend on the number of threads. samples_tested can vary with the SIMD width, because it depends on
-/// which blocks are rejected by hierarchical Z.
+/// which blocks are rejected by hierarchical Z. So can fragments_shaded, for draws that test depth again after the shader: it depends on
+/// how many packets are queued before they are shaded.
 struct PassStatistics {
   uint64_t vertices_in = 0;        ///< submitted indices, for all instances, without restarts
   uint64_t vertices_shaded = 0;    ///< distinct vertices used by each draw, for all instances

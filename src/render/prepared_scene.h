@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Converts a scene description and an image size to draws: shaders with their uniforms, vertex views and draw states, in drawing
-// order, for a Pass or for the naive pipeline.
+// A scene that is ready to draw in an image of a given size: shaders with their uniforms, vertex views and draw states, in drawing order,
+// for a Pass or for the naive pipeline. SceneAssets (render/scene_assets.h) creates it.
 #pragma once
 
 #include <functional>

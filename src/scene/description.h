@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A scene as described by its file: plain values with their defaults. The tables in description.cpp and description_environment.cpp
-// bind each value to a key. render/prepared_scene.h documents how the values affect rendering.
+// A scene as described by its file: plain values with their defaults. The tables in description_keys.cpp and description_environment.cpp
+// bind each value to a key.
 #pragma once
 
 #include <optional>

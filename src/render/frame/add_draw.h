@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Adds the draws of a prepared scene to a pass. Each function instantiates all scene shaders, in a translation unit of its own.
+// Adds the draws of a prepared scene to a pass.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Instantiates the metallic-roughness shaders without normal maps of scenes.
+// Instantiates the scene shaders for metallic-roughness materials without normal maps.
 #include "halfspace/render/frame/add_shader_draw_kernels.h"
 
 namespace halfspace::HS_LANES {

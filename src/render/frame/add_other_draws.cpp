@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Instantiates the shaders for spheres, skies, points, lines and shadow catchers of scenes.
+// Instantiates the scene shaders for spheres, skies, points, lines and shadow catchers.
 #include "halfspace/render/frame/add_shader_draw_kernels.h"
 
 namespace halfspace::HS_LANES {

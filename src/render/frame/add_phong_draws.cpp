@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Instantiates the shaders for surfaces with Phong shading of scenes.
+// Instantiates the scene shaders for surfaces with the shading rate phong.
 #include "halfspace/render/frame/add_shader_draw_kernels.h"
 
 namespace halfspace::HS_LANES {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Adds the draw of one type of shader. Kernels take long to compile, so the function is instantiated in several translation units:
+// Adds a draw with a known type of shader. Kernels take long to compile, so several translation units instantiate the function:
 // add_surface_draws.cpp, add_phong_draws.cpp, add_metallic_draws.cpp, add_detailed_metallic_draws.cpp and add_other_draws.cpp.
 #pragma once
 
@@ -8,7 +8,7 @@
 
 namespace halfspace::HS_LANES {
 
-/// shader: that of the draw.
+/// shader: draw.shader, with its type.
 template <class S>
 void add_shader_draw(Pass& pass, const S& shader, const PreparedDraw& draw, const DrawState& state);
 
