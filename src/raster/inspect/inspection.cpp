@@ -14,7 +14,7 @@ class TraceTiles : public TileRunner {
   void run(const PassContext& context, const Attachments& attachments, Round round, const Workers& workers,
            PassStatistics& statistics) override {
     if (round.first) begin(context, attachments);
-    run_tiles(context, attachments, round, workers, statistics, trace_);
+    run_tiles(context, attachments, round, workers, statistics, {.trace = &trace_});
     name_primitives(context);
   }
 
@@ -54,7 +54,7 @@ class TimeTiles : public TileRunner {
   void run(const PassContext& context, const Attachments& attachments, Round round, const Workers& workers,
            PassStatistics& statistics) override {
     if (round.first) ms_.assign(static_cast<std::size_t>(context.tiles_x) * static_cast<std::size_t>(context.tiles_y), 0.0f);
-    run_tiles(context, attachments, round, workers, statistics, ms_);
+    run_tiles(context, attachments, round, workers, statistics, {.ms = ms_});
   }
 
  private:

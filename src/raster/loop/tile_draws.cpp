@@ -46,11 +46,10 @@ std::size_t small_run(const Chunk& chunk, std::span<const uint16_t> bin) {
 
 bool prefers_greater(CompareOp compare) { return compare == CompareOp::greater || compare == CompareOp::greater_equal; }
 
-template <class Statistics>
 class TileDraws {
  public:
-  TileDraws(const PassContext& context, bool has_color, TileMemory& memory, Statistics& statistics)
-      : context_(context), has_color_(has_color), memory_(memory), statistics_(statistics) {}
+  TileDraws(const PassContext& context, bool has_color, TileMemory& memory, PassStatistics& statistics, TileTrace* trace)
+      : context_(context), has_color_(has_color), memory_(memory), statistics_(statistics), trace_(trace) {}
 
   void run(int tile_x, int tile_y) {
     Tile& tile = memory_.tile;
@@ -89,21 +88,20 @@ class TileDraws {
     }
     finish_draw(here);
     if (occluder.is_visible() && has_color_) {
-      shade_full_tile(context_, occluder.triangle(), tile, memory_.shading, statistics_);
+      shade_full_tile(context_, occluder.triangle(), tile, memory_.shading, statistics_, trace_);
       return occluder.write_depth();
     }
     occluder.write();
-    if (pending_ && has_color_) shade_deferred(context_, tile, memory_.shading, statistics_);
+    if (pending_ && has_color_) shade_deferred(context_, tile, memory_.shading, statistics_, trace_);
     write_layers();
   }
 
  private:
   void begin_draw(const Draw& draw, std::optional<DrawInTile>& here) {
     finish_draw(here);
-    here.emplace(context_, draw, visibility_mode(draw), memory_.tile);
-    rasterize_ = rasterize_function<Statistics>(here->path);
-    rasterize_small_ = memory_.tile.samples > 1 ? rasterize_small_samples_function<Statistics>(here->path)
-                                                : rasterize_small_function<Statistics>(here->path);
+    here.emplace(context_, draw, visibility_mode(draw), memory_.tile, trace_);
+    rasterize_ = rasterize_function(*here);
+    rasterize_small_ = memory_.tile.samples > 1 ? rasterize_small_samples_function(*here) : rasterize_small_function(*here);
     if (draw.layer_group != layer_group_) write_layers();
     layer_group_ = draw.layer_group;
     if (draw.state.order_independent && memory_.layers.empty()) memory_.layers.clear(prefers_greater(draw.state.depth.compare));
@@ -116,7 +114,7 @@ class TileDraws {
       pending_ = true;
     }
     if (shades_later(d.mode)) return;
-    if (pending_ && has_color_) shade_deferred(context_, d.tile, memory_.shading, statistics_);
+    if (pending_ && has_color_) shade_deferred(context_, d.tile, memory_.shading, statistics_, trace_);
     pending_ = false;
   }
 
@@ -157,26 +155,25 @@ class TileDraws {
   // Blends the transparent layers over the colors of the tile. Pixels that are visible behind them have been shaded.
   void write_layers() {
     if (!memory_.layers.empty()) memory_.layers.write(memory_.tile.color[0]);
-    if constexpr (kTraces<Statistics>) statistics_.trace->write_layers(memory_.tile.color[0]);
+    if (trace_ != nullptr) trace_->write_layers(memory_.tile.color[0]);
   }
 
   const PassContext& context_;
   bool has_color_;
   TileMemory& memory_;
-  Statistics& statistics_;
-  RasterizeFunction<Statistics> rasterize_ = nullptr;  // of the current draw
-  RasterizeSmallFunction<Statistics> rasterize_small_ = nullptr;
+  PassStatistics& statistics_;
+  TileTrace* trace_;
+  RasterizeFunction rasterize_ = nullptr;  // of the current draw
+  RasterizeSmallFunction rasterize_small_ = nullptr;
   bool pending_ = false;      // Tile::visibility is in use: pixels may have been drawn that are not shaded yet
   uint32_t layer_group_ = 0;  // of the current draw
 };
 
 }  // namespace
 
-template <class Statistics>
-void draw_tile(const PassContext& context, bool has_color, int tile_x, int tile_y, TileMemory& memory, Statistics& statistics) {
-  TileDraws<Statistics>(context, has_color, memory, statistics).run(tile_x, tile_y);
+void draw_tile(const PassContext& context, bool has_color, int tile_x, int tile_y, TileMemory& memory, PassStatistics& statistics,
+               TileTrace* trace) {
+  TileDraws(context, has_color, memory, statistics, trace).run(tile_x, tile_y);
 }
-template void draw_tile(const PassContext&, bool, int, int, TileMemory&, PassStatistics&);
-template void draw_tile(const PassContext&, bool, int, int, TileMemory&, TracedStatistics&);
 
 }  // namespace halfspace::HS_LANES

@@ -8,8 +8,8 @@
 namespace halfspace::HS_LANES {
 
 /// Draws the primitives in the bins of a tile. The tile must be loaded. has_color: the pass has a color attachment.
-/// Statistics: as in visibility/visibility.h.
-template <class Statistics>
-void draw_tile(const PassContext& context, bool has_color, int tile_x, int tile_y, TileMemory& memory, Statistics& statistics);
+/// trace: records the fragments, unless it is null.
+void draw_tile(const PassContext& context, bool has_color, int tile_x, int tile_y, TileMemory& memory, PassStatistics& statistics,
+               TileTrace* trace);
 
 }  // namespace halfspace::HS_LANES

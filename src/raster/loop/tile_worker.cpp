@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <memory>
 #include <numeric>
 
 #include "halfspace/raster/loop/constant_tiles.h"
@@ -33,13 +34,10 @@ Target between_flushes(Target target, const std::vector<std::byte>& spill) {
   return target;
 }
 
-// Statistics: as in visibility/visibility.h.
-template <class Statistics, bool is_timed = false>
 class TileWorker {
  public:
-  // trace: null unless fragments are traced. ms: empty unless tiles are timed.
-  TileWorker(const PassContext& context, const Attachments& attachments, Round round, PassTrace* trace = nullptr, std::span<float> ms = {})
-      : context_(context), attachments_(attachments), round_(round), trace_(trace), ms_(ms) {}
+  TileWorker(const PassContext& context, const Attachments& attachments, Round round, const TileRecords& records)
+      : context_(context), attachments_(attachments), round_(round), trace_(records.trace), ms_(records.ms) {}
 
   void run(const Workers& workers, PassStatistics& statistics) const {
     std::vector<int> rows(static_cast<std::size_t>(context_.tiles_y));
@@ -48,13 +46,13 @@ class TileWorker {
     const int row_count = static_cast<int>(rows.size());
     const int length = std::clamp(context_.tiles_x * row_count / (workers.threads() * kTasksPerThread), 1, kMaxTilesPerTask);
     const int strips_x = (context_.tiles_x + length - 1) / length;
-    std::vector<Statistics> by_strip(static_cast<std::size_t>(strips_x * row_count));
+    std::vector<PassStatistics> by_strip(static_cast<std::size_t>(strips_x * row_count));
     workers.for_each(strips_x * row_count, [&](int i) {
       const int x0 = i % strips_x * length;
       run_strip(x0, std::min(x0 + length, context_.tiles_x), rows[static_cast<std::size_t>(i / strips_x)],
                 by_strip[static_cast<std::size_t>(i)]);
     });
-    for (const Statistics& s : by_strip) statistics += s;
+    for (const PassStatistics& s : by_strip) statistics += s;
   }
 
  private:
@@ -63,7 +61,7 @@ class TileWorker {
   static constexpr int kMaxTilesPerTask = 8, kTasksPerThread = 8;
 
   // Returns true if this is the only round and there is no post step, so that constant colors can be written directly to the images.
-  bool is_alone() const { return !kTraces<Statistics> && round_.first && round_.last && attachments_.post.kernel == nullptr; }
+  bool is_alone() const { return trace_ == nullptr && round_.first && round_.last && attachments_.post.kernel == nullptr; }
 
   // Fills all rows of tiles with a constant color. This is faster than filling them tile by tile. Returns the remaining rows.
   std::vector<int> fill_constant_rows(const Workers& workers, PassStatistics& statistics) const {
@@ -89,9 +87,9 @@ class TileWorker {
   }
 
   // Processes tiles [tile_x0, tile_x1) of a row.
-  void run_strip(int tile_x0, int tile_x1, int tile_y, Statistics& statistics) const {
+  void run_strip(int tile_x0, int tile_x1, int tile_y, PassStatistics& statistics) const {
     const TileMemoryLease memory;
-    if constexpr (kTraces<Statistics>) statistics.trace = std::make_unique<TileTrace>();
+    const std::unique_ptr<TileTrace> trace = trace_ != nullptr ? std::make_unique<TileTrace>() : nullptr;
     const bool alone = is_alone();
     ConstantArea area{};  // area of the preceding tiles that is not filled yet
     for (int x = tile_x0; x < tile_x1; ++x) {
@@ -104,11 +102,10 @@ class TileWorker {
       fill_images(context_, attachments_, area);
       area = is_constant ? ConstantArea{pixels, draw} : ConstantArea{};
       // If this is the only round, a tile without geometry has a constant color and does not get here.
-      if (!is_constant) run_measured_tile(x, tile_y, alone || is_drawn(x, tile_y), *memory, statistics);
+      if (!is_constant) run_measured_tile(x, tile_y, alone || is_drawn(x, tile_y), *memory, statistics, trace.get());
     }
     fill_images(context_, attachments_, area);
     finish_stores();
-    if constexpr (kTraces<Statistics>) statistics.trace.reset();
   }
 
   bool is_drawn(int tile_x, int tile_y) const {
@@ -121,18 +118,15 @@ class TileWorker {
     if (round_.last) record_values(tile, *trace_);
   }
 
-  void run_measured_tile(int tile_x, int tile_y, bool drawn, TileMemory& memory, Statistics& statistics) const {
-    if constexpr (is_timed) {
-      const auto start = std::chrono::steady_clock::now();
-      run_tile(tile_x, tile_y, drawn, memory, statistics);
-      const std::chrono::duration<float, std::milli> time = std::chrono::steady_clock::now() - start;
-      ms_[static_cast<std::size_t>(tile_y * context_.tiles_x + tile_x)] += time.count();
-    } else {
-      run_tile(tile_x, tile_y, drawn, memory, statistics);
-    }
+  void run_measured_tile(int tile_x, int tile_y, bool drawn, TileMemory& memory, PassStatistics& statistics, TileTrace* trace) const {
+    if (ms_.empty()) return run_tile(tile_x, tile_y, drawn, memory, statistics, trace);
+    const auto start = std::chrono::steady_clock::now();
+    run_tile(tile_x, tile_y, drawn, memory, statistics, trace);
+    const std::chrono::duration<float, std::milli> time = std::chrono::steady_clock::now() - start;
+    ms_[static_cast<std::size_t>(tile_y * context_.tiles_x + tile_x)] += time.count();
   }
 
-  void run_tile(int tile_x, int tile_y, bool drawn, TileMemory& memory, Statistics& statistics) const {
+  void run_tile(int tile_x, int tile_y, bool drawn, TileMemory& memory, PassStatistics& statistics, TileTrace* trace) const {
     if (drawn) ++statistics.tiles_touched;
     const std::vector<ColorTarget>& colors = attachments_.colors;
     // If nothing is drawn in a tile, its attachments are stored only if they are cleared or if the first of several rounds fills the
@@ -150,12 +144,10 @@ class TileWorker {
     Tile& tile = memory.tile;
     place_tile(tile, tile_x, tile_y);
     load(tile, replaces_color(tile_x, tile_y));
-    if (drawn) draw_tile(context_, attachments_.has_color, tile_x, tile_y, memory, statistics);
-    if constexpr (kTraces<Statistics>) finish_trace(tile, tile_x, tile_y, *statistics.trace);
+    if (drawn) draw_tile(context_, attachments_.has_color, tile_x, tile_y, memory, statistics, trace);
+    if (trace != nullptr) finish_trace(tile, tile_x, tile_y, *trace);
     store(tile, changes_color, changes_depth);
-    if constexpr (kTraces<Statistics>) {
-      if (round_.last) record_resolved(tile, *trace_);
-    }
+    if (trace != nullptr && round_.last) record_resolved(tile, *trace_);
     if (has_post_step) run_post_step(attachments_.post, context_.width, context_.height, tile, memory.post_color);
   }
 
@@ -242,20 +234,10 @@ void keep_between_flushes(const PassContext& context, Attachments& attachments) 
   spill(attachments.depth, attachments.depth_spill);
 }
 
-void run_tiles(const PassContext& context, const Attachments& attachments, Round round, const Workers& workers,
-               PassStatistics& statistics) {
-  TileWorker<PassStatistics>(context, attachments, round).run(workers, statistics);
-}
-
 void run_tiles(const PassContext& context, const Attachments& attachments, Round round, const Workers& workers, PassStatistics& statistics,
-               PassTrace& trace) {
-  trace.rounds.emplace_back(static_cast<std::size_t>(context.tiles_x * context.tiles_y));
-  TileWorker<TracedStatistics>(context, attachments, round, &trace).run(workers, statistics);
-}
-
-void run_tiles(const PassContext& context, const Attachments& attachments, Round round, const Workers& workers, PassStatistics& statistics,
-               std::span<float> ms) {
-  TileWorker<PassStatistics, true>(context, attachments, round, nullptr, ms).run(workers, statistics);
+               const TileRecords& records) {
+  if (records.trace != nullptr) records.trace->rounds.emplace_back(static_cast<std::size_t>(context.tiles_x * context.tiles_y));
+  TileWorker(context, attachments, round, records).run(workers, statistics);
 }
 
 }  // namespace halfspace::HS_LANES

@@ -16,17 +16,18 @@ namespace halfspace::HS_LANES {
 /// Allocates the buffers that hold the attachments between rounds.
 void keep_between_flushes(const PassContext& context, Attachments& attachments);
 
+/// What to record about the tiles of a round.
+struct TileRecords {
+  /// Unless it is null, the round is added to it. The draw, instance and primitive of the fragments are not set. Tiles with a constant color
+  /// are drawn like all others.
+  PassTrace* trace = nullptr;
+  /// Unless it is empty, the time of each tile in milliseconds is added to it, row by row from the lower left.
+  std::span<float> ms = {};
+};
+
 /// Runs all tiles of one round.
-void run_tiles(const PassContext& context, const Attachments& attachments, Round round, const Workers& workers, PassStatistics& statistics);
-
-/// The same, but also adds the round to the trace. The draw, instance and primitive of the fragments are not set. Tiles with a constant
-/// color are drawn like all others.
 void run_tiles(const PassContext& context, const Attachments& attachments, Round round, const Workers& workers, PassStatistics& statistics,
-               PassTrace& trace);
-
-/// Like the first one, but also adds the time of each tile in milliseconds to ms, row by row from the lower left.
-void run_tiles(const PassContext& context, const Attachments& attachments, Round round, const Workers& workers, PassStatistics& statistics,
-               std::span<float> ms);
+               const TileRecords& records = {});
 
 /// Runs the tiles of each round of a pass.
 class TileRunner {

@@ -27,40 +27,39 @@ void trace_visible(TriangleId uniform, std::span<const PacketMask> packets, cons
     trace.set_visible(uniform, tile, packets[i].packet, packets[i].lanes, out.packet_color(0, i));
 }
 
-// Returns the pixels that the kernel of a draw can write directly, or null. A trace needs the colors, so the kernel returns them instead.
-template <class Statistics>
-int32_t* direct_codes(const Draw& draw, Tile& tile) {
-  const bool is_single =
-      !kTraces<Statistics> && tile.color_count == 1 && tile.color[0].format == ColorFormat::rgba8 && !draw.kernels.is_constant;
-  return is_single ? reinterpret_cast<int32_t*>(tile.color[0].bytes.data()) : nullptr;
+// Returns true if the kernel of a draw can write its colors to the tile. A trace needs the colors, so the kernel returns them instead.
+bool writes_directly(const Draw& draw, const Tile& tile, const TileTrace* trace) {
+  return trace == nullptr && tile.color_count == 1 && !draw.kernels.is_constant;
+}
+
+// Returns the pixels that the kernel of a draw can write as RGBA8, or null.
+int32_t* direct_codes(const Draw& draw, Tile& tile, const TileTrace* trace) {
+  const bool is_direct = writes_directly(draw, tile, trace) && tile.color[0].format == ColorFormat::rgba8;
+  return is_direct ? reinterpret_cast<int32_t*>(tile.color[0].bytes.data()) : nullptr;
 }
 
 // The same for other formats. Deferred draws replace all channels.
-template <class Statistics>
-WriteTarget deferred_target(const Draw& draw, Tile& tile) {
-  if (kTraces<Statistics> || tile.color_count != 1 || draw.kernels.is_constant) return {};
+WriteTarget direct_target(const Draw& draw, Tile& tile, const TileTrace* trace) {
+  if (!writes_directly(draw, tile, trace)) return {};
   return {write_programs(tile.color[0].format, {}).packet, &tile.color[0]};
 }
 
 // Shades the packets of one draw.
-template <class S>
 class DrawShading {
  public:
-  using Statistics = S;
-
-  DrawShading(const PassContext& context, Tile& tile, const Job& job, const Draw& draw, DeferredShading& memory, Statistics& statistics)
+  DrawShading(const PassContext& context, Tile& tile, const Job& job, const Draw& draw, DeferredShading& memory, TileTrace* trace)
       : context_(context),
         tile_(tile),
         job_(job),
         draw_(draw),
         memory_(memory),
-        statistics_(statistics),
-        codes_(direct_codes<Statistics>(draw, tile)) {
-    if (codes_ == nullptr && !job.spreads) target_ = deferred_target<Statistics>(draw, tile);
+        trace_(trace),
+        codes_(direct_codes(draw, tile, trace)) {
+    if (codes_ == nullptr && !job.spreads) target_ = direct_target(draw, tile, trace);
   }
 
   void shade(std::span<const PacketMask> packets) {
-    const bool may_pack = !kTraces<Statistics> && !draw_.shades_samples && can_pack(draw_, tile_);
+    const bool may_pack = trace_ == nullptr && !draw_.shades_samples && can_pack(draw_, tile_);
     const bool packs = may_pack && pays_to_pack(packets);
     if (packs) return shade_packed(packets);
     if (!job_.spreads) return shade_plane(packets, job_.plane);
@@ -168,7 +167,7 @@ class DrawShading {
     const FragmentOutput& out = memory_.output;
     if (!job_.spreads) {
       write_colors(draw_, out, 0, packets, tile_);
-      if constexpr (kTraces<Statistics>) trace_visible(kNoTriangle, packets, out, tile_, *statistics_.trace);
+      if (trace_ != nullptr) trace_visible(kNoTriangle, packets, out, tile_, *trace_);
       return;
     }
     for (std::size_t i = 0; i < packets.size(); ++i) {
@@ -176,8 +175,7 @@ class DrawShading {
         if (!any(mask)) return;
         const PacketMask sample{static_cast<uint16_t>(sample_packet), static_cast<uint16_t>(bits(mask))};
         write_colors(draw_, out, i, std::span(&sample, 1), tile_);
-        if constexpr (kTraces<Statistics>)
-          statistics_.trace->set_visible(kNoTriangle, tile_, sample_packet, sample.lanes, out.packet_color(0, i));
+        if (trace_ != nullptr) trace_->set_visible(kNoTriangle, tile_, sample_packet, sample.lanes, out.packet_color(0, i));
       });
     }
   }
@@ -187,16 +185,15 @@ class DrawShading {
   const Job& job_;
   const Draw& draw_;
   DeferredShading& memory_;
-  Statistics& statistics_;
+  TileTrace* trace_;
   int32_t* codes_;      // colors of the tile, if the kernel can encode them
   WriteTarget target_;  // the tile, if the kernel can write colors to it in another format
 };
 
 // Shades the work draw by draw, so that each shader runs on full batches. The order of the draws does not affect the result, because pixels
 // are independent.
-template <class Statistics>
 void run_job(const PassContext& context, Tile& tile, const Job& job, std::span<ShadingWork> work, DeferredShading& memory,
-             Statistics& statistics) {
+             PassStatistics& statistics, TileTrace* trace) {
   constexpr int max_passes = 8;  // over the work list of a tile with many draws, before the list is sorted
   const auto by_draw = [](const ShadingWork& a, const ShadingWork& b) { return a.draw < b.draw; };
   bool is_sorted = std::ranges::is_sorted(work, by_draw);
@@ -209,25 +206,25 @@ void run_job(const PassContext& context, Tile& tile, const Job& job, std::span<S
     const std::size_t count = is_sorted ? take_sorted_draw(work, memory.packets) : take_draw(work, memory.packets);
     const std::span<const PacketMask> packets = std::span(memory.packets).first(count);
     statistics.fragments_shaded += pixel_count(packets);
-    DrawShading(context, tile, job, draw, memory, statistics).shade(packets);
+    DrawShading(context, tile, job, draw, memory, trace).shade(packets);
   }
 }
 
-template <class Statistics>
-void shade_deferred_samples(const PassContext& context, Tile& tile, DeferredShading& memory, Statistics& statistics) {
+void shade_deferred_samples(const PassContext& context, Tile& tile, DeferredShading& memory, PassStatistics& statistics,
+                            TileTrace* trace) {
   const bool per_sample = may_shade_samples(context);
   for (int s = 0; s < tile.samples && per_sample; ++s) {
     const Job job{tile.visibility.data(), sample_plane(tile.samples, s, tile.size), sample_position(tile.samples, s)};
-    run_job(context, tile, job, list_work(context, tile, job.ids, job.plane, Share::per_sample, memory.work), memory, statistics);
+    run_job(context, tile, job, list_work(context, tile, job.ids, job.plane, Share::per_sample, memory.work), memory, statistics, trace);
   }
   run_job(context, tile, {memory.layers.data(), {0, 0}, kPixelCenter, true}, list_layers(context, tile, memory.layers, memory.work), memory,
-          statistics);
+          statistics, trace);
 }
 
 }  // namespace
 
-template <class Statistics>
-void shade_full_tile(const PassContext& context, TriangleId id, Tile& tile, DeferredShading& memory, Statistics& statistics) {
+void shade_full_tile(const PassContext& context, TriangleId id, Tile& tile, DeferredShading& memory, PassStatistics& statistics,
+                     TileTrace* trace) {
   const Draw& draw = draw_of(context, id);
   statistics.fragments_shaded += kMaxTilePixels;
   std::fill_n(memory.layers.begin(), kPackets, id);
@@ -239,8 +236,8 @@ void shade_full_tile(const PassContext& context, TriangleId id, Tile& tile, Defe
                        .packets = memory.packets.data(),
                        .count = kPackets},
                       &memory.output,
-                      direct_codes<Statistics>(draw, tile)};
-  if (batch.codes == nullptr) batch.target = deferred_target<Statistics>(draw, tile);
+                      direct_codes(draw, tile, trace)};
+  if (batch.codes == nullptr) batch.target = direct_target(draw, tile, trace);
   if (batch.codes != nullptr || batch.target.program != nullptr) return draw.kernels.color(draw.shader.get(), batch);
   batch.count = kPacketBatch;
   for (std::size_t first = 0; first < kPackets; first += kPacketBatch) {
@@ -248,22 +245,17 @@ void shade_full_tile(const PassContext& context, TriangleId id, Tile& tile, Defe
     draw.kernels.color(draw.shader.get(), batch);
     const std::span<const PacketMask> packets = std::span(memory.packets).subspan(first, kPacketBatch);
     write_colors(draw, memory.output, 0, packets, tile);
-    if constexpr (kTraces<Statistics>) trace_visible(id, packets, memory.output, tile, *statistics.trace);
+    if (trace != nullptr) trace_visible(id, packets, memory.output, tile, *trace);
   }
 }
-template void shade_full_tile(const PassContext&, TriangleId, Tile&, DeferredShading&, PassStatistics&);
-template void shade_full_tile(const PassContext&, TriangleId, Tile&, DeferredShading&, TracedStatistics&);
 
-template <class Statistics>
-void shade_deferred(const PassContext& context, Tile& tile, DeferredShading& memory, Statistics& statistics) {
+void shade_deferred(const PassContext& context, Tile& tile, DeferredShading& memory, PassStatistics& statistics, TileTrace* trace) {
   if (tile.samples == 1) {
     const Job job{tile.visibility.data(), {0, 0}, kPixelCenter};
-    run_job(context, tile, job, list_work(context, tile, job.ids, job.plane, Share::per_pixel, memory.work), memory, statistics);
+    run_job(context, tile, job, list_work(context, tile, job.ids, job.plane, Share::per_pixel, memory.work), memory, statistics, trace);
   } else {
-    shade_deferred_samples(context, tile, memory, statistics);
+    shade_deferred_samples(context, tile, memory, statistics, trace);
   }
 }
-template void shade_deferred(const PassContext&, Tile&, DeferredShading&, PassStatistics&);
-template void shade_deferred(const PassContext&, Tile&, DeferredShading&, TracedStatistics&);
 
 }  // namespace halfspace::HS_LANES

@@ -19,13 +19,12 @@ struct DeferredShading {
   alignas(64) std::array<int32_t, kMaxTilePixels> codes;  ///< shaded colors of multisampled pixels, indexed like `layers`
 };
 
-/// Shades all pixels of the tile that have a triangle in Tile::visibility, which is not changed, and writes their colors. Statistics: see
-/// visibility/visibility.h.
-template <class Statistics>
-void shade_deferred(const PassContext& context, Tile& tile, DeferredShading& memory, Statistics& statistics);
+/// Shades all pixels of the tile that have a triangle in Tile::visibility, which is not changed, and writes their colors. trace: records
+/// them, unless it is null.
+void shade_deferred(const PassContext& context, Tile& tile, DeferredShading& memory, PassStatistics& statistics, TileTrace* trace);
 
 /// The same for a full-size tile in which all pixels show the same triangle.
-template <class Statistics>
-void shade_full_tile(const PassContext& context, TriangleId id, Tile& tile, DeferredShading& memory, Statistics& statistics);
+void shade_full_tile(const PassContext& context, TriangleId id, Tile& tile, DeferredShading& memory, PassStatistics& statistics,
+                     TileTrace* trace);
 
 }  // namespace halfspace::HS_LANES

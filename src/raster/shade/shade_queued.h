@@ -12,9 +12,8 @@ namespace halfspace::HS_LANES {
 
 /// Shades all packets of a queue, which is empty afterwards: runs the remaining tests, and blends and writes colors, or adds them to
 /// `layers` for draws with DrawState::order_independent. d: the draw of the queue, with a mode other than those of shades_later(). output,
-/// packed: scratch memory. Statistics: see visibility/visibility.h.
-template <class Statistics>
+/// packed: scratch memory.
 void shade_queued(const DrawInTile& d, PacketQueue& queue, TransparentLayers& layers, FragmentOutput& output, PackedFragments& packed,
-                  Statistics& statistics);
+                  PassStatistics& statistics);
 
 }  // namespace halfspace::HS_LANES

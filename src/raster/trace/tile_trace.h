@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Records what the stages of a tile do. The functions of visibility/ and shade/ and the tile worker are templates over the type of their
-// statistics. Their instantiation for TracedStatistics records fragments; the one for PassStatistics contains no trace code.
+// Records what the stages of a tile do. Shading calls it if there is a trace; visibility has writers of its own for traced draws
+// (visibility/traced_writer.h), so that the loops over packets contain no trace code.
 #pragma once
 
-#include <memory>
+#include <vector>
 
 #include "halfspace/raster/tile/blend.h"
 #include "halfspace/raster/tile/tile.h"
@@ -60,13 +60,6 @@ class TileTrace {
   std::array<int32_t, kMaxTilePixels> last_;  // latest entry of each slot
   std::vector<std::size_t> layers_;           // entries of transparent layers that have not been blended yet
 };
-
-/// Statistics of a task that traces its fragments.
-struct TracedStatistics : PassStatistics {
-  std::unique_ptr<TileTrace> trace;
-};
-template <class Statistics>
-inline constexpr bool kTraces = std::is_same_v<Statistics, TracedStatistics>;
 
 /// Copies the colors of all samples of the tile to PassTrace::values.
 void record_values(const Tile& tile, PassTrace& out);

@@ -27,13 +27,9 @@ HS_INLINE MaskOf<R> compare(CompareOp op, R z, R stored) {
 /// Returns the lanes of mask that pass the stencil test.
 Mask stencil_test(const StencilFace& face, const Tile& tile, int packet, Mask mask);
 
-/// The lanes of a packet that pass the stencil test, and those of them that also pass the depth test.
-struct StencilDepthTest {
-  Mask stencil_passed, passed;
-};
-/// Runs the stencil test and, if with_depth is set, the depth test for the lanes in mask, and updates the stencil values. z: depth of the
-/// fragments, represented as in Tile::depth.
-StencilDepthTest test_and_update_stencil(const StencilFace& face, Tile& tile, int packet, Mask mask, bool with_depth, CompareOp op, Real z);
+/// Runs the stencil test and, if with_depth is set, the depth test for the lanes in mask, and updates the stencil values. Returns the lanes
+/// that pass. z: depth of the fragments, represented as in Tile::depth.
+Mask test_and_update_stencil(const StencilFace& face, Tile& tile, int packet, Mask mask, bool with_depth, CompareOp op, Real z);
 
 /// Returns true if a draw has a depth test in this tile.
 inline bool tests_depth(const DepthState& state, const Tile& tile) { return state.test && tile.depth_format != DepthFormat::none; }

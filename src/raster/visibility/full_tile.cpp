@@ -16,8 +16,7 @@ DepthBounds depth_of(const DrawInTile& d, const Triangle& t) {
 
 }  // namespace
 
-template <class Statistics>
-bool FullTileOccluder::test_or_write(const DrawInTile& d, const Triangle& t, TriangleId id, Statistics& statistics) {
+bool FullTileOccluder::test_or_write(const DrawInTile& d, const Triangle& t, TriangleId id, PassStatistics& statistics) {
   const bool is_opaque = d.path == TilePath::nearest || d.path == TilePath::opaque;
   const bool replaces_depth = d.tile.depth_format == DepthFormat::none || (d.tests && d.draw.state.depth.write);
   const bool is_occluder =
@@ -29,13 +28,13 @@ bool FullTileOccluder::test_or_write(const DrawInTile& d, const Triangle& t, Tri
                            : pending_ ? test_bounds(op, depth.low, depth.high, pending_->depth.low, pending_->depth.high)
                                       : test_tile(op, d.tile, depth.low, depth.high);
     if (test == BlockTest::none_passes) {
-      if constexpr (kTraces<Statistics>) trace_rejected(d, t, id, *statistics.trace);
+      if (d.trace != nullptr) trace_rejected(d, t, id);
       return true;
     }
     if (is_occluder && test == BlockTest::all_pass) {
       statistics.samples_tested += kMaxTilePixels;
       statistics.samples_passed += kMaxTilePixels;
-      if constexpr (kTraces<Statistics>) trace_passed(d, t, id, *statistics.trace);
+      if (d.trace != nullptr) trace_passed(d, t, id);
       if (is_visible() && d.mode != VisibilityMode::deferred) write();  // the new occluder does not replace its color
       pending_.emplace(Pending{d, &t, id, depth});
       return true;
@@ -45,21 +44,16 @@ bool FullTileOccluder::test_or_write(const DrawInTile& d, const Triangle& t, Tri
   return false;
 }
 
-template bool FullTileOccluder::test_or_write(const DrawInTile&, const Triangle&, TriangleId, PassStatistics&);
-template bool FullTileOccluder::test_or_write(const DrawInTile&, const Triangle&, TriangleId, TracedStatistics&);
-
-void FullTileOccluder::trace_rejected(const DrawInTile& d, const Triangle& t, TriangleId id, TileTrace& trace) const {
-  const SampleGrid grid(d.tile, 0);
-  const DepthBounds depth = depth_of(d, t);
-  const RejectedPrimitive primitive{d, t, id, grid, depth.low, depth.high};
+void FullTileOccluder::trace_rejected(const DrawInTile& d, const Triangle& t, TriangleId id) const {
+  const RejectedPrimitive primitive{d, t, id, SampleGrid(d.tile, 0), depth_of(d, t)};
   if (pending_) {
-    trace_rejected_tile(primitive, pending_->depth.low, pending_->depth.high, trace);
+    trace_rejected_tile(primitive, pending_->depth, *d.trace);
   } else {
-    trace_rejected_tile(primitive, trace);
+    trace_rejected_tile(primitive, *d.trace);
   }
 }
 
-void FullTileOccluder::trace_passed(const DrawInTile& d, const Triangle& t, TriangleId id, TileTrace& trace) const {
+void FullTileOccluder::trace_passed(const DrawInTile& d, const Triangle& t, TriangleId id) const {
   const SampleGrid grid(d.tile, 0);
   const TileEdges tile_edges{};
   const BlockEdges edges(tile_edges);
@@ -72,7 +66,7 @@ void FullTileOccluder::trace_passed(const DrawInTile& d, const Triangle& t, Tria
   for (int p = 0; p < kPackets; ++p) {
     const int x = packet_x(p), y = packet_y(p);
     const Real stored = pending_ ? before.at(edges, x, y) : load<Real>(&d.tile.depth[static_cast<std::size_t>(p) * kLanes]);
-    trace.add(id, p, kAllBits<Mask>, outcome, plane.at(edges, x, y), stored, d.tests);
+    d.trace->add(id, p, kAllBits<Mask>, outcome, plane.at(edges, x, y), stored, d.tests);
   }
 }
 

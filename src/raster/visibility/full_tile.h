@@ -6,7 +6,6 @@
 
 #include <optional>
 
-#include "halfspace/raster/trace/tile_trace.h"
 #include "halfspace/raster/visibility/visibility.h"
 
 namespace halfspace::HS_LANES {
@@ -18,8 +17,7 @@ class FullTileOccluder {
   /// Processes the next triangle of the tile, which is `index` of chunk `chunk`. Returns true if nothing remains to be done: either the
   /// triangle passes everywhere and has become the pending occluder, or it passes nowhere. Otherwise, the triangle must be rasterized, and
   /// any pending occluder has been written.
-  template <class Statistics>
-  bool draw(const DrawInTile& d, uint32_t chunk, uint32_t index, Statistics& statistics) {
+  bool draw(const DrawInTile& d, uint32_t chunk, uint32_t index, PassStatistics& statistics) {
     const Triangle& t = d.context.chunks[chunk].triangles[index];
     if (!pending_ && !may_cover(t)) return false;  // the common case
     return test_or_write(d, t, triangle_id(chunk, index), statistics);
@@ -38,10 +36,9 @@ class FullTileOccluder {
 
  private:
   static bool may_cover(const Triangle& t) { return !t.is(kSmall | kPointSprite | kLine); }
-  template <class Statistics>
-  bool test_or_write(const DrawInTile& d, const Triangle& t, TriangleId id, Statistics& statistics);
-  void trace_rejected(const DrawInTile& d, const Triangle& t, TriangleId id, TileTrace& trace) const;
-  void trace_passed(const DrawInTile& d, const Triangle& t, TriangleId id, TileTrace& trace) const;
+  bool test_or_write(const DrawInTile& d, const Triangle& t, TriangleId id, PassStatistics& statistics);
+  void trace_rejected(const DrawInTile& d, const Triangle& t, TriangleId id) const;
+  void trace_passed(const DrawInTile& d, const Triangle& t, TriangleId id) const;
 
   struct Pending {
     DrawInTile draw;

@@ -3,11 +3,9 @@
 // Rejects small triangles with hierarchical Z.
 #pragma once
 
-#include "halfspace/raster/trace/tile_trace.h"
 #include "halfspace/raster/visibility/block_edges.h"
 #include "halfspace/raster/visibility/depth_bounds.h"
 #include "halfspace/raster/visibility/depth_plane.h"
-#include "halfspace/raster/visibility/trace_rejected.h"
 #include "halfspace/raster/visibility/visibility.h"
 
 namespace halfspace::HS_LANES {
@@ -33,17 +31,14 @@ bool is_hidden(const DrawInTile& d, const Triangle& t, const TileRect& rect, con
   return all_blocks(rect, [&](int block) { return test_block(op, d.tile, block, z.low, z.high) == BlockTest::none_passes; });
 }
 
-/// Records the fragments of a hidden triangle in one sample plane if the pass is traced.
+/// Reports the blocks of a hidden triangle to the writer. rect: as above, in the plane of the sample.
 template <class Writer>
-void trace_hidden(const DrawInTile& d, const Triangle& t, TriangleId id, const TileRect& rect, int sample, const Writer& writer) {
-  if constexpr (kTraces<typename Writer::Statistics>) {
-    const DepthBounds z = depth_bounds(t, d.draw, d.tile.depth_format);
-    const SampleGrid grid(d.tile, sample);
-    all_blocks(rect, [&](int block) {
-      trace_rejected_block({d, t, id, grid, z.low, z.high}, block, *writer.statistics().trace);
-      return true;
-    });
-  }
+void report_hidden(const DrawInTile& d, const Triangle& t, TriangleId id, const TileRect& rect, std::size_t sample, const Writer& writer) {
+  const DepthBounds z = depth_bounds(t, d.draw, d.tile.depth_format);
+  all_blocks(rect, [&](int block) {
+    writer.block_rejected(t, id, sample, block, z);
+    return true;
+  });
 }
 
 }  // namespace halfspace::HS_LANES

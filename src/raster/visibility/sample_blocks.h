@@ -12,7 +12,6 @@
 #include "halfspace/raster/visibility/depth_bounds.h"
 #include "halfspace/raster/visibility/depth_plane.h"
 #include "halfspace/raster/visibility/sample_set.h"
-#include "halfspace/raster/visibility/trace_rejected.h"
 
 namespace halfspace::HS_LANES {
 
@@ -96,12 +95,7 @@ class SampleBlocks {
   /// Returns true if the depth test rejects depths in [z.low, z.high] everywhere in the tile.
   bool rejects_tile(const DepthBounds& z) {
     if (!writer_.tests() || test_tile(writer_.compare_op(), d_.tile, z.low, z.high) != BlockTest::none_passes) return false;
-    if constexpr (kTraces<typename Writer::Statistics>) {
-      for (const std::size_t s : samples_.indices()) {
-        const SampleGrid grid(d_.tile, static_cast<int>(s));
-        trace_rejected_tile({d_, triangle_, id_, grid, z.low, z.high}, *writer_.statistics().trace);
-      }
-    }
+    for (const std::size_t s : samples_.indices()) writer_.tile_rejected(triangle_, id_, s, z);
     return true;
   }
 
@@ -118,7 +112,7 @@ class SampleBlocks {
       const BlockTest test =
           writer_.tests() ? test_block(writer_.compare_op(), d_.tile, block_of(s), z.low, z.high, may_refresh) : BlockTest::all_pass;
       if (test == BlockTest::none_passes) {
-        trace_rejected(s);
+        writer_.block_rejected(triangle_, id_, s, block_of(s), z);
         continue;
       }
       kept_[kept_count_++] = s;
@@ -209,13 +203,6 @@ class SampleBlocks {
 
   bool passes(std::size_t s) const { return (passes_ >> s & 1) != 0; }
   int block_of(std::size_t s) const { return block_ + samples_.shift[s] / kPacketsPerBlock; }
-
-  void trace_rejected([[maybe_unused]] std::size_t s) {
-    if constexpr (kTraces<typename Writer::Statistics>) {
-      const SampleGrid grid(d_.tile, static_cast<int>(s));
-      trace_rejected_block({d_, triangle_, id_, grid, z_.low, z_.high}, block_of(s), *writer_.statistics().trace);
-    }
-  }
 
   const DrawInTile& d_;
   const SampleSet& samples_;

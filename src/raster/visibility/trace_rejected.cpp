@@ -11,12 +11,12 @@ namespace {
 struct ComparedDepths {
   float tested, stored;
 };
-ComparedDepths compared_depths(CompareOp op, const RejectedPrimitive& p, float stored_low, float stored_high) {
+ComparedDepths compared_depths(CompareOp op, const DepthBounds& tested, const DepthBounds& stored) {
   switch (op) {
     case CompareOp::less:
-    case CompareOp::less_equal: return {p.low, stored_high};
-    case CompareOp::equal: return p.high < stored_low ? ComparedDepths{p.high, stored_low} : ComparedDepths{p.low, stored_high};
-    default: return {p.high, stored_low};
+    case CompareOp::less_equal: return {tested.low, stored.high};
+    case CompareOp::equal: return tested.high < stored.low ? ComparedDepths{tested.high, stored.low} : ComparedDepths{tested.low, stored.high};
+    default: return {tested.high, stored.low};
   }
 }
 
@@ -54,16 +54,16 @@ void trace_rejected_block(const RejectedPrimitive& p, int block, TileTrace& trac
   const auto b = static_cast<std::size_t>(block);
   const int x = block % kBlocksPerRow * kBlockSize, y = block / kBlocksPerRow * kBlockSize;
   add_in_area(p, {x, y, x + kBlockSize, y + kBlockSize}, FragmentOutcome::block_rejected,
-              compared_depths(p.d.draw.state.depth.compare, p, p.d.tile.hiz_min[b], p.d.tile.hiz_max[b]), trace);
+              compared_depths(p.d.draw.state.depth.compare, p.z, {p.d.tile.hiz_min[b], p.d.tile.hiz_max[b]}), trace);
 }
 
-void trace_rejected_tile(const RejectedPrimitive& p, float stored_low, float stored_high, TileTrace& trace) {
+void trace_rejected_tile(const RejectedPrimitive& p, const DepthBounds& stored, TileTrace& trace) {
   add_in_area(p, {p.grid.plane.x, p.grid.plane.y, p.grid.plane.x + p.d.tile.size, p.grid.plane.y + p.d.tile.size},
-              FragmentOutcome::tile_rejected, compared_depths(p.d.draw.state.depth.compare, p, stored_low, stored_high), trace);
+              FragmentOutcome::tile_rejected, compared_depths(p.d.draw.state.depth.compare, p.z, stored), trace);
 }
 
 void trace_rejected_tile(const RejectedPrimitive& p, TileTrace& trace) {
-  trace_rejected_tile(p, *std::ranges::min_element(p.d.tile.hiz_min), *std::ranges::max_element(p.d.tile.hiz_max), trace);
+  trace_rejected_tile(p, {*std::ranges::min_element(p.d.tile.hiz_min), *std::ranges::max_element(p.d.tile.hiz_max)}, trace);
 }
 
 }  // namespace halfspace::HS_LANES

@@ -7,6 +7,7 @@
 #include "halfspace/raster/trace/tile_trace.h"
 #include "halfspace/raster/visibility/block_edges.h"
 #include "halfspace/raster/visibility/depth_bounds.h"
+#include "halfspace/raster/visibility/depth_plane.h"
 #include "halfspace/raster/visibility/visibility.h"
 
 namespace halfspace::HS_LANES {
@@ -16,15 +17,15 @@ struct RejectedPrimitive {
   const DrawInTile& d;
   const Triangle& triangle;
   TriangleId id;
-  const SampleGrid& grid;
-  float low, high;  ///< bounds of its depth
+  SampleGrid grid;
+  DepthBounds z;  ///< bounds of its depth
 };
 
 /// Records that a block was rejected because of its depth bounds, which must not have changed since then.
 void trace_rejected_block(const RejectedPrimitive& primitive, int block, TileTrace& trace);
 
-/// Records that the tile was rejected. stored_low, stored_high: depth bounds of the tile.
-void trace_rejected_tile(const RejectedPrimitive& primitive, float stored_low, float stored_high, TileTrace& trace);
+/// Records that the tile was rejected. stored: depth bounds of the tile.
+void trace_rejected_tile(const RejectedPrimitive& primitive, const DepthBounds& stored, TileTrace& trace);
 
 /// The same, with the bounds over all blocks of the tile.
 void trace_rejected_tile(const RejectedPrimitive& primitive, TileTrace& trace);

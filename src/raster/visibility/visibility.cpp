@@ -67,7 +67,7 @@ TilePath choose_path(const Draw& draw, VisibilityMode mode, const Tile& tile) {
   return is_less && tests_twice ? TilePath::queued_less : TilePath::queued;
 }
 
-DrawInTile::DrawInTile(const PassContext& f, const Draw& d, VisibilityMode m, Tile& t)
+DrawInTile::DrawInTile(const PassContext& f, const Draw& d, VisibilityMode m, Tile& t, TileTrace* tile_trace)
     : context(f),
       draw(d),
       mode(m),
@@ -78,7 +78,8 @@ DrawInTile::DrawInTile(const PassContext& f, const Draw& d, VisibilityMode m, Ti
       needs_bounds_test(bounds != PixelBounds{t.x0, t.y0, t.x0 + t.size, t.y0 + t.size}),
       tests(tests_depth(d.state.depth, t)),
       postpones_stencil(HS_LANES::postpones_stencil(d, m, t)),
-      fetches_vertices(fetches_vertices_ahead(d, m)) {}
+      fetches_vertices(fetches_vertices_ahead(d, m)),
+      trace(tile_trace) {}
 
 Mask depth_test(const DepthState& state, const Tile& tile, int packet, Real z, Mask mask) {
   if (!tests_depth(state, tile)) return mask;

@@ -54,9 +54,12 @@ TilePath choose_path(const Draw& draw, VisibilityMode mode, const Tile& tile);
 /// Returns true if the triangles of a path are queued until the shader runs.
 constexpr bool is_queued(TilePath path) { return path >= TilePath::queued; }
 
+class TileTrace;  // raster/trace/tile_trace.h
+
 /// Values that all triangles of a draw in one tile share.
 struct DrawInTile {
-  DrawInTile(const PassContext& context, const Draw& draw, VisibilityMode mode, Tile& tile);
+  /// trace: records the fragments of the tile; null if they are not traced.
+  DrawInTile(const PassContext& context, const Draw& draw, VisibilityMode mode, Tile& tile, TileTrace* trace = nullptr);
 
   const PassContext& context;
   const Draw& draw;
@@ -68,35 +71,28 @@ struct DrawInTile {
   bool tests;              ///< depth is tested, before or after shading
   bool postpones_stencil;  ///< the stencil test follows the shader, which decides which fragments update the stencil values
   bool fetches_vertices;   ///< prefetch vertices
+  TileTrace* trace;
 };
 
-// Statistics is PassStatistics, or TracedStatistics, which traces fragments (raster/trace/tile_trace.h).
-
 /// Rasterizes a primitive in the tile. Queued paths add its packets to the queue, others ignore the queue.
-template <class Statistics>
-using RasterizeFunction = void (*)(const DrawInTile& d, const Triangle& t, TriangleId id, PacketQueue& queue, Statistics& statistics);
-/// Returns the function of a path for any primitive (visibility_blocks.cpp; in multisampled tiles, sample_blocks.h).
-template <class Statistics>
-RasterizeFunction<Statistics> rasterize_function(TilePath path);
+using RasterizeFunction = void (*)(const DrawInTile& d, const Triangle& t, TriangleId id, PacketQueue& queue, PassStatistics& statistics);
+/// Returns the function of a draw for any primitive (visibility_blocks.cpp; in multisampled tiles, sample_blocks.h).
+RasterizeFunction rasterize_function(const DrawInTile& d);
 
 /// Returns true if a triangle can be drawn by the function for small triangles.
 inline bool is_small_triangle(const Triangle& t) { return (t.flags & (kSmall | kPointSprite)) == kSmall; }
 /// Rasterizes small triangles, in order. indices: 1 to W triangles of the chunk. Queued paths stop when the queue is full. Returns the
 /// number of triangles that were drawn, at least 1.
-template <class Statistics>
 using RasterizeSmallFunction = std::size_t (*)(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, PacketQueue& queue,
-                                               Statistics& statistics);
-/// Returns the function of a path for small triangles, with one sample per pixel (visibility_small.cpp) and several
+                                               PassStatistics& statistics);
+/// Returns the function of a draw for small triangles, with one sample per pixel (visibility_small.cpp) and several
 /// (visibility_samples.cpp).
-template <class Statistics>
-RasterizeSmallFunction<Statistics> rasterize_small_function(TilePath path);
-template <class Statistics>
-RasterizeSmallFunction<Statistics> rasterize_small_samples_function(TilePath path);
+RasterizeSmallFunction rasterize_small_function(const DrawInTile& d);
+RasterizeSmallFunction rasterize_small_samples_function(const DrawInTile& d);
 
 /// Runs the visibility function for all packets of a queue, tests and writes them, and empties the queue (visibility_queue.cpp). d: the
 /// draw of the queue, with shades_later(d.mode).
-template <class Statistics>
-void decide_queued(const DrawInTile& d, PacketQueue& queue, Statistics& statistics);
+void decide_queued(const DrawInTile& d, PacketQueue& queue, PassStatistics& statistics);
 
 /// Returns true if a triangle of an opaque draw covers all pixels of the tile's storage.
 bool covers_tile(const DrawInTile& d, const Triangle& t);

@@ -7,8 +7,7 @@
 #include "halfspace/raster/pipeline/pixel_box.h"
 #include "halfspace/raster/visibility/sample_blocks.h"
 #include "halfspace/raster/visibility/thin_line.h"
-#include "halfspace/raster/visibility/trace_rejected.h"
-#include "halfspace/raster/visibility/writer.h"
+#include "halfspace/raster/visibility/traced_writer.h"
 
 namespace halfspace::HS_LANES {
 
@@ -80,11 +79,8 @@ void rasterize_blocks(const DrawInTile& d, const Triangle& t, const TileEdges& t
   const bool needs_bounds_test = d.needs_bounds_test || t.is(kPointSprite | kLine);
   const bool spans_many = (rect.x1 - rect.x0) * (rect.y1 - rect.y0) >= kMaxTilePixels / 4;
   if (spans_many && writer.tests()) {
-    const auto [low, high] = depth.at(rect.x0, rect.y0, rect.x1 - rect.x0, rect.y1 - rect.y0);
-    if (test_tile(writer.compare_op(), tile, low, high) == BlockTest::none_passes) {
-      if constexpr (kTraces<typename Writer::Statistics>) trace_rejected_tile({d, t, id, grid, low, high}, *writer.statistics().trace);
-      return;
-    }
+    const DepthBounds z = depth.at(rect.x0, rect.y0, rect.x1 - rect.x0, rect.y1 - rect.y0);
+    if (test_tile(writer.compare_op(), tile, z.low, z.high) == BlockTest::none_passes) return writer.tile_rejected(t, id, 0, z);
   }
   BlockPackets<small, Writer> packets(d, t, tile_edges, grid, rect, id, writer);
   constexpr int mask_to_block = ~(kBlockSize - 1);
@@ -93,11 +89,10 @@ void rasterize_blocks(const DrawInTile& d, const Triangle& t, const TileEdges& t
       const BlockCoverage coverage = block_coverage(packets.edges(), x, y);
       if (coverage == BlockCoverage::none) continue;
       const int block = y / kBlockSize * kBlocksPerRow + x / kBlockSize;
-      const auto [low, high] = depth.at(x, y, kBlockSize, kBlockSize);
-      const BlockTest test = writer.tests() ? test_block(writer.compare_op(), tile, block, low, high) : BlockTest::all_pass;
+      const DepthBounds z = depth.at(x, y, kBlockSize, kBlockSize);
+      const BlockTest test = writer.tests() ? test_block(writer.compare_op(), tile, block, z.low, z.high) : BlockTest::all_pass;
       if (test == BlockTest::none_passes) {
-        if constexpr (kTraces<typename Writer::Statistics>)
-          trace_rejected_block({d, t, id, grid, low, high}, block, *writer.statistics().trace);
+        writer.block_rejected(t, id, 0, block, z);
         continue;
       }
       const bool is_cut = needs_bounds_test && !rect.contains_block(x, y);
@@ -105,37 +100,35 @@ void rasterize_blocks(const DrawInTile& d, const Triangle& t, const TileEdges& t
       if constexpr (!Writer::kTestsStencil) {
         if (coverage == BlockCoverage::whole && passes && !is_cut) {
           packets.write_whole(block, x, y);
-          if (writer.writes_depth()) set_hiz(tile, block, low, high);
+          if (writer.writes_depth()) set_hiz(tile, block, z.low, z.high);
           continue;
         }
       }
       packets.write_some(block, x, y, is_cut, passes);
-      if (writer.writes_depth()) widen_hiz(writer.compare_op(), tile, block, low, high);
+      if (writer.writes_depth()) widen_hiz(writer.compare_op(), tile, block, z.low, z.high);
     }
   }
 }
 
 // A point covers a rectangle and has a constant depth.
 template <class Writer>
-void rasterize_point(const DrawInTile& d, const Triangle& t, const SampleGrid& grid, const TileRect& rect, TriangleId id, Writer& writer) {
-  const auto [low, high] = depth_bounds(t, d.draw, d.tile.depth_format);
-  const Real z(low);
+void rasterize_point(const DrawInTile& d, const Triangle& t, const TileRect& rect, TriangleId id, Writer& writer) {
+  const DepthBounds z = depth_bounds(t, d.draw, d.tile.depth_format);
   for (int by = rect.y0 & ~(kBlockSize - 1); by < rect.y1; by += kBlockSize) {
     for (int bx = rect.x0 & ~(kBlockSize - 1); bx < rect.x1; bx += kBlockSize) {
       const int block = by / kBlockSize * kBlocksPerRow + bx / kBlockSize;
       const int x0 = std::max(bx, rect.x0), y0 = std::max(by, rect.y0);
       const int x1 = std::min(bx + kBlockSize, rect.x1), y1 = std::min(by + kBlockSize, rect.y1);
       const bool may_refresh = (x1 - x0) * (y1 - y0) >= kManyPixels;
-      if (writer.tests() && test_block(writer.compare_op(), d.tile, block, low, high, may_refresh) == BlockTest::none_passes) {
-        if constexpr (kTraces<typename Writer::Statistics>)
-          trace_rejected_block({d, t, id, grid, low, high}, block, *writer.statistics().trace);
+      if (writer.tests() && test_block(writer.compare_op(), d.tile, block, z.low, z.high, may_refresh) == BlockTest::none_passes) {
+        writer.block_rejected(t, id, 0, block, z);
         continue;
       }
       for (int y = y0 & ~(kPacketHeight - 1); y < y1; y += kPacketHeight) {
         for (int x = x0 & ~(kPacketWidth - 1); x < x1; x += kPacketWidth)
-          writer.write(id, packet_at(x, y), bits(inside(rect, x, y)), [&] { return z; });
+          writer.write(id, packet_at(x, y), bits(inside(rect, x, y)), [&] { return Real(z.low); });
       }
-      if (writer.writes_depth()) widen_hiz(writer.compare_op(), d.tile, block, low, high);
+      if (writer.writes_depth()) widen_hiz(writer.compare_op(), d.tile, block, z.low, z.high);
     }
   }
 }
@@ -148,7 +141,7 @@ void rasterize_one_sample(const DrawInTile& d, const Triangle& t, TriangleId id,
   const PixelBounds b = pixel_bounds(d.draw, t, d.bounds, grid.position);
   if (b.empty()) return;
   const TileRect rect = tile_rect(b, grid.x0, grid.y0);
-  if (t.is(kPointSprite)) return rasterize_point(d, t, grid, rect, id, writer);
+  if (t.is(kPointSprite)) return rasterize_point(d, t, rect, id, writer);
   if (t.is(kLine) && line_pixels(d.draw.state.line_width) == 1) return rasterize_thin_line(d, t, b, id, writer);
   const TileEdges edges = tile_edges(d.draw, t, grid, d.tile.size);
   if (edges.outside) return;
@@ -159,11 +152,14 @@ void rasterize_one_sample(const DrawInTile& d, const Triangle& t, TriangleId id,
   }
 }
 
-// Rasterizes a primitive in any tile.
-template <TilePath path, class Statistics>
-void rasterize(const DrawInTile& d, const Triangle& t, TriangleId id, PacketQueue& queue, Statistics& statistics) {
-  if (d.tile.samples > 1) return rasterize_all_samples(d, t, id, Writer<path, true, Statistics>(d, &queue, statistics));
-  rasterize_one_sample(d, t, id, Writer<path, false, Statistics>(d, &queue, statistics));
+// Rasterizes a primitive in a tile.
+template <class W>
+void rasterize(const DrawInTile& d, const Triangle& t, TriangleId id, PacketQueue& queue, PassStatistics& statistics) {
+  if constexpr (W::kMultisampled) {
+    rasterize_all_samples(d, t, id, W(d, &queue, statistics));
+  } else {
+    rasterize_one_sample(d, t, id, W(d, &queue, statistics));
+  }
 }
 
 }  // namespace
@@ -182,7 +178,7 @@ void write_full_tile(const DrawInTile& d, const Triangle& t, TriangleId id) {
   const DepthPlane<false> plane(t, tile_edges.bias, d.draw, grid, d.tile.depth_format);
   const BlockEdges edges(tile_edges);
   PassStatistics counted_before;
-  Writer<TilePath::opaque, false, PassStatistics> writer(d, nullptr, counted_before);
+  Writer<TilePath::opaque, false> writer(d, nullptr, counted_before);
   if (d.mode == VisibilityMode::depth_only && !writer.writes_depth()) return;
   for (int p = 0; p < kPackets; ++p) writer.write_whole(id, p, [&] { return plane.at(edges, packet_x(p), packet_y(p)); });
   if (!writer.writes_depth()) return;
@@ -193,11 +189,9 @@ void write_full_tile(const DrawInTile& d, const Triangle& t, TriangleId id) {
   }
 }
 
-template <class Statistics>
-RasterizeFunction<Statistics> rasterize_function(TilePath path) {
-  return with_path(path, []<TilePath p>() -> RasterizeFunction<Statistics> { return rasterize<p, Statistics>; });
+RasterizeFunction rasterize_function(const DrawInTile& d) {
+  const auto function = []<class W>() -> RasterizeFunction { return rasterize<W>; };
+  return d.tile.samples > 1 ? with_writer<true>(d, function) : with_writer<false>(d, function);
 }
-template RasterizeFunction<PassStatistics> rasterize_function(TilePath);
-template RasterizeFunction<TracedStatistics> rasterize_function(TilePath);
 
 }  // namespace halfspace::HS_LANES

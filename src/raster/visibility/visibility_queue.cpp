@@ -8,7 +8,7 @@
 #include "halfspace/raster/visibility/centroid.h"
 #include "halfspace/raster/visibility/depth_bounds.h"
 #include "halfspace/raster/visibility/packed_pixels.h"
-#include "halfspace/raster/visibility/writer.h"
+#include "halfspace/raster/visibility/traced_writer.h"
 
 namespace halfspace::HS_LANES {
 
@@ -51,14 +51,12 @@ class DecidedPackets {
   // triangle.
   HS_INLINE void finish(TriangleId id, const PacketMask& sample, uint32_t keep, Real depth, Real z) {
     const uint32_t kept = keep & sample.lanes;
-    if constexpr (kTraces<typename Writer::Statistics>)
-      writer_.statistics().trace->set_outcome(id, sample.packet, sample.lanes & ~kept, FragmentOutcome::discarded);
     const Draw& draw = d_.draw;
     const DepthFormat format = d_.tile.depth_format;
     const bool replaces = draw.kernels.writes_depth;
     if (replaces) z = depth_value(format, clamp(depth, Real(draw.depth_low), Real(draw.depth_high)));
     if constexpr (Writer::kTestsStencil) writer_.begin(triangle_of(d_.context, id));
-    if (!writer_.write_decided(id, sample.packet, kept, z) || !writer_.writes_depth()) return;
+    if (!writer_.write_decided(id, sample, kept, z) || !writer_.writes_depth()) return;
     const int block = sample.packet / kPacketsPerBlock;
     if (replaces) {
       widen_hiz(CompareOp::always, d_.tile, block, depth_value(format, draw.depth_low), depth_value(format, draw.depth_high));
@@ -145,12 +143,12 @@ void decide_with(const DrawInTile& d, PacketQueue& queue, Writer writer) {
 
 }  // namespace
 
-template <class Statistics>
-void decide_queued(const DrawInTile& d, PacketQueue& queue, Statistics& statistics) {
-  if (d.postpones_stencil) return decide_with(d, queue, Writer<TilePath::stencil, false, Statistics>(d, nullptr, statistics));
-  decide_with(d, queue, Writer<TilePath::opaque, false, Statistics>(d, nullptr, statistics));
+void decide_queued(const DrawInTile& d, PacketQueue& queue, PassStatistics& statistics) {
+  const auto decide = [&]<TilePath path>() {
+    if (d.trace != nullptr) return decide_with(d, queue, TracedWriter<path, false>(d, nullptr, statistics));
+    decide_with(d, queue, Writer<path, false>(d, nullptr, statistics));
+  };
+  d.postpones_stencil ? decide.template operator()<TilePath::stencil>() : decide.template operator()<TilePath::opaque>();
 }
-template void decide_queued(const DrawInTile&, PacketQueue&, PassStatistics&);
-template void decide_queued(const DrawInTile&, PacketQueue&, TracedStatistics&);
 
 }  // namespace halfspace::HS_LANES

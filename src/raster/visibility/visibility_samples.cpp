@@ -7,7 +7,7 @@
 #include "halfspace/raster/visibility/hidden_triangle.h"
 #include "halfspace/raster/visibility/sample_set.h"
 #include "halfspace/raster/visibility/small_triangle.h"
-#include "halfspace/raster/visibility/writer.h"
+#include "halfspace/raster/visibility/traced_writer.h"
 
 namespace halfspace::HS_LANES {
 
@@ -72,7 +72,7 @@ bool reject_hidden(const DrawInTile& d, const SampleSet& samples, const Triangle
   for (std::size_t k = samples.count; k-- > 0;) {
     if (!is_hidden(d, t, in_plane(samples.index[k]), writer)) return false;
   }
-  for (const std::size_t s : samples.indices()) trace_hidden(d, t, id, in_plane(s), static_cast<int>(s), writer);
+  for (const std::size_t s : samples.indices()) report_hidden(d, t, id, in_plane(s), s, writer);
   return true;
 }
 
@@ -176,34 +176,31 @@ class SampledPackets {
   std::array<Covered, kMaxPackets + 1> list_;  // the element after the last one may be written
 };
 
-template <TilePath path, class Statistics>
+template <class W>
 std::size_t rasterize_small_samples(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, PacketQueue& queue,
-                                    Statistics& statistics) {
+                                    PassStatistics& statistics) {
   const SampleSet samples(d);
   if (samples.count == 0) return indices.size();
   const SampledTriangles triangles(d, samples, d.context.chunks[chunk], indices);
-  Writer<path, true, Statistics> writer(d, &queue, statistics);
+  W writer(d, &queue, statistics);
   std::size_t k = 0;
   do {
     const Triangle& t = d.context.chunks[chunk].triangles[indices[k]];
     const TriangleId id = triangle_id(chunk, indices[k]);
     writer.begin(t);
     if (triangles.is_wide(k)) {
-      rasterize_function<Statistics>(path)(d, t, id, queue, statistics);
+      rasterize_function(d)(d, t, id, queue, statistics);
     } else if (!reject_hidden(d, samples, t, id, triangles.rect(k), writer)) {
       SampledPackets(d, samples, triangles, k, t, id, writer).visit();
     }
-  } while (++k < indices.size() && !(is_queued(path) && queue.is_full()));
+  } while (++k < indices.size() && !(W::kQueues && queue.is_full()));
   return k;
 }
 
 }  // namespace
 
-template <class Statistics>
-RasterizeSmallFunction<Statistics> rasterize_small_samples_function(TilePath path) {
-  return with_path(path, []<TilePath p>() -> RasterizeSmallFunction<Statistics> { return rasterize_small_samples<p, Statistics>; });
+RasterizeSmallFunction rasterize_small_samples_function(const DrawInTile& d) {
+  return with_writer<true>(d, []<class W>() -> RasterizeSmallFunction { return rasterize_small_samples<W>; });
 }
-template RasterizeSmallFunction<PassStatistics> rasterize_small_samples_function(TilePath);
-template RasterizeSmallFunction<TracedStatistics> rasterize_small_samples_function(TilePath);
 
 }  // namespace halfspace::HS_LANES

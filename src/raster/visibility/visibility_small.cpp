@@ -10,7 +10,7 @@
 #include "halfspace/raster/primitives/small_coverage.h"
 #include "halfspace/raster/visibility/hidden_triangle.h"
 #include "halfspace/raster/visibility/small_triangle.h"
-#include "halfspace/raster/visibility/writer.h"
+#include "halfspace/raster/visibility/traced_writer.h"
 
 namespace halfspace::HS_LANES {
 
@@ -229,32 +229,29 @@ HS_INLINE void write_triangle(const DrawInTile& d, const SmallTriangles& triangl
   } else if (triangles.is_wide(k)) {
     rasterize_large(t, id);
   } else if (is_hidden(d, t, triangles.rect(k), writer)) {
-    trace_hidden(d, t, id, triangles.rect(k), 0, writer);
+    report_hidden(d, t, id, triangles.rect(k), 0, writer);
   } else {
     TrianglePackets<Writer>(d, triangles, k, t, id, writer).visit();
   }
 }
 
-template <TilePath path, class Statistics>
+template <class W>
 std::size_t rasterize_small(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, PacketQueue& queue,
-                            Statistics& statistics) {
+                            PassStatistics& statistics) {
   const SmallTriangles triangles(d, d.context.chunks[chunk], indices);
-  const auto large = [&](const Triangle& t, TriangleId id) { rasterize_function<Statistics>(path)(d, t, id, queue, statistics); };
-  Writer<path, false, Statistics> writer(d, &queue, statistics);
+  const auto large = [&](const Triangle& t, TriangleId id) { rasterize_function(d)(d, t, id, queue, statistics); };
+  W writer(d, &queue, statistics);
   std::size_t k = 0;
   do {
     write_triangle(d, triangles, k, chunk, indices[k], writer, large);
-  } while (++k < indices.size() && !(is_queued(path) && queue.is_full()));
+  } while (++k < indices.size() && !(W::kQueues && queue.is_full()));
   return k;
 }
 
 }  // namespace
 
-template <class Statistics>
-RasterizeSmallFunction<Statistics> rasterize_small_function(TilePath path) {
-  return with_path(path, []<TilePath p>() -> RasterizeSmallFunction<Statistics> { return rasterize_small<p, Statistics>; });
+RasterizeSmallFunction rasterize_small_function(const DrawInTile& d) {
+  return with_writer<false>(d, []<class W>() -> RasterizeSmallFunction { return rasterize_small<W>; });
 }
-template RasterizeSmallFunction<PassStatistics> rasterize_small_function(TilePath);
-template RasterizeSmallFunction<TracedStatistics> rasterize_small_function(TilePath);
 
 }  // namespace halfspace::HS_LANES

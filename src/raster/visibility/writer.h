@@ -7,7 +7,6 @@
 
 #include <bit>
 
-#include "halfspace/raster/trace/tile_trace.h"
 #include "halfspace/raster/visibility/depth_bounds.h"
 #include "halfspace/raster/visibility/depth_stencil_test.h"
 #include "halfspace/raster/visibility/packet_queue.h"
@@ -18,16 +17,16 @@ namespace halfspace::HS_LANES {
 /// Tests and writes the primitives of a draw in a tile. On queued paths, depth is tested and written before a packet is queued in
 /// VisibilityMode::early. In all other modes, depth is tested after the shader; lanes that already fail the test are dropped if they cannot
 /// pass it later and do not update stencil values. multisampled: for multisampled tiles, in which write() of a queued path adds to the
-/// current packet, and there is no write_pixel().
-template <TilePath path, bool multisampled, class S>
+/// current packet, and there is no write_pixel(). TracedWriter (traced_writer.h) records what these functions do.
+template <TilePath path, bool multisampled>
 class Writer {
  public:
-  using Statistics = S;
+  static constexpr bool kMultisampled = multisampled;
   static constexpr bool kQueues = is_queued(path);
   static constexpr bool kTestsStencil = path == TilePath::stencil || path == TilePath::queued_stencil;
 
   /// The arguments must outlive this object. queue: may be null for paths that do not queue.
-  Writer(const DrawInTile& d, PacketQueue* queue, Statistics& statistics)
+  Writer(const DrawInTile& d, PacketQueue* queue, PassStatistics& statistics)
       : state_(d.draw.state),
         tile_(d.tile),
         queue_(queue),
@@ -41,13 +40,12 @@ class Writer {
         writes_id_(d.mode == VisibilityMode::deferred),
         updates_stencil_(kTestsStencil && updates_stencil(d.draw.state)) {}
 
-  Statistics& statistics() const { return statistics_; }
   /// Returns true if fragments that fail the depth test have no effect.
   bool tests() const {
     if constexpr (kTestsStencil) {
       if (updates_stencil_ && (face_->fail != StencilOp::keep || face_->depth_fail != StencilOp::keep)) return false;
     }
-    return kIsLess || may_reject_;
+    return rejects_by_depth();
   }
   bool writes_depth() const { return path == TilePath::nearest || (path != TilePath::queued_less && writes_depth_); }
   CompareOp compare_op() const { return kIsLess ? CompareOp::less : compare_; }
@@ -61,27 +59,26 @@ class Writer {
   /// the depth test passes in all lanes. Returns true if a lane passed.
   template <class Z>
   HS_INLINE bool write(TriangleId id, int packet, uint32_t covered, const Z& z_at, bool passes = false) {
-    const Tested tested = count_and_test(id, packet, covered, z_at, passes);
+    const Tested tested = count_and_test(packet, covered, z_at, passes);
     add(id, packet, tested.lanes, tested.z);
     return tested.lanes != 0;
   }
 
-  /// The same for lanes that the shader keeps. The writer of a queued path has already counted them as tested. z: their depth.
-  bool write_decided(TriangleId id, int packet, uint32_t kept, const Real& z) requires(!kQueues) {
-    if constexpr (kTraces<Statistics>) statistics_.trace->set_depth(id, packet, kept, z, stored_depth(packet));
+  /// The same for the lanes of a queued packet that the shader keeps. The writer of the queued path has already counted them as tested. z:
+  /// their depth.
+  bool write_decided(TriangleId id, const PacketMask& queued, uint32_t kept, const Real& z) requires(!kQueues) {
     const Tested tested = test(
-        packet, kept, [&] { return z; }, false);
-    if constexpr (kTraces<Statistics>) set_outcomes(id, packet, kept, tested);
-    add(id, packet, tested.lanes, z);
+        queued.packet, kept, [&] { return z; }, false);
+    add(id, queued.packet, tested.lanes, z);
     return tested.lanes != 0;
   }
 
   /// Tests and writes one covered pixel of the tile, and updates the depth bounds of its block.
   HS_INLINE void write_pixel(TriangleId id, std::size_t pixel, float z) requires(!multisampled) {
     const int packet = static_cast<int>(pixel) / kLanes, lane = static_cast<int>(pixel) % kLanes;
-    if constexpr (kTestsStencil || kTraces<Statistics>) {
+    if constexpr (kTestsStencil) {
       if (count_and_test(
-              id, packet, 1u << lane, [&] { return Real(z); }, false)
+              packet, 1u << lane, [&] { return Real(z); }, false)
               .lanes == 0)
         return;
     } else {
@@ -97,10 +94,6 @@ class Writer {
   template <class Z>
   HS_INLINE void write_whole(TriangleId id, int packet, const Z& z_at) requires(!kTestsStencil) {
     statistics_.samples_tested += kLanes;
-    if constexpr (kTraces<Statistics>) {
-      trace_covered(id, packet, kAllBits<Mask>, z_at());
-      set_outcomes(id, packet, kAllBits<Mask>, {kAllBits<Mask>, kAllBits<Mask>, Real(0.0f)});
-    }
     Real z(0.0f);
     if (writes_depth() || queues_depth()) z = z_at();
     if (writes_depth()) store(&tile_.depth[first_of(packet)], z);
@@ -112,12 +105,17 @@ class Writer {
     }
   }
 
+  /// Called when hierarchical Z rejects a primitive in the tile or in one of its blocks. sample: number of the sample; z: the depth bounds
+  /// of the primitive.
+  void tile_rejected(const Triangle&, TriangleId, std::size_t /*sample*/, const DepthBounds& /*z*/) const {}
+  void block_rejected(const Triangle&, TriangleId, std::size_t /*sample*/, int /*block*/, const DepthBounds& /*z*/) const {}
+
   // ---- queued paths ----------------------------------------------------------------------------------------------
 
-  /// Returns true if covered packets can be added without computing depths: the draw neither queues nor writes depths, no fragments are
-  /// traced, each packet needs no stencil test, and nothing is tested or the depth test passes everywhere.
+  /// Returns true if covered packets can be added without computing depths: the draw neither queues nor writes depths, each packet needs no
+  /// stencil test, and nothing is tested or the depth test passes everywhere.
   bool adds_untested(bool passes) const requires kQueues {
-    return !kTraces<Statistics> && !kTestsStencil && !queues_depth() && !writes_depth() && (passes || !tests());
+    return !kTestsStencil && !queues_depth() && !writes_depth() && (passes || !tests());
   }
   /// Adds the packets of a block without testing them. lanes_at(p): covered lanes of packet p of the block.
   template <class LanesAt>
@@ -162,13 +160,18 @@ class Writer {
     queue_->count += queue_->packets[static_cast<std::size_t>(queue_->count)].lanes != 0 ? 1 : 0;
   }
 
+ protected:
+  /// The stencil state of the current primitive.
+  const StencilFace* stencil() const { return face_; }
+  /// Returns true if fragments that fail the depth test are not drawn, even if they update stencil values.
+  bool rejects_by_depth() const { return kIsLess || may_reject_; }
+
  private:
   static constexpr bool kIsLess = path == TilePath::nearest || path == TilePath::queued_less;
 
   struct Tested {
-    uint32_t lanes;           // passed all tests
-    uint32_t stencil_passed;  // passed the stencil test; all lanes if there is none
-    Real z;                   // undefined unless it was needed
+    uint32_t lanes;  // passed all tests
+    Real z;          // undefined unless it was needed
   };
 
   static std::size_t first_of(int packet) { return static_cast<std::size_t>(packet) * kLanes; }
@@ -179,12 +182,9 @@ class Writer {
   static bool fails_for_good(CompareOp op) { return op != CompareOp::not_equal && op != CompareOp::always; }
 
   template <class Z>
-  HS_INLINE Tested count_and_test(TriangleId id, int packet, uint32_t covered, const Z& z_at, bool passes) {
+  HS_INLINE Tested count_and_test(int packet, uint32_t covered, const Z& z_at, bool passes) {
     statistics_.samples_tested += static_cast<uint64_t>(std::popcount(covered));
-    if constexpr (kTraces<Statistics>) trace_covered(id, packet, covered, z_at());
-    const Tested tested = test(packet, covered, z_at, passes);
-    if constexpr (kTraces<Statistics>) set_outcomes(id, packet, covered, tested);
-    return tested;
+    return test(packet, covered, z_at, passes);
   }
 
   // Tests lanes of a packet, and writes the depth and the stencil values.
@@ -196,15 +196,13 @@ class Writer {
     if constexpr (kTestsStencil) {
       if (updates_stencil_) {
         if (tests_depth_) z = z_at();
-        const auto [stencil_passed, passed] =
-            test_and_update_stencil(*face_, tile_, packet, mask_from_bits<Mask>(covered), tests_depth_, compare_op(), z);
+        const Mask passed = test_and_update_stencil(*face_, tile_, packet, mask_from_bits<Mask>(covered), tests_depth_, compare_op(), z);
         if (writes_depth()) store(depth, select(passed, z, load<Real>(depth)));
-        return {bits(passed), bits(stencil_passed), z};
+        return {bits(passed), z};
       }
       lanes = bits(stencil_test(*face_, tile_, packet, mask_from_bits<Mask>(covered)));
-      if (lanes == 0) return {0, 0, z};
+      if (lanes == 0) return {0, z};
     }
-    const uint32_t stencil_passed = lanes;
     const bool rejects = tests() && (!passes || writes_depth());
     if (rejects || queues_depth()) z = z_at();
     if (rejects) {
@@ -212,7 +210,7 @@ class Writer {
       lanes &= bits(compare(compare_op(), z, old));
       if (writes_depth()) store(depth, select(mask_from_bits<Mask>(lanes), z, old));
     }
-    return {lanes, stencil_passed, z};
+    return {lanes, z};
   }
 
   // Adds lanes that passed all tests before the shader.
@@ -262,42 +260,14 @@ class Writer {
     if (is_final()) statistics_.samples_passed += static_cast<uint64_t>(covered);
   }
 
-  Real stored_depth(int packet) const { return load<Real>(&tile_.depth[first_of(packet)]); }
-
-  // Records fragments before they are tested. set_outcomes() then sets what happened to them; the outcome of queued fragments is recorded
-  // when the queue is shaded.
-  void trace_covered(TriangleId id, int packet, uint32_t covered, Real z) {
-    statistics_.trace->add(id, packet, covered, FragmentOutcome::stencil_failed, z, stored_depth(packet), tests_depth_);
-  }
-  void set_outcomes(TriangleId id, int packet, uint32_t covered, const Tested& tested) {
-    const auto set = [&](uint32_t lanes, FragmentOutcome outcome) { statistics_.trace->set_outcome(id, packet, lanes, outcome); };
-    set(tested.lanes, kQueues || writes_id_ ? FragmentOutcome::hidden_before_shading : FragmentOutcome::depth_only);
-    set(tested.stencil_passed & ~tested.lanes, FragmentOutcome::depth_failed);
-    set(covered & ~tested.stencil_passed, FragmentOutcome::stencil_failed);
-  }
-
   const DrawState& state_;
   Tile& tile_;
   PacketQueue* queue_;
-  Statistics& statistics_;
+  PassStatistics& statistics_;
   const StencilFace* face_ = nullptr;
   CompareOp compare_;
   bool is_final_, tests_depth_, may_reject_, writes_depth_, queues_depth_, writes_id_, updates_stencil_;
   std::size_t sample_ = 0;  // current sample of a multisampled tile
 };
-
-/// Calls f.template operator()<path>() for a path that is known at run time, and returns the result.
-template <class F>
-auto with_path(TilePath path, const F& f) {
-  switch (path) {
-    case TilePath::nearest: return f.template operator()<TilePath::nearest>();
-    case TilePath::opaque: return f.template operator()<TilePath::opaque>();
-    case TilePath::stencil: return f.template operator()<TilePath::stencil>();
-    case TilePath::queued: return f.template operator()<TilePath::queued>();
-    case TilePath::queued_less: return f.template operator()<TilePath::queued_less>();
-    case TilePath::queued_stencil: break;
-  }
-  return f.template operator()<TilePath::queued_stencil>();
-}
 
 }  // namespace halfspace::HS_LANES
