@@ -19,7 +19,7 @@
 #include "halfspace/raster/draw_state.h"
 #include "halfspace/raster/shade/plane_anchor.h"
 #include "halfspace/raster/vertex_input.h"
-#include "halfspace/raster/visibility/depth_stencil_test.h"
+#include "halfspace/raster/visibility/tests/depth_stencil_test.h"
 #include "halfspace/shading/contract.h"
 
 namespace halfspace::HS_LANES {

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <array>
 
-#include "halfspace/raster/visibility/area_coverage.h"
+#include "halfspace/raster/visibility/coverage/area_coverage.h"
 #include "raster/raster_test.h"
 
 namespace halfspace::raster_test {

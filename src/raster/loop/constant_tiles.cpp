@@ -7,7 +7,7 @@
 #include "halfspace/raster/pipeline/pixel_box.h"
 #include "halfspace/raster/primitives/bin.h"
 #include "halfspace/raster/shade/fragment_batch.h"
-#include "halfspace/raster/visibility/area_coverage.h"
+#include "halfspace/raster/visibility/coverage/area_coverage.h"
 
 namespace halfspace::HS_LANES {
 

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "halfspace/raster/primitives/bin.h"
+#include "halfspace/raster/shade/decide_queued.h"
 #include "halfspace/raster/shade/shade_deferred.h"
 #include "halfspace/raster/shade/shade_queued.h"
 #include "halfspace/raster/trace/tile_trace.h"
@@ -101,7 +102,7 @@ class TileDraws {
     finish_draw(here);
     here.emplace(context_, draw, visibility_mode(draw), memory_.tile, trace_);
     rasterize_ = rasterize_function(*here);
-    rasterize_small_ = memory_.tile.samples > 1 ? rasterize_small_samples_function(*here) : rasterize_small_function(*here);
+    rasterize_small_ = rasterize_small_function(*here);
     if (draw.layer_group != layer_group_) write_layers();
     layer_group_ = draw.layer_group;
     if (draw.state.order_independent && memory_.layers.empty()) memory_.layers.clear(prefers_greater(draw.state.depth.compare));

@@ -13,7 +13,7 @@
 #include "halfspace/raster/shade/tile_memory.h"
 #include "halfspace/raster/tile/resolve.h"
 #include "halfspace/raster/trace/tile_trace.h"
-#include "halfspace/raster/visibility/area_coverage.h"
+#include "halfspace/raster/visibility/coverage/area_coverage.h"
 
 namespace halfspace::HS_LANES {
 

@@ -9,7 +9,7 @@
 #include "halfspace/core/lanes.h"
 #include "halfspace/raster/tile/tile.h"
 #include "halfspace/raster/tile/write_programs.h"
-#include "halfspace/raster/visibility/packet_batch.h"
+#include "halfspace/raster/visibility/sink/packet_batch.h"
 
 namespace halfspace::HS_LANES {
 

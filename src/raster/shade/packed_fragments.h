@@ -4,7 +4,7 @@
 #pragma once
 
 #include "halfspace/raster/shade/fragment_batch.h"
-#include "halfspace/raster/visibility/packed_pixels.h"
+#include "halfspace/raster/visibility/sink/packed_pixels.h"
 
 namespace halfspace::HS_LANES {
 

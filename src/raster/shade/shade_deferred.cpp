@@ -6,8 +6,8 @@
 
 #include "halfspace/core/lane_packing.h"
 #include "halfspace/raster/trace/tile_trace.h"
-#include "halfspace/raster/visibility/block_edges.h"
-#include "halfspace/raster/visibility/centroid.h"
+#include "halfspace/raster/tile/tile_rect.h"
+#include "halfspace/raster/visibility/sink/centroid.h"
 
 namespace halfspace::HS_LANES {
 

@@ -5,7 +5,7 @@
 #include <bit>
 
 #include "halfspace/raster/shade/late_tests.h"
-#include "halfspace/raster/visibility/centroid.h"
+#include "halfspace/raster/visibility/sink/centroid.h"
 
 namespace halfspace::HS_LANES {
 

@@ -6,6 +6,7 @@
 
 #include "halfspace/raster/shade/packed_fragments.h"
 #include "halfspace/raster/tile/layers.h"
+#include "halfspace/raster/visibility/sink/packet_queue.h"
 #include "halfspace/raster/visibility/visibility.h"
 
 namespace halfspace::HS_LANES {

@@ -8,6 +8,7 @@
 #include "halfspace/raster/shade/shade_deferred.h"
 #include "halfspace/raster/tile/layers.h"
 #include "halfspace/raster/tile/tile.h"
+#include "halfspace/raster/visibility/sink/packet_queue.h"
 #include "halfspace/raster/visibility/visibility.h"
 
 namespace halfspace::HS_LANES {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "halfspace/raster/visibility/full_tile.h"
 
-#include "halfspace/raster/visibility/depth_bounds.h"
-#include "halfspace/raster/visibility/trace_rejected.h"
+#include "halfspace/raster/trace/tile_trace.h"
+#include "halfspace/raster/visibility/coverage/depth_plane.h"
+#include "halfspace/raster/visibility/coverage/trace_rejected.h"
 
 namespace halfspace::HS_LANES {
 
@@ -10,8 +11,7 @@ namespace {
 
 // Returns the depth bounds of a triangle in the tile.
 DepthBounds depth_of(const DrawInTile& d, const Triangle& t) {
-  const SampleGrid grid(d.tile, 0);
-  return DepthInTile(t, d.draw, grid, d.tile.depth_format).at(0, 0, d.tile.size, d.tile.size);
+  return DepthInTile(t, d.draw, d.tile, d.context.samples_at).at(0, 0, d.tile.size, d.tile.size);
 }
 
 }  // namespace
@@ -45,7 +45,7 @@ bool FullTileOccluder::test_or_write(const DrawInTile& d, const Triangle& t, Tri
 }
 
 void FullTileOccluder::trace_rejected(const DrawInTile& d, const Triangle& t, TriangleId id) const {
-  const RejectedPrimitive primitive{d, t, id, SampleGrid(d.tile, 0), depth_of(d, t)};
+  const RejectedPrimitive primitive{d, t, id, 0, depth_of(d, t)};
   if (pending_) {
     trace_rejected_tile(primitive, pending_->depth, *d.trace);
   } else {
@@ -54,19 +54,13 @@ void FullTileOccluder::trace_rejected(const DrawInTile& d, const Triangle& t, Tr
 }
 
 void FullTileOccluder::trace_passed(const DrawInTile& d, const Triangle& t, TriangleId id) const {
-  const SampleGrid grid(d.tile, 0);
-  const TileEdges tile_edges{};
-  const BlockEdges edges(tile_edges);
-  const auto plane_of = [&](const Triangle& of, const Draw& draw) {
-    return DepthPlane<false>(of, tile_edges.bias, draw, grid, d.tile.depth_format);
-  };
-  const DepthPlane<false> plane = plane_of(t, d.draw);
-  const DepthPlane<false> before = pending_ ? plane_of(*pending_->triangle, pending_->draw.draw) : plane;
+  const LargeDepthPlane plane(t, d.draw, d.tile, kPixelCenter);
+  const LargeDepthPlane before = pending_ ? LargeDepthPlane(*pending_->triangle, pending_->draw.draw, d.tile, kPixelCenter) : plane;
   const FragmentOutcome outcome = d.mode == VisibilityMode::deferred ? FragmentOutcome::hidden_before_shading : FragmentOutcome::depth_only;
   for (int p = 0; p < kPackets; ++p) {
-    const int x = packet_x(p), y = packet_y(p);
-    const Real stored = pending_ ? before.at(edges, x, y) : load<Real>(&d.tile.depth[static_cast<std::size_t>(p) * kLanes]);
-    d.trace->add(id, p, kAllBits<Mask>, outcome, plane.at(edges, x, y), stored, d.tests);
+    const Int x = lane_x() + packet_x(p), y = lane_y() + packet_y(p);
+    const Real stored = pending_ ? before.at(x, y) : load<Real>(&d.tile.depth[static_cast<std::size_t>(p) * kLanes]);
+    d.trace->add(id, p, kAllBits<Mask>, outcome, plane.at(x, y), stored, d.tests);
   }
 }
 

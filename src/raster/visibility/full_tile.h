@@ -6,6 +6,7 @@
 
 #include <optional>
 
+#include "halfspace/raster/visibility/tests/depth_bounds.h"
 #include "halfspace/raster/visibility/visibility.h"
 
 namespace halfspace::HS_LANES {

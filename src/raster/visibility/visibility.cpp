@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "halfspace/raster/visibility/depth_bounds.h"
-#include "halfspace/raster/visibility/depth_stencil_test.h"
+#include "halfspace/raster/visibility/tests/depth_bounds.h"
+#include "halfspace/raster/visibility/tests/depth_stencil_test.h"
 
 namespace halfspace::HS_LANES {
 

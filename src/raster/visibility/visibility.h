@@ -11,12 +11,13 @@
 #include <span>
 #include <string_view>
 
+#include "halfspace/raster/pipeline/pass_context.h"
 #include "halfspace/raster/tile/tile.h"
-#include "halfspace/raster/visibility/depth_plane.h"
-#include "halfspace/raster/visibility/packet_batch.h"
-#include "halfspace/raster/visibility/packet_queue.h"
 
 namespace halfspace::HS_LANES {
+
+class TileTrace;     // raster/trace/tile_trace.h
+struct PacketQueue;  // sink/packet_queue.h
 
 /// What happens to the samples of a triangle before they are shaded.
 enum class VisibilityMode : uint8_t {
@@ -54,7 +55,6 @@ TilePath choose_path(const Draw& draw, VisibilityMode mode, const Tile& tile);
 /// Returns true if the triangles of a path are queued until the shader runs.
 constexpr bool is_queued(TilePath path) { return path >= TilePath::queued; }
 
-class TileTrace;  // raster/trace/tile_trace.h
 
 /// Values that all triangles of a draw in one tile share.
 struct DrawInTile {
@@ -76,7 +76,7 @@ struct DrawInTile {
 
 /// Rasterizes a primitive in the tile. Queued paths add its packets to the queue, others ignore the queue.
 using RasterizeFunction = void (*)(const DrawInTile& d, const Triangle& t, TriangleId id, PacketQueue& queue, PassStatistics& statistics);
-/// Returns the function of a draw for any primitive (visibility_blocks.cpp; in multisampled tiles, sample_blocks.h).
+/// Returns the function of a draw for any primitive (coverage/blocks.cpp).
 RasterizeFunction rasterize_function(const DrawInTile& d);
 
 /// Returns true if a triangle can be drawn by the function for small triangles.
@@ -85,14 +85,8 @@ inline bool is_small_triangle(const Triangle& t) { return (t.flags & (kSmall | k
 /// number of triangles that were drawn, at least 1.
 using RasterizeSmallFunction = std::size_t (*)(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, PacketQueue& queue,
                                                PassStatistics& statistics);
-/// Returns the function of a draw for small triangles, with one sample per pixel (visibility_small.cpp) and several
-/// (visibility_samples.cpp).
+/// Returns the function of a draw for small triangles (coverage/small_triangles.cpp).
 RasterizeSmallFunction rasterize_small_function(const DrawInTile& d);
-RasterizeSmallFunction rasterize_small_samples_function(const DrawInTile& d);
-
-/// Runs the visibility function for all packets of a queue, tests and writes them, and empties the queue (visibility_queue.cpp). d: the
-/// draw of the queue, with shades_later(d.mode).
-void decide_queued(const DrawInTile& d, PacketQueue& queue, PassStatistics& statistics);
 
 /// Returns true if a triangle of an opaque draw covers all pixels of the tile's storage.
 bool covers_tile(const DrawInTile& d, const Triangle& t);

@@ -6,7 +6,7 @@
 
 #include <span>
 
-#include "halfspace/raster/visibility/packet_batch.h"
+#include "halfspace/raster/visibility/sink/packet_batch.h"
 
 namespace halfspace::HS_LANES {
 

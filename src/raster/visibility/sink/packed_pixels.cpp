@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "halfspace/raster/visibility/packed_pixels.h"
+#include "halfspace/raster/visibility/sink/packed_pixels.h"
 
 #include <bit>
 

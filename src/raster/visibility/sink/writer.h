@@ -7,9 +7,9 @@
 
 #include <bit>
 
-#include "halfspace/raster/visibility/depth_bounds.h"
-#include "halfspace/raster/visibility/depth_stencil_test.h"
-#include "halfspace/raster/visibility/packet_queue.h"
+#include "halfspace/raster/visibility/sink/packet_queue.h"
+#include "halfspace/raster/visibility/tests/depth_bounds.h"
+#include "halfspace/raster/visibility/tests/depth_stencil_test.h"
 #include "halfspace/raster/visibility/visibility.h"
 
 namespace halfspace::HS_LANES {
@@ -92,17 +92,11 @@ class Writer {
 
   /// Writes a packet in which all lanes are covered and pass the depth test.
   template <class Z>
-  HS_INLINE void write_whole(TriangleId id, int packet, const Z& z_at) requires(!kTestsStencil) {
+  HS_INLINE void write_whole(TriangleId id, int packet, const Z& z_at) requires(!kQueues && !kTestsStencil) {
     statistics_.samples_tested += kLanes;
-    Real z(0.0f);
-    if (writes_depth() || queues_depth()) z = z_at();
-    if (writes_depth()) store(&tile_.depth[first_of(packet)], z);
-    if constexpr (kQueues) {
-      add(id, packet, kAllBits<Mask>, z);
-    } else {
-      statistics_.samples_passed += kLanes;
-      if (writes_id_) store(&tile_.visibility[first_of(packet)], Int(std::bit_cast<int32_t>(id)));
-    }
+    statistics_.samples_passed += kLanes;
+    if (writes_depth()) store(&tile_.depth[first_of(packet)], z_at());
+    if (writes_id_) store(&tile_.visibility[first_of(packet)], Int(std::bit_cast<int32_t>(id)));
   }
 
   /// Called when hierarchical Z rejects a primitive in the tile or in one of its blocks. sample: number of the sample; z: the depth bounds
@@ -117,46 +111,35 @@ class Writer {
   bool adds_untested(bool passes) const requires kQueues {
     return !kTestsStencil && !queues_depth() && !writes_depth() && (passes || !tests());
   }
-  /// Adds the packets of a block without testing them. lanes_at(p): covered lanes of packet p of the block.
-  template <class LanesAt>
-  HS_INLINE void add_block(TriangleId id, int block, const LanesAt& lanes_at) requires(kQueues && !multisampled) {
-    auto i = static_cast<std::size_t>(queue_->count);
-    int covered = 0;
-    for (int p = 0; p < kPacketsPerBlock; ++p) {
-      const uint32_t lanes = lanes_at(p);
-      queue_->packets[i] = {static_cast<uint16_t>(block * kPacketsPerBlock + p), static_cast<uint16_t>(lanes)};
-      queue_->ids[i] = id;
-      i += lanes != 0 ? 1 : 0;
-      covered += std::popcount(lanes);
-    }
-    queue_->count = static_cast<int>(i);
-    count_untested(covered);
-  }
-  /// Adds a packet of pixels without testing it. See write_samples() in sample_set.h.
-  HS_INLINE void add_untested(TriangleId id, int packet, const SampleLanes& lanes) requires(kQueues&& multisampled) {
+  /// Adds a packet of pixels without testing it. packet: its number in the plane of sample 0; lanes: covered lanes of each sample.
+  template <class Lanes>
+  HS_INLINE void add_untested(TriangleId id, int packet, const Lanes& lanes) requires kQueues {
     uint32_t any = 0;
     int covered = 0;
-    for (const uint16_t of_sample : lanes) {
+    for (const uint32_t of_sample : lanes) {
       any |= of_sample;
       covered += std::popcount(of_sample);
     }
-    count_untested(covered);
+    statistics_.samples_tested += static_cast<uint64_t>(covered);
+    if (is_final()) statistics_.samples_passed += static_cast<uint64_t>(covered);
     const auto i = static_cast<std::size_t>(queue_->count);
     queue_->packets[i] = {static_cast<uint16_t>(packet), static_cast<uint16_t>(any)};
     queue_->ids[i] = id;
-    queue_->sample_lanes[i] = lanes;
+    if constexpr (multisampled) queue_->sample_lanes[i] = lanes;
     queue_->count += any != 0 ? 1 : 0;
   }
   /// Starts a packet of pixels. packet: its number in the plane of sample 0. Call begin_sample() and write() for each sample that has
   /// covered lanes, and end_packet() after the last one.
-  void begin_packet(TriangleId id, int packet) requires(kQueues&& multisampled) {
+  void begin_packet(TriangleId id, int packet) requires kQueues {
+    if (!multisampled) return;
     const auto i = static_cast<std::size_t>(queue_->count);
     queue_->packets[i] = {static_cast<uint16_t>(packet), 0};
     queue_->ids[i] = id;
     queue_->sample_lanes[i] = {};
   }
-  void begin_sample(std::size_t sample) requires(kQueues&& multisampled) { sample_ = sample; }
-  void end_packet() requires(kQueues&& multisampled) {
+  void begin_sample(std::size_t sample) requires kQueues { sample_ = sample; }
+  void end_packet() requires kQueues {
+    if (!multisampled) return;
     queue_->count += queue_->packets[static_cast<std::size_t>(queue_->count)].lanes != 0 ? 1 : 0;
   }
 
@@ -253,11 +236,6 @@ class Writer {
       p.lanes = static_cast<uint16_t>(p.lanes | 1u << lane);
       if (queues_depth()) set_lane(queue_->depth[i], lane, z);
     }
-  }
-
-  void count_untested(int covered) {
-    statistics_.samples_tested += static_cast<uint64_t>(covered);
-    if (is_final()) statistics_.samples_passed += static_cast<uint64_t>(covered);
   }
 
   const DrawState& state_;

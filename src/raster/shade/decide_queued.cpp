@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-//
-// Visibility of queued draws whose visibility function decides which pixels are drawn, or replaces their depth.
+#include "halfspace/raster/shade/decide_queued.h"
+
 #include <algorithm>
 #include <bit>
 #include <utility>
 
-#include "halfspace/raster/visibility/centroid.h"
-#include "halfspace/raster/visibility/depth_bounds.h"
-#include "halfspace/raster/visibility/packed_pixels.h"
-#include "halfspace/raster/visibility/traced_writer.h"
+#include "halfspace/raster/visibility/coverage/traced_writer.h"
+#include "halfspace/raster/visibility/sink/centroid.h"
+#include "halfspace/raster/visibility/sink/packed_pixels.h"
 
 namespace halfspace::HS_LANES {
 

@@ -4,8 +4,8 @@
 #pragma once
 
 #include "halfspace/raster/trace/tile_trace.h"
-#include "halfspace/raster/visibility/trace_rejected.h"
-#include "halfspace/raster/visibility/writer.h"
+#include "halfspace/raster/visibility/coverage/trace_rejected.h"
+#include "halfspace/raster/visibility/sink/writer.h"
 
 namespace halfspace::HS_LANES {
 
@@ -33,15 +33,15 @@ class TracedWriter : public Writer<path, multisampled> {
     Base::write_pixel(id, pixel, z);
   }
   template <class Z>
-  void write_whole(TriangleId id, int packet, const Z& z_at) requires(!Base::kTestsStencil) {
+  void write_whole(TriangleId id, int packet, const Z& z_at) requires(!Base::kQueues && !Base::kTestsStencil) {
     add(id, packet, kAllBits<Mask>, z_at());
     Base::write_whole(id, packet, z_at);
   }
   void tile_rejected(const Triangle& t, TriangleId id, std::size_t sample, const DepthBounds& z) const {
-    trace_rejected_tile({d_, t, id, SampleGrid(d_.tile, static_cast<int>(sample)), z}, *d_.trace);
+    trace_rejected_tile({d_, t, id, sample, z}, *d_.trace);
   }
   void block_rejected(const Triangle& t, TriangleId id, std::size_t sample, int block, const DepthBounds& z) const {
-    trace_rejected_block({d_, t, id, SampleGrid(d_.tile, static_cast<int>(sample)), z}, block, *d_.trace);
+    trace_rejected_block({d_, t, id, sample, z}, block, *d_.trace);
   }
   /// Packets must not be added without recording them.
   bool adds_untested(bool) const requires(Base::kQueues) { return false; }

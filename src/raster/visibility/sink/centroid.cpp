@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "halfspace/raster/visibility/centroid.h"
+#include "halfspace/raster/visibility/sink/centroid.h"
 
 #include "halfspace/raster/pipeline/edge.h"
 

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "halfspace/raster/pipeline/line.h"
-#include "halfspace/raster/visibility/visibility.h"
+#include "halfspace/raster/visibility/coverage/depth_plane.h"
 
 namespace halfspace::HS_LANES {
 
@@ -51,8 +51,7 @@ template <class Writer>
 void rasterize_thin_line(const DrawInTile& d, const Triangle& t, const PixelBounds& bounds, TriangleId id, Writer& writer) {
   const ThinLine line(t);
   if (line.is_empty()) return;
-  const SampleGrid grid(d.tile, 0);
-  const DepthPlane<false> plane(t, {}, d.draw, grid, d.tile.depth_format);
+  const LargeDepthPlane plane(t, d.draw, d.tile, kPixelCenter);
   const int begin = line.y_major() ? bounds.y0 : bounds.x0, end = line.y_major() ? bounds.y1 : bounds.x1;
   const int low = line.y_major() ? bounds.x0 : bounds.y0, high = line.y_major() ? bounds.x1 : bounds.y1;
   const int first_major = line.y_major() ? d.tile.y0 : d.tile.x0, first_minor = line.y_major() ? d.tile.x0 : d.tile.y0;
@@ -69,7 +68,7 @@ void rasterize_thin_line(const DrawInTile& d, const Triangle& t, const PixelBoun
     const Int along = load<Int>(major.data()), across = load<Int>(minor.data());
     const Int x = line.y_major() ? across : along, y = line.y_major() ? along : across;
     store(pixels.data(), pixel_at(x, y));
-    store(depths.data(), plane.at_pixels(x, y));
+    store(depths.data(), plane.at(x, y));
     for (std::size_t k = 0; k < count; ++k) writer.write_pixel(id, static_cast<std::size_t>(pixels[k]), depths[k]);
   }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "halfspace/raster/visibility/depth_stencil_test.h"
+#include "halfspace/raster/visibility/tests/depth_stencil_test.h"
 
 #include "halfspace/core/lane_bytes.h"
 

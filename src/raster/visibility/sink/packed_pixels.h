@@ -9,7 +9,7 @@
 #include <span>
 
 #include "halfspace/core/lane_packing.h"
-#include "halfspace/raster/visibility/packet_batch.h"
+#include "halfspace/raster/visibility/sink/packet_batch.h"
 
 namespace halfspace::HS_LANES {
 

@@ -6,9 +6,19 @@
 #include <algorithm>
 
 #include "halfspace/core/lane_reduce.h"
-#include "halfspace/raster/tile/tile.h"
+#include "halfspace/raster/pipeline/pass_context.h"
+#include "halfspace/raster/tile/tile_format.h"
 
 namespace halfspace::HS_LANES {
+
+/// Bounds of a triangle's depth, represented as in Tile::depth.
+struct DepthBounds {
+  float low, high;
+};
+inline DepthBounds depth_bounds(const Triangle& t, const Draw& draw, DepthFormat format) {
+  const float high = std::clamp(t.z_max, draw.depth_low, draw.depth_high);
+  return {depth_value(format, std::clamp(t.z0, draw.depth_low, high)), depth_value(format, high)};
+}
 
 enum class BlockTest : uint8_t { none_passes, some_may, all_pass };
 
