@@ -7,11 +7,9 @@
 
 #include "halfspace/core/float_mode.h"
 #include "halfspace/core/lane_math.h"
-#include "halfspace/raster/loop/tile_worker.h"
+#include "halfspace/raster/loop/pass_rounds.h"
 #include "halfspace/raster/pipeline/pass_memory.h"
-#include "halfspace/raster/primitives/bin.h"
 #include "halfspace/raster/primitives/primitive_assembly.h"
-#include "halfspace/raster/primitives/setup.h"
 #include "halfspace/raster/primitives/vertex_stage.h"
 #include "halfspace/raster/tile/blend.h"
 
@@ -20,32 +18,8 @@ namespace halfspace::HS_LANES {
 namespace {
 
 constexpr int kMaxTargetSize = static_cast<int>(kGuardBand);
-constexpr std::size_t kVerticesPerTask = 8 * kVertexBatch;
-// Number of primitives per chunk. The first chunks are small, so that all threads have work in a small pass. Later chunks grow with the
-// number of preceding primitives: since each tile has to visit all chunks, a large pass should have few of them.
-constexpr uint64_t kSmallestChunk = 2048;
-constexpr uint64_t kChunkShare = 8;
 // Memory limit of a tile in bytes, chosen so that it stays in the L2 cache.
 constexpr int kTileBudget = 160 << 10;
-// Number of chunks that are set up between checks of the bin budget.
-constexpr std::size_t kChunksPerSet = 32;
-
-Chunk take_or_make(std::vector<Chunk>& from) {
-  if (from.empty()) return {};
-  Chunk c = std::move(from.back());
-  from.pop_back();
-  return c;
-}
-// Clears all chunks and moves them to `to`, in reverse order. take_or_make() then returns them in the original order, so that each chunk is
-// reused with memory of about the right size.
-void recycle_chunks(std::vector<Chunk>& chunks, std::vector<Chunk>& to) {
-  for (auto c = chunks.rbegin(); c != chunks.rend(); ++c) {
-    c->clear();
-    to.push_back(std::move(*c));
-  }
-  chunks.clear();
-}
-
 VertexStreams keep_streams(const VertexView& view, std::pmr::memory_resource& memory) {
   const auto count = static_cast<std::size_t>(view.stream_count);
   auto* const kept = static_cast<VertexStream*>(memory.allocate(count * sizeof(VertexStream), alignof(VertexStream)));
@@ -106,37 +80,6 @@ class PassState {
   PassStatistics run(TileRunner& tiles, const Workers& workers);
 
  private:
-  // Work for one thread: part of the vertices of a large draw, or all vertices of the small draws [draw, end_draw).
-  struct VertexTask {
-    std::size_t draw, end_draw;
-    std::size_t begin, end;  // range of the vertices used by the draw; for small draws, end is the total number of vertices
-    bool is_part;
-    Outcode any = 0;  // union of the outcodes, for parts of large draws
-  };
-  // The work of the pass. Updated whenever a draw is added.
-  struct Plan {
-    std::vector<VertexTask> vertex_tasks;  // in the order of the draws
-    std::size_t next_task = 0;             // the first task that has not run
-    std::size_t first_kept = 0;            // the vertices of draws [first_kept, end_shaded) are in memory
-    std::size_t end_shaded = 0;
-    std::vector<std::vector<DrawRange>> chunks;
-    uint64_t primitives = 0;  // in all chunks
-    uint32_t capacity = 0;    // primitives that still fit in the last chunk
-    uint32_t records = 0;     // triangles that still fit in the last chunk
-    PassStatistics submitted;
-  };
-
-  void add_vertex_tasks(std::size_t draw);
-  void run_vertex_stage(std::span<VertexTask> tasks, const Workers& workers);
-  // Shades the vertices of the draws of the next chunk and, up to the memory limit, of the draws after it. The vertices of draws before the
-  // next chunk are discarded.
-  void shade_more_vertices(Plan& plan, std::size_t next_chunk, const Workers& workers);
-  void add_draw_ranges(uint32_t draw);
-  // Extends context_.triangle_ids by the triangles of a chunk, which follow those of the chunks before it.
-  void add_triangle_ids(uint32_t chunk);
-  // Sets up chunks of the plan starting at `next`, until the budget is reached, all chunk ids are in use or no chunks with shaded vertices
-  // are left. Returns the next chunk.
-  std::size_t set_up_chunks(Plan& plan, std::size_t next, PassMemory& memory, const Workers& workers, PassStatistics& statistics);
   int tile_size() const;
   // Sets the draw's viewport, bounds and depth range.
   void place_draw(Draw& d) const;
@@ -144,14 +87,14 @@ class PassState {
   bool set_color_writes(Draw& d) const;
 
   PassContext context_;
-  Plan plan_;
   Attachments attachments_;
   PassOptions options_;
+  PassPlan plan_;
   uint32_t layer_group_ = 0;  // of the last draw
 };
 
 PassState::PassState(int width, int height, std::span<const ColorTarget> colors, const DepthTarget& depth, const PassOptions& options)
-    : options_(options) {
+    : options_(options), plan_(options.samples, options.chunk_triangles) {
   attachments_.colors.assign(colors.begin(), colors.end());
   attachments_.depth = depth;
   HS_CHECK(width >= 1 && width <= kMaxTargetSize && height >= 1 && height <= kMaxTargetSize,
@@ -210,6 +153,7 @@ void PassState::add_draw(const ShaderKernels& kernels, KeptShader shader, const 
   Draw& d = context_.draws.emplace_back(kernels, std::move(shader), std::move(indices), keep_streams(vertices, *context_.memory), state);
   d.vertex_count = d.indices->used_count() * state.instances;
   count_primitives(d);
+  place_draw(d);
   d.shades_samples = context_.samples > 1 && (state.sample_shading || options_.supersample);
   d.sample_mask = context_.samples == 1 ? 1u : state.sample_mask & ((1u << context_.samples) - 1);
   const bool replaces = set_color_writes(d);
@@ -221,10 +165,7 @@ void PassState::add_draw(const ShaderKernels& kernels, KeptShader shader, const 
   d.deferred = may_defer && !d.covers_by_alpha && (!decides_visibility || kernels.visibility != nullptr);
   if (d.writes_color && !state.order_independent) ++layer_group_;
   d.layer_group = layer_group_;
-  std::vector<uint64_t>& queries = plan_.submitted.queries;
-  if (state.query) queries.resize(std::max(queries.size(), std::size_t{*state.query} + 1));
-  add_vertex_tasks(context_.draws.size() - 1);
-  add_draw_ranges(static_cast<uint32_t>(context_.draws.size() - 1));
+  plan_.add(d, context_.draws.size() - 1);
 }
 
 void PassState::place_draw(Draw& d) const {
@@ -256,158 +197,12 @@ bool PassState::set_color_writes(Draw& d) const {
   return replaces;
 }
 
-void PassState::add_vertex_tasks(std::size_t draw) {
-  const Draw& d = context_.draws[draw];
-  const std::size_t count = d.vertex_count;
-  plan_.submitted.vertices_in += (d.indices->size() - d.indices->restarts().size()) * d.state.instances;
-  plan_.submitted.vertices_shaded += count;
-  std::vector<VertexTask>& tasks = plan_.vertex_tasks;
-  if (count > kVerticesPerTask) {
-    for (std::size_t b = 0; b < count; b += kVerticesPerTask)
-      tasks.push_back({draw, draw + 1, b, std::min(count, b + kVerticesPerTask), true});
-    return;
-  }
-  if (!tasks.empty()) {
-    VertexTask& last = tasks.back();
-    if (!last.is_part && last.end + count <= kVerticesPerTask) {
-      last.end_draw = draw + 1;
-      last.end += count;
-      return;
-    }
-  }
-  tasks.push_back({draw, draw + 1, 0, count, false});
-}
-
-void PassState::shade_more_vertices(Plan& plan, std::size_t next_chunk, const Workers& workers) {
-  if (next_chunk == plan.chunks.size()) return;
-  const std::size_t first = plan.chunks[next_chunk].front().draw, last = plan.chunks[next_chunk].back().draw;
-  if (last < plan.end_shaded) return;
-  // The next draws take over the memory of the draws that are finished.
-  std::size_t to = plan.end_shaded;
-  for (; plan.first_kept < std::min(first, plan.end_shaded); ++plan.first_kept) {
-    ShadedVertices finished = std::exchange(context_.shaded[plan.first_kept], {});
-    if (to < context_.shaded.size()) context_.shaded[to++] = std::move(finished);
-  }
-  const std::vector<VertexTask>& tasks = plan.vertex_tasks;
-  const std::size_t begin = plan.next_task;
-  for (std::size_t bytes = 0; plan.next_task < tasks.size() && (tasks[plan.next_task].draw <= last || bytes < options_.bin_budget);) {
-    const VertexTask& task = tasks[plan.next_task];
-    for (std::size_t d = task.draw; d < task.end_draw; ++d) bytes += shaded_bytes(context_.draws[d]);
-    plan.end_shaded = task.end_draw;
-    while (plan.next_task < tasks.size() && tasks[plan.next_task].draw < plan.end_shaded) ++plan.next_task;
-  }
-  run_vertex_stage(std::span(plan.vertex_tasks).subspan(begin, plan.next_task - begin), workers);
-}
-
-void PassState::run_vertex_stage(std::span<VertexTask> tasks, const Workers& workers) {
-  const auto begin_draw = [this](std::size_t draw) {
-    place_draw(context_.draws[draw]);
-    allocate_vertices(context_.draws[draw], context_.shaded[draw]);
-  };
-  for (const VertexTask& t : tasks) {
-    if (t.is_part && t.begin == 0) begin_draw(t.draw);
-  }
-  workers.for_each(static_cast<int>(tasks.size()), [&](int i) {
-    VertexTask& t = tasks[static_cast<std::size_t>(i)];
-    if (t.is_part) {
-      t.any = shade_vertices(context_.draws[t.draw], t.begin, t.end, context_.shaded[t.draw]);
-      return;
-    }
-    for (std::size_t d = t.draw; d < t.end_draw; ++d) {
-      begin_draw(d);
-      context_.shaded[d].any_outcode = shade_vertices(context_.draws[d], 0, context_.draws[d].vertex_count, context_.shaded[d]);
-    }
-  });
-  for (const VertexTask& t : tasks) {
-    if (t.is_part) context_.shaded[t.draw].any_outcode |= t.any;
-  }
-}
-
-void PassState::add_draw_ranges(uint32_t draw) {
-  const Draw& d = context_.draws[draw];
-  const uint32_t each = max_triangles_per_primitive(d, context_.samples);
-  for (uint32_t instance = 0; instance < d.state.instances; ++instance) {
-    for (uint32_t first = 0; first < d.primitive_count;) {
-      if (plan_.capacity == 0 || plan_.records < each) {
-        plan_.chunks.emplace_back();
-        plan_.capacity =
-            static_cast<uint32_t>(std::min<uint64_t>(options_.chunk_triangles, std::max(kSmallestChunk, plan_.primitives / kChunkShare)));
-        plan_.records = kMaxTrianglesPerChunk;
-      }
-      const uint32_t n = std::min({plan_.capacity, plan_.records / each, d.primitive_count - first});
-      plan_.chunks.back().push_back({draw, instance, first, n});
-      first += n;
-      plan_.primitives += n;
-      plan_.capacity -= n;
-      plan_.records -= n * each;
-    }
-  }
-}
-
-void PassState::add_triangle_ids(uint32_t chunk) {
-  const Chunk& c = context_.chunks[chunk];
-  for (std::size_t range = 0; range < c.ranges.size(); ++range) {
-    TriangleIds& ids = context_.triangle_ids[c.ranges[range].draw];
-    if (ids.count == 0) ids.first = triangle_id(chunk, c.ranges[range].first_triangle);
-    ids.count = triangle_id(chunk, c.end_triangle(range)) - ids.first;
-  }
-}
-
-std::size_t PassState::set_up_chunks(Plan& plan, std::size_t next, PassMemory& memory, const Workers& workers, PassStatistics& statistics) {
-  std::size_t bytes = 0;
-  const auto is_shaded = [&plan](std::size_t chunk) {
-    return chunk < plan.chunks.size() && plan.chunks[chunk].back().draw < plan.end_shaded;
-  };
-  while (is_shaded(next) && (context_.chunks.empty() || bytes < options_.bin_budget) &&
-         context_.chunks.size() + kChunksPerSet <= kMaxChunks) {
-    const std::size_t begin = context_.chunks.size();
-    std::size_t count = 1;
-    while (count < kChunksPerSet && is_shaded(next + count)) ++count;
-    for (std::size_t i = 0; i < count; ++i) context_.chunks.push_back(take_or_make(memory.chunks));
-    workers.for_each(static_cast<int>(count), [&](int i) {
-      Chunk& chunk = context_.chunks[begin + static_cast<std::size_t>(i)];
-      chunk.ranges = std::move(plan.chunks[next + static_cast<std::size_t>(i)]);
-      set_up_chunk(context_, chunk);
-      run_primitive_stage(context_, chunk);
-      bin_chunk(context_, chunk);
-    });
-    next += count;
-    for (std::size_t c = begin; c < context_.chunks.size(); ++c) {
-      bytes += context_.chunks[c].bytes();
-      statistics += context_.chunks[c].statistics;
-      add_triangle_ids(static_cast<uint32_t>(c));
-    }
-  }
-  return next;
-}
-
 PassStatistics PassState::run(TileRunner& tiles, const Workers& workers) {
   const FloatMode float_mode;
-  Plan plan = std::exchange(plan_, {});
-  PassStatistics statistics = std::move(plan.submitted);
-  PassMemory memory = take_pass_memory();
-  context_.shaded = std::move(memory.shaded);
-  context_.shaded.resize(context_.draws.size());
-  Round round{.first = true, .last = false};
-  std::size_t next = 0;
-  do {
-    recycle_chunks(context_.chunks, memory.chunks);
-    context_.triangle_ids.assign(context_.draws.size(), {});
-    shade_more_vertices(plan, next, workers);
-    next = set_up_chunks(plan, next, memory, workers, statistics);
-    round.last = next == plan.chunks.size();
-    if (!round.last) {
-      keep_between_flushes(context_, attachments_);
-      ++statistics.flushes;
-    }
-    tiles.run(context_, attachments_, round, workers, statistics);
-    round.first = false;
-  } while (!round.last);
+  PassPlan plan = std::exchange(plan_, PassPlan(context_.samples, options_.chunk_triangles));
+  PassStatistics statistics = run_rounds(context_, attachments_, std::move(plan), options_.bin_budget, tiles, workers);
   return_draw_list(std::exchange(context_.draws, {}));
   context_.memory->release();
-  recycle_chunks(context_.chunks, memory.chunks);
-  memory.shaded = std::exchange(context_.shaded, {});
-  return_pass_memory(std::move(memory));
   return statistics;
 }
 

@@ -61,12 +61,11 @@ struct Draw {
   VertexStreams vertices;
   DrawState state;
 
-  // These are set in the vertex stage.
+  // These are set when the draw is added.
   Viewport viewport{};
   PixelBounds bounds{};    ///< viewport ∩ scissor ∩ target
   float depth_low = 0.0f;  ///< bounds of the depth range
   float depth_high = 1.0f;
-  // These are set when the draw is added.
   bool deferred = false;        ///< shaded after visibility, once per visible pixel; otherwise shaded immediately, in order
   bool writes_color = false;    ///< writes any channel of any attachment
   bool shades_samples = false;  ///< the fragment function runs per sample instead of per pixel

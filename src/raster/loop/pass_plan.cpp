@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "halfspace/raster/loop/pass_plan.h"
+
+#include <algorithm>
+
+#include "halfspace/raster/primitives/primitive_assembly.h"
+
+namespace halfspace::HS_LANES {
+
+namespace {
+
+constexpr std::size_t kVerticesPerTask = 8 * kVertexBatch;
+// Number of primitives per chunk. The first chunks are small, so that all threads have work in a small pass. Later chunks grow with the
+// number of preceding primitives: since each tile has to visit all chunks, a large pass should have few of them.
+constexpr uint64_t kSmallestChunk = 2048;
+constexpr uint64_t kChunkShare = 8;
+
+}  // namespace
+
+void PassPlan::add(const Draw& draw, std::size_t number) {
+  if (draw.state.query) submitted.queries.resize(std::max(submitted.queries.size(), std::size_t{*draw.state.query} + 1));
+  add_vertices(draw, number);
+  add_primitives(draw, number);
+}
+
+void PassPlan::add_vertices(const Draw& draw, std::size_t number) {
+  const std::size_t count = draw.vertex_count;
+  submitted.vertices_in += (draw.indices->size() - draw.indices->restarts().size()) * draw.state.instances;
+  submitted.vertices_shaded += count;
+  if (count > kVerticesPerTask) {
+    for (std::size_t b = 0; b < count; b += kVerticesPerTask)
+      vertex_tasks.push_back({number, number + 1, b, std::min(count, b + kVerticesPerTask), true});
+    return;
+  }
+  if (!vertex_tasks.empty()) {
+    VertexTask& last = vertex_tasks.back();
+    if (!last.is_part && last.end + count <= kVerticesPerTask) {
+      last.end_draw = number + 1;
+      last.end += count;
+      return;
+    }
+  }
+  vertex_tasks.push_back({number, number + 1, 0, count, false});
+}
+
+void PassPlan::add_primitives(const Draw& draw, std::size_t number) {
+  const uint32_t each = max_triangles_per_primitive(draw, samples_);
+  for (uint32_t instance = 0; instance < draw.state.instances; ++instance) {
+    for (uint32_t first = 0; first < draw.primitive_count;) {
+      if (capacity_ == 0 || records_ < each) {
+        chunks.emplace_back();
+        capacity_ = static_cast<uint32_t>(std::min<uint64_t>(chunk_triangles_, std::max(kSmallestChunk, primitives_ / kChunkShare)));
+        records_ = kMaxTrianglesPerChunk;
+      }
+      const uint32_t n = std::min({capacity_, records_ / each, draw.primitive_count - first});
+      chunks.back().push_back({static_cast<uint32_t>(number), instance, first, n});
+      first += n;
+      primitives_ += n;
+      capacity_ -= n;
+      records_ -= n * each;
+    }
+  }
+}
+
+}  // namespace halfspace::HS_LANES
