@@ -33,7 +33,7 @@ PageJson json_of_triangle(const PassContext& context, const Draw& draw, const Tr
                 {"z_edge2", t.z_edge2},
                 {"z_max", t.z_max},
                 {"front", t.is(kFrontFacing)},
-                {"small", t.is(kSmall)},
+                {"small", t.is(kNarrow)},
                 {"clipped", t.is(kClipped)}};
   const auto json_of_box = [](const PixelBounds& b) { return PageJson{b.x0, b.y0, b.x1, b.y1}; };
   json["box"] = json_of_box(pixel_bounds(draw, t, draw.bounds, context.samples_at));

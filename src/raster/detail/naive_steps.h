@@ -171,7 +171,7 @@ class NaiveDepthPlane {
     z_edge2_ = static_cast<R>((static_cast<double>(p[2].z) - static_cast<double>(p[0].z)) / area);
     const auto [x_low, x_high] = std::minmax({p[0].x, p[1].x, p[2].x});
     const auto [y_low, y_high] = std::minmax({p[0].y, p[1].y, p[2].y});
-    small_ = x_high - x_low <= kSmallExtent && y_high - y_low <= kSmallExtent;
+    narrow_ = x_high - x_low <= kNarrowExtent && y_high - y_low <= kNarrowExtent;
     z_max_ = std::max({p[0].z, p[1].z, p[2].z});
   }
 
@@ -179,7 +179,7 @@ class NaiveDepthPlane {
     const int64_t dx = x - p_[0].x, dy = y - p_[0].y;
     const int64_t e1x = p_[1].x - p_[0].x, e1y = p_[1].y - p_[0].y, e2x = p_[2].x - p_[0].x, e2y = p_[2].y - p_[0].y;
     R w1 = static_cast<R>(dx * e2y - dy * e2x), w2 = static_cast<R>(e1x * dy - e1y * dx);
-    if (kIsFloat<R> && !small_) {  // large triangles round the edge functions differently (visibility/depth_plane.h)
+    if (kIsFloat<R> && !narrow_) {  // other triangles round the edge functions differently (visibility/depth_plane.h)
       w1 = difference_of_products(static_cast<R>(dx), static_cast<R>(e2y), static_cast<R>(dy), static_cast<R>(e2x));
       w2 = difference_of_products(static_cast<R>(e1x), static_cast<R>(dy), static_cast<R>(e1y), static_cast<R>(dx));
     }
@@ -189,7 +189,7 @@ class NaiveDepthPlane {
  private:
   std::array<ScreenPoint<R>, 3> p_;
   R z_edge1_, z_edge2_, z_max_;
-  bool small_;
+  bool narrow_;
 };
 
 }  // namespace halfspace::HS_LANES::naive

@@ -36,12 +36,12 @@ HS_INLINE void prefetch_vertex(const PassContext& context, const Chunk& chunk, c
   __builtin_prefetch(row + count);
 }
 
-// Returns the number of small triangles at the start of a bin that belong to the same draw, at most W.
-std::size_t small_run(const Chunk& chunk, std::span<const uint16_t> bin) {
+// Returns the number of narrow triangles at the start of a bin that belong to the same draw, at most W.
+std::size_t narrow_run(const Chunk& chunk, std::span<const uint16_t> bin) {
   const std::size_t max_count = std::min(bin.size(), static_cast<std::size_t>(kLanes));
   const uint32_t range = chunk.triangles[bin[0]].range();
   std::size_t n = 0;
-  while (n < max_count && is_small_triangle(chunk.triangles[bin[n]]) && chunk.triangles[bin[n]].range() == range) ++n;
+  while (n < max_count && is_narrow_triangle(chunk.triangles[bin[n]]) && chunk.triangles[bin[n]].range() == range) ++n;
   return n;
 }
 
@@ -66,14 +66,14 @@ class TileDraws {
         const Draw& draw = context_.draws[chunk.ranges[chunk.triangles[t].range()].draw];
         if (!here || &here->draw != &draw) begin_draw(draw, here);
         const uint64_t passed_before = statistics_.samples_passed;
-        const std::size_t small = occluder.is_pending() ? 0 : small_run(chunk, bin.subspan(i));
-        for (std::size_t k = i; k < i + std::max<std::size_t>(small, 1); ++k) {
+        const std::size_t narrow = occluder.is_pending() ? 0 : narrow_run(chunk, bin.subspan(i));
+        for (std::size_t k = i; k < i + std::max<std::size_t>(narrow, 1); ++k) {
           prefetch(ahead(k + kTrianglesAhead));
           if (here->fetches_vertices) prefetch_vertex(context_, chunk, ahead(k + kVerticesAhead));
         }
-        if (small != 0) {
+        if (narrow != 0) {
           begin_triangle(*here);
-          i += draw_small(*here, c, bin.subspan(i, small));
+          i += draw_narrow(*here, c, bin.subspan(i, narrow));
         } else {
           const bool was_visible = occluder.is_visible();
           const bool is_done = occluder.draw(*here, c, t, statistics_);
@@ -102,7 +102,7 @@ class TileDraws {
     finish_draw(here);
     here.emplace(context_, draw, visibility_mode(draw), memory_.tile, trace_);
     rasterize_ = rasterize_function(*here);
-    rasterize_small_ = rasterize_small_function(*here);
+    rasterize_narrow_ = rasterize_narrow_function(*here);
     if (draw.layer_group != layer_group_) write_layers();
     layer_group_ = draw.layer_group;
     if (draw.state.order_independent && memory_.layers.empty()) memory_.layers.clear(prefers_greater(draw.state.depth.compare));
@@ -136,17 +136,17 @@ class TileDraws {
     if (d->draw.state.query) statistics_.add_to_query(*d->draw.state.query, statistics_.samples_passed - passed_before);
   }
 
-  // Draws small triangles of one draw, 1 to W. Returns how many were drawn, at least 1.
-  std::size_t draw_small(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices) {
-    const std::size_t count = rasterize_small_(d, chunk, indices, memory_.queue, statistics_);
+  // Draws narrow triangles of one draw, 1 to W. Returns how many were drawn, at least 1.
+  std::size_t draw_narrow(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices) {
+    const std::size_t count = rasterize_narrow_(d, chunk, indices, memory_.queue, statistics_);
     if (memory_.queue.is_full()) finish_queue(d);
     return count;
   }
 
   void draw_triangle(const DrawInTile& d, uint32_t chunk, uint16_t index) {
     const Triangle& t = context_.chunks[chunk].triangles[index];
-    if (is_small_triangle(t)) {
-      draw_small(d, chunk, {&index, 1});
+    if (is_narrow_triangle(t)) {
+      draw_narrow(d, chunk, {&index, 1});
       return;
     }
     rasterize_(d, t, triangle_id(chunk, index), memory_.queue, statistics_);
@@ -165,7 +165,7 @@ class TileDraws {
   PassStatistics& statistics_;
   TileTrace* trace_;
   RasterizeFunction rasterize_ = nullptr;  // of the current draw
-  RasterizeSmallFunction rasterize_small_ = nullptr;
+  RasterizeNarrowFunction rasterize_narrow_ = nullptr;
   bool pending_ = false;      // Tile::visibility is in use: pixels may have been drawn that are not shaded yet
   uint32_t layer_group_ = 0;  // of the current draw
 };

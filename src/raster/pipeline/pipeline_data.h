@@ -150,7 +150,7 @@ using PixelBounds = PixelBox<int32_t>;
 
 inline constexpr uint32_t kFrontFacing = 1;     ///< the triangle is front-facing
 inline constexpr uint32_t kClipped = 2;         ///< vertex[] contains indices of the chunk's clip vertices
-inline constexpr uint32_t kSmall = 4;           ///< all edge functions fit in int32 without a shift
+inline constexpr uint32_t kNarrow = 4;          ///< the extent is at most kNarrowExtent (triangle_sizes.h)
 inline constexpr uint32_t kProvokingShift = 3;  ///< two bits: index of the provoking vertex in vertex[]
 inline constexpr uint32_t kPointSprite = 32;    ///< a point; see Triangle
 inline constexpr uint32_t kLine = 64;           ///< a line; see Triangle
@@ -178,8 +178,8 @@ struct Triangle {
   uint32_t range() const { return flags >> kDrawRangeShift; }
   uint32_t provoking() const { return (flags >> kProvokingShift) & 3; }
   bool is(uint32_t flag) const { return (flags & flag) != 0; }
-  /// Covered pixels of a small triangle, or 0 if they are not known. They are only known with one sample per pixel, and for a bounding box
-  /// of at most 4 x 3 pixels. Bit 4r + c is pixel c of row r of the bounding box, clipped to the bounds of the draw.
+  /// Covered pixels of a tiny triangle, or 0 if they are not known. They are only known with one sample per pixel, and for a bounding box
+  /// of at most kTinySide x kTinyRows pixels. Bit 4r + c is pixel c of row r of the bounding box, clipped to the bounds of the draw.
   uint32_t covered() const { return flags >> kCoveredShift & kCoveredBits; }
 };
 

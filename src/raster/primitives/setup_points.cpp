@@ -20,7 +20,7 @@ HS_INLINE Cull add_point(SetupRange& r, const PointSpriteRect& rect, const Scree
              .z_edge2 = 0,
              .z_max = v.z,
              .vertex = {id, id, id},
-             .flags = kPointSprite | kSmall};
+             .flags = kPointSprite | kNarrow};
   const bool is_empty = pixel_bounds(r.draw, t, r.draw.bounds, r.context.samples_at).empty();
   return r.append(is_empty ? Cull::no_sample : Cull::none, t, flags);
 }

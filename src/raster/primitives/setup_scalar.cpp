@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "halfspace/raster/pipeline/pixel_box.h"
-#include "halfspace/raster/primitives/small_coverage.h"
+#include "halfspace/raster/primitives/tiny_coverage.h"
 
 namespace halfspace::HS_LANES {
 
@@ -40,7 +40,7 @@ float depth_offset(const DepthOffset& o, DepthFormat format, const Triangle& t, 
   return static_cast<float>(offset);
 }
 
-bool is_small(const Triangle& t) { return max_of(t.x) - min_of(t.x) <= kSmallExtent && max_of(t.y) - min_of(t.y) <= kSmallExtent; }
+bool is_narrow(const Triangle& t) { return max_of(t.x) - min_of(t.x) <= kNarrowExtent && max_of(t.y) - min_of(t.y) <= kNarrowExtent; }
 
 }  // namespace
 
@@ -70,7 +70,7 @@ Cull set_up_triangle(const Draw& draw, const PassContext& context, const std::ar
   }
   const PixelBounds box = intersect(pixel_box(out.x, out.y, context.samples_at, context.samples_at), draw.bounds);
   if (box.empty()) return Cull::no_sample;
-  const bool few = context.samples == 1 && is_small(out) && box.fits_in(kCoverSide, kCoverSide);
+  const bool few = context.samples == 1 && is_narrow(out) && box.fits_in(kTinySide, kTinySide);
   const int32_t covered = few ? covered_centers<float>(out.x, out.y, box) : 0;
   if (few && covered == 0) return Cull::no_sample;
 
@@ -85,7 +85,7 @@ Cull set_up_triangle(const Draw& draw, const PassContext& context, const std::ar
   out.z_edge1 = static_cast<float>(plane.dz1 / plane.area);
   out.z_edge2 = static_cast<float>(plane.dz2 / plane.area);
 
-  if (is_small(out)) out.flags |= kSmall;
+  if (is_narrow(out)) out.flags |= kNarrow;
   out.flags |= static_cast<uint32_t>(covered_flags(box, covered));
   if (front) out.flags |= kFrontFacing;
   return Cull::none;

@@ -4,13 +4,9 @@
 #pragma once
 
 #include "halfspace/raster/pipeline/pass_context.h"
+#include "halfspace/raster/pipeline/triangle_sizes.h"
 
 namespace halfspace::HS_LANES {
-
-/// Maximum extent of a small triangle. In any tile that it touches, all edge functions fit in int32 without a shift. A sample is at most
-/// (63 + 64)·256 < 2^15 sub-pixels from a vertex, and an edge is at most 63·256 < 2^14 sub-pixels long in x and y. The difference of two
-/// products of such distances is below 2^30.
-inline constexpr int32_t kSmallExtent = 63 * kSubPixels;
 
 enum class Cull : uint8_t { none, degenerate, face, no_sample };
 
@@ -18,7 +14,7 @@ enum class Cull : uint8_t { none, degenerate, face, no_sample };
 enum class Facing : uint8_t { by_winding, front, back };
 
 /// Sets up a triangle from three snapped vertices. Returns the reason if it is culled. index: indices of the vertices, stored in
-/// out.vertex; provoking: position of the provoking vertex in v. Only the front-facing, small, provoking and covered bits of out.flags
+/// out.vertex; provoking: position of the provoking vertex in v. Only the front-facing, narrow, provoking and covered bits of out.flags
 /// are set.
 Cull set_up_triangle(const Draw& draw, const PassContext& context, const std::array<const ScreenVertex*, 3>& v,
                      const std::array<uint32_t, 3>& index, uint32_t provoking, Facing facing, Triangle& out);

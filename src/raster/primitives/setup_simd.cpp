@@ -9,7 +9,7 @@
 #include "halfspace/raster/pipeline/pixel_box.h"
 #include "halfspace/raster/pipeline/triangle_lanes.h"
 #include "halfspace/raster/primitives/setup_scalar.h"
-#include "halfspace/raster/primitives/small_coverage.h"
+#include "halfspace/raster/primitives/tiny_coverage.h"
 
 namespace halfspace::HS_LANES {
 
@@ -60,9 +60,9 @@ void TriangleBatch::set_up(const PassContext& context, const Draw& draw, const S
     y[i] = vertex[1];
     z[i] = as_real(vertex[2]);
   }
-  const uint32_t small = bits(max_of(x) - min_of(x) <= Int(kSmallExtent) && max_of(y) - min_of(y) <= Int(kSmallExtent));
-  large_ = lanes & ~small;
-  lanes &= small;
+  const uint32_t narrow = bits(max_of(x) - min_of(x) <= Int(kNarrowExtent) && max_of(y) - min_of(y) <= Int(kNarrowExtent));
+  large_ = lanes & ~narrow;
+  lanes &= narrow;
   // |area| is at most 2·kSmallExtent² < 2^29.
   const Int area = (x[1] - x[0]) * (y[2] - y[0]) - (y[1] - y[0]) * (x[2] - x[0]);
   const Mask counter_clockwise = area > Int(0);
@@ -79,7 +79,7 @@ void TriangleBatch::set_up(const PassContext& context, const Draw& draw, const S
   take(bits(box.empty()), statistics.culled_no_sample);
   swap_lanes(clockwise, x[1], x[2]);
   swap_lanes(clockwise, y[1], y[2]);
-  const Mask few = box.fits_in(kCoverSide, kCoverSide);
+  const Mask few = box.fits_in(kTinySide, kTinySide);
   Int covered(0);
   if (context.samples == 1 && (bits(few) & lanes) != 0) {
     covered = select(few, covered_centers<Real>(x, y, box), Int(0));
@@ -107,7 +107,7 @@ void TriangleBatch::set_up(const PassContext& context, const Draw& draw, const S
   z_max_ = z_max;
   const Int wanted(static_cast<int32_t>(provoking));
   const Int place = select(order[0] == wanted, Int(0), select(order[1] == wanted, Int(1), Int(2)));
-  flags_ = (place << static_cast<int>(kProvokingShift)) | Int(static_cast<int32_t>(kSmall | range << kDrawRangeShift)) |
+  flags_ = (place << static_cast<int>(kProvokingShift)) | Int(static_cast<int32_t>(kNarrow | range << kDrawRangeShift)) |
            select(front, Int(static_cast<int32_t>(kFrontFacing)), Int(0)) | covered_flags(box, covered);
   alignas(64) std::array<int32_t, kLanes> areas;
   alignas(64) std::array<float, kLanes> z0, z1, z2, z_edge1, z_edge2;

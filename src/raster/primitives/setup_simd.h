@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Setup of W triangles at a time, for small triangles that need no clipping (the common case). The results are the same as those of
+// Setup of W triangles at a time, for narrow triangles that need no clipping (the common case). The results are the same as those of
 // set_up_triangle().
 #pragma once
 

@@ -38,7 +38,7 @@ PlaneAnchor plane_anchor(const std::array<PlaneCorner, 3>& corner, const PlaneCe
   if (v0.inv_w != v1.inv_w || v0.inv_w != v2.inv_w) return {};
   const auto [left, right] = std::minmax({v0.x, v1.x, v2.x});
   const auto [bottom, top] = std::minmax({v0.y, v1.y, v2.y});
-  if (right - left <= kSmallExtent && top - bottom <= kSmallExtent) return {};
+  if (right - left <= kNarrowExtent && top - bottom <= kNarrowExtent) return {};
   const Span x = part_in_cell(left, right, cell.x), y = part_in_cell(bottom, top, cell.y);
   if (x.low > x.high || y.low > y.high) return {};
   const auto real = [](int64_t i) { return static_cast<double>(i); };

@@ -183,7 +183,7 @@ bool gather_rows(const PassContext& context, const TriangleId* ids, uint32_t lan
   if (points) set_point_corners(triangle, draw.state.point_origin, v);
   if (lines) set_line_corner(triangle, v);
   auto& [x, y, q] = v;
-  const Mask may_have_planes = (flags & Int(static_cast<int32_t>(kSmall | kPointSprite | kLine))) == Int(0);
+  const Mask may_have_planes = (flags & Int(static_cast<int32_t>(kNarrow | kPointSprite | kLine))) == Int(0);
   if (any(may_have_planes & (q[0] == q[1]) & (q[0] == q[2]))) return false;
   // Vertex 0 is the one with the smallest 1/w, or the first of several, as in triangle_scalars().
   const Mask two = (q[2] < q[0]) & (q[2] < q[1]), one = (q[1] < q[0]) & !two;

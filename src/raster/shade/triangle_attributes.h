@@ -22,7 +22,7 @@ struct TriangleSource {
 };
 /// Returns false if a triangle is certainly not given as planes.
 HS_INLINE bool may_have_planes(const TriangleSource& s) {
-  return !s.triangle->is(kSmall | kPointSprite | kLine) && s.vertex[0]->inv_w == s.vertex[1]->inv_w &&
+  return !s.triangle->is(kNarrow | kPointSprite | kLine) && s.vertex[0]->inv_w == s.vertex[1]->inv_w &&
          s.vertex[0]->inv_w == s.vertex[2]->inv_w;
 }
 /// Returns the anchor of a triangle's planes for the pixels of a cell.

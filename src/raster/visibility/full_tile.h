@@ -36,7 +36,7 @@ class FullTileOccluder {
   void write_depth();
 
  private:
-  static bool may_cover(const Triangle& t) { return !t.is(kSmall | kPointSprite | kLine); }
+  static bool may_cover(const Triangle& t) { return !t.is(kNarrow | kPointSprite | kLine); }
   bool test_or_write(const DrawInTile& d, const Triangle& t, TriangleId id, PassStatistics& statistics);
   void trace_rejected(const DrawInTile& d, const Triangle& t, TriangleId id) const;
   void trace_passed(const DrawInTile& d, const Triangle& t, TriangleId id) const;

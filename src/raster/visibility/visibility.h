@@ -4,7 +4,7 @@
 // paths, the packets of all primitives, in submission order, in a queue.
 //
 // Coverage is exact, because edge functions are computed in integer arithmetic (raster/pipeline/edge.h). Depth is z0 + E1·z_edge1 +
-// E2·z_edge2. Both products are non-negative, so it keeps its relative accuracy. E is exact for small triangles; otherwise it is computed
+// E2·z_edge2. Both products are non-negative, so it keeps its relative accuracy. E is exact for narrow triangles; otherwise it is computed
 // by difference_of_products().
 #pragma once
 
@@ -34,7 +34,7 @@ constexpr bool shades_later(VisibilityMode mode) { return mode == VisibilityMode
 /// Returns the mode for a draw. Depth is tested before shading where this does not change the result (OpenGL 4.6, section 15.2.4).
 VisibilityMode visibility_mode(const Draw& draw);
 
-/// How the triangles of a draw get from the bins of a tile to the visibility buffer or to the queue. Each path is compiled for small
+/// How the triangles of a draw get from the bins of a tile to the visibility buffer or to the queue. Each path is compiled for narrow
 /// triangles and for all other primitives, and for tiles with one sample and with several samples per pixel.
 enum class TilePath : uint8_t { nearest, opaque, stencil, queued, queued_less, queued_stencil };  // queued paths come last
 
@@ -79,14 +79,14 @@ using RasterizeFunction = void (*)(const DrawInTile& d, const Triangle& t, Trian
 /// Returns the function of a draw for any primitive (coverage/blocks.cpp).
 RasterizeFunction rasterize_function(const DrawInTile& d);
 
-/// Returns true if a triangle can be drawn by the function for small triangles.
-inline bool is_small_triangle(const Triangle& t) { return (t.flags & (kSmall | kPointSprite)) == kSmall; }
-/// Rasterizes small triangles, in order. indices: 1 to W triangles of the chunk. Queued paths stop when the queue is full. Returns the
+/// Returns true if a triangle can be drawn by the function for narrow triangles.
+inline bool is_narrow_triangle(const Triangle& t) { return (t.flags & (kNarrow | kPointSprite)) == kNarrow; }
+/// Rasterizes narrow triangles, in order. indices: 1 to W triangles of the chunk. Queued paths stop when the queue is full. Returns the
 /// number of triangles that were drawn, at least 1.
-using RasterizeSmallFunction = std::size_t (*)(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, PacketQueue& queue,
+using RasterizeNarrowFunction = std::size_t (*)(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, PacketQueue& queue,
                                                PassStatistics& statistics);
-/// Returns the function of a draw for small triangles (coverage/small_triangles.cpp).
-RasterizeSmallFunction rasterize_small_function(const DrawInTile& d);
+/// Returns the function of a draw for narrow triangles (coverage/small_triangles.cpp).
+RasterizeNarrowFunction rasterize_narrow_function(const DrawInTile& d);
 
 /// Returns true if a triangle of an opaque draw covers all pixels of the tile's storage.
 bool covers_tile(const DrawInTile& d, const Triangle& t);

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Visibility of all primitives but most small triangles (small_triangles.cpp), block by block.
+// Visibility of all primitives but small triangles (small_triangles.cpp), block by block.
 #include <algorithm>
 
 #include "halfspace/raster/pipeline/pixel_box.h"
+#include "halfspace/raster/pipeline/triangle_sizes.h"
 #include "halfspace/raster/tile/tile_rect.h"
 #include "halfspace/raster/visibility/coverage/depth_plane.h"
 #include "halfspace/raster/visibility/coverage/thin_line.h"
@@ -157,8 +158,8 @@ class Blocks {
   std::array<Listed, kPacketsPerBlock + 1> list_;  // the element after the last one may be written
 };
 
-// Rasterizes a triangle or line. rect: the pixels that may have covered samples. small: the primitive has kSmall.
-template <bool small, class Writer>
+// Rasterizes a triangle or line. rect: the pixels that may have covered samples. narrow: the primitive has kNarrow.
+template <bool narrow, class Writer>
 void rasterize_edges(const DrawInTile& d, const SampleSet<Writer::kMultisampled>& samples, const Triangle& t, const TileRect& rect,
                      TriangleId id, Writer& writer) {
   const TileEdges<Writer::kMultisampled> edges(d.draw, d.tile, samples, t);
@@ -168,7 +169,7 @@ void rasterize_edges(const DrawInTile& d, const SampleSet<Writer::kMultisampled>
   const bool spans_many = rect.width() * rect.height() * static_cast<int>(samples.tile_samples) >= kMaxTilePixels / 4;
   if (spans_many && blocks.rejects_tile(depth.at(rect.x0, rect.y0, rect.width(), rect.height()))) return;
 
-  const PacketDepth<small, Writer::kMultisampled> packet_depth(t, d.draw, d.tile, samples, edges);
+  const PacketDepth<narrow, Writer::kMultisampled> packet_depth(t, d.draw, d.tile, samples, edges);
   std::array<std::array<int32_t, 3>, kPacketsPerBlock> step;  // of the edges, from the first packet of a block to each packet
   for (int p = 0; p < kPacketsPerBlock; ++p) {
     for (std::size_t i = 0; i < 3; ++i) step[static_cast<std::size_t>(p)][i] = edges.value_step(i, packet_x(p), packet_y(p));
@@ -215,7 +216,7 @@ void rasterize_point(const DrawInTile& d, const SampleSet<Writer::kMultisampled>
     for (int bx = rect.x0 & ~(kBlockSize - 1); bx < rect.x1; bx += kBlockSize) {
       const int x0 = std::max(bx, rect.x0), y0 = std::max(by, rect.y0);
       const int x1 = std::min(bx + kBlockSize, rect.x1), y1 = std::min(by + kBlockSize, rect.y1);
-      if (!blocks.begin(bx, by, z, (x1 - x0) * (y1 - y0) >= kManyPixels)) continue;
+      if (!blocks.begin(bx, by, z, (x1 - x0) * (y1 - y0) >= kTestedPixels)) continue;
       for (int y = y0 & ~(kPacketHeight - 1); y < y1; y += kPacketHeight) {
         for (int x = x0 & ~(kPacketWidth - 1); x < x1; x += kPacketWidth)
           blocks.list(packet_at(x, y) % kPacketsPerBlock, [&](std::size_t k) { return bits(inside(covered[blocks.kept()[k]], x, y)); });
@@ -237,14 +238,14 @@ void rasterize(const DrawInTile& d, const Triangle& t, TriangleId id, PacketQueu
   if constexpr (!Writer::kMultisampled) {
     if (t.is(kLine) && line_pixels(d.draw.state.line_width) == 1) return rasterize_thin_line(d, t, b, id, writer);
   }
-  if (t.is(kSmall)) return rasterize_edges<true>(d, samples, t, rect, id, writer);
+  if (t.is(kNarrow)) return rasterize_edges<true>(d, samples, t, rect, id, writer);
   rasterize_edges<false>(d, samples, t, rect, id, writer);
 }
 
 }  // namespace
 
 bool covers_tile(const DrawInTile& d, const Triangle& t) {
-  if (t.is(kSmall | kPointSprite | kLine)) return false;
+  if (t.is(kNarrow | kPointSprite | kLine)) return false;
   return TileEdges<false>(d.draw, d.tile, SampleSet<false>(d), t).contain_tile();
 }
 

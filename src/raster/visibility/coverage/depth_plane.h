@@ -76,7 +76,7 @@ inline DepthPlane depth_plane(const Triangle& t, const Draw& draw) {
   return {Real(t.z0), Real(t.z_edge1), Real(t.z_edge2), Real(low), Real(high)};
 }
 
-/// Depth of a triangle or line that is not small. Its edge functions do not fit in int32, so they are computed in floating point.
+/// Depth of a triangle or line that is not narrow. Its edge functions do not fit in int32, so they are computed in floating point.
 class LargeDepthPlane {
  public:
   /// first: position of sample 0.
@@ -105,8 +105,8 @@ class LargeDepthPlane {
   int32_t dx_, dy_;  // from the first vertex to sample 0 of pixel (0, 0)
 };
 
-/// Depth of a primitive in the packets of a tile. small: the primitive has kSmall.
-template <bool small, bool multisampled>
+/// Depth of a primitive in the packets of a tile. narrow: the primitive has kNarrow.
+template <bool narrow, bool multisampled>
 class PacketDepth {
  public:
   /// The arguments must outlive this object.
@@ -116,7 +116,7 @@ class PacketDepth {
 
   /// Returns the depth of the packet with corner (x, y), numbered from the corner of the tile, at sample s.
   HS_INLINE Real at(std::size_t s, int x, int y) const {
-    if constexpr (small) {
+    if constexpr (narrow) {
       return plane_.at(format_, edges_.values(1, s, x, y) + edges_.bias(1), edges_.values(2, s, x, y) + edges_.bias(2));
     } else {
       return plane_.at(lane_x() + x, lane_y() + y, samples_.offset(s));
@@ -126,14 +126,14 @@ class PacketDepth {
  private:
   static auto make_plane(const Triangle& t, const Draw& draw, [[maybe_unused]] const Tile& tile,
                          [[maybe_unused]] const SampleSet<multisampled>& samples) {
-    if constexpr (small) {
+    if constexpr (narrow) {
       return depth_plane(t, draw);
     } else {
       return LargeDepthPlane(t, draw, tile, samples.position[0]);
     }
   }
 
-  std::conditional_t<small, DepthPlane, LargeDepthPlane> plane_;
+  std::conditional_t<narrow, DepthPlane, LargeDepthPlane> plane_;
   const SampleSet<multisampled>& samples_;
   const TileEdges<multisampled>& edges_;
   DepthFormat format_;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Visibility of small triangles. Up to W triangles of a bin are prepared at once, one per lane, in int32. Then they are written one by one,
-// in submission order.
+// Visibility of narrow triangles. Up to W triangles of a bin are prepared at once, one per lane, in int32. Then they are written one by one,
+// in submission order: tiny ones pixel by pixel, other small ones packet by packet, and the rest block by block (blocks.cpp).
 #include <algorithm>
 #include <bit>
 
 #include "halfspace/raster/pipeline/pixel_box.h"
 #include "halfspace/raster/pipeline/triangle_lanes.h"
-#include "halfspace/raster/primitives/small_coverage.h"
+#include "halfspace/raster/pipeline/triangle_sizes.h"
 #include "halfspace/raster/tile/tile_rect.h"
 #include "halfspace/raster/visibility/coverage/depth_plane.h"
 #include "halfspace/raster/visibility/coverage/traced_writer.h"
@@ -17,20 +17,17 @@ namespace halfspace::HS_LANES {
 
 namespace {
 
-// Larger triangles are rasterized in blocks.
-constexpr int kMaxSmallSpan = 48;  // px
-
 constexpr int kMaxCovered = std::popcount(kCoveredBits);
 
 template <class T>
 using PerTriangle = std::array<T, static_cast<std::size_t>(kLanes)>;
 
-// Data for writing up to W small triangles, computed for all of them at once.
+// Data for writing up to W narrow triangles, computed for all of them at once.
 template <bool multisampled>
-class SmallTriangles {
+class NarrowTriangles {
  public:
   // indices: 1 to W triangles of the chunk.
-  HS_INLINE SmallTriangles(const DrawInTile& d, const SampleSet<multisampled>& samples, const Chunk& chunk,
+  HS_INLINE NarrowTriangles(const DrawInTile& d, const SampleSet<multisampled>& samples, const Chunk& chunk,
                            std::span<const uint16_t> indices) {
     const auto triangle = [&](int k) { return &chunk.triangles[indices[std::min(static_cast<std::size_t>(k), indices.size() - 1)]]; };
     const auto [x, y] = load_corners(triangle);
@@ -38,12 +35,12 @@ class SmallTriangles {
     if constexpr (!multisampled) {
       const Int flags = load_vertices_and_flags(triangle)[3];
       const Int covered = (flags >> static_cast<int>(kCoveredShift)) & static_cast<int32_t>(kCoveredBits);
-      known_ = bits(covered != Int(0));
-      if (known_ != 0) find_pixels(d, x, y, intersect(box, d.draw.bounds), covered, depth_planes(d.draw, triangle));
+      tiny_ = bits(covered != Int(0));
+      if (tiny_ != 0) find_pixels(d, x, y, intersect(box, d.draw.bounds), covered, depth_planes(d.draw, triangle));
     }
-    constexpr int32_t max_span = kMaxSmallSpan * kSubPixels;
-    wide_ = bits(max_of(x) - min_of(x) > Int(max_span) || max_of(y) - min_of(y) > Int(max_span)) & ~known_;
-    if ((known_ | wide_) == kAllBits<Mask>) return;
+    constexpr int32_t max_span = kSmallExtent * kSubPixels;
+    large_ = bits(max_of(x) - min_of(x) > Int(max_span) || max_of(y) - min_of(y) > Int(max_span)) & ~tiny_;
+    if ((tiny_ | large_) == kAllBits<Mask>) return;
     const PixelBox<Int> seen = intersect(box, d.bounds);
     store(rect_x0_.data(), seen.x0 - d.tile.x0);
     store(rect_y0_.data(), seen.y0 - d.tile.y0);
@@ -65,12 +62,11 @@ class SmallTriangles {
     }
   }
 
-  // Returns true if the triangle must be rasterized in blocks.
-  bool is_wide(std::size_t k) const { return (wide_ >> k & 1) != 0; }
-  // Returns true if the pixels of a triangle were found in setup.
-  bool is_known(std::size_t k) const { return !multisampled && (known_ >> k & 1) != 0; }
+  // Returns true if the triangle is not small.
+  bool is_large(std::size_t k) const { return (large_ >> k & 1) != 0; }
+  bool is_tiny(std::size_t k) const { return !multisampled && (tiny_ >> k & 1) != 0; }
 
-  // For a triangle whose pixels are known: calls f(pixel of the tile, depth) for each pixel within the bounds.
+  // For a tiny triangle: calls f(pixel of the tile, depth) for each pixel within the bounds.
   template <class F>
   HS_INLINE void for_each_pixel(std::size_t k, const F& f) const {
     for (std::size_t i = 0; i < static_cast<std::size_t>(count_[k]); ++i) {
@@ -78,8 +74,7 @@ class SmallTriangles {
     }
   }
 
-  // For all other triangles:
-  // Returns the pixels that may have covered samples.
+  // For small triangles that are not tiny: returns the pixels that may have covered samples.
   TileRect rect(std::size_t k) const { return {rect_x0_[k], rect_y0_[k], rect_x1_[k], rect_y1_[k]}; }
   // Returns edge i at sample 0 of the first pixel of the tile, with the bias subtracted.
   int32_t edge(std::size_t i, std::size_t k) const { return e_[i][k]; }
@@ -107,7 +102,7 @@ class SmallTriangles {
       count = count + select(covered != Int(0), Int(1), Int(0));
       const Int bit = (as_int(to_real<Real>(covered & -covered)) >> 23) - 127;  // exponent of the lowest set bit
       covered = covered & (covered - 1);
-      const Int px = box.x0 + (bit & (kCoverSide - 1)), py = box.y0 + (bit >> std::countr_zero(unsigned{kCoverSide}));
+      const Int px = box.x0 + (bit & (kTinySide - 1)), py = box.y0 + (bit >> std::countr_zero(unsigned{kTinySide}));
       const Int x_sub = (px << kSubPixelBits) + kSubPixels / 2, y_sub = (py << kSubPixelBits) + kSubPixels / 2;
       const auto edge = [&](std::size_t a, std::size_t b) { return (x[b] - x[a]) * (y_sub - y[a]) - (y[b] - y[a]) * (x_sub - x[a]); };
       store(z_[i].data(), depth.at(d.tile.depth_format, edge(2, 0), edge(0, 1)));
@@ -123,7 +118,7 @@ class SmallTriangles {
   alignas(64) PerTriangle<int32_t> rect_x0_, rect_y0_, rect_x1_, rect_y1_;
   alignas(64) std::array<PerTriangle<int32_t>, 3> e_, step_x_, step_y_, bias_;
   alignas(64) std::array<std::array<PerTriangle<int32_t>, 3>, kSamplesOf<multisampled>> sample_step_;
-  uint32_t known_ = 0, wide_;
+  uint32_t tiny_ = 0, large_;
 };
 
 // Rejects a triangle if hierarchical Z shows that no fragment can pass, and returns whether it did. Triangles that may cover only a few
@@ -131,7 +126,7 @@ class SmallTriangles {
 template <class Writer>
 bool reject_hidden(const DrawInTile& d, const SampleSet<Writer::kMultisampled>& samples, const Triangle& t, TriangleId id,
                    const TileRect& rect, const Writer& writer) {
-  if (!writer.tests() || rect.empty() || rect.width() * rect.height() < kManyPixels) return false;
+  if (!writer.tests() || rect.empty() || rect.width() * rect.height() < kTestedPixels) return false;
   const DepthBounds z = depth_bounds(t, d.draw, d.tile.depth_format);
   const auto in_plane = [&](std::size_t s) {
     const SamplePlane p = samples.plane[s];
@@ -157,7 +152,7 @@ class TrianglePackets {
   using Samples = SampleSet<Writer::kMultisampled>;
 
   // t: triangle k of `triangles`.
-  TrianglePackets(const DrawInTile& d, const Samples& samples, const SmallTriangles<Writer::kMultisampled>& triangles, std::size_t k,
+  TrianglePackets(const DrawInTile& d, const Samples& samples, const NarrowTriangles<Writer::kMultisampled>& triangles, std::size_t k,
                   const Triangle& t, TriangleId id, Writer& writer)
       : d_(d),
         samples_(samples),
@@ -193,7 +188,7 @@ class TrianglePackets {
 
  private:
   static constexpr int kFewPackets = Writer::kMultisampled ? 6 : 40;
-  static constexpr std::size_t kMaxPackets = (kMaxSmallSpan / kPacketWidth + 2) * (kMaxSmallSpan / kPacketHeight + 2);
+  static constexpr std::size_t kMaxPackets = (kSmallExtent / kPacketWidth + 2) * (kSmallExtent / kPacketHeight + 2);
 
   using Lane = typename PacketLanes<Writer::kMultisampled>::value_type;
 
@@ -294,21 +289,21 @@ class TrianglePackets {
 };
 
 template <class Writer>
-std::size_t rasterize_small(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, PacketQueue& queue,
+std::size_t rasterize_narrow(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, PacketQueue& queue,
                             PassStatistics& statistics) {
   const SampleSet<Writer::kMultisampled> samples(d);
   if (samples.count == 0) return indices.size();
-  const SmallTriangles<Writer::kMultisampled> triangles(d, samples, d.context.chunks[chunk], indices);
+  const NarrowTriangles<Writer::kMultisampled> triangles(d, samples, d.context.chunks[chunk], indices);
   Writer writer(d, &queue, statistics);
   std::size_t k = 0;
   do {
     const TriangleId id = triangle_id(chunk, indices[k]);
     const Triangle& t = d.context.chunks[chunk].triangles[indices[k]];
     writer.begin(t);
-    if (triangles.is_known(k)) {
+    if (triangles.is_tiny(k)) {
       if constexpr (!Writer::kMultisampled)
         triangles.for_each_pixel(k, [&](std::size_t pixel, float z) { writer.write_pixel(id, pixel, z); });
-    } else if (triangles.is_wide(k)) {
+    } else if (triangles.is_large(k)) {
       rasterize_function(d)(d, t, id, queue, statistics);
     } else if (!reject_hidden(d, samples, t, id, triangles.rect(k), writer)) {
       TrianglePackets<Writer>(d, samples, triangles, k, t, id, writer).visit();
@@ -319,8 +314,8 @@ std::size_t rasterize_small(const DrawInTile& d, uint32_t chunk, std::span<const
 
 }  // namespace
 
-RasterizeSmallFunction rasterize_small_function(const DrawInTile& d) {
-  const auto function = []<class Writer>() -> RasterizeSmallFunction { return rasterize_small<Writer>; };
+RasterizeNarrowFunction rasterize_narrow_function(const DrawInTile& d) {
+  const auto function = []<class Writer>() -> RasterizeNarrowFunction { return rasterize_narrow<Writer>; };
   return d.tile.samples > 1 ? with_writer<true>(d, function) : with_writer<false>(d, function);
 }
 

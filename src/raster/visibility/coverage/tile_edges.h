@@ -15,7 +15,7 @@ namespace halfspace::HS_LANES {
 
 enum class BlockCoverage : uint8_t { none, some, whole };
 
-/// Edge functions of a triangle or line at the samples of a tile. Pixels are numbered from the corner of the tile. For small triangles, the
+/// Edge functions of a triangle or line at the samples of a tile. Pixels are numbered from the corner of the tile. For narrow triangles, the
 /// values are in (1/256 px)². For all others, they are shifted right by kSubPixelBits, which preserves the sign, and all steps are integers.
 /// The bias of the fill rule is subtracted. If all samples of the tile are inside an edge of a larger triangle, all values of that edge
 /// are 0.
@@ -27,7 +27,7 @@ class TileEdges {
       put_point_or_line(draw, tile, samples, t);
       return;
     }
-    const int shift = t.is(kSmall) ? 0 : kSubPixelBits;
+    const int shift = t.is(kNarrow) ? 0 : kSubPixelBits;
     for (std::size_t i = 0; i < 3; ++i) {
       const Edge edge = edge_of(t, i);
       put(i, edge, 0, fill_bias(edge), shift, tile, samples);
@@ -36,7 +36,7 @@ class TileEdges {
 
   /// Returns true if no sample of the tile is inside.
   bool outside() const { return outside_; }
-  /// Returns true if all samples of the tile are inside. Only for triangles that are not small.
+  /// Returns true if all samples of the tile are inside. Only for triangles that are not narrow.
   bool contain_tile() const { return step_x_ == kNoSteps && step_y_ == kNoSteps && e_[0] == kNoSteps && !outside_; }
   /// Returns the bias of edge i.
   int32_t bias(std::size_t i) const { return bias_[i]; }
@@ -58,7 +58,7 @@ class TileEdges {
  private:
   static constexpr std::array<int32_t, 3> kNoSteps{};
 
-  // Computes edge i, with `offset` added to its function. shift: 0 for small triangles, otherwise kSubPixelBits.
+  // Computes edge i, with `offset` added to its function. shift: 0 for narrow triangles, otherwise kSubPixelBits.
   HS_INLINE void put(std::size_t i, const Edge& edge, int64_t offset, int32_t bias, int shift, const Tile& tile,
                      const SampleSet<multisampled>& samples) {
     const int64_t step_x = -(int64_t{edge.ey} * kSubPixels) >> shift, step_y = (int64_t{edge.ex} * kSubPixels) >> shift;

@@ -25,7 +25,7 @@ ComparedDepths compared_depths(CompareOp op, const DepthBounds& tested, const De
 }
 
 // Adds the covered samples in a part of the tile. Pixels are numbered from the corner of the tile.
-template <bool small>
+template <bool narrow>
 void add_covered(const RejectedPrimitive& p, const TileRect& part, FragmentOutcome outcome, const ComparedDepths& depths,
                  TileTrace& trace) {
   const Tile& tile = p.d.tile;
@@ -35,7 +35,7 @@ void add_covered(const RejectedPrimitive& p, const TileRect& part, FragmentOutco
   const TileRect bounds = tile_rect(pixel_bounds(p.d.draw, p.triangle, p.d.bounds, sample.position[0]), tile);
   const TileRect rect{std::max(bounds.x0, part.x0), std::max(bounds.y0, part.y0), std::min(bounds.x1, part.x1),
                       std::min(bounds.y1, part.y1)};
-  const PacketDepth<small, false> depth(p.triangle, p.d.draw, tile, sample, edges);
+  const PacketDepth<narrow, false> depth(p.triangle, p.d.draw, tile, sample, edges);
   const int shift = packet_shift(sample_plane(tile.samples, static_cast<int>(p.sample), tile.size));
   for (int y = rect.y0 / kPacketHeight * kPacketHeight; y < rect.y1; y += kPacketHeight) {
     for (int x = rect.x0 / kPacketWidth * kPacketWidth; x < rect.x1; x += kPacketWidth) {
@@ -47,7 +47,7 @@ void add_covered(const RejectedPrimitive& p, const TileRect& part, FragmentOutco
 
 void add_in_part(const RejectedPrimitive& p, const TileRect& part, FragmentOutcome outcome, const ComparedDepths& depths,
                  TileTrace& trace) {
-  if (p.triangle.is(kSmall)) {
+  if (p.triangle.is(kNarrow)) {
     add_covered<true>(p, part, outcome, depths, trace);
   } else {
     add_covered<false>(p, part, outcome, depths, trace);

@@ -57,9 +57,6 @@ inline void set_hiz(Tile& tile, int block, float low, float high) {
   tile.hiz_is_stale[b] = false;
 }
 
-/// Testing fewer pixels than this takes no longer than recomputing the bounds of a block (measured on Zen 3).
-inline constexpr int kManyPixels = 24;
-
 /// Compares depths in [low, high] with the depth of a block. Recomputes its bounds if they are stale and do not decide the test,
 /// unless may_refresh is false.
 inline BlockTest test_block(CompareOp op, Tile& tile, int block, float low, float high, bool may_refresh = true) {
