@@ -187,7 +187,7 @@ TEST(Blend, ProgramsWriteTheSameBitsAsTheGeneralCode) {
       ASSERT_TRUE(p.buffer->bytes == general->bytes) << "format " << static_cast<int>(format) << ", factors " << f;
       if (state.blend && uses_second_source(*state.blend)) continue;
       *p.buffer = *before;
-      write_programs(format, state).packet(*p.buffer, packet, state, p.src[0], p.src[1], p.src[2], p.src[3]);
+      write_program(format, state)(*p.buffer, packet, state, p.src[0], p.src[1], p.src[2], p.src[3], nullptr);
       ASSERT_TRUE(p.buffer->bytes == general->bytes) << "format " << static_cast<int>(format) << ", factors " << f;
     }
   }

@@ -166,8 +166,8 @@ HS_FLATTEN void fragment_kernel(const void* shader, const FragmentBatch& batch) 
       }
       if (const WriteTarget& to = batch.target; to.program != nullptr) {
         const vec4<R>& color = nth_color(fragment.color, 0);
-        to.program(*to.buffer, a, to.state, color.x.low, color.y.low, color.z.low, color.w.low);
-        if (second != first) to.program(*to.buffer, b, to.state, color.x.high, color.y.high, color.z.high, color.w.high);
+        to.write(a, color.x.low, color.y.low, color.z.low, color.w.low);
+        if (second != first) to.write(b, color.x.high, color.y.high, color.z.high, color.w.high);
         continue;
       }
     }

@@ -23,7 +23,7 @@ void write_packed(const FragmentOutput& packed, std::span<const PacketMask> pack
   std::size_t pixel = 0;
   for (const PacketMask& p : packets) {
     const auto channel = [&](std::size_t c) { return unpack_values(packed.color_plane(0, c), pixel, p.lanes); };
-    to.program(*to.buffer, p, to.state, channel(0), channel(1), channel(2), channel(3));
+    to.write(p, channel(0), channel(1), channel(2), channel(3));
     pixel += static_cast<std::size_t>(std::popcount(p.lanes));
   }
 }

@@ -41,7 +41,7 @@ int32_t* direct_codes(const Draw& draw, Tile& tile, const TileTrace* trace) {
 // The same for other formats. Deferred draws replace all channels.
 WriteTarget direct_target(const Draw& draw, Tile& tile, const TileTrace* trace) {
   if (!writes_directly(draw, tile, trace)) return {};
-  return {write_programs(tile.color[0].format, {}).packet, &tile.color[0]};
+  return {write_program(tile.color[0].format, {}), &tile.color[0]};
 }
 
 // Shades the packets of one draw.

@@ -63,7 +63,7 @@ WriteTarget queue_target(const QueuedShading& c) {
   const bool is_supported = c.d.trace == nullptr && c.d.mode == VisibilityMode::early && !c.d.draw.kernels.is_constant;
   if (!is_single || !is_supported) return {};
   const AttachmentState state{blend_of(c.d.draw.state, 0), color_mask_of(c.d.draw.state, 0)};
-  return {write_programs(c.d.tile.color[0].format, state).packet, &c.d.tile.color[0], state};
+  return {write_program(c.d.tile.color[0].format, state), &c.d.tile.color[0], state};
 }
 
 // Writes the samples of n packets of the queue, which were shaded as packets 0, 1, ... of the output.
@@ -76,7 +76,7 @@ void write_samples(const Tile& tile, const FragmentOutput& output, const PacketQ
     for (std::size_t s = 0; s < static_cast<std::size_t>(tile.samples); ++s) {
       const uint16_t lanes = queue.sample_lanes[begin + i][s];
       const auto packet = static_cast<uint16_t>(queue.packets[begin + i].packet + shift[s]);
-      if (lanes != 0) to.program(*to.buffer, {packet, lanes}, to.state, r, g, b, a);
+      if (lanes != 0) to.write({packet, lanes}, r, g, b, a);
     }
   }
 }

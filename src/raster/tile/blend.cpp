@@ -78,9 +78,14 @@ void write_color(ColorBuffer& buffer, int packet, Mask mask, const PacketColor& 
 
 void write_batch(ColorBuffer& buffer, std::span<const PacketMask> packets, const PacketColor* src, const PacketColor* src1,
                  const AttachmentState& state) {
-  if (const WriteProgram program = write_programs(buffer.format, state).batch) return program(buffer, packets, src, src1, state);
-  for (std::size_t i = 0; i < packets.size(); ++i)
-    write_color(buffer, packets[i].packet, mask_from_bits<Mask>(packets[i].lanes), src[i], src1[i], state);
+  const WriteProgram program = write_program(buffer.format, state);
+  for (std::size_t i = 0; i < packets.size(); ++i) {
+    if (program != nullptr) {
+      program(buffer, packets[i], state, src[i][0], src[i][1], src[i][2], src[i][3], &src1[i]);
+    } else {
+      write_color(buffer, packets[i].packet, mask_from_bits<Mask>(packets[i].lanes), src[i], src1[i], state);
+    }
+  }
 }
 
 bool uses_second_source(const BlendState& blend) {

@@ -64,45 +64,22 @@ HS_INLINE void blend_packet(ColorBuffer& buffer, const PacketMask& packet, const
 }
 
 template <ColorFormat format, bool masked, BlendOperation operation>
-void blend_batch(ColorBuffer& buffer, std::span<const PacketMask> packets, const PacketColor* src, const PacketColor* src1,
-                 const AttachmentState& s) {
-  for (std::size_t i = 0; i < packets.size(); ++i) blend_packet<format, masked>(buffer, packets[i], src[i], src1[i], operation, s);
-}
-template <ColorFormat format, bool masked, BlendOperation operation>
-void blend_one(ColorBuffer& buffer, PacketMask packet, const AttachmentState& s, Real r, Real g, Real b, Real a) {
+void blend(ColorBuffer& buffer, PacketMask packet, const AttachmentState& s, Real r, Real g, Real b, Real a, const PacketColor* src1) {
   const PacketColor src{r, g, b, a};
-  blend_packet<format, masked>(buffer, packet, src, src, operation, s);
+  constexpr bool is_dual = operation == kDualSource || operation == kDualSourceCoverage;
+  blend_packet<format, masked>(buffer, packet, src, is_dual ? *src1 : src, operation, s);
 }
-
 // For all other blend states.
 template <ColorFormat format>
-void blend_batch_by_state(ColorBuffer& buffer, std::span<const PacketMask> packets, const PacketColor* src, const PacketColor* src1,
-                          const AttachmentState& s) {
-  const AnyOperation o{operation_of(*s.blend)};
-  for (std::size_t i = 0; i < packets.size(); ++i) blend_packet<format, true>(buffer, packets[i], src[i], src1[i], o, s);
-}
-template <ColorFormat format>
-void blend_one_by_state(ColorBuffer& buffer, PacketMask packet, const AttachmentState& s, Real r, Real g, Real b, Real a) {
+void blend_by_state(ColorBuffer& buffer, PacketMask packet, const AttachmentState& s, Real r, Real g, Real b, Real a,
+                    const PacketColor* src1) {
   const PacketColor src{r, g, b, a};
-  blend_packet<format, true>(buffer, packet, src, src, AnyOperation{operation_of(*s.blend)}, s);
-}
-
-template <ColorFormat format, bool masked>
-void replace_batch(ColorBuffer& buffer, std::span<const PacketMask> packets, const PacketColor* src, const PacketColor*,
-                   const AttachmentState& s) {
-  for (std::size_t i = 0; i < packets.size(); ++i) replace_packet<format, masked>(buffer, packets[i], src[i], s.mask);
+  blend_packet<format, true>(buffer, packet, src, src1 != nullptr ? *src1 : src, AnyOperation{operation_of(*s.blend)}, s);
 }
 template <ColorFormat format, bool masked>
-void replace_one(ColorBuffer& buffer, PacketMask packet, const AttachmentState& s, Real r, Real g, Real b, Real a) {
+void replace(ColorBuffer& buffer, PacketMask packet, const AttachmentState& s, Real r, Real g, Real b, Real a, const PacketColor*) {
   replace_packet<format, masked>(buffer, packet, {r, g, b, a}, s.mask);
 }
-
-template <ColorFormat format>
-constexpr WritePrograms kByState{blend_batch_by_state<format>, blend_one_by_state<format>};
-template <ColorFormat format, bool masked, BlendOperation operation>
-constexpr WritePrograms kCompiled{blend_batch<format, masked, operation>, blend_one<format, masked, operation>};
-template <ColorFormat format, bool masked>
-constexpr WritePrograms kReplace{replace_batch<format, masked>, replace_one<format, masked>};
 
 // Returns the operation of a state. The factors do not matter for the minimum and the maximum.
 BlendOperation compiled_operation(const BlendState& s) {
@@ -113,43 +90,43 @@ BlendOperation compiled_operation(const BlendState& s) {
 }
 
 template <ColorFormat format, bool masked>
-WritePrograms programs_of(const std::optional<BlendState>& s) {
-  if (!s) return kReplace<format, masked>;
+WriteProgram program_of(const std::optional<BlendState>& s) {
+  if (!s) return replace<format, masked>;
   const BlendOperation operation = compiled_operation(*s);
-  if (operation == kOver) return kCompiled<format, masked, kOver>;
-  if (operation == kOverSameAlpha) return kCompiled<format, masked, kOverSameAlpha>;
-  if (operation == kPremultiplied) return kCompiled<format, masked, kPremultiplied>;
-  if (operation == kAddAlpha) return kCompiled<format, masked, kAddAlpha>;
-  if (operation == kAddSameAlpha) return kCompiled<format, masked, kAddSameAlpha>;
-  if (operation == kAdd) return kCompiled<format, masked, kAdd>;
-  if (operation == kMultiply) return kCompiled<format, masked, kMultiply>;
-  if (operation == kMultiplySource) return kCompiled<format, masked, kMultiplySource>;
-  if (operation == kMultiplyTwice) return kCompiled<format, masked, kMultiplyTwice>;
-  if (operation == kScreen) return kCompiled<format, masked, kScreen>;
-  if (operation == kScreenByDestination) return kCompiled<format, masked, kScreenByDestination>;
-  if (operation == kUnder) return kCompiled<format, masked, kUnder>;
-  if (operation == kConstant) return kCompiled<format, masked, kConstant>;
-  if (operation == kDualSource) return kCompiled<format, masked, kDualSource>;
-  if (operation == kDualSourceCoverage) return kCompiled<format, masked, kDualSourceCoverage>;
-  if (operation == kSubtractAlpha) return kCompiled<format, masked, kSubtractAlpha>;
-  if (operation == kMin) return kCompiled<format, masked, kMin>;
-  if (operation == kMax) return kCompiled<format, masked, kMax>;
-  return kByState<format>;
+  if (operation == kOver) return blend<format, masked, kOver>;
+  if (operation == kOverSameAlpha) return blend<format, masked, kOverSameAlpha>;
+  if (operation == kPremultiplied) return blend<format, masked, kPremultiplied>;
+  if (operation == kAddAlpha) return blend<format, masked, kAddAlpha>;
+  if (operation == kAddSameAlpha) return blend<format, masked, kAddSameAlpha>;
+  if (operation == kAdd) return blend<format, masked, kAdd>;
+  if (operation == kMultiply) return blend<format, masked, kMultiply>;
+  if (operation == kMultiplySource) return blend<format, masked, kMultiplySource>;
+  if (operation == kMultiplyTwice) return blend<format, masked, kMultiplyTwice>;
+  if (operation == kScreen) return blend<format, masked, kScreen>;
+  if (operation == kScreenByDestination) return blend<format, masked, kScreenByDestination>;
+  if (operation == kUnder) return blend<format, masked, kUnder>;
+  if (operation == kConstant) return blend<format, masked, kConstant>;
+  if (operation == kDualSource) return blend<format, masked, kDualSource>;
+  if (operation == kDualSourceCoverage) return blend<format, masked, kDualSourceCoverage>;
+  if (operation == kSubtractAlpha) return blend<format, masked, kSubtractAlpha>;
+  if (operation == kMin) return blend<format, masked, kMin>;
+  if (operation == kMax) return blend<format, masked, kMax>;
+  return blend_by_state<format>;
 }
 
 template <ColorFormat format>
-WritePrograms programs_of(const AttachmentState& s) {
-  return s.mask.all() ? programs_of<format, false>(s.blend) : programs_of<format, true>(s.blend);
+WriteProgram program_of(const AttachmentState& s) {
+  return s.mask.all() ? program_of<format, false>(s.blend) : program_of<format, true>(s.blend);
 }
 
 }  // namespace
 
-WritePrograms write_programs(ColorFormat format, const AttachmentState& s) {
+WriteProgram write_program(ColorFormat format, const AttachmentState& s) {
   switch (format) {
-    case ColorFormat::rgba8: return programs_of<ColorFormat::rgba8>(s);
-    case ColorFormat::srgb8a8: return programs_of<ColorFormat::srgb8a8>(s);
-    case ColorFormat::rgba16f: return programs_of<ColorFormat::rgba16f>(s);
-    default: return {};
+    case ColorFormat::rgba8: return program_of<ColorFormat::rgba8>(s);
+    case ColorFormat::srgb8a8: return program_of<ColorFormat::srgb8a8>(s);
+    case ColorFormat::rgba16f: return program_of<ColorFormat::rgba16f>(s);
+    default: return nullptr;
   }
 }
 

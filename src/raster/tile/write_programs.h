@@ -4,30 +4,23 @@
 // to those of write_color() (raster/tile/blend.h), which supports all formats.
 #pragma once
 
-#include <span>
-
 #include "halfspace/raster/tile/tile.h"
 
 namespace halfspace::HS_LANES {
 
-/// Writes one color per packet, in the order of the packets. src1: second colors, for dual-source blending.
-using WriteProgram = void (*)(ColorBuffer& buffer, std::span<const PacketMask> packets, const PacketColor* src, const PacketColor* src1,
-                              const AttachmentState& state);
-/// Writes the color of one packet, which stays in registers. Not for dual-source blending.
-using WritePacketProgram = void (*)(ColorBuffer& buffer, PacketMask packet, const AttachmentState& state, Real r, Real g, Real b, Real a);
+/// Writes the color of one packet, which stays in registers. src1: second color, for dual-source blending; may be null for other states.
+using WriteProgram = void (*)(ColorBuffer& buffer, PacketMask packet, const AttachmentState& state, Real r, Real g, Real b, Real a,
+                              const PacketColor* src1);
+/// Returns the function for a format and a state, or null if there is none for the format.
+WriteProgram write_program(ColorFormat format, const AttachmentState& state);
 
-struct WritePrograms {
-  WriteProgram batch = nullptr;
-  WritePacketProgram packet = nullptr;
-};
-/// Returns the functions for a format and a state. Both are null if there are none for the format.
-WritePrograms write_programs(ColorFormat format, const AttachmentState& state);
-
-/// A color buffer to which a fragment kernel writes directly.
+/// A color buffer to which a fragment kernel writes directly. Not for dual-source blending.
 struct WriteTarget {
-  WritePacketProgram program = nullptr;
+  WriteProgram program = nullptr;
   ColorBuffer* buffer = nullptr;
   AttachmentState state{};
+
+  HS_INLINE void write(PacketMask packet, Real r, Real g, Real b, Real a) const { program(*buffer, packet, state, r, g, b, a, nullptr); }
 };
 
 }  // namespace halfspace::HS_LANES
