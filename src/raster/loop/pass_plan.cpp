@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "halfspace/raster/primitives/primitive_assembly.h"
+#include "halfspace/raster/primitives/setup.h"
 
 namespace halfspace::HS_LANES {
 

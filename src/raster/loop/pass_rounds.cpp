@@ -108,8 +108,7 @@ class PassRounds {
   // Sets up the next chunks of the plan, until the budget is reached, all chunk ids are in use or no chunks with shaded vertices are left.
   void set_up_chunks(PassStatistics& statistics) {
     std::size_t bytes = 0;
-    while (is_shaded(next_chunk_) && (context_.chunks.empty() || bytes < budget_) &&
-           context_.chunks.size() + kChunksPerSet <= kMaxChunks) {
+    while (is_shaded(next_chunk_) && (context_.chunks.empty() || bytes < budget_) && context_.chunks.size() + kChunksPerSet <= kMaxChunks) {
       const std::size_t begin = context_.chunks.size();
       std::size_t count = 1;
       while (count < kChunksPerSet && is_shaded(next_chunk_ + count)) ++count;

@@ -18,8 +18,8 @@ void keep_between_flushes(const PassContext& context, Attachments& attachments);
 
 /// What to record about the tiles of a round.
 struct TileRecords {
-  /// Unless it is null, the round is added to it. The draw, instance and primitive of the fragments are not set. Tiles with a constant color
-  /// are drawn like all others.
+  /// Unless it is null, the round is added to it. The draw, instance and primitive of the fragments are not set. Tiles with a constant
+  /// color are drawn like all others.
   PassTrace* trace = nullptr;
   /// Unless it is empty, the time of each tile in milliseconds is added to it, row by row from the lower left.
   std::span<float> ms = {};

@@ -60,23 +60,14 @@ class DecidedPackets {
     if (replaces) {
       widen_hiz(CompareOp::always, d_.tile, block, depth_value(format, draw.depth_low), depth_value(format, draw.depth_high));
     } else {
-      const DepthBounds& bounds = bounds_of(id);
+      const DepthBounds bounds = depth_bounds(triangle_of(d_.context, id), draw, format);
       widen_hiz(writer_.compare_op(), d_.tile, block, bounds.low, bounds.high);
     }
-  }
-
-  // Returns the depth bounds of a triangle. Consecutive packets usually belong to the same one.
-  const DepthBounds& bounds_of(TriangleId id) {
-    if (id != bounds_id_) bounds_ = depth_bounds(triangle_of(d_.context, id), d_.draw, d_.tile.depth_format);
-    bounds_id_ = id;
-    return bounds_;
   }
 
   const DrawInTile& d_;
   PacketQueue& queue_;
   Writer& writer_;
-  TriangleId bounds_id_ = kNoTriangle;
-  DepthBounds bounds_{};
 };
 
 // Decides the packets of the queue with one call of the visibility function per pixel.

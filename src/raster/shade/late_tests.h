@@ -30,8 +30,7 @@ inline void trace_shaded(const QueuedShading& c, const FragmentOutput& out, std:
 
 // Records that packet i was written.
 inline void trace_written(const QueuedShading& c, const PacketMask& packet, TriangleId id) {
-  c.d.trace->set_outcome(id, packet.packet, packet.lanes,
-                                  blend_of(c.d.draw.state, 0) ? FragmentOutcome::blended : FragmentOutcome::shaded);
+  c.d.trace->set_outcome(id, packet.packet, packet.lanes, blend_of(c.d.draw.state, 0) ? FragmentOutcome::blended : FragmentOutcome::shaded);
   c.d.trace->set_value(id, packet.packet, packet.lanes, c.d.tile.color[0]);
 }
 
@@ -67,8 +66,7 @@ inline Mask late_tests(const QueuedShading& c, const FragmentOutput& out, std::s
   return mask;
 }
 
-inline void add_to_layers(const QueuedShading& c, const FragmentOutput& out, std::size_t i, int packet, Mask mask, Real z,
-                   TriangleId id) {
+inline void add_to_layers(const QueuedShading& c, const FragmentOutput& out, std::size_t i, int packet, Mask mask, Real z, TriangleId id) {
   const PacketColor color = out.packet_color(0, i);
   const Mask merged = c.layers.add(packet, mask, z, is_fixed_point(c.d.tile.color[0].format) ? clamped_color(color) : color);
   c.statistics.layers_merged += static_cast<uint64_t>(std::popcount(bits(merged)));

@@ -5,8 +5,8 @@
 #include <bit>
 
 #include "halfspace/core/lane_packing.h"
-#include "halfspace/raster/trace/tile_trace.h"
 #include "halfspace/raster/tile/tile_rect.h"
+#include "halfspace/raster/trace/tile_trace.h"
 #include "halfspace/raster/visibility/sink/centroid.h"
 
 namespace halfspace::HS_LANES {
@@ -14,11 +14,11 @@ namespace halfspace::HS_LANES {
 namespace {
 
 // Pending pixels of a tile: the triangle of each, and the samples that are written.
-struct Job {
+struct VisiblePixels {
   const TriangleId* ids;  // indexed like the pixels of the tile's storage
   SamplePlane plane;
   SamplePosition position;
-  bool spreads = false;  // a color is written to all samples that show the triangle; ids: DeferredShading::layers
+  bool copies_to_samples = false;  // a color is written to all samples that show the triangle; ids: DeferredShading::distinct
 };
 
 // Records packets that were shaded, and written as packets 0, 1, ... of `out`.
@@ -47,22 +47,23 @@ WriteTarget direct_target(const Draw& draw, Tile& tile, const TileTrace* trace) 
 // Shades the packets of one draw.
 class DrawShading {
  public:
-  DrawShading(const PassContext& context, Tile& tile, const Job& job, const Draw& draw, DeferredShading& memory, TileTrace* trace)
+  DrawShading(const PassContext& context, Tile& tile, const VisiblePixels& pixels, const Draw& draw, DeferredShading& memory,
+              TileTrace* trace)
       : context_(context),
         tile_(tile),
-        job_(job),
+        pixels_(pixels),
         draw_(draw),
         memory_(memory),
         trace_(trace),
         codes_(direct_codes(draw, tile, trace)) {
-    if (codes_ == nullptr && !job.spreads) target_ = direct_target(draw, tile, trace);
+    if (codes_ == nullptr && !pixels.copies_to_samples) target_ = direct_target(draw, tile, trace);
   }
 
   void shade(std::span<const PacketMask> packets) {
     const bool may_pack = trace_ == nullptr && !draw_.shades_samples && can_pack(draw_, tile_);
     const bool packs = may_pack && pays_to_pack(packets);
     if (packs) return shade_packed(packets);
-    if (!job_.spreads) return shade_plane(packets, job_.plane);
+    if (!pixels_.copies_to_samples) return shade_plane(packets, pixels_.plane);
     for (int n = 0; n < tile_.samples; ++n) {
       const SamplePlane plane = sample_plane(tile_.samples, n, tile_.size);
       const std::span<const PacketMask> in_plane = packets_in(plane, packets);
@@ -87,12 +88,15 @@ class DrawShading {
   }
 
   void shade_plane(std::span<const PacketMask> packets, const SamplePlane& plane) {
-    const bool needs_centroid = draw_.kernels.uses_centroid && job_.spreads;
+    const bool needs_centroid = draw_.kernels.uses_centroid && pixels_.copies_to_samples;
     std::array<SamplePosition, kPacketBatch * kLanes> centroids;
-    FragmentBatch batch{
-        {.context = &context_, .tile_x0 = tile_.x0 - plane.x, .tile_y0 = tile_.y0 - plane.y, .position = job_.position, .ids = job_.ids},
-        &memory_.output};
-    batch.codes = codes_ != nullptr && job_.spreads ? memory_.codes.data() : codes_;
+    FragmentBatch batch{{.context = &context_,
+                         .tile_x0 = tile_.x0 - plane.x,
+                         .tile_y0 = tile_.y0 - plane.y,
+                         .position = pixels_.position,
+                         .ids = pixels_.ids},
+                        &memory_.output};
+    batch.codes = codes_ != nullptr && pixels_.copies_to_samples ? memory_.codes.data() : codes_;
     batch.target = target_;
     const bool is_direct = batch.codes != nullptr || target_.program != nullptr;
     const std::size_t max_count = is_direct && !needs_centroid ? packets.size() : static_cast<std::size_t>(kPacketBatch);
@@ -104,8 +108,8 @@ class DrawShading {
       const std::span<const PacketMask> shaded = packets.first(static_cast<std::size_t>(batch.count));
       if (!is_direct) {
         write(shaded);
-      } else if (job_.spreads) {
-        for (const PacketMask& p : shaded) spread_codes(p, load<Int>(&memory_.codes[static_cast<std::size_t>(p.packet) * kLanes]));
+      } else if (pixels_.copies_to_samples) {
+        for (const PacketMask& p : shaded) copy_codes(p, load<Int>(&memory_.codes[static_cast<std::size_t>(p.packet) * kLanes]));
       }
     }
   }
@@ -115,7 +119,7 @@ class DrawShading {
     PackedFragments& packed = memory_.packed;
     std::array<int32_t, PackedPixels::kCapacity + kLanes> codes;  // unpacking reads past the last pixel
     while (!packets.empty()) {
-      const std::size_t count = pack_visible(packets, job_.ids, tile_.size, packed.pixels);
+      const std::size_t count = pack_visible(packets, pixels_.ids, tile_.size, packed.pixels);
       FragmentBatch batch{packed.pixels.batch(context_, tile_), &packed.output};
       if (codes_ != nullptr) batch.codes = codes.data();
       draw_.kernels.color(draw_.shader.get(), batch);
@@ -123,7 +127,7 @@ class DrawShading {
         std::size_t pixel = 0;
         for (const PacketMask& p : packets.first(count)) {
           const Int code = as_int(unpack_lanes(load<Real>(reinterpret_cast<const float*>(&codes[pixel])), p.lanes));
-          job_.spreads ? spread_codes(p, code) : write_codes(p.packet, mask_from_bits<Mask>(p.lanes), code);
+          pixels_.copies_to_samples ? copy_codes(p, code) : write_codes(p.packet, mask_from_bits<Mask>(p.lanes), code);
           pixel += static_cast<std::size_t>(std::popcount(p.lanes));
         }
       } else if (target_.program != nullptr) {
@@ -145,10 +149,10 @@ class DrawShading {
     store(to, select(mask, code, load<Int>(to)));
   }
 
-  // Calls f(packet of the sample, mask) for all samples that show the triangles of a packet of `layers`.
+  // Calls f(packet of the sample, mask) for all samples that show the triangles of a packet of `distinct`.
   template <class F>
   HS_INLINE void for_each_sample(const PacketMask& packet, const F& f) {
-    const Int shaded = load<Int>(job_.ids + static_cast<std::size_t>(packet.packet) * kLanes);
+    const Int shaded = load<Int>(pixels_.ids + static_cast<std::size_t>(packet.packet) * kLanes);
     const Mask lanes = mask_from_bits<Mask>(packet.lanes);
     const int pixels = packet_at(packet_x(packet.packet) & (tile_.size - 1), packet_y(packet.packet) & (tile_.size - 1));
     for (int s = 0; s < tile_.samples; ++s) {
@@ -158,14 +162,14 @@ class DrawShading {
     }
   }
 
-  HS_INLINE void spread_codes(const PacketMask& packet, Int code) {
+  HS_INLINE void copy_codes(const PacketMask& packet, Int code) {
     for_each_sample(packet, [&](int sample_packet, Mask mask) { write_codes(sample_packet, mask, code); });
   }
 
   // Writes packets that were shaded as packets 0, 1, ... of the output.
   void write(std::span<const PacketMask> packets) {
     const FragmentOutput& out = memory_.output;
-    if (!job_.spreads) {
+    if (!pixels_.copies_to_samples) {
       write_colors(draw_, out, 0, packets, tile_);
       if (trace_ != nullptr) trace_visible(kNoTriangle, packets, out, tile_, *trace_);
       return;
@@ -182,7 +186,7 @@ class DrawShading {
 
   const PassContext& context_;
   Tile& tile_;
-  const Job& job_;
+  const VisiblePixels& pixels_;
   const Draw& draw_;
   DeferredShading& memory_;
   TileTrace* trace_;
@@ -192,8 +196,8 @@ class DrawShading {
 
 // Shades the work draw by draw, so that each shader runs on full batches. The order of the draws does not affect the result, because pixels
 // are independent.
-void run_job(const PassContext& context, Tile& tile, const Job& job, std::span<ShadingWork> work, DeferredShading& memory,
-             PassStatistics& statistics, TileTrace* trace) {
+void shade_pixels(const PassContext& context, Tile& tile, const VisiblePixels& pixels, std::span<ShadingWork> work, DeferredShading& memory,
+                  PassStatistics& statistics, TileTrace* trace) {
   constexpr int max_passes = 8;  // over the work list of a tile with many draws, before the list is sorted
   const auto by_draw = [](const ShadingWork& a, const ShadingWork& b) { return a.draw < b.draw; };
   bool is_sorted = std::ranges::is_sorted(work, by_draw);
@@ -206,19 +210,19 @@ void run_job(const PassContext& context, Tile& tile, const Job& job, std::span<S
     const std::size_t count = is_sorted ? take_sorted_draw(work, memory.packets) : take_draw(work, memory.packets);
     const std::span<const PacketMask> packets = std::span(memory.packets).first(count);
     statistics.fragments_shaded += pixel_count(packets);
-    DrawShading(context, tile, job, draw, memory, trace).shade(packets);
+    DrawShading(context, tile, pixels, draw, memory, trace).shade(packets);
   }
 }
 
-void shade_deferred_samples(const PassContext& context, Tile& tile, DeferredShading& memory, PassStatistics& statistics,
-                            TileTrace* trace) {
+void shade_deferred_samples(const PassContext& context, Tile& tile, DeferredShading& memory, PassStatistics& statistics, TileTrace* trace) {
   const bool per_sample = may_shade_samples(context);
   for (int s = 0; s < tile.samples && per_sample; ++s) {
-    const Job job{tile.visibility.data(), sample_plane(tile.samples, s, tile.size), sample_position(tile.samples, s)};
-    run_job(context, tile, job, list_work(context, tile, job.ids, job.plane, Share::per_sample, memory.work), memory, statistics, trace);
+    const VisiblePixels pixels{tile.visibility.data(), sample_plane(tile.samples, s, tile.size), sample_position(tile.samples, s)};
+    shade_pixels(context, tile, pixels, list_work(context, tile, pixels.ids, pixels.plane, ShadingRate::per_sample, memory.work), memory,
+                 statistics, trace);
   }
-  run_job(context, tile, {memory.layers.data(), {0, 0}, kPixelCenter, true}, list_layers(context, tile, memory.layers, memory.work), memory,
-          statistics, trace);
+  shade_pixels(context, tile, {memory.distinct.data(), {0, 0}, kPixelCenter, true},
+               list_distinct(context, tile, memory.distinct, memory.work), memory, statistics, trace);
 }
 
 }  // namespace
@@ -227,12 +231,12 @@ void shade_full_tile(const PassContext& context, TriangleId id, Tile& tile, Defe
                      TileTrace* trace) {
   const Draw& draw = draw_of(context, id);
   statistics.fragments_shaded += kMaxTilePixels;
-  std::fill_n(memory.layers.begin(), kPackets, id);
+  std::fill_n(memory.distinct.begin(), kPackets, id);
   for (std::size_t p = 0; p < kPackets; ++p) memory.packets[p] = {static_cast<uint16_t>(p), static_cast<uint16_t>(kAllBits<Mask>)};
   FragmentBatch batch{{.context = &context,
                        .tile_x0 = tile.x0,
                        .tile_y0 = tile.y0,
-                       .packet_ids = memory.layers.data(),
+                       .packet_ids = memory.distinct.data(),
                        .packets = memory.packets.data(),
                        .count = kPackets},
                       &memory.output,
@@ -251,8 +255,9 @@ void shade_full_tile(const PassContext& context, TriangleId id, Tile& tile, Defe
 
 void shade_deferred(const PassContext& context, Tile& tile, DeferredShading& memory, PassStatistics& statistics, TileTrace* trace) {
   if (tile.samples == 1) {
-    const Job job{tile.visibility.data(), {0, 0}, kPixelCenter};
-    run_job(context, tile, job, list_work(context, tile, job.ids, job.plane, Share::per_pixel, memory.work), memory, statistics, trace);
+    const VisiblePixels pixels{tile.visibility.data(), {0, 0}, kPixelCenter};
+    shade_pixels(context, tile, pixels, list_work(context, tile, pixels.ids, pixels.plane, ShadingRate::per_pixel, memory.work), memory,
+                 statistics, trace);
   } else {
     shade_deferred_samples(context, tile, memory, statistics, trace);
   }

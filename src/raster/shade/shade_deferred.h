@@ -15,8 +15,8 @@ struct DeferredShading {
   ShadingWorkList work;
   std::array<PacketMask, kMaxTilePixels> packets;         ///< the packets of one draw
   std::array<PacketMask, kMaxTilePixels> plane_packets;   ///< those of one sample plane
-  std::array<TriangleId, kMaxTilePixels> layers;          ///< see list_layers()
-  alignas(64) std::array<int32_t, kMaxTilePixels> codes;  ///< shaded colors of multisampled pixels, indexed like `layers`
+  std::array<TriangleId, kMaxTilePixels> distinct;        ///< see list_distinct()
+  alignas(64) std::array<int32_t, kMaxTilePixels> codes;  ///< shaded colors of multisampled pixels, indexed like `distinct`
 };
 
 /// Shades all pixels of the tile that have a triangle in Tile::visibility, which is not changed, and writes their colors. trace: records

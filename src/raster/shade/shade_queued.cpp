@@ -40,12 +40,14 @@ void write_queued(const QueuedShading& c, std::span<const PacketMask> packets, c
 // Finishes sample s of n packets, which are `packets` in the tile's storage and were shaded as packets 0, 1, ... of the output. index(i):
 // number of packet i in the queue; ids: triangles of the packets.
 template <class Index>
-void finish_sample(const QueuedShading& c, PacketQueue& queue, std::span<PacketMask> packets, const TriangleId* ids, int s, const Index& index) {
+void finish_sample(const QueuedShading& c, PacketQueue& queue, std::span<PacketMask> packets, const TriangleId* ids, int s,
+                   const Index& index) {
   for (std::size_t i = 0; i < packets.size(); ++i) {
     PacketMask& p = packets[i];
     if (p.lanes != 0 && c.d.draw.covers_by_alpha)
       p.lanes = static_cast<uint16_t>(p.lanes & bits(alpha_covers(c.output.packet_color(0, i)[3], c.d.tile.samples, s)));
-    if (p.lanes != 0 && c.d.mode != VisibilityMode::early) p.lanes = finish_queued(c, p, i, queue.sample_depth(c.d.tile, index(i), s), ids[i]);
+    if (p.lanes != 0 && c.d.mode != VisibilityMode::early)
+      p.lanes = finish_queued(c, p, i, queue.sample_depth(c.d.tile, index(i), s), ids[i]);
   }
   if (!c.d.draw.state.order_independent) write_queued(c, std::span<const PacketMask>(packets), ids);
 }
@@ -121,7 +123,8 @@ std::size_t shade_batch(const QueuedShading& c, PacketQueue& queue, std::size_t 
 }
 
 // The same as shade_batch(), but packs the pixels first.
-std::size_t shade_packed(const QueuedShading& c, PacketQueue& queue, std::size_t begin, PackedFragments& packed, const WriteTarget& target) {
+std::size_t shade_packed(const QueuedShading& c, PacketQueue& queue, std::size_t begin, PackedFragments& packed,
+                         const WriteTarget& target) {
   const std::span<const PacketMask> packets(&queue.packets[begin], static_cast<std::size_t>(queue.count) - begin);
   const std::size_t count = pack(packets, &queue.ids[begin], packed.pixels);
   c.d.draw.kernels.fragment(c.d.draw.shader.get(), {packed.pixels.batch(c.d.context, c.d.tile), &packed.output});

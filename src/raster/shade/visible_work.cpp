@@ -34,7 +34,7 @@ struct FoundDraw {
 // Adds entries to a work list.
 class WorkWriter {
  public:
-  WorkWriter(const PassContext& context, Share share, ShadingWorkList& work) : context_(context), share_(share), work_(work) {}
+  WorkWriter(const PassContext& context, ShadingRate rate, ShadingWorkList& work) : context_(context), rate_(rate), work_(work) {}
 
   // Lists the pixels of a packet by draw. ids: the triangle of each pixel.
   HS_INLINE void add(int packet, const TriangleId* ids) {
@@ -43,7 +43,7 @@ class WorkWriter {
     if (rest == 0) return;
     // Most tiles show a single draw.
     if (lookups_ == 1 && (found_[0].lanes(packet_ids) & rest) == rest) return add(packet, found_[0], rest);
-    rest = lookups_ <= kFound ? add_few(packet, packet_ids, rest) : add_many(packet, packet_ids, rest);
+    rest = add_found(packet, packet_ids, rest);
     while (rest != 0) {
       FoundDraw& found = found_[lookups_++ % kFound];
       found = find(ids[std::countr_zero(rest)]);
@@ -61,18 +61,8 @@ class WorkWriter {
     count_ += found.is_listed && lanes != 0 ? 1 : 0;
   }
 
-  // Adds the lanes of `rest` whose draw was found before, and returns the others. Which of a few draws a packet shows is nearly random. A
-  // branch would often be mispredicted, so there is none.
-  HS_INLINE uint32_t add_few(int packet, Int packet_ids, uint32_t rest) {
-    for (std::size_t i = 0; i < lookups_; ++i) {
-      const uint32_t same = found_[i].lanes(packet_ids) & rest;
-      add(packet, found_[i], same);
-      rest &= ~same;
-    }
-    return rest;
-  }
-  // The same in a tile with more than kFound draws.
-  HS_INLINE uint32_t add_many(int packet, Int packet_ids, uint32_t rest) {
+  // Adds the lanes of `rest` whose draw was found before, and returns the others.
+  HS_INLINE uint32_t add_found(int packet, Int packet_ids, uint32_t rest) {
     for (const FoundDraw& found : found_) {
       const uint32_t same = found.lanes(packet_ids) & rest;
       if (same == 0) continue;
@@ -86,11 +76,11 @@ class WorkWriter {
   FoundDraw find(TriangleId id) const {
     const Draw& draw = draw_of(context_, id);
     const auto index = static_cast<std::size_t>(&draw - context_.draws.data());
-    return {&draw, context_.triangle_ids[index], draw.shades_samples == (share_ == Share::per_sample)};
+    return {&draw, context_.triangle_ids[index], draw.shades_samples == (rate_ == ShadingRate::per_sample)};
   }
 
   const PassContext& context_;
-  Share share_;
+  ShadingRate rate_;
   ShadingWorkList& work_;
   static constexpr std::size_t kFound = 4;
   std::array<FoundDraw, kFound> found_{};  // the last lookups
@@ -134,17 +124,17 @@ class PacketSamples {
 
   // Selects, for each pixel, one triangle that was not selected before, in the order of the samples.
   Int next() {
-    Int layer(kNoneInLane);
+    Int chosen(kNoneInLane);
     for (std::size_t s = 0; s < samples_; ++s) {
       const Int ids = load<Int>(at_[s]);
       const Mask open = !mask_from_bits<Mask>(taken_[s]), is_empty = ids == Int(kNoneInLane);
-      Mask may_start = layer == Int(kNoneInLane);
+      Mask may_start = chosen == Int(kNoneInLane);
       if (may_shade_samples_) may_start = may_start & mask_from_bits<Mask>(shaded_per_pixel(context_, at_[s], bits(open & !is_empty)));
-      const Mask selected = open & !is_empty & (may_start | (ids == layer));
-      layer = select(selected, ids, layer);
+      const Mask selected = open & !is_empty & (may_start | (ids == chosen));
+      chosen = select(selected, ids, chosen);
       taken_[s] |= bits(selected | (open & is_empty));
     }
-    return layer;
+    return chosen;
   }
 
  private:
@@ -157,9 +147,9 @@ class PacketSamples {
 
 }  // namespace
 
-std::span<ShadingWork> list_work(const PassContext& context, const Tile& tile, const TriangleId* ids, const SamplePlane& plane, Share share,
-                                 ShadingWorkList& work) {
-  WorkWriter writer(context, share, work);
+std::span<ShadingWork> list_work(const PassContext& context, const Tile& tile, const TriangleId* ids, const SamplePlane& plane,
+                                 ShadingRate rate, ShadingWorkList& work) {
+  WorkWriter writer(context, rate, work);
   const bool whole = tile.size == kMaxTileSize;
   const int shift = packet_shift(plane);
   for (int pixels = 0; pixels < kPackets; ++pixels) {
@@ -174,25 +164,25 @@ bool may_shade_samples(const PassContext& context) {
   return context.draws.size() > max_searched || std::ranges::any_of(context.draws, &Draw::shades_samples);
 }
 
-std::span<ShadingWork> list_layers(const PassContext& context, const Tile& tile, std::array<TriangleId, kMaxTilePixels>& layers,
-                                   ShadingWorkList& work) {
+std::span<ShadingWork> list_distinct(const PassContext& context, const Tile& tile, std::array<TriangleId, kMaxTilePixels>& distinct,
+                                     ShadingWorkList& work) {
   const bool per_sample = may_shade_samples(context);
-  WorkWriter writer(context, Share::per_pixel, work);
+  WorkWriter writer(context, ShadingRate::per_pixel, work);
   for (int packet = 0; packet < kPackets; ++packet) {
     if (!is_in_cell(tile, packet)) continue;
     PacketSamples samples(context, tile, packet, per_sample);
     if (samples.agree()) {
       const std::size_t first = static_cast<std::size_t>(packet) * kLanes;
-      store(&layers[first], load<Int>(&tile.visibility[first]));
-      writer.add(packet, &layers[first]);
+      store(&distinct[first], load<Int>(&tile.visibility[first]));
+      writer.add(packet, &distinct[first]);
       continue;
     }
     for (int n = 0; n < tile.samples; ++n) {
-      const Int layer = samples.next();
-      if (!any(layer != Int(kNoneInLane))) break;
+      const Int chosen = samples.next();
+      if (!any(chosen != Int(kNoneInLane))) break;
       const int to = packet + packet_shift(sample_plane(tile.samples, n, tile.size));
-      store(&layers[static_cast<std::size_t>(to) * kLanes], layer);
-      writer.add(to, &layers[static_cast<std::size_t>(to) * kLanes]);
+      store(&distinct[static_cast<std::size_t>(to) * kLanes], chosen);
+      writer.add(to, &distinct[static_cast<std::size_t>(to) * kLanes]);
     }
   }
   return writer.entries();

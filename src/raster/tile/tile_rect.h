@@ -37,7 +37,9 @@ struct TileRect {
   bool contains_block(int x, int y) const { return x >= x0 && y >= y0 && x + kBlockSize <= x1 && y + kBlockSize <= y1; }
 };
 /// Returns bounds in window coordinates as a rectangle in the plane of sample 0.
-inline TileRect tile_rect(const PixelBounds& b, const Tile& tile) { return {b.x0 - tile.x0, b.y0 - tile.y0, b.x1 - tile.x0, b.y1 - tile.y0}; }
+inline TileRect tile_rect(const PixelBounds& b, const Tile& tile) {
+  return {b.x0 - tile.x0, b.y0 - tile.y0, b.x1 - tile.x0, b.y1 - tile.y0};
+}
 HS_INLINE Mask inside(const TileRect& r, int packet_x, int packet_y) {
   const Int x = lane_x() + packet_x, y = lane_y() + packet_y;
   return (x >= Int(r.x0)) & (x < Int(r.x1)) & (y >= Int(r.y0)) & (y < Int(r.y1));

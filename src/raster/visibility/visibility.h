@@ -55,7 +55,6 @@ TilePath choose_path(const Draw& draw, VisibilityMode mode, const Tile& tile);
 /// Returns true if the triangles of a path are queued until the shader runs.
 constexpr bool is_queued(TilePath path) { return path >= TilePath::queued; }
 
-
 /// Values that all triangles of a draw in one tile share.
 struct DrawInTile {
   /// trace: records the fragments of the tile; null if they are not traced.
@@ -84,7 +83,7 @@ inline bool is_narrow_triangle(const Triangle& t) { return (t.flags & (kNarrow |
 /// Rasterizes narrow triangles, in order. indices: 1 to W triangles of the chunk. Queued paths stop when the queue is full. Returns the
 /// number of triangles that were drawn, at least 1.
 using RasterizeNarrowFunction = std::size_t (*)(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, PacketQueue& queue,
-                                               PassStatistics& statistics);
+                                                PassStatistics& statistics);
 /// Returns the function of a draw for narrow triangles (coverage/small_triangles.cpp).
 RasterizeNarrowFunction rasterize_narrow_function(const DrawInTile& d);
 

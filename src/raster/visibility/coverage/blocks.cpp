@@ -54,8 +54,8 @@ class Blocks {
     return kept_count_ != 0;
   }
 
-  // Lists packet p of the block if it has covered samples. lanes_at(k): covered lanes of sample kept()[k]. Whether a packet has any is nearly
-  // random and a branch would often be mispredicted, so the code has none.
+  // Lists packet p of the block if it has covered samples. lanes_at(k): covered lanes of sample kept()[k]. Whether a packet has any is
+  // nearly random and a branch would often be mispredicted, so the code has none.
   template <class LanesAt>
   HS_INLINE void list(int p, const LanesAt& lanes_at) {
     Listed& packet = list_[listed_];

@@ -90,8 +90,8 @@ class LargeDepthPlane {
         dx_(tile.x0 * kSubPixels + first.x - t.x[0]),
         dy_(tile.y0 * kSubPixels + first.y - t.y[0]) {}
 
-  /// Returns the depth at one pixel per lane. x, y: pixels, numbered from the corner of the tile; offset: position of the sample relative to
-  /// that of sample 0.
+  /// Returns the depth at one pixel per lane. x, y: pixels, numbered from the corner of the tile; offset: position of the sample relative
+  /// to that of sample 0.
   HS_INLINE Real at(Int x, Int y, SamplePosition offset = {0, 0}) const {
     const Real dx = to_real<Real>(x * kSubPixels + (dx_ + offset.x)), dy = to_real<Real>(y * kSubPixels + (dy_ + offset.y));
     return plane_.at(format_, difference_of_products(dx, Real(e2y_), dy, Real(e2x_)),

@@ -14,8 +14,8 @@ namespace halfspace::HS_LANES {
 /// Largest number of samples per pixel.
 template <bool multisampled>
 inline constexpr std::size_t kSamplesOf = multisampled ? static_cast<std::size_t>(kMaxSamples) : 1;
-/// Covered lanes of a packet of pixels, as a bit mask for each sample. A single mask has 32 bits: with 16, GCC converts it to a mask of lanes
-/// in twice the time, which costs 2 % of small triangles.
+/// Covered lanes of a packet of pixels, as a bit mask for each sample. A single mask has 32 bits: with 16, GCC converts it to a mask of
+/// lanes in twice the time, which costs 2% of small triangles.
 template <bool multisampled>
 using PacketLanes = std::conditional_t<multisampled, SampleLanes, std::array<uint32_t, 1>>;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Visibility of narrow triangles. Up to W triangles of a bin are prepared at once, one per lane, in int32. Then they are written one by one,
-// in submission order: tiny ones pixel by pixel, other small ones packet by packet, and the rest block by block (blocks.cpp).
+// Visibility of narrow triangles. Up to W triangles of a bin are prepared at once, one per lane, in int32. Then they are written one by
+// one, in submission order: tiny ones pixel by pixel, other small ones packet by packet, and the rest block by block (blocks.cpp).
 #include <algorithm>
 #include <bit>
 
@@ -28,7 +28,7 @@ class NarrowTriangles {
  public:
   // indices: 1 to W triangles of the chunk.
   HS_INLINE NarrowTriangles(const DrawInTile& d, const SampleSet<multisampled>& samples, const Chunk& chunk,
-                           std::span<const uint16_t> indices) {
+                            std::span<const uint16_t> indices) {
     const auto triangle = [&](int k) { return &chunk.triangles[indices[std::min(static_cast<std::size_t>(k), indices.size() - 1)]]; };
     const auto [x, y] = load_corners(triangle);
     const PixelBox<Int> box = pixel_box(x, y, d.context.samples_at, d.context.samples_at);
@@ -245,8 +245,8 @@ class TrianglePackets {
     }
   }
 
-  // Appends a packet to the list if it has covered samples. at: the edges at sample 0 of its first pixel. The outcome is nearly random and a
-  // branch would often be mispredicted, so the code has none. The list is complete before the first packet is written.
+  // Appends a packet to the list if it has covered samples. at: the edges at sample 0 of its first pixel. The outcome is nearly random and
+  // a branch would often be mispredicted, so the code has none. The list is complete before the first packet is written.
   HS_INLINE void list(const std::array<int32_t, 3>& at, int column, int row) {
     const int x = column * kPacketWidth, y = row * kPacketHeight;
     const uint32_t seen = d_.needs_bounds_test ? bits(inside(rect_, x, y)) : kAllBits<Mask>;
@@ -254,8 +254,8 @@ class TrianglePackets {
     c = {static_cast<uint16_t>(packet_at(x, y)), {}, at[1], at[2]};
     uint32_t any = 0;
     for (std::size_t s = 0; s < samples_.tile_samples; ++s) {
-      const Int edges = (lanes_[0] + (at[0] + sample_step(0, s))) | (lanes_[1] + (at[1] + sample_step(1, s))) |
-                        (lanes_[2] + (at[2] + sample_step(2, s)));
+      const Int edges =
+          (lanes_[0] + (at[0] + sample_step(0, s))) | (lanes_[1] + (at[1] + sample_step(1, s))) | (lanes_[2] + (at[2] + sample_step(2, s)));
       const uint32_t covered = seen & samples_.lanes[s] & ~negative_bits(edges);
       c.lanes[s] = static_cast<Lane>(covered);
       any |= covered;
@@ -290,7 +290,7 @@ class TrianglePackets {
 
 template <class Writer>
 std::size_t rasterize_narrow(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, PacketQueue& queue,
-                            PassStatistics& statistics) {
+                             PassStatistics& statistics) {
   const SampleSet<Writer::kMultisampled> samples(d);
   if (samples.count == 0) return indices.size();
   const NarrowTriangles<Writer::kMultisampled> triangles(d, samples, d.context.chunks[chunk], indices);

@@ -15,10 +15,10 @@ namespace halfspace::HS_LANES {
 
 enum class BlockCoverage : uint8_t { none, some, whole };
 
-/// Edge functions of a triangle or line at the samples of a tile. Pixels are numbered from the corner of the tile. For narrow triangles, the
-/// values are in (1/256 px)². For all others, they are shifted right by kSubPixelBits, which preserves the sign, and all steps are integers.
-/// The bias of the fill rule is subtracted. If all samples of the tile are inside an edge of a larger triangle, all values of that edge
-/// are 0.
+/// Edge functions of a triangle or line at the samples of a tile. Pixels are numbered from the corner of the tile. For narrow triangles,
+/// the values are in (1/256 px)². For all others, they are shifted right by kSubPixelBits, which preserves the sign, and all steps are
+/// integers. The bias of the fill rule is subtracted. If all samples of the tile are inside an edge of a larger triangle, all values of
+/// that edge are 0.
 template <bool multisampled>
 class TileEdges {
  public:
@@ -98,9 +98,9 @@ class TileEdges {
 
   bool outside_ = false;
   std::array<int32_t, 3> step_x_, step_y_, bias_;
-  std::array<Int, 3> lanes_;                                         // offsets from the corner of a packet to its pixels
-  std::array<std::array<int32_t, 3>, kSamplesOf<multisampled>> e_;   // values at the samples of pixel (0, 0)
-  std::array<int32_t, 3> lowest_, highest_;                          // over all samples of the first block
+  std::array<Int, 3> lanes_;                                        // offsets from the corner of a packet to its pixels
+  std::array<std::array<int32_t, 3>, kSamplesOf<multisampled>> e_;  // values at the samples of pixel (0, 0)
+  std::array<int32_t, 3> lowest_, highest_;                         // over all samples of the first block
 };
 
 }  // namespace halfspace::HS_LANES

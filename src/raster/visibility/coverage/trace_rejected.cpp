@@ -19,7 +19,8 @@ ComparedDepths compared_depths(CompareOp op, const DepthBounds& tested, const De
   switch (op) {
     case CompareOp::less:
     case CompareOp::less_equal: return {tested.low, stored.high};
-    case CompareOp::equal: return tested.high < stored.low ? ComparedDepths{tested.high, stored.low} : ComparedDepths{tested.low, stored.high};
+    case CompareOp::equal:
+      return tested.high < stored.low ? ComparedDepths{tested.high, stored.low} : ComparedDepths{tested.low, stored.high};
     default: return {tested.high, stored.low};
   }
 }
@@ -39,8 +40,10 @@ void add_covered(const RejectedPrimitive& p, const TileRect& part, FragmentOutco
   const int shift = packet_shift(sample_plane(tile.samples, static_cast<int>(p.sample), tile.size));
   for (int y = rect.y0 / kPacketHeight * kPacketHeight; y < rect.y1; y += kPacketHeight) {
     for (int x = rect.x0 / kPacketWidth * kPacketWidth; x < rect.x1; x += kPacketWidth) {
-      const uint32_t covered = bits(inside(rect, x, y)) & ~negative_bits(edges.values(0, 0, x, y) | edges.values(1, 0, x, y) | edges.values(2, 0, x, y));
-      if (covered != 0) trace.add_rejected(p.id, packet_at(x, y) + shift, covered, outcome, depth.at(0, x, y), depths.tested, depths.stored);
+      const uint32_t covered =
+          bits(inside(rect, x, y)) & ~negative_bits(edges.values(0, 0, x, y) | edges.values(1, 0, x, y) | edges.values(2, 0, x, y));
+      if (covered != 0)
+        trace.add_rejected(p.id, packet_at(x, y) + shift, covered, outcome, depth.at(0, x, y), depths.tested, depths.stored);
     }
   }
 }

@@ -29,15 +29,10 @@ struct PackedPixels {
   PacketBatch batch(const PassContext& context, const Tile& tile) const;
 };
 
-/// Returns the number of pixels in packets. Counts those of two packets at once.
+/// Returns the number of pixels in packets.
 inline std::size_t pixel_count(std::span<const PacketMask> packets) {
-  using Two = std::array<PacketMask, 2>;
-  constexpr auto lanes = std::bit_cast<uint64_t>(Two{{{0, 0xffff}, {0, 0xffff}}});
   std::size_t pixels = 0;
-  std::size_t i = 0;
-  for (; i + 2 <= packets.size(); i += 2)
-    pixels += static_cast<std::size_t>(std::popcount(std::bit_cast<uint64_t>(Two{packets[i], packets[i + 1]}) & lanes));
-  if (i < packets.size()) pixels += static_cast<std::size_t>(std::popcount(packets[i].lanes));
+  for (const PacketMask& p : packets) pixels += static_cast<std::size_t>(std::popcount(p.lanes));
   return pixels;
 }
 

@@ -43,8 +43,7 @@ Mask stencil_test(const StencilFace& face, const Tile& tile, int packet, Mask ma
   return mask & compare(face.compare, reference, to_real<Real>(load_values(tile, packet) & read));
 }
 
-Mask test_and_update_stencil(const StencilFace& face, Tile& tile, int packet, Mask mask, bool with_depth, CompareOp op,
-                                         Real z) {
+Mask test_and_update_stencil(const StencilFace& face, Tile& tile, int packet, Mask mask, bool with_depth, CompareOp op, Real z) {
   const Mask stencil_passed = stencil_test(face, tile, packet, mask);
   Mask passed = stencil_passed;
   if (with_depth) passed = passed & compare(op, z, load<Real>(&tile.depth[static_cast<std::size_t>(packet) * kLanes]));
