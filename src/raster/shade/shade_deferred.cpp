@@ -218,8 +218,8 @@ void shade_deferred_samples(const PassContext& context, Tile& tile, DeferredShad
   const bool per_sample = may_shade_samples(context);
   for (int s = 0; s < tile.samples && per_sample; ++s) {
     const VisiblePixels pixels{tile.visibility.data(), sample_plane(tile.samples, s, tile.size), sample_position(tile.samples, s)};
-    shade_pixels(context, tile, pixels, list_work(context, tile, pixels.ids, pixels.plane, ShadingRate::per_sample, memory.work), memory,
-                 statistics, trace);
+    shade_pixels(context, tile, pixels, list_work(context, tile, pixels.ids, pixels.plane, ShadingFrequency::per_sample, memory.work),
+                 memory, statistics, trace);
   }
   shade_pixels(context, tile, {memory.distinct.data(), {0, 0}, kPixelCenter, true},
                list_distinct(context, tile, memory.distinct, memory.work), memory, statistics, trace);
@@ -256,8 +256,8 @@ void shade_full_tile(const PassContext& context, TriangleId id, Tile& tile, Defe
 void shade_deferred(const PassContext& context, Tile& tile, DeferredShading& memory, PassStatistics& statistics, TileTrace* trace) {
   if (tile.samples == 1) {
     const VisiblePixels pixels{tile.visibility.data(), {0, 0}, kPixelCenter};
-    shade_pixels(context, tile, pixels, list_work(context, tile, pixels.ids, pixels.plane, ShadingRate::per_pixel, memory.work), memory,
-                 statistics, trace);
+    shade_pixels(context, tile, pixels, list_work(context, tile, pixels.ids, pixels.plane, ShadingFrequency::per_pixel, memory.work),
+                 memory, statistics, trace);
   } else {
     shade_deferred_samples(context, tile, memory, statistics, trace);
   }

@@ -34,7 +34,8 @@ struct FoundDraw {
 // Adds entries to a work list.
 class WorkWriter {
  public:
-  WorkWriter(const PassContext& context, ShadingRate rate, ShadingWorkList& work) : context_(context), rate_(rate), work_(work) {}
+  WorkWriter(const PassContext& context, ShadingFrequency frequency, ShadingWorkList& work)
+      : context_(context), frequency_(frequency), work_(work) {}
 
   // Lists the pixels of a packet by draw. ids: the triangle of each pixel.
   HS_INLINE void add(int packet, const TriangleId* ids) {
@@ -76,11 +77,11 @@ class WorkWriter {
   FoundDraw find(TriangleId id) const {
     const Draw& draw = draw_of(context_, id);
     const auto index = static_cast<std::size_t>(&draw - context_.draws.data());
-    return {&draw, context_.triangle_ids[index], draw.shades_samples == (rate_ == ShadingRate::per_sample)};
+    return {&draw, context_.triangle_ids[index], draw.shades_samples == (frequency_ == ShadingFrequency::per_sample)};
   }
 
   const PassContext& context_;
-  ShadingRate rate_;
+  ShadingFrequency frequency_;
   ShadingWorkList& work_;
   static constexpr std::size_t kFound = 4;
   std::array<FoundDraw, kFound> found_{};  // the last lookups
@@ -148,8 +149,8 @@ class PacketSamples {
 }  // namespace
 
 std::span<ShadingWork> list_work(const PassContext& context, const Tile& tile, const TriangleId* ids, const SamplePlane& plane,
-                                 ShadingRate rate, ShadingWorkList& work) {
-  WorkWriter writer(context, rate, work);
+                                 ShadingFrequency frequency, ShadingWorkList& work) {
+  WorkWriter writer(context, frequency, work);
   const bool whole = tile.size == kMaxTileSize;
   const int shift = packet_shift(plane);
   for (int pixels = 0; pixels < kPackets; ++pixels) {
@@ -167,7 +168,7 @@ bool may_shade_samples(const PassContext& context) {
 std::span<ShadingWork> list_distinct(const PassContext& context, const Tile& tile, std::array<TriangleId, kMaxTilePixels>& distinct,
                                      ShadingWorkList& work) {
   const bool per_sample = may_shade_samples(context);
-  WorkWriter writer(context, ShadingRate::per_pixel, work);
+  WorkWriter writer(context, ShadingFrequency::per_pixel, work);
   for (int packet = 0; packet < kPackets; ++packet) {
     if (!is_in_cell(tile, packet)) continue;
     PacketSamples samples(context, tile, packet, per_sample);

@@ -19,12 +19,12 @@ struct ShadingWork {
 using ShadingWorkList = std::array<ShadingWork, kMaxTilePixels + 1>;
 
 /// Which of the pending pixels to list: those whose draw is shaded per pixel, or those whose draw is shaded per sample.
-enum class ShadingRate : uint8_t { per_pixel, per_sample };
+enum class ShadingFrequency : uint8_t { per_pixel, per_sample };
 
 /// Lists the visible pixels of one sample plane by packet. A packet that shows several draws has an entry for each. ids: triangle of each
 /// pixel of the tile's storage. Returns the entries.
 std::span<ShadingWork> list_work(const PassContext& context, const Tile& tile, const TriangleId* ids, const SamplePlane& plane,
-                                 ShadingRate rate, ShadingWorkList& work);
+                                 ShadingFrequency frequency, ShadingWorkList& work);
 
 /// Returns false if no draw of the pass runs its fragment function per sample. A long list of draws is not searched for each tile.
 bool may_shade_samples(const PassContext& context);
