@@ -73,7 +73,7 @@ struct FragmentDetail {
   bool is_front = true;  ///< the triangle is front-facing
   Topology topology = Topology::triangles;
   int copy = 0;            ///< copy of the object; for models with several parts, copy · parts + part
-  std::string shader;      ///< for example "phong surface"
+  std::string shader;      ///< for example "surface lit per pixel (phong)"
   glm::vec3 barycentrics;  ///< weights of the vertices of the submitted primitive, perspective-correct; (1, 0, 0) for points
   float inv_w = 0.0f;      ///< 1/w of clip space
   std::vector<NamedValue> varyings;

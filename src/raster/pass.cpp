@@ -169,6 +169,7 @@ void PassState::add_draw(const ShaderKernels& kernels, KeptShader shader, const 
 }
 
 void PassState::place_draw(Draw& d) const {
+  const FloatMode float_mode;
   const Rect whole{0, 0, context_.width, context_.height};
   const Rect viewport = d.state.viewport.value_or(whole);
   d.viewport = make_viewport(viewport, d.state.depth);

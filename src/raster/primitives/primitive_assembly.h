@@ -6,6 +6,8 @@
 #pragma once
 
 #include <array>
+#include <optional>
+#include <utility>
 
 #include "halfspace/raster/pipeline/pass_context.h"
 
@@ -39,6 +41,13 @@ class Assembly {
     const uint32_t* indices = fast_path_ ? draw_.indices->words(std::size_t{primitive_} * 3) : nullptr;
     if (indices != nullptr) primitive_ += count;
     return indices;
+  }
+
+  /// Returns the first index of the next `count` triangles if the draw has no index list, and skips the triangles. Otherwise returns
+  /// nullopt and skips nothing.
+  std::optional<uint32_t> next_sequence(uint32_t count) {
+    if (!fast_path_ || !draw_.indices->is_sequential()) return std::nullopt;
+    return 3 * std::exchange(primitive_, primitive_ + count);
   }
 
  private:

@@ -57,12 +57,7 @@ class TriangleSetup {
 
   // Adds the next triangles to the batch. Returns the lanes that need no clipping.
   uint32_t put_triangles(int count) {
-    if (shaded_.any_outcode == 0) {
-      if (const uint32_t* list = range_.assembly.next_list(static_cast<uint32_t>(count))) {
-        batch_.put_list(list, count, range_.slot_base);
-        return bits(first_lanes<Mask>(count));
-      }
-    }
+    if (shaded_.any_outcode == 0 && put_without_lookup(count)) return bits(first_lanes<Mask>(count));
     uint32_t unclipped = 0;
     PrimitiveSlots slots{};
     for (int i = 0; i < count; ++i) {
@@ -74,6 +69,17 @@ class TriangleSetup {
     }
     for (int i = count; i < kLanes; ++i) batch_.put(i, slots);
     return unclipped;
+  }
+
+  // Adds the next triangles to the batch without looking up each index. Returns false if the index list does not allow this.
+  bool put_without_lookup(int count) {
+    if (const uint32_t* list = range_.assembly.next_list(static_cast<uint32_t>(count))) {
+      batch_.put_list(list, count, range_.slot_base);
+      return true;
+    }
+    const std::optional<uint32_t> first = range_.assembly.next_sequence(static_cast<uint32_t>(count));
+    if (first) batch_.put_sequence(*first, count, range_.slot_base);
+    return first.has_value();
   }
 
   void submit_triangle(const PrimitiveSlots& id) {

@@ -42,6 +42,11 @@ void TriangleBatch::put_list(const uint32_t* indices, int count, uint32_t base) 
   for (std::size_t i = 0; i < 3; ++i) store(vertex_[i].data(), vertex[i] - static_cast<int32_t>(base));
 }
 
+void TriangleBatch::put_sequence(uint32_t first, int count, uint32_t base) {
+  const Int corner = min(iota<Int>(), Int(count - 1)) * 3 + static_cast<int32_t>(first - base);
+  for (std::size_t i = 0; i < 3; ++i) store(vertex_[i].data(), corner + static_cast<int32_t>(i));
+}
+
 void TriangleBatch::set_up(const PassContext& context, const Draw& draw, const ShadedVertices& shaded, uint32_t lanes, uint32_t provoking,
                            uint32_t range, PassStatistics& statistics) {
   static_assert(sizeof(ScreenVertex) == 4 * sizeof(int32_t));

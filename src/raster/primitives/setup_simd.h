@@ -17,6 +17,8 @@ class TriangleBatch {
 
   /// Sets the vertex slots of `count` triangles (1 to W), one per lane, to their indices − base. The other lanes repeat the last triangle.
   void put_list(const uint32_t* indices, int count, uint32_t base);
+  /// The same for consecutive indices: first, first + 1, …
+  void put_sequence(uint32_t first, int count, uint32_t base);
   /// Returns the vertex slots of a lane.
   std::array<uint32_t, 3> slots(int lane) const {
     const auto slot = [&](std::size_t i) { return static_cast<uint32_t>(vertex_[i][static_cast<std::size_t>(lane)]); };

@@ -12,10 +12,15 @@ namespace halfspace::HS_LANES {
 /// colors. Then only the other term has to be rounded, and both are combined as bytes.
 constexpr bool combines_codes(const BlendOperation& o) {
   using enum BlendEquation;
-  const BlendEquation e = o.color_equation;
-  if (e != o.alpha_equation || e == subtract) return false;
-  const bool keeps_destination = o.factors.destination_color == BlendFactor::one && o.factors.destination_alpha == BlendFactor::one;
-  return keeps_destination || e == min || e == max;
+  if (o.color_equation != o.alpha_equation) return false;
+  switch (o.color_equation) {
+    case add:
+    case reverse_subtract: return o.factors.destination_color == BlendFactor::one && o.factors.destination_alpha == BlendFactor::one;
+    case min:
+    case max: return true;
+    case subtract: break;
+  }
+  return false;
 }
 
 /// Returns false if the blended value of a channel with values in [0, 1] is known not to exceed 1, apart from rounding.
@@ -42,11 +47,10 @@ namespace detail {
 /// each rounding of the factor and for its product with 255. The product with the source is only rounded to an integer.
 template <class Operation>
 HS_INLINE Int combined_codes(const Operation& o, Int codes, const BlendSources& from) {
-  const bool has_factors = o.color_equation == BlendEquation::add || o.color_equation == BlendEquation::reverse_subtract;
   const auto factors = factors_of(o, from);
   PacketColor term;
   for (std::size_t k = 0; k < 4; ++k) {
-    const Real factor = has_factors ? factors.source(k) : Real(1.0f);
+    const Real factor = ignores_factors(o.color_equation) ? Real(1.0f) : factors.source(k);
     term[k] = fma(from.src[k], factor * Real(255.0f), Real(kRoundingBias));
   }
   const Int rounded = pack_biased(term);
@@ -54,8 +58,10 @@ HS_INLINE Int combined_codes(const Operation& o, Int codes, const BlendSources& 
     case BlendEquation::min: return min_bytes(codes, rounded);
     case BlendEquation::max: return max_bytes(codes, rounded);
     case BlendEquation::reverse_subtract: return subtract_bytes(codes, rounded);
-    default: return add_bytes(codes, rounded);
+    case BlendEquation::add: return add_bytes(codes, rounded);
+    case BlendEquation::subtract: break;  // never combines codes
   }
+  return codes;
 }
 
 /// For all other operations. Before it is rounded, the sum differs from the exact one by at most 1e-4: 2^-24 times 255 for the source in

@@ -84,7 +84,6 @@ void replace(ColorBuffer& buffer, PacketMask packet, const AttachmentState& s, R
 // Returns the operation of a state. The factors do not matter for the minimum and the maximum.
 BlendOperation compiled_operation(const BlendState& s) {
   BlendOperation o = operation_of(s);
-  const auto ignores_factors = [](BlendEquation e) { return e == BlendEquation::min || e == BlendEquation::max; };
   if (ignores_factors(o.color_equation) && ignores_factors(o.alpha_equation)) o.factors = {one, one, one, one};
   return o;
 }

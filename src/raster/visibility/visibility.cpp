@@ -40,9 +40,9 @@ bool postpones_stencil(const Draw& draw, VisibilityMode mode, const Tile& tile) 
 
 std::span<const PathRow> path_rows() {
   static constexpr PathRow rows[] = {
-      {TilePath::nearest, "nearest", "coverage, depth", "less, with writes", "depth, triangle ids"},
-      {TilePath::opaque, "opaque", "coverage, depth", "any", "depth, triangle ids"},
-      {TilePath::stencil, "stencil", "coverage, depth, stencil test", "any", "depth, stencil values, triangle ids"},
+      {TilePath::nearest, "nearest", "coverage, depth", "less, with writes", "depth, triangle ids of deferred draws"},
+      {TilePath::opaque, "opaque", "coverage, depth", "any", "depth, triangle ids of deferred draws"},
+      {TilePath::stencil, "stencil", "coverage, depth, stencil test", "any", "depth, stencil values, triangle ids of deferred draws"},
       {TilePath::queued, "queued", "the shader, the order of execution, or a stencil test after the shader", "any",
        "queue of packets; depth if no test follows the shader"},
       {TilePath::queued_less, "queued_less", "the shader", "less, tested before and after the shader", "queue of packets"},

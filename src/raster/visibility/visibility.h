@@ -52,6 +52,9 @@ std::span<const PathRow> path_rows();
 /// Returns the path of a draw with the given mode.
 TilePath choose_path(const Draw& draw, VisibilityMode mode, const Tile& tile);
 
+/// Returns true if only coverage and depth decide which fragments of a path are visible.
+constexpr bool is_opaque(TilePath path) { return path == TilePath::nearest || path == TilePath::opaque; }
+
 /// Returns true if the triangles of a path are queued until the shader runs.
 constexpr bool is_queued(TilePath path) { return path >= TilePath::queued; }
 

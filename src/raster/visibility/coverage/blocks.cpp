@@ -37,7 +37,6 @@ class Blocks {
   HS_INLINE bool begin(int x, int y, const DepthBounds& z, bool may_refresh = true) {
     block_ = y / kBlockSize * kBlocksPerRow + x / kBlockSize;
     z_ = z;
-    listed_ = 0;
     kept_count_ = 0;
     passes_ = ~0u;
     written_ = 0;
@@ -54,35 +53,35 @@ class Blocks {
     return kept_count_ != 0;
   }
 
-  // Lists packet p of the block if it has covered samples. lanes_at(k): covered lanes of sample kept()[k]. Whether a packet has any is
-  // nearly random and a branch would often be mispredicted, so the code has none.
-  template <class LanesAt>
-  HS_INLINE void list(int p, const LanesAt& lanes_at) {
-    Listed& packet = list_[listed_];
-    packet = {static_cast<uint16_t>(p), {}};
-    uint32_t any = 0;
-    for (std::size_t k = 0; k < kept().size(); ++k) {
-      const uint32_t lanes = lanes_at(k);
-      packet.lanes[kept()[k]] = static_cast<typename Lanes::value_type>(lanes);
-      any |= lanes;
+  // Writes the covered packets of the block. lanes_at(p, k): covered lanes of packet p at sample kept()[k]; z_at(s, p): returns the depth
+  // of packet p at sample s.
+  template <class LanesAt, class Depth>
+  HS_INLINE void write_some(const LanesAt& lanes_at, const Depth& z_at) {
+    const auto all_lanes = [&](int p) {
+      Lanes lanes{};
+      for (std::size_t k = 0; k < kept().size(); ++k) lanes[kept()[k]] = static_cast<typename Lanes::value_type>(lanes_at(p, k));
+      return lanes;
+    };
+    if constexpr (Writer::kQueues) {
+      if (writer_.adds_untested(passes_ == ~0u)) return writer_.add_block(id_, block_, all_lanes);
     }
-    listed_ += any != 0 ? 1 : 0;
-  }
-
-  // Writes the listed packets. z_at(s, p): returns the depth of packet p at sample s.
-  template <class Depth>
-  HS_INLINE void write_listed(const Depth& z_at) {
-    for (std::size_t i = 0; i < listed_; ++i) write(list_[i].packet, list_[i].lanes, z_at);
+    // Whether a packet has covered samples is nearly random and a branch would often be mispredicted, so the code has none.
+    std::size_t listed = 0;
+    for (int p = 0; p < kPacketsPerBlock; ++p) {
+      list_[listed] = {static_cast<uint16_t>(p), all_lanes(p)};
+      uint32_t any = 0;
+      for (const uint32_t of_sample : list_[listed].lanes) any |= of_sample;
+      listed += any != 0 ? 1 : 0;
+    }
+    for (std::size_t i = 0; i < listed; ++i) write(list_[i].packet, list_[i].lanes, z_at);
     update_bounds(false);
   }
 
-  // Writes a block that is covered everywhere. z_at: as in write_listed().
+  // Writes a block that is covered everywhere. z_at: as in write_some().
   template <class Depth>
   HS_INLINE void write_whole(const Depth& z_at) {
     if constexpr (Writer::kQueues || Writer::kTestsStencil) {
-      Lanes lanes{};
-      for (const std::size_t s : kept()) lanes[s] = static_cast<typename Lanes::value_type>(kAllBits<Mask>);
-      for (int p = 0; p < kPacketsPerBlock; ++p) write(p, lanes, z_at);
+      return write_some([](int, std::size_t) { return kAllBits<Mask>; }, z_at);
     } else {
       for (const std::size_t s : kept()) write_whole(s, z_at);
     }
@@ -154,7 +153,7 @@ class Blocks {
   uint32_t passes_ = 0;   // bit s: the depth test passes in all covered lanes of sample s
   uint32_t written_ = 0;  // bit s: the depth of sample s may have been written
   std::array<std::size_t, kSamplesOf<Writer::kMultisampled>> kept_;
-  std::size_t kept_count_ = 0, listed_ = 0;
+  std::size_t kept_count_ = 0;
   std::array<Listed, kPacketsPerBlock + 1> list_;  // the element after the last one may be written
 };
 
@@ -190,14 +189,12 @@ void rasterize_edges(const DrawInTile& d, const SampleSet<Writer::kMultisampled>
       for (std::size_t k = 0; k < blocks.kept().size(); ++k) {
         for (std::size_t i = 0; i < 3; ++i) corner[k][i] = edges.values(i, blocks.kept()[k], x, y);
       }
-      for (int p = 0; p < kPacketsPerBlock; ++p) {
+      const auto lanes_at = [&](int p, std::size_t k) {
         const std::array<int32_t, 3>& by = step[static_cast<std::size_t>(p)];
         const uint32_t seen = is_cut ? bits(inside(rect, x + packet_x(p), y + packet_y(p))) : kAllBits<Mask>;
-        blocks.list(p, [&](std::size_t k) {
-          return seen & ~negative_bits((corner[k][0] + by[0]) | (corner[k][1] + by[1]) | (corner[k][2] + by[2]));
-        });
-      }
-      blocks.write_listed(z_at);
+        return seen & ~negative_bits((corner[k][0] + by[0]) | (corner[k][1] + by[1]) | (corner[k][2] + by[2]));
+      };
+      blocks.write_some(lanes_at, z_at);
     }
   }
 }
@@ -217,11 +214,8 @@ void rasterize_point(const DrawInTile& d, const SampleSet<Writer::kMultisampled>
       const int x0 = std::max(bx, rect.x0), y0 = std::max(by, rect.y0);
       const int x1 = std::min(bx + kBlockSize, rect.x1), y1 = std::min(by + kBlockSize, rect.y1);
       if (!blocks.begin(bx, by, z, (x1 - x0) * (y1 - y0) >= kTestedPixels)) continue;
-      for (int y = y0 & ~(kPacketHeight - 1); y < y1; y += kPacketHeight) {
-        for (int x = x0 & ~(kPacketWidth - 1); x < x1; x += kPacketWidth)
-          blocks.list(packet_at(x, y) % kPacketsPerBlock, [&](std::size_t k) { return bits(inside(covered[blocks.kept()[k]], x, y)); });
-      }
-      blocks.write_listed([&](std::size_t, int) { return Real(z.low); });
+      blocks.write_some([&](int p, std::size_t k) { return bits(inside(covered[blocks.kept()[k]], bx + packet_x(p), by + packet_y(p))); },
+                        [&](std::size_t, int) { return Real(z.low); });
     }
   }
 }

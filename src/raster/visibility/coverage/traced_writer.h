@@ -54,7 +54,8 @@ class TracedWriter : public Writer<path, multisampled> {
     set_outcomes(id, packet, covered, z);
   }
 
-  // Repeats the tests of fragments that have been added. The outcome of queued fragments is recorded when the queue is shaded.
+  // Repeats the tests of fragments that have been added: the outcome is not taken from Writer. The outcome of queued fragments is recorded
+  // when the queue is shaded.
   void set_outcomes(TriangleId id, int packet, uint32_t covered, Real z) {
     Mask passed = mask_from_bits<Mask>(covered);
     if constexpr (Base::kTestsStencil) passed = stencil_test(*this->stencil(), d_.tile, packet, passed);

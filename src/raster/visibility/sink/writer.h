@@ -114,19 +114,17 @@ class Writer {
   /// Adds a packet of pixels without testing it. packet: its number in the plane of sample 0; lanes: covered lanes of each sample.
   template <class Lanes>
   HS_INLINE void add_untested(TriangleId id, int packet, const Lanes& lanes) requires kQueues {
-    uint32_t any = 0;
     int covered = 0;
-    for (const uint32_t of_sample : lanes) {
-      any |= of_sample;
-      covered += std::popcount(of_sample);
-    }
-    statistics_.samples_tested += static_cast<uint64_t>(covered);
-    if (is_final()) statistics_.samples_passed += static_cast<uint64_t>(covered);
-    const auto i = static_cast<std::size_t>(queue_->count);
-    queue_->packets[i] = {static_cast<uint16_t>(packet), static_cast<uint16_t>(any)};
-    queue_->ids[i] = id;
-    if constexpr (multisampled) queue_->sample_lanes[i] = lanes;
-    queue_->count += any != 0 ? 1 : 0;
+    queue_->count = put_untested(queue_->count, id, packet, lanes, covered);
+    count_untested(covered);
+  }
+  /// The same for the packets of a block, with the count in a register. lanes_at(p): covered lanes of each sample of packet p of the block.
+  template <class LanesAt>
+  HS_INLINE void add_block(TriangleId id, int block, const LanesAt& lanes_at) requires kQueues {
+    int count = queue_->count, covered = 0;
+    for (int p = 0; p < kPacketsPerBlock; ++p) count = put_untested(count, id, block * kPacketsPerBlock + p, lanes_at(p), covered);
+    queue_->count = count;
+    count_untested(covered);
   }
   /// Starts a packet of pixels. packet: its number in the plane of sample 0. Call begin_sample() and write() for each sample that has
   /// covered lanes, and end_packet() after the last one.
@@ -194,6 +192,25 @@ class Writer {
       if (writes_depth()) store(depth, select(mask_from_bits<Mask>(lanes), z, old));
     }
     return {lanes, z};
+  }
+
+  // Stores a packet of pixels behind the first `count` elements of the queue, and adds its samples to `covered`. Returns the new count.
+  template <class Lanes>
+  HS_INLINE int put_untested(int count, TriangleId id, int packet, const Lanes& lanes, int& covered) {
+    uint32_t any = 0;
+    for (const uint32_t of_sample : lanes) {
+      any |= of_sample;
+      covered += std::popcount(of_sample);
+    }
+    const auto i = static_cast<std::size_t>(count);
+    queue_->packets[i] = {static_cast<uint16_t>(packet), static_cast<uint16_t>(any)};
+    queue_->ids[i] = id;
+    if constexpr (multisampled) queue_->sample_lanes[i] = lanes;
+    return count + (any != 0 ? 1 : 0);
+  }
+  void count_untested(int covered) {
+    statistics_.samples_tested += static_cast<uint64_t>(covered);
+    if (is_final()) statistics_.samples_passed += static_cast<uint64_t>(covered);
   }
 
   // Adds lanes that passed all tests before the shader.
