@@ -20,6 +20,7 @@ namespace {
 constexpr int kMaxTargetSize = static_cast<int>(kGuardBand);
 // Memory limit of a tile in bytes, chosen so that it stays in the L2 cache.
 constexpr int kTileBudget = 160 << 10;
+
 VertexStreams keep_streams(const VertexView& view, std::pmr::memory_resource& memory) {
   const auto count = static_cast<std::size_t>(view.stream_count);
   auto* const kept = static_cast<VertexStream*>(memory.allocate(count * sizeof(VertexStream), alignof(VertexStream)));
@@ -149,6 +150,13 @@ void PassState::add_draw(const ShaderKernels& kernels, KeptShader shader, const 
                  state.depth.compare == CompareOp::greater || state.depth.compare == CompareOp::greater_equal,
              "DrawState: order_independent is combined with another depth test; expected less, less_equal, greater or greater_equal");
   }
+  for (std::size_t i = 0; i < attachments_.colors.size(); ++i) {
+    const std::optional<BlendState>& blend = blend_of(state, i);
+    HS_CHECK(!blend || !uses_second_source(*blend) || (kernels.color_count > 1 && attachments_.colors.size() == 1),
+             "DrawState: blend factors use a second source; expected a shader with two colors and one color target");
+    HS_CHECK(!blend || attachments_.colors[i].format != ColorFormat::r32ui,
+             "DrawState: a target of integers is blended; expected no blending");
+  }
   if (context_.draws.capacity() == 0) context_.draws = take_draw_list();
   Draw& d = context_.draws.emplace_back(kernels, std::move(shader), std::move(indices), keep_streams(vertices, *context_.memory), state);
   d.vertex_count = d.indices->used_count() * state.instances;
@@ -185,12 +193,7 @@ bool PassState::set_color_writes(Draw& d) const {
   for (std::size_t i = 0; i < attachments_.colors.size(); ++i) {
     const std::optional<BlendState>& blend = blend_of(d.state, i);
     const ColorMask& mask = color_mask_of(d.state, i);
-    if (blend && uses_second_source(*blend))
-      HS_CHECK(d.kernels.color_count > 1 && attachments_.colors.size() == 1,
-               "DrawState: blend factors use a second source; expected a shader with two colors and one color target");
     if (attachments_.colors[i].format == ColorFormat::none) continue;
-    HS_CHECK(!blend || attachments_.colors[i].format != ColorFormat::r32ui,
-             "DrawState: a target of integers is blended; expected no blending");
     const bool has_color = d.kernels.fragment != nullptr && static_cast<int>(i) < d.kernels.color_count;
     replaces &= has_color && !blend && mask.all();
     d.writes_color |= has_color && (mask.r || mask.g || mask.b || mask.a);

@@ -179,7 +179,7 @@ class NaiveDepthPlane {
     const int64_t dx = x - p_[0].x, dy = y - p_[0].y;
     const int64_t e1x = p_[1].x - p_[0].x, e1y = p_[1].y - p_[0].y, e2x = p_[2].x - p_[0].x, e2y = p_[2].y - p_[0].y;
     R w1 = static_cast<R>(dx * e2y - dy * e2x), w2 = static_cast<R>(e1x * dy - e1y * dx);
-    if (kIsFloat<R> && !narrow_) {  // other triangles round the edge functions differently (visibility/depth_plane.h)
+    if (kIsFloat<R> && !narrow_) {  // other triangles round the edge functions differently (visibility/coverage/depth_plane.h)
       w1 = difference_of_products(static_cast<R>(dx), static_cast<R>(e2y), static_cast<R>(dy), static_cast<R>(e2x));
       w2 = difference_of_products(static_cast<R>(e1x), static_cast<R>(dy), static_cast<R>(e1y), static_cast<R>(dx));
     }

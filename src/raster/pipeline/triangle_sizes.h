@@ -2,11 +2,11 @@
 //
 // Sizes at which the code path of a triangle changes. The pixels are the same on all paths.
 //
-//   word     largest bounding box        path
-//   narrow   63 x 63 px                  setup W at once; edge functions in int32 without a shift
-//   small    48 x 48 px                  visibility W at once, packet by packet; larger ones go block by block
-//   tested   at least 24 px              hierarchical Z may reject it; testing fewer pixels takes less time than the comparison
-//   tiny     4 x 3 px, one sample        setup finds its pixels
+//   word     bounding box                path
+//   narrow   at most 63 x 63 px          setup W at once; edge functions in int32 without a shift
+//   small    at most 48 x 48 px          visibility W at once, packet by packet; larger ones go block by block
+//   tested   at least 24 pixels in all   hierarchical Z may reject it; testing fewer pixels takes less time than the comparison
+//   tiny     at most 4 x 3 px            setup stores its pixels if there is one sample; up to 4 x 4 px, it culls uncovered triangles
 #pragma once
 
 #include "halfspace/raster/pipeline/window.h"

@@ -48,7 +48,8 @@ HS_INLINE Real blend_factor(BlendFactor f, const BlendSources& s, std::size_t k)
 constexpr bool ignores_factors(BlendEquation e) { return e == BlendEquation::min || e == BlendEquation::max; }
 
 /// Returns one channel of the blended color, before it is clamped to the range of the format. src and dst have the same unit: 0 to 1 or,
-/// for rgba8, codes from 0 to 255. Factors are linear. An equation must therefore scale with src and dst.
+/// for rgba8, codes from 0 to 255. Factors are linear. An equation must be homogeneous: scaling src
+/// and dst scales the result.
 HS_INLINE Real blend_sum(BlendEquation e, Real src, Real src_factor, Real dst, Real dst_factor) {
   switch (e) {
     case BlendEquation::add: return fma(dst, dst_factor, src * src_factor);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Records what the stages of a tile do. Shading calls it if there is a trace; visibility has writers of its own for traced draws
-// (visibility/traced_writer.h), so that the loops over packets contain no trace code.
+// (visibility/coverage/traced_writer.h), so that the loops over packets contain no trace code.
 #pragma once
 
 #include <vector>

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "halfspace/raster/visibility/tests/depth_bounds.h"
 #include "halfspace/raster/visibility/tests/depth_stencil_test.h"
 
 namespace halfspace::HS_LANES {

@@ -54,9 +54,9 @@ class Blocks {
   }
 
   // Writes the covered packets of the block. lanes_at(p, k): covered lanes of packet p at sample kept()[k]; z_at(s, p): returns the depth
-  // of packet p at sample s.
+  // of packet p at sample s; is_whole: the block is covered everywhere.
   template <class LanesAt, class Depth>
-  HS_INLINE void write_some(const LanesAt& lanes_at, const Depth& z_at) {
+  HS_INLINE void write_some(const LanesAt& lanes_at, const Depth& z_at, bool is_whole = false) {
     const auto all_lanes = [&](int p) {
       Lanes lanes{};
       for (std::size_t k = 0; k < kept().size(); ++k) lanes[kept()[k]] = static_cast<typename Lanes::value_type>(lanes_at(p, k));
@@ -74,18 +74,18 @@ class Blocks {
       listed += any != 0 ? 1 : 0;
     }
     for (std::size_t i = 0; i < listed; ++i) write(list_[i].packet, list_[i].lanes, z_at);
-    update_bounds(false);
+    update_bounds(is_whole);
   }
 
   // Writes a block that is covered everywhere. z_at: as in write_some().
   template <class Depth>
   HS_INLINE void write_whole(const Depth& z_at) {
     if constexpr (Writer::kQueues || Writer::kTestsStencil) {
-      return write_some([](int, std::size_t) { return kAllBits<Mask>; }, z_at);
+      write_some([](int, std::size_t) { return kAllBits<Mask>; }, z_at, true);
     } else {
       for (const std::size_t s : kept()) write_whole(s, z_at);
+      update_bounds(true);
     }
-    update_bounds(true);
   }
 
   // Returns the samples that the depth test did not reject in this block.
@@ -214,8 +214,12 @@ void rasterize_point(const DrawInTile& d, const SampleSet<Writer::kMultisampled>
       const int x0 = std::max(bx, rect.x0), y0 = std::max(by, rect.y0);
       const int x1 = std::min(bx + kBlockSize, rect.x1), y1 = std::min(by + kBlockSize, rect.y1);
       if (!blocks.begin(bx, by, z, (x1 - x0) * (y1 - y0) >= kTestedPixels)) continue;
-      blocks.write_some([&](int p, std::size_t k) { return bits(inside(covered[blocks.kept()[k]], bx + packet_x(p), by + packet_y(p))); },
-                        [&](std::size_t, int) { return Real(z.low); });
+      const auto lanes_at = [&](int p, std::size_t k) {
+        const int x = bx + packet_x(p), y = by + packet_y(p);
+        const bool touches = x < x1 && y < y1 && x + kPacketWidth > x0 && y + kPacketHeight > y0;
+        return touches ? bits(inside(covered[blocks.kept()[k]], x, y)) : 0u;
+      };
+      blocks.write_some(lanes_at, [&](std::size_t, int) { return Real(z.low); });
     }
   }
 }
@@ -240,7 +244,7 @@ void rasterize(const DrawInTile& d, const Triangle& t, TriangleId id, PacketQueu
 
 bool covers_tile(const DrawInTile& d, const Triangle& t) {
   if (t.is(kNarrow | kPointSprite | kLine)) return false;
-  return TileEdges<false>(d.draw, d.tile, SampleSet<false>(d), t).contain_tile();
+  return TileEdges<false>(d.draw, d.tile, SampleSet<false>(d), t).cover_tile();
 }
 
 void write_full_tile(const DrawInTile& d, const Triangle& t, TriangleId id) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include "halfspace/raster/tile/tile_format.h"
 #include "halfspace/raster/visibility/coverage/tile_edges.h"

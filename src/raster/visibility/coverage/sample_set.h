@@ -6,6 +6,7 @@
 
 #include <array>
 #include <span>
+#include <type_traits>
 
 #include "halfspace/raster/visibility/visibility.h"
 
@@ -75,17 +76,17 @@ HS_INLINE void write_samples(Writer& writer, const SampleSet<Writer::kMultisampl
                              const PacketLanes<Writer::kMultisampled>& lanes, uint32_t passes, const Depth& z_at, const Wrote& wrote) {
   if constexpr (Writer::kQueues) {
     if (writer.adds_untested(passes == ~0u)) return writer.add_untested(id, packet, lanes);
-    writer.begin_packet(id, packet);
+    if constexpr (Writer::kMultisampled) writer.begin_packet(id, packet);
   }
   for (std::size_t s = 0; s < set.tile_samples; ++s) {
     if (Writer::kMultisampled && lanes[s] == 0) continue;
-    if constexpr (Writer::kQueues) writer.begin_sample(s);
+    if constexpr (Writer::kQueues && Writer::kMultisampled) writer.begin_sample(s);
     const int at = packet + set.shift[s];
     const bool has_passed = writer.write(
         id, at, lanes[s], [&] { return z_at(s); }, (passes >> s & 1) != 0);
     if (has_passed && writer.writes_depth()) wrote(s, at);
   }
-  if constexpr (Writer::kQueues) writer.end_packet();
+  if constexpr (Writer::kQueues && Writer::kMultisampled) writer.end_packet();
 }
 
 }  // namespace halfspace::HS_LANES

@@ -4,6 +4,7 @@
 // one, in submission order: tiny ones pixel by pixel, other small ones packet by packet, and the rest block by block (blocks.cpp).
 #include <algorithm>
 #include <bit>
+#include <cstddef>
 
 #include "halfspace/raster/pipeline/pixel_box.h"
 #include "halfspace/raster/pipeline/triangle_lanes.h"

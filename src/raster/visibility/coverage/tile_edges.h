@@ -37,7 +37,7 @@ class TileEdges {
   /// Returns true if no sample of the tile is inside.
   bool outside() const { return outside_; }
   /// Returns true if all samples of the tile are inside. Only for triangles that are not narrow.
-  bool contain_tile() const { return step_x_ == kNoSteps && step_y_ == kNoSteps && e_[0] == kNoSteps && !outside_; }
+  bool cover_tile() const requires(!multisampled) { return step_x_ == kNoSteps && step_y_ == kNoSteps && e_[0] == kNoSteps && !outside_; }
   /// Returns the bias of edge i.
   int32_t bias(std::size_t i) const { return bias_[i]; }
   /// Returns how much edge i changes over x and y pixels.

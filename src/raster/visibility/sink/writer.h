@@ -128,16 +128,14 @@ class Writer {
   }
   /// Starts a packet of pixels. packet: its number in the plane of sample 0. Call begin_sample() and write() for each sample that has
   /// covered lanes, and end_packet() after the last one.
-  void begin_packet(TriangleId id, int packet) requires kQueues {
-    if (!multisampled) return;
+  void begin_packet(TriangleId id, int packet) requires(kQueues&& multisampled) {
     const auto i = static_cast<std::size_t>(queue_->count);
     queue_->packets[i] = {static_cast<uint16_t>(packet), 0};
     queue_->ids[i] = id;
     queue_->sample_lanes[i] = {};
   }
-  void begin_sample(std::size_t sample) requires kQueues { sample_ = sample; }
-  void end_packet() requires kQueues {
-    if (!multisampled) return;
+  void begin_sample(std::size_t sample) requires(kQueues&& multisampled) { sample_ = sample; }
+  void end_packet() requires(kQueues&& multisampled) {
     queue_->count += queue_->packets[static_cast<std::size_t>(queue_->count)].lanes != 0 ? 1 : 0;
   }
 
