@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Visibility of narrow triangles. Up to W triangles of a bin are prepared at once, one per lane, in int32. Then they are written one by
-// one, in submission order: tiny ones pixel by pixel, other small ones packet by packet, and the rest block by block (blocks.cpp).
+// Visibility of narrow triangles. NarrowTriangles computes the edges of up to W triangles of a bin at once, one per lane, in int32.
+// rasterize_narrow() then draws the triangles in submission order. It writes the pixels of a tiny triangle one by one, those of any other
+// small triangle by packet, and passes larger triangles to blocks.cpp.
 #include <algorithm>
 #include <bit>
 #include <cstddef>
@@ -23,7 +24,7 @@ constexpr int kMaxCovered = std::popcount(kCoveredBits);
 template <class T>
 using PerTriangle = std::array<T, static_cast<std::size_t>(kLanes)>;
 
-// Data for writing up to W narrow triangles, computed for all of them at once.
+// Edges, bounds and known pixels of up to W narrow triangles, computed for all of them at once.
 template <bool multisampled>
 class NarrowTriangles {
  public:
