@@ -58,10 +58,9 @@ class DecidedPackets {
     if (!writer_.write_decided(id, sample, kept, z) || !writer_.writes_depth()) return;
     const int block = sample.packet / kPacketsPerBlock;
     if (replaces) {
-      widen_hiz(CompareOp::always, d_.tile, block, depth_value(format, draw.depth_low), depth_value(format, draw.depth_high));
+      widen_hiz(CompareOp::always, d_.tile, block, {depth_value(format, draw.depth_low), depth_value(format, draw.depth_high)});
     } else {
-      const DepthBounds bounds = depth_bounds(triangle_of(d_.context, id), draw, format);
-      widen_hiz(writer_.compare_op(), d_.tile, block, bounds.low, bounds.high);
+      widen_hiz(writer_.compare_op(), d_.tile, block, depth_bounds(triangle_of(d_.context, id), draw, format));
     }
   }
 

@@ -25,7 +25,7 @@ bool FullTileOccluder::test_or_write(const DrawInTile& d, const Triangle& t, Tri
     const CompareOp op = d.draw.state.depth.compare;
     const BlockTest test = !d.tests   ? BlockTest::all_pass
                            : pending_ ? test_bounds(op, depth.low, depth.high, pending_->depth.low, pending_->depth.high)
-                                      : test_tile(op, d.tile, depth.low, depth.high);
+                                      : test_tile(op, d.tile, depth);
     if (test == BlockTest::none_passes) {
       if (d.trace != nullptr) trace_rejected(d, t, id);
       return true;

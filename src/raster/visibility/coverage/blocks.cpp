@@ -27,7 +27,7 @@ class Blocks {
 
   // Returns true if the depth test rejects depths in [z.low, z.high] everywhere in the tile.
   bool rejects_tile(const DepthBounds& z) {
-    if (!writer_.tests() || test_tile(writer_.compare_op(), d_.tile, z.low, z.high) != BlockTest::none_passes) return false;
+    if (!writer_.tests() || test_tile(writer_.compare_op(), d_.tile, z) != BlockTest::none_passes) return false;
     for (const std::size_t s : samples_.indices()) writer_.tile_rejected(triangle_, id_, s, z);
     return true;
   }
@@ -41,8 +41,7 @@ class Blocks {
     passes_ = ~0u;
     written_ = 0;
     for (const std::size_t s : samples_.indices()) {
-      const BlockTest test =
-          writer_.tests() ? test_block(writer_.compare_op(), d_.tile, block_of(s), z.low, z.high, may_refresh) : BlockTest::all_pass;
+      const BlockTest test = writer_.tests() ? test_block(writer_.compare_op(), d_.tile, block_of(s), z, may_refresh) : BlockTest::all_pass;
       if (test == BlockTest::none_passes) {
         writer_.block_rejected(triangle_, id_, s, block_of(s), z);
         continue;
@@ -132,9 +131,9 @@ class Blocks {
     for (const std::size_t s : kept()) {
       if ((written_ >> s & 1) == 0) continue;
       if (is_whole && passes(s) && !Writer::kTestsStencil) {
-        set_hiz(d_.tile, block_of(s), z_.low, z_.high);
+        set_hiz(d_.tile, block_of(s), z_);
       } else {
-        widen_hiz(writer_.compare_op(), d_.tile, block_of(s), z_.low, z_.high);
+        widen_hiz(writer_.compare_op(), d_.tile, block_of(s), z_);
       }
     }
   }
@@ -256,8 +255,7 @@ void write_full_tile(const DrawInTile& d, const Triangle& t, TriangleId id) {
   if (!writer.writes_depth()) return;
   const DepthInTile depth(t, d.draw, d.tile, d.context.samples_at);
   for (int b = 0; b < kBlocks; ++b) {
-    const auto [low, high] = depth.at(b % kBlocksPerRow * kBlockSize, b / kBlocksPerRow * kBlockSize, kBlockSize, kBlockSize);
-    set_hiz(d.tile, b, low, high);
+    set_hiz(d.tile, b, depth.at(b % kBlocksPerRow * kBlockSize, b / kBlocksPerRow * kBlockSize, kBlockSize, kBlockSize));
   }
 }
 

@@ -270,9 +270,8 @@ class TrianglePackets {
       return depth_.at(d_.tile.depth_format, lanes_[1] + (c.e1 + sample_step(1, s) + bias_[1]),
                        lanes_[2] + (c.e2 + sample_step(2, s) + bias_[2]));
     };
-    write_samples(writer_, samples_, id_, c.packet, c.lanes, 0, z_at, [&](std::size_t, int packet) {
-      widen_hiz(writer_.compare_op(), d_.tile, packet / kPacketsPerBlock, bounds_.low, bounds_.high);
-    });
+    write_samples(writer_, samples_, id_, c.packet, c.lanes, 0, z_at,
+                  [&](std::size_t, int packet) { widen_hiz(writer_.compare_op(), d_.tile, packet / kPacketsPerBlock, bounds_); });
   }
 
   const DrawInTile& d_;

@@ -87,7 +87,7 @@ class Writer {
       if (writes_depth()) tile_.depth[pixel] = z;
     }
     add_pixel(id, packet, lane, z);
-    if (writes_depth()) widen_hiz(compare_op(), tile_, packet / kPacketsPerBlock, z, z);
+    if (writes_depth()) widen_hiz(compare_op(), tile_, packet / kPacketsPerBlock, {z, z});
   }
 
   /// Writes a packet in which all lanes are covered and pass the depth test.

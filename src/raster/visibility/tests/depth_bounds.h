@@ -38,43 +38,43 @@ inline BlockTest test_bounds(CompareOp op, float low, float high, float hiz_min,
   return BlockTest::some_may;
 }
 
-/// Updates the bounds of a block after depths in [low, high] passed the test and were written.
-HS_INLINE void widen_hiz(CompareOp op, Tile& tile, int block, float low, float high) {
+/// Updates the bounds of a block after depths in [z.low, z.high] passed the test and were written.
+HS_INLINE void widen_hiz(CompareOp op, Tile& tile, int block, const DepthBounds& z) {
   // LESS can only lower the stored depth, and GREATER can only raise it.
   const bool lowers = op == CompareOp::less || op == CompareOp::less_equal;
   const bool raises = op == CompareOp::greater || op == CompareOp::greater_equal;
   const auto b = static_cast<std::size_t>(block);
-  if (!raises) tile.hiz_min[b] = std::min(tile.hiz_min[b], low);
-  if (!lowers) tile.hiz_max[b] = std::max(tile.hiz_max[b], high);
+  if (!raises) tile.hiz_min[b] = std::min(tile.hiz_min[b], z.low);
+  if (!lowers) tile.hiz_max[b] = std::max(tile.hiz_max[b], z.high);
   tile.hiz_is_stale[b] = true;
 }
 
-/// Sets the bounds of a block after all its depths were replaced with depths in [low, high].
-inline void set_hiz(Tile& tile, int block, float low, float high) {
+/// Sets the bounds of a block after all its depths were replaced with depths in [z.low, z.high].
+inline void set_hiz(Tile& tile, int block, const DepthBounds& z) {
   const auto b = static_cast<std::size_t>(block);
-  tile.hiz_min[b] = low;
-  tile.hiz_max[b] = high;
+  tile.hiz_min[b] = z.low;
+  tile.hiz_max[b] = z.high;
   tile.hiz_is_stale[b] = false;
 }
 
-/// Compares depths in [low, high] with the depth of a block. Recomputes its bounds if they are stale and do not decide the test,
+/// Compares depths in [z.low, z.high] with the depth of a block. Recomputes its bounds if they are stale and do not decide the test,
 /// unless may_refresh is false.
-inline BlockTest test_block(CompareOp op, Tile& tile, int block, float low, float high, bool may_refresh = true) {
+inline BlockTest test_block(CompareOp op, Tile& tile, int block, const DepthBounds& z, bool may_refresh = true) {
   const auto b = static_cast<std::size_t>(block);
-  const BlockTest test = test_bounds(op, low, high, tile.hiz_min[b], tile.hiz_max[b]);
+  const BlockTest test = test_bounds(op, z.low, z.high, tile.hiz_min[b], tile.hiz_max[b]);
   if (test != BlockTest::some_may || !tile.hiz_is_stale[b] || !may_refresh) return test;
   refresh_hiz(tile, block);
-  return test_bounds(op, low, high, tile.hiz_min[b], tile.hiz_max[b]);
+  return test_bounds(op, z.low, z.high, tile.hiz_min[b], tile.hiz_max[b]);
 }
 
-/// Compares depths in [low, high] with the depth of the whole tile.
-inline BlockTest test_tile(CompareOp op, const Tile& tile, float low, float high) {
+/// Compares depths in [z.low, z.high] with the depth of the whole tile.
+inline BlockTest test_tile(CompareOp op, const Tile& tile, const DepthBounds& z) {
   Real low_lanes = load<Real>(tile.hiz_min.data()), high_lanes = load<Real>(tile.hiz_max.data());
   for (int b = kLanes; b < kBlocks; b += kLanes) {
     low_lanes = min(low_lanes, load<Real>(&tile.hiz_min[static_cast<std::size_t>(b)]));
     high_lanes = max(high_lanes, load<Real>(&tile.hiz_max[static_cast<std::size_t>(b)]));
   }
-  return test_bounds(op, low, high, min_lane(low_lanes), max_lane(high_lanes));
+  return test_bounds(op, z.low, z.high, min_lane(low_lanes), max_lane(high_lanes));
 }
 
 }  // namespace halfspace::HS_LANES

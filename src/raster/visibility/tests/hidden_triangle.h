@@ -22,7 +22,7 @@ HS_INLINE bool all_blocks(const TileRect& rect, const F& f) {
 /// Returns true if the depth bounds of the blocks show that no depth in [z.low, z.high] passes the test `op`. rect: pixels of the tile's
 /// storage.
 inline bool is_hidden(CompareOp op, Tile& tile, const TileRect& rect, const DepthBounds& z) {
-  return all_blocks(rect, [&](int block) { return test_block(op, tile, block, z.low, z.high) == BlockTest::none_passes; });
+  return all_blocks(rect, [&](int block) { return test_block(op, tile, block, z) == BlockTest::none_passes; });
 }
 
 }  // namespace halfspace::HS_LANES
