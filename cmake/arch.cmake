@@ -96,7 +96,7 @@ target_compile_features(halfspace_flags INTERFACE cxx_std_20)
 set(HALFSPACE_BUILD_LANES ${lanes})
 target_compile_definitions(halfspace_flags INTERFACE HALFSPACE_LANES=${lanes})
 # Contraction of a*b + c would make results depend on the compiler. Functions are aligned to 32 bytes: with the default of 16, the code
-# before the kernel of a shader decides where it lies, and it took up to a fifth longer (docs/development/optimizations.md).
+# before the kernel of a shader decides where it lies, which made a fifth of difference once (docs/development/optimizations.md).
 set(halfspace_common_options -ffp-contract=off -falign-functions=32)
 target_compile_options(halfspace_flags INTERFACE ${arch_options} ${halfspace_common_options})
 # Gives a program the include path and the options of halfspace_flags, but another instruction set. It must not link halfspace_flags, whose

@@ -39,7 +39,7 @@ inline BlockTest test_bounds(CompareOp op, float low, float high, float hiz_min,
 }
 
 /// Updates the bounds of a block after depths in [z.low, z.high] passed the test and were written.
-HS_INLINE void widen_hiz(CompareOp op, Tile& tile, int block, const DepthBounds& z) {
+HS_INLINE void widen_hiz(CompareOp op, Tile& tile, int block, DepthBounds z) {
   // LESS can only lower the stored depth, and GREATER can only raise it.
   const bool lowers = op == CompareOp::less || op == CompareOp::less_equal;
   const bool raises = op == CompareOp::greater || op == CompareOp::greater_equal;
@@ -50,7 +50,7 @@ HS_INLINE void widen_hiz(CompareOp op, Tile& tile, int block, const DepthBounds&
 }
 
 /// Sets the bounds of a block after all its depths were replaced with depths in [z.low, z.high].
-inline void set_hiz(Tile& tile, int block, const DepthBounds& z) {
+inline void set_hiz(Tile& tile, int block, DepthBounds z) {
   const auto b = static_cast<std::size_t>(block);
   tile.hiz_min[b] = z.low;
   tile.hiz_max[b] = z.high;
@@ -59,7 +59,7 @@ inline void set_hiz(Tile& tile, int block, const DepthBounds& z) {
 
 /// Compares depths in [z.low, z.high] with the depth of a block. Recomputes its bounds if they are stale and do not decide the test,
 /// unless may_refresh is false.
-inline BlockTest test_block(CompareOp op, Tile& tile, int block, const DepthBounds& z, bool may_refresh = true) {
+inline BlockTest test_block(CompareOp op, Tile& tile, int block, DepthBounds z, bool may_refresh = true) {
   const auto b = static_cast<std::size_t>(block);
   const BlockTest test = test_bounds(op, z.low, z.high, tile.hiz_min[b], tile.hiz_max[b]);
   if (test != BlockTest::some_may || !tile.hiz_is_stale[b] || !may_refresh) return test;
@@ -68,7 +68,7 @@ inline BlockTest test_block(CompareOp op, Tile& tile, int block, const DepthBoun
 }
 
 /// Compares depths in [z.low, z.high] with the depth of the whole tile.
-inline BlockTest test_tile(CompareOp op, const Tile& tile, const DepthBounds& z) {
+inline BlockTest test_tile(CompareOp op, const Tile& tile, DepthBounds z) {
   Real low_lanes = load<Real>(tile.hiz_min.data()), high_lanes = load<Real>(tile.hiz_max.data());
   for (int b = kLanes; b < kBlocks; b += kLanes) {
     low_lanes = min(low_lanes, load<Real>(&tile.hiz_min[static_cast<std::size_t>(b)]));
