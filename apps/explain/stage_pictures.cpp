@@ -13,9 +13,6 @@ namespace halfspace {
 
 namespace {
 
-// Rows of texture coordinates that are bound to a mesh without them.
-constexpr std::array<float, 2> kNoUv{0, 0};
-
 // Computes the level of detail with the formulas of the texture lookup.
 struct MipLevels {
   glm::mat4 clip_from_object;
@@ -78,11 +75,6 @@ struct ColorMapOf {
   }
 };
 
-VertexStream uv_stream(std::span<const glm::vec2> uvs, std::size_t vertices) {
-  if (!uvs.empty()) return stream(uvs);
-  return {.data = kNoUv.data(), .stride = 0, .components = 2, .count = vertices};
-}
-
 }  // namespace
 
 Image<float> depth_buffer(const PreparedScene& scene, const Workers& workers) {
@@ -142,10 +134,7 @@ Image<MipLookup> mip_levels(const PreparedScene& scene, const Workers& workers) 
     if (draw.source.object < 0 || draw.state.order_independent || s.positions.empty()) continue;
     const MipLevels shader = std::visit(ColorMapOf{}, draw.shader);
     if (shader.clip_from_object == glm::mat4(0.0f)) continue;
-    const std::size_t n = s.positions.size();
-    const std::array list{static_cast<VertexStream>(stream(s.positions)), uv_stream(s.uvs, n),
-                          uv_stream(s.second_uvs.empty() ? s.uvs : s.second_uvs, n)};
-    pass.draw(shader, detail::bind_streams(list), *draw.indices, draw.state);
+    pass.draw(shader, make_vertex_view(s.position_stream(), s.uv_stream(), s.second_uv_stream()), *draw.indices, draw.state);
   }
   pass.run(workers);
   Image<MipLookup> out(values.width(), values.height());

@@ -15,6 +15,7 @@
 #include "halfspace/core/parallel.h"
 #include "halfspace/geometry/mesh.h"
 #include "halfspace/raster/pass.h"
+#include "halfspace/render/mesh_streams.h"
 #include "halfspace/render/particles.h"
 #include "halfspace/render/view.h"
 #include "halfspace/scene/description.h"
@@ -46,13 +47,6 @@ using SceneShader = std::variant<SurfaceShader<ShadingRate::none, false>, Surfac
                                  MetallicSurface<MetallicStreams::detailed>, MetallicSurface<MetallicStreams::detailed, true>,
                                  MetallicSurface<MetallicStreams::full>, MetallicSurface<MetallicStreams::full, true>,  //
                                  ColoredPrimitives, ShadowCatcher>;
-
-/// The vertex streams of a mesh, not owned. Those that it lacks are empty.
-struct MeshStreams {
-  std::span<const glm::vec3> positions, normals;
-  std::span<const glm::vec4> tangents, colors;
-  std::span<const glm::vec2> uvs, second_uvs;
-};
 
 /// The origin of a draw, for the values of a frame other than its color (render/frame/frame.h).
 struct DrawSource {
@@ -87,7 +81,7 @@ struct PlacedMesh {
   int object = 0;  ///< index in the scene's objects
   /// Set for masked and blended surfaces; selects the parts that cast shadows. Ray tracing treats these surfaces as opaque.
   std::optional<OpacityTest> opacity{};
-  std::span<const glm::vec2> uvs{};     ///< for `opacity`; not owned
+  std::span<const glm::vec2> uvs{};     ///< for `opacity`; empty: (0, 0); not owned
   std::span<const glm::vec4> colors{};  ///< for `opacity`: alpha multiplies it; empty: alpha 1; not owned
 
   bool mirrored() const { return glm::determinant(glm::dmat3(world_from_object)) < 0.0; }

@@ -13,25 +13,9 @@ using Wanted = std::array<bool, kFrameValues>;
 
 bool wants(const Wanted& wanted, FrameValue value) { return wanted[static_cast<std::size_t>(value)]; }
 
-// Constant rows that replace missing streams of a mesh.
-constexpr std::array<float, 4> kZeros{0, 0, 0, 0}, kOnes{1, 1, 1, 1}, kTangent{1, 0, 0, 1};
-
-template <class T>
-VertexStream stream_or(std::span<const T> values, const std::array<float, 4>& constant, std::size_t vertices) {
-  if (!values.empty()) return stream(values);
-  return {.data = constant.data(), .stride = 0, .components = static_cast<int32_t>(sizeof(T) / sizeof(float)), .count = vertices};
-}
-
 VertexView vertices_of(const MeshStreams& s) {
-  const std::size_t n = s.positions.size();
-  const std::span<const glm::vec2> second = s.second_uvs.empty() ? s.uvs : s.second_uvs;
-  const std::array list{static_cast<VertexStream>(stream(s.positions)),
-                        stream_or(s.normals, kZeros, n),
-                        stream_or(s.tangents, kTangent, n),
-                        stream_or(s.uvs, kZeros, n),
-                        stream_or(second, kZeros, n),
-                        stream_or(s.colors, kOnes, n)};
-  return detail::bind_streams(list);
+  return make_vertex_view(s.position_stream(), s.normal_stream(), s.tangent_stream(), s.uv_stream(), s.second_uv_stream(),
+                          s.color_stream());
 }
 
 // Which normals a surface shader uses.

@@ -16,24 +16,7 @@ namespace halfspace::HS_LANES {
 
 namespace {
 
-// Neutral values for the streams that a mesh lacks.
-struct NeutralStreams {
-  std::vector<glm::vec4> tangents, colors;
-  std::vector<glm::vec2> uvs;
-  explicit NeutralStreams(std::size_t vertices)
-      : tangents(vertices, glm::vec4(1, 0, 0, 1)), colors(vertices, glm::vec4(1.0f)), uvs(vertices, glm::vec2(0.0f)) {}
-};
-
 MeshStreams streams_of(const ModelMesh& m) { return {m.positions, m.normals, m.tangents, m.colors, m.uvs[0], m.uvs[1]}; }
-
-bool has_all(const MeshStreams& s) { return !s.tangents.empty() && !s.colors.empty() && !s.uvs.empty() && !s.second_uvs.empty(); }
-
-void fill(MeshStreams& s, const NeutralStreams& neutral) {
-  if (s.tangents.empty()) s.tangents = neutral.tangents;
-  if (s.colors.empty()) s.colors = neutral.colors;
-  if (s.uvs.empty()) s.uvs = neutral.uvs;
-  if (s.second_uvs.empty()) s.second_uvs = s.uvs;
-}
 
 // Selects the variant with the fewest streams that the material can use on the mesh.
 MetallicStreams variant_of(const MetallicMaterial& m, const MeshStreams& s) {
@@ -53,20 +36,16 @@ MetallicStreams variant_of(const MetallicMaterial& m, const MeshStreams& s) {
 template <MetallicStreams variant, bool masked>
 PreparedDraw draw_of(const MetallicMaterial& m, const MeshStreams& s, const std::shared_ptr<const Indices>& indices,
                      const DrawState& state) {
-  const MetallicSurface<variant, masked> shader{m};
-  if constexpr (variant == MetallicStreams::basic)
-    return {shader, make_vertex_view(stream(s.positions), stream(s.normals)), indices, state};
-  else if constexpr (variant == MetallicStreams::colored)
-    return {shader, make_vertex_view(stream(s.positions), stream(s.normals), stream(s.colors)), indices, state};
-  else if constexpr (variant == MetallicStreams::mapped)
-    return {shader, make_vertex_view(stream(s.positions), stream(s.normals), stream(s.uvs)), indices, state};
-  else if constexpr (variant == MetallicStreams::detailed)
-    return {shader, make_vertex_view(stream(s.positions), stream(s.normals), stream(s.tangents), stream(s.uvs)), indices, state};
-  else
-    return {
-        shader,
-        make_vertex_view(stream(s.positions), stream(s.normals), stream(s.tangents), stream(s.uvs), stream(s.second_uvs), stream(s.colors)),
-        indices, state};
+  const auto view = [&s] {
+    const auto positions = s.position_stream(), normals = s.normal_stream();
+    if constexpr (variant == MetallicStreams::basic) return make_vertex_view(positions, normals);
+    if constexpr (variant == MetallicStreams::colored) return make_vertex_view(positions, normals, s.color_stream());
+    if constexpr (variant == MetallicStreams::mapped) return make_vertex_view(positions, normals, s.uv_stream());
+    if constexpr (variant == MetallicStreams::detailed) return make_vertex_view(positions, normals, s.tangent_stream(), s.uv_stream());
+    if constexpr (variant == MetallicStreams::full)
+      return make_vertex_view(positions, normals, s.tangent_stream(), s.uv_stream(), s.second_uv_stream(), s.color_stream());
+  };
+  return {MetallicSurface<variant, masked>{m}, view(), indices, state};
 }
 
 PreparedDraw draw_of(const MetallicMaterial& m, MetallicStreams variant, bool masked, const MeshStreams& s,
@@ -177,29 +156,25 @@ void ModelPreparation::add_part(int object, const ObjectDescription& o, const st
   if (mesh.positions.empty() || model->indices[mesh_index].size() == 0 || glm::determinant(glm::dmat3(world)) == 0.0) return;
   const ModelMaterial& material = material_of(model->model, part);
   const std::shared_ptr<const Indices> indices(model, &model->indices[mesh_index]);
-  MeshStreams streams = streams_of(mesh);
-  const auto neutral = [&] {
-    const std::size_t vertices = mesh.positions.size();
-    return used_.asset<NeutralStreams>(recipe("neutral streams", vertices), [&] { return NeutralStreams(vertices); });
-  };
+  const MeshStreams streams = streams_of(mesh);
   if (mesh.topology != MeshTopology::triangles) {
     const bool colored = !streams.colors.empty() || !material.is_default;
-    if (streams.colors.empty()) streams.colors = neutral()->colors;
     const glm::vec4 color =
         colored ? without_converted_maps(model->model, material).base_color : line_color(background_color(scene_.background));
     const ColoredPrimitives shader{glm::mat4(view_.clip_from_world * world), color};
     DrawState state = opaque_state(CullMode::none, false);
     state.point_size = point_size(model->indices[mesh_index].size(), view_.height_px);
     state.topology = mesh.topology == MeshTopology::points ? Topology::points : Topology::lines;
-    draws_.opaque.push_back({shader, make_vertex_view(stream(streams.positions), stream(streams.colors)), indices, state});
+    draws_.opaque.push_back({shader, make_vertex_view(streams.position_stream(), streams.color_stream()), indices, state});
     draws_.opaque.back().source = {object, 0, streams, world};
     return;
   }
   if (const SurfaceDescription* replacement = override_of(scene_, o, material.name); replacement != nullptr) {
     ObjectDescription replaced = o;
     replaced.surface = *replacement;
-    if (streams.uvs.empty()) streams.uvs = neutral()->uvs;
-    return add_replaced_part(object, replaced, path, {streams.positions, streams.normals, streams.tangents, streams.uvs}, indices, world);
+    // Surface shaders have no vertex colors, so the values of the frame must not contain them either.
+    const MeshStreams without_colors{streams.positions, streams.normals, streams.tangents, {}, streams.uvs, {}};
+    return add_replaced_part(object, replaced, path, without_colors, indices, world);
   }
   MetallicMaterial surface = materials_.surface_of(o, model->model, part.mesh, material, !streams.uvs.empty());
   place_surface(surface, view_, world);
@@ -208,7 +183,6 @@ void ModelPreparation::add_part(int object, const ObjectDescription& o, const st
   MetallicStreams variant = variant_of(surface, streams);
   if (masked && !(variant >= MetallicStreams::mapped)) variant = MetallicStreams::full;
   if (variant == MetallicStreams::detailed && streams.tangents.empty()) variant = MetallicStreams::full;
-  if (variant == MetallicStreams::full && !has_all(streams)) fill(streams, *neutral());
   DrawState state = opaque_state(material.double_sided ? CullMode::none : CullMode::back, surface.handedness < 0.0f);
   if (surface.blends) {
     state.order_independent = true;
@@ -225,15 +199,14 @@ void ModelPreparation::add_part(int object, const ObjectDescription& o, const st
     alpha.channel = {0, 0, 0, 1};
     placed.opacity = OpacityTest{{alpha, surface.maps[kOpacityMap]}, material.base_color.w, material.alpha_cutoff, surface.blends};
     const bool second = alpha.map != nullptr ? alpha.uv_set == 1 : surface.maps[kOpacityMap].uv_set == 1;
-    const std::span<const glm::vec2> uvs = second ? streams.second_uvs : streams.uvs;
-    placed.uvs = uvs.empty() ? std::span<const glm::vec2>(neutral()->uvs) : uvs;
+    placed.uvs = second && !streams.second_uvs.empty() ? streams.second_uvs : streams.uvs;
     placed.colors = mesh.colors;
   }
   draws_.meshes.push_back(placed);
 }
 
 // Draws a part of a model with the surface of a material of the scene.
-void ModelPreparation::add_replaced_part(int object, const ObjectDescription& o, const std::string& path, const SurfaceStreams& streams,
+void ModelPreparation::add_replaced_part(int object, const ObjectDescription& o, const std::string& path, const MeshStreams& streams,
                                          const std::shared_ptr<const Indices>& indices, const glm::dmat4& world) {
   draws_.needs_light = draws_.needs_light || (o.surface.shading != ShadingRate::none && o.surface.emissive.linear == glm::dvec3(0.0));
   LitSurface surface = surfaces_.surface_of(o, path);
@@ -244,7 +217,7 @@ void ModelPreparation::add_replaced_part(int object, const ObjectDescription& o,
   }
   place_surface(surface, view_, world);
   draws_.opaque.push_back(surface_draw(surface, o.surface.shading, detail, streams, indices));
-  draws_.opaque.back().source = {object, 0, {streams.positions, streams.normals, streams.tangents, {}, streams.uvs, {}}, world};
+  draws_.opaque.back().source = {object, 0, streams, world};
   draws_.meshes.push_back(
       {streams.positions, streams.normals, indices, world, surface.two_sided, o.casts_shadow, o.receives_shadow, object});
 }

@@ -47,7 +47,7 @@ class ModelPreparation {
   std::shared_ptr<const ModelAsset> model_asset(const ObjectDescription& o, const std::string& where);
   void add_part(int object, const ObjectDescription& o, const std::string& path, const std::shared_ptr<const ModelAsset>& model,
                 const PosedMesh& part, const glm::dmat4& world);
-  void add_replaced_part(int object, const ObjectDescription& o, const std::string& path, const SurfaceStreams& streams,
+  void add_replaced_part(int object, const ObjectDescription& o, const std::string& path, const MeshStreams& streams,
                          const std::shared_ptr<const Indices>& indices, const glm::dmat4& world);
 
   const SceneDescription& scene_;

@@ -13,13 +13,12 @@ void ShapePreparation::add(int object, const std::string& path, const ObjectDesc
   if (o.shape == Shape::plane && o.shadow_only) return add_shadow_catcher(object, o, *mesh, indices);
   LitSurface surface = surfaces_.surface_of(o, path);
   const NormalDetail detail = details_.add_detail(surface, o, relief, path);
-  const SurfaceStreams streams{mesh->mesh.positions, mesh->mesh.normals, mesh->mesh.tangents, mesh->mesh.uvs};
-  const MeshStreams all_streams{streams.positions, streams.normals, streams.tangents, {}, streams.uvs, {}};
+  const MeshStreams streams{mesh->mesh.positions, mesh->mesh.normals, mesh->mesh.tangents, {}, mesh->mesh.uvs, {}};
   int copy = 0;
   for (const glm::dmat4& world : places_of(scene_, o)) {
     place_surface(surface, view_, world);
     draws_.opaque.push_back(surface_draw(surface, o.surface.shading, detail, streams, indices));
-    draws_.opaque.back().source = {object, copy++, all_streams, world};
+    draws_.opaque.back().source = {object, copy++, streams, world};
     draws_.meshes.push_back(
         {mesh->mesh.positions, mesh->mesh.normals, indices, world, surface.two_sided, o.casts_shadow, o.receives_shadow, object});
   }

@@ -9,16 +9,16 @@ namespace {
 
 // Returns the mesh's streams in the order of the shader's attributes.
 template <class S>
-VertexView view_of(const SurfaceStreams& m) {
-  if constexpr (S::kTangents) return make_vertex_view(stream(m.positions), stream(m.normals), stream(m.tangents), stream(m.uvs));
-  if constexpr (S::kNormals && S::kMapped) return make_vertex_view(stream(m.positions), stream(m.normals), stream(m.uvs));
-  if constexpr (S::kNormals) return make_vertex_view(stream(m.positions), stream(m.normals));
-  if constexpr (S::kMapped) return make_vertex_view(stream(m.positions), stream(m.uvs));
-  return make_vertex_view(stream(m.positions));
+VertexView view_of(const MeshStreams& m) {
+  if constexpr (S::kTangents) return make_vertex_view(m.position_stream(), m.normal_stream(), m.tangent_stream(), m.uv_stream());
+  if constexpr (S::kNormals && S::kMapped) return make_vertex_view(m.position_stream(), m.normal_stream(), m.uv_stream());
+  if constexpr (S::kNormals) return make_vertex_view(m.position_stream(), m.normal_stream());
+  if constexpr (S::kMapped) return make_vertex_view(m.position_stream(), m.uv_stream());
+  return make_vertex_view(m.position_stream());
 }
 
 template <ShadingRate rate, bool mapped, NormalDetail detail = NormalDetail::none, bool highlight = true>
-PreparedDraw draw_of(const LitSurface& surface, const SurfaceStreams& mesh, const std::shared_ptr<const Indices>& indices) {
+PreparedDraw draw_of(const LitSurface& surface, const MeshStreams& mesh, const std::shared_ptr<const Indices>& indices) {
   using S = SurfaceShader<rate, mapped, detail, highlight>;
   return {S{surface}, view_of<S>(mesh), indices,
           opaque_state(surface.two_sided ? CullMode::none : CullMode::back, surface.handedness < 0.0f)};
@@ -26,7 +26,7 @@ PreparedDraw draw_of(const LitSurface& surface, const SurfaceStreams& mesh, cons
 
 }  // namespace
 
-PreparedDraw surface_draw(const LitSurface& s, ShadingRate rate, NormalDetail detail, const SurfaceStreams& mesh,
+PreparedDraw surface_draw(const LitSurface& s, ShadingRate rate, NormalDetail detail, const MeshStreams& mesh,
                           const std::shared_ptr<const Indices>& indices) {
   const bool mapped = std::ranges::any_of(s.factors, [](const Factor& f) { return f.map != nullptr; });
   switch (rate) {

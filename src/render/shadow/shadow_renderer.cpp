@@ -99,12 +99,12 @@ PassStatistics draw_depth(const glm::dmat4& clip_from_world, double near, double
                                                                     : CullMode::front;
     const glm::mat4 clip_from_object(clip_from_world * m.world_from_object);
     const DrawState state = opaque_state(cull, m.mirrored());
+    const StreamOf<glm::vec2> uvs = uv_stream(m.uvs, m.positions.size());
     if (m.opacity && !m.colors.empty()) {
-      pass.draw_depth(MaskedDepth<true>{clip_from_object, *m.opacity},
-                      make_vertex_view(stream(m.positions), stream(m.uvs), stream(m.colors)), *m.indices, state);
+      pass.draw_depth(MaskedDepth<true>{clip_from_object, *m.opacity}, make_vertex_view(stream(m.positions), uvs, stream(m.colors)),
+                      *m.indices, state);
     } else if (m.opacity) {
-      pass.draw_depth(MaskedDepth<false>{clip_from_object, *m.opacity}, make_vertex_view(stream(m.positions), stream(m.uvs)), *m.indices,
-                      state);
+      pass.draw_depth(MaskedDepth<false>{clip_from_object, *m.opacity}, make_vertex_view(stream(m.positions), uvs), *m.indices, state);
     } else {
       pass.draw_depth(DepthOnly{clip_from_object}, make_vertex_view(stream(m.positions)), *m.indices, state);
     }
