@@ -25,7 +25,6 @@
 
 namespace halfspace {
 
-
 /// Returns the name of an enumerator, for example "block_rejected".
 const char* outcome_name(FragmentOutcome outcome);
 /// Returns a description of an outcome, for example "rejected with its block".
@@ -109,7 +108,7 @@ std::vector<PixelHistory> pixel_histories(const SceneDescription& scene, const P
                                           std::span<const glm::ivec2> pixels, const Workers& workers);
 
 /// Runs the stages of the scene's pass before the tiles (vertices, clipping, setup and binning) and calls visit(context, round) with the
-/// result. There is more than one round only if the triangles or vertices exceed PassOptions::bin_budget.
+/// result. There is more than one round only if the triangles or vertices exceed PassTuning::bin_budget.
 void visit_set_up_scene(const PreparedScene& scene, const Workers& workers,
                         const std::function<void(const PassContext& context, int round)>& visit);
 

@@ -173,7 +173,7 @@ struct DrawState {
   /// draw that writes color in another way, or the end of the pass, and then blended from the farthest to the nearest. The result is exact
   /// for up to 8 layers per sample; further layers are merged into the farthest. Opaque draws must come first. Colors have straight alpha.
   /// Requires one color attachment that is not r32ui, no `blend`, no color mask, and a depth state that does not write and whose `compare`
-  /// (less, less_equal, greater or greater_equal) tells which fragments are nearer. If a pass is flushed (PassOptions::bin_budget),
+  /// (less, less_equal, greater or greater_equal) tells which fragments are nearer. If a pass is flushed (PassTuning::bin_budget),
   /// fragments are sorted within each flush only.
   bool order_independent = false;
   std::optional<BlendState> blend{};  ///< default: no blending, the color is replaced

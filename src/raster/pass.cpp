@@ -95,15 +95,16 @@ class PassState {
 };
 
 PassState::PassState(int width, int height, std::span<const ColorTarget> colors, const DepthTarget& depth, const PassOptions& options)
-    : options_(options), plan_(options.samples, options.chunk_triangles) {
+    : options_(options), plan_(options.samples, options.tuning.chunk_triangles) {
   attachments_.colors.assign(colors.begin(), colors.end());
   attachments_.depth = depth;
   HS_CHECK(width >= 1 && width <= kMaxTargetSize && height >= 1 && height <= kMaxTargetSize,
            "Pass: the size is outside of its range; expected a width and a height from 1 to 16384");
-  HS_CHECK(options.tile_size == 8 || options.tile_size == 16 || options.tile_size == 32 || options.tile_size == 64,
-           "PassOptions: the tile size is not supported; expected 8, 16, 32 or 64");
-  HS_CHECK(options.chunk_triangles >= 1 && options.chunk_triangles <= kMaxPrimitivesPerChunk,
-           "PassOptions: the number of triangles per chunk is outside of its range; expected 1 to 8192");
+  HS_CHECK(
+      options.tuning.tile_size == 8 || options.tuning.tile_size == 16 || options.tuning.tile_size == 32 || options.tuning.tile_size == 64,
+      "PassTuning: the tile size is not supported; expected 8, 16, 32 or 64");
+  HS_CHECK(options.tuning.chunk_triangles >= 1 && options.tuning.chunk_triangles <= kMaxPrimitivesPerChunk,
+           "PassTuning: the number of triangles per chunk is outside of its range; expected 1 to 8192");
   HS_CHECK(options.samples == 1 || options.samples == 2 || options.samples == 4 || options.samples == 8,
            "PassOptions: the number of samples is not supported; expected 1, 2, 4 or 8");
   HS_CHECK_OP(colors.size(), <=, std::size_t{kMaxColorTargets}, "Pass: too many color targets; expected at most 12");
@@ -127,7 +128,7 @@ PassState::PassState(int width, int height, std::span<const ColorTarget> colors,
 int PassState::tile_size() const {
   int sample_bytes = 9;  // depth, triangle id, stencil
   for (const ColorTarget& c : attachments_.colors) sample_bytes += bytes_per_pixel(c.format);
-  int size = std::min(options_.tile_size, largest_tile(options_.samples));
+  int size = std::min(options_.tuning.tile_size, largest_tile(options_.samples));
   while (size > kBlockSize && sample_bytes * options_.samples * size * size > kTileBudget) size /= 2;
   return size;
 }
@@ -169,7 +170,7 @@ void PassState::add_draw(const ShaderKernels& kernels, KeptShader shader, const 
   const bool has_integers = !attachments_.colors.empty() && attachments_.colors[0].format == ColorFormat::r32ui;
   d.covers_by_alpha = state.alpha_to_coverage && context_.samples > 1 && !has_integers;
   // Without color attachments, there is nothing to blend.
-  const bool may_defer = !attachments_.has_color || (options_.defer && replaces && !state.order_independent);
+  const bool may_defer = !attachments_.has_color || (options_.tuning.defer && replaces && !state.order_independent);
   d.deferred = may_defer && !d.covers_by_alpha && (!decides_visibility || kernels.visibility != nullptr);
   if (d.writes_color && !state.order_independent) ++layer_group_;
   d.layer_group = layer_group_;
@@ -203,8 +204,8 @@ bool PassState::set_color_writes(Draw& d) const {
 
 PassStatistics PassState::run(TileRunner& tiles, const Workers& workers) {
   const FloatMode float_mode;
-  PassPlan plan = std::exchange(plan_, PassPlan(context_.samples, options_.chunk_triangles));
-  PassStatistics statistics = run_rounds(context_, attachments_, std::move(plan), options_.bin_budget, tiles, workers);
+  PassPlan plan = std::exchange(plan_, PassPlan(context_.samples, options_.tuning.chunk_triangles));
+  PassStatistics statistics = run_rounds(context_, attachments_, std::move(plan), options_.tuning.bin_budget, tiles, workers);
   return_draw_list(std::exchange(context_.draws, {}));
   context_.memory->release();
   return statistics;

@@ -19,30 +19,21 @@
 #include "halfspace/core/parallel.h"
 #include "halfspace/raster/detail/pass_kernels.h"
 #include "halfspace/raster/draw_state.h"
+#include "halfspace/raster/pass_tuning.h"
 #include "halfspace/raster/statistics.h"
 #include "halfspace/raster/target.h"
 #include "halfspace/raster/vertex_input.h"
 
 namespace halfspace::HS_LANES {
 
-/// Options of a pass. `samples` and `supersample` affect the rendered image. The others affect speed and memory use, except that bin_budget
-/// can change the result of order-independent blending (DrawState::order_independent) and contents that are not defined
-/// (LoadOp::dont_care).
+/// Options of a pass.
 struct PassOptions {
   /// Samples per pixel: 1, 2, 4 or 8, at the standard positions. Colors are resolved to the mean of the samples; depth and stencil are
   /// taken from sample 0.
   int samples = 1;
   /// Run all fragment functions once per sample, as if every draw had DrawState::sample_shading.
   bool supersample = false;
-  /// Maximum tile size: 8, 16, 32 or 64 pixels. Smaller tiles are used if multiple samples or attachments need the memory.
-  int tile_size = 64;
-  /// Maximum number of primitives per setup task: 1 to 8192.
-  uint32_t chunk_triangles = 8192;
-  /// Size limit in bytes, for triangles with their bins and for shaded vertices. When one of them reaches it, the tiles are rendered before
-  /// more triangles are set up. The vertices of a single draw can exceed it.
-  std::size_t bin_budget = 1 << 28;
-  /// If false, all fragments are shaded immediately, in submission order.
-  bool defer = true;
+  PassTuning tuning{};
 };
 
 /// A list of draws that render to the same attachments. draw() and draw_depth() record draws, and run() executes them. A Pass must only be

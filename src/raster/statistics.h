@@ -30,7 +30,7 @@ struct PassStatistics {
   uint64_t fragments_shaded = 0;  ///< fragment function invocations, excluding masked lanes
   uint64_t layers_merged = 0;     ///< fragments of order-independent draws that were merged, because their sample already had 8 layers
   uint64_t tiles_touched = 0;     ///< tiles with at least one primitive, counted again after each flush
-  uint64_t flushes = 0;           ///< number of times the tiles were rendered before the end of the pass (PassOptions::bin_budget)
+  uint64_t flushes = 0;           ///< number of times the tiles were rendered before the end of the pass (PassTuning::bin_budget)
 
   /// Results of occlusion queries: queries[i] is the number of samples that passed all tests in draws with DrawState::query = i.
   std::vector<uint64_t> queries;

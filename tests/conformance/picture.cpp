@@ -140,7 +140,7 @@ Seen draw_by_oracle(const Picture& picture) {
 std::string difference_from_oracle(const Picture& picture) {
   const Scene scene = scene_of(picture);
   const OracleResult expected = run_oracle(scene);
-  const PassResult deferred = run_pass(scene, {}, 1), at_once = run_pass(scene, {.tile_size = 8, .defer = false}, 1);
+  const PassResult deferred = run_pass(scene, {}, 1), at_once = run_pass(scene, {.tuning = {.tile_size = 8, .defer = false}}, 1);
   std::string wrong = difference(scene, expected.pictures, deferred.pictures);
   if (wrong.empty()) {
     wrong = difference(scene, expected.pictures, at_once.pictures);

@@ -45,7 +45,7 @@ void expect_as_oracle(const Scene& scene) {
   const OracleResult oracle = run_oracle(scene);
   for (const int tile_size : {8, 16, 32, 64}) {
     for (const bool defer : {false, true}) {
-      EXPECT_EQ(difference(scene, oracle.pictures, run_pass(scene, {.tile_size = tile_size, .defer = defer}, 2).pictures), "")
+      EXPECT_EQ(difference(scene, oracle.pictures, run_pass(scene, {.tuning = {.tile_size = tile_size, .defer = defer}}, 2).pictures), "")
           << "tiles of " << tile_size << (defer ? ", deferred" : ", immediate");
     }
   }
@@ -210,7 +210,7 @@ TEST(EdgeCases, ZeroBudgetFlushesAndTerminates) {
   Scene s = scene_of(70, 50);
   for (const int seed : {14, 15, 16}) add_random(s, static_cast<uint64_t>(seed));
   const PassResult whole = run_pass(s, {}, 1);
-  const PassResult flushed = run_pass(s, {.chunk_triangles = 1, .bin_budget = 0}, 1);
+  const PassResult flushed = run_pass(s, {.tuning = {.chunk_triangles = 1, .bin_budget = 0}}, 1);
   EXPECT_EQ(difference(s, whole.pictures, flushed.pictures), "");
   EXPECT_GE(flushed.statistics.flushes, 1u);
 }
@@ -228,7 +228,7 @@ TEST(EdgeCases, FlushesPreserveAttachmentsWithoutImages) {
         add_random(s, 20 + d, state);
       }
       const OracleResult oracle = run_oracle(s);
-      const PassResult flushed = run_pass(s, {.chunk_triangles = 1, .bin_budget = 1}, 2);
+      const PassResult flushed = run_pass(s, {.tuning = {.chunk_triangles = 1, .bin_budget = 1}}, 2);
       EXPECT_GE(flushed.statistics.flushes, 5u);
       EXPECT_EQ(difference(s, oracle.pictures, flushed.pictures), "");
     }
@@ -243,7 +243,7 @@ TEST(EdgeCases, FlushesWhenChunkIdsRunOut) {
   Rows rows;
   for (const glm::vec4& p : g.positions) rows.push_back({p, {random.real(0, 1), random.real(0, 1), random.real(0, 1)}});
   add_draw(s, rows, g.indices);
-  const PassResult flushed = run_pass(s, {.chunk_triangles = 1}, 1);
+  const PassResult flushed = run_pass(s, {.tuning = {.chunk_triangles = 1}}, 1);
   EXPECT_EQ(flushed.statistics.flushes, 1u);
   EXPECT_EQ(difference(s, run_oracle(s).pictures, flushed.pictures), "");
 }

@@ -27,10 +27,10 @@ struct Variant {
 
 PassOptions random_options(Random& random) {
   PassOptions o;
-  o.tile_size = random.pick({8, 16, 32, 64});
-  o.chunk_triangles = random.pick({1u, 7u, 8192u});
-  o.defer = random.once_in(2);
-  if (random.once_in(2)) o.bin_budget = random.pick({1u, 1000u, 20000u});
+  o.tuning.tile_size = random.pick({8, 16, 32, 64});
+  o.tuning.chunk_triangles = random.pick({1u, 7u, 8192u});
+  o.tuning.defer = random.once_in(2);
+  if (random.once_in(2)) o.tuning.bin_budget = random.pick({1u, 1000u, 20000u});
   return o;
 }
 
@@ -39,8 +39,8 @@ PassOptions random_options(Random& random) {
 std::vector<Variant> variants(uint64_t seed) {
   Random random(seed ^ 0x5eed);
   std::vector<Variant> v;
-  v.push_back({.options = {.defer = false}});
-  v.push_back({.options = {.chunk_triangles = 1, .bin_budget = 1}, .threads = 2});
+  v.push_back({.options = {.tuning = {.defer = false}}});
+  v.push_back({.options = {.tuning = {.chunk_triangles = 1, .bin_budget = 1}}, .threads = 2});
   v.push_back({.options = random_options(random), .threads = 7});
   v.push_back({.options = random_options(random)});
   if (seed % 8 == 0) v.push_back({.options = random_options(random), .threads = 64});

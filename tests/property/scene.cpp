@@ -261,8 +261,8 @@ Image<glm::u8vec4> codes_of(const Scene& scene, const Pictures& pictures) {
 
 std::string describe(const PassOptions& o, int threads) {
   std::ostringstream out;
-  out << threads << " threads, tiles of " << o.tile_size << ", chunks of " << o.chunk_triangles << ", "
-      << (o.defer ? "deferred" : "immediate") << ", budget " << o.bin_budget;
+  out << threads << " threads, tiles of " << o.tuning.tile_size << ", chunks of " << o.tuning.chunk_triangles << ", "
+      << (o.tuning.defer ? "deferred" : "immediate") << ", budget " << o.tuning.bin_budget;
   return out.str();
 }
 

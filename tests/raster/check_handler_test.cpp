@@ -58,7 +58,7 @@ TEST_F(PassCheckTest, OrderIndependentDrawsRejectStatesThatLayersDoNotHave) {
 
 TEST_F(PassCheckTest, RunPropagatesAFailedCheckOfAShader) {
   for (const int threads : {1, 3}) {
-    Pass pass(16, 16, rgba32f_target(image_), {}, {.tile_size = 8});
+    Pass pass(16, 16, rgba32f_target(image_), {}, {.tuning = {.tile_size = 8}});
     pass.draw(FailingShader{}, make_vertex_view(stream(positions_)));
     EXPECT_EQ(failure_of([&] { pass.run(Workers(threads)); }), "color.x > 1.0f (1 vs 1)");
   }

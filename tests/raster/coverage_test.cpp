@@ -82,7 +82,7 @@ class Comparison {
     covered_ += covered_here;
 
     // The batches cycle through the tile sizes, since edge functions are set up again in each tile.
-    const PassOptions options{.tile_size = 8 << (batch_ % 4)};
+    const PassOptions options{.tuning = {.tile_size = 8 << (batch_ % 4)}};
     ++batch_;
     Image<glm::vec4> drawn(width_, height_);
     const PassStatistics blended = draw_colors(drawn, triangles, weights, true, options);

@@ -291,7 +291,7 @@ TEST(Depth, RandomLayersMatchThePlainLoop) {
         }
       }
     }
-    Pass pass(kSize, kSize, rgba32f_target(image), depth_target, {.tile_size = 8 << (round % 4)});
+    Pass pass(kSize, kSize, rgba32f_target(image), depth_target, {.tuning = {.tile_size = 8 << (round % 4)}});
     for (std::size_t i = 0; i < keep.size(); ++i) {
       pass.draw(ConstantShader{glm::vec4(static_cast<float>(i + 1))}, make_vertex_view(stream(keep[i])), states[i]);
     }
@@ -589,7 +589,7 @@ TEST(DepthInvariance, PrePassThenEqualLosesNoPixels) {
     Image<uint16_t> d16(kWidth, kHeight);
     DepthTarget depth = format == DepthFormat::d32f ? d32f_target(d32f) : format == DepthFormat::d24 ? d24_target(d24) : d16_target(d16);
     depth.clear_value = 0.0f;
-    Pass first(kWidth, kHeight, {}, depth, {.tile_size = 8 << (i % 4)});
+    Pass first(kWidth, kHeight, {}, depth, {.tuning = {.tile_size = 8 << (i % 4)}});
     first.draw_depth(MatrixShader{m}, make_vertex_view(stream(positions)), list, state);
     clipped += first.run(one_worker()).clipped;
 
@@ -599,7 +599,7 @@ TEST(DepthInvariance, PrePassThenEqualLosesNoPixels) {
     color_target.clear_value = glm::vec4(-1000.0f);
     depth.load = LoadOp::load;
     state.depth.compare = CompareOp::equal;
-    Pass second(kWidth, kHeight, color_target, depth, {.tile_size = 64, .defer = i % 2 == 0});
+    Pass second(kWidth, kHeight, color_target, depth, {.tuning = {.tile_size = 64, .defer = i % 2 == 0}});
     second.draw(Full{m}, make_vertex_view(stream(positions), stream(colors)), list, state);
     second.run(one_worker());
     for (int y = 0; y < kHeight; ++y) {

@@ -70,7 +70,7 @@ void expect_any_parts_are_the_same(const Primitives& p, const std::vector<std::v
   EXPECT_EQ(whole.statistics.primitives_in, p.count());
   EXPECT_EQ(whole.statistics.vertices_shaded, p.positions.size());
   EXPECT_GT(whole.statistics.fragments_shaded, 0u);
-  expect_same(draw_in_parts(p, {p.count()}, 1, {.chunk_triangles = 7}), whole);
+  expect_same(draw_in_parts(p, {p.count()}, 1, {.tuning = {.chunk_triangles = 7}}), whole);
   for (const std::vector<std::size_t>& sizes : splits) {
     for (const int threads : {1, 3}) {
       SCOPED_TRACE(testing::Message() << "draws of " << sizes.front() << " primitives first, " << threads << " threads");

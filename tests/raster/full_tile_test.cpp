@@ -55,7 +55,7 @@ struct StepsPicture {
 StepsPicture drawn(const std::vector<Step>& steps, int tile_size, bool has_depth) {
   StepsPicture out;
   Pass pass(kStepsWidth, kStepsHeight, rgba32f_target(out.color), has_depth ? d32f_target(out.depth) : DepthTarget{},
-            {.tile_size = tile_size});
+            {.tuning = {.tile_size = tile_size}});
   const Indices triangle = Indices::sequential(3);
   std::deque<std::vector<glm::vec3>> origins;
   std::deque<std::vector<glm::vec4>> colors;

@@ -187,7 +187,7 @@ TEST(Layers, ALaterDrawOfAnotherKindSeparatesLayersInAllTiles) {
   for (const int tile_size : {32, 64}) {
     for (const bool writes_color : {true, false}) {
       Image<glm::vec4> image(128, 64);
-      Pass pass(128, 64, rgba32f_target(image), {.format = DepthFormat::d32f}, {.tile_size = tile_size});
+      Pass pass(128, 64, rgba32f_target(image), {.format = DepthFormat::d32f}, {.tuning = {.tile_size = tile_size}});
       pass.draw(ConstantShader{glm::vec4(1, 0, 0, 0.5f)}, make_vertex_view(stream(near)), kLayered);
       if (writes_color) {
         pass.draw(ConstantShader{glm::vec4(0, 0, 1, 1)}, make_vertex_view(stream(small)), kAlphaBlendState);

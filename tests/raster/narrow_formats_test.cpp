@@ -48,7 +48,8 @@ TEST(NarrowFormats, StoreTheFirstChannels) {
   Image<glm::vec3> three(kEdge, kEdge);
   for (const bool flushes : {false, true}) {
     const std::array targets{r32f_target(one, -1.0f), rg32f_target(two), rgb32f_target(three)};
-    Pass pass(kEdge, kEdge, targets, {.format = DepthFormat::d32f}, {.bin_budget = flushes ? std::size_t{1} : std::size_t{1} << 28});
+    Pass pass(kEdge, kEdge, targets, {.format = DepthFormat::d32f},
+              {.tuning = {.bin_budget = flushes ? std::size_t{1} : std::size_t{1} << 28}});
     const std::vector<glm::vec4> positions{{-1, -1, 0, 1}, {1, -1, 0, 1}, {-1, 1, 0, 1}};
     for (int i = 0; i < 100; ++i) pass.draw(PlaceShader{}, make_vertex_view(stream(positions)));
     pass.run(one_worker());

@@ -208,7 +208,7 @@ TEST(Operations, StencilFacesAndMasksAreSeparate) {
 TEST(Operations, QueriesCountPassingSamples) {
   for (const bool defer : {true, false}) {
     Image<glm::vec4> image(100, 70);
-    Pass pass(100, 70, rgba32f_target(image), {.format = DepthFormat::d32f}, {.defer = defer});
+    Pass pass(100, 70, rgba32f_target(image), {.format = DepthFormat::d32f}, {.tuning = {.defer = defer}});
     const std::vector<glm::vec4> near = whole(0.25f), middle = whole(0.5f), far = whole(0.75f);
     pass.draw(ConstantShader{}, make_vertex_view(stream(middle)), {.scissor = Rect{3, 5, 80, 40}, .query = 0});
     pass.draw(ConstantShader{}, make_vertex_view(stream(far)), {.scissor = Rect{0, 0, 50, 70}, .query = 1});
@@ -227,7 +227,7 @@ TEST(Operations, QueriesCountPassingSamples) {
 // Draws depth first, then color where the depth is equal: every pixel is shaded once, for any order of draws.
 TEST(Operations, DepthPrePassShadesEveryPixelOnce) {
   Image<glm::vec4> image(64, 64);
-  Pass pass(64, 64, rgba32f_target(image), {.format = DepthFormat::d32f}, {.defer = false});
+  Pass pass(64, 64, rgba32f_target(image), {.format = DepthFormat::d32f}, {.tuning = {.defer = false}});
   const std::vector<glm::vec4> near = whole(0.25f), far = whole(0.75f);
   for (const auto* p : {&far, &near})
     pass.draw(ConstantShader{}, make_vertex_view(stream(*p)), {.color_mask = {false, false, false, false}});

@@ -142,7 +142,7 @@ TEST(Points, SpritesWithBoundsAndDepthAreShadedOnce) {
   const std::vector<glm::vec3> c{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}};
   Image<glm::vec4> images[2]{Image<glm::vec4>(64, 64), Image<glm::vec4>(64, 64)};
   for (const bool defer : {true, false}) {
-    Pass pass(64, 64, rgba32f_target(images[defer]), {.format = DepthFormat::d32f}, {.defer = defer});
+    Pass pass(64, 64, rgba32f_target(images[defer]), {.format = DepthFormat::d32f}, {.tuning = {.defer = defer}});
     pass.draw(BallShader{}, make_vertex_view(stream(p), stream(c)), {.topology = Topology::points});
     const PassStatistics s = pass.run(one_worker());
     EXPECT_EQ(s.culled_outside, 1u);  // the fourth is marked as not drawn

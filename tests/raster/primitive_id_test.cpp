@@ -120,10 +120,10 @@ void expect_grid(const Labels& labels, const Grid& g, int x0, uint32_t draw, uin
 std::vector<std::pair<PassOptions, int>> ways() {
   return {{{}, 1},
           {{}, 8},
-          {{.defer = false}, 1},
-          {{.tile_size = 8, .chunk_triangles = 7}, 8},
-          {{.tile_size = 16, .chunk_triangles = 3, .bin_budget = 1, .defer = false}, 8},
-          {{.tile_size = 32, .chunk_triangles = 5, .bin_budget = 1}, 1}};
+          {{.tuning = {.defer = false}}, 1},
+          {{.tuning = {.tile_size = 8, .chunk_triangles = 7}}, 8},
+          {{.tuning = {.tile_size = 16, .chunk_triangles = 3, .bin_budget = 1, .defer = false}}, 8},
+          {{.tuning = {.tile_size = 32, .chunk_triangles = 5, .bin_budget = 1}}, 1}};
 }
 
 TEST(PrimitiveId, GridsHaveKnownIdsAndBarycentrics) {

@@ -122,7 +122,7 @@ TEST(Primitives, InstancesHaveTheirNumberAndReadTheirData) {
   const Indices indices(list, p.size());
   for (const uint32_t chunk : {1u, 3u, 8192u}) {
     Image<glm::vec4> image(32, 16);
-    Pass pass(32, 16, rgba32f_target(image), {}, {.chunk_triangles = chunk});
+    Pass pass(32, 16, rgba32f_target(image), {}, {.tuning = {.chunk_triangles = chunk}});
     pass.draw(ColumnShader{}, make_vertex_view(stream(p), per_instance(stream(c), 2)), indices,
               {.topology = Topology::triangle_strip, .instances = 4});
     EXPECT_EQ(pass.run(one_worker()).vertices_shaded, 16u);

@@ -171,7 +171,7 @@ TEST(Viewport, ConfinesDrawingToItsRectangle) {
       DrawState state;
       state.viewport = v;
       // The triangle extends far beyond the viewport, which confines drawing like a scissor rectangle.
-      draw(image, ConstantShader{}, {{-5, -5, 0, 1}, {15, -5, 0, 1}, {-5, 15, 0, 1}}, state, {.tile_size = tile_size});
+      draw(image, ConstantShader{}, {{-5, -5, 0, 1}, {15, -5, 0, 1}, {-5, 15, 0, 1}}, state, {.tuning = {.tile_size = tile_size}});
       expect_drawn_rect(image, std::max(0, v.x), std::max(0, v.y), std::min(70, v.x + v.width), std::min(40, v.y + v.height));
     }
   }
@@ -362,7 +362,7 @@ TEST(LoadStore, StoreDontCareWritesNothingBetweenFlushes) {
   ColorTarget color_target = rgba32f_target(image);
   DepthTarget depth_target = d32f_target(depth);
   color_target.store = depth_target.store = StoreOp::dont_care;
-  Pass pass(16, 16, color_target, depth_target, {.chunk_triangles = 1, .bin_budget = 1});
+  Pass pass(16, 16, color_target, depth_target, {.tuning = {.chunk_triangles = 1, .bin_budget = 1}});
   for (int i = 0; i < 100; ++i) pass.draw(ConstantShader{}, make_vertex_view(stream(kFullScreen)));
   EXPECT_GT(pass.run(one_worker()).flushes, 1u);
   EXPECT_TRUE(is_everywhere(image, glm::vec4(7.0f)));
@@ -377,7 +377,7 @@ TEST(LoadStore, FlushesKeepLoadedDepthThatIsNotStored) {
   DepthTarget depth_target = d32f_target(depth);
   depth_target.load = LoadOp::load;
   depth_target.store = StoreOp::dont_care;
-  Pass pass(128, 64, rgba32f_target(image), depth_target, {.chunk_triangles = 1, .bin_budget = 1});
+  Pass pass(128, 64, rgba32f_target(image), depth_target, {.tuning = {.chunk_triangles = 1, .bin_budget = 1}});
   DrawState left, right;
   left.viewport = Rect{0, 0, 64, 64};
   right.viewport = Rect{64, 0, 64, 64};
@@ -444,7 +444,7 @@ TEST(Post, RunsOnEveryPixelOnce) {
   Image<glm::vec4> image(70, 40), out(70, 40);
   ColorTarget target = rgba32f_target(image);
   target.clear_value = glm::vec4(1, 2, 3, 4);
-  Pass pass(70, 40, target, {}, {.tile_size = 32});
+  Pass pass(70, 40, target, {}, {.tuning = {.tile_size = 32}});
   DrawState state;
   state.scissor = Rect{0, 0, 35, 40};
   pass.draw(ConstantShader{glm::vec4(5, 6, 7, 8)}, make_vertex_view(stream(kFullScreen)), state);
@@ -518,7 +518,7 @@ TEST(Statistics, DeferredDrawsShadeOnlyVisibleFragments) {
     for (const bool defer : {true, false}) {
       const auto first = full_screen(near_first ? -0.5f : 0.5f), second = full_screen(near_first ? 0.5f : -0.5f);
       Image<glm::vec4> image(64, 64);
-      Pass pass(64, 64, rgba32f_target(image), {.format = DepthFormat::d32f}, {.defer = defer});
+      Pass pass(64, 64, rgba32f_target(image), {.format = DepthFormat::d32f}, {.tuning = {.defer = defer}});
       pass.draw(ConstantShader{glm::vec4(1)}, make_vertex_view(stream(first)));
       pass.draw(ConstantShader{glm::vec4(2)}, make_vertex_view(stream(second)));
       const PassStatistics s = pass.run(one_worker());
@@ -561,8 +561,8 @@ TEST(Statistics, FlushesAreCountedAndDoNotChangeTheResult) {
   Image<glm::vec4> images[2]{Image<glm::vec4>(100, 80), Image<glm::vec4>(100, 80)};
   Image<float> depths[2]{Image<float>(100, 80), Image<float>(100, 80)};
   for (const int small_budget : {0, 1}) {
-    PassOptions options{.chunk_triangles = 2};
-    if (small_budget) options.bin_budget = 1;
+    PassOptions options{.tuning = {.chunk_triangles = 2}};
+    if (small_budget) options.tuning.bin_budget = 1;
     Pass pass(100, 80, rgba32f_target(images[small_budget]), d32f_target(depths[small_budget]), options);
     pass.draw(FlatColorShader{}, make_vertex_view(stream(positions), stream(colors)));
     statistics[small_budget] = pass.run(one_worker());
@@ -579,7 +579,7 @@ TEST(Statistics, FlushesAreCountedAndDoNotChangeTheResult) {
   // Between flushes, the pass keeps attachments without images in its own memory.
   Image<glm::vec4> posted(100, 80);
   Pass pass(100, 80, {.format = ColorFormat::rgba32f, .store = StoreOp::dont_care}, {.format = DepthFormat::d32f},
-            {.chunk_triangles = 2, .bin_budget = 1});
+            {.tuning = {.chunk_triangles = 2, .bin_budget = 1}});
   pass.draw(FlatColorShader{}, make_vertex_view(stream(positions), stream(colors)));
   pass.post([]<class R>(const vec4<R>& c) { return c; }, rgba32f_target(posted));
   EXPECT_EQ(pass.run(one_worker()).flushes, 3u);
@@ -598,7 +598,8 @@ TEST(Statistics, VerticesOfAllDrawsNeedNotFitIntoMemory) {
     }
   }
   const auto render = [&](Image<glm::vec4>& image, std::size_t budget, uint32_t chunk_triangles, const Workers& workers) {
-    Pass pass(100, 80, rgba32f_target(image), {.format = DepthFormat::d32f}, {.chunk_triangles = chunk_triangles, .bin_budget = budget});
+    Pass pass(100, 80, rgba32f_target(image), {.format = DepthFormat::d32f},
+              {.tuning = {.chunk_triangles = chunk_triangles, .bin_budget = budget}});
     for (std::size_t d = 0; d < positions.size(); ++d)
       pass.draw(FlatColorShader{}, make_vertex_view(stream(positions[d]), stream(colors[d])));
     return pass.run(workers).flushes;
@@ -813,9 +814,9 @@ TEST(StateDeathTest, ChecksPasses) {
   Image<glm::vec4> image(16, 16);
   EXPECT_DEATH(Pass(0, 16, rgba32f_target(image), {}), "check failed");
   EXPECT_DEATH(Pass(16, 16385, rgba32f_target(image), {}), "check failed");
-  EXPECT_DEATH(Pass(16, 16, rgba32f_target(image), {}, {.tile_size = 24}), "check failed");
-  EXPECT_DEATH(Pass(16, 16, rgba32f_target(image), {}, {.chunk_triangles = 0}), "check failed");
-  EXPECT_DEATH(Pass(16, 16, rgba32f_target(image), {}, {.chunk_triangles = 8193}), "check failed");
+  EXPECT_DEATH(Pass(16, 16, rgba32f_target(image), {}, {.tuning = {.tile_size = 24}}), "check failed");
+  EXPECT_DEATH(Pass(16, 16, rgba32f_target(image), {}, {.tuning = {.chunk_triangles = 0}}), "check failed");
+  EXPECT_DEATH(Pass(16, 16, rgba32f_target(image), {}, {.tuning = {.chunk_triangles = 8193}}), "check failed");
   EXPECT_DEATH(Pass(16, 16, {.format = ColorFormat::rgba8}, {}),
                "check failed");  // would be stored, but has no image
   EXPECT_DEATH(Pass(16, 16, {.format = ColorFormat::rgba8, .load = LoadOp::load, .store = StoreOp::dont_care}, {}), "check failed");

@@ -54,7 +54,7 @@ class WatertightCheck {
     std::vector<glm::vec4> positions;
     for (const Point& p : mesh.points) positions.push_back(clip_position(p, width, height));
     Image<glm::vec4> image(width, height);
-    count_coverage(image, positions, mesh.indices, {}, {.tile_size = 8 << (batch % 4)});
+    count_coverage(image, positions, mesh.indices, {}, {.tuning = {.tile_size = 8 << (batch % 4)}});
     for (int y = 0; y < height; ++y) {
       const std::vector<bool> inside_row = inside_outline(mesh.outline, y, width);
       for (int x = 0; x < width; ++x) {

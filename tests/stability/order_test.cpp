@@ -38,7 +38,7 @@ Image<glm::vec4> blended(const std::vector<PointTriangle>& triangles, const std:
     }
   }
   Image<glm::vec4> image(128, 128);
-  Pass pass(128, 128, rgba32f_target(image), {}, {.tile_size = 16, .chunk_triangles = 16});
+  Pass pass(128, 128, rgba32f_target(image), {}, {.tuning = {.tile_size = 16, .chunk_triangles = 16}});
   DrawState state;
   state.blend = BlendState{};
   pass.draw(FlatColorShader{}, make_vertex_view(stream(positions), stream(vertex_colors)), state);

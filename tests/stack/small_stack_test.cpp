@@ -160,8 +160,9 @@ TEST_P(SmallStack, PassesRunOnSmallStacks) {
   on_small_stack([&] {
     for (const int samples : {1, 4, 8}) {
       for (const bool defer : {true, false}) {
-        run_pass(GetParam(), v, {.samples = samples, .defer = defer});
-        run_pass(GetParam(), v, {.samples = samples, .supersample = true, .chunk_triangles = 16, .bin_budget = 0, .defer = defer});
+        run_pass(GetParam(), v, {.samples = samples, .tuning = {.defer = defer}});
+        run_pass(GetParam(), v,
+                 {.samples = samples, .supersample = true, .tuning = {.chunk_triangles = 16, .bin_budget = 0, .defer = defer}});
       }
     }
   });

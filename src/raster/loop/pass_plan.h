@@ -18,7 +18,7 @@ struct VertexTask {
 /// A plan. It does not depend on the number of threads.
 class PassPlan {
  public:
-  /// samples: per pixel; chunk_triangles: see PassOptions.
+  /// samples: per pixel; chunk_triangles: see PassTuning.
   PassPlan(int samples, uint32_t chunk_triangles) : samples_(samples), chunk_triangles_(chunk_triangles) {}
 
   /// Adds a draw. number: of the draw in its pass.

@@ -10,7 +10,7 @@
 namespace halfspace::HS_LANES {
 
 /// Runs all rounds of a pass and returns its statistics. The chunks and shaded vertices of the context are only valid in tiles.run().
-/// budget: see PassOptions::bin_budget.
+/// budget: see PassTuning::bin_budget.
 PassStatistics run_rounds(PassContext& context, Attachments& attachments, PassPlan plan, std::size_t budget, TileRunner& tiles,
                           const Workers& workers);
 

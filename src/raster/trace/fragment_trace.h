@@ -34,7 +34,7 @@ struct TracedFragment {
   uint32_t draw = 0;       ///< index of the draw, in the order of the Pass::draw() calls
   uint32_t instance = 0;   ///< instance of the draw
   uint32_t primitive = 0;  ///< index of the triangle, point or line in the draw, in submission order
-  uint16_t round = 0;      ///< tiles are drawn in several rounds if the memory exceeds PassOptions::bin_budget
+  uint16_t round = 0;      ///< tiles are drawn in several rounds if the memory exceeds PassTuning::bin_budget
   uint8_t sample = 0;
   FragmentOutcome outcome = FragmentOutcome::hidden_before_shading;
   bool is_tested = false;     ///< the depth was tested
