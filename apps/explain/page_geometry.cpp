@@ -40,7 +40,7 @@ PageJson json_of_triangle(const PassContext& context, const Draw& draw, const Tr
   for (int s = 0; s < context.samples; ++s)
     json["boxes"].push_back(json_of_box(pixel_bounds(draw, t, draw.bounds, sample_position(context.samples, s))));
   json["covered"] = covered_pixels(context, draw, t);
-  if (t.is(kPointSprite | kLine)) return json;
+  if (!t.is_triangle()) return json;
   for (std::size_t i = 0; i < 3; ++i) {
     const Edge e = edge_of(t, i);
     json["edges"].push_back({{"x0", e.x0}, {"y0", e.y0}, {"ex", e.ex}, {"ey", e.ey}, {"bias", fill_bias(e)}});

@@ -41,7 +41,7 @@ void list_primitives(const PassContext& context, const DrawRange& range, Chunk& 
 
 // x and y are in 1/256 px.
 bool line_covers(const Draw& draw, const Triangle& t, int64_t x, int64_t y) {
-  const LineRange range = LineRange::unpack(t.vertex[2]);
+  const LineRange range = t.line_range();
   const int64_t along = (is_y_major(t.x[1] - t.x[0], t.y[1] - t.y[0]) ? y : x) >> kSubPixelBits;
   if (along < range.first || along >= range.end) return false;
   for (const BandEdge& e : band_edges(t, line_pixels(draw.state.line_width))) {
@@ -79,9 +79,9 @@ bool covers(const PassContext& context, const Draw& draw, const Triangle& t, int
   const SamplePosition at = sample_position(context.samples, sample);
   const PixelBounds box = pixel_bounds(draw, t, draw.bounds, at);
   if (x < box.x0 || x >= box.x1 || y < box.y0 || y >= box.y1) return false;
-  if (t.is(kPointSprite)) return true;
+  if (t.is_point()) return true;
   const int64_t sx = int64_t{x} * kSubPixels + at.x, sy = int64_t{y} * kSubPixels + at.y;
-  if (t.is(kLine)) return line_covers(draw, t, sx, sy);
+  if (t.is_line()) return line_covers(draw, t, sx, sy);
   for (std::size_t i = 0; i < 3; ++i) {
     const Edge e = edge_of(t, i);
     if (e.at(sx, sy) - fill_bias(e) < 0) return false;

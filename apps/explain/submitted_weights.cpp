@@ -45,7 +45,7 @@ glm::vec3 weights_of_wide_line(const InspectedTriangle& t, const glm::dvec2& pos
 
 glm::vec3 submitted_weights(const InspectedTriangle& t, const Weights<float>& weights, const glm::dvec2& position_px) {
   const Triangle& triangle = *t.source.triangle;
-  if (triangle.is(kPointSprite)) return {1.0f, 0.0f, 0.0f};
+  if (triangle.is_point()) return {1.0f, 0.0f, 0.0f};
   if (triangle.is(kClipped) && is_lines(t.draw->state.topology)) return weights_of_wide_line(t, position_px);
   if (triangle.is(kClipped)) return weights_of_clipped(t, position_px);
   const auto inv_w = [&](std::size_t i) { return t.source.vertex[i]->inv_w; };
@@ -55,7 +55,7 @@ glm::vec3 submitted_weights(const InspectedTriangle& t, const Weights<float>& we
   glm::vec3 out(0.0f);
   for (std::size_t i = 0; i < 3; ++i) {
     std::size_t corner = (first + i) % 3;
-    if (triangle.is(kLine) && corner == 2) corner = 0;  // the third vertex of a line has the values of the first
+    if (triangle.is_line() && corner == 2) corner = 0;  // the third vertex of a line has the values of the first
     for (int k = 0; k < 3; ++k) {
       if (t.slot[static_cast<std::size_t>(k)] != triangle.vertex[corner]) continue;
       out[k] += p[i];

@@ -10,6 +10,7 @@ namespace {
 class TraceTiles : public TileRunner {
  public:
   explicit TraceTiles(PassTrace& trace) : trace_(trace) {}
+  bool inspects_primitives() const override { return true; }
 
   void run(const PassContext& context, const Attachments& attachments, Round round, const Workers& workers,
            PassStatistics& statistics) override {
@@ -64,6 +65,7 @@ class TimeTiles : public TileRunner {
 class VisitSetUp : public TileRunner {
  public:
   explicit VisitSetUp(const std::function<void(const PassContext&, int)>& visit) : visit_(visit) {}
+  bool inspects_primitives() const override { return true; }
 
   void run(const PassContext& context, const Attachments&, Round, const Workers&, PassStatistics&) override { visit_(context, round_++); }
 

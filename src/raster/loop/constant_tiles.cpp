@@ -47,8 +47,7 @@ ConstantTiles constant_tiles(const PassContext& context, const Attachments& atta
   if (draw == nullptr) return {true, nullptr};
   if (attachments.depth.format != DepthFormat::none || context.samples != 1) return no;
   const PixelBounds area = tile_pixels(context, tile_x0, tile_x1, tile_y);
-  const bool is_triangle =
-      std::none_of(triangles.begin(), triangles.begin() + count, [](const Triangle* t) { return t->is(kPointSprite | kLine); });
+  const bool is_triangle = std::all_of(triangles.begin(), triangles.begin() + count, [](const Triangle* t) { return t->is_triangle(); });
   if (intersect(area, draw->bounds) != area || !is_triangle ||
       !(count == 1 ? covers(*triangles[0], area) : cover_together(*triangles[0], *triangles[1], area))) {
     return no;

@@ -155,6 +155,7 @@ class PassRounds {
 PassStatistics run_rounds(PassContext& context, Attachments& attachments, PassPlan plan, std::size_t budget, TileRunner& tiles,
                           const Workers& workers) {
   PassStatistics statistics = std::move(plan.submitted);
+  context.inspects_primitives = tiles.inspects_primitives();
   PassRounds rounds(context, plan, budget, workers);
   Round round{.first = true, .last = false};
   do {

@@ -41,7 +41,7 @@ std::size_t narrow_run(const Chunk& chunk, std::span<const uint16_t> bin) {
   const std::size_t max_count = std::min(bin.size(), static_cast<std::size_t>(kLanes));
   const uint32_t range = chunk.triangles[bin[0]].range();
   std::size_t n = 0;
-  while (n < max_count && is_narrow_triangle(chunk.triangles[bin[n]]) && chunk.triangles[bin[n]].range() == range) ++n;
+  while (n < max_count && chunk.triangles[bin[n]].is_narrow_triangle() && chunk.triangles[bin[n]].range() == range) ++n;
   return n;
 }
 
@@ -145,7 +145,7 @@ class TileDraws {
 
   void draw_triangle(const DrawInTile& d, uint32_t chunk, uint16_t index) {
     const Triangle& t = context_.chunks[chunk].triangles[index];
-    if (is_narrow_triangle(t)) {
+    if (t.is_narrow_triangle()) {
       draw_narrow(d, chunk, {&index, 1});
       return;
     }

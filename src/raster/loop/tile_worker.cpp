@@ -176,7 +176,7 @@ class TileWorker {
       only = &c.triangles[bin[0]];
       draw = &context_.draws[c.ranges[only->range()].draw];
     }
-    if (only == nullptr || !draw->deferred || draw->kernels.visibility != nullptr || only->is(kPointSprite | kLine)) return false;
+    if (only == nullptr || !draw->deferred || draw->kernels.visibility != nullptr || !only->is_triangle()) return false;
     const PixelBounds pixels = tile_pixels(context_, tile_x, tile_x + 1, tile_y);
     return intersect(pixels, draw->bounds) == pixels && covers(*only, pixels);
   }

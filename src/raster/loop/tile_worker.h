@@ -33,6 +33,8 @@ void run_tiles(const PassContext& context, const Attachments& attachments, Round
 class TileRunner {
  public:
   virtual ~TileRunner() = default;
+  /// Returns true if run() reads the primitive numbers of all draws.
+  virtual bool inspects_primitives() const { return false; }
   virtual void run(const PassContext& context, const Attachments& attachments, Round round, const Workers& workers,
                    PassStatistics& statistics) = 0;
 };

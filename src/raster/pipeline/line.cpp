@@ -67,7 +67,7 @@ std::array<BandEdge, 2> band_edges(const Triangle& t, int pixels) {
 
 PixelBounds line_bounds(const Triangle& t, int pixels, const PixelBounds& b) {
   const bool y_major = is_y_major(t.x[1] - t.x[0], t.y[1] - t.y[0]);
-  const LineRange range = LineRange::unpack(t.vertex[2]);
+  const LineRange range = t.line_range();
   const auto [low, high] = y_major ? std::minmax(t.x[0], t.x[1]) : std::minmax(t.y[0], t.y[1]);
   // Beyond its end points, a line with a slope of at most 45° extends by at most one pixel.
   const int across0 = (low >> kSubPixelBits) - pixels / 2 - 2, across1 = (high >> kSubPixelBits) + pixels / 2 + 3;

@@ -104,7 +104,13 @@ struct PassContext {
   DepthFormat depth_format = DepthFormat::none;  ///< without stencil
   int samples = 1;                               ///< per pixel
   SampleSpan samples_at{};
+  bool inspects_primitives = false;  ///< the tile runner reads the primitive numbers of all draws
 };
+
+/// Returns true if setup must record the primitive number of each triangle of the draw.
+inline bool needs_primitive_numbers(const PassContext& context, const Draw& draw) {
+  return context.inspects_primitives || draw.kernels.primitive_count != 0;
+}
 
 inline const Triangle& triangle_of(const PassContext& context, TriangleId id) {
   return context.chunks[chunk_of(id)].triangles[index_in_chunk(id)];

@@ -8,7 +8,7 @@ void Chunk::clear() {
   triangles.clear();
   clip_vertices.clear();
   clip_varyings.clear();
-  clip_sources.clear();
+  primitive_numbers.clear();
   primitives.clear();
   bin_start.clear();
   bin_triangles.clear();
@@ -18,7 +18,7 @@ void Chunk::clear() {
 
 std::size_t Chunk::bytes() const {
   return triangles.capacity() * sizeof(Triangle) + bin_triangles.capacity() * sizeof(uint16_t) + bin_start.capacity() * sizeof(uint32_t) +
-         clip_vertices.capacity() * sizeof(ClipVertex) + clip_sources.capacity() * sizeof(clip_sources[0]) +
+         clip_vertices.capacity() * sizeof(ClipVertex) + primitive_numbers.capacity() * sizeof(uint32_t) +
          (clip_varyings.capacity() + primitives.capacity()) * sizeof(float);
 }
 

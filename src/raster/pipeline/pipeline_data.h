@@ -161,12 +161,12 @@ inline constexpr uint32_t kDrawRangeShift = 19;  ///< thirteen bits: index of th
 /// A primitive that is ready to be rasterized. The vertices of a triangle are in counter-clockwise order (y up), starting with the one with
 /// the smallest depth.
 ///
-/// For a point (kPointSprite), x[0] … x[1] and y[0] … y[1] are the first and last covered positions in 1/256 px. All three elements of
+/// For a point, x[0] … x[1] and y[0] … y[1] are the first and last covered positions in 1/256 px; see sprite(). All three elements of
 /// vertex are the same.
 ///
-/// For a line (kLine, with one sample per pixel), vertices 0 and 1 are the end points, the one with the smaller depth first. The third
+/// For a line (only with one sample per pixel), vertices 0 and 1 are the end points, the one with the smaller depth first. The third
 /// vertex is offset from vertex 0 perpendicularly to the line. E1 is then the dot product with the line vector, and the area is its squared
-/// length, as needed for interpolation along the line. vertex[2] is the LineRange.
+/// length, as needed for interpolation along the line. vertex[2] contains the pixels; see line_range().
 struct Triangle {
   std::array<int32_t, 3> x, y;  ///< snapped, 24.8
   float z0;                     ///< depth at vertex 0, including polygon offset
@@ -178,6 +178,18 @@ struct Triangle {
   uint32_t range() const { return flags >> kDrawRangeShift; }
   uint32_t provoking() const { return (flags >> kProvokingShift) & 3; }
   bool is(uint32_t flag) const { return (flags & flag) != 0; }
+
+  // The kind of the primitive. Triangles are narrow or wide; see kNarrowExtent.
+  bool is_point() const { return is(kPointSprite); }
+  bool is_line() const { return is(kLine); }
+  bool is_triangle() const { return !is(kPointSprite | kLine); }
+  bool is_narrow_triangle() const { return (flags & (kNarrow | kPointSprite)) == kNarrow; }
+  bool is_wide_triangle() const { return !is(kNarrow | kPointSprite | kLine); }
+
+  /// Returns the samples that a point covers.
+  PointSpriteRect sprite() const { return {x[0], y[0], x[1] + 1, y[1] + 1}; }
+  /// Returns the pixels of a line along its major axis.
+  LineRange line_range() const { return LineRange::unpack(vertex[2]); }
   /// Covered pixels of a tiny triangle, or 0 if they are not known. They are only known with one sample per pixel, and for a bounding box
   /// of at most kTinySide x kTinyRows pixels. Bit 4r + c is pixel c of row r of the bounding box, clipped to the bounds of the draw.
   uint32_t covered() const { return flags >> kCoveredShift & kCoveredBits; }
@@ -190,12 +202,6 @@ struct ClipVertex {
   uint32_t first_varying;  ///< index into Chunk::clip_varyings
 };
 inline constexpr std::size_t kClipWeights = 2;
-
-/// Vertices of the primitive that setup split or clipped, or drew as a line or outline, for the primitive stage.
-struct ClipSource {
-  uint32_t triangle;  ///< index of the first piece in Chunk::triangles
-  std::array<uint32_t, 3> vertex;
-};
 
 /// Row of Chunk::primitives for a shader that uses a PrimitiveId. The values are integers, stored as the bits of floats.
 enum IdRow : std::size_t {
@@ -221,7 +227,8 @@ struct Chunk {
   std::vector<Triangle, DefaultInitAllocator<Triangle>> triangles;
   std::vector<ClipVertex> clip_vertices;
   std::vector<float> clip_varyings;
-  std::vector<ClipSource> clip_sources;
+  /// Number, in its draw, of the primitive from which each triangle was created. Empty if no stage reads it; see needs_primitive_numbers().
+  std::vector<uint32_t> primitive_numbers;
   std::vector<float> primitives;  ///< output of the primitive stage, one row per triangle; see IdRow
 
   // Bins: triangle indices per tile, in submission order.

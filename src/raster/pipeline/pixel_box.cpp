@@ -8,7 +8,7 @@ namespace halfspace::HS_LANES {
 namespace {
 
 PixelBounds pixel_bounds(const Draw& draw, const Triangle& t, const PixelBounds& b, const SampleSpan& at_x, const SampleSpan& at_y) {
-  if (t.is(kLine)) return line_bounds(t, line_pixels(draw.state.line_width), b);
+  if (t.is_line()) return line_bounds(t, line_pixels(draw.state.line_width), b);
   return intersect(pixel_box(t.x, t.y, at_x, at_y), b);
 }
 

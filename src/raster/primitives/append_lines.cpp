@@ -75,7 +75,6 @@ void append_outline(SetupRange& r, const PrimitiveSlots& id) {
     why = append_line(r, {&vertex(i), &vertex(i + 1)}, {id[i], id[(i + 1) % 3]}, 0, 0, front ? Facing::front : Facing::back);
   }
   if (r.chunk.triangles.size() == before) r.count(why);
-  r.note_source(before, id);
 }
 
 Cull append_clip_line(SetupRange& r, uint32_t a, uint32_t b, Facing facing) {

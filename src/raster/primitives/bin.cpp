@@ -78,7 +78,7 @@ int64_t max_in_tile(const Edge& e, int tile_x, int tile_y, int size, const Sampl
 
 void list_tiles(const PassContext& context, const Triangle& t, const PixelBounds& tiles, uint16_t index, TileRuns& runs) {
   const int size = context.tile_size;
-  const bool one_row = tiles.x1 - tiles.x0 == 1 || tiles.y1 - tiles.y0 == 1 || t.is(kPointSprite);
+  const bool one_row = tiles.x1 - tiles.x0 == 1 || tiles.y1 - tiles.y0 == 1 || t.is_point();
   const std::array<Edge, 3> edges{edge_of(t, 0), edge_of(t, 1), edge_of(t, 2)};
   for (int y = tiles.y0; y < tiles.y1; ++y) {
     for (int x = tiles.x0; x < tiles.x1; ++x) {
@@ -116,7 +116,7 @@ void bin_chunk(const PassContext& context, Chunk& chunk) {
         const Triangle& t = chunk.triangles[first + i];
         const auto index = static_cast<uint16_t>(first + i);
         PixelBounds tiles{rows.x0[i], rows.y0[i], rows.x1[i], rows.y1[i]};
-        if (t.is(kLine)) {
+        if (t.is_line()) {
           tiles = tiles_of(context, pixel_bounds(draw, t, draw.bounds, context.samples_at));
           list_line_tiles(context, t, line_pixels(draw.state.line_width), tiles, index, runs);
         } else if (tiles.x1 - tiles.x0 == 1 && tiles.y1 - tiles.y0 == 1) {

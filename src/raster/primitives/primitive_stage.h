@@ -27,7 +27,7 @@ struct SubmittedPrimitive {
   uint32_t primitive;              ///< index in its draw
   std::array<uint32_t, 3> vertex;  ///< slots of its vertices, in the order of OpenGL 4.6, table 13.2
 };
-/// Returns the primitive of each triangle of the chunk.
+/// Returns the primitive of each triangle of the chunk. The tile runner of the pass must inspect primitives (TileRunner).
 std::vector<SubmittedPrimitive> submitted_primitives(const PassContext& context, const Chunk& chunk);
 
 namespace detail {

@@ -24,20 +24,23 @@ class TriangleSetup {
 
   // Submits the next `count` triangles, one by one or W at a time.
   void submit(uint32_t count) {
-    for (uint32_t i = 0; i < count; ++i) submit_triangle(range_.next_slots());
+    for (uint32_t i = 0; i < count; ++i) {
+      submit_triangle(range_.next_slots());
+      range_.record_primitive(i);
+    }
   }
   void submit_batches(uint32_t count) {
-    for (uint32_t i = 0; i < count; i += kLanes) submit_batch(static_cast<int>(std::min<uint32_t>(kLanes, count - i)));
+    for (uint32_t i = 0; i < count; i += kLanes) submit_batch(i, static_cast<int>(std::min<uint32_t>(kLanes, count - i)));
   }
 
  private:
-  // Submits the next `count` triangles, at most W.
-  void submit_batch(int count) {
+  // Submits the next `count` triangles, at most W. first_triangle: number of the first one in the range.
+  void submit_batch(uint32_t first_triangle, int count) {
     const uint32_t unclipped = put_triangles(count);
     batch_.set_up(range_.context, draw_, shaded_, unclipped, range_.provoking(), range_.range, chunk_.statistics);
     const uint32_t single = (bits(first_lanes<Mask>(count)) & ~unclipped) | batch_.large();  // lanes that are set up individually
     if (single == 0 && batch_.kept() == 0) return;
-    if (single == 0) {
+    if (single == 0 && !range_.records_primitives) {
       const std::size_t first = chunk_.triangles.size();
       chunk_.triangles.resize(first + static_cast<std::size_t>(std::popcount(batch_.kept())));
       return batch_.write(&chunk_.triangles[first]);
@@ -52,6 +55,7 @@ class TriangleSetup {
       } else {
         chunk_.triangles.push_back(*next++);
       }
+      range_.record_primitive(first_triangle + static_cast<uint32_t>(i));
     }
   }
 

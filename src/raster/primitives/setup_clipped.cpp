@@ -86,7 +86,6 @@ void set_up_clipped(SetupRange& r, const PrimitiveSlots& slots, ClipFunction cli
   const std::size_t before = r.chunk.triangles.size();
   const Cull why = append_pieces(r, polygon, first, slots);
   if (r.chunk.triangles.size() == before) r.count(why);  // counts as culled only if no piece is left
-  r.note_source(before, slots);
 }
 
 }  // namespace halfspace::HS_LANES

@@ -21,17 +21,18 @@ void submit_line(SetupRange& r) {
   } else if (const bool is_cut = (any & kOutNeedsClip) != 0 || (beyond_0 | beyond_1) != 0; is_cut || r.context.samples > 1) {
     set_up_clipped(r, id, clip_line, is_cut);
   } else {
-    const std::size_t before = r.chunk.triangles.size();
     const uint32_t provoking = r.draw.state.provoking == ProvokingVertex::first ? 0 : 1;
     r.count(append_line(r, {&shaded.screen[id[0]], &shaded.screen[id[1]]}, {id[0], id[1]}, 0, provoking, Facing::front));
-    r.note_source(before, id);
   }
 }
 
 }  // namespace
 
 void set_up_lines(SetupRange& range, uint32_t count) {
-  for (uint32_t i = 0; i < count; ++i) submit_line(range);
+  for (uint32_t i = 0; i < count; ++i) {
+    submit_line(range);
+    range.record_primitive(i);
+  }
 }
 
 }  // namespace halfspace::HS_LANES

@@ -41,7 +41,10 @@ void submit_point(SetupRange& r) {
 }  // namespace
 
 void set_up_points(SetupRange& range, uint32_t count) {
-  for (uint32_t i = 0; i < count; ++i) submit_point(range);
+  for (uint32_t i = 0; i < count; ++i) {
+    submit_point(range);
+    range.record_primitive(i);
+  }
 }
 
 Cull append_point(SetupRange& r, const PointSpriteRect& rect, const ScreenVertex& v, uint32_t id, uint32_t flags, Facing facing) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Input of setup for one draw range, and the functions that count culled primitives and record the sources of clipped ones.
+// Input of setup for one draw range, and the functions that append triangles, count culled primitives and record primitive numbers.
 #pragma once
 
 #include "halfspace/raster/pipeline/pass_context.h"
@@ -20,7 +20,9 @@ struct SetupRange {
   const ShadedVertices& shaded;
   Assembly assembly;  ///< the remaining primitives
   uint32_t instance;
-  uint32_t slot_base;  ///< slot of a vertex = its index − slot_base (modulo 2^32)
+  uint32_t slot_base;        ///< slot of a vertex = its index − slot_base (modulo 2^32)
+  uint32_t first_primitive;  ///< number in the draw
+  bool records_primitives;   ///< see needs_primitive_numbers()
 
   SetupRange(const PassContext& context_, Chunk& chunk_, uint32_t range_)
       : context(context_),
@@ -30,7 +32,9 @@ struct SetupRange {
         shaded(context_.shaded[chunk_.ranges[range_].draw]),
         assembly(draw, chunk_.ranges[range_].first),
         instance(chunk_.ranges[range_].instance),
-        slot_base(shaded.first - instance * shaded.count) {}
+        slot_base(shaded.first - instance * shaded.count),
+        first_primitive(chunk_.ranges[range_].first),
+        records_primitives(needs_primitive_numbers(context_, draw)) {}
 
   PrimitiveSlots next_slots() {
     PrimitiveSlots slots = assembly.next();
@@ -63,9 +67,9 @@ struct SetupRange {
     if (why == Cull::no_sample) s.culled_no_sample += n;
   }
 
-  /// Stores the source of the pieces from index `before` to the end, for the primitive stage.
-  void note_source(std::size_t before, const PrimitiveSlots& slots) const {
-    if (chunk.triangles.size() != before) chunk.clip_sources.push_back({static_cast<uint32_t>(before), slots});
+  /// Must be called after primitive i of the range is set up. Records its number for the triangles that were appended.
+  void record_primitive(uint32_t i) const {
+    if (records_primitives) chunk.primitive_numbers.resize(chunk.triangles.size(), first_primitive + i);
   }
 
   /// Sets up a triangle with set_up_triangle() and appends it, unless it is culled. Returns the reason if it is.

@@ -13,6 +13,9 @@
 
 namespace halfspace::HS_LANES {
 
+struct Draw;
+struct ShaderKernels;
+
 /// Batch colors, plus the keep masks and depths if the shader returns them.
 struct FragmentOutput {
   // Each array has one element more than a batch can fill, because unpack() reads past the last pixel.

@@ -13,16 +13,15 @@ namespace {
 // Returns the triangle that is used for interpolation on a point sprite, with the depth and w of the point at all vertices. The point
 // coordinate s increases from 0 to 1 between the first and second vertex, t between the first and third.
 std::array<ScreenVertex, 3> point_sprite_corners(const Triangle& t, const ScreenVertex& point, PointOrigin origin) {
-  const int32_t x0 = t.x[0], x1 = t.x[1] + 1;
-  const bool upper = origin == PointOrigin::upper_left;
-  const int32_t first_y = upper ? t.y[1] + 1 : t.y[0], other_y = upper ? t.y[0] : t.y[1] + 1;
-  return {ScreenVertex{x0, first_y, point.z, point.inv_w}, {x1, first_y, point.z, point.inv_w}, {x0, other_y, point.z, point.inv_w}};
+  PointSpriteRect r = t.sprite();
+  if (origin == PointOrigin::upper_left) std::swap(r.y0, r.y1);
+  return {ScreenVertex{r.x0, r.y0, point.z, point.inv_w}, {r.x1, r.y0, point.z, point.inv_w}, {r.x0, r.y1, point.z, point.inv_w}};
 }
 
 // Finds the vertices of a clipped triangle, a point or a line.
 void find_slow_vertices(const PassContext& context, const Chunk& chunk, const DrawRange& range, const Draw& draw, TriangleSource& s) {
   const Triangle& t = *s.triangle;
-  for (std::size_t i = 0; i < (t.is(kLine) ? 2u : 3u); ++i) {
+  for (std::size_t i = 0; i < (t.is_line() ? 2u : 3u); ++i) {
     if (t.is(kClipped)) {
       const ClipVertex& v = chunk.clip_vertices[t.vertex[i]];
       s.vertex[i] = &v.screen;
@@ -33,11 +32,11 @@ void find_slow_vertices(const PassContext& context, const Chunk& chunk, const Dr
       s.varyings[i] = shaded.varyings.get() + std::size_t{t.vertex[i]} * static_cast<std::size_t>(shaded.varying_count);
     }
   }
-  if (t.is(kPointSprite)) {
+  if (t.is_point()) {
     s.corners = point_sprite_corners(t, *s.vertex[0], draw.state.point_origin);
     for (std::size_t i = 0; i < 3; ++i) s.vertex[i] = &s.corners[i];
   }
-  if (t.is(kLine)) {  // the third vertex is next to the first and has the same values
+  if (t.is_line()) {  // the third vertex is next to the first and has the same values
     s.corners[2] = {t.x[2], t.y[2], s.vertex[0]->z, s.vertex[0]->inv_w};
     s.vertex[2] = &s.corners[2];
     s.varyings[2] = s.varyings[0];
@@ -112,7 +111,7 @@ Real packet_depth(Real x, Real y, const PacketTriangleIds& packet) noexcept {
     const Real dx = x_sub - Real(static_cast<float>(t.x[0])), dy = y_sub - Real(static_cast<float>(t.y[0]));
     const Real e1 = difference_of_products(dx, edge(t.y[2], t.y[0]), dy, edge(t.x[2], t.x[0]));
     const Real e2 = difference_of_products(edge(t.x[1], t.x[0]), dy, edge(t.y[1], t.y[0]), dx);
-    const float z_low = t.is(kLine) ? clamp(t.z0, draw.depth_low, draw.depth_high) : draw.depth_low;
+    const float z_low = t.is_line() ? clamp(t.z0, draw.depth_low, draw.depth_high) : draw.depth_low;
     const float z_high = clamp(t.z_max, draw.depth_low, draw.depth_high);
     z = select(shows, clamp(fma(e1, Real(t.z_edge1), fma(e2, Real(t.z_edge2), Real(t.z0))), Real(z_low), Real(z_high)), z);
   }
@@ -171,7 +170,7 @@ bool gather_rows(const PassContext& context, const TriangleId* ids, uint32_t lan
   const std::array<Int, 4> ends = load_vertices_and_flags(triangle);
   const Int flags = ends[3];
   if (any((flags & Int(static_cast<int32_t>(kClipped))) != Int(0))) return false;
-  const bool points = at[0]->is(kPointSprite), lines = at[0]->is(kLine);  // the same for all primitives of a draw
+  const bool points = at[0]->is_point(), lines = at[0]->is_line();  // the same for all primitives of a draw
   find_primitives(context, ids, lanes, draw, rows);
   rows.varyings = shaded.varyings.get();
   rows.row = {ends[0], ends[1], lines ? ends[0] : ends[2]};

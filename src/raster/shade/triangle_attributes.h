@@ -22,8 +22,7 @@ struct TriangleSource {
 };
 /// Returns false if a triangle is certainly not given as planes.
 HS_INLINE bool may_have_planes(const TriangleSource& s) {
-  return !s.triangle->is(kNarrow | kPointSprite | kLine) && s.vertex[0]->inv_w == s.vertex[1]->inv_w &&
-         s.vertex[0]->inv_w == s.vertex[2]->inv_w;
+  return s.triangle->is_wide_triangle() && s.vertex[0]->inv_w == s.vertex[1]->inv_w && s.vertex[0]->inv_w == s.vertex[2]->inv_w;
 }
 /// Returns the anchor of a triangle's planes for the pixels of a cell.
 PlaneAnchor plane_anchor_of(const TriangleSource& source, const PlaneCell& cell);
@@ -84,7 +83,7 @@ struct TriangleScalars {
 /// Returns the weights of the submitted vertices 1 and 2 at vertex i of the triangle. varyings: number of varyings of a vertex.
 HS_INLINE std::array<float, 2> submitted_weights(const TriangleSource& s, std::size_t i, std::size_t varyings) {
   if (s.triangle->is(kClipped)) return {s.varyings[i][varyings], s.varyings[i][varyings + 1]};
-  if (s.triangle->is(kLine) && i == 2) i = 0;  // this vertex has the values of the first
+  if (s.triangle->is_line() && i == 2) i = 0;  // this vertex has the values of the first
   const auto is_at = [&](IdRow slot) { return std::bit_cast<uint32_t>(s.primitive[slot]) == s.triangle->vertex[i] ? 1.0f : 0.0f; };
   return {is_at(kIdSecond), is_at(kIdThird)};
 }

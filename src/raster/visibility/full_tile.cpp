@@ -18,8 +18,8 @@ DepthBounds depth_of(const DrawInTile& d, const Triangle& t) {
 
 bool FullTileOccluder::test_or_write(const DrawInTile& d, const Triangle& t, TriangleId id, PassStatistics& statistics) {
   const bool replaces_depth = d.tile.depth_format == DepthFormat::none || (d.tests && d.draw.state.depth.write);
-  const bool is_occluder =
-      may_cover(t) && is_opaque(d.path) && d.tile.size == kMaxTileSize && replaces_depth && !d.needs_bounds_test && covers_tile(d, t);
+  const bool is_occluder = t.is_wide_triangle() && is_opaque(d.path) && d.tile.size == kMaxTileSize && replaces_depth &&
+                           !d.needs_bounds_test && covers_tile(d, t);
   if (is_occluder || (pending_ && is_opaque(d.path))) {
     const DepthBounds depth = depth_of(d, t);
     const CompareOp op = d.draw.state.depth.compare;

@@ -20,7 +20,7 @@ class FullTileOccluder {
   /// any pending occluder has been written.
   bool draw(const DrawInTile& d, uint32_t chunk, uint32_t index, PassStatistics& statistics) {
     const Triangle& t = d.context.chunks[chunk].triangles[index];
-    if (!pending_ && !may_cover(t)) return false;  // the common case
+    if (!pending_ && !t.is_wide_triangle()) return false;  // the common case
     return test_or_write(d, t, triangle_id(chunk, index), statistics);
   }
 
@@ -36,7 +36,6 @@ class FullTileOccluder {
   void write_depth();
 
  private:
-  static bool may_cover(const Triangle& t) { return !t.is(kNarrow | kPointSprite | kLine); }
   bool test_or_write(const DrawInTile& d, const Triangle& t, TriangleId id, PassStatistics& statistics);
   void trace_rejected(const DrawInTile& d, const Triangle& t, TriangleId id) const;
   void trace_passed(const DrawInTile& d, const Triangle& t, TriangleId id) const;

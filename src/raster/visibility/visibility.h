@@ -81,8 +81,6 @@ using RasterizeFunction = void (*)(const DrawInTile& d, const Triangle& t, Trian
 /// Returns the function of a draw for any primitive (coverage/blocks.cpp).
 RasterizeFunction rasterize_function(const DrawInTile& d);
 
-/// Returns true if a triangle can be drawn by the function for narrow triangles.
-inline bool is_narrow_triangle(const Triangle& t) { return (t.flags & (kNarrow | kPointSprite)) == kNarrow; }
 /// Rasterizes narrow triangles, in order. indices: 1 to W triangles of the chunk. Queued paths stop when the queue is full. Returns the
 /// number of triangles that were drawn, at least 1.
 using RasterizeNarrowFunction = std::size_t (*)(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices, PacketQueue& queue,

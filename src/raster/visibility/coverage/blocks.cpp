@@ -172,7 +172,7 @@ void rasterize_edges(const DrawInTile& d, const SampleSet<Writer::kMultisampled>
   for (int p = 0; p < kPacketsPerBlock; ++p) {
     for (std::size_t i = 0; i < 3; ++i) step[static_cast<std::size_t>(p)][i] = edges.value_step(i, packet_x(p), packet_y(p));
   }
-  const bool needs_bounds_test = d.needs_bounds_test || t.is(kLine);
+  const bool needs_bounds_test = d.needs_bounds_test || t.is_line();
   constexpr int mask_to_block = ~(kBlockSize - 1);
   for (int y = rect.y0 & mask_to_block; y < rect.y1; y += kBlockSize) {
     for (int x = rect.x0 & mask_to_block; x < rect.x1; x += kBlockSize) {
@@ -231,9 +231,9 @@ void rasterize(const DrawInTile& d, const Triangle& t, TriangleId id, PacketQueu
   Writer writer(d, &queue, statistics);
   writer.begin(t);
   const TileRect rect = tile_rect(b, d.tile);
-  if (t.is(kPointSprite)) return rasterize_point(d, samples, t, rect, id, writer);
+  if (t.is_point()) return rasterize_point(d, samples, t, rect, id, writer);
   if constexpr (!Writer::kMultisampled) {
-    if (t.is(kLine) && line_pixels(d.draw.state.line_width) == 1) return rasterize_thin_line(d, t, b, id, writer);
+    if (t.is_line() && line_pixels(d.draw.state.line_width) == 1) return rasterize_thin_line(d, t, b, id, writer);
   }
   if (t.is(kNarrow)) return rasterize_edges<true>(d, samples, t, rect, id, writer);
   rasterize_edges<false>(d, samples, t, rect, id, writer);
@@ -242,7 +242,7 @@ void rasterize(const DrawInTile& d, const Triangle& t, TriangleId id, PacketQueu
 }  // namespace
 
 bool covers_tile(const DrawInTile& d, const Triangle& t) {
-  if (t.is(kNarrow | kPointSprite | kLine)) return false;
+  if (!t.is_wide_triangle()) return false;
   return TileEdges<false>(d.draw, d.tile, SampleSet<false>(d), t).cover_tile();
 }
 

@@ -22,7 +22,7 @@ class DepthInTile {
       : format_(tile.depth_format),
         low_(std::clamp(t.z0, draw.depth_low, draw.depth_high)),
         high_(std::clamp(t.z_max, draw.depth_low, draw.depth_high)),
-        is_plane_(!t.is(kLine | kPointSprite)) {
+        is_plane_(t.is_triangle()) {
     if (!is_plane_) return;
     const int middle = (samples_at.low + samples_at.high) / 2;
     const double z0 = static_cast<double>(t.z0), z1 = static_cast<double>(t.z_edge1), z2 = static_cast<double>(t.z_edge2);
@@ -72,7 +72,7 @@ struct DepthPlane {
 
 /// Returns the depth plane of a primitive, for its pixels.
 inline DepthPlane depth_plane(const Triangle& t, const Draw& draw) {
-  const float low = t.is(kLine) ? std::clamp(t.z0, draw.depth_low, draw.depth_high) : draw.depth_low;
+  const float low = t.is_line() ? std::clamp(t.z0, draw.depth_low, draw.depth_high) : draw.depth_low;
   const float high = std::clamp(t.z_max, draw.depth_low, draw.depth_high);
   return {Real(t.z0), Real(t.z_edge1), Real(t.z_edge2), Real(low), Real(high)};
 }

@@ -23,7 +23,7 @@ template <bool multisampled>
 class TileEdges {
  public:
   TileEdges(const Draw& draw, const Tile& tile, const SampleSet<multisampled>& samples, const Triangle& t) {
-    if (t.is(kPointSprite | kLine)) {
+    if (!t.is_triangle()) {
       put_point_or_line(draw, tile, samples, t);
       return;
     }
@@ -91,7 +91,7 @@ class TileEdges {
     step_x_ = step_y_ = bias_ = lowest_ = highest_ = {};
     lanes_.fill(Int(0));
     e_ = {};
-    if (t.is(kPointSprite)) return;
+    if (t.is_point()) return;
     const std::array<BandEdge, 2> band = band_edges(t, line_pixels(draw.state.line_width));
     for (std::size_t i = 0; i < 2; ++i) put(i, band[i].edge, band[i].offset, band[i].bias, kSubPixelBits, tile, samples);
   }

@@ -8,7 +8,10 @@ namespace halfspace::HS_LANES {
 namespace {
 
 bool covers_sample(const Triangle& t, int64_t x, int64_t y) {
-  if (t.is(kPointSprite)) return x >= t.x[0] && x <= t.x[1] && y >= t.y[0] && y <= t.y[1];
+  if (t.is_point()) {
+    const PointSpriteRect r = t.sprite();
+    return x >= r.x0 && x < r.x1 && y >= r.y0 && y < r.y1;
+  }
   for (std::size_t i = 0; i < 3; ++i) {
     const Edge e = edge_of(t, i);
     if (e.at(x, y) - fill_bias(e) < 0) return false;
