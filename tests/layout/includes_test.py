@@ -33,7 +33,7 @@ PLAIN_HEADERS = {"shading/texture/sampler.h", "shading/values/light_types.h", "s
 # its own row and of lower rows. The rooms of raster are the phases of the pipeline.
 ROOMS = {
     "raster": [
-        ["draw_state", "target", "vertex_input", "statistics"],
+        ["draw_state", "target", "vertex_input", "statistics", "pass_tuning"],
         ["pipeline/"],
         ["primitives/"],
         ["tile/"],
@@ -66,7 +66,7 @@ ROOMS = {
         ["read_model", "write_model", "up_axis_hint"],
     ],
     "render": [
-        ["view", "particles", "particle_file", "prepared_scene"],
+        ["view", "particles", "particle_file", "mesh_streams", "prepared_scene"],
         ["assets/"],
         ["shadow/"],
         ["prepare/"],
