@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "halfspace/raster/pipeline/pass_context.h"
 #include "halfspace/raster/tile/blend.h"
 
 namespace halfspace::HS_LANES {

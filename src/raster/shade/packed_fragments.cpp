@@ -3,6 +3,8 @@
 
 #include <bit>
 
+#include "halfspace/raster/pipeline/pass_context.h"
+
 namespace halfspace::HS_LANES {
 
 std::size_t unpack(const ShaderKernels& kernels, const FragmentOutput& packed, std::size_t first, std::span<const PacketMask> packets,

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "halfspace/raster/pipeline/pass_context.h"
 #include "halfspace/raster/pipeline/triangle_lanes.h"
 
 namespace halfspace::HS_LANES {
