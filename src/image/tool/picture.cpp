@@ -65,7 +65,8 @@ void drop_empty_alpha(Picture& p) {
   const std::size_t count = static_cast<std::size_t>(p.width) * static_cast<std::size_t>(p.height);
   bool is_empty = true;
   visit_samples(p, [&](const auto* samples) {
-    for (std::size_t i = 0; i < count && is_empty; ++i) is_empty = samples[i * static_cast<std::size_t>(p.channels) + p.alpha_channel] == 0;
+    const auto channels = static_cast<std::size_t>(p.channels), alpha = static_cast<std::size_t>(p.alpha_channel);
+    for (std::size_t i = 0; i < count && is_empty; ++i) is_empty = samples[i * channels + alpha] == 0;
   });
   if (is_empty) p.alpha_channel = -1;
 }
