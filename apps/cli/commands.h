@@ -25,6 +25,7 @@ struct RenderArguments {
   std::string shading;  ///< default: the shading rate of each object
   std::string time;     ///< default: 0
   std::string frames;   ///< default: one image, without a frame number
+  std::string shard;    ///< default: all frames
   std::string fps;      ///< default: 30
   std::string threads;  ///< default: one per core
   std::string statistics;

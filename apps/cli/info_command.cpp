@@ -21,7 +21,7 @@ void print_text(const nlohmann::ordered_json& info) {
   };
   std::cout << "halfspace " << HALFSPACE_VERSION << '\n'
             << "build         " << build_description() << ", " << info.at("compiler").get<std::string>() << '\n'
-            << "cores         " << info.at("cores") << '\n'
+            << "cores         " << info.at("cores") << " (" << info.at("cores_limit").get<std::string>() << ")\n"
             << "draco tool    " << tool("draco_tool", "glTF meshes that are compressed with Draco cannot be read") << '\n'
             << "image tool    " << tool("image_tool", "only PNG images and, with the JPEG tool, JPEG can be read") << '\n'
             << "jpeg tool     " << tool("jpeg_tool", "JPEG images need the image tool") << '\n';

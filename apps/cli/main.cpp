@@ -36,7 +36,11 @@ void add_output_options(CLI::App* command, OutputArguments& args) {
                         "it is NAME.png for a scene or the scene file NAME.json, and NAME-render.png for a model file.\n"
                         "--aov accepts a comma-separated list of depth, distance, normal, camera_normal, albedo, position,\n"
                         "uv, object, instance, triangle and barycentrics.\n"
-                        "They are written to OUT if that is an .exr file, and to OUT-aov.exr otherwise.");
+                        "They are written to OUT if that is an .exr file, and to OUT-aov.exr otherwise.\n"
+                        "--frames accepts a frame (7), a range (0..47) or every tenth frame of a range (0..100:10). The number\n"
+                        "follows NAME, as in NAME_0007.png. OUT can have a place for it instead: %03d for three digits, or\n"
+                        "{frame} for those of NAME_0007. With --frames, %% in OUT is a percent sign.\n"
+                        "--shard shares the frames of a command among N processes, numbered from 0 to N-1.");
           },
           "Print these options and exit")
       ->group(kOutputGroup);
@@ -53,7 +57,8 @@ void add_render_command(CLI::App& program) {
   command->add_option("--size", args->size, "Size in pixels (default 1920x1080)")->type_name("WxH");
   add_set_option(command, args->set);
   add_view_options(command, args->camera, args->shading, args->time);
-  command->add_option("--frames", args->frames, "Render frames A to B as OUT_0000.png, ...")->type_name("A..B");
+  command->add_option("--frames", args->frames, "Render frames A to B (see --help-output)")->type_name("A..B");
+  command->add_option("--shard", args->shard, "Render only every N-th frame, from frame I on")->type_name("I/N")->group(kOutputGroup);
   command->add_option("--fps", args->fps, "Frames per second (default 30)")->type_name("N");
   command->add_option("--max-error", args->max_error, "Use the cheapest model with edges within PX px")->type_name("PX");
   command->add_option("--max-error-color", args->max_error_color, "... and with colors within E 8-bit steps")->type_name("E");

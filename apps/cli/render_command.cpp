@@ -13,6 +13,7 @@
 #include "cli/stage_display.h"
 #include "command_line/command_line.h"
 #include "command_line/errors.h"
+#include "command_line/progress.h"
 #include "halfspace/core/parallel.h"
 #include "halfspace/image/atomic_output.h"
 #include "halfspace/render/frame/naive_render.h"
@@ -88,17 +89,20 @@ RenderReport run(const RenderJob& job) {
   add_models(assets, job.models);
   RenderReport report;
   if (!job.frames) {
-    check_writable(job.out);
-    const StageDisplay rendering("rendering " + job.out.string());
-    render_picture(job, job.time, job.out, assets, workers, report);
+    const std::filesystem::path path = picture_of(job);
+    check_writable(path);
+    const StageDisplay rendering("rendering " + path.string());
+    render_picture(job, job.time, path, assets, workers, report);
     return report;
   }
-  check_writable(frame_path(job.out, job.frames->first, *job.frames));
-  const auto time_of_frame = [&](int i) { return time_of(job, job.frames->first + i); };
+  if (job.shard.index < job.frames->count()) check_writable(picture_of(job, job.frames->at(job.shard.index)));
+  // All frames determine the detail of generated maps, so that the shards do not affect the pictures.
+  const auto time_of_frame = [&](int i) { return time_of(job, job.frames->at(i)); };
   expect_frames(assets, job.scene, job.frames->count(), time_of_frame, job.size.width, job.size.height);
-  Progress progress(job.frames->count());
-  for (int frame = job.frames->first; frame <= job.frames->last; ++frame) {
-    const std::filesystem::path path = frame_path(job.out, frame, *job.frames);
+  Progress progress((job.frames->count() - job.shard.index + job.shard.count - 1) / job.shard.count);
+  for (int i = job.shard.index; i < job.frames->count(); i += job.shard.count) {
+    const int frame = job.frames->at(i);
+    const std::filesystem::path path = picture_of(job, frame);
     const bool skip = job.resume && are_complete(files_of(job, time_of(job, frame), path));
     if (skip) {
       ++report.pictures;  // not known to be empty

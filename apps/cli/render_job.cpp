@@ -11,7 +11,6 @@
 #include "command_line/scene_arguments.h"
 #include "halfspace/image/atomic_output.h"
 #include "halfspace/image/image_io.h"
-#include "halfspace/render/model_file/input_files.h"
 
 namespace halfspace {
 
@@ -58,6 +57,31 @@ std::vector<double> animated_times(const RenderArguments& args, double time, dou
   return frames ? frame_times(*frames, time, fps) : std::vector{time};
 }
 
+// Returns the frames of --frames or --turntable. Throws UsageError, also for options that apply only to them.
+std::optional<FrameRange> frames_of(const RenderArguments& args) {
+  const std::optional<int> turn = turntable_frames(args.model);
+  if (turn && !args.frames.empty()) throw UsageError("--turntable sets the frames itself; expected it without --frames");
+  if (turn) return FrameRange{0, *turn - 1};
+  if (!args.frames.empty()) return parse_frames(args.frames);
+  for (const auto& [option, given] : {std::pair{"--resume", args.resume}, {"--fps", !args.fps.empty()}, {"--shard", !args.shard.empty()}}) {
+    if (given) throw UsageError(std::string(option) + " applies only to multiple frames; expected --frames FIRST..LAST as well");
+  }
+  return std::nullopt;
+}
+
+// Returns the files of the frames. Throws UsageError if the name of the output does not fit.
+std::optional<OutputPattern> pattern_of(const RenderArguments& args, const std::filesystem::path& out,
+                                        const std::optional<FrameRange>& frames) {
+  if (!frames) {
+    if (OutputPattern::has_place(args.out))
+      throw UsageError("-o is '" + args.out + "', which has a place for the number of a frame; expected --frames FIRST..LAST as well");
+    return std::nullopt;
+  }
+  if (!out.has_extension())
+    throw UsageError("-o is '" + out.string() + "'; expected, with --frames, a file name ending in .png, .jpg, .tif, .exr or .hdr");
+  return OutputPattern(out, *frames);
+}
+
 }  // namespace
 
 RenderJob parse_job(const RenderArguments& args) {
@@ -70,19 +94,10 @@ RenderJob parse_job(const RenderArguments& args) {
   const double time = args.time.empty() ? 0.0 : parse_real("--time", args.time, -1e9, 1e9, "-1e9 to 1e9 seconds, for example 2.5");
   const double fps =
       args.fps.empty() ? 30.0 : parse_real("--fps", args.fps, 1e-3, 1e6, "0.001 to 1000000 frames per second, for example 30");
-  std::optional<FrameRange> frames;
-  if (!args.frames.empty()) frames = parse_frames(args.frames);
-  if (const std::optional<int> turn = turntable_frames(args.model)) {
-    if (frames) throw UsageError("--turntable sets the frames itself; expected it without --frames");
-    frames = FrameRange{0, *turn - 1};
-  }
-  if (!frames && (args.resume || !args.fps.empty())) {
-    throw UsageError(std::string(args.resume ? "--resume" : "--fps") +
-                     " applies only to multiple frames; expected --frames FIRST..LAST as well");
-  }
+  const std::optional<FrameRange> frames = frames_of(args);
+  const Shard shard = args.shard.empty() ? Shard{} : parse_shard(args.shard);
   const std::filesystem::path out = output_path(args);
-  if (frames && !out.has_extension())
-    throw UsageError("-o is '" + out.string() + "'; expected, with --frames, a file name ending in .png, .jpg, .tif, .exr or .hdr");
+  const std::optional<OutputPattern> pattern = pattern_of(args, out, frames);
   const ImageFile format = output_format(out);
   const OutputChoice output = parse_output(args.output, size, out, format);
   if (!output.values.empty() && !args.wireframe.empty())
@@ -110,6 +125,8 @@ RenderJob parse_job(const RenderArguments& args) {
           time,
           fps,
           frames,
+          pattern,
+          shard,
           threads,
           args.resume,
           allowed_error(args),
@@ -117,6 +134,8 @@ RenderJob parse_job(const RenderArguments& args) {
           output,
           args};
 }
+
+std::filesystem::path picture_of(const RenderJob& job, int frame) { return job.pattern ? job.pattern->path(frame) : job.out; }
 
 double time_of(const RenderJob& job, int frame) { return job.time + frame / job.fps; }
 
@@ -136,10 +155,11 @@ void protect_inputs(const RenderJob& job, const std::filesystem::path& picture) 
 }
 
 void check_existing_frames(const RenderJob& job) {
-  if (!job.frames) return protect_inputs(job, job.out);
+  if (!job.frames) return protect_inputs(job, picture_of(job));
   std::filesystem::path unknown;
-  for (const int frame : existing_frames(job.out, *job.frames)) {
-    const std::filesystem::path path = frame_path(job.out, frame, *job.frames);
+  for (const int frame : job.pattern->existing_frames()) {
+    if (!job.shard.contains((frame - job.frames->first) / job.frames->step)) continue;
+    const std::filesystem::path path = picture_of(job, frame);
     protect_inputs(job, path);
     std::error_code error;
     if (!job.resume || !std::filesystem::exists(path, error)) continue;

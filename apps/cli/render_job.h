@@ -10,7 +10,8 @@
 #include "cli/commands.h"
 #include "cli/output_files.h"
 #include "command_line/frames.h"
-#include "halfspace/render/model_file/opened_scene.h"
+#include "command_line/output_pattern.h"
+#include "halfspace/render/model_file/input_files.h"
 #include "halfspace/render/prepare/wireframe.h"
 #include "halfspace/render/scene_assets.h"
 #include "halfspace/scene/scene_file.h"
@@ -21,11 +22,13 @@ struct RenderJob {
   SceneFile scene;
   ReadModels models;
   std::vector<std::filesystem::path> inputs;  ///< files that must not be overwritten
-  std::filesystem::path out;
+  std::filesystem::path out;                  ///< as given
   ImageFile format;
   PictureSize size;
   double time, fps;
   std::optional<FrameRange> frames;
+  std::optional<OutputPattern> pattern;  ///< of `frames`
+  Shard shard;                           ///< of `frames`
   int threads;
   bool resume;
   std::optional<AllowedError> allowed;
@@ -37,6 +40,9 @@ struct RenderJob {
 /// Parses the arguments and reads the scene and, unless it is only printed, its models. Throws UsageError and InputError. The job refers to
 /// the arguments.
 RenderJob parse_job(const RenderArguments& args);
+
+/// Returns the picture of a frame, or the only picture if there are no frames.
+std::filesystem::path picture_of(const RenderJob& job, int frame = 0);
 
 /// Returns the time of a frame in seconds.
 double time_of(const RenderJob& job, int frame);

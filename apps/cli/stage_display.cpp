@@ -6,7 +6,7 @@
 
 #include <chrono>
 
-#include "command_line/frames.h"
+#include "command_line/progress.h"
 #include "halfspace/core/text.h"
 
 namespace halfspace {

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "command_line/errors.h"
-#include "command_line/frames.h"
+#include "command_line/progress.h"
 #include "halfspace/core/check.h"
 #include "halfspace/core/text.h"
 #include "halfspace/image/atomic_output.h"

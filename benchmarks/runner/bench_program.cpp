@@ -15,7 +15,7 @@
 #include "command_line/arguments.h"
 #include "command_line/command_line.h"
 #include "command_line/errors.h"
-#include "command_line/frames.h"
+#include "command_line/progress.h"
 #include "halfspace/core/text.h"
 #include "halfspace/image/atomic_output.h"
 #include "halfspace/image/image_io.h"

@@ -16,6 +16,7 @@
 #include <tbb/task_arena.h>
 #endif
 
+#include "halfspace/core/available_cpus.h"
 #include "halfspace/core/check.h"
 #include "halfspace/core/float_mode.h"
 #include "halfspace/core/task_check.h"
@@ -131,9 +132,6 @@ void Workers::run(int count, const std::function<void(int)>& task) const {
   }
 }
 
-int Workers::cores() {
-  const unsigned n = std::thread::hardware_concurrency();
-  return n == 0 ? 1 : static_cast<int>(n);
-}
+int Workers::cores() { return available_cpus().count; }
 
 }  // namespace halfspace::HS_LANES

@@ -3,9 +3,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "halfspace/core/available_cpus.h"
 #include "halfspace/core/cpu.h"
 #include "halfspace/core/lanes.h"
-#include "halfspace/core/parallel.h"
 #include "halfspace/image/image_tool.h"
 #include "halfspace/model/gltf/draco_process.h"
 
@@ -23,8 +23,9 @@ constexpr const char* kCompiler =
 }  // namespace
 
 nlohmann::ordered_json program_info(const std::string& version) {
-  nlohmann::ordered_json json = {
-      {"version", version}, {"arch", build_arch()}, {"lanes", kLanes}, {"compiler", kCompiler}, {"cores", Workers::cores()}};
+  const AvailableCpus cpus = available_cpus();
+  nlohmann::ordered_json json = {{"version", version},    {"arch", build_arch()}, {"lanes", kLanes},
+                                 {"compiler", kCompiler}, {"cores", cpus.count},  {"cores_limit", name_of(cpus.limit)}};
   const auto add = [&](const char* name, const std::filesystem::path& tool) {
     json[name] = tool.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(tool.string());
   };

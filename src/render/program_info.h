@@ -10,8 +10,8 @@
 
 namespace halfspace::HS_LANES {
 
-/// Returns the version, the instruction set, the lanes, the compiler, the number of cores, and the paths of the decoders, which are null if
-/// they were not found.
+/// Returns the version, the instruction set, the lanes, the compiler, the number of CPUs that it can use, and the paths of the decoders,
+/// which are null if they were not found.
 nlohmann::ordered_json program_info(const std::string& version);
 
 }  // namespace halfspace::HS_LANES

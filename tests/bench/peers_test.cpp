@@ -21,7 +21,8 @@ namespace {
 
 using test::Outcome;
 
-// Returns the path of a program, or an empty text if it is not built.
+// Returns the path of a program, or an empty text if it is not built. In a build folder that is used repeatedly, it can be outdated; the
+// target `benchmarks` renews it.
 std::string built(const std::string& name) {
   const std::filesystem::path program = std::filesystem::path(HALFSPACE_BENCH_FOLDER) / name;
   return std::filesystem::exists(program) ? program.string() : "";

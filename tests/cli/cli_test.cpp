@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <poll.h>
+#include <sched.h>
 #include <signal.h>
 #include <sys/inotify.h>
 #include <sys/stat.h>
@@ -318,10 +319,25 @@ TEST_F(Cli, PrintsStatisticsAsTextAndJson) {
 TEST_F(Cli, InfoPrintsVersionAndJsonKeys) {
   EXPECT_TRUE(run({"info"}).out.starts_with("halfspace "));
   const auto parsed = nlohmann::json::parse(run({"info", "--json"}).out);
-  for (const char* key : {"version", "arch", "lanes", "compiler", "cores", "image_tool", "jpeg_tool", "draco_tool"})
+  for (const char* key : {"version", "arch", "lanes", "compiler", "cores", "cores_limit", "image_tool", "jpeg_tool", "draco_tool"})
     EXPECT_TRUE(parsed.contains(key)) << key;
   for (const char* line : {"\ndraco tool ", "\nimage tool ", "\njpeg tool "})
     EXPECT_NE(run({"info"}).out.find(line), std::string::npos) << line;
+}
+
+TEST_F(Cli, ThreadsFollowTheAffinityMask) {
+  cpu_set_t all;
+  ASSERT_EQ(::sched_getaffinity(0, sizeof all, &all), 0);
+  cpu_set_t one;
+  CPU_ZERO(&one);
+  for (int i = 0; CPU_COUNT(&one) == 0; ++i) {
+    if (CPU_ISSET(i, &all)) CPU_SET(i, &one);
+  }
+  ASSERT_EQ(::sched_setaffinity(0, sizeof one, &one), 0);  // inherited by the program
+  const Outcome info = run({"info"}), render = run({"render", "earth", "--size", "8x8", "-o", "e.png", "--stats=json"});
+  ASSERT_EQ(::sched_setaffinity(0, sizeof all, &all), 0);
+  EXPECT_TRUE(CPU_COUNT(&all) == 1 || info.out.find("\ncores         1 (affinity mask)\n") != std::string::npos) << info.out;
+  EXPECT_EQ(nlohmann::json::parse(render.out).at("threads"), 1);
 }
 
 TEST_F(Cli, HelpFitsOnAScreenAndEndsWithTwoExamples) {

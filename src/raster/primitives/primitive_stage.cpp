@@ -17,6 +17,8 @@ void for_each_triangle(const PassContext& context, const Chunk& chunk, const Dra
   Assembly assembly(context.draws[range.draw], range.first);
   std::array<uint32_t, 3> vertex{};
   uint32_t next = range.first;
+  HS_CHECK(range.first_triangle == end || chunk.primitive_numbers.size() >= end,
+           "primitive stage: setup did not record the primitive numbers; expected a TileRunner that inspects primitives");
   for (uint32_t i = range.first_triangle; i < end; ++i) {
     const uint32_t primitive = chunk.primitive_numbers[i];
     for (; next <= primitive; ++next) {

@@ -20,9 +20,9 @@ struct SetupRange {
   const ShadedVertices& shaded;
   Assembly assembly;  ///< the remaining primitives
   uint32_t instance;
-  uint32_t slot_base;        ///< slot of a vertex = its index − slot_base (modulo 2^32)
-  uint32_t first_primitive;  ///< number in the draw
-  bool records_primitives;   ///< see needs_primitive_numbers()
+  uint32_t slot_base;       ///< slot of a vertex = its index − slot_base (modulo 2^32)
+  uint32_t first_number;    ///< number of the first primitive of the range in the draw
+  bool records_primitives;  ///< see needs_primitive_numbers()
 
   SetupRange(const PassContext& context_, Chunk& chunk_, uint32_t range_)
       : context(context_),
@@ -33,7 +33,7 @@ struct SetupRange {
         assembly(draw, chunk_.ranges[range_].first),
         instance(chunk_.ranges[range_].instance),
         slot_base(shaded.first - instance * shaded.count),
-        first_primitive(chunk_.ranges[range_].first),
+        first_number(chunk_.ranges[range_].first),
         records_primitives(needs_primitive_numbers(context_, draw)) {}
 
   PrimitiveSlots next_slots() {
@@ -69,7 +69,7 @@ struct SetupRange {
 
   /// Must be called after primitive i of the range is set up. Records its number for the triangles that were appended.
   void record_primitive(uint32_t i) const {
-    if (records_primitives) chunk.primitive_numbers.resize(chunk.triangles.size(), first_primitive + i);
+    if (records_primitives) chunk.primitive_numbers.resize(chunk.triangles.size(), first_number + i);
   }
 
   /// Sets up a triangle with set_up_triangle() and appends it, unless it is culled. Returns the reason if it is.
