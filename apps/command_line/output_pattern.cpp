@@ -105,6 +105,8 @@ std::vector<int> OutputPattern::existing_frames() const {
     const std::string stem = path(frame).stem().string();
     if (name.starts_with(stem + ".") || name.starts_with(stem + "-")) frames.push_back(frame);
   }
+  std::ranges::sort(frames);
+  frames.erase(std::unique(frames.begin(), frames.end()), frames.end());
   return frames;
 }
 

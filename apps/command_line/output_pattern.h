@@ -23,7 +23,7 @@ class OutputPattern {
   /// Returns the file of a frame of the range.
   std::filesystem::path path(int frame) const;
 
-  /// Returns the frames of which at least one file may exist, in any order: moon_0007.png or, for example, moon_0007-depth.exr.
+  /// Returns the frames of which at least one file may exist, in ascending order: moon_0007.png or, for example, moon_0007-depth.exr.
   std::vector<int> existing_frames() const;
 
  private:

@@ -11,6 +11,7 @@
 
 #include "bindings.h"
 #include "halfspace/core/float_mode.h"
+#include "halfspace/render/frame/frame.h"
 #include "matrices.h"
 #include "memory.h"
 #include "scene_core.h"

@@ -33,7 +33,7 @@ class Workers {
   /// reported to the check handler (check.h) in the same way.
   void for_each(int count, const std::function<void(int)>& task) const;
 
-  /// Returns the number of hardware threads of this machine, at least 1.
+  /// Returns the number of CPUs that this process can use, at least 1; see available_cpus.h.
   static int cores();
 
  private:

@@ -193,7 +193,7 @@ TEST(BenchGl, ListsTheAvailableDrivers) {
 
 TEST(BenchPeers, SupportTheSweepsOfHalfspace) {
   bool any = false;
-  for (const std::string program : {built("halfspace-bench-gl"), built("halfspace-bench-embree")}) {
+  for (const std::string& program : {built("halfspace-bench-gl"), built("halfspace-bench-embree")}) {
     if (program.empty()) continue;
     any = true;
     const Outcome list = test::run_program(program, "--sweep triangle_count --list");

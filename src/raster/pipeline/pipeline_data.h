@@ -227,7 +227,8 @@ struct Chunk {
   std::vector<Triangle, DefaultInitAllocator<Triangle>> triangles;
   std::vector<ClipVertex> clip_vertices;
   std::vector<float> clip_varyings;
-  /// Number, in its draw, of the primitive from which each triangle was created. Empty if no stage reads it; see needs_primitive_numbers().
+  /// Number, in its draw, of the primitive from which each triangle was created. Only set for the triangles of draws for which
+  /// needs_primitive_numbers() is true; there may be fewer elements than triangles.
   std::vector<uint32_t> primitive_numbers;
   std::vector<float> primitives;  ///< output of the primitive stage, one row per triangle; see IdRow
 

@@ -11,6 +11,7 @@
 #include "halfspace/model/text/file_bytes.h"
 #include "halfspace/model/used_images.h"
 #include "halfspace/model/write_model.h"
+#include "halfspace/model/written_model.h"
 #include "halfspace/render/assets/converted_images.h"
 #include "halfspace/render/export/scene_materials.h"
 
