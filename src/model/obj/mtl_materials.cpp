@@ -143,10 +143,7 @@ int MtlConverter::image(const MtlMaterial& mtl, MtlMap which) {
   const auto [known, added] = images_.try_emplace(mtl.folder + '\n' + name, -1);
   if (!added) return known->second;
   std::optional<std::filesystem::path> path;
-  if (!mtl.folder.empty() && is_relative(name)) {
-    quiet_warnings_.clear();
-    path = quiet_.find(mtl.folder + '/' + name, "texture");
-  }
+  if (!mtl.folder.empty() && is_relative(name)) path = quiet_.find(mtl.folder + '/' + name, "texture");
   if (!path)
     path = references_.find(name, fmt::format("{} of material {}", kMapNames[static_cast<std::size_t>(which)], in_quotes(mtl.name)));
   if (!path) return -1;
