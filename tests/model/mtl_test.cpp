@@ -259,5 +259,16 @@ TEST_F(Mtl, LimitsTheNumberOfMaterials) {
   EXPECT_EQ(warnings.size(), 1u);
 }
 
+// Each image is first searched in the folder of the library, without warnings. With AddressSanitizer, this also tests that no warning is
+// changed after it has been dropped.
+TEST_F(Mtl, ImagesOutsideOfTheFolderShareOneWarning) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder.path() / "sub");
+  write_bytes(folder.path() / "sub/a.mtl", "newmtl m\nmap_Kd ../../one.png\nmap_Ks ../../two.png\nmap_bump ../../three.png\n");
+  const Model model = read_obj_text("mtllib sub/a.mtl\nv 0 0 0\nv 3 0 0\nv 0 4 0\nusemtl m\nf 1 2 3\n", {}, folder.path() / "a.obj");
+  ASSERT_EQ(model.warnings.size(), 1u);
+  EXPECT_NE(model.warnings[0].find("and 2 more files are outside the folder"), std::string::npos) << model.warnings[0];
+}
+
 }  // namespace
 }  // namespace halfspace
