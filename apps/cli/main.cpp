@@ -58,7 +58,7 @@ void add_render_command(CLI::App& program) {
   add_set_option(command, args->set);
   add_view_options(command, args->camera, args->shading, args->time);
   command->add_option("--frames", args->frames, "Render frames A to B (see --help-output)")->type_name("A..B");
-  command->add_option("--shard", args->shard, "Render only every N-th frame, from frame I on")->type_name("I/N")->group(kOutputGroup);
+  command->add_option("--shard", args->shard, "Render only share I of N of the frames")->type_name("I/N")->group(kOutputGroup);
   command->add_option("--fps", args->fps, "Frames per second (default 30)")->type_name("N");
   command->add_option("--max-error", args->max_error, "Use the cheapest model with edges within PX px")->type_name("PX");
   command->add_option("--max-error-color", args->max_error_color, "... and with colors within E 8-bit steps")->type_name("E");

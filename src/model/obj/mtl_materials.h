@@ -60,7 +60,7 @@ class MtlConverter {
   Model& model_;
   References references_;
   std::vector<std::string> quiet_warnings_;
-  References quiet_;  // writes to quiet_warnings_
+  References quiet_;  // writes to quiet_warnings_, which nothing reads
   double diagonal_;
   std::map<std::string, int> images_;  // key: folder and name; -1 if missing
 };
