@@ -9,7 +9,7 @@
 set -euo pipefail
 
 packages=(g++ cmake ninja-build libglm-dev libtbb-dev libopenimageio-dev libopenexr-dev libjpeg-dev libspng-dev libcli11-dev nlohmann-json3-dev
-  libfmt-dev libmeshoptimizer-dev libdraco-dev libembree-dev pybind11-dev python3-dev python3-numpy)
+  libfmt-dev libxxhash-dev libwebp-dev libgif-dev libmeshoptimizer-dev libdraco-dev libembree-dev pybind11-dev python3-dev python3-numpy)
 benchmark_packages=(libvulkan1)
 test_packages=(patch python3-jsonschema python3-matplotlib python3-pytest python3-pip python3-setuptools python3-wheel libgtest-dev
   libbenchmark-dev libegl-dev libepoxy-dev libgl1-mesa-dri qemu-user universal-ctags)

@@ -17,8 +17,9 @@ namespace halfspace {
 // The structs contain option values as given on the command line. An empty string means that the option was not given.
 
 struct RenderArguments {
-  std::string scene;
-  std::string out;  ///< default: SCENE.png, or MODEL-render.png
+  std::vector<std::string> scenes;
+  std::string list;  ///< file with further scenes
+  std::string out;   ///< default: SCENE.png, or MODEL-render.png
   std::string size = "1920x1080";
   std::vector<std::string> set;
   std::string camera;   ///< default: the camera set in the scene
@@ -31,7 +32,12 @@ struct RenderArguments {
   std::string statistics;
   std::string max_error, max_error_color;  ///< if both are empty, the scene is rendered unchanged
   std::string wireframe;                   ///< "lines", "hidden", or empty: surfaces
-  bool naive = false;                      ///< draw with the naive pipeline
+  std::string format;                      ///< of standard output; default: png
+  std::string loop;                        ///< of animations; default: 0, forever
+  std::string report;                      ///< file for the JSON report of --list
+  std::string progress;                    ///< "json", or empty: a bar on terminals
+  bool quiet = false, verbose = false;
+  bool naive = false;  ///< draw with the naive pipeline
   bool resume = false;
   bool print = false;
   ModelArguments model;

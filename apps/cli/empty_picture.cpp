@@ -25,9 +25,10 @@ std::string advice_for_scene(const SceneDescription& scene) {
 }
 
 // Returns what to change if a picture is empty.
-std::string advice_for_view(const RenderArguments& args) {
+std::string advice_for_view(const RenderJob& job) {
+  const RenderArguments& args = job.options.arguments;
   if (!args.output.crop.empty()) return "the picture without --crop";
-  if (!is_model_file(args.scene)) return "another camera, or another position or target of the camera";
+  if (!is_model_file(job.name)) return "another camera, or another position or target of the camera";
   if (args.model.inside) return "--eye X,Y,Z and --look-at X,Y,Z, or leave out --inside: surfaces are visible only from their fronts";
   if (!args.model.eye.empty() || !args.camera.empty()) return "another view, or leave out --eye and --camera to show the whole model";
   return "another --yaw, --pitch or --zoom";
@@ -40,9 +41,9 @@ std::string advice_for_empty_pictures(const RenderJob& job, const RenderReport& 
   // A single frame of an animation may be empty on purpose.
   const std::string advice = advice_for_scene(scene);
   // A floor covers pixels even if nothing casts a shadow on it.
-  const bool shows_floor_only = !advice.empty() && !shows_background(scene) && !job.wireframe;
+  const bool shows_floor_only = !advice.empty() && !shows_background(scene) && !job.options.wireframe;
   if (report.pictures == 0 || (!shows_floor_only && report.empty_pictures != report.pictures)) return {};
-  return advice.empty() ? advice_for_view(job.arguments) : advice;
+  return advice.empty() ? advice_for_view(job) : advice;
 }
 
 }  // namespace halfspace

@@ -20,16 +20,15 @@ std::filesystem::path page_path(const ExplainArguments& args) {
 
 ExplainCommands explain_commands(const ExplainArguments& args, double seconds) {
   RenderArguments render;
-  render.scene = args.scene;
   render.set = args.set;
   render.camera = args.camera;
   render.shading = args.shading;
   render.model = args.model;
   render.size = args.size;
-  const std::string rendered = render_comment(render, seconds, FileNames::as_given);
+  const std::string rendered = render_comment(render, args.scene, seconds, FileNames::as_given);
   if (args.size == kExplainSize) render.size.clear();
   const std::string_view before = "halfspace render";
-  return {"halfspace explain" + render_comment(render, seconds, FileNames::as_given).substr(before.size()), rendered};
+  return {"halfspace explain" + render_comment(render, args.scene, seconds, FileNames::as_given).substr(before.size()), rendered};
 }
 
 std::string page_of(const ExplainJob& job) {

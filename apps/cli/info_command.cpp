@@ -4,6 +4,7 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "cli/build_commit.h"
 #include "cli/commands.h"
 #include "cli/stage_display.h"
 #include "command_line/errors.h"
@@ -20,6 +21,7 @@ void print_text(const nlohmann::ordered_json& info) {
     return info.at(name).is_null() ? std::string("not found: ") + missing : info.at(name).get<std::string>();
   };
   std::cout << "halfspace " << HALFSPACE_VERSION << '\n'
+            << "commit        " << build_commit() << '\n'
             << "build         " << build_description() << ", " << info.at("compiler").get<std::string>() << '\n'
             << "cores         " << info.at("cores") << " (" << info.at("cores_limit").get<std::string>() << ")\n"
             << "draco tool    " << tool("draco_tool", "glTF meshes that are compressed with Draco cannot be read") << '\n'
@@ -41,7 +43,8 @@ void info_command(const InfoArguments& args) {
     const StageDisplay reading("reading " + args.model);
     return model_info(args.model, args.allow_outside, parse_up_axis(args.up_axis));
   };
-  const nlohmann::ordered_json info = args.model.empty() ? program_info(HALFSPACE_VERSION) : read();
+  nlohmann::ordered_json info = args.model.empty() ? program_info(HALFSPACE_VERSION) : read();
+  if (args.model.empty()) info["commit"] = build_commit();
   if (args.json) {
     std::cout << info.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
   } else if (args.model.empty()) {

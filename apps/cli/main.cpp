@@ -19,28 +19,39 @@ namespace halfspace {
 namespace {
 
 // Adds the options for the output. They are listed by --help-output, so that the help of the command fits on a screen.
-void add_output_options(CLI::App* command, OutputArguments& args) {
+void add_output_options(CLI::App* command, RenderArguments& args) {
   const auto add = [&](const char* name, std::string& value, const char* help, const char* type) {
     command->add_option(name, value, help)->type_name(type)->group(kOutputGroup);
   };
-  add("--aov", args.aov, "Also write depth, distance, normal, ...", "LIST");
-  command->add_flag("--aov-separate", args.separate, "Write each to its own file, OUT-depth.exr, ...")->group(kOutputGroup);
-  add("--bits", args.bits, "Bits per channel of a .png: 8 (default) or 16", "N");
-  add("--crop", args.crop, "Render only this rectangle, from the top left", "X,Y,W,H");
+  const auto add_flag = [&](const char* name, bool& value, const char* help) { command->add_flag(name, value, help)->group(kOutputGroup); };
+  add("--aov", args.output.aov, "Also write depth, distance, normal, ...", "LIST");
+  add_flag("--aov-separate", args.output.separate, "Write each to its own file, OUT-depth.exr, ...");
+  add("--bits", args.output.bits, "Bits per channel of a .png: 8 (default) or 16", "N");
+  add("--crop", args.output.crop, "Render only this rectangle, from the top left", "X,Y,W,H");
+  add("--format", args.format, "With -o -: png (default), y4m, rgb24, rgba, rgbaf32", "F");
+  add("--loop", args.loop, "Play a .webp or .gif N times (default 0: forever)", "N");
+  add("--list", args.list, "Also render the scenes in FILE, one per line; - is stdin", "FILE");
+  add("--shard", args.shard, "Render only share I of N of the scenes or frames", "I/N");
+  add("--report", args.report, "With several scenes: write which failed, as JSON", "FILE");
+  add("--progress", args.progress, "json: print a line of JSON per picture", "STYLE");
+  add_flag("--verbose", args.verbose, "Print a line per picture");
+  add_flag("--quiet", args.quiet, "Print only errors");
   command
       ->add_flag_callback(
           "--help-output",
           [command] {
             print_group(command, kOutputGroup,
-                        "Output options of 'halfspace render'. OUT ends in .png, .jpg, .tif, .exr or .hdr. By default,\n"
-                        "it is NAME.png for a scene or the scene file NAME.json, and NAME-render.png for a model file.\n"
+                        "Output options of 'halfspace render'. OUT ends in .png, .jpg, .tif, .exr or .hdr, or is - for\n"
+                        "standard output. With --frames or --turntable, one .webp or .gif can contain all frames. By default,\n"
+                        "OUT is NAME.png for a scene or the scene file NAME.json, and NAME-render.png for a model file.\n"
+                        "{name} in OUT stands for NAME; with several scenes, each needs its own file.\n"
                         "--aov accepts a comma-separated list of depth, distance, normal, camera_normal, albedo, position,\n"
                         "uv, object, instance, triangle and barycentrics.\n"
                         "They are written to OUT if that is an .exr file, and to OUT-aov.exr otherwise.\n"
                         "--frames accepts a frame (7), a range (0..47) or every tenth frame of a range (0..100:10). The number\n"
                         "follows NAME, as in NAME_0007.png. OUT can have a place for it instead: %03d for three digits, or\n"
                         "{frame} for those of NAME_0007. With --frames, %% in OUT is a percent sign.\n"
-                        "--shard shares the frames of a command among N processes, numbered from 0 to N-1.");
+                        "--shard shares the scenes of a list, or the frames of a scene, among N processes, from 0 to N-1.");
           },
           "Print these options and exit")
       ->group(kOutputGroup);
@@ -49,26 +60,22 @@ void add_output_options(CLI::App* command, OutputArguments& args) {
 void add_render_command(CLI::App& program) {
   CLI::App* command = program.add_subcommand("render", "Render a scene to an image or to numbered frames");
   const auto args = std::make_shared<RenderArguments>();
-  command->add_option("SCENE", args->scene, "Scene, scene file or model file (see --help-model)")
-      ->required()
-      ->type_name("")
-      ->check(not_empty());
+  command->add_option("SCENE", args->scenes, "Scenes, scene files or model files (see --help-model)")->type_name("")->check(not_empty());
   command->add_option("-o,--output", args->out, "Picture (default NAME.png; see --help-output)")->type_name("OUT")->check(not_empty());
   command->add_option("--size", args->size, "Size in pixels (default 1920x1080)")->type_name("WxH");
   add_set_option(command, args->set);
   add_view_options(command, args->camera, args->shading, args->time);
   command->add_option("--frames", args->frames, "Render frames A to B (see --help-output)")->type_name("A..B");
-  command->add_option("--shard", args->shard, "Render only share I of N of the frames")->type_name("I/N")->group(kOutputGroup);
   command->add_option("--fps", args->fps, "Frames per second (default 30)")->type_name("N");
   command->add_option("--max-error", args->max_error, "Use the cheapest model with edges within PX px")->type_name("PX");
   command->add_option("--max-error-color", args->max_error_color, "... and with colors within E 8-bit steps")->type_name("E");
-  command->add_flag("--resume", args->resume, "Skip complete frames; refuse those of other options");
+  command->add_flag("--resume", args->resume, "Keep the pictures that would be the same");
   command->add_option("--threads", args->threads, "Threads (default: one per core)")->type_name("N");
   command->add_flag("--stats{text}", args->statistics, "Print times and counts as text or JSON")->option_text("[=json]");
   command->add_flag("--print", args->print, "Print the scene with all settings and exit");
   command->add_flag("--wireframe{lines}", args->wireframe, "Draw only edges; =hidden omits hidden edges")->group(kUnlistedGroup);
   command->add_flag("--naive", args->naive, "Draw with the naive pipeline; report differences")->group(kUnlistedGroup);
-  add_output_options(command, args->output);
+  add_output_options(command, *args);
   add_model_options(command, args->model);
   add_limit_options(command, args->limits, false);
   add_primitive_limit_option(command, args->limits, false);

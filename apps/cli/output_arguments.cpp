@@ -107,24 +107,25 @@ void add_channels(std::vector<ExrChannel>& channels, FrameValue value, const Ima
 
 }  // namespace
 
-OutputChoice parse_output(const OutputArguments& args, const PictureSize& size, const std::filesystem::path& out, ImageFile format) {
+OutputChoice parse_output(const OutputArguments& args, const PictureSize& size, const std::filesystem::path& out,
+                          const OutputFormat& format) {
   OutputChoice choice;
   choice.values = parse_values(args.aov);
   choice.separate = args.separate;
   if (args.separate && args.aov.empty()) throw UsageError("--aov-separate requires --aov; expected --aov LIST as well");
-  if (!choice.values.empty() && is_stream(out))
-    throw UsageError(fmt::format("-o is '{}'; expected the name of a file, because --aov writes files next to it", out.string()));
+  if (!choice.values.empty() && (!format.is_picture() || is_stream(out)))
+    throw UsageError(fmt::format("-o is '{}'; expected the name of a picture, because --aov writes files next to it", out.string()));
   if (!args.bits.empty() && args.bits != "8" && args.bits != "16")
     throw UsageError(fmt::format("--bits is '{}'; expected 8 or 16", args.bits));
   choice.fine = args.bits == "16";
-  if (choice.fine && format != ImageFile::png)
+  if (choice.fine && !(format.is_picture() && format.picture == ImageFile::png))
     throw UsageError(fmt::format("--bits is '16', but -o is '{}'; expected a file name ending in .png", out.string()));
   if (!args.crop.empty()) choice.crop = parse_crop(args.crop, size);
   return choice;
 }
 
-int bytes_per_pixel(const OutputChoice& choice, ImageFile format) {
-  std::size_t bytes = is_linear(format) ? sizeof(glm::vec4) : choice.fine ? sizeof(glm::vec4) + sizeof(glm::u16vec4) : sizeof(glm::u8vec4);
+int bytes_per_pixel(const OutputChoice& choice, const OutputFormat& format) {
+  std::size_t bytes = format.is_linear() ? sizeof(glm::vec4) : choice.fine ? sizeof(glm::vec4) + sizeof(glm::u16vec4) : sizeof(glm::u8vec4);
   for (const FrameValue value : choice.values) bytes += 4 * std::max<std::size_t>(name_of(value).channels.size(), 1);
   return static_cast<int>(choice.crop ? 2 * bytes : bytes);
 }
@@ -178,6 +179,12 @@ void ValueImages::write(const std::filesystem::path& path, const ImageText& text
 
 bool share_file(const OutputChoice& choice, const std::filesystem::path& picture) {
   return !choice.values.empty() && !choice.separate && image_file_of(picture) == ImageFile::exr;
+}
+
+std::string value_names(const OutputChoice& choice) {
+  std::string names;
+  for (const FrameValue value : choice.values) names += fmt::format("{}{}", names.empty() ? "" : ",", name_of(value).name);
+  return names;
 }
 
 bool has_values(const OutputChoice& choice, const std::filesystem::path& picture) {

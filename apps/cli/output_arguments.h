@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "cli/output_format.h"
 #include "command_line/arguments.h"
 #include "halfspace/image/image_io.h"
 #include "halfspace/render/frame/frame.h"
@@ -30,10 +31,11 @@ struct OutputChoice {
 };
 
 /// Parses the options for pictures of the given size that are written to `out`. Throws UsageError.
-OutputChoice parse_output(const OutputArguments& args, const PictureSize& size, const std::filesystem::path& out, ImageFile format);
+OutputChoice parse_output(const OutputArguments& args, const PictureSize& size, const std::filesystem::path& out,
+                          const OutputFormat& format);
 
 /// Returns the memory of all images of one picture, in bytes per pixel of the whole view.
-int bytes_per_pixel(const OutputChoice& choice, ImageFile format);
+int bytes_per_pixel(const OutputChoice& choice, const OutputFormat& format);
 
 /// Images of the values of --aov.
 class ValueImages {
@@ -67,5 +69,8 @@ std::vector<std::filesystem::path> value_files(const OutputChoice& choice, const
 
 /// Returns true if the files of an earlier run contain the channels of all values.
 bool has_values(const OutputChoice& choice, const std::filesystem::path& picture);
+
+/// Returns the names of the values, separated by commas.
+std::string value_names(const OutputChoice& choice);
 
 }  // namespace halfspace

@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/output_files.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <chrono>
-
-#include "command_line/errors.h"
-#include "halfspace/core/text.h"
-#include "halfspace/image/image_comment.h"
+#include <iterator>
 
 namespace halfspace {
 
@@ -26,17 +21,18 @@ void bind(ColorImage& color, const PictureFiles& files, FrameImages& images) {
     image = {files.size.width, files.size.height};
     bound = &image;
   };
-  if (is_linear(files.format)) return make(color.light, images.light);
+  if (files.format.is_linear()) return make(color.light, images.light);
   files.choice.fine ? make(color.fine_codes, images.fine_picture) : make(color.codes, images.picture);
 }
 
 void write(const ColorImage& color, const ValueImages& values, const PictureFiles& files) {
+  if (files.sink != nullptr) return files.format.is_linear() ? files.sink->add(color.light) : files.sink->add(color.codes);
   if (share_file(files.choice, files.picture)) {
     std::vector<ExrChannel> channels = color_channels(color.light);
     std::ranges::move(values.channels(), std::back_inserter(channels));
     return write_exr(files.picture, files.size.width, files.size.height, channels, files.text);
   }
-  if (is_linear(files.format)) return write_image(files.picture, color.light, files.text);
+  if (files.format.is_linear()) return write_image(files.picture, color.light, files.text);
   if (files.choice.fine) return write_png(files.picture, color.fine_codes, files.text);
   if (files.picture.has_extension()) return write_image(files.picture, color.codes, files.text);
   write_png(files.picture, color.codes, files.text);  // for example /dev/stdout
@@ -65,31 +61,10 @@ void render_files(const PreparedScene& scene, const PictureFiles& files, const W
   report.write_ms += milliseconds() - render_ms;
 }
 
-bool record_same_options(const PictureFiles& files) {
-  bool all = true;
+std::vector<std::filesystem::path> all_files(const PictureFiles& files) {
   std::vector<std::filesystem::path> paths = value_files(files.choice, files.picture);
   paths.push_back(files.picture);
-  for (const std::filesystem::path& path : paths) {
-    std::error_code error;
-    if (!std::filesystem::exists(path, error)) continue;
-    const std::string recorded = image_comment(path);
-    all = all && !recorded.empty();
-    if (recorded.empty() || recorded == files.text.comment) continue;
-    throw UsageError(fmt::format("--resume: {} was rendered by \"{}\"; expected the same options as now: \"{}\"", path.string(),
-                                 printable(recorded), files.text.comment));
-  }
-  return all;
-}
-
-bool are_complete(const PictureFiles& files) {
-  std::error_code error;
-  if (!std::filesystem::exists(files.picture, error) || !has_values(files.choice, files.picture)) return false;
-  try {
-    const auto fits = [&](const auto& picture) { return picture.width() == files.size.width && picture.height() == files.size.height; };
-    return is_linear(files.format) ? fits(read_linear(files.picture)) : fits(read_image(files.picture));
-  } catch (const InputError&) {
-    return false;
-  }
+  return paths;
 }
 
 }  // namespace halfspace

@@ -11,24 +11,38 @@
 
 namespace halfspace {
 
+/// Receives the pictures of a run, if they do not go to a file each.
+class PictureSink {
+ public:
+  PictureSink() = default;
+  virtual ~PictureSink() = default;
+  PictureSink(const PictureSink&) = delete;
+  PictureSink& operator=(const PictureSink&) = delete;
+
+  /// Receive the next picture: 8-bit sRGB values or linear light, with straight alpha. Only the function for OutputFormat::is_linear() is
+  /// called.
+  virtual void add(const Image<glm::u8vec4>&) {}
+  virtual void add(const Image<glm::vec4>&) {}
+
+  /// Called after the last picture.
+  virtual void finish() {}
+};
+
 /// The files to write for one picture.
 struct PictureFiles {
   std::filesystem::path picture;
-  ImageFile format;
+  OutputFormat format;
   const OutputChoice& choice;
   PictureSize size;  ///< size of the files, which is the size of the crop if there is one
   ImageText text;
+  PictureSink* sink = nullptr;   ///< if set, receives the picture instead of the file
   NaiveReport* naive = nullptr;  ///< if set, draw the picture with the naive pipeline and add to this report
 };
 
 /// Renders the picture and its values and writes them, with the picture last. Adds times and counts to the report.
 void render_files(const PreparedScene& scene, const PictureFiles& files, const Workers& workers, RenderReport& report);
 
-/// Returns true if every existing file of the picture records how it was rendered. Throws UsageError if one of them was rendered with other
-/// options than those of `files.text`. Only PNG and OpenEXR files have such a record.
-bool record_same_options(const PictureFiles& files);
-
-/// Returns true if all files from an earlier run exist, and the picture is complete and has the requested size.
-bool are_complete(const PictureFiles& files);
+/// Returns all files of a picture, with the picture last.
+std::vector<std::filesystem::path> all_files(const PictureFiles& files);
 
 }  // namespace halfspace

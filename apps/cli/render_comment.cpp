@@ -31,8 +31,8 @@ std::string quoted_file(const std::string& file, FileNames names) {
 
 }  // namespace
 
-std::string render_comment(const RenderArguments& args, double seconds, FileNames names) {
-  std::string line = "halfspace render " + quoted_file(args.scene, names);
+std::string render_comment(const RenderArguments& args, const std::string& scene, double seconds, FileNames names) {
+  std::string line = "halfspace render " + quoted_file(scene, names);
   const auto add = [&](const char* option, const std::string& value) {
     if (!value.empty()) line += fmt::format(" {} {}", option, quoted(value));
   };

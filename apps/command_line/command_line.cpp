@@ -2,6 +2,7 @@
 #include "command_line/command_line.h"
 
 #include <CLI/CLI.hpp>
+#include <atomic>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -20,6 +21,8 @@
 namespace halfspace {
 
 namespace {
+
+std::atomic<bool> is_quiet = false;
 
 // Removes partial output files and then lets the signal terminate the program, as the parent process expects. The handler is installed with
 // SA_RESETHAND, so the default handler receives the raised signal when this one returns.
@@ -142,9 +145,19 @@ void set_common_options(CLI::App& program) {
 }
 
 void print_warning(const std::string& problem) {
-  clear_progress();
-  std::fputs(("halfspace: warning: " + printable(problem) + "\n").c_str(), stderr);
+  if (!is_quiet) print_problem("warning: " + problem);
 }
+
+void print_note(const std::string& result) {
+  if (!is_quiet) print_problem(result);
+}
+
+void print_problem(const std::string& problem) {
+  clear_progress();
+  std::fputs(("halfspace: " + printable(problem) + "\n").c_str(), stderr);
+}
+
+void set_quiet(bool quiet) { is_quiet = quiet; }
 
 int run_program(CLI::App& program, const std::function<void()>& parse_and_run) {
   handle_signals();

@@ -28,8 +28,14 @@ std::string suggested_command(std::string_view wrong, const CLI::App& program);
 /// Returns the options of a subcommand as "--NAME", or the names of all subcommands if `command` is empty.
 std::vector<std::string> words_after(const CLI::App& program, const std::string& command);
 
-/// Prints a warning as a single line on standard error. Control characters and invalid UTF-8 are escaped.
+/// Print a warning, the result of a run, or a problem that does not end the run, as a single line on standard error. Control characters and
+/// invalid UTF-8 are escaped. Warnings and results are not printed if the program is quiet.
 void print_warning(const std::string& problem);
+void print_note(const std::string& result);
+void print_problem(const std::string& problem);
+
+/// Sets whether the program is quiet.
+void set_quiet(bool quiet);
 
 /// Calls parse_and_run, reports any exception that it throws, and returns the exit code. parse_and_run must set the program's name.
 int run_program(CLI::App& program, const std::function<void()>& parse_and_run);

@@ -3,6 +3,7 @@
 // Which frames are rendered, and at which times.
 #pragma once
 
+#include <cstdint>
 #include <string_view>
 #include <vector>
 
@@ -19,10 +20,12 @@ struct FrameRange {
 /// Parses "7", "3..17" or "0..100:10". Throws UsageError.
 FrameRange parse_frames(std::string_view text);
 
-/// One of several processes that share the frames of a run: frame i of the range belongs to shard i mod count.
+/// One of several processes that share the frames or the scenes of a run: number i of them belongs to shard i mod count.
 struct Shard {
   int index = 0, count = 1;
   bool contains(int i) const { return i % count == index; }
+  /// Returns how many of `total` pieces belong to the shard.
+  int share_of(int total) const { return static_cast<int>((int64_t{total} - index + count - 1) / count); }
 };
 
 /// Parses a shard such as "0/4", the first of four. Throws UsageError.

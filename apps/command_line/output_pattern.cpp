@@ -14,7 +14,7 @@ namespace halfspace {
 
 namespace {
 
-constexpr std::string_view kFrame = "{frame}";
+constexpr std::string_view kFrame = "{frame}", kName = "{name}";
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
@@ -36,7 +36,17 @@ Place place_at(std::string_view text) {
 
 }  // namespace
 
-OutputPattern::OutputPattern(const std::filesystem::path& name, const FrameRange& range) : range_(range) {
+std::string short_name(const std::string& scene) { return std::filesystem::path(scene).stem().string(); }
+
+std::filesystem::path named_output(const std::string& name, const std::string& scene) {
+  std::string result = name;
+  const std::string own = short_name(scene);
+  for (std::size_t at = result.find(kName); at != std::string::npos; at = result.find(kName, at + own.size()))
+    result.replace(at, kName.size(), own);
+  return result;
+}
+
+OutputPattern::OutputPattern(const std::filesystem::path& name, const std::string& scene, const FrameRange& range) : range_(range) {
   const int usual = std::max(4, static_cast<int>(std::to_string(range.last).size()));
   const std::string text = name.string();
   std::string before;
@@ -51,6 +61,9 @@ OutputPattern::OutputPattern(const std::filesystem::path& name, const FrameRange
     if (place.length != 0) {
       parts_.push_back({std::exchange(before, {}), place.digits == 0 ? usual : place.digits});
       i += place.length;
+    } else if (rest.starts_with(kName)) {
+      before += short_name(scene);
+      i += kName.size();
     } else {
       before += text[i];
       i += rest.starts_with("%%") ? 2 : 1;

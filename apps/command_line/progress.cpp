@@ -10,6 +10,8 @@
 #include <cstdint>
 #include <cstdio>
 
+#include "halfspace/core/text.h"
+
 namespace halfspace {
 
 namespace {
@@ -30,6 +32,13 @@ std::string time_text(int seconds) {
   return fmt::format("{}:{:02}:{:02}", seconds / 3600, seconds / 60 % 60, seconds % 60);
 }
 
+// Returns the text as a JSON string. Invalid UTF-8 and control characters are escaped by printable().
+std::string json_string(const std::string& text) {
+  std::string result = "\"";
+  for (const char c : printable(text)) result += c == '"' || c == '\\' ? std::string{'\\', c} : std::string(1, c);
+  return result + "\"";
+}
+
 }  // namespace
 
 void clear_progress() noexcept {
@@ -44,32 +53,49 @@ void show_progress_line(const std::string& text) {
   line_shown = true;
 }
 
-Progress::Progress(int total)
-    : on_terminal_(::isatty(STDERR_FILENO) == 1 && total > 1), total_(total), start_(std::chrono::steady_clock::now()) {
-  show();
+Progress::Progress(ProgressStyle style, int64_t total) : style_(style), total_(total), start_(std::chrono::steady_clock::now()) {
+  if (style == ProgressStyle::bar && (total < 2 || ::isatty(STDERR_FILENO) != 1)) style_ = ProgressStyle::none;
+  if (style_ == ProgressStyle::bar) show_bar();
 }
 
 Progress::~Progress() { clear_progress(); }
 
-void Progress::advance(bool skipped) {
+void Progress::advance(bool kept, const std::string& file, std::chrono::steady_clock::duration spent) {
   ++done_;
-  rendered_ += skipped ? 0 : 1;
-  show();
+  rendered_ += kept ? 0 : 1;
+  if (style_ == ProgressStyle::bar) show_bar();
+  const double ms = std::chrono::duration<double, std::milli>(spent).count();
+  if (style_ == ProgressStyle::lines)
+    std::fputs(fmt::format("{}/{}  {}  {}\n", done_, total_, printable(file), kept ? "kept" : fmt::format("{:.1f} ms", ms)).c_str(),
+               stderr);
+  if (style_ != ProgressStyle::json) return;
+  std::fputs(fmt::format("{{\"done\": {}, \"total\": {}, \"file\": {}, \"kept\": {}, \"ms\": {:.1f}, \"per_second\": {:.3g}, "
+                         "\"seconds_left\": {:.1f}}}\n",
+                         done_, total_, json_string(file), kept, ms, pictures_per_second(), seconds_left())
+                 .c_str(),
+             stderr);
 }
 
-void Progress::show() const {
-  if (!on_terminal_) return;
+double Progress::pictures_per_second() const {
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  return seconds > 0.0 ? static_cast<double>(rendered_) / seconds : 0.0;
+}
+
+double Progress::seconds_left() const {
+  const double rate = pictures_per_second();
+  return rate > 0.0 ? static_cast<double>(total_ - done_) / rate : 0.0;
+}
+
+void Progress::show_bar() const {
   std::string text = fmt::format(" {}/{}", done_, total_);
-  if (rendered_ > 0) {
-    const double spent = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-    text += "  " + time_text(static_cast<int>(std::min(spent / rendered_ * (total_ - done_) + 0.5, 1e9))) + " left";
-  }
+  if (rendered_ > 0)
+    text += fmt::format("  {:.3g}/s  {} left", pictures_per_second(), time_text(static_cast<int>(std::min(seconds_left() + 0.5, 1e9))));
   // A line that wraps could not be overwritten, so the bar is shortened if necessary.
   constexpr int kWidest = 30;
   const int width = std::min(kWidest, terminal_columns() - 3 - static_cast<int>(text.size()));
   std::string line = "\r\033[K";
   if (width > 0) {
-    const auto filled = static_cast<std::size_t>(static_cast<int64_t>(width) * done_ / total_);
+    const auto filled = static_cast<std::size_t>(width * done_ / total_);
     line += '[';
     line.append(filled, '#').append(static_cast<std::size_t>(width) - filled, '.');
     line += ']';

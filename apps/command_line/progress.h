@@ -4,27 +4,37 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <string>
 
 namespace halfspace {
 
-/// Shows the number of finished frames and the estimated remaining time on standard error. Prints nothing if standard error is not a
-/// terminal, or if there is only one frame.
+/// How the progress of a run is shown on standard error.
+enum class ProgressStyle {
+  none,
+  bar,    ///< the finished pictures and the remaining time, if there are several pictures and standard error is a terminal
+  lines,  ///< one line per picture
+  json    ///< the same, each line a JSON object
+};
+
+/// Shows the progress of a run of several pictures.
 class Progress {
  public:
-  explicit Progress(int total);
+  Progress(ProgressStyle style, int64_t total);
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// Must be called after each frame. Skipped frames do not affect the estimate of the remaining time.
-  void advance(bool skipped);
+  /// Must be called after each picture. Kept pictures do not affect the estimate of the remaining time.
+  void advance(bool kept, const std::string& file, std::chrono::steady_clock::duration spent);
 
  private:
-  void show() const;
+  void show_bar() const;
+  double pictures_per_second() const;  // 0: unknown
+  double seconds_left() const;         // 0: unknown
 
-  bool on_terminal_;
-  int total_, done_ = 0, rendered_ = 0;
+  ProgressStyle style_;
+  int64_t total_, done_ = 0, rendered_ = 0;
   std::chrono::steady_clock::time_point start_;
 };
 

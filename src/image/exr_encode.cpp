@@ -56,6 +56,7 @@ Imf::Header header_of(int width, int height, std::span<const ExrChannel> channel
   for (const ExrChannel& c : channels) header.channels().insert(c.name, Imf::Channel(type_of(c.sample)));
   if (!text.software.empty()) header.insert("software", Imf::StringAttribute(text.software));
   if (!text.comment.empty()) header.insert("comments", Imf::StringAttribute(text.comment));
+  if (!text.fingerprint.empty()) header.insert("fingerprint", Imf::StringAttribute(text.fingerprint));
   return header;
 }
 

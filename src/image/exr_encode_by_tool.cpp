@@ -24,7 +24,7 @@ bool tool_can_write(std::span<const ExrChannel> channels) {
 }  // namespace
 
 std::vector<std::byte> encode_exr(const std::filesystem::path& path, int width, int height, std::span<const ExrChannel> channels,
-                                  const ImageText&) {
+                                  const ImageText& text) {
   HS_CHECK(width > 0 && height > 0 && !channels.empty(), "write_exr: there are no pixels or no channels; expected at least one of each");
   if (!tool_can_write(channels)) fail_writing(path, "cannot write (this build has no OpenEXR); expected channels R, G, B and A, or Z");
   PictureHeader header;
@@ -34,7 +34,7 @@ std::vector<std::byte> encode_exr(const std::filesystem::path& path, int width, 
   header.sample = channels.size() == 1 ? Sample::float32 : Sample::float16;
   const std::size_t size = sample_bytes(header.sample);
   std::vector<std::byte> samples(size * static_cast<std::size_t>(width));
-  return encode_by_tool(path, "openexr", header, [&](int y, std::span<std::byte> row) {
+  return encode_by_tool(path, "openexr", header, text, [&](int y, std::span<std::byte> row) {
     for (std::size_t c = 0; c < channels.size(); ++c) {
       channels[c].fill_row(y, samples);
       for (std::size_t x = 0; x < static_cast<std::size_t>(width); ++x) {

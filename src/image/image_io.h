@@ -63,11 +63,11 @@ Image<float> read_gray(std::span<const std::byte> file, const std::string& name)
 Image<glm::vec4> read_linear(const std::filesystem::path& path);
 Image<glm::vec4> read_linear(std::span<const std::byte> file, const std::string& name);
 
-/// Text that PNG and OpenEXR files can contain, in UTF-8; nothing is stored for empty text. Other formats ignore the text, and so does
-/// OpenEXR output in builds without OpenEXR.
+/// Text in image files: lines of UTF-8. Nothing is stored for empty text. read_image_text() (image_text.h) returns it.
 struct ImageText {
-  std::string software;  ///< name and version of the program; "Software" in PNG, "software" in OpenEXR
-  std::string comment;   ///< how the image was made; "Comment" in PNG, "comments" in OpenEXR
+  std::string software{};     ///< name and version of the program; "Software" in PNG, "software" in OpenEXR
+  std::string comment{};      ///< how the image was made; "Comment" in PNG, "comments" in OpenEXR
+  std::string fingerprint{};  ///< identifies what the image was made from; "Fingerprint" in PNG, "fingerprint" in OpenEXR
 };
 
 /// Writes 8-bit or 16-bit sRGB values with straight alpha as PNG, regardless of the file name. Opaque images are written without alpha.

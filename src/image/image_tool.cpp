@@ -16,6 +16,7 @@
 #include "halfspace/image/image_errors.h"
 #include "halfspace/image/image_io.h"
 #include "halfspace/image/image_limits.h"
+#include "halfspace/image/image_text.h"
 #include "halfspace/image/tool_pool.h"
 
 namespace halfspace::HS_LANES {
@@ -160,6 +161,13 @@ bool send_rows(ToolProcess& tool, const PictureHeader& header, const std::functi
   return true;
 }
 
+// Returns the text as protocol.h describes it.
+std::string tool_text(const ImageText& text) {
+  std::string strings;
+  for (const std::string& string : {text_lines(text), text.software, text.comment, text.fingerprint}) strings += string + '\0';
+  return strings;
+}
+
 // Receives the encoder's answer, a file or a message.
 Exchange receive_file(ToolProcess& tool, uint64_t max_bytes, std::vector<std::byte>& file, std::string& message) {
   FileHeader h;
@@ -184,19 +192,22 @@ ColorPicture read_color_by_tool(ImageSource& source) { return read_by_tool<Color
 
 GrayPicture read_gray_by_tool(ImageSource& source) { return read_by_tool<GrayPicture>(source, ToolTask::read_gray); }
 
-std::vector<std::byte> encode_by_tool(const std::filesystem::path& path, const char* format, const PictureHeader& header,
+std::vector<std::byte> encode_by_tool(const std::filesystem::path& path, const char* format, PictureHeader header, const ImageText& text,
                                       const std::function<void(int y, std::span<std::byte> row)>& fill_row) {
   const std::filesystem::path program = find_image_tool();
   if (program.empty()) {
     cannot_write(path, std::string(kImageToolName) + " is not installed; expected a file name ending in .png, or that program");
   }
   const ToolRequest request = request_of(ToolTask::write, format);
-  const uint64_t max_bytes = 2 * row_bytes(header) * static_cast<uint64_t>(header.height) + (1 << 20);
+  const std::string strings = tool_text(text);
+  header.message_bytes = static_cast<uint32_t>(strings.size());
+  const uint64_t max_bytes = 2 * row_bytes(header) * static_cast<uint64_t>(header.height) + strings.size() + (1 << 20);
   std::vector<std::byte> file;
   std::string message;
   const auto failure = exchange_with_tool(image_tool_pool(), program, [&](ToolProcess& tool) {
     // An encoder that fails exits before it has received all rows; its response gives the reason.
-    const bool sent = tool.send(&request, sizeof request) && tool.send(&header, sizeof header) && send_rows(tool, header, fill_row);
+    const bool sent = tool.send(&request, sizeof request) && tool.send(&header, sizeof header) &&
+                      tool.send(strings.data(), strings.size()) && send_rows(tool, header, fill_row);
     const Exchange result = receive_file(tool, max_bytes, file, message);
     return sent || !message.empty() ? result : Exchange::tool_ended;
   });
@@ -207,14 +218,14 @@ std::vector<std::byte> encode_by_tool(const std::filesystem::path& path, const c
 }
 
 std::vector<std::byte> encode_codes_by_tool(const std::filesystem::path& path, const char* format, const Image<glm::u8vec4>& image,
-                                            uint32_t channels) {
+                                            uint32_t channels, const ImageText& text) {
   HS_CHECK(!image.empty(), "write_image: the image is empty; expected at least one pixel");
   PictureHeader header;
   header.width = image.width();
   header.height = image.height();
   header.channels = channels;
   header.sample = Sample::uint8;
-  return encode_by_tool(path, format, header, [&](int y, std::span<std::byte> row) {
+  return encode_by_tool(path, format, header, text, [&](int y, std::span<std::byte> row) {
     std::byte* to = row.data();
     for (const glm::u8vec4& texel : image.row(y)) {
       std::memcpy(to, &texel, channels);

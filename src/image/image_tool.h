@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "halfspace/core/image.h"
+#include "halfspace/image/image_io.h"
 #include "halfspace/image/image_samples.h"
 #include "halfspace/image/image_source.h"
 #include "halfspace/image/tool/protocol.h"
@@ -27,13 +28,14 @@ GrayPicture read_gray_by_tool(ImageSource& source);
 /// Encodes an image with the size, channels and sample type of the header in halfspace-image-tool, and returns the bytes of the file.
 /// format is OpenImageIO's name for the format. fill_row(y, row) writes row y, counted from the top, into row, which has row_bytes(header)
 /// bytes; it is called for all rows in order, and again from row 0 if a new process has to be started. Throws OutputError, with a message
-/// that begins with path, if the program is not installed, reports an error or crashes. Nothing is written to path.
-std::vector<std::byte> encode_by_tool(const std::filesystem::path& path, const char* format, const PictureHeader& header,
+/// that begins with path, if the program is not installed, reports an error or crashes. Nothing is written to path. The text is stored in
+/// JPEG, TIFF and OpenEXR files.
+std::vector<std::byte> encode_by_tool(const std::filesystem::path& path, const char* format, PictureHeader header, const ImageText& text,
                                       const std::function<void(int y, std::span<std::byte> row)>& fill_row);
 
 /// The same for 8-bit values. channels is 3 or 4; 3 drops alpha.
 std::vector<std::byte> encode_codes_by_tool(const std::filesystem::path& path, const char* format, const Image<glm::u8vec4>& image,
-                                            uint32_t channels);
+                                            uint32_t channels, const ImageText& text);
 
 /// Returns the path of halfspace-image-tool, or an empty path if it is not installed. See find_tool().
 std::filesystem::path find_image_tool();

@@ -14,6 +14,7 @@
 #include "halfspace/image/image_errors.h"
 #include "halfspace/image/image_format.h"
 #include "halfspace/image/image_io.h"
+#include "halfspace/image/image_text.h"
 #include "halfspace/image/image_tool.h"
 #include "halfspace/image/jpeg_encode.h"
 #include "halfspace/image/png.h"
@@ -72,13 +73,13 @@ glm::vec3 rgbe_texel(const glm::vec4& t) {
   return color;
 }
 
-std::vector<std::byte> encode_hdr(const std::string& name, const Image<glm::vec4>& image) {
+std::vector<std::byte> encode_hdr(const std::string& name, const Image<glm::vec4>& image, const ImageText& text) {
   PictureHeader header;
   header.width = image.width();
   header.height = image.height();
   header.channels = 3;
   header.sample = Sample::float32;
-  return encode_by_tool(name, "hdr", header, [&](int y, std::span<std::byte> row) {
+  std::vector<std::byte> file = encode_by_tool(name, "hdr", header, {}, [&](int y, std::span<std::byte> row) {
     std::byte* to = row.data();
     for (const glm::vec4& texel : image.row(y)) {
       const glm::vec3 color = rgbe_texel(texel);
@@ -86,11 +87,13 @@ std::vector<std::byte> encode_hdr(const std::string& name, const Image<glm::vec4
       to += sizeof color;
     }
   });
+  insert_radiance_text(file, text);  // OpenImageIO stores no text in this format
+  return file;
 }
 
-std::vector<std::byte> encode_tiff(const std::string& name, const Image<glm::u8vec4>& image) {
+std::vector<std::byte> encode_tiff(const std::string& name, const Image<glm::u8vec4>& image, const ImageText& text) {
   const bool opaque = std::ranges::all_of(image.texels(), [](const glm::u8vec4& t) { return t.w == 255; });
-  return encode_codes_by_tool(name, "tiff", image, opaque ? 3 : 4);
+  return encode_codes_by_tool(name, "tiff", image, opaque ? 3 : 4, text);
 }
 
 [[noreturn]] void fail_for_memory(const std::filesystem::path& path) {
@@ -126,14 +129,14 @@ void write_data_png(const std::filesystem::path& path, const Image<glm::u8vec4>&
 std::vector<std::byte> encode_image(const Image<glm::u8vec4>& image, ImageFile format, const std::string& name, const ImageText& text) try {
   HS_CHECK(!image.empty() && !is_linear(format));
   if (format == ImageFile::png) return encode_png(image, PngCodes::srgb, text);
-  return format == ImageFile::jpeg ? encode_jpeg(name, image) : encode_tiff(name, image);
+  return format == ImageFile::jpeg ? encode_jpeg(name, image, text) : encode_tiff(name, image, text);
 } catch (const std::bad_alloc&) {
   fail_for_memory(name);
 }
 
 std::vector<std::byte> encode_image(const Image<glm::vec4>& image, ImageFile format, const std::string& name, const ImageText& text) try {
   HS_CHECK(!image.empty() && is_linear(format));
-  if (format == ImageFile::hdr) return encode_hdr(name, image);
+  if (format == ImageFile::hdr) return encode_hdr(name, image, text);
   return encode_exr(name, image.width(), image.height(), color_channels(image), text);
 } catch (const std::bad_alloc&) {
   fail_for_memory(name);

@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "halfspace/image/image_errors.h"
+#include "halfspace/image/image_text.h"
 #include "halfspace/image/jpeg_errors.h"
 
 namespace halfspace::HS_LANES {
@@ -24,10 +25,12 @@ class JpegEncoder {
   JpegEncoder& operator=(const JpegEncoder&) = delete;
 
   // Returns false on failure, see why().
-  bool encode(const Image<glm::u8vec4>& image) {
+  bool encode(const Image<glm::u8vec4>& image, const std::string& comment) {
     std::vector<glm::u8vec3> row(static_cast<std::size_t>(image.width()));
     return errors_.run([&] {
       start(image.width(), image.height());
+      if (!comment.empty())
+        jpeg_write_marker(&codec_, JPEG_COM, reinterpret_cast<const JOCTET*>(comment.data()), static_cast<unsigned>(comment.size()));
       JSAMPLE* samples = &row.data()->x;
       for (int y = 0; y < image.height(); ++y) {
         std::ranges::transform(image.row(y), row.begin(), [](const glm::u8vec4& t) { return glm::u8vec3(t); });
@@ -66,10 +69,12 @@ class JpegEncoder {
 
 }  // namespace
 
-std::vector<std::byte> encode_jpeg(const std::filesystem::path& path, const Image<glm::u8vec4>& image) {
+std::vector<std::byte> encode_jpeg(const std::filesystem::path& path, const Image<glm::u8vec4>& image, const ImageText& text) {
   HS_CHECK(!image.empty(), "write_image: the image is empty; expected at least one pixel");
+  constexpr std::size_t kLongestComment = 65533;  // the length of a marker segment has 16 bits
   JpegEncoder encoder;
-  if (!encoder.encode(image)) fail_writing(path, std::string("cannot write (the jpeg encoder reported: ") + encoder.why() + ")");
+  if (!encoder.encode(image, text_lines(text).substr(0, kLongestComment)))
+    fail_writing(path, std::string("cannot write (the jpeg encoder reported: ") + encoder.why() + ")");
   return encoder.file();
 }
 

@@ -9,11 +9,13 @@
 #include <vector>
 
 #include "halfspace/core/image.h"
+#include "halfspace/image/image_io.h"
 
 namespace halfspace::HS_LANES {
 
-/// Encodes 8-bit sRGB values at quality 95 without chroma subsampling. Alpha is dropped. The image must not be empty. Throws OutputError,
-/// with a message that begins with path, if the image is too large for the format (65500 pixels per side). Nothing is written to path.
-std::vector<std::byte> encode_jpeg(const std::filesystem::path& path, const Image<glm::u8vec4>& image);
+/// Encodes 8-bit sRGB values at quality 95 without chroma subsampling, with the text as a comment. Alpha is dropped. The image must not be
+/// empty. Throws OutputError, with a message that begins with path, if the image is too large for the format (65500 pixels per side).
+/// Nothing is written to path.
+std::vector<std::byte> encode_jpeg(const std::filesystem::path& path, const Image<glm::u8vec4>& image, const ImageText& text);
 
 }  // namespace halfspace::HS_LANES

@@ -6,8 +6,8 @@
 
 namespace halfspace::HS_LANES {
 
-std::vector<std::byte> encode_jpeg(const std::filesystem::path& path, const Image<glm::u8vec4>& image) {
-  return encode_codes_by_tool(path, "jpeg", image, 3);
+std::vector<std::byte> encode_jpeg(const std::filesystem::path& path, const Image<glm::u8vec4>& image, const ImageText& text) {
+  return encode_codes_by_tool(path, "jpeg", image, 3, text);
 }
 
 }  // namespace halfspace::HS_LANES

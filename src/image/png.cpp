@@ -16,7 +16,7 @@ namespace halfspace::HS_LANES {
 
 namespace {
 
-constexpr char kComment[] = "Comment";
+constexpr char kSoftware[] = "Software", kComment[] = "Comment", kFingerprint[] = "Fingerprint";
 
 struct FreeContext {
   void operator()(spng_ctx* context) const { spng_ctx_free(context); }
@@ -107,8 +107,9 @@ std::vector<std::byte> encode_codes(const Image<glm::vec<4, Channel>>& image, Pn
   check_encoding(spng_set_ihdr(context.get(), &header));
   if (codes == PngCodes::srgb) check_encoding(spng_set_srgb(context.get(), 0));
   std::vector<spng_text> chunks;
-  add_text(chunks, "Software", text.software);
+  add_text(chunks, kSoftware, text.software);
   add_text(chunks, kComment, text.comment);
+  add_text(chunks, kFingerprint, text.fingerprint);
   if (!chunks.empty()) check_encoding(spng_set_text(context.get(), chunks.data(), static_cast<uint32_t>(chunks.size())));
   encode_rows(context.get(), image, opaque);
   std::size_t size = 0;
@@ -145,15 +146,18 @@ ColorPicture decode_png(std::span<const std::byte> bytes, const std::string& nam
   return decode_texels<glm::u8vec4>(context.get(), header, SPNG_FMT_RGBA8, name);
 }
 
-std::string png_comment(std::span<const std::byte> bytes) {
+ImageText png_text(std::span<const std::byte> bytes) {
   const SpngContext context = new_context(0);
   uint32_t count = 0;
   if (spng_set_png_buffer(context.get(), bytes.data(), bytes.size()) != SPNG_OK || spng_get_text(context.get(), nullptr, &count) != SPNG_OK)
     return {};
   std::vector<spng_text> chunks(count);
   if (spng_get_text(context.get(), chunks.data(), &count) != SPNG_OK) return {};
-  const auto comment = std::ranges::find_if(chunks, [](const spng_text& t) { return std::strcmp(t.keyword, kComment) == 0; });
-  return comment == chunks.end() ? std::string() : std::string(comment->text, comment->length);
+  const auto text_of = [&chunks](const char* keyword) {
+    const auto chunk = std::ranges::find_if(chunks, [&](const spng_text& t) { return std::strcmp(t.keyword, keyword) == 0; });
+    return chunk == chunks.end() ? std::string() : std::string(chunk->text, chunk->length);
+  };
+  return {text_of(kSoftware), text_of(kComment), text_of(kFingerprint)};
 }
 
 }  // namespace halfspace::HS_LANES

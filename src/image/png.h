@@ -32,7 +32,7 @@ bool is_png(std::span<const std::byte> bytes);
 /// begins with `name`, for damaged or oversized files.
 ColorPicture decode_png(std::span<const std::byte> bytes, const std::string& name);
 
-/// Returns ImageText::comment of a PNG file, or an empty string if the bytes before the pixels are not valid or have none.
-std::string png_comment(std::span<const std::byte> bytes);
+/// Returns the text of a PNG file. It is empty if the bytes before the pixels are not valid or have none; the rest may be missing.
+ImageText png_text(std::span<const std::byte> bytes);
 
 }  // namespace halfspace::HS_LANES

@@ -39,6 +39,7 @@ class SceneAssets {
   /// needs. If all frames of a range are announced before the first is rendered, maps do not change in between. width and height are the
   /// image size in pixels.
   void expect(const SceneDescription& scene, int width, int height);
+  const MinimumSizes& minimum_sizes() const { return minimum_; }  ///< determined by the announced frames
 
   /// Returns the same scene with the cheapest models that keep the image within the allowed error (docs/results/accuracy.md). The choice
   /// depends only on the scene and on models of error and cost, so it is the same on every machine. Throws the same exceptions as prepare.

@@ -300,8 +300,8 @@ TEST_F(ModelChoices, UnusualArguments) {
   EXPECT_EQ(render({"a.obj", "--floor", "--no-floor"}).exit_code, 2);
   EXPECT_EQ(run({"render", "--size", "32x32", "--", "-a.obj"}).exit_code, 0);
   const Outcome late = run({"render", "--", "-a.obj", "--size", "32x32"});
-  EXPECT_EQ(late.exit_code, 2);
-  EXPECT_NE(late.err.find("unexpected argument '--size'"), std::string::npos) << late.err;
+  EXPECT_EQ(late.exit_code, 3);
+  EXPECT_NE(late.err.find("unknown scene '--size'"), std::string::npos) << late.err;
   for (const char* command : {"render", "explain", "export"}) {
     std::vector<std::string> words{command, ""};
     if (words[0] == "export") words.insert(words.end(), {"-o", "a.glb"});

@@ -167,7 +167,7 @@ TEST_F(DecoderProcess, IsReplacedAfterAFailedWrite) {
   header.width = header.height = 1;
   header.channels = 3;
   const auto black = [](int, std::span<std::byte> row) { std::ranges::fill(row, std::byte{0}); };
-  EXPECT_THROW(encode_by_tool("a.xyz", "xyz", header, black), OutputError);
+  EXPECT_THROW(encode_by_tool("a.xyz", "xyz", header, {}, black), OutputError);
   EXPECT_EQ(zombies(), 0u);
   EXPECT_EQ(read_image(ppm).at(0, 0), first);
 }

@@ -137,7 +137,7 @@ TEST_F(Exr, StoresTheSameBlocksAsOpenImageIo) {
       std::memcpy(row.data() + 2 * i, &half, 2);
     }
   };
-  const std::vector<std::byte> expected = encode_by_tool("b.exr", "openexr", header, fill_row);
+  const std::vector<std::byte> expected = encode_by_tool("b.exr", "openexr", header, {}, fill_row);
   const std::string other(reinterpret_cast<const char*>(expected.data()), expected.size());
   const auto blocks = [&](const std::string& file) {
     const std::string last = "screenWindowWidth";  // the last attribute: its name, "float", a size of 4 bytes, a float and the final zero

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "halfspace/image/image_io.h"
-#include "halfspace/image/image_comment.h"
 
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -70,20 +69,6 @@ TEST_F(ImageIo, PngStoresText) {
   EXPECT_TRUE(contains(file, "caf\u00e9"));
   EXPECT_TRUE(decode_png(file, "x") == ColorPicture(test_picture(true)));
   EXPECT_FALSE(contains(encode_png(test_picture(true)), "tEXt"));
-}
-
-TEST_F(ImageIo, CommentsAreReadBack) {
-  const std::string long_text(3000, 'x');
-  for (const std::string& comment : {std::string("halfspace render a --set b=1"), std::string("caf\u00e9"), long_text, std::string()}) {
-    const ImageText text{.software = "Program 1.0", .comment = comment};
-    write_png(directory / "a.png", test_picture(true), text);
-    EXPECT_EQ(image_comment(directory / "a.png"), comment);
-    write_image(directory / "a.exr", Image<glm::vec4>(2, 2), text);
-    EXPECT_EQ(image_comment(directory / "a.exr"), comment);
-  }
-  std::ofstream(directory / "part.png", std::ios::binary) << read_bytes(directory / "a.png").substr(0, 30);
-  EXPECT_EQ(image_comment(directory / "part.png"), "");
-  EXPECT_EQ(image_comment(directory / "missing.png"), "");
 }
 
 TEST_F(ImageIo, PngKeepsTransparentColors) {

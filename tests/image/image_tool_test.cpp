@@ -84,7 +84,7 @@ TEST_F(ImageTool, ReportsACrash) { expect_failures(lines_beside("kill -SEGV $$")
 
 TEST_F(ImageTool, ReportsATruncatedAnswer) {
   // The script reads a request and sends the beginning of a valid 100-byte answer.
-  const std::string script = "head -c 40 >/dev/null; printf 'HIT3\\0\\0\\0\\0\\144\\0\\0\\0\\0\\0\\0\\0 and so on'";
+  const std::string script = "head -c 40 >/dev/null; printf 'HIT4\\0\\0\\0\\0\\144\\0\\0\\0\\0\\0\\0\\0 and so on'";
   expect_failures(lines_beside(script), "ended early", "ended early");
 }
 
@@ -96,8 +96,8 @@ TEST_F(ImageTool, ReportsAnotherProtocolVersion) {
 TEST_F(ImageTool, RejectsAnswersWithHugeSizes) {
   // A file of 2^63 bytes; an image with a width of 2^31 − 1 pixels. Byte 4 of a request is the task; 2 is writing.
   const std::string script =
-      "case $(head -c 40 | od -An -tu1 -j4 -N1 | tr -d ' ') in 2) printf 'HIT3\\0\\0\\0\\0\\0\\0\\0\\0\\0\\0\\0\\200';; "
-      "*) printf 'HIT3\\377\\377\\377\\177\\1\\0\\0\\0\\4\\0\\0\\0\\0\\0\\0\\0\\0\\0\\0\\0';; esac";
+      "case $(head -c 40 | od -An -tu1 -j4 -N1 | tr -d ' ') in 2) printf 'HIT4\\0\\0\\0\\0\\0\\0\\0\\0\\0\\0\\0\\200';; "
+      "*) printf 'HIT4\\377\\377\\377\\177\\1\\0\\0\\0\\4\\0\\0\\0\\0\\0\\0\\0\\0\\0\\0\\0';; esac";
   expect_failures(lines_beside(script), "different version", "2147483647x1");
 }
 
@@ -108,9 +108,10 @@ TEST_F(ImageTool, ReportsUnsupportedFormatsAndHeaders) {
   header.height = 3000;
   header.channels = 3;
   const auto black = [](int, std::span<std::byte> row) { std::ranges::fill(row, std::byte{0}); };
-  EXPECT_TRUE(reports(output_error([&] { encode_by_tool("a.xyz", "xyz", header, black); }), "a.xyz: cannot write", {"OpenImageIO", "xyz"}));
+  EXPECT_TRUE(
+      reports(output_error([&] { encode_by_tool("a.xyz", "xyz", header, {}, black); }), "a.xyz: cannot write", {"OpenImageIO", "xyz"}));
   header.channels = 2;
-  EXPECT_TRUE(reports(output_error([&] { encode_by_tool("a.jpg", "jpeg", header, black); }), "a.jpg: cannot write", {"header"}));
+  EXPECT_TRUE(reports(output_error([&] { encode_by_tool("a.jpg", "jpeg", header, {}, black); }), "a.jpg: cannot write", {"header"}));
 }
 
 TEST_F(ImageTool, ReportsAFullDisk) {

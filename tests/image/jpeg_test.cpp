@@ -134,7 +134,7 @@ TEST_F(Jpeg, MatchesOpenImageIo) {
   Image<glm::u8vec4> image = test_picture(true);
   write_image(directory / "a.jpg", image);
   // The file that halfspace-image-tool writes decodes to the same pixels.
-  const std::vector<std::byte> other = encode_codes_by_tool("b.jpg", "jpeg", image, 3);
+  const std::vector<std::byte> other = encode_codes_by_tool("b.jpg", "jpeg", image, 3, {});
   EXPECT_TRUE(read_image(other, "b.jpg") == read_image(directory / "a.jpg"));
 }
 

@@ -9,8 +9,9 @@
 // To read an image, send a ToolRequest together with a descriptor of the file (SCM_RIGHTS). The answer is a PictureHeader, followed by
 // the pixels or, if width is 0, by a message of message_bytes bytes. height is then 1 if the image exceeds a limit of the request.
 //
-// To write an image, send a ToolRequest, a PictureHeader and the pixels. The answer is a FileHeader, followed by the bytes of the file or,
-// if file_bytes is 0, by a message of message_bytes bytes. The tool exits after such a message, since it may not have read all pixels.
+// To write an image, send a ToolRequest, a PictureHeader, message_bytes bytes of text and the pixels. The text is four strings, each with a
+// zero at its end: all of ImageText as lines, and its three parts. The answer is a FileHeader, followed by the bytes of the file or, if
+// file_bytes is 0, by a message of message_bytes bytes. The tool exits after such a message, since it may not have read all pixels.
 //
 // Pixels are stored in rows without padding, top row first, with interleaved channels in native byte order. A message is one line:
 // the problem; what was expected.
@@ -25,7 +26,7 @@ namespace halfspace::HS_LANES {
 
 inline constexpr const char* kImageToolName = "halfspace-image-tool";
 inline constexpr const char* kJpegToolName = "halfspace-jpeg-tool";
-inline constexpr uint32_t kImageToolMagic = 0x33544948;  // "HIT3": the digit is the protocol version
+inline constexpr uint32_t kImageToolMagic = 0x34544948;  // "HIT4": the digit is the protocol version
 
 /// What a tool is asked to do. read_gray returns only the first channel of a file. read_color returns RGBA: gray is replicated, and alpha
 /// is opaque if the file has none.

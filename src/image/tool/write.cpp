@@ -68,6 +68,38 @@ OIIO::TypeDesc type_of(Sample sample) {
   return sample == Sample::float16 ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::FLOAT;
 }
 
+struct Text {
+  std::string lines, software, comment, fingerprint;
+};
+
+Text receive_text(const PictureHeader& h) {
+  constexpr uint32_t kMaxTextBytes = 1 << 20;
+  if (h.message_bytes > kMaxTextBytes) throw Failure{"the text of the image is too long; expected at most 1 MiB"};
+  std::string strings(h.message_bytes, '\0');
+  receive(strings.data(), strings.size());
+  Text text;
+  std::size_t at = 0;
+  for (std::string* part : {&text.lines, &text.software, &text.comment, &text.fingerprint}) {
+    const std::size_t end = std::min(strings.find('\0', at), strings.size());
+    *part = strings.substr(at, end - at);
+    at = std::min(end + 1, strings.size());
+  }
+  return text;
+}
+
+void add_text(OIIO::ImageSpec& spec, const Text& text, const std::string& format) {
+  const auto add = [&spec](const char* name, const std::string& value) {
+    if (!value.empty()) spec.attribute(name, value);
+  };
+  if (format == "openexr") {
+    add("software", text.software);
+    add("comments", text.comment);
+    add("fingerprint", text.fingerprint);
+  } else {
+    add("ImageDescription", text.lines);
+  }
+}
+
 OIIO::ImageSpec spec_of(const PictureHeader& h, const std::string& format) {
   OIIO::ImageSpec spec(h.width, h.height, static_cast<int>(h.channels), type_of(h.sample));
   if (h.channels == 1) spec.channelnames = {"Z"};
@@ -86,7 +118,9 @@ void encode(const std::string& format, const MemoryFile& file) {
   const auto check = [&](bool ok) {
     if (!ok) throw Failure{"the " + format + " encoder reported: " + one_line(output->geterror())};
   };
-  check(output->open(file.name(), spec_of(h, format)));
+  OIIO::ImageSpec spec = spec_of(h, format);
+  add_text(spec, receive_text(h), format);
+  check(output->open(file.name(), spec));
   std::vector<std::byte> band(row_bytes(h) * static_cast<std::size_t>(std::min(h.height, kBandRows)));
   for (int top = 0; top < h.height; top += kBandRows) {
     const int end = std::min(top + kBandRows, h.height);

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// `render --resume`: which pictures of an earlier run are those that this run would write. Each picture stores a fingerprint of everything
+// that determines its pixels (ImageText::fingerprint). Threads, lanes, shards and the other pictures of the run are not part of it.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <string_view>
+
+#include "cli/render_job.h"
+#include "halfspace/render/assets/minimum_sizes.h"
+
+namespace halfspace {
+
+/// Content hashes of files, each of which is read once. Hashes are 128 bits as 32 hexadecimal digits (XXH3).
+class FileHashes {
+ public:
+  /// Returns the hash of a file's contents, or a text that is not a hash if the file cannot be read.
+  const std::string& of(const std::filesystem::path& file);
+
+ private:
+  std::map<std::filesystem::path, std::string> hashes_;
+};
+
+/// The part of the fingerprint that all pictures of a job share.
+struct JobFingerprint {
+  std::string settings;  ///< the text that is hashed for the scene: all settings except the time
+  std::string files;     ///< hash of the contents of all input files
+};
+
+/// minimum: sizes of generated maps, which depend on all frames of a range.
+JobFingerprint fingerprint_of(const RenderJob& job, const MinimumSizes& minimum, FileHashes& hashes);
+
+/// Returns the fingerprint of picture i: "build COMMIT scene HASH files HASH".
+std::string picture_fingerprint(const RenderJob& job, const JobFingerprint& shared, int i);
+
+/// Why a picture is rendered, or `kept`.
+enum class ResumeState { kept, missing, incomplete, unmarked, other_build, other_scene, other_files };
+
+/// Compares the files of a picture with files.text.fingerprint. Does not decode pixels.
+ResumeState resume_state(const PictureFiles& files);
+
+/// The numbers of pictures in each state.
+class ResumeCounts {
+ public:
+  void add(ResumeState state) { ++counts_[static_cast<std::size_t>(state)]; }
+  int kept() const { return counts_[static_cast<std::size_t>(ResumeState::kept)]; }
+  /// Returns one line: how many pictures were kept and how many were rendered, and why.
+  std::string line() const;
+
+ private:
+  std::array<int, 7> counts_{};
+};
+
+}  // namespace halfspace
