@@ -22,6 +22,7 @@ from ._files import DifferenceError, compare, export, info
 from ._one_call import render
 from ._options import RenderWarning
 from .camera import Camera
+from .frames import render_frames, render_models, submit_frames
 from .labels import LABELS, NO_ID
 from .material import Material, Texture, srgb
 from .mesh import Mesh
@@ -47,4 +48,5 @@ def set_tool_folder(folder: "str | _os.PathLike[str]") -> None:
 
 
 __all__ = ["LABELS", "NO_ID", "Camera", "DifferenceError", "InputError", "Material", "Mesh", "Model", "OutputError", "Picture", "RenderWarning",
-           "Scene", "Texture", "compare", "draw", "export", "info", "render", "scenes", "set_tool_folder", "srgb"]
+           "Scene", "Texture", "compare", "draw", "export", "info", "render", "render_frames", "render_models", "scenes", "set_tool_folder",
+           "srgb", "submit_frames"]

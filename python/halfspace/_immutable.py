@@ -29,4 +29,15 @@ class Immutable:
         return self
 
     def __reduce__(self) -> Any:
-        raise TypeError(f"a {type(self).__name__} cannot be pickled; create it in each process")
+        """For pickling: all members except the private ones, which _restore() creates again."""
+        members = [name for name in self.__slots__ if not name.startswith("_")]
+        return _restored, (type(self), {name: getattr(self, name) for name in members})
+
+    def _restore(self, members: Any) -> None:
+        self._set(**members)
+
+
+def _restored(kind: Any, members: Any) -> Any:
+    out = kind.__new__(kind)
+    out._restore(members)
+    return out

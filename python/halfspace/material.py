@@ -48,6 +48,9 @@ class Texture(Immutable):
         self._set(texels=_check.read_only(checked, texels), filter=filter, wrap=pair, anisotropy=probes,
                   _sampler=_core.Sampler(chosen, wraps[0], wraps[1], probes))
 
+    def _restore(self, members: Any) -> None:
+        self.__init__(**members)  # type: ignore[misc]
+
     @classmethod
     def _of_file(cls, texels: np.ndarray, filter: Any, wrap_u: Any, wrap_v: Any, anisotropy: int) -> "Texture":
         return cls(texels, filter=filter.name, wrap=(wrap_u.name, wrap_v.name), anisotropy=anisotropy)

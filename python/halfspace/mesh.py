@@ -45,7 +45,7 @@ class Mesh(Shapes):
     topology: "triangles", "lines" or "points". Lines and points are not lit.
     """
 
-    __slots__ = ("vertices", "faces", "normals", "uvs", "uv_origin", "colors", "material", "topology", "bounds", "_model", "_file")
+    __slots__ = ("vertices", "faces", "normals", "uvs", "uv_origin", "colors", "material", "topology", "bounds", "_model", "_file", "_made_by")
     vertices: np.ndarray  #: float64 (N, 3)
     faces: np.ndarray  #: uint32 (M, 3), (M, 2) for lines, (M,) for points
     normals: Optional[np.ndarray]  #: float32 (N, 3), unit length; None if they are computed
@@ -94,12 +94,17 @@ class Mesh(Shapes):
                          normals=None if unit is None else _check.read_only(unit, normals),
                          uvs=None if uv is None else _check.read_only(uv, uvs), uv_origin=uv_origin,
                          colors=None if rgba is None else _check.read_only(rgba, colors), material=material, topology=topology)
-        self._set(_model=model, _file=new_file("mesh"))
+        given = {"normals": self.normals, "uvs": self.uvs, "colors": self.colors, "material": material, "topology": topology,
+                 "crease": crease, "uv_origin": uv_origin}
+        self._set(_model=model, _file=new_file("mesh"), _made_by=(Mesh, (self.vertices, self.faces), given))
 
     def _set_arrays(self, **members: Any) -> None:
         self._set(**members)
         seen = self.vertices[_mask(self.faces, len(self.vertices))]
         self._set(bounds=_check.read_only(np.array([seen.min(axis=0), seen.max(axis=0)]), None))
+
+    def __reduce__(self) -> Any:
+        return _make, self._made_by
 
     def __repr__(self) -> str:
         low, high = self.bounds.tolist()
@@ -119,8 +124,9 @@ class Mesh(Shapes):
         return Model.load(path, allow_outside=allow_outside, up_axis=up_axis)._single_mesh(material)
 
     @classmethod
-    def _of_file(cls, asset: Any, name: str, arrays: Dict[str, Any], material: Material) -> "Mesh":
-        """Returns a mesh that is drawn as its file is drawn, also with properties of materials that Material lacks."""
+    def _of_file(cls, asset: Any, name: str, arrays: Dict[str, Any], material: Material, made_by: Any) -> "Mesh":
+        """Returns a mesh that is drawn as its file is drawn, also with properties of materials that Material lacks. made_by: a function and
+        its arguments that return an equal mesh."""
         topology = arrays["topology"].name
         width = _WIDTHS[topology]
         mesh = cls.__new__(cls)
@@ -130,7 +136,7 @@ class Mesh(Shapes):
             if array is not None:
                 array.flags.writeable = False
         mesh._set_arrays(**known, faces=faces, uv_origin="upper_left", material=material, topology=topology)
-        mesh._set(_model=asset, _file=new_file(name))
+        mesh._set(_model=asset, _file=new_file(name), _made_by=made_by)
         return mesh
 
     @classmethod
@@ -160,6 +166,10 @@ class Mesh(Shapes):
             uvs = None if getattr(visual, "uv", None) is None else np.asarray(visual.uv)
             material = material if material is not None else _material_of(getattr(visual, "material", None), uvs is not None)
         return cls(vertices, faces, uvs=uvs, colors=colors, material=material, crease=crease)
+
+
+def _make(function: Any, arguments: Tuple[Any, ...], keywords: Dict[str, Any]) -> Any:
+    return function(*arguments, **keywords)
 
 
 def _mask(index: np.ndarray, count: int) -> Any:

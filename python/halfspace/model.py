@@ -20,11 +20,13 @@ class Model(Immutable):
     with their materials, in the pose of the file. Keys of the object select another pose, for example
     scene[name + ".model_animation"] = "walk" and scene[name + ".model_time"] = 0.5.
 
+    A model can be pickled; the other process reads its file again.
+
     path: the file.   bounds: the lowest and highest coordinates, y up, float64 of shape (2, 3); None without meshes.
     animations, variants, scenes: names in the file, which may be empty.
     """
 
-    __slots__ = ("path", "bounds", "animations", "variants", "scenes", "_model", "_file", "_meshes")
+    __slots__ = ("path", "bounds", "animations", "variants", "scenes", "_model", "_file", "_meshes", "_options")
     path: str
     bounds: Optional[np.ndarray]
     animations: List[str]
@@ -47,9 +49,12 @@ class Model(Immutable):
         axis = "" if up_axis is None else _check.choice("up_axis", up_axis, ("y", "z"))
         model = _core.load_model(file, _check.flag("allow_outside", allow_outside), axis)
         out = cls.__new__(cls)
-        out._set(path=file, bounds=_core.model_bounds(model), **_core.model_names(model), _model=model, _meshes=None,
+        out._set(_options={"allow_outside": bool(allow_outside), "up_axis": up_axis}, path=file, bounds=_core.model_bounds(model), **_core.model_names(model), _model=model, _meshes=None,
                  _file=new_file(os.path.basename(file)))
         return out
+
+    def __reduce__(self) -> Any:
+        return _load, (self.path, self._options)
 
     def __repr__(self) -> str:
         return f"Model({self.path!r})"
@@ -60,8 +65,8 @@ class Model(Immutable):
         if self._meshes is None:
             materials = [Material._of_file(properties) for properties in _core.model_materials(self._model, self.path)]
             name = os.path.basename(self.path)
-            self._set(_meshes=[Mesh._of_file(asset, name, arrays, materials[number])
-                               for asset, arrays, number in _core.model_parts(self._model)])
+            self._set(_meshes=[Mesh._of_file(asset, name, arrays, materials[number], (_mesh_of, (self, i), {}))
+                               for i, (asset, arrays, number) in enumerate(_core.model_parts(self._model))])
         return list(self._meshes)
 
     def _single_mesh(self, material: Optional[Material]) -> Mesh:
@@ -83,6 +88,14 @@ class Model(Immutable):
                     normals=_joined(meshes, "normals"), uvs=_joined(meshes, "uvs", 0.0), uv_origin="upper_left",
                     colors=_joined(meshes, "colors", 1.0), material=meshes[0].material if material is None else material,
                     topology=meshes[0].topology)
+
+
+def _load(path: str, options: Any) -> Model:
+    return Model.load(path, **options)
+
+
+def _mesh_of(model: Model, number: int) -> Mesh:
+    return model.meshes[number]
 
 
 def _joined(meshes: List[Mesh], name: str, missing: Optional[float] = None) -> Optional[np.ndarray]:

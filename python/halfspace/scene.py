@@ -55,7 +55,8 @@ class Scene(Contents):
 
     A scene is a mapping of its keys: scene["samples"], "ball" in scene, list(scene) and dict(scene) work.
 
-    All methods can be called by several Python threads at once. Pictures and labels do not share memory with the scene.
+    All methods can be called by several Python threads at once. Pictures and labels do not share memory with the scene. A scene can be
+    pickled, with its meshes and textures; the files to which it refers must exist where it is used.
     """
 
     def __init__(self, *, lighting: str = "studio", threads: Optional[int] = None) -> None:
@@ -381,6 +382,14 @@ class Scene(Contents):
         finally:
             emit(self._core)
 
+    def __reduce__(self) -> Any:
+        """For pickling: the text of the scene, and everything that add() and place() added to it."""
+        with self._lock:
+            self._flush()
+            members = {"meshes": dict(self._meshes), "names": self._names, "fits": self._fits, "camera": self.camera,
+                       "camera_names": self._core.camera_names, "threads": self._core.threads}
+            return _restored, (type(self), self._core.print(), members)
+
     def __repr__(self) -> str:
         names = self.objects
         shown = ", ".join(names[:4]) + (", ..." if len(names) > 4 else "")
@@ -479,3 +488,17 @@ class Scene(Contents):
         if len(places) > _MAX_COPIES:
             raise fail("transform", f"has {len(places)} copies", f"at most {_MAX_COPIES}")
         return places
+
+
+def _restored(kind: Any, text: str, members: Dict[str, Any]) -> Scene:
+    """Returns the scene that was pickled."""
+    content = json.loads(text)
+    for name, (mesh, _) in members["meshes"].items():
+        content["objects"][name]["file"] = mesh._file
+    scene = kind.__new__(kind)
+    scene._start(_core.Scene.parse(json.dumps(content), "scene", members["threads"], members["camera_names"]))
+    for name, (mesh, places) in members["meshes"].items():
+        scene._core.provide(mesh._file, mesh._model)
+        scene._core.place(name, places)
+    scene._meshes, scene._names, scene._fits, scene.camera = members["meshes"], members["names"], members["fits"], members["camera"]
+    return scene

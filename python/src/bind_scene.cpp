@@ -5,6 +5,7 @@
 #include <array>
 #include <atomic>
 #include <cstring>
+#include <map>
 #include <memory>
 #include <span>
 #include <system_error>
@@ -169,10 +170,12 @@ std::shared_ptr<SceneCore> open(const std::string& name, const py::dict& options
   return std::make_shared<SceneCore>(open_scene_or_model(name, view), threads);
 }
 
-std::shared_ptr<SceneCore> parse(const std::string& text, const std::string& source, int threads) {
+std::shared_ptr<SceneCore> parse(const std::string& text, const std::string& source, int threads,
+                                 std::map<std::string, std::string> camera_names) {
   std::error_code failed;  // of a current folder that was removed
   const std::filesystem::path folder = std::filesystem::current_path(failed);
-  return std::make_shared<SceneCore>(OpenedScene{SceneFile::parse(text, source, failed ? "." : folder), {}, nullptr, {}}, threads);
+  return std::make_shared<SceneCore>(
+      OpenedScene{SceneFile::parse(text, source, failed ? "." : folder), {}, nullptr, std::move(camera_names)}, threads);
 }
 
 }  // namespace
@@ -181,7 +184,8 @@ void bind_scene(py::module_& m) {
   py::enum_<PixelKind>(m, "PixelKind").value("rgb", PixelKind::rgb).value("rgba", PixelKind::rgba).value("light", PixelKind::light);
   py::class_<SceneCore, std::shared_ptr<SceneCore>>(m, "Scene")
       .def_static("open", &open)
-      .def_static("parse", &parse, Release())
+      .def_static("parse", &parse, Release(), py::arg(), py::arg(), py::arg(), py::arg("camera_names") = std::map<std::string, std::string>())
+      .def_property_readonly("camera_names", &SceneCore::camera_names)
       .def("copy", &SceneCore::copy, Release())
       .def("set", &SceneCore::set, Release())
       .def("value", &SceneCore::value, Release())

@@ -105,6 +105,8 @@ class SceneCore {
   /// Returns the warnings since the last call.
   std::vector<std::string> take_warnings();
   int threads() const { return workers_.threads(); }
+  /// Returns the names of cameras in the model file, and the corresponding names in the scene.
+  const std::map<std::string, std::string>& camera_names() const { return camera_names_; }
   /// Returns how many of `shots` images for_each_shot() renders at the same time.
   std::size_t images_at_once(std::size_t shots) const { return std::min(shots, static_cast<std::size_t>(threads())); }
   const Workers& workers() const { return workers_; }

@@ -75,8 +75,9 @@ def test_the_properties_of_a_material_can_be_read_but_not_changed():
     with pytest.raises(AttributeError, match="^Texture.filter: cannot be changed"):
         del texture.filter
     assert copy.deepcopy(material) is material and copy.copy(texture) is texture
-    with pytest.raises(TypeError, match="^a Material cannot be pickled"):
-        pickle.dumps(material)
+    again = pickle.loads(pickle.dumps(material))
+    assert repr(again) == repr(material) and np.array_equal(again.base_color_texture.texels, texture.texels)
+    assert again.normal_texture.wrap == ("repeat", "repeat") and again.base_color_texture.wrap == ("clamp", "repeat")
 
 
 def test_colors_can_be_given_as_srgb_codes():

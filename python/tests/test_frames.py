@@ -1,0 +1,185 @@
+# SPDX-License-Identifier: Apache-2.0
+"""render_frames(), submit_frames() and render_models(), in this process, with executors and with Dask."""
+
+import concurrent.futures
+import multiprocessing
+import os
+import pickle
+import signal
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import halfspace
+from conftest import QUAD, same_bytes, sphere
+
+SIZE = (48, 27)
+
+
+def rich_scene():
+    """A scene with everything that a pickle must contain."""
+    scene = halfspace.Scene(threads=1)
+    texels = np.random.default_rng(1).integers(0, 255, (8, 8, 3), np.uint8)
+    vertices, faces, _, uvs = sphere(8, 12)
+    ball = halfspace.Mesh(vertices, faces, uvs=uvs, crease=0, material=halfspace.Material(base_color_texture=texels, roughness=0.3))
+    scene.add(ball, name="ball")
+    scene.add(ball, np.stack([np.diag([0.3, 0.3, 0.3, 1.0])] * 2), name="small")
+    scene.add(halfspace.Mesh(*QUAD, colors=np.eye(4)[:, :3]), casts_shadow=False)
+    scene.place("small", np.array([[[0.3, 0, 0, 1.2], [0, 0.3, 0, 0], [0, 0, 0.3, 0], [0, 0, 0, 1]]]))
+    scene.add_light("point", position=(1, 2, 3), color=(1, 0.5, 0.2))
+    scene.merge({"animations": {"turn": {"type": "rate", "target": "small.rotation", "rate": [0, 90, 0]}}})
+    return scene
+
+
+def test_a_pickled_scene_shows_the_same(tmp_path):
+    scene = rich_scene()
+    again = pickle.loads(pickle.dumps(scene))
+    assert np.array_equal(scene.render(SIZE, time=0.5), again.render(SIZE, time=0.5))
+    assert again.objects == scene.objects and again.lights == scene.lights
+    again.place("ball", np.diag([2.0, 2, 2, 1]))
+    assert again.add(halfspace.Mesh(*QUAD)) not in scene.objects
+    assert not np.array_equal(scene.render(SIZE), again.render(SIZE))
+    scene.camera = halfspace.Camera.look_at((0, 0, 9), (0, 0, 0))
+    assert np.array_equal(scene.render(SIZE), pickle.loads(pickle.dumps(scene)).render(SIZE))
+    shipped = halfspace.Scene.load("moon")
+    shipped["samples"] = 8
+    assert np.array_equal(shipped.render(SIZE), pickle.loads(pickle.dumps(shipped)).render(SIZE))
+
+
+def test_a_pickled_model_file_shows_the_same(horse):
+    scene = halfspace.Scene.load(horse, yaw=100, background="#336699")
+    assert np.array_equal(scene.render(SIZE), pickle.loads(pickle.dumps(scene)).render(SIZE))
+    mixed = halfspace.Scene()
+    mixed.add(halfspace.Model.load(horse))
+    mixed.add(halfspace.Mesh.load(horse), np.diag([0.5, 0.5, 0.5, 1.0]))
+    assert np.array_equal(mixed.render(SIZE), pickle.loads(pickle.dumps(mixed)).render(SIZE))
+
+
+def test_frames_are_those_of_scene_frames(tmp_path):
+    scene = rich_scene()
+    expected = list(scene.frames([0, 3, 5], size=SIZE, fps=10, time=0.5))
+    calls = []
+    given = halfspace.render_frames(scene, [0, 3, 5], size=SIZE, fps=10, time=0.5, progress=lambda done, total: calls.append((done, total)))
+    assert all(np.array_equal(a, b) for a, b in zip(given, expected)) and calls == [(1, 3), (2, 3), (3, 3)]
+    files = halfspace.render_frames(scene, [0, 3, 5], size=SIZE, fps=10, time=0.5, out=tmp_path / "new" / "%03d.png")
+    assert [os.path.basename(f) for f in files] == ["000.png", "003.png", "005.png"]
+    expected[2].save(tmp_path / "own.png")
+    assert (tmp_path / "new" / "005.png").read_bytes() == (tmp_path / "own.png").read_bytes()
+    assert halfspace.render_frames(scene, 0) == []
+
+
+def test_frames_are_those_of_the_command_line(command_line, tmp_path):
+    command_line("moon", "--size", "48x27", "--frames", "0..3", "--fps", "2", out="own/{frame}.png")
+    for number, picture in enumerate(halfspace.render_frames("moon", 4, size=SIZE, fps=2)):
+        assert same_bytes(picture, tmp_path / "own" / f"{number:04}.png")
+
+
+def executors():
+    yield concurrent.futures.ThreadPoolExecutor(2)
+    yield concurrent.futures.ProcessPoolExecutor(2, mp_context=multiprocessing.get_context("forkserver"))
+
+
+def test_executors_give_the_same_frames(tmp_path):
+    scene = rich_scene()
+    expected = list(scene.frames(range(5), size=SIZE))
+    for executor in executors():
+        with executor:
+            given = halfspace.render_frames(scene, range(5), size=SIZE, client=executor, batch=2)
+            assert all(np.array_equal(a, b) for a, b in zip(given, expected)), type(executor)
+            futures = halfspace.submit_frames(scene, range(5), executor, size=SIZE, batch=3)
+            assert [len(f.result()) for f in futures] == [3, 2]
+
+
+def test_an_exception_of_progress_cancels_the_rest(tmp_path):
+    def stop(done, total):
+        raise RuntimeError("enough")
+
+    with concurrent.futures.ThreadPoolExecutor(1) as executor:
+        with pytest.raises(RuntimeError, match="enough"):
+            halfspace.render_frames(rich_scene(), 200, size=SIZE, client=executor, batch=1, out=tmp_path / "{frame}.png", progress=stop)
+    assert len(list(tmp_path.iterdir())) < 100
+
+
+def write_models(folder):
+    for i, name in enumerate("abcd"):
+        (folder / f"{name}.obj").write_text(f"v 0 0 0\nv {i + 1} 0 0\nv 0 1 {i}\nf 1 2 3\n")
+    (folder / "broken.obj").write_text("v 0 0 0\nf 1 2 3\n")
+    return [folder / f"{name}.obj" for name in "abcd"]
+
+
+def test_models_are_those_of_single_calls(tmp_path):
+    models = write_models(tmp_path)
+    files = halfspace.render_models(models, size=SIZE, out=tmp_path / "out" / "{name}.png", yaw=10)
+    assert [os.path.basename(f) for f in files] == ["a.png", "b.png", "c.png", "d.png"]
+    with concurrent.futures.ThreadPoolExecutor(2) as executor:
+        pictures = halfspace.render_models(models, size=SIZE, client=executor, threads=1, yaw=10)
+    for model, picture, file in zip(models, pictures, files):
+        own = halfspace.render(model, size=SIZE, yaw=10)
+        assert np.array_equal(picture, own)
+        own.save(tmp_path / "own.png")
+        assert (tmp_path / "own.png").read_bytes() == Path(file).read_bytes()
+
+
+def test_a_model_that_fails_costs_its_own_picture(tmp_path):
+    models = write_models(tmp_path)
+    models.insert(1, tmp_path / "broken.obj")
+    results = halfspace.render_models(models, size=SIZE, errors="return")
+    assert [isinstance(r, halfspace.InputError) for r in results] == [False, True, False, False, False]
+    with pytest.raises(halfspace.InputError, match="broken.obj"):
+        halfspace.render_models(models, size=SIZE, out=tmp_path / "{name}.png")
+    assert (tmp_path / "d.png").exists()
+
+
+def test_wrong_arguments():
+    scene = halfspace.Scene()
+    for out in ("a.png", "{name}.png", "%4d.png", "%%.png"):
+        with pytest.raises(halfspace.InputError, match=r"^out: is .*\{frame\} or %04d"):
+            halfspace.render_frames(scene, 2, out=out)
+    with pytest.raises(halfspace.InputError, match=r"^out: is .*\{name\}"):
+        halfspace.render_models(["a.obj"], out="a.png")
+    with pytest.raises(halfspace.InputError, match="^models: has 'x/a.obj' and 'y/a.obj', which have the same output file"):
+        halfspace.render_models(["x/a.obj", "y/a.obj"], out="{name}.png")
+    with pytest.raises(halfspace.InputError, match="^client: is of type str"):
+        halfspace.render_frames(scene, 2, client="tcp://localhost")
+    with pytest.raises(halfspace.InputError, match="^batch"):
+        halfspace.render_frames(scene, 2, client=concurrent.futures.ThreadPoolExecutor(1), batch=0)
+
+
+@pytest.fixture(scope="module")
+def dask():
+    distributed = pytest.importorskip("distributed", reason="Dask is not installed (scripts/install_deps.sh --dask)")
+    with distributed.LocalCluster(n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None, silence_logs=50) as cluster:
+        with distributed.Client(cluster) as client:
+            yield client
+
+
+@pytest.mark.filterwarnings("ignore")  # of Dask
+def test_dask_gives_the_same_frames(dask, tmp_path):
+    scene = rich_scene()
+    expected = list(scene.frames(range(6), size=SIZE))
+    given = halfspace.render_frames(scene, range(6), size=SIZE, client=dask, batch=1)
+    assert all(np.array_equal(a, b) for a, b in zip(given, expected))
+    pictures = halfspace.render_models(write_models(tmp_path), size=SIZE, client=dask, threads=1)
+    assert np.array_equal(pictures[2], halfspace.render(tmp_path / "c.obj", size=SIZE))
+
+
+def _worker_pid():
+    return os.getpid()
+
+
+@pytest.mark.filterwarnings("ignore")  # of Dask
+def test_a_killed_worker_of_dask_loses_nothing(dask, tmp_path):
+    """The tasks of a killed worker run again on others."""
+    scene = halfspace.Scene.load("moon", threads=1)
+    halfspace.render_frames(scene, 12, size=SIZE, out=tmp_path / "one" / "{frame}.png")
+    futures = halfspace.submit_frames(scene, 12, dask, size=SIZE, out=tmp_path / "dask" / "{frame}.png", batch=1)
+    victim = next(iter(dask.run(_worker_pid).values()))
+    time.sleep(0.2)
+    os.kill(victim, signal.SIGKILL)
+    names = [name for future in futures for name in future.result(timeout=120)]
+    assert [os.path.basename(name) for name in names] == [f"{i:04}.png" for i in range(12)]
+    for i in range(12):
+        assert (tmp_path / "dask" / f"{i:04}.png").read_bytes() == (tmp_path / "one" / f"{i:04}.png").read_bytes()
+    assert sorted(p.name for p in (tmp_path / "dask").iterdir()) == [f"{i:04}.png" for i in range(12)], "no partial files"
