@@ -179,6 +179,7 @@ step gcc-O1            "build_and_test gcc-O1 '$pixels' -DCMAKE_CXX_COMPILER=g++
 step dev               "build_and_test dev '$pixels explain' -DCMAKE_CXX_COMPILER=g++ -DCMAKE_BUILD_TYPE=RelWithDebInfo -DHALFSPACE_ASSERTS=ON"
 step asan-ubsan        asan_ubsan
 step window            window
+step killed            "build_gcc halfspace && python3 tests/cli/killed_test.py \$gcc 50"
 step tsan              "build_and_test tsan '$threads' -DCMAKE_CXX_COMPILER=clang++ -DHALFSPACE_SANITIZE=thread -DHALFSPACE_WITH_TBB=OFF \"\${checked[@]}\""
 step without-tbb       "without 'core raster render cli' -DHALFSPACE_WITH_TBB=OFF"
 step without-oiio      "without 'image model render cli' -DHALFSPACE_WITH_OPENIMAGEIO=OFF"

@@ -37,6 +37,7 @@ struct RenderArguments {
   std::string report;                      ///< file for the JSON report of --list
   std::string progress;                    ///< "json", or empty: a bar on terminals
   bool quiet = false, verbose = false;
+  bool mpi = false;
   bool naive = false;  ///< draw with the naive pipeline
   bool resume = false;
   bool print = false;

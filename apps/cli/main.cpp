@@ -32,6 +32,7 @@ void add_output_options(CLI::App* command, RenderArguments& args) {
   add("--loop", args.loop, "Play a .webp or .gif N times (default 0: forever)", "N");
   add("--list", args.list, "Also render the scenes in FILE, one per line; - is stdin", "FILE");
   add("--shard", args.shard, "Render only share I of N of the scenes or frames", "I/N");
+  add_flag("--mpi", args.mpi, "Share the scenes or frames with the other processes of mpirun");
   add("--report", args.report, "With several scenes: write which failed, as JSON", "FILE");
   add("--progress", args.progress, "json: print a line of JSON per picture", "STYLE");
   add_flag("--verbose", args.verbose, "Print a line per picture");

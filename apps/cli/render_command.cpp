@@ -6,10 +6,14 @@
 #include <chrono>
 #include <iostream>
 #include <optional>
+#include <span>
 #include <string>
+#include <thread>
+#include <utility>
 #include <vector>
 
 #include "cli/empty_picture.h"
+#include "cli/mpi_queue.h"
 #include "cli/render_list.h"
 #include "cli/render_run.h"
 #include "cli/stage_display.h"
@@ -22,6 +26,8 @@
 namespace halfspace {
 
 namespace {
+
+constexpr const char* kNoWireframe = "spheres that are not meshes have no wireframe; they are drawn as surfaces";
 
 // Returns the scene with the settings that --max-error chooses.
 SceneFile chosen(const RenderJob& job) {
@@ -54,37 +60,68 @@ ProgressStyle progress_style(const RenderArguments& args) {
   return args.verbose ? ProgressStyle::lines : ProgressStyle::bar;
 }
 
-// Prints the results of a run. scene, output: names for --stats.
-void print_results(const RenderOptions& o, const RenderRun& run, const std::string& scene, const std::filesystem::path& output,
-                   double read_ms = 0.0) {
-  const RenderArguments& args = o.arguments;
-  RenderReport report = run.report();
-  if (report.spheres_without_wireframe) print_warning("spheres that are not meshes have no wireframe; they are drawn as surfaces");
-  if (args.resume) print_note(run.resumed().line());
+// Where a run gets its work from, and what became of it: of this process, or of all ranks.
+struct Work {
+  NextIndex next;
+  int64_t total = 0;  // numbers of this process or, on rank 0, of all
+  MpiQueue* mpi = nullptr;
+};
+
+// Returns the shard of `count` scenes or frames, or what the queue of MPI hands out.
+Work work_of(const RenderOptions& options, int count, MpiQueue* mpi) {
+  if (mpi == nullptr) return {indices_of(options.shard, count), options.shard.share_of(count)};
+  mpi->begin(count);
+  return {[mpi] { return mpi->next(); }, count, mpi};
+}
+
+Progress make_progress(const RenderOptions& options, const Work& work, int pictures_per_number) {
+  ProgressStyle style = progress_style(options.arguments);
+  if (work.mpi == nullptr) return Progress(style, work.total * pictures_per_number);
+  if (style == ProgressStyle::bar && work.mpi->place().rank != 0) style = ProgressStyle::none;
+  return Progress(style, work.total * pictures_per_number,
+                  [mpi = work.mpi, pictures_per_number] { return int64_t{mpi->others_done()} * pictures_per_number; });
+}
+
+// Collects the results of all ranks. Returns false on all but rank 0.
+bool collect(const Work& work, RunResults& results) {
+  if (work.mpi == nullptr) return true;
+  work.mpi->finish(results.text(), [&](const std::string& other) { results.add(other); });
+  return work.mpi->place().rank == 0;
+}
+
+void print_statistics(const RenderOptions& o, RenderReport report, const std::string& scene, const std::filesystem::path& output) {
   // If the image goes to standard output, print the reports to standard error.
   std::ostream& out = is_standard_output(output) ? std::cerr : std::cout;
-  if (args.naive && report.naive.pixels > 0) out << naive_line(report.naive, o.threads);
-  if (args.statistics.empty()) return;
+  if (o.arguments.naive && report.naive.pixels > 0) out << naive_line(report.naive, o.threads);
+  if (o.arguments.statistics.empty()) return;
   report.scene = scene;
   report.output = output.string();
   const PictureSize size = picture_size(o);
   report.width = size.width;
   report.height = size.height;
   report.threads = o.threads;
-  report.read_ms = read_ms;
-  out << (args.statistics == "json" ? json_report(report) : text_report(report));
+  out << (o.arguments.statistics == "json" ? json_report(report) : text_report(report));
 }
 
-void render_scenes(const RenderOptions& options) {
-  const auto scenes = static_cast<int>(options.scenes.size());
-  Progress progress(progress_style(options.arguments), int64_t{options.shard.share_of(scenes)} * options.pictures_per_scene());
-  RenderRun run(options, progress);
-  const ListCounts counts = render_list(options, indices_of(options.shard, scenes), run);
-  print_results(options, run, fmt::format("{} scenes", counts.scenes), options.out.empty() ? "-" : options.out);
-  if (counts.failed > 0) throw InputError(fmt::format("{} of {} scenes failed; the others are complete", counts.failed, counts.scenes));
+void render_scenes(const RenderOptions& options, MpiQueue* mpi) {
+  const Work work = work_of(options, static_cast<int>(options.scenes.size()), mpi);
+  Progress progress = make_progress(options, work, options.pictures_per_scene());
+  RunResults results;
+  RenderRun run(options, progress, results.resumed());
+  render_list(options, work.next, run, results);
+  if (run.report().spheres_without_wireframe) print_warning(kNoWireframe);
+  if (!collect(work, results)) return;
+  if (options.arguments.resume) print_note(results.resumed().line());
+  print_statistics(options, run.report(), fmt::format("{} scenes", results.scenes()), options.out.empty() ? "-" : options.out);
+  if (!options.arguments.report.empty()) {
+    const std::string report = results.report();
+    write_file(options.arguments.report, std::as_bytes(std::span(report)));
+  }
+  if (results.failed() > 0)
+    throw InputError(fmt::format("{} of {} scenes failed; the others are complete", results.failed(), results.scenes()));
 }
 
-void render_scene(const RenderOptions& options) {
+void render_scene(const RenderOptions& options, MpiQueue* mpi) {
   const auto start = std::chrono::steady_clock::now();
   std::optional<StageDisplay> stage;
   if (!options.arguments.quiet) stage.emplace("reading " + options.scenes[0]);
@@ -95,23 +132,65 @@ void render_scene(const RenderOptions& options) {
     return;
   }
   const double read_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-  const int pictures = options.pictures_per_scene();
-  Progress progress(progress_style(options.arguments), options.shard.share_of(pictures));
-  RenderRun run(options, progress);
+  const Work work = work_of(options, options.pictures_per_scene(), mpi);
+  Progress progress = make_progress(options, work, 1);
+  RunResults results;
+  RenderRun run(options, progress, results.resumed());
   if (!options.frames && !options.arguments.quiet) stage.emplace("rendering " + job.out.string());
-  run.render(job, indices_of(options.shard, pictures));
+  run.render(job, work.next);
   stage.reset();
-  if (const std::string advice = advice_for_empty_pictures(job, run.report()); !advice.empty())
+  RenderReport report = run.report();
+  report.read_ms = read_ms;
+  if (const std::string advice = advice_for_empty_pictures(job, report); !advice.empty())
     print_warning("nothing is visible in the picture; try " + advice);
-  print_results(options, run, job.name, job.out, read_ms);
+  if (report.spheres_without_wireframe) print_warning(kNoWireframe);
+  if (!collect(work, results)) return;
+  if (options.arguments.resume) print_note(results.resumed().line());
+  print_statistics(options, std::move(report), job.name, job.out);
+}
+
+void render(const RenderOptions& options, MpiQueue* mpi) { options.is_list() ? render_scenes(options, mpi) : render_scene(options, mpi); }
+
+RenderOptions mpi_options(const RenderArguments& args, const MpiPlace& place) {
+  if (args.list == "-")
+    throw UsageError("--mpi cannot be combined with --list -, because only one rank has a standard input; expected a file");
+  RenderOptions options = parse_options(args);
+  const char* alone = nullptr;
+  if (options.format.to_standard_output || !options.format.is_picture()) alone = "one output for all pictures";
+  if (!args.shard.empty()) alone = "--shard";
+  if (!args.statistics.empty()) alone = "--stats";
+  if (args.naive) alone = "--naive";
+  if (args.print) alone = "--print";
+  if (!options.frames && !options.is_list()) alone = "a single picture";
+  if (alone != nullptr)
+    throw UsageError(std::string("--mpi cannot be combined with ") + alone + "; expected frames or scenes with a file each");
+  if (args.threads.empty()) options.threads = place.threads;
+  if (options.threads > place.cpus)
+    print_warning(fmt::format("rank {} is bound to {} CPU{}, but has {} threads; expected mpirun --bind-to none, or fewer --threads",
+                              place.rank, place.cpus, place.cpus == 1 ? "" : "s", options.threads));
+  return options;
+}
+
+void render_with_mpi(const RenderArguments& args) {
+  MpiQueue queue;
+  bool is_running = false;
+  try {
+    const RenderOptions options = mpi_options(args, queue.place());
+    is_running = true;
+    render(options, &queue);
+  } catch (const std::exception& e) {
+    // All ranks fail because of wrong arguments; the line of rank 0 is enough, so it is first.
+    if (!is_running && queue.place().rank != 0) std::this_thread::sleep_for(std::chrono::seconds(2));
+    print_problem(message_of(e));
+    queue.abort(exit_code_of(e));
+  }
 }
 
 }  // namespace
 
 void render_command(const RenderArguments& args) {
   set_quiet(args.quiet);
-  const RenderOptions options = parse_options(args);
-  options.is_list() ? render_scenes(options) : render_scene(options);
+  args.mpi ? render_with_mpi(args) : render(parse_options(args), nullptr);
 }
 
 }  // namespace halfspace

@@ -41,7 +41,8 @@ PreparedScene prepare(const RenderJob& job, double seconds, SceneAssets& assets,
 
 }  // namespace
 
-RenderRun::RenderRun(const RenderOptions& options, Progress& progress) : options_(options), progress_(progress), workers_(options.threads) {
+RenderRun::RenderRun(const RenderOptions& options, Progress& progress, ResumeCounts& resumed)
+    : options_(options), progress_(progress), resumed_(resumed), workers_(options.threads) {
   if (options.format.to_standard_output) stream_ = make_picture_sink(options, output_of(options, ""));
 }
 
@@ -68,6 +69,7 @@ JobCounts RenderRun::render(const RenderJob& job, const NextIndex& next) {
       }
       if (has_fingerprints) fingerprint = fingerprint_of(job, assets_->minimum_sizes(), hashes_);
     }
+    if (has_fingerprints) clean(files.picture.parent_path());
     if (fingerprint) files.text.fingerprint = picture_fingerprint(job, *fingerprint, *i);
     const auto start = std::chrono::steady_clock::now();
     const bool kept = options_.arguments.resume && keeps(files);
@@ -77,6 +79,10 @@ JobCounts RenderRun::render(const RenderJob& job, const NextIndex& next) {
   }
   if (animation != nullptr) animation->finish();
   return counts;
+}
+
+void RenderRun::clean(const std::filesystem::path& folder) {
+  if (cleaned_.insert(folder).second) remove_abandoned_output(folder);
 }
 
 bool RenderRun::keeps(const PictureFiles& files) {

@@ -4,12 +4,13 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "cli/output_files.h"
 #include "cli/picture_sink.h"
 #include "cli/render_job.h"
-#include "cli/resume.h"
+#include "cli/run_results.h"
 #include "command_line/progress.h"
 #include "halfspace/core/parallel.h"
 #include "halfspace/render/scene_assets.h"
@@ -19,35 +20,32 @@ namespace halfspace {
 /// Returns the index of the next piece of work of this process, or nothing after the last one.
 using NextIndex = std::function<std::optional<int>()>;
 
-/// The pictures of one job.
-struct JobCounts {
-  int rendered = 0, kept = 0;
-};
-
 /// Renders the pictures of one job after another. Assets that two jobs in a row share are prepared once.
 class RenderRun {
  public:
-  /// progress: is advanced by each picture. Both arguments must outlive this object.
-  RenderRun(const RenderOptions& options, Progress& progress);
+  /// progress: is advanced by each picture. resumed: counts the pictures of --resume. All arguments must outlive this object.
+  RenderRun(const RenderOptions& options, Progress& progress, ResumeCounts& resumed);
 
   /// Renders the pictures of a job that `next` selects. Throws UsageError, InputError and OutputError.
   JobCounts render(const RenderJob& job, const NextIndex& next);
 
   const RenderReport& report() const { return report_; }
-  const ResumeCounts& resumed() const { return resumed_; }
 
  private:
+  // Removes what killed processes left behind in a folder, once per run.
+  void clean(const std::filesystem::path& folder);
   bool keeps(const PictureFiles& files);
   void render_picture(const RenderJob& job, int i, PictureFiles files);
 
   const RenderOptions& options_;
   Progress& progress_;
+  ResumeCounts& resumed_;
   Workers workers_;
   std::unique_ptr<SceneAssets> assets_;  // of the current job
   std::unique_ptr<PictureSink> stream_;  // receives the pictures of all jobs, if they go to standard output
   FileHashes hashes_;
+  std::set<std::filesystem::path> cleaned_;
   RenderReport report_;
-  ResumeCounts resumed_;
 };
 
 }  // namespace halfspace

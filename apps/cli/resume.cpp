@@ -89,6 +89,10 @@ ResumeState resume_state(const PictureFiles& files) {
   return ResumeState::kept;
 }
 
+void ResumeCounts::add(const Counts& other) {
+  for (std::size_t k = 0; k < counts_.size(); ++k) counts_[k] += other[k];
+}
+
 std::string ResumeCounts::line() const {
   constexpr std::pair<ResumeState, const char*> kReasons[] = {{ResumeState::missing, "missing"},
                                                               {ResumeState::incomplete, "incomplete"},

@@ -46,13 +46,17 @@ ResumeState resume_state(const PictureFiles& files);
 /// The numbers of pictures in each state.
 class ResumeCounts {
  public:
+  using Counts = std::array<int, 7>;  // by ResumeState
+
   void add(ResumeState state) { ++counts_[static_cast<std::size_t>(state)]; }
+  void add(const Counts& other);
+  const Counts& counts() const { return counts_; }
   int kept() const { return counts_[static_cast<std::size_t>(ResumeState::kept)]; }
   /// Returns one line: how many pictures were kept and how many were rendered, and why.
   std::string line() const;
 
  private:
-  std::array<int, 7> counts_{};
+  Counts counts_{};
 };
 
 }  // namespace halfspace

@@ -159,6 +159,18 @@ void print_problem(const std::string& problem) {
 
 void set_quiet(bool quiet) { is_quiet = quiet; }
 
+ExitCode exit_code_of(const std::exception& e) {
+  if (dynamic_cast<const UsageError*>(&e) != nullptr) return kUsage;
+  if (dynamic_cast<const DifferenceError*>(&e) != nullptr) return kDiffers;
+  return dynamic_cast<const OutputError*>(&e) != nullptr ? kCannotWrite : kBadInput;
+}
+
+std::string message_of(const std::exception& e) {
+  if (dynamic_cast<const std::bad_alloc*>(&e) != nullptr) return "not enough memory; expected a smaller --size or smaller maps";
+  const bool is_own = exit_code_of(e) != kBadInput || dynamic_cast<const InputError*>(&e) != nullptr;
+  return is_own ? e.what() : std::string("system error: ") + e.what();
+}
+
 int run_program(CLI::App& program, const std::function<void()>& parse_and_run) {
   handle_signals();
   try {
@@ -170,18 +182,8 @@ int run_program(CLI::App& program, const std::function<void()>& parse_and_run) {
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() != 0) return report(program, kUsage, one_line(e.what()) + see_help(program));
     program.exit(e, std::cout, std::cerr);  // --help
-  } catch (const UsageError& e) {
-    return report(program, kUsage, e.what());
-  } catch (const DifferenceError& e) {
-    return report(program, kDiffers, e.what());
-  } catch (const InputError& e) {
-    return report(program, kBadInput, e.what());
-  } catch (const OutputError& e) {
-    return report(program, kCannotWrite, e.what());
-  } catch (const std::bad_alloc&) {
-    return report(program, kBadInput, "not enough memory; expected a smaller --size or smaller maps");
   } catch (const std::exception& e) {
-    return report(program, kBadInput, std::string("system error: ") + e.what());
+    return report(program, exit_code_of(e), message_of(e));
   }
   errno = 0;  // 0 afterwards if the stream had failed before
   std::cout.flush();

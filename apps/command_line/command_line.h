@@ -4,10 +4,13 @@
 // an exit code.
 #pragma once
 
+#include <exception>
 #include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "command_line/errors.h"
 
 namespace CLI {
 class App;
@@ -36,6 +39,10 @@ void print_problem(const std::string& problem);
 
 /// Sets whether the program is quiet.
 void set_quiet(bool quiet);
+
+/// Returns the exit code for an exception, and its line for standard error.
+ExitCode exit_code_of(const std::exception& e);
+std::string message_of(const std::exception& e);
 
 /// Calls parse_and_run, reports any exception that it throws, and returns the exit code. parse_and_run must set the program's name.
 int run_program(CLI::App& program, const std::function<void()>& parse_and_run);

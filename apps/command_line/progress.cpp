@@ -9,6 +9,7 @@
 #include <atomic>
 #include <cstdint>
 #include <cstdio>
+#include <utility>
 
 #include "halfspace/core/text.h"
 
@@ -53,7 +54,8 @@ void show_progress_line(const std::string& text) {
   line_shown = true;
 }
 
-Progress::Progress(ProgressStyle style, int64_t total) : style_(style), total_(total), start_(std::chrono::steady_clock::now()) {
+Progress::Progress(ProgressStyle style, int64_t total, std::function<int64_t()> others)
+    : style_(style), total_(total), others_(std::move(others)), start_(std::chrono::steady_clock::now()) {
   if (style == ProgressStyle::bar && (total < 2 || ::isatty(STDERR_FILENO) != 1)) style_ = ProgressStyle::none;
   if (style_ == ProgressStyle::bar) show_bar();
 }
@@ -61,8 +63,9 @@ Progress::Progress(ProgressStyle style, int64_t total) : style_(style), total_(t
 Progress::~Progress() { clear_progress(); }
 
 void Progress::advance(bool kept, const std::string& file, std::chrono::steady_clock::duration spent) {
-  ++done_;
-  rendered_ += kept ? 0 : 1;
+  ++own_;
+  kept_ += kept ? 1 : 0;
+  done_ = own_ + (others_ ? others_() : 0);
   if (style_ == ProgressStyle::bar) show_bar();
   const double ms = std::chrono::duration<double, std::milli>(spent).count();
   if (style_ == ProgressStyle::lines)
@@ -78,7 +81,7 @@ void Progress::advance(bool kept, const std::string& file, std::chrono::steady_c
 
 double Progress::pictures_per_second() const {
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  return seconds > 0.0 ? static_cast<double>(rendered_) / seconds : 0.0;
+  return seconds > 0.0 ? static_cast<double>(done_ - kept_) / seconds : 0.0;
 }
 
 double Progress::seconds_left() const {
@@ -88,7 +91,7 @@ double Progress::seconds_left() const {
 
 void Progress::show_bar() const {
   std::string text = fmt::format(" {}/{}", done_, total_);
-  if (rendered_ > 0)
+  if (done_ > kept_)
     text += fmt::format("  {:.3g}/s  {} left", pictures_per_second(), time_text(static_cast<int>(std::min(seconds_left() + 0.5, 1e9))));
   // A line that wraps could not be overwritten, so the bar is shortened if necessary.
   constexpr int kWidest = 30;

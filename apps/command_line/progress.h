@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <string>
 
 namespace halfspace {
@@ -20,7 +21,8 @@ enum class ProgressStyle {
 /// Shows the progress of a run of several pictures.
 class Progress {
  public:
-  Progress(ProgressStyle style, int64_t total);
+  /// others: returns how many pictures other processes have finished; may be empty.
+  Progress(ProgressStyle style, int64_t total, std::function<int64_t()> others = {});
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
@@ -34,7 +36,9 @@ class Progress {
   double seconds_left() const;         // 0: unknown
 
   ProgressStyle style_;
-  int64_t total_, done_ = 0, rendered_ = 0;
+  int64_t total_;
+  int64_t own_ = 0, kept_ = 0, done_ = 0;  // of this process; own pictures that were kept; of all processes
+  std::function<int64_t()> others_;
   std::chrono::steady_clock::time_point start_;
 };
 

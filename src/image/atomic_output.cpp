@@ -9,11 +9,14 @@
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <charconv>
+#include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <mutex>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "halfspace/core/check.h"
 #include "halfspace/image/image_errors.h"
@@ -87,11 +90,31 @@ int write_all(int fd, std::span<const std::byte> bytes) {
   return 0;
 }
 
+constexpr std::string_view kPrefix = ".halfspace-", kSuffix = ".part";
+
+std::string host_name() {
+  char name[256] = {};
+  return ::gethostname(name, sizeof name - 1) == 0 ? name : "unknown";
+}
+
+// The start of the names of the temporary files of all processes of this machine.
+std::string temporary_prefix() { return fmt::format("{}{}-", kPrefix, host_name()); }
+
+// Returns whether a name is that of a temporary file of a process of this machine that does not run any more.
+bool is_abandoned(const std::string& name) {
+  const std::string prefix = temporary_prefix();
+  if (!name.starts_with(prefix) || !name.ends_with(kSuffix)) return false;
+  pid_t process = 0;
+  const char* end = name.data() + name.size();
+  const auto [rest, error] = std::from_chars(name.data() + prefix.size(), end, process);
+  return error == std::errc() && process > 0 && rest != end && *rest == '-' && ::kill(process, 0) != 0 && errno == ESRCH;
+}
+
 // Creates a temporary file with a unique name in the directory of path, and stores its name in unfinished_name.
 int create_temporary_file(const std::filesystem::path& path) {
   static std::atomic<unsigned> counter = 0;
   for (int attempt = 0; attempt < 100; ++attempt) {
-    const std::string name = fmt::format(".halfspace-{}-{}.part", ::getpid(), counter++);
+    const std::string name = fmt::format("{}{}-{}{}", temporary_prefix(), ::getpid(), counter++, kSuffix);
     const std::string full = (directory_of(path) / name).string();
     if (full.size() >= sizeof unfinished_name) return errno = ENAMETOOLONG, -1;
     std::memcpy(unfinished_name, full.c_str(), full.size() + 1);
@@ -161,6 +184,14 @@ void write_file(const std::filesystem::path& path, std::span<const std::byte> by
   if (error != 0) ::unlink(unfinished_name);
   unfinished = false;
   if (error != 0) fail_errno(path, error);
+}
+
+void remove_abandoned_output(const std::filesystem::path& directory) {
+  std::error_code error;
+  for (std::filesystem::directory_iterator entry(directory.empty() ? "." : directory, error), end; !error && entry != end;
+       entry.increment(error)) {
+    if (is_abandoned(entry->path().filename().string())) ::unlink(entry->path().c_str());
+  }
 }
 
 void remove_unfinished_output() noexcept {

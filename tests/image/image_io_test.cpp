@@ -71,6 +71,25 @@ TEST_F(ImageIo, PngStoresText) {
   EXPECT_FALSE(contains(encode_png(test_picture(true)), "tEXt"));
 }
 
+// A killed process cannot remove its temporary file. A later one does, unless the file belongs to a running process or another machine.
+TEST_F(ImageIo, AbandonedTemporaryFilesAreRemoved) {
+  const auto name = [](const std::string& host, pid_t process) { return ".halfspace-" + host + "-" + std::to_string(process) + "-7.part"; };
+  char host[256] = {};
+  ASSERT_EQ(::gethostname(host, sizeof host - 1), 0);
+  const pid_t dead = ::fork();
+  if (dead == 0) ::_exit(0);
+  ::waitpid(dead, nullptr, 0);
+  const std::vector<std::string> kept{name(host, ::getpid()), name(host, 1), name(std::string(host) + "2", dead),
+                                      ".halfspace-" + std::string(host) + "-x-7.part", "a.part"};
+  const std::string removed = name(host, dead);
+  for (const std::string& file : kept) std::ofstream(directory / file) << "x";
+  std::ofstream(directory / removed) << "x";
+  remove_abandoned_output(directory);
+  EXPECT_FALSE(std::filesystem::exists(directory / removed));
+  for (const std::string& file : kept) EXPECT_TRUE(std::filesystem::exists(directory / file)) << file;
+  remove_abandoned_output(directory / "missing");
+}
+
 TEST_F(ImageIo, PngKeepsTransparentColors) {
   // Alpha is straight, so a color survives an alpha of 0.
   Image<glm::u8vec4> image(1, 1);
