@@ -28,7 +28,8 @@ class Progress {
   Progress& operator=(const Progress&) = delete;
 
   /// Must be called after each picture. Kept pictures do not affect the estimate of the remaining time.
-  void advance(bool kept, const std::string& file, std::chrono::steady_clock::duration spent);
+  /// file, spent: the picture and its time, for lines.
+  void advance(bool kept = false, const std::string& file = {}, std::chrono::steady_clock::duration spent = {});
 
  private:
   void show_bar() const;

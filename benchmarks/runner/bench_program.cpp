@@ -20,6 +20,7 @@
 #include "halfspace/image/atomic_output.h"
 #include "halfspace/image/image_io.h"
 #include "runner/runner.h"
+#include "runner/scaling.h"
 #include "workloads/picture_errors.h"
 #include "workloads/workload_assets.h"
 
@@ -36,8 +37,9 @@ struct BenchArguments {
   std::string size = "1920x1080";
   std::string threads;  // empty: one per core
   std::string seconds = "1";
-  std::string out;    // empty: write no images
-  std::string check;  // empty: do not compare images with the reference
+  std::string out;       // empty: write no images
+  std::string check;     // empty: do not compare images with the reference
+  bool scaling = false;  // predict the times with more threads instead
   bool list = false;
   bool json = false;
 };
@@ -196,13 +198,25 @@ void measure(const BenchProgram& program, const BenchArguments& args, std::span<
   std::vector<FrameTimes> times;
   const double mb_before = resident_mb();
   {
-    Progress progress(Runner::steps(prepared.size(), seconds));
-    times = Runner(workers).run(prepared, seconds, [&] { progress.advance(false); });
+    Progress progress(ProgressStyle::bar, Runner::steps(prepared.size(), seconds));
+    times = Runner(workers).run(prepared, seconds, [&] { progress.advance(); });
   }
   std::optional<double> frames_mb;
   if (kinds.size() == 1) frames_mb = resident_mb() - mb_before;
   for (std::size_t i = 0; i < kinds.size(); ++i)
     report(program, args, *kinds[i], *prepared[i], size, workers.threads(), times[i], frames_mb);
+}
+
+// Prints the serial share of each workload and its predicted speed with more threads. Workloads are prepared one at a time, which needs
+// less memory.
+void print_scaling(const BenchArguments& args, std::span<const WorkloadKind* const> kinds, PictureSize size, double seconds) {
+  if (!args.json) std::cout << scaling_title() << '\n';
+  WorkloadAssets assets;
+  for (const WorkloadKind* kind : kinds) {
+    const std::unique_ptr<Workload> workload = kind->prepare({size.width, size.height}, assets);
+    const Scaling scaling = scaling_of(*workload, seconds);
+    std::cout << (args.json ? scaling_json(kind->name, scaling).dump() : scaling_row(kind->name, scaling)) << '\n' << std::flush;
+  }
 }
 
 void run_bench(const BenchProgram& program, const BenchArguments& args) {
@@ -212,6 +226,8 @@ void run_bench(const BenchProgram& program, const BenchArguments& args) {
   const std::vector<WorkloadKind> all = kinds_of(program, args);
   std::vector<const WorkloadKind*> kinds = chosen_workloads(all, args.only);
   if (args.list) return list_workloads(all);
+  if (args.scaling && !program.has_tasks) throw UsageError("--scaling: " + program.name + " has no tasks of its own");
+  if (args.scaling) return print_scaling(args, kinds, size, seconds);
   if (!args.out.empty()) make_directory(args.out);
 
   if (program.start) program.start(threads);
@@ -248,6 +264,7 @@ void parse_and_run(CLI::App& app, const BenchProgram& program, int argc, char** 
   app.add_option("--out", args.out, "Write NAME.png and NAME.depth.exr of each workload to DIR")->type_name("DIR");
   app.add_option("--check", args.check, "Compare with double-precision references (slow; cached in DIR)")->type_name("DIR");
   app.add_flag("--json", args.json, "Print one JSON object per line for each workload");
+  app.add_flag("--scaling", args.scaling, "Predict the speed with more threads from the tasks of one thread");
   app.add_flag("--list", args.list, "Print the workloads and exit");
   for (const BenchOption& option : program.options) app.add_option(option.name, *option.value, option.help)->type_name(option.value_name);
   app.footer(

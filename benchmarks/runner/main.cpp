@@ -20,6 +20,7 @@ extern "C" int halfspace_bench_main(int argc, char** argv) {
                             .matrix = [] { return matrix_workloads(); },
                             .scenes = [] { return scene_workloads(); },
                             .model = model_workloads,
+                            .has_tasks = true,
                             .identity =
                                 [] {
                                   return nlohmann::ordered_json{{"program", "halfspace"}, {"arch", build_arch()}, {"lanes", kLanes}};

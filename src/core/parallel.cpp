@@ -20,6 +20,7 @@
 #include "halfspace/core/check.h"
 #include "halfspace/core/float_mode.h"
 #include "halfspace/core/task_check.h"
+#include "halfspace/core/task_log.h"
 
 namespace halfspace::HS_LANES {
 
@@ -36,7 +37,10 @@ void run_on_std_threads(int threads, int count, const Task& task) {
     const FloatMode mode;
     const detail::TaskScope scope;
     try {
-      for (int i = next++; i < count; i = next++) task(i);
+      for (int i = next++; i < count; i = next++) {
+        const detail::RecordedTask recorded;
+        task(i);
+      }
     } catch (...) {
       const std::lock_guard lock(mutex);
       if (!error) error = std::current_exception();
@@ -121,6 +125,7 @@ void Workers::for_each(int count, const std::function<void(int)>& task) const {
 }
 
 void Workers::run(int count, const std::function<void(int)>& task) const {
+  const detail::RecordedPhase recorded(count);
   try {
     if (impl_ != nullptr && count > 1 && Impl::works()) {
       impl_->run(count, task);
