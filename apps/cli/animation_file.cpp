@@ -21,13 +21,13 @@ namespace {
 std::unique_ptr<PictureSink> make_animation_file(Animation format, const RenderOptions& options, const std::filesystem::path& file) {
   if (format == Animation::webp) {
 #if HALFSPACE_HAS_WEBP
-    return make_webp_file(FrameClock(options.fps, 1000), options.loop, file);
+    return make_webp_file(FrameClock(options.pictures_per_second(), 1000), options.loop, file);
 #else
     fail_without("libwebp", file);
 #endif
   }
 #if HALFSPACE_HAS_GIF
-  return make_gif_file(FrameClock(options.fps, 100), options.loop, file);
+  return make_gif_file(FrameClock(options.pictures_per_second(), 100), options.loop, file);
 #else
   fail_without("giflib", file);
 #endif

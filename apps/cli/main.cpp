@@ -61,7 +61,7 @@ void add_output_options(CLI::App* command, RenderArguments& args) {
 void add_render_command(CLI::App& program) {
   CLI::App* command = program.add_subcommand("render", "Render a scene to an image or to numbered frames");
   const auto args = std::make_shared<RenderArguments>();
-  command->add_option("SCENE", args->scenes, "Scenes, scene files or model files (see --help-model)")->type_name("")->check(not_empty());
+  command->add_option("SCENE", args->scenes, "Scenes, scene files or models (see --help-model)")->type_name("")->check(not_empty());
   command->add_option("-o,--output", args->out, "Picture (default NAME.png; see --help-output)")->type_name("OUT")->check(not_empty());
   command->add_option("--size", args->size, "Size in pixels (default 1920x1080)")->type_name("WxH");
   add_set_option(command, args->set);
@@ -70,7 +70,7 @@ void add_render_command(CLI::App& program) {
   command->add_option("--fps", args->fps, "Frames per second (default 30)")->type_name("N");
   command->add_option("--max-error", args->max_error, "Use the cheapest model with edges within PX px")->type_name("PX");
   command->add_option("--max-error-color", args->max_error_color, "... and with colors within E 8-bit steps")->type_name("E");
-  command->add_flag("--resume", args->resume, "Keep the pictures that would be the same");
+  command->add_flag("--resume", args->resume, "Keep pictures that would not change");
   command->add_option("--threads", args->threads, "Threads (default: one per core)")->type_name("N");
   command->add_flag("--stats{text}", args->statistics, "Print times and counts as text or JSON")->option_text("[=json]");
   command->add_flag("--print", args->print, "Print the scene with all settings and exit");

@@ -21,7 +21,9 @@ const MpiFunctions* load() {
   // The plugins of OpenMPI itself need the symbols of its libraries.
   void* library = ::dlopen(plugin.c_str(), RTLD_NOW | RTLD_GLOBAL);
   if (library == nullptr) throw UsageError(std::string("--mpi: cannot be loaded (") + ::dlerror() + "); expected the libraries of OpenMPI");
-  return static_cast<const MpiFunctions*>(::dlsym(library, "halfspace_mpi_functions"));
+  const void* functions = ::dlsym(library, "halfspace_mpi_functions");
+  if (functions == nullptr) throw UsageError("--mpi: " + plugin.string() + " is not of this version; expected that of this build");
+  return static_cast<const MpiFunctions*>(functions);
 }
 
 }  // namespace
@@ -40,6 +42,7 @@ void MpiQueue::finish(const std::string& result, const std::function<void(const 
     (*static_cast<const std::function<void(const std::string&)>*>(context))(std::string(text, size));
   };
   functions_->finish(result.data(), result.size(), pass, const_cast<std::function<void(const std::string&)>*>(&receive));
+  is_finished_ = true;
 }
 
 }  // namespace halfspace

@@ -26,6 +26,8 @@ class MpiQueue {
   /// Returns the next number, or nothing after the last one.
   std::optional<int> next();
   int others_done() const { return functions_->others_done(); }
+  /// Returns whether the results of all ranks have arrived.
+  bool is_finished() const { return is_finished_; }
   /// Sends the result of this rank to rank 0, and there passes the results of all other ranks to `receive`.
   void finish(const std::string& result, const std::function<void(const std::string&)>& receive);
 
@@ -35,6 +37,7 @@ class MpiQueue {
  private:
   const MpiFunctions* functions_;
   MpiPlace place_;
+  bool is_finished_ = false;
 };
 
 }  // namespace halfspace

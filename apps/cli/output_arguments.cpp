@@ -9,7 +9,6 @@
 
 #include "command_line/errors.h"
 #include "halfspace/core/text.h"
-#include "halfspace/image/exr_header.h"
 
 namespace halfspace {
 
@@ -76,19 +75,6 @@ std::filesystem::path beside(const std::filesystem::path& picture, std::string_v
 std::string channel_name(FrameValue value, std::size_t k) {
   const ValueName& v = name_of(value);
   return fmt::format("{}.{}", v.name, v.channels.empty() ? "id" : v.channels.substr(k, 1));
-}
-
-std::vector<std::string> channel_names(FrameValue value) {
-  std::vector<std::string> names;
-  for (std::size_t k = 0; k < std::max<std::size_t>(name_of(value).channels.size(), 1); ++k) names.push_back(channel_name(value, k));
-  return names;
-}
-
-bool has_channels(const std::filesystem::path& file, std::span<const FrameValue> values) {
-  const std::vector<std::string> present = exr_channel_names(file);
-  return std::ranges::all_of(values, [&](FrameValue value) {
-    return std::ranges::all_of(channel_names(value), [&](const std::string& name) { return std::ranges::count(present, name) > 0; });
-  });
 }
 
 // Adds the channels of a value, whose image has `count` 32-bit numbers per pixel.
@@ -185,16 +171,6 @@ std::string value_names(const OutputChoice& choice) {
   std::string names;
   for (const FrameValue value : choice.values) names += fmt::format("{}{}", names.empty() ? "" : ",", name_of(value).name);
   return names;
-}
-
-bool has_values(const OutputChoice& choice, const std::filesystem::path& picture) {
-  if (share_file(choice, picture)) return has_channels(picture, choice.values);
-  const std::vector<std::filesystem::path> files = value_files(choice, picture);
-  if (!choice.separate) return files.empty() || has_channels(files[0], choice.values);
-  for (std::size_t i = 0; i < files.size(); ++i) {
-    if (!has_channels(files[i], std::span(choice.values).subspan(i, 1))) return false;
-  }
-  return true;
 }
 
 std::vector<std::filesystem::path> value_files(const OutputChoice& choice, const std::filesystem::path& picture) {

@@ -67,9 +67,6 @@ bool share_file(const OutputChoice& choice, const std::filesystem::path& picture
 /// Returns an empty list if there are no values or if they are stored in the picture's own file.
 std::vector<std::filesystem::path> value_files(const OutputChoice& choice, const std::filesystem::path& picture);
 
-/// Returns true if the files of an earlier run contain the channels of all values.
-bool has_values(const OutputChoice& choice, const std::filesystem::path& picture);
-
 /// Returns the names of the values, separated by commas.
 std::string value_names(const OutputChoice& choice);
 

@@ -5,6 +5,9 @@
 #include <chrono>
 #include <iterator>
 
+#include "halfspace/image/atomic_output.h"
+#include "halfspace/image/png.h"
+
 namespace halfspace {
 
 namespace {
@@ -27,6 +30,9 @@ void bind(ColorImage& color, const PictureFiles& files, FrameImages& images) {
 
 void write(const ColorImage& color, const ValueImages& values, const PictureFiles& files) {
   if (files.sink != nullptr) return files.format.is_linear() ? files.sink->add(color.light) : files.sink->add(color.codes);
+  if (files.format.to_standard_output)
+    return write_standard_output(files.choice.fine ? encode_png(color.fine_codes, files.text)
+                                                   : encode_png(color.codes, PngCodes::srgb, files.text));
   if (share_file(files.choice, files.picture)) {
     std::vector<ExrChannel> channels = color_channels(color.light);
     std::ranges::move(values.channels(), std::back_inserter(channels));

@@ -18,19 +18,18 @@ namespace {
 
 class RawPictures : public PictureSink {
  public:
-  RawPictures(RawStream format, std::filesystem::path file) : format_(format), file_(std::move(file)) {}
+  explicit RawPictures(RawStream format) : format_(format) {}
 
   void add(const Image<glm::u8vec4>& picture) override {
-    if (format_ == RawStream::rgba) return write_file(file_, std::as_bytes(picture.texels()));
+    if (format_ == RawStream::rgba) return write_standard_output(std::as_bytes(picture.texels()));
     bytes_.clear();
     for (const glm::u8vec4& t : picture.texels()) bytes_.insert(bytes_.end(), {std::byte{t.x}, std::byte{t.y}, std::byte{t.z}});
-    write_file(file_, bytes_);
+    write_standard_output(bytes_);
   }
-  void add(const Image<glm::vec4>& picture) override { write_file(file_, std::as_bytes(picture.texels())); }
+  void add(const Image<glm::vec4>& picture) override { write_standard_output(std::as_bytes(picture.texels())); }
 
  private:
   RawStream format_;
-  std::filesystem::path file_;
   std::vector<std::byte> bytes_;  // kept between pictures to avoid allocations
 };
 
@@ -47,7 +46,7 @@ VideoCode video_code(const glm::u8vec4& t) {
 
 class Y4m : public PictureSink {
  public:
-  Y4m(double fps, std::filesystem::path file) : fps_(fps), file_(std::move(file)) {}
+  explicit Y4m(double fps) : fps_(fps) {}
 
   void add(const Image<glm::u8vec4>& picture) override {
     bytes_.clear();
@@ -59,7 +58,7 @@ class Y4m : public PictureSink {
       const VideoCode code = video_code(picture.texels()[i]);
       for (std::size_t plane = 0; plane < 3; ++plane) bytes_[first + plane * pixels + i] = std::byte{code.planes[plane]};
     }
-    write_file(file_, bytes_);
+    write_standard_output(bytes_);
   }
 
  private:
@@ -74,16 +73,15 @@ class Y4m : public PictureSink {
   }
 
   double fps_;
-  std::filesystem::path file_;
   bool has_header_ = false;
   std::vector<std::byte> bytes_;  // kept between pictures to avoid allocations
 };
 
 }  // namespace
 
-std::unique_ptr<PictureSink> make_raw_stream(RawStream format, double fps, const std::filesystem::path& file) {
-  if (format == RawStream::y4m) return std::make_unique<Y4m>(fps, file);
-  return std::make_unique<RawPictures>(format, file);
+std::unique_ptr<PictureSink> make_raw_stream(RawStream format, double fps) {
+  if (format == RawStream::y4m) return std::make_unique<Y4m>(fps);
+  return std::make_unique<RawPictures>(format);
 }
 
 }  // namespace halfspace

@@ -91,7 +91,7 @@ bool collect(const Work& work, RunResults& results) {
 
 void print_statistics(const RenderOptions& o, RenderReport report, const std::string& scene, const std::filesystem::path& output) {
   // If the image goes to standard output, print the reports to standard error.
-  std::ostream& out = is_standard_output(output) ? std::cerr : std::cout;
+  std::ostream& out = o.format.to_standard_output || is_standard_output(output) ? std::cerr : std::cout;
   if (o.arguments.naive && report.naive.pixels > 0) out << naive_line(report.naive, o.threads);
   if (o.arguments.statistics.empty()) return;
   report.scene = scene;
@@ -108,7 +108,7 @@ void render_scenes(const RenderOptions& options, MpiQueue* mpi) {
   Progress progress = make_progress(options, work, options.pictures_per_scene());
   RunResults results;
   RenderRun run(options, progress, results.resumed());
-  render_list(options, work.next, run, results);
+  render_list(options, work.next, run, results, progress);
   if (run.report().spheres_without_wireframe) print_warning(kNoWireframe);
   if (!collect(work, results)) return;
   if (options.arguments.resume) print_note(results.resumed().line());
@@ -117,8 +117,7 @@ void render_scenes(const RenderOptions& options, MpiQueue* mpi) {
     const std::string report = results.report();
     write_file(options.arguments.report, std::as_bytes(std::span(report)));
   }
-  if (results.failed() > 0)
-    throw InputError(fmt::format("{} of {} scenes failed; the others are complete", results.failed(), results.scenes()));
+  if (results.failed() > 0) throw InputError(fmt::format("{} of {} scenes failed", results.failed(), results.scenes()));
 }
 
 void render_scene(const RenderOptions& options, MpiQueue* mpi) {
@@ -137,7 +136,8 @@ void render_scene(const RenderOptions& options, MpiQueue* mpi) {
   RunResults results;
   RenderRun run(options, progress, results.resumed());
   if (!options.frames && !options.arguments.quiet) stage.emplace("rendering " + job.out.string());
-  run.render(job, work.next);
+  JobCounts counts;
+  run.render(job, work.next, counts);
   stage.reset();
   RenderReport report = run.report();
   report.read_ms = read_ms;
@@ -171,16 +171,17 @@ RenderOptions mpi_options(const RenderArguments& args, const MpiPlace& place) {
   return options;
 }
 
+// Ends the job if a rank cannot go on. If some scenes of a list failed, all ranks have done their work, and rank 0 returns an error.
 void render_with_mpi(const RenderArguments& args) {
   MpiQueue queue;
-  bool is_running = false;
+  std::optional<RenderOptions> options;
   try {
-    const RenderOptions options = mpi_options(args, queue.place());
-    is_running = true;
-    render(options, &queue);
+    options.emplace(mpi_options(args, queue.place()));
+    render(*options, &queue);
   } catch (const std::exception& e) {
-    // All ranks fail because of wrong arguments; the line of rank 0 is enough, so it is first.
-    if (!is_running && queue.place().rank != 0) std::this_thread::sleep_for(std::chrono::seconds(2));
+    if (queue.is_finished()) throw;
+    // Wrong arguments are an error of all ranks; the line of rank 0 is enough.
+    if (!options && queue.place().rank != 0) std::this_thread::sleep_for(std::chrono::seconds(2));
     print_problem(message_of(e));
     queue.abort(exit_code_of(e));
   }

@@ -27,6 +27,15 @@ std::vector<double> animated_times(const RenderOptions& o) {
   return o.frames ? frame_times(*o.frames, o.time, o.fps) : std::vector{o.time};
 }
 
+// Throws OutputError if a file that the scene reads is the picture of a scene of the list.
+void protect_from_others(const RenderOptions& options, const std::string& scene, const std::vector<std::filesystem::path>& inputs) {
+  if (options.outputs.empty()) return;
+  for (const std::filesystem::path& input : inputs) {
+    if (options.outputs.contains(std::filesystem::absolute(input).lexically_normal()))
+      throw OutputError(scene + ": reads " + input.string() + ", which this command writes; expected another output file");
+  }
+}
+
 }  // namespace
 
 RenderJob open_job(const RenderOptions& options, const std::string& scene) {
@@ -41,9 +50,12 @@ RenderJob open_job(const RenderOptions& options, const std::string& scene) {
   if (!args.print) {
     models = read_models(opened);
     inputs = input_files(opened.scene.description(), scene, models);
+    protect_from_others(options, scene, inputs);
   }
-  return {
-      options, scene, std::move(opened.scene), std::move(models), std::move(inputs), output_of(options, scene), pattern_of(options, scene)};
+  // Before the scene is rendered: a file that changes later must not have the fingerprint of the pixels.
+  std::string hash = options.has_fingerprints() && !args.print ? hash_of_files(inputs) : "";
+  return {options,           scene,           std::move(opened.scene),   std::move(models),
+          std::move(inputs), std::move(hash), output_of(options, scene), pattern_of(options, scene)};
 }
 
 std::filesystem::path picture_of(const RenderJob& job, int i) {

@@ -9,6 +9,8 @@
 #include "cli/scene_list.h"
 #include "command_line/arguments.h"
 #include "command_line/errors.h"
+#include "halfspace/image/atomic_output.h"
+#include "halfspace/render/model_file/input_files.h"
 #include "halfspace/render/model_file/model_scene.h"
 
 namespace halfspace {
@@ -61,11 +63,14 @@ void check_options(const RenderOptions& o) {
     if (given && has_one_picture)
       throw UsageError(std::string(option) + " applies only to multiple pictures; expected --frames FIRST..LAST or --list FILE as well");
   }
+  if (!args.shard.empty() && !o.is_list() && o.format.animation)
+    throw UsageError("--shard would give each process an animation with some of the frames; expected a file per frame");
   if (!args.fps.empty() && !o.frames) throw UsageError("--fps applies only to multiple frames; expected --frames FIRST..LAST as well");
   if (!args.loop.empty() && !o.format.animation)
     throw UsageError("--loop applies only to animations; expected -o with a file name ending in .webp or .gif");
-  if (!args.report.empty() && !o.is_list()) throw UsageError("--report applies only to several scenes; expected --list FILE as well");
-  if (o.is_list() && args.print) throw UsageError("--print prints one scene; expected it without --list");
+  if (!args.report.empty() && !o.is_list())
+    throw UsageError("--report applies only to several scenes; expected more scenes, or --list FILE");
+  if (o.is_list() && args.print) throw UsageError("--print prints one scene; expected it without other scenes and --list");
   if (!args.progress.empty() && args.progress != "json") throw UsageError("--progress is '" + args.progress + "'; expected json");
   if (args.quiet && (args.verbose || !args.progress.empty()))
     throw UsageError("--quiet cannot be combined with --verbose and --progress; expected only one of them");
@@ -80,19 +85,33 @@ void check_options(const RenderOptions& o) {
 }
 
 // Throws UsageError if two scenes have the same output file, or if the place for a number has no number.
-void check_names(const RenderOptions& o) {
+void check_names(RenderOptions& o) {
   if (!o.frames && OutputPattern::has_place(o.out))
     throw UsageError("-o is '" + o.out + "', which has a place for the number of a frame; expected --frames FIRST..LAST as well");
   (void)pattern_of(o, o.scenes[0]);
+  if (o.frames && o.format.animation && (OutputPattern::has_place(o.out) || o.out.find('%') != std::string::npos))
+    throw UsageError("-o is '" + o.out + "', an animation of all frames; expected a name without a place for the number of a frame");
   if (o.format.to_standard_output) return;
   std::map<std::filesystem::path, std::string> owners;
   for (const std::string& scene : o.scenes) {
+    if (o.is_list() && !o.frames) o.outputs.insert(std::filesystem::absolute(output_of(o, scene)).lexically_normal());
     const auto [entry, is_new] = owners.emplace(output_of(o, scene).lexically_normal(), scene);
     if (!is_new)
       throw UsageError(fmt::format("'{}' and '{}' have the same output file, {}; expected {}", entry->second, scene, entry->first.string(),
                                    o.out.find("{name}") == std::string::npos ? "-o with {name} as the place for the name of the scene"
                                                                              : "scenes with different names"));
   }
+}
+
+// Before hours of rendering: the report must be writable, and must not replace a file of the run.
+void check_report(const RenderOptions& o) {
+  const std::string& report = o.arguments.report;
+  check_writable(report);
+  std::vector<std::filesystem::path> files(o.scenes.begin(), o.scenes.end());
+  files.emplace_back(o.arguments.list);
+  reject_overwriting(report, files);
+  if (o.outputs.contains(std::filesystem::absolute(report).lexically_normal()))
+    throw UsageError("--report is '" + report + "', which is also the picture of a scene; expected another name");
 }
 
 }  // namespace
@@ -119,6 +138,7 @@ RenderOptions parse_options(const RenderArguments& args) {
   o.output = parse_output(args.output, o.size, out, o.format);
   check_options(o);
   check_names(o);
+  if (!args.report.empty()) check_report(o);
   check_picture(o.size, bytes_per_pixel(o.output, o.format));
   return o;
 }
@@ -136,7 +156,8 @@ std::filesystem::path output_of(const RenderOptions& options, const std::string&
 
 std::optional<OutputPattern> pattern_of(const RenderOptions& options, const std::string& scene) {
   if (!options.frames || !options.format.is_picture() || options.format.to_standard_output) return std::nullopt;
-  return OutputPattern(options.out.empty() ? output_of(options, scene).string() : options.out, scene, *options.frames);
+  const std::string default_name = is_model_file(scene) ? "{name}-render.png" : "{name}.png";
+  return OutputPattern(options.out.empty() ? default_name : options.out, scene, *options.frames);
 }
 
 }  // namespace halfspace

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -31,9 +32,14 @@ struct RenderOptions {
   std::optional<AllowedError> allowed;
   std::optional<HiddenLines> wireframe;
   OutputChoice output;
+  std::set<std::filesystem::path> outputs{};  ///< of a list without frames, absolute
 
+  /// Returns whether pictures contain a fingerprint, so that --resume can keep them.
+  bool has_fingerprints() const { return (frames || is_list()) && format.is_picture() && !format.to_standard_output; }
   /// Returns whether a scene that fails must not end the run.
   bool is_list() const { return scenes.size() > 1 || !arguments.list.empty(); }
+  /// Returns the pictures per second of a stream or an animation.
+  double pictures_per_second() const { return frames ? fps / frames->step : fps; }
   /// Returns the number of pictures of each scene.
   int pictures_per_scene() const { return frames ? frames->count() : 1; }
 };

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/render_run.h"
 
+#include <malloc.h>
+
 #include <chrono>
 #include <utility>
 
@@ -43,42 +45,52 @@ PreparedScene prepare(const RenderJob& job, double seconds, SceneAssets& assets,
 
 RenderRun::RenderRun(const RenderOptions& options, Progress& progress, ResumeCounts& resumed)
     : options_(options), progress_(progress), resumed_(resumed), workers_(options.threads) {
-  if (options.format.to_standard_output) stream_ = make_picture_sink(options, output_of(options, ""));
+  if (options.format.to_standard_output) stream_ = make_picture_sink(options, {});
 }
 
-JobCounts RenderRun::render(const RenderJob& job, const NextIndex& next) {
-  // Frames that were announced for the previous job must not affect this one.
-  assets_ =
-      assets_ ? std::make_unique<SceneAssets>(*assets_, workers_, print_warning) : std::make_unique<SceneAssets>(workers_, print_warning);
-  add_models(*assets_, job.models);
+void RenderRun::render(const RenderJob& job, const NextIndex& next, JobCounts& counts) {
   protect_inputs(job);
-  const bool has_fingerprints = job.pattern || options_.is_list();
-  JobCounts counts;
   std::optional<JobFingerprint> fingerprint;
   std::unique_ptr<PictureSink> animation = stream_ != nullptr ? nullptr : make_picture_sink(options_, job.out);
   for (std::optional<int> i = next(); i; i = next()) {
     PictureFiles files = files_of(job, *i);
     files.sink = stream_ != nullptr ? stream_.get() : animation.get();
     if (counts.rendered + counts.kept == 0) {
-      check_writable(files.picture);
-      // All frames determine the detail of generated maps, so that the pictures do not depend on which process renders them.
-      if (options_.frames) {
-        expect_frames(
-            *assets_, job.scene, options_.pictures_per_scene(), [&](int k) { return time_of(job, k); }, options_.size.width,
-            options_.size.height);
-      }
-      if (has_fingerprints) fingerprint = fingerprint_of(job, assets_->minimum_sizes(), hashes_);
+      if (!options_.format.to_standard_output) check_writable(files.picture);
+      begin(job);
+      if (options_.has_fingerprints()) fingerprint = fingerprint_of(job, assets_->minimum_sizes());
     }
-    if (has_fingerprints) clean(files.picture.parent_path());
-    if (fingerprint) files.text.fingerprint = picture_fingerprint(job, *fingerprint, *i);
+    if (fingerprint) {
+      clean(files.picture.parent_path());
+      files.text.fingerprint = picture_fingerprint(job, *fingerprint, *i);
+    }
     const auto start = std::chrono::steady_clock::now();
     const bool kept = options_.arguments.resume && keeps(files);
-    if (!kept) render_picture(job, *i, files);
+    if (!kept) {
+      if (counts.rendered == 0) add_models(*assets_, job.models);
+      render_picture(job, *i, files);
+    }
     ++(kept ? counts.kept : counts.rendered);
     progress_.advance(kept, files.picture.string(), std::chrono::steady_clock::now() - start);
   }
   if (animation != nullptr) animation->finish();
-  return counts;
+}
+
+void RenderRun::forget_assets() {
+  assets_.reset();
+  ::malloc_trim(0);  // the memory limit counts what the process holds, not what it uses
+}
+
+void RenderRun::begin(const RenderJob& job) {
+  // Frames that were announced for the previous job must not affect this one.
+  assets_ =
+      assets_ ? std::make_unique<SceneAssets>(*assets_, workers_, print_warning) : std::make_unique<SceneAssets>(workers_, print_warning);
+  // All frames determine the detail of generated maps, so that the pictures do not depend on which process renders them.
+  if (options_.frames) {
+    expect_frames(
+        *assets_, job.scene, options_.pictures_per_scene(), [&](int i) { return time_of(job, i); }, options_.size.width,
+        options_.size.height);
+  }
 }
 
 void RenderRun::clean(const std::filesystem::path& folder) {

@@ -26,12 +26,16 @@ class RenderRun {
   /// progress: is advanced by each picture. resumed: counts the pictures of --resume. All arguments must outlive this object.
   RenderRun(const RenderOptions& options, Progress& progress, ResumeCounts& resumed);
 
-  /// Renders the pictures of a job that `next` selects. Throws UsageError, InputError and OutputError.
-  JobCounts render(const RenderJob& job, const NextIndex& next);
+  /// Renders the pictures of a job that `next` selects, and adds them to the counts. Throws UsageError, InputError and OutputError.
+  void render(const RenderJob& job, const NextIndex& next, JobCounts& counts);
+
+  /// Frees what the previous job left for the next one.
+  void forget_assets();
 
   const RenderReport& report() const { return report_; }
 
  private:
+  void begin(const RenderJob& job);
   // Removes what killed processes left behind in a folder, once per run.
   void clean(const std::filesystem::path& folder);
   bool keeps(const PictureFiles& files);
@@ -43,7 +47,6 @@ class RenderRun {
   Workers workers_;
   std::unique_ptr<SceneAssets> assets_;  // of the current job
   std::unique_ptr<PictureSink> stream_;  // receives the pictures of all jobs, if they go to standard output
-  FileHashes hashes_;
   std::set<std::filesystem::path> cleaned_;
   RenderReport report_;
 };

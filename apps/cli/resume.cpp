@@ -5,13 +5,17 @@
 #include <xxhash.h>
 
 #include <fstream>
+#include <map>
 #include <memory>
+#include <mutex>
 #include <utility>
 #include <vector>
 
 #include "cli/build_commit.h"
 #include "halfspace/core/text.h"
+#include "halfspace/core/tool_folder.h"
 #include "halfspace/image/image_text.h"
+#include "halfspace/image/image_tool.h"
 
 namespace halfspace {
 
@@ -21,7 +25,8 @@ std::string hex(const XXH128_hash_t& hash) { return fmt::format("{:016x}{:016x}"
 
 std::string hash_of(std::string_view text) { return hex(XXH3_128bits(text.data(), text.size())); }
 
-std::string hash_of_file(const std::filesystem::path& file) {
+// Reads a file, or returns a text that is not a hash if it cannot be read.
+std::string new_hash_of_file(const std::filesystem::path& file) {
   std::error_code error;
   std::ifstream stream(file, std::ios::binary);
   if (!std::filesystem::is_regular_file(file, error) || !stream) return "none";
@@ -32,6 +37,23 @@ std::string hash_of_file(const std::filesystem::path& file) {
   while (stream.read(buffer.data(), static_cast<std::streamsize>(buffer.size())), stream.gcount() > 0)
     XXH3_128bits_update(state.get(), buffer.data(), static_cast<std::size_t>(stream.gcount()));
   return stream.bad() ? "none" : hex(XXH3_128bits_digest(state.get()));
+}
+
+// Each file is read once per run.
+std::string hash_of_file(const std::filesystem::path& file) {
+  static std::mutex mutex;
+  static std::map<std::filesystem::path, std::string> hashes;
+  const std::lock_guard lock(mutex);
+  const auto [entry, is_new] = hashes.try_emplace(file);
+  if (is_new) entry->second = new_hash_of_file(file);
+  return entry->second;
+}
+
+// Identifies the program. Without a commit, the contents of its file do.
+const std::string& build() {
+  static const std::string kBuild = std::string(HALFSPACE_VERSION) + "-" +
+                                    (build_commit() == std::string_view("unknown") ? hash_of_file("/proc/self/exe") : build_commit());
+  return kBuild;
 }
 
 // Returns the word after "NAME ", or an empty text.
@@ -56,13 +78,13 @@ ResumeState state_of(const std::filesystem::path& file, const std::string& expec
 
 }  // namespace
 
-const std::string& FileHashes::of(const std::filesystem::path& file) {
-  const auto [entry, is_new] = hashes_.try_emplace(file);
-  if (is_new) entry->second = hash_of_file(file);
-  return entry->second;
+std::string hash_of_files(std::span<const std::filesystem::path> files) {
+  std::string contents;
+  for (const std::filesystem::path& file : files) contents += hash_of_file(file) + '\n';
+  return hash_of(contents);
 }
 
-JobFingerprint fingerprint_of(const RenderJob& job, const MinimumSizes& minimum, FileHashes& hashes) {
+JobFingerprint fingerprint_of(const RenderJob& job, const MinimumSizes& minimum) {
   const RenderOptions& o = job.options;
   std::string settings =
       fmt::format("{}{}x{} {} {}\n", job.scene.print(), o.size.width, o.size.height, static_cast<int>(o.format.picture), o.output.fine);
@@ -71,15 +93,16 @@ JobFingerprint fingerprint_of(const RenderJob& job, const MinimumSizes& minimum,
   settings += fmt::format("values {} {}\n", value_names(o.output), o.output.separate);
   if (o.allowed) settings += fmt::format("error {} {}\n", o.arguments.max_error, o.arguments.max_error_color);
   settings += fmt::format("wireframe {} naive {}\n", o.arguments.wireframe, o.arguments.naive);
+  // Without a decoder, models are drawn without their textures.
+  settings +=
+      fmt::format("decoders {} {} {}\n", !find_image_tool().empty(), !find_jpeg_tool().empty(), !find_tool("halfspace-draco-tool").empty());
   for (const auto& [name, width] : minimum.map_widths) settings += fmt::format("map {} {}\n", name, width);
   settings += fmt::format("environments {} {}\n", minimum.environments.panorama_width, minimum.environments.face);
-  std::string contents;
-  for (const std::filesystem::path& file : job.inputs) contents += hashes.of(file) + '\n';
-  return {std::move(settings), hash_of(contents)};
+  return {std::move(settings), job.input_hash};
 }
 
 std::string picture_fingerprint(const RenderJob& job, const JobFingerprint& shared, int i) {
-  return fmt::format("build {} scene {} files {}", build_commit(), hash_of(shared.settings + number_text(time_of(job, i))), shared.files);
+  return fmt::format("build {} scene {} files {}", build(), hash_of(shared.settings + number_text(time_of(job, i))), shared.files);
 }
 
 ResumeState resume_state(const PictureFiles& files) {

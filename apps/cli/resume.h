@@ -5,25 +5,12 @@
 #pragma once
 
 #include <array>
-#include <filesystem>
-#include <map>
 #include <string>
-#include <string_view>
 
 #include "cli/render_job.h"
 #include "halfspace/render/assets/minimum_sizes.h"
 
 namespace halfspace {
-
-/// Content hashes of files, each of which is read once. Hashes are 128 bits as 32 hexadecimal digits (XXH3).
-class FileHashes {
- public:
-  /// Returns the hash of a file's contents, or a text that is not a hash if the file cannot be read.
-  const std::string& of(const std::filesystem::path& file);
-
- private:
-  std::map<std::filesystem::path, std::string> hashes_;
-};
 
 /// The part of the fingerprint that all pictures of a job share.
 struct JobFingerprint {
@@ -32,7 +19,7 @@ struct JobFingerprint {
 };
 
 /// minimum: sizes of generated maps, which depend on all frames of a range.
-JobFingerprint fingerprint_of(const RenderJob& job, const MinimumSizes& minimum, FileHashes& hashes);
+JobFingerprint fingerprint_of(const RenderJob& job, const MinimumSizes& minimum);
 
 /// Returns the fingerprint of picture i: "build COMMIT scene HASH files HASH".
 std::string picture_fingerprint(const RenderJob& job, const JobFingerprint& shared, int i);

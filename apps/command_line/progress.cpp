@@ -62,6 +62,11 @@ Progress::Progress(ProgressStyle style, int64_t total, std::function<int64_t()> 
 
 Progress::~Progress() { clear_progress(); }
 
+void Progress::skip(int64_t pictures) {
+  own_ += pictures;
+  kept_ += pictures;
+}
+
 void Progress::advance(bool kept, const std::string& file, std::chrono::steady_clock::duration spent) {
   ++own_;
   kept_ += kept ? 1 : 0;

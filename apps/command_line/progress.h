@@ -27,6 +27,8 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
+  /// Must be called for pictures that are neither rendered nor kept.
+  void skip(int64_t pictures);
   /// Must be called after each picture. Kept pictures do not affect the estimate of the remaining time.
   /// file, spent: the picture and its time, for lines.
   void advance(bool kept = false, const std::string& file = {}, std::chrono::steady_clock::duration spent = {});

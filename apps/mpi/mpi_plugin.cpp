@@ -68,7 +68,7 @@ void serve() {
 
 // The CPUs of this process and, as bits, of all ranks of its node.
 struct NodeCpus {
-  int own = 1, sum = 1, all = 1, ranks = 1;
+  int own = 1, sum = 1, all = 1;
 };
 
 NodeCpus node_cpus() {
@@ -82,9 +82,8 @@ NodeCpus node_cpus() {
   MPI_Allreduce(own.data(), all.data(), static_cast<int>(all.size()), MPI_UNSIGNED_CHAR, MPI_BOR, node);
   cpu_set_t together;
   std::memcpy(&together, all.data(), sizeof together);
-  NodeCpus cpus{.own = CPU_COUNT(&set), .sum = 0, .all = CPU_COUNT(&together), .ranks = 1};
+  NodeCpus cpus{.own = CPU_COUNT(&set), .sum = 0, .all = CPU_COUNT(&together)};
   MPI_Allreduce(&cpus.own, &cpus.sum, 1, MPI_INT, MPI_SUM, node);
-  MPI_Comm_size(node, &cpus.ranks);
   MPI_Comm_free(&node);
   return cpus;
 }
@@ -97,7 +96,7 @@ MpiPlace start(int cpu_limit) {
   const NodeCpus cpus = node_cpus();
   // Ranks that are bound to CPUs of their own use them; ranks that may use the same CPUs share them.
   const int share = std::min(cpu_limit, cpus.own) * cpus.all / std::max(cpus.sum, 1);
-  return {queue.rank, queue.ranks, std::max(share, 1), cpus.own};
+  return {queue.rank, std::max(share, 1), cpus.own};
 }
 
 void begin(int total) {

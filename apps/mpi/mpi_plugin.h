@@ -11,7 +11,7 @@
 namespace halfspace {
 
 struct MpiPlace {
-  int rank = 0, ranks = 1;
+  int rank = 0;
   /// Threads for this rank: the CPUs that its node allows, divided among the ranks of the node that share them.
   int threads = 1;
   int cpus = 1;  ///< CPUs to which this rank is bound
@@ -25,12 +25,13 @@ struct MpiFunctions {
   void (*begin)(int total);
   /// Returns the next number, or −1 after the last one.
   int (*next)();
-  /// On rank 0, returns how many numbers the other ranks have completed.
+  /// On rank 0, returns for how many of their numbers the other ranks have asked for the next one.
   int (*others_done)();
   /// Sends a text to rank 0, and there waits for the texts of all other ranks and passes each to receive(context, text, size).
   void (*finish)(const char* text, std::size_t size, void (*receive)(void*, const char*, std::size_t), void* context);
-  /// Ends MPI: all ranks, or after an error only this one, which ends the job with this exit code.
+  /// Ends MPI. Must be called by all ranks.
   void (*end)();
+  /// Ends the processes of all ranks, after an error of this one.
   void (*abort)(int exit_code);
 };
 

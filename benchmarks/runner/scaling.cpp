@@ -36,6 +36,12 @@ double makespan(const std::vector<double>& tasks, int workers) {
 
 double total_ms(const TaskLog& log) { return scheduled_ms(log, 1); }
 
+std::size_t tasks_of(const TaskLog& log) {
+  std::size_t count = 0;
+  for (const TaskPhase& phase : log.phases) count += phase.tasks_ms.size();
+  return count;
+}
+
 double ceiling(double serial_share, int workers) { return 1.0 / (serial_share + (1.0 - serial_share) / workers); }
 
 }  // namespace
@@ -73,15 +79,10 @@ Scaling scaling_of(Workload& workload, double seconds) {
     workload.frame(two);
     two_ms = std::min(two_ms, ms_since(frame));
   } while (ms_since(start) < 1e3 * seconds);
-  Scaling scaling{.one_ms = best_ms,
-                  .serial_ms = serial_ms(best),
-                  .phases = static_cast<int>(best.phases.size()),
-                  .tasks = 0,
-                  .two_measured_ms = two_ms,
-                  .two_ms = scheduled_ms(best, 2),
-                  .times = {}};
-  for (const TaskPhase& phase : best.phases) scaling.tasks += static_cast<int>(phase.tasks_ms.size());
+  Scaling scaling{
+      .one_ms = best_ms, .serial_ms = serial_ms(best), .log = {}, .two_measured_ms = two_ms, .two_ms = scheduled_ms(best, 2), .times = {}};
   for (const int workers : kWorkerCounts) scaling.times.push_back(scheduled_ms(best, workers));
+  scaling.log = std::move(best);
   return scaling;
 }
 
@@ -94,8 +95,8 @@ std::string scaling_title() {
 
 std::string scaling_row(std::string_view name, const Scaling& s) {
   const double share = s.serial_ms / s.one_ms;
-  std::string row = fmt::format("{:24} {:9.3f} {:7.2f}% {:6} {:6} {:11.3f} {:12.3f}", name, s.one_ms, 100.0 * share, s.phases, s.tasks,
-                                s.two_measured_ms, s.two_ms);
+  std::string row = fmt::format("{:24} {:9.3f} {:7.2f}% {:6} {:6} {:11.3f} {:12.3f}", name, s.one_ms, 100.0 * share, s.log.phases.size(),
+                                tasks_of(s.log), s.two_measured_ms, s.two_ms);
   for (std::size_t i = 0; i < s.times.size(); ++i)
     row += fmt::format(" {:>14}", fmt::format("{:.1f} ({:.1f})", s.one_ms / s.times[i], ceiling(share, kWorkerCounts[i])));
   return row;
@@ -103,9 +104,16 @@ std::string scaling_row(std::string_view name, const Scaling& s) {
 
 nlohmann::ordered_json scaling_json(std::string_view name, const Scaling& s) {
   const double share = s.serial_ms / s.one_ms;
-  nlohmann::ordered_json json = {
-      {"workload", name},   {"ms", s.one_ms},   {"serial_share", share},
-      {"phases", s.phases}, {"tasks", s.tasks}, {"two_threads", {{"measured_ms", s.two_measured_ms}, {"predicted_ms", s.two_ms}}}};
+  nlohmann::ordered_json json = {{"workload", name},
+                                 {"ms", s.one_ms},
+                                 {"serial_share", share},
+                                 {"tasks", tasks_of(s.log)},
+                                 {"two_threads", {{"measured_ms", s.two_measured_ms}, {"predicted_ms", s.two_ms}}}};
+  for (const TaskPhase& phase : s.log.phases) {
+    const double ms = std::accumulate(phase.tasks_ms.begin(), phase.tasks_ms.end(), 0.0);
+    json["phases"].push_back({{"serial_ms", phase.serial_ms}, {"tasks", phase.tasks_ms.size()}, {"tasks_ms", ms}});
+  }
+  json["last_serial_ms"] = s.log.last_serial_ms;
   for (std::size_t i = 0; i < s.times.size(); ++i)
     json["workers"].push_back(
         {{"count", kWorkerCounts[i]}, {"speedup", s.one_ms / s.times[i]}, {"amdahl", ceiling(share, kWorkerCounts[i])}});

@@ -25,7 +25,7 @@ double serial_ms(const TaskLog& log);
 struct Scaling {
   double one_ms = 0;     ///< recorded time with one thread
   double serial_ms = 0;  ///< part of it, see serial_ms()
-  int phases = 0, tasks = 0;
+  TaskLog log;
   double two_measured_ms = 0;  ///< with two threads
   double two_ms = 0;           ///< the same, predicted
   std::vector<double> times;   ///< predicted, for kWorkerCounts

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import os
+import pickle
 import re
 import threading
 import uuid
@@ -14,7 +15,7 @@ import numpy as np
 
 from . import _check, _core
 from ._check import fail
-from ._options import pixel_kind
+from ._options import is_model_file, pixel_kind
 from .camera import Camera
 from .picture import Picture
 from .scene import Scene, Size
@@ -162,7 +163,7 @@ def _gathered(futures: List[Any], total: int, progress: Optional[Callable[[int, 
             if progress is not None:
                 progress(len(results), total)
     finally:
-        for future in futures:  # has no effect on those that are complete
+        for future in futures:
             future.cancel()
     return results
 
@@ -190,14 +191,20 @@ def _checked_out(out: Optional[Path], place: str) -> Optional[str]:
 
 def _frames_job(scene: Union[Scene, Path], frames: Union[int, Iterable[int]], out: Optional[Path], size: Size, fps: float, time: float,
                 camera: Union[str, Camera, None], linear: bool, alpha: bool) -> Tuple[_Frames, int]:
-    opened = scene if isinstance(scene, Scene) else Scene.load(_check.path("scene", scene))
+    width, height = _check.size(size)
+    rate, start = _check.number("fps", fps, 1e-3, 1e6), _check.number("time", time)
     expected = "a number of frames or a sequence of frame numbers"
     if isinstance(frames, (int, np.integer)):
         numbers = list(range(_check.integer("frames", frames, 0, 2**31 - 1)))
     else:
         numbers = [_check.integer("frames", number, 0, 2**31 - 1) for number in _check.items("frames", frames, expected)]
-    job = _Frames(opened, numbers, _check.size(size), _check.number("fps", fps, 1e-3, 1e6), _check.number("time", time), camera, bool(linear),
-                  bool(alpha), _checked_out(out, "{frame}"))
+    if isinstance(scene, Scene):
+        opened = pickle.loads(pickle.dumps(scene))  # later changes of the scene do not affect the frames
+    else:
+        name = _check.path("scene", scene)
+        view = {"times": [start + n / rate for n in numbers], "aspect": width / height} if is_model_file(name) and numbers else {}
+        opened = Scene.load(name, **view)
+    job = _Frames(opened, numbers, (width, height), rate, start, camera, bool(linear), bool(alpha), _checked_out(out, "{frame}"))
     return job, len(numbers)
 
 
@@ -217,7 +224,8 @@ def render_frames(scene: Union[Scene, Path], frames: Union[int, Iterable[int]], 
     """Renders frames of an animation, and returns a list of Pictures or, with `out`, of file names. The pictures are those of Scene.frames(),
     for any client.
 
-    scene: a Scene, or the name of a shipped scene, a scene file or a model file.
+    scene: a Scene, of which later changes have no effect, or the name of a shipped scene, a scene file or a model file. The whole model is
+        in view at the times of all frames; its first animation plays.
     frames: how many frames, or the frame numbers, for example range(0, 20000, 10).
     out: names of the files: "frames/{frame}.png" or "frames/%05d.png". Missing folders are created. Workers write the files, so they must
         share a file system with the reader of the files.

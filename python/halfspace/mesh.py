@@ -27,6 +27,10 @@ def new_file(name: str) -> str:
     return f"/memory/{next(_numbers)}/{name}"
 
 
+class _UnitNormals(np.ndarray):
+    """Normals of a mesh that was pickled: they are used as they are, because another division by their length would change some bits."""
+
+
 class Mesh(Shapes):
     """Vertices of one material. All arrays are copied; a Mesh is immutable and can be added to any number of scenes.
 
@@ -73,7 +77,9 @@ class Mesh(Shapes):
         index = None if faces is None else _check.indices("faces", faces, _WIDTHS[topology], count)
         if index is not None and index.size == 0:
             raise fail("faces", "is empty", "at least one row")
-        unit = None if normals is None else _unit("normals", _rows("normals", normals, count, 3))
+        unit = normals if isinstance(normals, _UnitNormals) else None
+        if normals is not None and unit is None:
+            unit = _unit("normals", _rows("normals", normals, count, 3))
         uv = None if uvs is None else _rows("uvs", uvs, count, 2)
         _check.choice("uv_origin", uv_origin, ("lower_left", "upper_left"))
         rgba = None if colors is None else _colors("colors", colors, count)
@@ -91,10 +97,10 @@ class Mesh(Shapes):
             index = np.arange(count, dtype=np.uint32)
             index = index if topology == "points" else index.reshape(-1, _WIDTHS[topology])
         self._set_arrays(vertices=_check.read_only(positions, vertices), faces=_check.read_only(index, faces),
-                         normals=None if unit is None else _check.read_only(unit, normals),
+                         normals=None if unit is None else _check.read_only(unit.view(np.ndarray), normals),
                          uvs=None if uv is None else _check.read_only(uv, uvs), uv_origin=uv_origin,
                          colors=None if rgba is None else _check.read_only(rgba, colors), material=material, topology=topology)
-        given = {"normals": self.normals, "uvs": self.uvs, "colors": self.colors, "material": material, "topology": topology,
+        given = {"normals": None if self.normals is None else self.normals.view(_UnitNormals), "uvs": self.uvs, "colors": self.colors, "material": material, "topology": topology,
                  "crease": crease, "uv_origin": uv_origin}
         self._set(_model=model, _file=new_file("mesh"), _made_by=(Mesh, (self.vertices, self.faces), given))
 

@@ -65,7 +65,7 @@ class Model(Immutable):
         if self._meshes is None:
             materials = [Material._of_file(properties) for properties in _core.model_materials(self._model, self.path)]
             name = os.path.basename(self.path)
-            self._set(_meshes=[Mesh._of_file(asset, name, arrays, materials[number], (_mesh_of, (self, i), {}))
+            self._set(_meshes=[Mesh._of_file(asset, name, arrays, materials[number], (_mesh_of, (self.path, self._options, i), {}))
                                for i, (asset, arrays, number) in enumerate(_core.model_parts(self._model))])
         return list(self._meshes)
 
@@ -94,8 +94,8 @@ def _load(path: str, options: Any) -> Model:
     return Model.load(path, **options)
 
 
-def _mesh_of(model: Model, number: int) -> Mesh:
-    return model.meshes[number]
+def _mesh_of(path: str, options: Any, number: int) -> Mesh:
+    return _load(path, options).meshes[number]
 
 
 def _joined(meshes: List[Mesh], name: str, missing: Optional[float] = None) -> Optional[np.ndarray]:

@@ -27,6 +27,8 @@ def rich_scene():
     scene.add(ball, name="ball")
     scene.add(ball, np.stack([np.diag([0.3, 0.3, 0.3, 1.0])] * 2), name="small")
     scene.add(halfspace.Mesh(*QUAD, colors=np.eye(4)[:, :3]), casts_shadow=False)
+    vertices, faces, normals, _ = sphere(30, 40, 0.4)
+    scene.add(halfspace.Mesh(vertices, faces, normals=normals + np.float32(1e-3)), np.eye(4))
     scene.place("small", np.array([[[0.3, 0, 0, 1.2], [0, 0.3, 0, 0], [0, 0, 0.3, 0], [0, 0, 0, 1]]]))
     scene.add_light("point", position=(1, 2, 3), color=(1, 0.5, 0.2))
     scene.merge({"animations": {"turn": {"type": "rate", "target": "small.rotation", "rate": [0, 90, 0]}}})
@@ -68,6 +70,25 @@ def test_frames_are_those_of_scene_frames(tmp_path):
     expected[2].save(tmp_path / "own.png")
     assert (tmp_path / "new" / "005.png").read_bytes() == (tmp_path / "own.png").read_bytes()
     assert halfspace.render_frames(scene, 0) == []
+
+
+def test_later_changes_of_the_scene_have_no_effect():
+    scene = rich_scene()
+    expected = list(scene.frames(3, size=SIZE))
+    with concurrent.futures.ThreadPoolExecutor(1) as executor:
+        blocked = executor.submit(time.sleep, 0.3)
+        futures = halfspace.submit_frames(scene, 3, executor, size=SIZE)
+        scene["ball.visible"] = False
+        blocked.result()
+        given = [picture for future in futures for picture in future.result()]
+    assert all(np.array_equal(a, b) for a, b in zip(given, expected))
+
+
+def test_normals_of_a_pickled_mesh_have_the_same_bits():
+    vertices, faces, normals, _ = sphere(40, 60)
+    mesh = halfspace.Mesh(vertices, faces, normals=np.random.default_rng(2).normal(size=normals.shape))
+    again = pickle.loads(pickle.dumps(pickle.loads(pickle.dumps(mesh))))
+    assert np.array_equal(again.normals, mesh.normals) and type(again.normals) is np.ndarray
 
 
 def test_frames_are_those_of_the_command_line(command_line, tmp_path):

@@ -3,14 +3,13 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
-#include <charconv>
-#include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <mutex>
@@ -92,37 +91,26 @@ int write_all(int fd, std::span<const std::byte> bytes) {
 
 constexpr std::string_view kPrefix = ".halfspace-", kSuffix = ".part";
 
-std::string host_name() {
-  char name[256] = {};
-  return ::gethostname(name, sizeof name - 1) == 0 ? name : "unknown";
-}
-
-// The start of the names of the temporary files of all processes of this machine.
-std::string temporary_prefix() { return fmt::format("{}{}-", kPrefix, host_name()); }
-
-// Returns whether a name is that of a temporary file of a process of this machine that does not run any more.
-bool is_abandoned(const std::string& name) {
-  const std::string prefix = temporary_prefix();
-  if (!name.starts_with(prefix) || !name.ends_with(kSuffix)) return false;
-  pid_t process = 0;
-  const char* end = name.data() + name.size();
-  const auto [rest, error] = std::from_chars(name.data() + prefix.size(), end, process);
-  return error == std::errc() && process > 0 && rest != end && *rest == '-' && ::kill(process, 0) != 0 && errno == ESRCH;
-}
+// A process holds a lock on its temporary file until it has written it. The number of a process would not show whether it still runs: in a
+// container, it is usually 1.
+bool lock(int fd) { return ::flock(fd, LOCK_EX | LOCK_NB) == 0; }
 
 // Creates a temporary file with a unique name in the directory of path, and stores its name in unfinished_name.
 int create_temporary_file(const std::filesystem::path& path) {
   static std::atomic<unsigned> counter = 0;
   for (int attempt = 0; attempt < 100; ++attempt) {
-    const std::string name = fmt::format("{}{}-{}{}", temporary_prefix(), ::getpid(), counter++, kSuffix);
+    const std::string name = fmt::format("{}{}-{}{}", kPrefix, ::getpid(), counter++, kSuffix);
     const std::string full = (directory_of(path) / name).string();
     if (full.size() >= sizeof unfinished_name) return errno = ENAMETOOLONG, -1;
     std::memcpy(unfinished_name, full.c_str(), full.size() + 1);
     unfinished = true;  // set before the file exists: a signal in between finds nothing to remove
     const int fd = ::open(unfinished_name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (fd >= 0) return fd;
+    struct stat status = {};
+    // Another process can remove the file before it is locked.
+    if (fd >= 0 && (!lock(fd) || ::fstat(fd, &status) != 0 || status.st_nlink > 0)) return fd;
+    if (fd >= 0) ::close(fd);
     unfinished = false;
-    if (errno != EEXIST) return -1;
+    if (fd < 0 && errno != EEXIST) return -1;
   }
   return -1;
 }
@@ -190,8 +178,16 @@ void remove_abandoned_output(const std::filesystem::path& directory) {
   std::error_code error;
   for (std::filesystem::directory_iterator entry(directory.empty() ? "." : directory, error), end; !error && entry != end;
        entry.increment(error)) {
-    if (is_abandoned(entry->path().filename().string())) ::unlink(entry->path().c_str());
+    const std::string name = entry->path().filename().string();
+    if (!name.starts_with(kPrefix) || !name.ends_with(kSuffix)) continue;
+    const Descriptor file{::open(entry->path().c_str(), O_WRONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK)};
+    if (file.fd >= 0 && lock(file.fd)) ::unlink(entry->path().c_str());
   }
+}
+
+void write_standard_output(std::span<const std::byte> bytes) {
+  if (const int error = write_all(STDOUT_FILENO, bytes); error != 0)
+    throw OutputError(std::string("standard output: cannot write (") + std::strerror(error) + ")");
 }
 
 void remove_unfinished_output() noexcept {

@@ -24,8 +24,11 @@ void check_writable(const std::filesystem::path& path);
 /// Returns whether path is the file, pipe or terminal that standard output is connected to, such as /dev/stdout.
 bool is_standard_output(const std::filesystem::path& path);
 
-/// Removes temporary files that processes of this machine left behind in a directory, because they were killed while they wrote. Files of
-/// running processes and of other machines stay. Errors are ignored.
+/// Writes the bytes to standard output. Throws OutputError on failure.
+void write_standard_output(std::span<const std::byte> bytes);
+
+/// Removes temporary files that processes left behind in a directory, because they were killed while they wrote. Files of running processes
+/// are locked and stay. Errors are ignored.
 void remove_abandoned_output(const std::filesystem::path& directory);
 
 /// Creates the directory and its missing parents. Throws OutputError.

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cstdint>
 #include <cstring>
 #include <fstream>
@@ -201,8 +200,8 @@ bool is_whole_image(const std::filesystem::path& path) {
 
 std::string text_lines(const ImageText& text) {
   std::string lines;
-  for (const auto& [label, value] : {std::pair(kSoftwareLabel, &text.software), std::pair(kCommentLabel, &text.comment),
-                                     std::pair(kFingerprintLabel, &text.fingerprint)}) {
+  for (const auto& [label, value] : {std::pair(kFingerprintLabel, &text.fingerprint), std::pair(kSoftwareLabel, &text.software),
+                                     std::pair(kCommentLabel, &text.comment)}) {
     if (!value->empty()) lines += fmt::format("{}{}\n", label, *value);
   }
   return lines;

@@ -22,7 +22,7 @@ ImageText read_image_text(const std::filesystem::path& path);
 /// by the number of bytes that is stored with the text. Damage in the middle is not found.
 bool is_whole_image(const std::filesystem::path& path);
 
-/// Returns the text as lines "Software: …", "Comment: …" and "Fingerprint: …", without those that are empty. JPEG files have them as a
+/// Returns the text as lines "Fingerprint: …", "Software: …" and "Comment: …", without those that are empty. JPEG files have them as a
 /// comment (marker COM), TIFF files as ImageDescription, and Radiance files after the first line.
 std::string text_lines(const ImageText& text);
 

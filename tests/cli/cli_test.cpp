@@ -65,7 +65,6 @@ const Mistake kMistakes[] = {
     {"WrongOption", {"render", "earth", "--siez", "3x3"}, 2, "unknown option", {"'--siez'", "'--size'"}},
     {"OptionOfNoCommand", {"--jsn"}, 2, "unknown option", {"'--jsn'", "--help", "--version"}},
     {"NoScene", {"render"}, 2, "SCENE", {"required", "render --help"}},
-    {"TwoScenes", {"render", "earth", "moon"}, 2, "render", {"'moon'", "render --help"}},
     {"SizeWithoutX", {"render", "earth", "--size", "640"}, 2, "--size", {"'640'", "WxH"}},
     {"SizeZero", {"render", "earth", "--size", "0x480"}, 2, "--size", {"'0x480'", "WxH"}},
     {"SizeTooLarge", {"render", "earth", "--size", "640x16385"}, 2, "--size", {"'640x16385'", "16384"}},
@@ -78,7 +77,7 @@ const Mistake kMistakes[] = {
     {"ThreadsWord", {"render", "earth", "--threads", "two"}, 2, "--threads", {"'two'", "1 to 1024"}},
     {"StatsFormat", {"render", "earth", "--stats=xml"}, 2, "--stats", {"'xml'", "--stats=json"}},
     {"SetWithoutValue", {"render", "earth", "--set", "earth.color"}, 2, "--set", {"'earth.color'", "KEY=VALUE"}},
-    {"OutputFormat", {"render", "earth", "-o", "earth.gif"}, 2, "-o", {"'earth.gif'", ".png", ".exr"}},
+    {"OutputFormat", {"render", "earth", "-o", "earth.bmp"}, 2, "-o", {"'earth.bmp'", ".png", ".exr"}},
     {"NearScene", {"render", "eart"}, 3, "unknown scene", {"'eart'", "'earth'"}},
     {"FarScene", {"render", "teapot"}, 3, "unknown scene", {"'teapot'", shipped_scenes()}},
     {"NoModelFile", {"render", "a.fbx"}, 3, "a.fbx", {"does not exist", ".glb", ".obj", "JSON"}},
@@ -119,6 +118,9 @@ const Mistake kMistakes[] = {
     {"UnknownFormat", {"render", "earth", "-o", "-", "--format", "mp4"}, 2, "--format", {"'mp4'", "y4m", "rgbaf32"}},
     {"FormatOfAFile", {"render", "earth", "-o", "a.png", "--format", "rgba"}, 2, "--format", {"-o -"}},
     {"AnimationOfOnePicture", {"render", "earth", "-o", "a.gif"}, 2, "-o", {"'a.gif'", "--frames"}},
+    {"ShardOfAnAnimation", {"render", "earth", "--frames", "0..1", "-o", "a.gif", "--shard", "0/2"}, 2, "--shard", {"file per frame"}},
+    {"AnimationWithANumber", {"render", "earth", "--frames", "0..1", "-o", "a_%04d.gif"}, 2, "-o", {"'a_%04d.gif'", "animation"}},
+    {"ReportIsAScene", {"render", "earth", "moon", "--report", "/"}, 4, "/", {"directory"}},
     {"LoopOfPictures", {"render", "earth", "--frames", "0..1", "-o", "a.png", "--loop", "2"}, 2, "--loop", {".webp or .gif"}},
     {"LoopWord", {"render", "earth", "--frames", "0..1", "-o", "a.gif", "--loop", "x"}, 2, "--loop", {"'x'", "0 to 65535"}},
     {"ValuesOfAnAnimation", {"render", "earth", "--frames", "0..1", "-o", "a.gif", "--aov", "depth"}, 2, "-o", {"--aov"}},
@@ -646,7 +648,7 @@ TEST_F(Cli, ProgressIsABarOnATerminal) {
   const std::string frames = HALFSPACE_PROGRAM " render earth --size 16x9 -o e.png --frames 0..";
   const std::string wide = shown("stty cols 80; " + frames + "3");
   EXPECT_NE(wide.find("\r\033[K[..............................] 0/4"), std::string::npos) << wide;
-  EXPECT_NE(wide.find("\r\033[K[###############...............] 2/4  0:00 left"), std::string::npos) << wide;
+  EXPECT_NE(wide.find("\r\033[K[###############...............] 2/4  "), std::string::npos) << wide;
   EXPECT_TRUE(wide.ends_with("\r\033[K")) << wide;
   std::istringstream narrow(shown("stty cols 24; " + frames + "3"));
   int lines = 0;

@@ -110,6 +110,60 @@ TEST_F(Lists, ResumeKeepsPictures) {
   EXPECT_TRUE(o.err.starts_with("halfspace: kept 1 picture, rendered 2: 1 missing, 1 of another scene")) << o.err;
 }
 
+// Memory of a scene is free for the next one, whether it was rendered or kept. One scene needs about 66 MB, and each further one that stayed
+// in memory 15 MB.
+TEST_F(Lists, AScenesMemoryIsFreedForTheNext) {
+  std::string grid;
+  constexpr int kEdge = 300;
+  for (int y = 0; y < kEdge; ++y) {
+    for (int x = 0; x < kEdge; ++x) grid += "v " + std::to_string(x) + " " + std::to_string(y) + " 0\n";
+  }
+  for (int y = 0; y + 1 < kEdge; ++y) {
+    for (int x = 1; x < kEdge; ++x) {
+      const int i = y * kEdge + x;
+      grid += "f " + std::to_string(i) + " " + std::to_string(i + 1) + " " + std::to_string(i + kEdge) + "\n";
+    }
+  }
+  std::vector<std::string> words;
+  for (int i = 0; i < 8; ++i) {
+    const std::string name = "grid" + std::to_string(i) + ".obj";
+    write_bytes(directory / name, grid);
+    words.push_back(name);
+  }
+  words.insert(words.end(), {"-o", "{name}.png", "--max-memory", "140M", "--resume"});
+  const Outcome first = render(words);
+  EXPECT_EQ(first.err, "halfspace: kept 0 pictures, rendered 8: 8 missing\n");
+  EXPECT_EQ(render(words).err, "halfspace: kept 8 pictures, rendered 0\n");
+}
+
+TEST_F(Lists, AnOutputIsNotAnInput) {
+  write_image(directory / "c.png", Image<glm::u8vec4>(4, 4));
+  write_bytes(directory / "m.mtl", "newmtl m\nmap_Kd c.png\n");
+  write_bytes(directory / "a.obj", "mtllib m.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const Outcome o = render({"a.obj", "c.obj", "-o", "{name}.png"});
+  EXPECT_EQ(o.exit_code, 3);
+  EXPECT_NE(o.err.find("halfspace: a.obj: reads "), std::string::npos) << o.err;
+  EXPECT_NE(o.err.find("c.png, which this command writes"), std::string::npos) << o.err;
+  EXPECT_EQ(render({"b.obj", "c.obj", "-o", "{name}.png", "--report", "b.obj"}).exit_code, 4);
+  EXPECT_EQ(render({"b.obj", "c.obj", "-o", "{name}.png", "--report", "b.png"}).exit_code, 2);
+}
+
+TEST_F(Lists, FailedScenesReportTheirPictures) {
+  fs::create_directories(directory / "a-0002.png");
+  const Outcome o =
+      render({"a.obj", "b.obj", "--turntable", "4", "-o", "{name}-%04d.png", "--report", "report.json", "--progress", "json"});
+  EXPECT_EQ(o.exit_code, 3);
+  EXPECT_EQ(report().at("scenes")[0].at("rendered"), 2);
+  EXPECT_EQ(report().at("scenes")[1].at("rendered"), 4);
+  EXPECT_NE(o.err.find("\"done\": 8, \"total\": 8"), std::string::npos) << o.err;
+}
+
+TEST_F(Lists, StatisticsDoNotMixWithAStream) {
+  const Outcome o = render({"a.obj", "b.obj", "-o", "-", "--format", "rgb24", "--stats"});
+  EXPECT_EQ(o.out.size(), 2u * 3u * 32u * 18u);
+  EXPECT_NE(o.err.find("2 scenes, 32x18"), std::string::npos) << o.err;
+}
+
 TEST_F(Lists, PrintProgress) {
   const Outcome lines = render({"a.obj", "b.obj", "-o", "{name}.png", "--verbose"});
   EXPECT_EQ(lines_of(lines.err), 2) << lines.err;

@@ -69,7 +69,7 @@ TEST_F(Mpi, WrongArgumentsEndAllRanks) {
 TEST_F(Mpi, ARankWithTooFewCpusWarns) {
   if (::sysconf(_SC_NPROCESSORS_ONLN) < 2) GTEST_SKIP() << "this machine has one CPU";
   const std::string command = "cd " + directory.string() +
-                              " && taskset -c 0 mpirun --allow-run-as-root --oversubscribe --bind-to none -n 1 " HALFSPACE_PROGRAM
+                              " && mpirun --allow-run-as-root --bind-to core -n 1 " HALFSPACE_PROGRAM
                               " render moon --size 16x9 --frames 0..1 -o m.png --mpi --threads 2 2> " +
                               (root / "err").string();
   EXPECT_EQ(std::system(command.c_str()), 0);

@@ -82,6 +82,11 @@ TEST_F(Streams, VideoHasTheColorsOfThePictures) {
   }
 }
 
+TEST_F(Streams, ASteppedRangeHasFewerPicturesPerSecond) {
+  const Outcome o = run({"render", "moon", "--size", "33x20", "--frames", "0..10:5", "--fps", "30", "-o", "-", "--format", "y4m"});
+  EXPECT_TRUE(o.out.starts_with("YUV4MPEG2 W33 H20 F6:1 ")) << o.out.substr(0, 40);
+}
+
 TEST_F(Streams, OnePictureIsAPng) {
   const Outcome o = run({"render", "moon", "--size", "33x20", "--time", "0", "-o", "-", "--stats"});
   EXPECT_EQ(o.exit_code, 0);

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "halfspace/image/image_io.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/file.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -71,22 +73,19 @@ TEST_F(ImageIo, PngStoresText) {
   EXPECT_FALSE(contains(encode_png(test_picture(true)), "tEXt"));
 }
 
-// A killed process cannot remove its temporary file. A later one does, unless the file belongs to a running process or another machine.
+// A killed process cannot remove its temporary file. A later one does, unless a running process has locked the file.
 TEST_F(ImageIo, AbandonedTemporaryFilesAreRemoved) {
-  const auto name = [](const std::string& host, pid_t process) { return ".halfspace-" + host + "-" + std::to_string(process) + "-7.part"; };
-  char host[256] = {};
-  ASSERT_EQ(::gethostname(host, sizeof host - 1), 0);
-  const pid_t dead = ::fork();
-  if (dead == 0) ::_exit(0);
-  ::waitpid(dead, nullptr, 0);
-  const std::vector<std::string> kept{name(host, ::getpid()), name(host, 1), name(std::string(host) + "2", dead),
-                                      ".halfspace-" + std::string(host) + "-x-7.part", "a.part"};
-  const std::string removed = name(host, dead);
-  for (const std::string& file : kept) std::ofstream(directory / file) << "x";
-  std::ofstream(directory / removed) << "x";
+  const std::string running = ".halfspace-1-0.part", abandoned = ".halfspace-1-1.part", other = "a.part";
+  for (const std::string& file : {running, abandoned, other}) std::ofstream(directory / file) << "x";
+  const int descriptor = ::open((directory / running).c_str(), O_WRONLY);
+  ASSERT_EQ(::flock(descriptor, LOCK_EX), 0);
   remove_abandoned_output(directory);
-  EXPECT_FALSE(std::filesystem::exists(directory / removed));
-  for (const std::string& file : kept) EXPECT_TRUE(std::filesystem::exists(directory / file)) << file;
+  EXPECT_TRUE(std::filesystem::exists(directory / running));
+  EXPECT_FALSE(std::filesystem::exists(directory / abandoned));
+  EXPECT_TRUE(std::filesystem::exists(directory / other));
+  ::close(descriptor);  // as if the process had been killed
+  remove_abandoned_output(directory);
+  EXPECT_FALSE(std::filesystem::exists(directory / running));
   remove_abandoned_output(directory / "missing");
 }
 

@@ -1,0 +1,90 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Measures what each way of docs/howto/scale.md costs, and prints a table in Markdown.
+
+  PYTHONPATH=BUILD/python scripts/bench/engine_overhead.py BUILD [FRAMES]
+
+Renders small frames with two workers of one thread each: FRAMES (default 200) and twice as many. The difference gives the time per frame, and
+what remains is the time to start. The overhead is the time per frame and worker, minus that of one process with one thread. Engines that are
+not installed are left out.
+"""
+
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+from concurrent.futures import ProcessPoolExecutor
+from pathlib import Path
+
+SCENE = ["shapes", "--size", "160x90", "--threads", "1"]
+SIZE = (160, 90)
+ROUNDS = 3
+
+
+def run(command, **more):
+    subprocess.run(command, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, **more)
+
+
+def engines(program, folder):
+    """Yields names, numbers of workers, and functions that render a number of frames."""
+
+    def render(*more):
+        return [program, "render", *SCENE, "-o", f"{folder}/{{frame}}.png", *more]
+
+    yield "one process", 1, lambda n: run(render("--frames", f"0..{n - 1}"))
+    if shutil.which("parallel"):
+        yield "GNU parallel, one process per shard", 2, lambda n: run(
+            ["parallel", "-j", "2", *render("--frames", f"0..{n - 1}", "--shard", "{}/2"), ":::", "0", "1"])
+        yield "GNU parallel, one process per frame", 2, lambda n: run(
+            ["parallel", "-j", "2", *render("--frames", "{}"), ":::", *map(str, range(n))])
+    if shutil.which("mpirun") and (Path(program).parent / "halfspace-mpi.so").exists():
+        mpirun = ["mpirun", "--allow-run-as-root", "--oversubscribe", "--bind-to", "none", "-n", "2"]
+        yield "MPI, one rank per core", 2, lambda n: run([*mpirun, *render("--frames", f"0..{n - 1}", "--mpi")])
+    if shutil.which("sbatch") and subprocess.run(["sinfo"], capture_output=True).returncode == 0:
+        yield "Slurm, array of two shards", 2, lambda n: run(
+            ["sbatch", "--wait", "--array=0-1", "--output=/dev/null", "--cpus-per-task=1", "--wrap",
+             " ".join(render("--frames", f"0..{n - 1}")) + " --shard $SLURM_ARRAY_TASK_ID/2"])
+    import halfspace
+
+    scene = halfspace.Scene.load("shapes", threads=1)
+
+    def frames(n, client):
+        halfspace.render_frames(scene, n, size=SIZE, out=f"{folder}/{{frame}}.png", client=client)
+
+    def pool(n):
+        with ProcessPoolExecutor(2) as executor:
+            frames(n, executor)
+
+    yield "Python, ProcessPoolExecutor", 2, pool
+    try:
+        from distributed import Client, LocalCluster
+    except ImportError:
+        return
+
+    def dask(n):
+        with LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None, silence_logs=50) as cluster, Client(cluster) as client:
+            frames(n, client)
+
+    yield "Python, Dask", 2, dask
+
+
+def main():
+    program, count = str(Path(sys.argv[1]).resolve() / "bin" / "halfspace"), int(sys.argv[2]) if len(sys.argv) > 2 else 200
+    with tempfile.TemporaryDirectory(prefix="halfspace-") as folder:
+        print("| engine | start, s | ms per frame | overhead, ms per frame and worker |\n|---|---:|---:|---:|")
+        base = 0.0
+        for name, workers, work in engines(program, folder):
+            best = {}
+            for n in ROUNDS * [count, 2 * count]:
+                start = time.perf_counter()
+                work(n)
+                best[n] = min(best.get(n, 1e9), time.perf_counter() - start)
+            per_frame = (best[2 * count] - best[count]) / count
+            base = base or per_frame
+            overhead = "" if name == "one process" else f"{1e3 * (workers * per_frame - base):.2f}"
+            print(f"| {name} | {max(best[count] - count * per_frame, 0.0):.2f} | {1e3 * per_frame:.2f} | {overhead} |", flush=True)
+
+
+if __name__ == "__main__":
+    main()
