@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "cli/file_hash.h"
 #include "cli/render_comment.h"
 #include "command_line/errors.h"
 #include "command_line/scene_arguments.h"

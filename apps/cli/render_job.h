@@ -5,7 +5,6 @@
 
 #include <filesystem>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -26,9 +25,6 @@ struct RenderJob {
   std::filesystem::path out;                  ///< the only picture, or the file of all pictures
   std::optional<OutputPattern> pattern;       ///< files of the frames, unless all pictures share one
 };
-
-/// Returns a hash of the contents of all files, each of which is read once per run.
-std::string hash_of_files(std::span<const std::filesystem::path> files);
 
 /// Opens a scene and, unless it is only printed, reads its models. Throws UsageError and InputError. The job refers to the options.
 RenderJob open_job(const RenderOptions& options, const std::string& scene);
