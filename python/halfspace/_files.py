@@ -48,7 +48,8 @@ def export(scene: Path, out: Path, *, set: Optional[Mapping[str, Any]] = None, a
 
 
 def info(model: Optional[Path] = None, *, up_axis: Optional[str] = None, allow_outside: bool = False) -> Dict[str, Any]:
-    """Describes a model file or, without one, this build, with the keys and values of `halfspace info MODEL --json`.
+    """Describes a model file or, without one, this build, with the keys and values of `halfspace info MODEL --json`, except for the commit
+    of the program.
 
     model: a file ending in .obj, .gltf, .glb, .ply or .stl.   up_axis: "y" or "z". The default is that of the file.
     allow_outside: whether the model may refer to files outside its folder.

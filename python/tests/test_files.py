@@ -91,7 +91,7 @@ def test_info_is_that_of_the_command_line(run, tmp_path):
     assert halfspace.info(path) == json.loads(run("info", path, "--json")[1])
     assert halfspace.info(path, up_axis="z") == json.loads(run("info", path, "--json", "--up-axis", "z")[1])
     own, printed = halfspace.info(), json.loads(run("info", "--json")[1])
-    assert own.keys() == printed.keys() and (own["version"], own["arch"], own["lanes"]) == (halfspace.__version__, printed["arch"], printed["lanes"])
+    assert {*own, "commit"} == {*printed} and (own["version"], own["arch"], own["lanes"]) == (halfspace.__version__, printed["arch"], printed["lanes"])
     for wrong in (tmp_path / "none.obj", "moon"):
         fails_like(run, ("info", wrong), lambda: halfspace.info(wrong))
     with pytest.raises(halfspace.InputError, match="^up_axis: is 'w'; expected one of y, z$"):
