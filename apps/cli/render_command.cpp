@@ -44,16 +44,6 @@ SceneFile chosen(const RenderJob& job) {
   return scene;
 }
 
-// Returns the indices of a shard: index, index + count, ... below total.
-NextIndex indices_of(const Shard& shard, int total) {
-  return [i = shard.index, shard, total]() mutable -> std::optional<int> {
-    if (i >= total) return std::nullopt;
-    const int index = i;
-    i = total - i > shard.count ? i + shard.count : total;
-    return index;
-  };
-}
-
 ProgressStyle progress_style(const RenderArguments& args) {
   if (args.quiet) return ProgressStyle::none;
   if (args.progress == "json") return ProgressStyle::json;
@@ -69,7 +59,7 @@ struct Work {
 
 // Returns the shard of `count` scenes or frames, or what the queue of MPI hands out.
 Work work_of(const RenderOptions& options, int count, MpiQueue* mpi) {
-  if (mpi == nullptr) return {indices_of(options.shard, count), options.shard.share_of(count)};
+  if (mpi == nullptr) return {indices_of(count, options.shard), options.shard.share_of(count)};
   mpi->begin(count);
   return {[mpi] { return mpi->next(); }, count, mpi};
 }

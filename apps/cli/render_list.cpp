@@ -23,10 +23,6 @@ std::string problem_of(const std::string& scene, F&& render) try {
   return problem.starts_with(scene + ":") ? problem : scene + ": " + problem;
 }
 
-NextIndex all_pictures(int count) {
-  return [i = 0, count]() mutable { return i < count ? std::optional(i++) : std::nullopt; };
-}
-
 // Returns the scene that another thread has opened. If there was not enough memory next to the previous scene, opens it again without that.
 RenderJob opened_job(std::future<RenderJob> opened, const RenderOptions& options, const std::string& scene, RenderRun& run) {
   try {
@@ -54,7 +50,7 @@ void render_list(const RenderOptions& options, const NextIndex& next, RenderRun&
     current = next();
     if (current) reading = read(*current);  // while this scene is rendered
     JobCounts counts;
-    if (job) problem = problem_of(scene, [&] { run.render(*job, all_pictures(options.pictures_per_scene()), counts); });
+    if (job) problem = problem_of(scene, [&] { run.render(*job, indices_of(options.pictures_per_scene()), counts); });
     if (!problem.empty()) {
       print_problem(problem);
       run.forget_assets();

@@ -43,6 +43,15 @@ PreparedScene prepare(const RenderJob& job, double seconds, SceneAssets& assets,
 
 }  // namespace
 
+NextIndex indices_of(int total, const Shard& shard) {
+  return [i = shard.index, shard, total]() mutable -> std::optional<int> {
+    if (i >= total) return std::nullopt;
+    const int index = i;
+    i = total - i > shard.count ? i + shard.count : total;
+    return index;
+  };
+}
+
 RenderRun::RenderRun(const RenderOptions& options, Progress& progress, ResumeCounts& resumed)
     : options_(options), progress_(progress), resumed_(resumed), workers_(options.threads) {
   if (options.format.to_standard_output) stream_ = make_picture_sink(options, {});

@@ -20,6 +20,9 @@ namespace halfspace {
 /// Returns the index of the next piece of work of this process, or nothing after the last one.
 using NextIndex = std::function<std::optional<int>()>;
 
+/// Returns those of 0 … total − 1 that belong to a shard; by default, all of them.
+NextIndex indices_of(int total, const Shard& shard = {});
+
 /// Renders the pictures of one job after another. Assets that two jobs in a row share are prepared once.
 class RenderRun {
  public:

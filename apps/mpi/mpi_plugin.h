@@ -25,7 +25,7 @@ struct MpiFunctions {
   void (*begin)(int total);
   /// Returns the next number, or −1 after the last one.
   int (*next)();
-  /// On rank 0, returns for how many of their numbers the other ranks have asked for the next one.
+  /// On rank 0, returns how many numbers the other ranks have finished. A rank that asks for its next number early counts as one further.
   int (*others_done)();
   /// Sends a text to rank 0, and there waits for the texts of all other ranks and passes each to receive(context, text, size).
   void (*finish)(const char* text, std::size_t size, void (*receive)(void*, const char*, std::size_t), void* context);

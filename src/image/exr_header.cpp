@@ -5,17 +5,18 @@
 #include <cstdint>
 #include <cstring>
 #include <fstream>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace halfspace::HS_LANES {
 
 namespace {
 
-// Attributes are sorted by name, so the comments and the list of channels are among the first.
+// The text is at the start, because attributes are sorted by name and the others are small.
 constexpr std::size_t kHeaderBytes = 1 << 16;
 constexpr std::string_view kMagic("\x76\x2f\x31\x01", 4);
-// Version, and per channel: type, linearity with padding, and two subsampling rates.
-constexpr std::size_t kVersionBytes = 4, kChannelBytes = 16;
+constexpr std::size_t kVersionBytes = 4;
 
 // Reads from the front of a text. After an error, all results are empty.
 class HeaderBytes {
@@ -46,16 +47,6 @@ class HeaderBytes {
   std::string_view rest_;
   bool ok_ = true;
 };
-
-std::vector<std::string> names_in(std::string_view list) {
-  HeaderBytes bytes(list);
-  std::vector<std::string> names;
-  for (std::string_view name = bytes.word(); !name.empty(); name = bytes.word()) {
-    names.emplace_back(name);
-    bytes.take(kChannelBytes);
-  }
-  return bytes.ok() ? names : std::vector<std::string>();
-}
 
 // The attributes of a file, and the offset of what follows them.
 struct Header {
@@ -95,10 +86,6 @@ Header header_of(const std::filesystem::path& file) {
 }
 
 }  // namespace
-
-std::vector<std::string> exr_channel_names(const std::filesystem::path& file) {
-  return names_in(header_of(file).value("channels", "chlist"));
-}
 
 ImageText exr_text(const std::filesystem::path& file) {
   const Header header = header_of(file);

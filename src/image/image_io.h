@@ -63,7 +63,7 @@ Image<float> read_gray(std::span<const std::byte> file, const std::string& name)
 Image<glm::vec4> read_linear(const std::filesystem::path& path);
 Image<glm::vec4> read_linear(std::span<const std::byte> file, const std::string& name);
 
-/// Text in image files: lines of UTF-8. Nothing is stored for empty text. read_image_text() (image_text.h) returns it.
+/// Text in image files: lines of UTF-8. Nothing is stored for empty text.
 struct ImageText {
   std::string software{};     ///< name and version of the program; "Software" in PNG, "software" in OpenEXR
   std::string comment{};      ///< how the image was made; "Comment" in PNG, "comments" in OpenEXR
