@@ -7,9 +7,12 @@
 #include <chrono>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <queue>
+#include <span>
+#include <utility>
 
 namespace halfspace {
 
@@ -59,64 +62,62 @@ double serial_ms(const TaskLog& log) {
 }
 
 Scaling scaling_of(Workload& workload, double seconds) {
-  const Workers one(1), two(2);
-  TaskLog best;
-  double best_ms = std::numeric_limits<double>::infinity(), two_ms = best_ms;
-  workload.frame(one);
-  workload.frame(two);
+  std::vector<std::unique_ptr<Workers>> teams;
+  for (const int threads : kTeams) teams.push_back(std::make_unique<Workers>(threads));
+  std::vector<TaskLog> fastest(teams.size());
+  Scaling scaling;
+  scaling.two_measured_ms = std::numeric_limits<double>::infinity();
+  workload.frame(*teams[1]);
   const Clock::time_point start = Clock::now();
   do {
-    TaskLog log;
-    {
-      const TaskRecording recording(log);
-      workload.frame(one);
-    }
-    if (const double ms = total_ms(log); ms < best_ms) {
-      best_ms = ms;
-      best = std::move(log);
+    for (std::size_t i = 0; i < teams.size(); ++i) {
+      TaskLog log;
+      {
+        const TaskRecording recording(log);
+        workload.frame(*teams[i]);
+      }
+      if (fastest[i].phases.empty() || total_ms(log) < total_ms(fastest[i])) fastest[i] = std::move(log);
     }
     const Clock::time_point frame = Clock::now();
-    workload.frame(two);
-    two_ms = std::min(two_ms, ms_since(frame));
+    workload.frame(*teams[1]);
+    scaling.two_measured_ms = std::min(scaling.two_measured_ms, ms_since(frame));
   } while (ms_since(start) < 1e3 * seconds);
-  Scaling scaling{
-      .one_ms = best_ms, .serial_ms = serial_ms(best), .log = {}, .two_measured_ms = two_ms, .two_ms = scheduled_ms(best, 2), .times = {}};
-  for (const int workers : kWorkerCounts) scaling.times.push_back(scheduled_ms(best, workers));
-  scaling.log = std::move(best);
+  for (std::size_t i = 0; i < teams.size(); ++i) scaling.times.push_back(scheduled_ms(fastest[i], kTeams[i]));
+  scaling.serial_ms = serial_ms(fastest[0]);
+  scaling.log = std::move(fastest[0]);
   return scaling;
 }
 
 std::string scaling_title() {
   std::string title = fmt::format("{:24} {:>9} {:>8} {:>6} {:>6} {:>10} {:>10}", "workload", "1, ms", "serial", "phases", "tasks",
                                   "2, measured", "2, predicted");
-  for (const int workers : kWorkerCounts) title += fmt::format(" {:>14}", fmt::format("x{} (Amdahl)", workers));
+  for (const int workers : std::span(kTeams).subspan(kMeasuredTeams)) title += fmt::format(" {:>14}", fmt::format("x{} (Amdahl)", workers));
   return title;
 }
 
 std::string scaling_row(std::string_view name, const Scaling& s) {
-  const double share = s.serial_ms / s.one_ms;
-  std::string row = fmt::format("{:24} {:9.3f} {:7.2f}% {:6} {:6} {:11.3f} {:12.3f}", name, s.one_ms, 100.0 * share, s.log.phases.size(),
-                                tasks_of(s.log), s.two_measured_ms, s.two_ms);
-  for (std::size_t i = 0; i < s.times.size(); ++i)
-    row += fmt::format(" {:>14}", fmt::format("{:.1f} ({:.1f})", s.one_ms / s.times[i], ceiling(share, kWorkerCounts[i])));
+  const double one = s.times[0], share = s.serial_ms / one;
+  std::string row = fmt::format("{:24} {:9.3f} {:7.2f}% {:6} {:6} {:11.3f} {:12.3f}", name, one, 100.0 * share, s.log.phases.size(),
+                                tasks_of(s.log), s.two_measured_ms, s.times[1]);
+  for (std::size_t i = kMeasuredTeams; i < s.times.size(); ++i)
+    row += fmt::format(" {:>14}", fmt::format("{:.1f} ({:.1f})", one / s.times[i], ceiling(share, kTeams[i])));
   return row;
 }
 
 nlohmann::ordered_json scaling_json(std::string_view name, const Scaling& s) {
-  const double share = s.serial_ms / s.one_ms;
+  const double one = s.times[0], share = s.serial_ms / one;
   nlohmann::ordered_json json = {{"workload", name},
-                                 {"ms", s.one_ms},
+                                 {"ms", one},
                                  {"serial_share", share},
                                  {"tasks", tasks_of(s.log)},
-                                 {"two_threads", {{"measured_ms", s.two_measured_ms}, {"predicted_ms", s.two_ms}}}};
+                                 {"two_threads", {{"measured_ms", s.two_measured_ms}, {"predicted_ms", s.times[1]}}}};
   for (const TaskPhase& phase : s.log.phases) {
     const double ms = std::accumulate(phase.tasks_ms.begin(), phase.tasks_ms.end(), 0.0);
     json["phases"].push_back({{"serial_ms", phase.serial_ms}, {"tasks", phase.tasks_ms.size()}, {"tasks_ms", ms}});
   }
   json["last_serial_ms"] = s.log.last_serial_ms;
-  for (std::size_t i = 0; i < s.times.size(); ++i)
-    json["workers"].push_back(
-        {{"count", kWorkerCounts[i]}, {"speedup", s.one_ms / s.times[i]}, {"amdahl", ceiling(share, kWorkerCounts[i])}});
+  for (std::size_t i = kMeasuredTeams; i < s.times.size(); ++i)
+    json["workers"].push_back({{"count", kTeams[i]}, {"speedup", one / s.times[i]}, {"amdahl", ceiling(share, kTeams[i])}});
   return json;
 }
 

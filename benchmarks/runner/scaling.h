@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Predicts frame times with more threads than the machine has. The tasks of one thread are recorded (core/task_log.h) and scheduled on N
-// workers; docs/explanation/scaling.md states what this leaves out.
+// Predicts frame times with more threads than the machine has. The tasks of a team of N threads are run by one thread, recorded
+// (core/task_log.h), and scheduled on N workers; docs/explanation/scaling.md states what this leaves out.
 #pragma once
 
+#include <cstddef>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
@@ -22,17 +23,19 @@ double scheduled_ms(const TaskLog& log, int workers);
 /// single task.
 double serial_ms(const TaskLog& log);
 
-struct Scaling {
-  double one_ms = 0;     ///< recorded time with one thread
-  double serial_ms = 0;  ///< part of it, see serial_ms()
-  TaskLog log;
-  double two_measured_ms = 0;  ///< with two threads
-  double two_ms = 0;           ///< the same, predicted
-  std::vector<double> times;   ///< predicted, for kWorkerCounts
-};
-inline constexpr int kWorkerCounts[] = {8, 16, 64, 128};
+/// The numbers of threads for which times are predicted. The first two can be compared with measured times.
+inline constexpr int kTeams[] = {1, 2, 8, 16, 64, 128};
+inline constexpr std::size_t kMeasuredTeams = 2;
 
-/// Draws frames with one and with two threads in turn for `seconds`, and returns the results for the fastest frame of each.
+struct Scaling {
+  std::vector<double> times;   ///< with the teams of kTeams, predicted from the tasks of each, in milliseconds
+  double two_measured_ms = 0;  ///< with two threads
+  double serial_ms = 0;        ///< of one thread, see serial_ms()
+  TaskLog log;                 ///< of one thread
+};
+
+/// Draws frames for `seconds`: in turn, one for each team, of which one thread runs all tasks, and one with two threads. Returns the
+/// results for the fastest frame of each.
 Scaling scaling_of(Workload& workload, double seconds);
 
 /// Return the title of the table, and the results of a workload as a row of it or as JSON. Amdahl's ceiling for N workers is

@@ -127,10 +127,10 @@ void Workers::for_each(int count, const std::function<void(int)>& task) const {
 void Workers::run(int count, const std::function<void(int)>& task) const {
   const detail::RecordedPhase recorded(count);
   try {
-    if (impl_ != nullptr && count > 1 && Impl::works()) {
+    if (impl_ != nullptr && count > 1 && Impl::works() && !recorded.is_recorded()) {
       impl_->run(count, task);
     } else {
-      run_on_std_threads(threads_, count, task);
+      run_on_std_threads(recorded.is_recorded() ? 1 : threads_, count, task);
     }
   } catch (const detail::TaskCheckFailure& failure) {
     detail::report_from_task(failure);

@@ -43,6 +43,8 @@ RecordedPhase::~RecordedPhase() {
   if (recorder.log != nullptr && --recorder.depth == 0) recorder.phase_end = Clock::now();
 }
 
+bool RecordedPhase::is_recorded() const { return recorder.log != nullptr; }
+
 RecordedTask::RecordedTask() {
   if (recorder.log != nullptr && recorder.depth == 1) recorder.task_start = Clock::now();
 }

@@ -21,8 +21,9 @@ struct TaskLog {
   double last_serial_ms = 0;  ///< after the last phase
 };
 
-/// Records the calls of Workers::for_each by the calling thread until it is destroyed. The team must have one thread. Calls from within a
-/// task are part of that task. There can be one recording at a time.
+/// Records the calls of Workers::for_each by the calling thread until it is destroyed. The thread runs all tasks itself, one after the
+/// other, so that they do not disturb each other. The tasks are those of a team of Workers::threads() threads. Calls from within a task are
+/// part of that task. There can be one recording per thread at a time.
 class TaskRecording {
  public:
   explicit TaskRecording(TaskLog& log);
@@ -38,6 +39,8 @@ class RecordedPhase {
  public:
   explicit RecordedPhase(int count);
   ~RecordedPhase();
+  /// Returns whether this thread records and must run all tasks itself.
+  bool is_recorded() const;
   RecordedPhase(const RecordedPhase&) = delete;
   RecordedPhase& operator=(const RecordedPhase&) = delete;
 };

@@ -56,6 +56,20 @@ TEST(Scaling, RecordsPhasesAndTasks) {
   EXPECT_GE(log.last_serial_ms, 3.0);
 }
 
+// A team of any size is recorded by one thread, because tasks that run at the same time would disturb each other.
+TEST(Scaling, OneThreadRunsTheTasksOfATeam) {
+  for (const int threads : {2, 64}) {
+    const Workers workers(threads);
+    TaskLog log;
+    {
+      const TaskRecording recording(log);
+      workers.for_each(100, [self = std::this_thread::get_id()](int) { EXPECT_EQ(std::this_thread::get_id(), self); });
+    }
+    ASSERT_EQ(log.phases.size(), 1u);
+    EXPECT_EQ(log.phases[0].tasks_ms.size(), 100u);
+  }
+}
+
 TEST(Scaling, OtherThreadsAreNotRecorded) {
   TaskLog log;
   const TaskRecording recording(log);
