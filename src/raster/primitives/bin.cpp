@@ -13,35 +13,58 @@ namespace halfspace::HS_LANES {
 
 namespace {
 
-// List of (tile, triangle) pairs, ordered by triangle. Consecutive triangles are usually in the same tile, so the list is stored as runs of
-// triangles with the same tile.
+// List of (tile, triangle) pairs, ordered by triangle, stored as runs: of consecutive triangles, which are usually in the same tile, or of
+// the tiles of a large triangle in a row.
 class TileRuns {
  public:
-  explicit TileRuns(std::size_t triangles) { triangles_.reserve(triangles + triangles / 2); }
+  explicit TileRuns(std::size_t triangles) { values_.reserve(triangles + triangles / 2); }
 
   void put(int tile_x, int tile_y, uint16_t triangle) {
-    if (runs_.empty() || runs_.back().tile_x != tile_x || runs_.back().tile_y != tile_y) {
-      runs_.push_back({static_cast<uint16_t>(tile_x), static_cast<uint16_t>(tile_y), static_cast<uint32_t>(triangles_.size())});
-    }
-    triangles_.push_back(triangle);
+    if (runs_.empty() || runs_.back().tile_x != tile_x || runs_.back().tile_y != tile_y) start_run(tile_x, tile_y);
+    values_.push_back(triangle);
   }
-  std::size_t size() const { return triangles_.size(); }
-  // Calls f(tile_x, tile_y, triangles) for each run.
+  // Adds the tiles [x0, x1) of a row.
+  void put_row(int x0, int x1, int tile_y, uint16_t triangle) {
+    if (x1 - x0 < 2) {
+      if (x0 < x1) put(x0, tile_y, triangle);
+      return;
+    }
+    start_run(x0 | kRow, tile_y);
+    values_.push_back(triangle);
+    values_.push_back(static_cast<uint16_t>(x1));
+    more_ += static_cast<std::size_t>(x1 - x0 - 2);
+  }
+  // Number of pairs.
+  std::size_t size() const { return values_.size() + more_; }
+  // Calls f(tile_x, tile_y, triangles) for each tile of each run.
   template <class F>
   void for_each(const F& f) const {
     for (std::size_t i = 0; i < runs_.size(); ++i) {
-      const std::size_t end = i + 1 < runs_.size() ? runs_[i + 1].first : triangles_.size();
-      f(runs_[i].tile_x, runs_[i].tile_y, std::span(triangles_).subspan(runs_[i].first, end - runs_[i].first));
+      const Run& run = runs_[i];
+      if ((run.tile_x & kRow) != 0) {
+        for (int x = run.tile_x & ~kRow; x < values_[run.first + 1]; ++x) f(x, run.tile_y, std::span(values_).subspan(run.first, 1));
+        continue;
+      }
+      const std::size_t end = i + 1 < runs_.size() ? runs_[i + 1].first : values_.size();
+      f(run.tile_x, run.tile_y, std::span(values_).subspan(run.first, end - run.first));
     }
   }
 
  private:
+  static constexpr int kRow = 0x8000;  // in tile_x: the run is a row of tiles, and has two values, the triangle and the end of the row
+
   struct Run {
     uint16_t tile_x, tile_y;
-    uint32_t first;  // index into triangles_
+    uint32_t first;  // index into values_
   };
+
+  void start_run(int tile_x, int tile_y) {
+    runs_.push_back({static_cast<uint16_t>(tile_x), static_cast<uint16_t>(tile_y), static_cast<uint32_t>(values_.size())});
+  }
+
   std::vector<Run> runs_;
-  std::vector<uint16_t> triangles_;
+  std::vector<uint16_t> values_;
+  std::size_t more_ = 0;  // pairs minus values
 };
 
 // Returns the half-open range of tiles that contains the pixels. T: PixelBounds, or a PixelBox with one box per lane.
@@ -76,29 +99,54 @@ int64_t max_in_tile(const Edge& e, int tile_x, int tile_y, int size, const Sampl
   return e.at(int64_t{px} * kSubPixels + x, int64_t{py} * kSubPixels + y);
 }
 
-void list_tiles(const PassContext& context, const Triangle& t, const PixelBounds& tiles, uint16_t index, TileRuns& runs) {
+// An edge of a primitive, as far as it decides about tiles.
+struct TileEdge {
+  Edge edge;
+  int64_t threshold;  // a tile is on the inner side if the maximum of E in it is at least this
+};
+
+// Lists the tiles that are on the inner side of all edges. In a row, they are consecutive, because each edge excludes either the first
+// tiles or the last ones.
+template <std::size_t n>
+void list_tiles_inside(const PassContext& context, const std::array<TileEdge, n>& edges, const PixelBounds& tiles, uint16_t index,
+                       TileRuns& runs) {
   const int size = context.tile_size;
-  const bool one_row = tiles.x1 - tiles.x0 == 1 || tiles.y1 - tiles.y0 == 1 || t.is_point();
-  const std::array<Edge, 3> edges{edge_of(t, 0), edge_of(t, 1), edge_of(t, 2)};
+  std::array<int64_t, n> step;  // of E from one tile to the next
+  for (std::size_t i = 0; i < n; ++i) step[i] = edges[i].edge.at(int64_t{size} * kSubPixels, 0) - edges[i].edge.at(0, 0);
   for (int y = tiles.y0; y < tiles.y1; ++y) {
-    for (int x = tiles.x0; x < tiles.x1; ++x) {
-      // The bounding box is accurate enough if it is only one tile wide or high.
-      const auto inside = [&](const Edge& e) { return max_in_tile(e, x, y, size, context.samples_at) - fill_bias(e) >= 0; };
-      if (!one_row && !(inside(edges[0]) && inside(edges[1]) && inside(edges[2]))) continue;
-      runs.put(x, y, index);
-    }
+    std::array<int64_t, n> above;  // the threshold, in the next tile
+    for (std::size_t i = 0; i < n; ++i) above[i] = max_in_tile(edges[i].edge, tiles.x0, y, size, context.samples_at) - edges[i].threshold;
+    const auto is_inside = [&] { return std::ranges::all_of(above, [](int64_t e) { return e >= 0; }); };
+    const auto advance = [&](int& x) {
+      for (std::size_t i = 0; i < n; ++i) above[i] += step[i];
+      ++x;
+    };
+    int x = tiles.x0;
+    while (x < tiles.x1 && !is_inside()) advance(x);
+    const int first = x;
+    while (x < tiles.x1 && is_inside()) advance(x);
+    runs.put_row(first, x, y, index);
   }
 }
 
-void list_line_tiles(const PassContext& context, const Triangle& t, int pixels, const PixelBounds& tiles, uint16_t index, TileRuns& runs) {
-  const int size = context.tile_size;
-  const std::array<BandEdge, 2> band = band_edges(t, pixels);
-  for (int y = tiles.y0; y < tiles.y1; ++y) {
-    for (int x = tiles.x0; x < tiles.x1; ++x) {
-      const auto inside = [&](const BandEdge& e) { return max_in_tile(e.edge, x, y, size, context.samples_at) + e.offset - e.bias >= 0; };
-      if (inside(band[0]) && inside(band[1])) runs.put(x, y, index);
-    }
+void list_tiles(const PassContext& context, const Triangle& t, const PixelBounds& tiles, uint16_t index, TileRuns& runs) {
+  // The bounding box is accurate enough if it is only one tile wide or high.
+  if (tiles.x1 - tiles.x0 == 1 || tiles.y1 - tiles.y0 == 1 || t.is_point()) {
+    for (int y = tiles.y0; y < tiles.y1; ++y) runs.put_row(tiles.x0, tiles.x1, y, index);
+    return;
   }
+  std::array<TileEdge, 3> edges;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Edge e = edge_of(t, i);
+    edges[i] = {e, fill_bias(e)};
+  }
+  list_tiles_inside(context, edges, tiles, index, runs);
+}
+
+void list_line_tiles(const PassContext& context, const Triangle& t, int pixels, const PixelBounds& tiles, uint16_t index, TileRuns& runs) {
+  const std::array<BandEdge, 2> band = band_edges(t, pixels);
+  const std::array<TileEdge, 2> edges{{{band[0].edge, band[0].bias - band[0].offset}, {band[1].edge, band[1].bias - band[1].offset}}};
+  list_tiles_inside(context, edges, tiles, index, runs);
 }
 
 }  // namespace
@@ -148,7 +196,11 @@ void bin_chunk(const PassContext& context, Chunk& chunk) {
   std::vector<uint32_t> next(chunk.bin_start.begin(), chunk.bin_start.end() - 1);
   runs.for_each([&](int x, int y, std::span<const uint16_t> run) {
     uint32_t& to = next[tile_of(x, y)];
-    std::copy(run.begin(), run.end(), chunk.bin_triangles.begin() + to);
+    if (run.size() == 1) {
+      chunk.bin_triangles[to] = run[0];
+    } else {
+      std::copy(run.begin(), run.end(), chunk.bin_triangles.begin() + to);
+    }
     to += static_cast<uint32_t>(run.size());
   });
 }
