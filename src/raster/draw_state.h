@@ -64,6 +64,7 @@ struct DepthState {
   bool clamp = false;       ///< GL_DEPTH_CLAMP: no clipping at the near and far planes, depth is clamped to the depth range instead
   float range_near = 0.0f;  ///< glDepthRange; both values must be in [0, 1]
   float range_far = 1.0f;
+  friend bool operator==(const DepthState&, const DepthState&) = default;
 };
 
 /// Polygon offset for filled triangles (OpenGL 4.6, section 14.6.5). The offset slope·m + constant·r is clamped and then added to the
@@ -74,6 +75,7 @@ struct DepthOffset {
   float slope = 0.0f;
   float constant = 0.0f;
   float clamp = 0.0f;  ///< > 0: upper limit of the offset; < 0: lower limit; 0: no limit
+  friend bool operator==(const DepthOffset&, const DepthOffset&) = default;
 };
 
 enum class BlendFactor : uint8_t {
@@ -108,6 +110,7 @@ struct BlendState {
   BlendEquation alpha_equation = BlendEquation::add;
   BlendFactor source_alpha = BlendFactor::one, destination_alpha = BlendFactor::one_minus_src_alpha;
   glm::vec4 constant = glm::vec4(0.0f);  ///< glBlendColor
+  friend bool operator==(const BlendState&, const BlendState&) = default;
 };
 
 /// Color channels that are written (glColorMask).
@@ -115,6 +118,7 @@ struct ColorMask {
   bool r = true, g = true, b = true, a = true;
   bool all() const { return r && g && b && a; }
   bool operator[](int k) const { return k == 0 ? r : k == 1 ? g : k == 2 ? b : a; }
+  friend bool operator==(const ColorMask&, const ColorMask&) = default;
 };
 
 /// Maximum number of color attachments of a pass, and of attachments that can have a state of their own.
@@ -128,6 +132,7 @@ inline constexpr float kMaxLineWidth = 4096.0f;
 struct AttachmentState {
   std::optional<BlendState> blend{};  ///< default: no blending, the color is replaced
   ColorMask mask{};
+  friend bool operator==(const AttachmentState&, const AttachmentState&) = default;
 };
 
 enum class StencilOp : uint8_t { keep, zero, replace, increment_clamp, decrement_clamp, invert, increment_wrap, decrement_wrap };
@@ -141,10 +146,12 @@ struct StencilFace {
   uint8_t reference = 0;
   uint8_t read_mask = 0xff;
   uint8_t write_mask = 0xff;
+  friend bool operator==(const StencilFace&, const StencilFace&) = default;
 };
 /// Stencil test for front and back faces. Points and lines are front-facing.
 struct StencilState {
   StencilFace front{}, back{};
+  friend bool operator==(const StencilState&, const StencilState&) = default;
 };
 
 /// Complete state of a draw call, apart from the shader, vertices and indices.
@@ -180,6 +187,7 @@ struct DrawState {
   ColorMask color_mask{};
   std::array<std::optional<AttachmentState>, kMaxAttachmentStates> attachments{};  ///< override blend and color_mask
   std::optional<uint32_t> query{};  ///< occlusion query: passing samples are added to PassStatistics::queries[query]; below kMaxQueries
+  friend bool operator==(const DrawState&, const DrawState&) = default;
 };
 
 /// Common blend states, for DrawState::blend.

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
+#include <type_traits>
 #include <utility>
 
 #include "halfspace/core/float_mode.h"
@@ -20,6 +22,11 @@ namespace {
 constexpr int kMaxTargetSize = static_cast<int>(kGuardBand);
 // Memory limit of a tile in bytes, chosen so that it stays in the L2 cache.
 constexpr int kTileBudget = 160 << 10;
+
+const DrawState& keep_state(const DrawState& state, std::pmr::memory_resource& memory) {
+  static_assert(std::is_trivially_destructible_v<DrawState>);
+  return *::new (memory.allocate(sizeof(DrawState), alignof(DrawState))) DrawState(state);
+}
 
 VertexStreams keep_streams(const VertexView& view, std::pmr::memory_resource& memory) {
   const auto count = static_cast<std::size_t>(view.stream_count);
@@ -74,7 +81,8 @@ class PassState {
  public:
   PassState(int width, int height, std::span<const ColorTarget> colors, const DepthTarget& depth, const PassOptions& options);
 
-  std::pmr::memory_resource& memory() { return *context_.memory; }
+  // Returns the memory for a new draw.
+  std::pmr::memory_resource& memory();
   void add_draw(const ShaderKernels& kernels, KeptShader shader, const VertexView& vertices, std::shared_ptr<const Indices> indices,
                 const DrawState& state);
   void set_post_step(PostStep post);
@@ -82,8 +90,9 @@ class PassState {
 
  private:
   int tile_size() const;
-  // Sets the draw's viewport, bounds and depth range.
-  void place_draw(Draw& d) const;
+  // Checks what does not depend on the shader.
+  void check_state(const DrawState& state) const;
+  DrawPlacement place(const DrawState& state) const;
   // Sets d.writes_color. Returns true if the draw replaces all colors of a pixel.
   bool set_color_writes(Draw& d) const;
 
@@ -114,7 +123,6 @@ PassState::PassState(int width, int height, std::span<const ColorTarget> colors,
     attachments_.has_color = true;
   }
   if (depth.format != DepthFormat::none) check_target(depth, width, height);
-  context_.memory = std::make_unique<std::pmr::monotonic_buffer_resource>();
   context_.width = width;
   context_.height = height;
   context_.samples = options.samples;
@@ -133,6 +141,15 @@ int PassState::tile_size() const {
   return size;
 }
 
+std::pmr::memory_resource& PassState::memory() {
+  if (context_.arena == nullptr) {
+    DrawList list = take_draw_list();
+    context_.arena = std::move(list.arena);
+    context_.draws = std::move(list.draws);
+  }
+  return *context_.arena;
+}
+
 void PassState::add_draw(const ShaderKernels& kernels, KeptShader shader, const VertexView& vertices,
                          std::shared_ptr<const Indices> indices, const DrawState& state) {
   HS_CHECK_OP(int64_t{indices->first_vertex()} + state.base_vertex, >=, 0,
@@ -141,6 +158,30 @@ void PassState::add_draw(const ShaderKernels& kernels, KeptShader shader, const 
               "Pass::draw: an index plus base_vertex is too large; expected less than the number of vertices");
   HS_CHECK_OP(std::size_t{state.instances}, <=, vertices.instance_count,
               "Pass::draw: there are more instances than rows of a per-instance stream; expected a row for each");
+  // Most draws have the same state as the one before.
+  const Draw* const equal = !context_.draws.empty() && context_.draws.back().state == state ? &context_.draws.back() : nullptr;
+  if (equal == nullptr) check_state(state);
+  for (std::size_t i = 0; i < attachments_.colors.size(); ++i) {
+    const std::optional<BlendState>& blend = blend_of(state, i);
+    HS_CHECK(!blend || !uses_second_source(*blend) || (kernels.color_count > 1 && attachments_.colors.size() == 1),
+             "DrawState: blend factors use a second source; expected a shader with two colors and one color target");
+  }
+  const DrawPlacement placement = equal != nullptr ? static_cast<const DrawPlacement&>(*equal) : place(state);
+  const DrawState& kept = equal != nullptr ? equal->state : keep_state(state, memory());
+  Draw& d = context_.draws.emplace_back(kernels, std::move(shader), std::move(indices), keep_streams(vertices, memory()), kept, placement);
+  d.vertex_count = d.indices->used_count() * state.instances;
+  count_primitives(d);
+  const bool replaces = set_color_writes(d);
+  const bool decides_visibility = kernels.discards || kernels.writes_depth;
+  // Without color attachments, there is nothing to blend.
+  const bool may_defer = !attachments_.has_color || (options_.tuning.defer && replaces && !state.order_independent);
+  d.deferred = may_defer && !d.covers_by_alpha && (!decides_visibility || kernels.visibility != nullptr);
+  if (d.writes_color && !state.order_independent) ++layer_group_;
+  d.layer_group = layer_group_;
+  plan_.add(d, context_.draws.size() - 1);
+}
+
+void PassState::check_state(const DrawState& state) const {
   check_numbers(state);
   if (state.order_independent) {
     HS_CHECK(attachments_.colors.size() == 1 && attachments_.has_color && attachments_.colors[0].format != ColorFormat::r32ui,
@@ -152,41 +193,25 @@ void PassState::add_draw(const ShaderKernels& kernels, KeptShader shader, const 
              "DrawState: order_independent is combined with another depth test; expected less, less_equal, greater or greater_equal");
   }
   for (std::size_t i = 0; i < attachments_.colors.size(); ++i) {
-    const std::optional<BlendState>& blend = blend_of(state, i);
-    HS_CHECK(!blend || !uses_second_source(*blend) || (kernels.color_count > 1 && attachments_.colors.size() == 1),
-             "DrawState: blend factors use a second source; expected a shader with two colors and one color target");
-    HS_CHECK(!blend || attachments_.colors[i].format != ColorFormat::r32ui,
+    HS_CHECK(!blend_of(state, i) || attachments_.colors[i].format != ColorFormat::r32ui,
              "DrawState: a target of integers is blended; expected no blending");
   }
-  if (context_.draws.capacity() == 0) context_.draws = take_draw_list();
-  Draw& d = context_.draws.emplace_back(kernels, std::move(shader), std::move(indices), keep_streams(vertices, *context_.memory), state);
-  d.vertex_count = d.indices->used_count() * state.instances;
-  count_primitives(d);
-  place_draw(d);
-  d.shades_samples = context_.samples > 1 && (state.sample_shading || options_.supersample);
-  d.sample_mask = context_.samples == 1 ? 1u : state.sample_mask & ((1u << context_.samples) - 1);
-  const bool replaces = set_color_writes(d);
-  const bool decides_visibility = kernels.discards || kernels.writes_depth;
-  const bool has_integers = !attachments_.colors.empty() && attachments_.colors[0].format == ColorFormat::r32ui;
-  d.covers_by_alpha = state.alpha_to_coverage && context_.samples > 1 && !has_integers;
-  // Without color attachments, there is nothing to blend.
-  const bool may_defer = !attachments_.has_color || (options_.tuning.defer && replaces && !state.order_independent);
-  d.deferred = may_defer && !d.covers_by_alpha && (!decides_visibility || kernels.visibility != nullptr);
-  if (d.writes_color && !state.order_independent) ++layer_group_;
-  d.layer_group = layer_group_;
-  plan_.add(d, context_.draws.size() - 1);
 }
 
-void PassState::place_draw(Draw& d) const {
+DrawPlacement PassState::place(const DrawState& state) const {
   const FloatMode float_mode;
   const Rect whole{0, 0, context_.width, context_.height};
-  const Rect viewport = d.state.viewport.value_or(whole);
-  d.viewport = make_viewport(viewport, d.state.depth);
+  const Rect viewport = state.viewport.value_or(whole);
   Rect bounds = intersect(whole, viewport);
-  if (d.state.scissor) bounds = intersect(bounds, *d.state.scissor);
-  d.bounds = to_bounds(bounds);
-  d.depth_low = std::min(d.state.depth.range_near, d.state.depth.range_far);
-  d.depth_high = std::max(d.state.depth.range_near, d.state.depth.range_far);
+  if (state.scissor) bounds = intersect(bounds, *state.scissor);
+  const bool has_integers = !attachments_.colors.empty() && attachments_.colors[0].format == ColorFormat::r32ui;
+  return {.viewport = make_viewport(viewport, state.depth),
+          .bounds = to_bounds(bounds),
+          .depth_low = std::min(state.depth.range_near, state.depth.range_far),
+          .depth_high = std::max(state.depth.range_near, state.depth.range_far),
+          .sample_mask = context_.samples == 1 ? 1u : state.sample_mask & ((1u << context_.samples) - 1),
+          .shades_samples = context_.samples > 1 && (state.sample_shading || options_.supersample),
+          .covers_by_alpha = state.alpha_to_coverage && context_.samples > 1 && !has_integers};
 }
 
 bool PassState::set_color_writes(Draw& d) const {
@@ -206,8 +231,7 @@ PassStatistics PassState::run(TileRunner& tiles, const Workers& workers) {
   const FloatMode float_mode;
   PassPlan plan = std::exchange(plan_, PassPlan(context_.samples, options_.tuning.chunk_triangles));
   PassStatistics statistics = run_rounds(context_, attachments_, std::move(plan), options_.tuning.bin_budget, tiles, workers);
-  return_draw_list(std::exchange(context_.draws, {}));
-  context_.memory->release();
+  if (context_.arena != nullptr) return_draw_list({std::exchange(context_.arena, {}), std::exchange(context_.draws, {})});
   return statistics;
 }
 

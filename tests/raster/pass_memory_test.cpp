@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -12,7 +14,7 @@ namespace {
 
 // Discards the lists that earlier passes of this process have returned.
 void forget_draws() {
-  while (take_draw_list().capacity() != 0) {
+  while (take_draw_list().draws.capacity() != 0) {
   }
 }
 
@@ -23,38 +25,77 @@ struct Holder {
 // Returns a draw whose shader, stored on the heap, owns an object.
 Draw draw_of(std::shared_ptr<const int> stored) {
   static constexpr ShaderKernels kNone;
-  return {kNone, {new Holder{std::move(stored)}, [](const void* kept) { delete static_cast<const Holder*>(kept); }}, nullptr, {}, {}};
+  static constexpr DrawState kState;
+  return {kNone, {new Holder{std::move(stored)}, [](const void* kept) { delete static_cast<const Holder*>(kept); }}, nullptr, {}, kState,
+          {}};
 }
 
-TEST(PassMemory, DrawListsAreRecycledEmptyWithTheirCapacity) {
+TEST(PassMemory, DrawListsAreRecycledEmptyWithTheirMemory) {
   forget_draws();
-  std::vector<Draw> draws;
-  draws.reserve(100);
-  draws.push_back(draw_of(std::make_shared<const int>(1)));
-  const Draw* const place = draws.data();
-  return_draw_list(std::move(draws));
-  const std::vector<Draw> again = take_draw_list();
-  EXPECT_TRUE(again.empty());
-  EXPECT_GE(again.capacity(), 100u);
-  EXPECT_EQ(again.data(), place);
-  EXPECT_EQ(take_draw_list().capacity(), 0u);
+  DrawList list = take_draw_list();
+  list.draws.reserve(100);
+  list.draws.push_back(draw_of(std::make_shared<const int>(1)));
+  const void* const in_arena = list.arena->allocate(100);
+  const Draw* const place = list.draws.data();
+  return_draw_list(std::move(list));
+  const DrawList again = take_draw_list();
+  EXPECT_TRUE(again.draws.empty());
+  EXPECT_GE(again.draws.capacity(), 100u);
+  EXPECT_EQ(again.draws.data(), place);
+  EXPECT_EQ(again.arena->allocate(100), in_arena);
+  EXPECT_EQ(take_draw_list().draws.capacity(), 0u);
 }
 
 TEST(PassMemory, ExcessivelyLargeListsAreNotKept) {
   forget_draws();
-  std::vector<Draw> draws;
-  draws.reserve((std::size_t{257} << 20) / sizeof(Draw));
-  return_draw_list(std::move(draws));
-  EXPECT_EQ(take_draw_list().capacity(), 0u);
+  DrawList list = take_draw_list();
+  list.draws.reserve((std::size_t{257} << 20) / sizeof(Draw));
+  return_draw_list(std::move(list));
+  EXPECT_EQ(take_draw_list().draws.capacity(), 0u);
+}
+
+TEST(PassMemory, AnExcessivelyLargeArenaIsNotKept) {
+  forget_draws();
+  DrawList list = take_draw_list();
+  list.draws.reserve(1);
+  EXPECT_NE(list.arena->allocate(std::size_t{257} << 20), nullptr);
+  return_draw_list(std::move(list));
+  EXPECT_EQ(take_draw_list().draws.capacity(), 0u);
 }
 
 TEST(PassMemory, ReturningAListDestroysItsShaders) {
   const auto shader = std::make_shared<const int>(1);
-  std::vector<Draw> draws;
-  draws.push_back(draw_of(shader));
+  DrawList list = take_draw_list();
+  list.draws.push_back(draw_of(shader));
   EXPECT_EQ(shader.use_count(), 2);
-  return_draw_list(std::move(draws));
+  return_draw_list(std::move(list));
   EXPECT_EQ(shader.use_count(), 1);
+}
+
+TEST(DrawArena, AllocatesAlignedMemoryThatDoesNotOverlap) {
+  DrawArena arena;
+  std::byte* end = nullptr;
+  for (const std::size_t bytes : {1u, 8u, 64u, 3u, 100u}) {
+    const auto at = static_cast<std::byte*>(arena.allocate(bytes, 64));
+    EXPECT_EQ(reinterpret_cast<std::uintptr_t>(at) % 64, 0u);
+    EXPECT_GE(at, end);  // all are in the first block
+    end = at + bytes;
+  }
+}
+
+TEST(DrawArena, UsesTheSameBlocksAfterAReset) {
+  DrawArena arena;
+  const auto fill = [&] {
+    std::vector<const void*> at;
+    for (int i = 0; i < 100; ++i) at.push_back(arena.allocate(3000, 8));
+    at.push_back(arena.allocate(200000, 8));  // larger than a block
+    return at;
+  };
+  const std::vector<const void*> first = fill();
+  const std::size_t bytes = arena.bytes();
+  arena.reset();
+  EXPECT_EQ(fill(), first);
+  EXPECT_EQ(arena.bytes(), bytes);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <deque>
 #include <memory>
 #include <numeric>
 #include <vector>
@@ -22,10 +23,11 @@ struct Planned {
   explicit Planned(uint32_t chunk_triangles = kMaxPrimitivesPerChunk) : plan(1, chunk_triangles) {}
 
   void add(std::size_t triangles, uint32_t instances = 1) {
-    DrawState state;
+    DrawState& state = states.emplace_back();
     state.instances = instances;
-    Draw& d = draws.emplace_back(kernels, KeptShader(nullptr, [](const void*) {}),
-                                 std::make_shared<const Indices>(Indices::sequential(3 * triangles)), VertexStreams{}, state);
+    Draw& d =
+        draws.emplace_back(kernels, KeptShader(nullptr, [](const void*) {}),
+                           std::make_shared<const Indices>(Indices::sequential(3 * triangles)), VertexStreams{}, state, DrawPlacement{});
     d.vertex_count = 3 * triangles * instances;
     count_primitives(d);
     plan.add(d, draws.size() - 1);
@@ -41,6 +43,7 @@ struct Planned {
   }
 
   ShaderKernels kernels;
+  std::deque<DrawState> states;  // the draws refer to them
   std::vector<Draw> draws;
   PassPlan plan;
 };
@@ -124,7 +127,7 @@ TEST(PassPlan, KnowsTheSubmittedVerticesAndTheQueries) {
   EXPECT_EQ(p.plan.submitted.vertices_in, 36u);
   EXPECT_EQ(p.plan.submitted.vertices_shaded, 36u);
   EXPECT_TRUE(p.plan.submitted.queries.empty());
-  p.draws[0].state.query = 2;
+  p.states[0].query = 2;
   p.plan.add(p.draws[0], 1);
   EXPECT_EQ(p.plan.submitted.queries.size(), 3u);
 }

@@ -34,7 +34,7 @@ struct TestDraw {
     tile->samples = samples;
     tile->depth_format = depth_format;
     tile->has_stencil = has_stencil;
-    Draw draw(kernels, KeptShader(nullptr, [](const void*) {}), nullptr, {}, state);
+    Draw draw(kernels, KeptShader(nullptr, [](const void*) {}), nullptr, {}, state, {});
     draw.deferred = deferred;
     draw.writes_color = true;
     draws.push_back(std::move(draw));

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "halfspace/raster/primitives/setup.h"
+#include "halfspace/raster/primitives/vertex_stage.h"
 
 namespace halfspace::HS_LANES {
 
@@ -29,7 +30,7 @@ void PassPlan::add_vertices(const Draw& draw, std::size_t number) {
   submitted.vertices_shaded += count;
   if (count > kVerticesPerTask) {
     for (std::size_t b = 0; b < count; b += kVerticesPerTask)
-      vertex_tasks.push_back({number, number + 1, b, std::min(count, b + kVerticesPerTask), true});
+      vertex_tasks.push_back({number, number + 1, b, std::min(count, b + kVerticesPerTask), true, b == 0 ? shaded_bytes(draw) : 0});
     return;
   }
   if (!vertex_tasks.empty()) {
@@ -37,10 +38,11 @@ void PassPlan::add_vertices(const Draw& draw, std::size_t number) {
     if (!last.is_part && last.end + count <= kVerticesPerTask) {
       last.end_draw = number + 1;
       last.end += count;
+      last.bytes += shaded_bytes(draw);
       return;
     }
   }
-  vertex_tasks.push_back({number, number + 1, 0, count, false});
+  vertex_tasks.push_back({number, number + 1, 0, count, false, shaded_bytes(draw)});
 }
 
 void PassPlan::add_primitives(const Draw& draw, std::size_t number) {

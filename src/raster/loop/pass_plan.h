@@ -13,6 +13,7 @@ struct VertexTask {
   std::size_t draw, end_draw;
   std::size_t begin, end;  ///< range of the vertices used by the draw; for small draws, end is the total number of vertices
   bool is_part;
+  std::size_t bytes;  ///< that the shaded vertices of its draws need; 0 for all parts of a draw but the first
 };
 
 /// A plan. It does not depend on the number of threads.

@@ -74,7 +74,7 @@ class PassRounds {
     const std::size_t begin = next_task_;
     for (std::size_t bytes = 0; next_task_ < tasks.size() && (tasks[next_task_].draw <= last || bytes < budget_);) {
       const VertexTask& task = tasks[next_task_];
-      for (std::size_t d = task.draw; d < task.end_draw; ++d) bytes += shaded_bytes(context_.draws[d]);
+      bytes += task.bytes;
       end_shaded_ = task.end_draw;
       while (next_task_ < tasks.size() && tasks[next_task_].draw < end_shaded_) ++next_task_;
     }

@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <limits>
 #include <memory>
-#include <memory_resource>
 #include <utility>
 #include <vector>
 
+#include "halfspace/raster/pipeline/draw_arena.h"
 #include "halfspace/raster/pipeline/pipeline_data.h"
 #include "halfspace/raster/target.h"
 #include "halfspace/shading/varyings.h"
@@ -52,27 +52,31 @@ struct IndexRun {
 /// destructor.
 using KeptShader = std::unique_ptr<const void, void (*)(const void*)>;
 
-/// A draw as stored by the pass: its arguments, and values derived from them once for all triangles. A pass may contain many thousands of
-/// draws, so Draw is kept small: streams and shader are stored consecutively in the memory of the pass.
-struct Draw {
-  const ShaderKernels& kernels;  ///< static, one per shader type
-  KeptShader shader;
-  std::shared_ptr<const Indices> indices;
-  VertexStreams vertices;
-  DrawState state;
-
-  // These are set when the draw is added.
+/// What follows from the state of a draw and from its pass.
+struct DrawPlacement {
   Viewport viewport{};
   PixelBounds bounds{};    ///< viewport ∩ scissor ∩ target
   float depth_low = 0.0f;  ///< bounds of the depth range
   float depth_high = 1.0f;
-  bool deferred = false;        ///< shaded after visibility, once per visible pixel; otherwise shaded immediately, in order
-  bool writes_color = false;    ///< writes any channel of any attachment
+  uint32_t sample_mask = 1;     ///< bit s: sample s can be drawn
   bool shades_samples = false;  ///< the fragment function runs per sample instead of per pixel
   /// Alpha to coverage applies: there are several samples, and the first color attachment does not contain integers (OpenGL 4.6, section
   /// 17.3.1).
   bool covers_by_alpha = false;
-  uint32_t sample_mask = 1;  ///< bit s: sample s can be drawn
+};
+
+/// A draw as stored by the pass: its arguments, and values derived from them once for all triangles. A pass may contain many thousands of
+/// draws, so Draw is kept small: shader, streams and state are stored consecutively in the arena of the pass.
+struct Draw : DrawPlacement {
+  const ShaderKernels& kernels;  ///< static, one per shader type
+  KeptShader shader;
+  std::shared_ptr<const Indices> indices;
+  VertexStreams vertices;
+  const DrawState& state;  ///< consecutive draws with equal states share one
+
+  // These are set when the draw is added.
+  bool deferred = false;      ///< shaded after visibility, once per visible pixel; otherwise shaded immediately, in order
+  bool writes_color = false;  ///< writes any channel of any attachment
   /// Order-independent draws with the same number are sorted together: the number of preceding draws that write color in another way.
   uint32_t layer_group = 0;
 
@@ -81,8 +85,13 @@ struct Draw {
   std::vector<IndexRun> runs{};  ///< runs with at least one primitive; empty if there are no restarts
 
   Draw(const ShaderKernels& kernels_, KeptShader shader_, std::shared_ptr<const Indices> indices_, const VertexStreams& vertices_,
-       const DrawState& state_)
-      : kernels(kernels_), shader(std::move(shader_)), indices(std::move(indices_)), vertices(vertices_), state(state_) {}
+       const DrawState& state_, const DrawPlacement& placement)
+      : DrawPlacement(placement),
+        kernels(kernels_),
+        shader(std::move(shader_)),
+        indices(std::move(indices_)),
+        vertices(vertices_),
+        state(state_) {}
 };
 
 /// Returns true if all offsets into the draw's vertex arrays fit in the 32-bit indices of a gather.
@@ -93,7 +102,7 @@ inline bool can_gather(const ShadedVertices& v, const Draw& draw) {
 
 /// Input data of all stages that follow the vertex stage.
 struct PassContext {
-  std::unique_ptr<std::pmr::monotonic_buffer_resource> memory;  ///< for the shaders and streams of the draws
+  std::unique_ptr<DrawArena> arena;  ///< for the shaders, streams and states of the draws; destroyed after them
   std::vector<Draw> draws;
   std::vector<ShadedVertices> shaded;  ///< one per draw
   std::vector<Chunk> chunks;

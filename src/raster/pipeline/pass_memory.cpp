@@ -12,7 +12,7 @@ constexpr std::size_t kMaxKept = std::size_t{256} << 20;
 struct Kept {
   std::mutex mutex;
   std::vector<PassMemory> idle;
-  std::vector<std::vector<Draw>> idle_draws;
+  std::vector<DrawList> idle_draws;
   std::size_t bytes = 0;
 };
 Kept& kept() {
@@ -27,26 +27,29 @@ std::size_t bytes_of(const PassMemory& m) {
   return bytes;
 }
 
+std::size_t bytes_of(const DrawList& list) { return list.draws.capacity() * sizeof(Draw) + list.arena->bytes(); }
+
 }  // namespace
 
-std::vector<Draw> take_draw_list() {
+DrawList take_draw_list() {
   Kept& k = kept();
   const std::lock_guard lock(k.mutex);
-  if (k.idle_draws.empty()) return {};
-  std::vector<Draw> draws = std::move(k.idle_draws.back());
+  if (k.idle_draws.empty()) return {std::make_unique<DrawArena>(), {}};
+  DrawList list = std::move(k.idle_draws.back());
   k.idle_draws.pop_back();
-  k.bytes -= draws.capacity() * sizeof(Draw);
-  return draws;
+  k.bytes -= bytes_of(list);
+  return list;
 }
 
-void return_draw_list(std::vector<Draw> draws) {
-  draws.clear();
-  const std::size_t bytes = draws.capacity() * sizeof(Draw);
+void return_draw_list(DrawList list) {
+  list.draws.clear();
+  list.arena->reset();
+  const std::size_t bytes = bytes_of(list);
   Kept& k = kept();
   const std::lock_guard lock(k.mutex);
-  if (bytes == 0 || k.bytes + bytes > kMaxKept) return;
+  if (k.bytes + bytes > kMaxKept) return;
   k.bytes += bytes;
-  k.idle_draws.push_back(std::move(draws));
+  k.idle_draws.push_back(std::move(list));
 }
 
 PassMemory take_pass_memory() {

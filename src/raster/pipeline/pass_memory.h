@@ -4,6 +4,7 @@
 // newly allocated ones. In a profile of a pass with a million small triangles, this took about a sixth of the time.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "halfspace/raster/pipeline/pass_context.h"
@@ -16,10 +17,16 @@ struct PassMemory {
   std::vector<ShadedVertices> shaded;
 };
 
+/// Draws, and the arena that they use.
+struct DrawList {
+  std::unique_ptr<DrawArena> arena;
+  std::vector<Draw> draws;
+};
+
 /// Takes a recycled draw list from the pool, and returns one to it. This is separate from PassMemory, because a pass adds draws before it
-/// runs. The list is empty.
-std::vector<Draw> take_draw_list();
-void return_draw_list(std::vector<Draw> draws);
+/// runs. The list is empty; if the pool is, it has a new arena.
+DrawList take_draw_list();
+void return_draw_list(DrawList list);
 
 /// Takes recycled memory from the pool; returns empty buffers if there is none. Thread-safe.
 PassMemory take_pass_memory();
