@@ -51,6 +51,8 @@ RESULTS = WORK / "caught.txt"  # lines "KEY STEM"
 # Test programs that can detect a fault in a folder, in the order in which they run. Most faults are detected by the first one.
 TESTS = {
     "src/core/": ["core", "raster", "property", "conformance", "shading"],
+    "apps/cli/": ["cli"],
+    "apps/command_line/": ["cli"],
     "apps/explain/": ["explain"],
     "src/geometry/": ["geometry", "render"],
     "src/image/": ["image", "cli"],

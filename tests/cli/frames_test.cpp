@@ -107,6 +107,25 @@ TEST_F(Frames, ShardsWithoutFramesRenderNothing) {
   EXPECT_TRUE(fs::is_empty(directory));
 }
 
+// The frame that would overwrite an input is found before the first frame is rendered.
+TEST_F(Frames, InputsAreNotOverwritten) {
+  const std::pair<const char*, const char*> names[] = {
+      {"f_0003.png", "f.png"}, {"f1032.png", "f1%02d2.png"}, {"0003/m.png", "{frame}/m.png"}, {"03/003.png", "%02d/%03d.png"}};
+  for (const auto& [texture, out] : names) {
+    write_bytes(directory / "a.mtl", "newmtl m\nmap_Kd " + std::string(texture) + "\n");
+    write_bytes(directory / "a.obj", "mtllib a.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3/1\n");
+    fs::create_directories((directory / texture).parent_path());
+    write_png(directory / texture, Image<glm::u8vec4>(2, 2));
+    const Outcome o = run({"render", "a.obj", "--size", "16x9", "--frames", "1..4", "-o", out});
+    EXPECT_EQ(o.exit_code, 4) << o.err;
+    EXPECT_EQ(o.err, "halfspace: error: " + std::string(texture) + ": is read by this command; expected another output file\n");
+    const auto entries = fs::recursive_directory_iterator(directory);
+    EXPECT_EQ(std::count_if(begin(entries), end(entries), [](const fs::directory_entry& e) { return e.is_regular_file(); }), 3) << texture;
+    fs::remove_all(directory);
+    fs::create_directory(directory);
+  }
+}
+
 TEST_F(Frames, ResumesPatterns) {
   const std::pair<const char*, const char*> names[] = {
       {"%03d/m.png", "000/m.png"}, {"m-%02d.png", "m-00.png"}, {"{frame}.png", "0000.png"}, {"m%02d2x.png", "m002x.png"}};
