@@ -2,6 +2,7 @@
 #include "runner/scaling.h"
 
 #include <fmt/format.h>
+#include <sched.h>
 
 #include <algorithm>
 #include <chrono>
@@ -22,22 +23,74 @@ using Clock = std::chrono::steady_clock;
 
 double ms_since(Clock::time_point start) { return std::chrono::duration<double, std::milli>(Clock::now() - start).count(); }
 
-double makespan(const std::vector<double>& tasks, int workers) {
-  std::priority_queue<double, std::vector<double>, std::greater<>> free_at;  // when each worker that has had a task is free
+// Time of a phase in which worker w takes as long for its tasks as logs[w % logs.size()] recorded.
+double makespan(std::span<const TaskLog> logs, std::size_t phase, int workers) {
+  using Worker = std::pair<double, std::size_t>;  // when it is free, and its number
+  std::priority_queue<Worker, std::vector<Worker>, std::greater<>> free_at;
+  for (std::size_t w = 0; w < static_cast<std::size_t>(workers); ++w) free_at.emplace(0.0, w);
   double end = 0;
-  for (const double task : tasks) {
-    double start = 0;
-    if (static_cast<int>(free_at.size()) == workers) {
-      start = free_at.top();
-      free_at.pop();
-    }
-    free_at.push(start + task);
-    end = std::max(end, start + task);
+  for (std::size_t task = 0; task < logs[0].phases[phase].tasks_ms.size(); ++task) {
+    const auto [start, worker] = free_at.top();
+    free_at.pop();
+    free_at.emplace(start + logs[worker % logs.size()].phases[phase].tasks_ms[task], worker);
+    end = std::max(end, start + logs[worker % logs.size()].phases[phase].tasks_ms[task]);
   }
   return end;
 }
 
-double total_ms(const TaskLog& log) { return scheduled_ms(log, 1); }
+// The first two CPUs of the affinity mask, or one. Virtual machines may have CPUs of different speed.
+std::vector<int> measured_cpus() {
+  cpu_set_t mask;
+  CPU_ZERO(&mask);
+  std::vector<int> cpus;
+  if (::sched_getaffinity(0, sizeof mask, &mask) != 0) return cpus;
+  for (int cpu = 0; cpu < CPU_SETSIZE && cpus.size() < kMeasuredTeams; ++cpu) {
+    if (CPU_ISSET(cpu, &mask)) cpus.push_back(cpu);
+  }
+  return cpus;
+}
+
+// Runs the calling thread on the given CPUs until it is destroyed.
+class OnCpus {
+ public:
+  explicit OnCpus(std::span<const int> cpus) {
+    CPU_ZERO(&before_);
+    is_known_ = ::sched_getaffinity(0, sizeof before_, &before_) == 0;
+    cpu_set_t mask;
+    CPU_ZERO(&mask);
+    for (const int cpu : cpus) CPU_SET(cpu, &mask);
+    if (is_known_ && !cpus.empty()) ::sched_setaffinity(0, sizeof mask, &mask);
+  }
+  ~OnCpus() {
+    if (is_known_) ::sched_setaffinity(0, sizeof before_, &before_);
+  }
+  OnCpus(const OnCpus&) = delete;
+  OnCpus& operator=(const OnCpus&) = delete;
+
+ private:
+  cpu_set_t before_;
+  bool is_known_;
+};
+
+double total_ms(const TaskLog& log) { return scheduled_ms(std::span(&log, 1), 1); }
+
+// Draws two frames and replaces `fastest` by the record of the second if that is faster. The first frame only brings the data into the
+// caches, where the second one finds it in a series of frames.
+void record(Workload& workload, const Workers& team, TaskLog& fastest) {
+  TaskLog log;
+  for (int frame = 0; frame < 2; ++frame) {
+    log = {};
+    const TaskRecording recording(log);
+    workload.frame(team);
+  }
+  if (fastest.phases.empty() || total_ms(log) < total_ms(fastest)) fastest = std::move(log);
+}
+
+double mean(std::span<const TaskLog> logs, double (*value)(const TaskLog&)) {
+  double sum = 0;
+  for (const TaskLog& log : logs) sum += value(log);
+  return sum / static_cast<double>(logs.size());
+}
 
 std::size_t tasks_of(const TaskLog& log) {
   std::size_t count = 0;
@@ -49,9 +102,12 @@ double ceiling(double serial_share, int workers) { return 1.0 / (serial_share + 
 
 }  // namespace
 
-double scheduled_ms(const TaskLog& log, int workers) {
-  double ms = log.last_serial_ms;
-  for (const TaskPhase& phase : log.phases) ms += phase.serial_ms + makespan(phase.tasks_ms, workers);
+double scheduled_ms(std::span<const TaskLog> logs, int workers) {
+  double ms = mean(logs, [](const TaskLog& log) { return log.last_serial_ms; });
+  for (std::size_t phase = 0; phase < logs[0].phases.size(); ++phase) {
+    for (const TaskLog& log : logs) ms += log.phases[phase].serial_ms / static_cast<double>(logs.size());
+    ms += makespan(logs, phase, workers);
+  }
   return ms;
 }
 
@@ -62,29 +118,29 @@ double serial_ms(const TaskLog& log) {
 }
 
 Scaling scaling_of(Workload& workload, double seconds) {
+  std::vector<int> cpus = measured_cpus();
+  if (cpus.empty()) cpus.push_back(0);
   std::vector<std::unique_ptr<Workers>> teams;
   for (const int threads : kTeams) teams.push_back(std::make_unique<Workers>(threads));
-  std::vector<TaskLog> fastest(teams.size());
+  std::vector<std::vector<TaskLog>> fastest(teams.size(), std::vector<TaskLog>(cpus.size()));  // of each team, on each CPU
   Scaling scaling;
   scaling.two_measured_ms = std::numeric_limits<double>::infinity();
-  workload.frame(*teams[1]);
   const Clock::time_point start = Clock::now();
   do {
-    for (std::size_t i = 0; i < teams.size(); ++i) {
-      TaskLog log;
-      {
-        const TaskRecording recording(log);
-        workload.frame(*teams[i]);
-      }
-      if (fastest[i].phases.empty() || total_ms(log) < total_ms(fastest[i])) fastest[i] = std::move(log);
+    for (std::size_t cpu = 0; cpu < cpus.size(); ++cpu) {
+      const OnCpus here({&cpus[cpu], 1});
+      for (std::size_t i = 0; i < teams.size(); ++i) record(workload, *teams[i], fastest[i][cpu]);
     }
-    const Clock::time_point frame = Clock::now();
-    workload.frame(*teams[1]);
-    scaling.two_measured_ms = std::min(scaling.two_measured_ms, ms_since(frame));
+    for (int frame = 0; frame < 2; ++frame) {
+      const Clock::time_point begin = Clock::now();
+      workload.frame(*teams[1]);
+      scaling.two_measured_ms = std::min(scaling.two_measured_ms, ms_since(begin));
+    }
   } while (ms_since(start) < 1e3 * seconds);
-  for (std::size_t i = 0; i < teams.size(); ++i) scaling.times.push_back(scheduled_ms(fastest[i], kTeams[i]));
-  scaling.serial_ms = serial_ms(fastest[0]);
-  scaling.log = std::move(fastest[0]);
+  scaling.times.push_back(mean(fastest[0], total_ms));
+  for (std::size_t i = 1; i < teams.size(); ++i) scaling.times.push_back(scheduled_ms(fastest[i], kTeams[i]));
+  scaling.serial_ms = mean(fastest[0], serial_ms);
+  scaling.log = std::move(fastest[0][0]);
   return scaling;
 }
 

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <nlohmann/json_fwd.hpp>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,8 +17,9 @@
 namespace halfspace {
 
 /// Returns the time of the recorded work with N workers: phases one after the other, and in each phase, the tasks in order, each by the
-/// worker that is free first.
-double scheduled_ms(const TaskLog& log, int workers);
+/// worker that is free first. logs: records of the same tasks on different CPUs; the workers have their speeds in turn. The time between
+/// phases is the mean.
+double scheduled_ms(std::span<const TaskLog> logs, int workers);
 
 /// Returns the time in which only one thread has work, however many there are: before, between and after phases, and in phases with a
 /// single task.
@@ -34,8 +36,8 @@ struct Scaling {
   TaskLog log;                 ///< of one thread
 };
 
-/// Draws frames for `seconds`: in turn, one for each team, of which one thread runs all tasks, and one with two threads. Returns the
-/// results for the fastest frame of each.
+/// Draws frames for `seconds`: in turn, two for each team, of which one thread runs all tasks, on each of two CPUs, and two with two
+/// threads. Returns the results for the fastest frame of each. The time and the serial share of one thread are means over the CPUs.
 Scaling scaling_of(Workload& workload, double seconds);
 
 /// Return the title of the table, and the results of a workload as a row of it or as JSON. Amdahl's ceiling for N workers is

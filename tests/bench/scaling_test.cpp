@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <span>
 #include <thread>
 
 #include "halfspace/core/parallel.h"
@@ -17,13 +18,24 @@ const TaskLog kLog{
     .phases = {{.serial_ms = 1, .tasks_ms = {4, 2, 2, 4}}, {.serial_ms = 2, .tasks_ms = {3}}, {.serial_ms = 0, .tasks_ms = {}}},
     .last_serial_ms = 5};
 
+double scheduled(int workers) { return scheduled_ms(std::span(&kLog, 1), workers); }
+
 TEST(Scaling, SchedulesTasksInOrder) {
-  EXPECT_DOUBLE_EQ(scheduled_ms(kLog, 1), 1 + 12 + 2 + 3 + 5);
+  EXPECT_DOUBLE_EQ(scheduled(1), 1 + 12 + 2 + 3 + 5);
   // Worker 1: 4, then 4; worker 2: 2, 2, then idle.
-  EXPECT_DOUBLE_EQ(scheduled_ms(kLog, 2), 1 + 8 + 2 + 3 + 5);
-  EXPECT_DOUBLE_EQ(scheduled_ms(kLog, 3), 1 + 6 + 2 + 3 + 5);
-  EXPECT_DOUBLE_EQ(scheduled_ms(kLog, 4), 1 + 4 + 2 + 3 + 5);
-  EXPECT_DOUBLE_EQ(scheduled_ms(kLog, 128), 1 + 4 + 2 + 3 + 5);
+  EXPECT_DOUBLE_EQ(scheduled(2), 1 + 8 + 2 + 3 + 5);
+  EXPECT_DOUBLE_EQ(scheduled(3), 1 + 6 + 2 + 3 + 5);
+  EXPECT_DOUBLE_EQ(scheduled(4), 1 + 4 + 2 + 3 + 5);
+  EXPECT_DOUBLE_EQ(scheduled(128), 1 + 4 + 2 + 3 + 5);
+}
+
+TEST(Scaling, WorkersHaveTheSpeedsOfTheirCpus) {
+  TaskLog slow = kLog;
+  slow.phases[0].tasks_ms = {8, 4, 4, 8};
+  slow.phases[1].serial_ms = 4;
+  const TaskLog logs[] = {kLog, slow};
+  // The fast worker: 4, then 2. The slow one: 4, then 8, because it is free first.
+  EXPECT_DOUBLE_EQ(scheduled_ms(logs, 2), 1 + 12 + 3 + 3 + 5);
 }
 
 TEST(Scaling, PhasesWithOneTaskAreSerial) { EXPECT_DOUBLE_EQ(serial_ms(kLog), 1 + 2 + 3 + 5); }
