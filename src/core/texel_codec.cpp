@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "halfspace/core/texel_codec.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <limits>
+
+namespace halfspace::HS_LANES {
+
+namespace {
+
+// Bits of the channels of the packed formats.
+constexpr std::array<int, 4> kRgb10A2Bits{10, 10, 10, 2};
+constexpr std::array<int, 3> kSmallMantissas{6, 6, 5};  // r11f_g11f_b10f
+constexpr std::array<int, 3> kSmallShifts{0, 11, 22};
+
+constexpr float kMaxD24 = 16777215.0f;
+
+// Returns the code of a depth, an integer from 0 to 2^24 − 1 as a float. The product of a depth above 1/2 has no fraction bits.
+template <class R>
+R d24_code(R depth) {
+  const R z = clamp(depth, 0.0f, 1.0f), two_to_23(0x1p23f), code = z * R(kMaxD24);
+  return select(code < two_to_23, fma(z, R(kMaxD24), two_to_23) - two_to_23, code);
+}
+
+// A channel of a format whose channels all have the same number of bits. The code is sign-extended if its kind is signed.
+template <class R>
+IntOf<R> encode_channel(const TexelInfo& info, R x, bool alpha) {
+  if (info.kind == TexelKind::srgb && !alpha) return linear_to_srgb(x);
+  if (info.kind == TexelKind::snorm) return encode_snorm(x, info.bits);
+  if (info.kind != TexelKind::floats) return encode_unorm(x, info.bits);
+  if (info.bits == 32) return as_int(x);
+  return IntOf<R>(float_to_finite_half(x));
+}
+template <class R>
+R decode_channel(const TexelInfo& info, IntOf<R> code, bool alpha) {
+  if (info.kind == TexelKind::srgb && !alpha) return srgb_to_linear<R>(code);
+  if (info.kind == TexelKind::snorm) return decode_snorm<R>(code, info.bits);
+  if (info.kind != TexelKind::floats) return decode_unorm<R>(code, info.bits);
+  if (info.bits == 32) return as_real(code);
+  if constexpr (std::is_same_v<R, float>) {
+    return half_to_float(static_cast<uint16_t>(code));
+  } else {
+    return half_to_float(code);
+  }
+}
+
+constexpr bool is_signed(TexelKind kind) { return kind == TexelKind::snorm || kind == TexelKind::sints; }
+
+// Reads and writes the bits of channel k.
+int32_t read_code(const TexelInfo& info, const std::byte* texel, int k) {
+  const std::size_t bytes = info.bits / 8u;
+  uint32_t code = 0;
+  std::memcpy(&code, texel + static_cast<std::size_t>(k) * bytes, bytes);
+  const int unused = 32 - info.bits;
+  return is_signed(info.kind) ? static_cast<int32_t>(code << unused) >> unused : static_cast<int32_t>(code);
+}
+void write_code(const TexelInfo& info, std::byte* texel, int k, int32_t code) {
+  const std::size_t bytes = info.bits / 8u;
+  std::memcpy(texel + static_cast<std::size_t>(k) * bytes, &code, bytes);
+}
+uint32_t read_word(const std::byte* texel) {
+  uint32_t word;
+  std::memcpy(&word, texel, sizeof word);
+  return word;
+}
+template <class T>
+void write(std::byte* texel, T value) {
+  std::memcpy(texel, &value, sizeof value);
+}
+
+float decode_depth(TexelFormat format, const std::byte* texel) {
+  uint16_t code16 = 0;
+  switch (format) {
+    case TexelFormat::d16: std::memcpy(&code16, texel, sizeof code16); return static_cast<float>(code16) / 65535.0f;
+    case TexelFormat::d24: return static_cast<float>(read_word(texel) & 0xffffff) / kMaxD24;
+    case TexelFormat::d24s8: return static_cast<float>(read_word(texel) >> 8) / kMaxD24;
+    default: return std::bit_cast<float>(read_word(texel));
+  }
+}
+
+void encode_depth(TexelFormat format, float depth, std::byte* texel) {
+  switch (format) {
+    case TexelFormat::d16: return write(texel, static_cast<uint16_t>(encode_unorm(depth, 16)));
+    case TexelFormat::d24: return write(texel, static_cast<uint32_t>(d24_code(depth)));
+    case TexelFormat::d24s8: return write(texel, static_cast<uint32_t>(d24_code(depth)) << 8);
+    case TexelFormat::d32fs8: write(texel + 4, uint32_t{0}); [[fallthrough]];
+    default: return write(texel, clamp(depth, 0.0f, 1.0f));
+  }
+}
+
+}  // namespace
+
+template <Number R>
+vec4<R> nearest_texel(TexelFormat format, const vec4<R>& color) {
+  const TexelInfo& info = texel_info(format);
+  const R x[] = {color.x, color.y, color.z, color.w};
+  R y[] = {R(0.0f), R(0.0f), R(0.0f), R(1.0f)};
+  switch (format) {
+    case TexelFormat::rgb10_a2:
+      for (std::size_t k = 0; k < 4; ++k) y[k] = decode_unorm<R>(encode_unorm(x[k], kRgb10A2Bits[k]), kRgb10A2Bits[k]);
+      break;
+    case TexelFormat::r11f_g11f_b10f:
+      for (std::size_t k = 0; k < 3; ++k) y[k] = decode_small_float<R>(encode_small_float(x[k], kSmallMantissas[k]), kSmallMantissas[k]);
+      break;
+    case TexelFormat::rgb9_e5: return vec4<R>(decode_rgb9_e5<R>(encode_rgb9_e5(vec3<R>(x[0], x[1], x[2]))), R(1.0f));
+    case TexelFormat::d16: y[0] = decode_unorm<R>(encode_unorm(x[0], 16), 16); break;
+    case TexelFormat::d24:
+    case TexelFormat::d24s8: y[0] = d24_code(x[0]) / R(kMaxD24); break;
+    case TexelFormat::d32f:
+    case TexelFormat::d32fs8: y[0] = clamp(x[0], 0.0f, 1.0f); break;
+    default:
+      for (std::size_t k = 0; k < info.channels; ++k) y[k] = decode_channel<R>(info, encode_channel(info, x[k], k == 3), k == 3);
+  }
+  return {y[0], y[1], y[2], y[3]};
+}
+template vec4<float> nearest_texel(TexelFormat, const vec4<float>&);
+#if HALFSPACE_LANES > 1
+template vec4<Real> nearest_texel(TexelFormat, const vec4<Real>&);
+#endif
+
+glm::vec4 decode_texel(TexelFormat format, const std::byte* texel) {
+  const TexelInfo& info = texel_info(format);
+  if (info.kind == TexelKind::depth) return {decode_depth(format, texel), 0.0f, 0.0f, 1.0f};
+  glm::vec4 color(0.0f, 0.0f, 0.0f, 1.0f);
+  if (info.bits != 0) {
+    for (int k = 0; k < info.channels; ++k) color[k] = decode_channel<float>(info, read_code(info, texel, k), k == 3);
+    return color;
+  }
+  const auto word = static_cast<int32_t>(read_word(texel));
+  const vec3<float> shared = decode_rgb9_e5<float>(word);
+  const auto bits_of = [&](int shift, int bits) { return static_cast<int32_t>(static_cast<uint32_t>(word) >> shift) & ((1 << bits) - 1); };
+  switch (format) {
+    case TexelFormat::rgb10_a2:
+      for (int k = 0; k < 4; ++k) {
+        const int bits = kRgb10A2Bits[static_cast<std::size_t>(k)];
+        color[k] = decode_unorm<float>(bits_of(10 * k, bits), bits);
+      }
+      return color;
+    case TexelFormat::r11f_g11f_b10f:
+      for (int k = 0; k < 3; ++k) {
+        const int mantissa = kSmallMantissas[static_cast<std::size_t>(k)];
+        color[k] = decode_small_float<float>(bits_of(kSmallShifts[static_cast<std::size_t>(k)], mantissa + 5), mantissa);
+      }
+      return color;
+    case TexelFormat::rgb9_e5: return {shared.x, shared.y, shared.z, 1.0f};
+    default: return color;
+  }
+}
+
+void encode_texel(TexelFormat format, const glm::vec4& color, std::byte* texel) {
+  const TexelInfo& info = texel_info(format);
+  if (info.kind == TexelKind::depth) return encode_depth(format, color.x, texel);
+  if (info.bits != 0) {
+    for (int k = 0; k < info.channels; ++k) write_code(info, texel, k, encode_channel(info, color[k], k == 3));
+    return;
+  }
+  uint32_t word = 0;
+  switch (format) {
+    case TexelFormat::rgb10_a2:
+      for (int k = 0; k < 4; ++k)
+        word |= static_cast<uint32_t>(encode_unorm(color[k], kRgb10A2Bits[static_cast<std::size_t>(k)])) << (10 * k);
+      break;
+    case TexelFormat::r11f_g11f_b10f:
+      for (int k = 0; k < 3; ++k) {
+        const auto i = static_cast<std::size_t>(k);
+        word |= static_cast<uint32_t>(encode_small_float(color[k], kSmallMantissas[i])) << kSmallShifts[i];
+      }
+      break;
+    case TexelFormat::rgb9_e5: word = static_cast<uint32_t>(encode_rgb9_e5(vec3<float>(color.x, color.y, color.z))); break;
+    default: return;
+  }
+  write(texel, word);
+}
+
+glm::ivec4 decode_integers(TexelFormat format, const std::byte* texel) {
+  const TexelInfo& info = texel_info(format);
+  glm::ivec4 values(0, 0, 0, 1);
+  if (format == TexelFormat::rgb10_a2ui) {
+    const uint32_t word = read_word(texel);
+    return {word & 1023, (word >> 10) & 1023, (word >> 20) & 1023, word >> 30};
+  }
+  for (int k = 0; k < info.channels; ++k) values[k] = read_code(info, texel, k);
+  return values;
+}
+
+void encode_integers(TexelFormat format, const glm::ivec4& values, std::byte* texel) {
+  const TexelInfo& info = texel_info(format);
+  const auto clamped = [&](int k, int bits) {
+    if (info.kind == TexelKind::uints)
+      return static_cast<int32_t>(std::min(static_cast<uint32_t>(values[k]), bits == 32 ? 0xffffffffu : (1u << bits) - 1));
+    const auto largest = static_cast<int32_t>(std::numeric_limits<int32_t>::max() >> (32 - bits));
+    return std::clamp(values[k], -largest - 1, largest);
+  };
+  if (format == TexelFormat::rgb10_a2ui) {
+    uint32_t word = 0;
+    for (int k = 0; k < 4; ++k) word |= static_cast<uint32_t>(clamped(k, kRgb10A2Bits[static_cast<std::size_t>(k)])) << (10 * k);
+    return write(texel, word);
+  }
+  for (int k = 0; k < info.channels; ++k) write_code(info, texel, k, clamped(k, info.bits));
+}
+
+}  // namespace halfspace::HS_LANES
