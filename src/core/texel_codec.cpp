@@ -1,19 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "halfspace/core/texel_codec.h"
 
-#include <algorithm>
 #include <bit>
 #include <cstring>
-#include <limits>
 
 namespace halfspace::HS_LANES {
 
 namespace {
 
-// Bits of the channels of the packed formats.
-constexpr std::array<int, 4> kRgb10A2Bits{10, 10, 10, 2};
-constexpr std::array<int, 3> kSmallMantissas{6, 6, 5};  // r11f_g11f_b10f
-constexpr std::array<int, 3> kSmallShifts{0, 11, 22};
+// Bits of the mantissa of a channel of r11f_g11f_b10f.
+constexpr int small_mantissa(int k) { return channel_bits(TexelFormat::r11f_g11f_b10f, k) - 5; }
 
 constexpr float kMaxD24 = 16777215.0f;
 
@@ -99,10 +95,10 @@ vec4<R> nearest_texel(TexelFormat format, const vec4<R>& color) {
   R y[] = {R(0.0f), R(0.0f), R(0.0f), R(1.0f)};
   switch (format) {
     case TexelFormat::rgb10_a2:
-      for (std::size_t k = 0; k < 4; ++k) y[k] = decode_unorm<R>(encode_unorm(x[k], kRgb10A2Bits[k]), kRgb10A2Bits[k]);
+      for (int k = 0; k < 4; ++k) y[k] = decode_unorm<R>(encode_unorm(x[k], channel_bits(format, k)), channel_bits(format, k));
       break;
     case TexelFormat::r11f_g11f_b10f:
-      for (std::size_t k = 0; k < 3; ++k) y[k] = decode_small_float<R>(encode_small_float(x[k], kSmallMantissas[k]), kSmallMantissas[k]);
+      for (int k = 0; k < 3; ++k) y[k] = decode_small_float<R>(encode_small_float(x[k], small_mantissa(k)), small_mantissa(k));
       break;
     case TexelFormat::rgb9_e5: return vec4<R>(decode_rgb9_e5<R>(encode_rgb9_e5(vec3<R>(x[0], x[1], x[2]))), R(1.0f));
     case TexelFormat::d16: y[0] = decode_unorm<R>(encode_unorm(x[0], 16), 16); break;
@@ -120,6 +116,31 @@ template vec4<float> nearest_texel(TexelFormat, const vec4<float>&);
 template vec4<Real> nearest_texel(TexelFormat, const vec4<Real>&);
 #endif
 
+template <Number R>
+std::array<IntOf<R>, 4> nearest_integers(TexelFormat format, const std::array<IntOf<R>, 4>& values) {
+  using I = IntOf<R>;
+  const TexelInfo& info = texel_info(format);
+  std::array<I, 4> out{I(0), I(0), I(0), I(1)};
+  for (std::size_t k = 0; k < info.channels; ++k) {
+    const int bits = channel_bits(format, static_cast<int>(k));
+    const I x = values[k];
+    if (bits == 32) {
+      out[k] = x;
+    } else if (info.kind == TexelKind::uints) {
+      const I largest((1 << bits) - 1);
+      out[k] = select((x >> bits) == I(0), x, largest);  // the bits that do not fit include the sign
+    } else {
+      const I largest((1 << (bits - 1)) - 1);
+      out[k] = max(min(x, largest), -largest - 1);
+    }
+  }
+  return out;
+}
+template std::array<int32_t, 4> nearest_integers<float>(TexelFormat, const std::array<int32_t, 4>&);
+#if HALFSPACE_LANES > 1
+template std::array<Int, 4> nearest_integers<Real>(TexelFormat, const std::array<Int, 4>&);
+#endif
+
 glm::vec4 decode_texel(TexelFormat format, const std::byte* texel) {
   const TexelInfo& info = texel_info(format);
   if (info.kind == TexelKind::depth) return {decode_depth(format, texel), 0.0f, 0.0f, 1.0f};
@@ -134,15 +155,12 @@ glm::vec4 decode_texel(TexelFormat format, const std::byte* texel) {
   switch (format) {
     case TexelFormat::rgb10_a2:
       for (int k = 0; k < 4; ++k) {
-        const int bits = kRgb10A2Bits[static_cast<std::size_t>(k)];
+        const int bits = channel_bits(format, k);
         color[k] = decode_unorm<float>(bits_of(10 * k, bits), bits);
       }
       return color;
     case TexelFormat::r11f_g11f_b10f:
-      for (int k = 0; k < 3; ++k) {
-        const int mantissa = kSmallMantissas[static_cast<std::size_t>(k)];
-        color[k] = decode_small_float<float>(bits_of(kSmallShifts[static_cast<std::size_t>(k)], mantissa + 5), mantissa);
-      }
+      for (int k = 0; k < 3; ++k) color[k] = decode_small_float<float>(bits_of(11 * k, channel_bits(format, k)), small_mantissa(k));
       return color;
     case TexelFormat::rgb9_e5: return {shared.x, shared.y, shared.z, 1.0f};
     default: return color;
@@ -159,14 +177,10 @@ void encode_texel(TexelFormat format, const glm::vec4& color, std::byte* texel) 
   uint32_t word = 0;
   switch (format) {
     case TexelFormat::rgb10_a2:
-      for (int k = 0; k < 4; ++k)
-        word |= static_cast<uint32_t>(encode_unorm(color[k], kRgb10A2Bits[static_cast<std::size_t>(k)])) << (10 * k);
+      for (int k = 0; k < 4; ++k) word |= static_cast<uint32_t>(encode_unorm(color[k], channel_bits(format, k))) << (10 * k);
       break;
     case TexelFormat::r11f_g11f_b10f:
-      for (int k = 0; k < 3; ++k) {
-        const auto i = static_cast<std::size_t>(k);
-        word |= static_cast<uint32_t>(encode_small_float(color[k], kSmallMantissas[i])) << kSmallShifts[i];
-      }
+      for (int k = 0; k < 3; ++k) word |= static_cast<uint32_t>(encode_small_float(color[k], small_mantissa(k))) << (11 * k);
       break;
     case TexelFormat::rgb9_e5: word = static_cast<uint32_t>(encode_rgb9_e5(vec3<float>(color.x, color.y, color.z))); break;
     default: return;
@@ -187,18 +201,13 @@ glm::ivec4 decode_integers(TexelFormat format, const std::byte* texel) {
 
 void encode_integers(TexelFormat format, const glm::ivec4& values, std::byte* texel) {
   const TexelInfo& info = texel_info(format);
-  const auto clamped = [&](int k, int bits) {
-    if (info.kind == TexelKind::uints)
-      return static_cast<int32_t>(std::min(static_cast<uint32_t>(values[k]), bits == 32 ? 0xffffffffu : (1u << bits) - 1));
-    const auto largest = static_cast<int32_t>(std::numeric_limits<int32_t>::max() >> (32 - bits));
-    return std::clamp(values[k], -largest - 1, largest);
-  };
+  const std::array<int32_t, 4> clamped = nearest_integers<float>(format, {values.x, values.y, values.z, values.w});
   if (format == TexelFormat::rgb10_a2ui) {
     uint32_t word = 0;
-    for (int k = 0; k < 4; ++k) word |= static_cast<uint32_t>(clamped(k, kRgb10A2Bits[static_cast<std::size_t>(k)])) << (10 * k);
+    for (std::size_t k = 0; k < 4; ++k) word |= static_cast<uint32_t>(clamped[k]) << (10 * k);
     return write(texel, word);
   }
-  for (int k = 0; k < info.channels; ++k) write_code(info, texel, k, clamped(k, info.bits));
+  for (int k = 0; k < info.channels; ++k) write_code(info, texel, k, clamped[static_cast<std::size_t>(k)]);
 }
 
 }  // namespace halfspace::HS_LANES

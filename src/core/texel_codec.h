@@ -4,6 +4,8 @@
 // each; the results are the same. Values are rounded to the nearest code, ties to even.
 #pragma once
 
+#include <array>
+
 #include "halfspace/core/half.h"
 #include "halfspace/core/srgb.h"
 #include "halfspace/core/texel_format.h"
@@ -89,6 +91,10 @@ HS_INLINE vec3<R> decode_rgb9_e5(IntOf<R> code) {
 /// integers. Channels that the format does not have become 0, and alpha 1. Depth formats use the first channel.
 template <Number R>
 vec4<R> nearest_texel(TexelFormat format, const vec4<R>& color);
+
+/// The same for integer formats: clamps the channels to the integers of the format. Unsigned values are passed as their bits.
+template <Number R>
+std::array<IntOf<R>, 4> nearest_integers(TexelFormat format, const std::array<IntOf<R>, 4>& values);
 
 /// Decode and encode a texel in memory, which need not be aligned. Depth formats use the first channel, and encoding them sets their
 /// stencil to 0.

@@ -138,6 +138,13 @@ inline constexpr std::array<TexelInfo, kTexelFormats> kTexelInfos = make_texel_i
 
 constexpr const TexelInfo& texel_info(TexelFormat f) { return detail::kTexelInfos[static_cast<std::size_t>(f)]; }
 
+/// Returns the bits of channel k of a format that is neither a depth format nor rgb9_e5.
+constexpr int channel_bits(TexelFormat f, int k) {
+  if (f == TexelFormat::rgb10_a2 || f == TexelFormat::rgb10_a2ui) return k == 3 ? 2 : 10;
+  if (f == TexelFormat::r11f_g11f_b10f) return k == 2 ? 10 : 11;
+  return texel_info(f).bits;
+}
+
 constexpr bool is_integer(TexelFormat f) { return texel_info(f).kind == TexelKind::sints || texel_info(f).kind == TexelKind::uints; }
 constexpr bool is_depth(TexelFormat f) { return texel_info(f).kind == TexelKind::depth; }
 constexpr bool has_stencil(TexelFormat f) { return f == TexelFormat::d24s8 || f == TexelFormat::d32fs8; }

@@ -121,9 +121,8 @@ struct ColorMask {
   friend bool operator==(const ColorMask&, const ColorMask&) = default;
 };
 
-/// Maximum number of color attachments of a pass, and of attachments that can have a state of their own.
+/// Maximum number of color attachments of a pass.
 inline constexpr int kMaxColorTargets = 12;
-inline constexpr int kMaxAttachmentStates = 4;
 /// Number of occlusion queries of a pass, and the largest width of a line in pixels.
 inline constexpr uint32_t kMaxQueries = 1 << 16;
 inline constexpr float kMaxLineWidth = 4096.0f;
@@ -133,6 +132,35 @@ struct AttachmentState {
   std::optional<BlendState> blend{};  ///< default: no blending, the color is replaced
   ColorMask mask{};
   friend bool operator==(const AttachmentState&, const AttachmentState&) = default;
+};
+
+/// Logic operations (glLogicOp), in OpenGL's order: bit 0 of the number is the result for bits 1 of the source and 1 of the destination,
+/// bit 1 for 1 and 0, bit 2 for 0 and 1, and bit 3 for 0 and 0.
+enum class LogicOp : uint8_t {
+  clear,
+  bit_and,
+  and_reverse,  ///< source & ~destination
+  copy,
+  and_inverted,  ///< ~source & destination
+  noop,
+  bit_xor,
+  bit_or,
+  nor,
+  equiv,
+  invert,  ///< ~destination
+  or_reverse,
+  copy_inverted,
+  or_inverted,
+  nand,
+  set
+};
+
+/// A coverage that does not depend on the fragments (glSampleCoverage): the first round(value · samples) samples are drawn or, if inverted,
+/// all others.
+struct SampleCoverage {
+  float value = 1.0f;  ///< 0 to 1
+  bool invert = false;
+  friend bool operator==(const SampleCoverage&, const SampleCoverage&) = default;
 };
 
 enum class StencilOp : uint8_t { keep, zero, replace, increment_clamp, decrement_clamp, invert, increment_wrap, decrement_wrap };
@@ -173,19 +201,24 @@ struct DrawState {
   std::optional<StencilState> stencil{};  ///< default: no stencil test
   bool sample_shading = false;            ///< run the fragment function once per sample, at the sample position
   /// Multisampling only: the alpha of the first color determines how many samples are drawn. Has no effect if the first color attachment
-  /// is r32ui.
+  /// contains integers.
   bool alpha_to_coverage = false;
+  bool alpha_to_one = false;           ///< multisampling only: colors get the alpha 1 after alpha_to_coverage; not for integers
   uint32_t sample_mask = 0xffffffffu;  ///< multisampling only: bit s enables sample s
+  std::optional<SampleCoverage> sample_coverage{};  ///< multisampling only; combined with sample_mask
   /// Blends fragments in depth order, regardless of the order in which they are submitted. Fragments of these draws are kept until the next
   /// draw that writes color in another way, or the end of the pass, and then blended from the farthest to the nearest. The result is exact
   /// for up to 8 layers per sample; further layers are merged into the farthest. Opaque draws must come first. Colors have straight alpha.
-  /// Requires one color attachment that is not r32ui, no `blend`, no color mask, and a depth state that does not write and whose `compare`
+  /// Requires one color attachment without integers, no `blend`, no color mask, and a depth state that does not write and whose `compare`
   /// (less, less_equal, greater or greater_equal) tells which fragments are nearer. If a pass is flushed (PassTuning::bin_budget),
   /// fragments are sorted within each flush only.
   bool order_independent = false;
   std::optional<BlendState> blend{};  ///< default: no blending, the color is replaced
   ColorMask color_mask{};
-  std::array<std::optional<AttachmentState>, kMaxAttachmentStates> attachments{};  ///< override blend and color_mask
+  std::array<std::optional<AttachmentState>, kMaxColorTargets> attachments{};  ///< override blend and color_mask
+  /// Combines the codes of unsigned normalized and integer formats bit by bit (OpenGL 4.6, section 17.3.9). Requires that all attachments
+  /// have such formats, except sRGB, and no blending.
+  std::optional<LogicOp> logic_op{};
   std::optional<uint32_t> query{};  ///< occlusion query: passing samples are added to PassStatistics::queries[query]; below kMaxQueries
   friend bool operator==(const DrawState&, const DrawState&) = default;
 };
@@ -209,11 +242,11 @@ inline constexpr DrawState kWireframeState{.polygon_mode = PolygonMode::line};  
 
 /// Returns the blend state of color attachment i.
 constexpr const std::optional<BlendState>& blend_of(const DrawState& s, std::size_t i) {
-  return i < kMaxAttachmentStates && s.attachments[i] ? s.attachments[i]->blend : s.blend;
+  return s.attachments[i] ? s.attachments[i]->blend : s.blend;
 }
 /// Returns the color mask of color attachment i.
 constexpr const ColorMask& color_mask_of(const DrawState& s, std::size_t i) {
-  return i < kMaxAttachmentStates && s.attachments[i] ? s.attachments[i]->mask : s.color_mask;
+  return s.attachments[i] ? s.attachments[i]->mask : s.color_mask;
 }
 
 /// Returns true if the draw produces points.

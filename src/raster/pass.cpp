@@ -14,6 +14,8 @@
 #include "halfspace/raster/primitives/primitive_assembly.h"
 #include "halfspace/raster/primitives/vertex_stage.h"
 #include "halfspace/raster/tile/blend.h"
+#include "halfspace/raster/tile/logic_op.h"
+#include "halfspace/raster/tile/tile_format.h"
 
 namespace halfspace::HS_LANES {
 
@@ -35,6 +37,15 @@ VertexStreams keep_streams(const VertexView& view, std::pmr::memory_resource& me
   return {{kept, count}, view.has_instance_streams};
 }
 
+// Returns the samples that may be drawn, as bits.
+uint32_t coverage_mask(const std::optional<SampleCoverage>& coverage, int samples) {
+  const uint32_t all = (1u << samples) - 1;
+  if (!coverage) return all;
+  const auto count = static_cast<uint32_t>(coverage->value * static_cast<float>(samples) + 0.5f);
+  const uint32_t covered = (1u << count) - 1;
+  return coverage->invert ? all & ~covered : covered;
+}
+
 PixelBounds to_bounds(const Rect& r) { return {r.x, r.y, r.x + r.width, r.y + r.height}; }
 
 void check_rect(const Rect& r, int smallest) {
@@ -48,10 +59,13 @@ void check_rect(const Rect& r, int smallest) {
            "DrawState: the origin of the viewport or the scissor is too far away; expected at most 16384 from 0");
 }
 
+bool loads(const ColorTarget& target) { return target.load == LoadOp::load; }
+bool loads(const DepthTarget& target) { return target.load == LoadOp::load || stencil_load_of(target) == LoadOp::load; }
+
 // Checks that the image of a target has the size of the pass, width x height pixels, or is not needed.
 template <class Target>
 void check_target(const Target& target, int width, int height) {
-  HS_CHECK(target.data != nullptr || (target.load != LoadOp::load && target.store == StoreOp::dont_care),
+  HS_CHECK(target.data != nullptr || (!loads(target) && target.store == StoreOp::dont_care),
            "target: it has no image, but is loaded or stored; expected an image, or clear and dont_care");
   if (target.data == nullptr) return;
   HS_CHECK_OP(target.width, ==, width, "target: its image has another width than the pass; expected an image of the size of the pass");
@@ -68,6 +82,10 @@ void check_numbers(const DrawState& state) {
   HS_CHECK(state.offset.clamp == state.offset.clamp, "offset.clamp: is NaN; expected a number");
   HS_CHECK(state.depth.range_near >= 0 && state.depth.range_near <= 1 && state.depth.range_far >= 0 && state.depth.range_far <= 1,
            "DrawState: the depth range is outside of its limits; expected two depths from 0 to 1");
+  if (state.sample_coverage) {
+    HS_CHECK(state.sample_coverage->value >= 0.0f && state.sample_coverage->value <= 1.0f,
+             "sample_coverage: the value is outside of its range; expected 0 to 1");
+  }
   if (state.query) HS_CHECK_OP(*state.query, <, kMaxQueries, "query: is too large; expected less than 65536");
   if (state.viewport) check_rect(*state.viewport, 1);
   if (state.scissor) check_rect(*state.scissor, 0);
@@ -119,10 +137,15 @@ PassState::PassState(int width, int height, std::span<const ColorTarget> colors,
   HS_CHECK_OP(colors.size(), <=, std::size_t{kMaxColorTargets}, "Pass: too many color targets; expected at most 12");
   for (const ColorTarget& c : colors) {
     if (c.format == ColorFormat::none) continue;
+    HS_CHECK(!is_depth(c.format) && c.format != ColorFormat::rgb9_e5,
+             "Pass: the format of a color target cannot be drawn to; expected one that is neither a depth format nor rgb9_e5");
     check_target(c, width, height);
     attachments_.has_color = true;
   }
-  if (depth.format != DepthFormat::none) check_target(depth, width, height);
+  if (depth.format != DepthFormat::none) {
+    HS_CHECK(is_depth(depth.format), "Pass: the format of the depth target has no depth; expected d16, d24, d32f, d24s8 or d32fs8");
+    check_target(depth, width, height);
+  }
   context_.width = width;
   context_.height = height;
   context_.samples = options.samples;
@@ -135,7 +158,7 @@ PassState::PassState(int width, int height, std::span<const ColorTarget> colors,
 
 int PassState::tile_size() const {
   int sample_bytes = 9;  // depth, triangle id, stencil
-  for (const ColorTarget& c : attachments_.colors) sample_bytes += bytes_per_pixel(c.format);
+  for (const ColorTarget& c : attachments_.colors) sample_bytes += bytes_in_tile(c.format);
   int size = std::min(options_.tuning.tile_size, largest_tile(options_.samples));
   while (size > kBlockSize && sample_bytes * options_.samples * size * size > kTileBudget) size /= 2;
   return size;
@@ -175,7 +198,8 @@ void PassState::add_draw(const ShaderKernels& kernels, KeptShader shader, const 
   const bool decides_visibility = kernels.discards || kernels.writes_depth;
   // Without color attachments, there is nothing to blend.
   const bool may_defer = !attachments_.has_color || (options_.tuning.defer && replaces && !state.order_independent);
-  d.deferred = may_defer && !d.covers_by_alpha && (!decides_visibility || kernels.visibility != nullptr);
+  const bool changes_colors = d.covers_by_alpha || d.sets_alpha_to_one || (state.logic_op && attachments_.has_color);
+  d.deferred = may_defer && !changes_colors && (!decides_visibility || kernels.visibility != nullptr);
   if (d.writes_color && !state.order_independent) ++layer_group_;
   d.layer_group = layer_group_;
   plan_.add(d, context_.draws.size() - 1);
@@ -184,17 +208,24 @@ void PassState::add_draw(const ShaderKernels& kernels, KeptShader shader, const 
 void PassState::check_state(const DrawState& state) const {
   check_numbers(state);
   if (state.order_independent) {
-    HS_CHECK(attachments_.colors.size() == 1 && attachments_.has_color && attachments_.colors[0].format != ColorFormat::r32ui,
+    HS_CHECK(attachments_.colors.size() == 1 && attachments_.has_color && !is_integer(attachments_.colors[0].format),
              "DrawState: order_independent needs one color target of colors; expected no integers and no second target");
-    HS_CHECK(!state.depth.write && !blend_of(state, 0) && color_mask_of(state, 0).all(),
-             "DrawState: order_independent is combined with depth writes, blending or a color mask; expected none of them");
+    HS_CHECK(
+        !state.depth.write && !blend_of(state, 0) && color_mask_of(state, 0).all() && !state.logic_op && !state.alpha_to_one,
+        "DrawState: order_independent is combined with depth writes, blending, a color mask, a logic operation or alpha_to_one; expected "
+        "none of them");
     HS_CHECK(state.depth.compare == CompareOp::less || state.depth.compare == CompareOp::less_equal ||
                  state.depth.compare == CompareOp::greater || state.depth.compare == CompareOp::greater_equal,
              "DrawState: order_independent is combined with another depth test; expected less, less_equal, greater or greater_equal");
   }
   for (std::size_t i = 0; i < attachments_.colors.size(); ++i) {
-    HS_CHECK(!blend_of(state, i) || attachments_.colors[i].format != ColorFormat::r32ui,
+    HS_CHECK(!blend_of(state, i) || !is_integer(attachments_.colors[i].format),
              "DrawState: a target of integers is blended; expected no blending");
+    if (!state.logic_op || attachments_.colors[i].format == ColorFormat::none) continue;
+    HS_CHECK(has_logic_op(attachments_.colors[i].format),
+             "DrawState: logic_op applies to a target of floats, signed normalized or sRGB values; expected unsigned normalized values or "
+             "integers");
+    HS_CHECK(!blend_of(state, i), "DrawState: logic_op is combined with blending; expected one of them");
   }
 }
 
@@ -204,14 +235,15 @@ DrawPlacement PassState::place(const DrawState& state) const {
   const Rect viewport = state.viewport.value_or(whole);
   Rect bounds = intersect(whole, viewport);
   if (state.scissor) bounds = intersect(bounds, *state.scissor);
-  const bool has_integers = !attachments_.colors.empty() && attachments_.colors[0].format == ColorFormat::r32ui;
+  const bool has_integers = !attachments_.colors.empty() && is_integer(attachments_.colors[0].format);
   return {.viewport = make_viewport(viewport, state.depth),
           .bounds = to_bounds(bounds),
           .depth_low = std::min(state.depth.range_near, state.depth.range_far),
           .depth_high = std::max(state.depth.range_near, state.depth.range_far),
-          .sample_mask = context_.samples == 1 ? 1u : state.sample_mask & ((1u << context_.samples) - 1),
+          .sample_mask = context_.samples == 1 ? 1u : state.sample_mask & coverage_mask(state.sample_coverage, context_.samples),
           .shades_samples = context_.samples > 1 && (state.sample_shading || options_.supersample),
-          .covers_by_alpha = state.alpha_to_coverage && context_.samples > 1 && !has_integers};
+          .covers_by_alpha = state.alpha_to_coverage && context_.samples > 1 && !has_integers,
+          .sets_alpha_to_one = state.alpha_to_one && context_.samples > 1};
 }
 
 bool PassState::set_color_writes(Draw& d) const {

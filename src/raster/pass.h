@@ -17,6 +17,7 @@
 #include <span>
 
 #include "halfspace/core/parallel.h"
+#include "halfspace/raster/clear.h"
 #include "halfspace/raster/detail/pass_kernels.h"
 #include "halfspace/raster/draw_state.h"
 #include "halfspace/raster/pass_tuning.h"
@@ -91,6 +92,9 @@ class Pass {
     if constexpr (detail::require_depth_draw<S, V>())
       detail::draw<detail::DrawKind::depth_only>(*state_, shader, vertices, sequential(vertices), state);
   }
+
+  /// Sets colors, depth or stencil of a part of the target, after the draws that were added before. It counts as a draw of one triangle.
+  void clear(const Clear& clear);
 
   /// Passes the final color of each pixel in the first attachment through a functor and stores the result in another target of the same
   /// size. This happens while the tile is in cache and is intended for tone mapping and encoding. The functor is copied. It must have

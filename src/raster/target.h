@@ -7,29 +7,21 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 #include <glm/glm.hpp>
 
 #include "halfspace/core/image.h"
+#include "halfspace/core/texel_format.h"
 
 namespace halfspace::HS_LANES {
 
 using U16Vec4 = glm::vec<4, uint16_t>;
 
-enum class ColorFormat : uint8_t {
-  none,
-  rgba8,    ///< linear values, 8-bit unsigned normalized
-  srgb8a8,  ///< linear colors that are encoded to sRGB on write and decoded on read; alpha is linear
-  rgba16f,  ///< IEEE half; values beyond ±65504 and infinities are clamped to ±65504
-  rgba32f,
-  r32f,  ///< these three store the first channels of a color; the others are read as 0, and alpha as 1
-  rg32f,
-  rgb32f,
-  r32ui  ///< an integer, see integer_color() in shading/contract.h; not blended; sample 0 is stored
-};
-
-/// Depth formats. d24s8 and d32fs8 also have 8 bits of stencil.
-enum class DepthFormat : uint8_t { none, d16, d24, d32f, d24s8, d32fs8 };
+/// Formats of color attachments: all but those of depths and rgb9_e5. Integers are neither blended nor averaged: sample 0 is stored.
+using ColorFormat = TexelFormat;
+/// Formats of depth attachments: d16, d24, d32f, d24s8 and d32fs8.
+using DepthFormat = TexelFormat;
 
 /// Pixel of a d32fs8 image (GL_FLOAT_32_UNSIGNED_INT_24_8_REV).
 struct DepthStencil {
@@ -39,25 +31,7 @@ struct DepthStencil {
 };
 
 /// Returns the size of a pixel in bytes, or 0 for none.
-constexpr int bytes_per_pixel(ColorFormat f) {
-  switch (f) {
-    case ColorFormat::none: return 0;
-    case ColorFormat::rgba8:
-    case ColorFormat::srgb8a8:
-    case ColorFormat::r32f:
-    case ColorFormat::r32ui: return 4;
-    case ColorFormat::rgba16f:
-    case ColorFormat::rg32f: return 8;
-    case ColorFormat::rgb32f: return 12;
-    case ColorFormat::rgba32f: return 16;
-  }
-  return 0;
-}
-
-constexpr int bytes_per_pixel(DepthFormat f) {
-  return f == DepthFormat::none ? 0 : f == DepthFormat::d16 ? 2 : f == DepthFormat::d32fs8 ? 8 : 4;
-}
-constexpr bool has_stencil(DepthFormat f) { return f == DepthFormat::d24s8 || f == DepthFormat::d32fs8; }
+constexpr int bytes_per_pixel(TexelFormat f) { return texel_info(f).bytes; }
 /// Returns the depth format without stencil.
 constexpr DepthFormat depth_part(DepthFormat f) {
   return f == DepthFormat::d24s8 ? DepthFormat::d24 : f == DepthFormat::d32fs8 ? DepthFormat::d32f : f;
@@ -76,11 +50,12 @@ struct ColorTarget {
   int width = 0, height = 0;  ///< of the image, in pixels
   LoadOp load = LoadOp::clear;
   StoreOp store = StoreOp::store;
-  glm::vec4 clear_value = glm::vec4(0.0f);  ///< linear, straight alpha; for r32ui, see r32ui_target()
+  glm::vec4 clear_value = glm::vec4(0.0f);  ///< linear, straight alpha; for integer formats, integers stored with std::bit_cast
 };
 
 /// Depth attachment with values in [0, 1]. Pixels are uint16_t for d16, uint32_t for d24 (0 to 2^24 − 1), float for d32f, uint32_t for
-/// d24s8 (depth · 2^8 + stencil) and DepthStencil for d32fs8. data and the size are the same as in ColorTarget.
+/// d24s8 (depth · 2^8 + stencil) and DepthStencil for d32fs8. data and the size are the same as in ColorTarget. Depth and stencil are
+/// stored together.
 struct DepthTarget {
   DepthFormat format = DepthFormat::none;
   std::byte* data = nullptr;
@@ -89,7 +64,11 @@ struct DepthTarget {
   StoreOp store = StoreOp::dont_care;
   float clear_value = 1.0f;
   uint8_t stencil_clear_value = 0;
+  std::optional<LoadOp> stencil_load{};  ///< of the stencil; default: `load`
 };
+
+/// Returns what happens to the stencil of a target at the start of a pass.
+constexpr LoadOp stencil_load_of(const DepthTarget& target) { return target.stencil_load.value_or(target.load); }
 
 namespace detail {
 
@@ -106,8 +85,16 @@ Target target_of(Format format, Image<Pixel>& image) {
 
 }  // namespace detail
 
-// Each of these functions returns a target that refers to the image and has its size. The image must outlive the pass, and its size must
+// Each of these functions returns a target that refers to an image and has its size. The image must outlive the pass, and its size must
 // not change.
+
+/// A target of any color format. A pixel of the image must have the size of a texel.
+template <class Pixel>
+ColorTarget color_target(ColorFormat format, Image<Pixel>& image) {
+  HS_CHECK_OP(sizeof(Pixel), ==, std::size_t{texel_info(format).bytes},
+              "color_target: the pixels of the image have another size than the format; expected the size of a texel");
+  return detail::target_of<ColorTarget>(format, image);
+}
 inline ColorTarget rgba8_target(Image<glm::u8vec4>& image) { return detail::target_of<ColorTarget>(ColorFormat::rgba8, image); }
 inline ColorTarget srgb8a8_target(Image<glm::u8vec4>& image) { return detail::target_of<ColorTarget>(ColorFormat::srgb8a8, image); }
 inline ColorTarget rgba16f_target(Image<U16Vec4>& image) { return detail::target_of<ColorTarget>(ColorFormat::rgba16f, image); }

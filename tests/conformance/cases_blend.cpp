@@ -31,7 +31,6 @@ constexpr const char* kFactorNames[] = {"zero",
                                         "src1_alpha",
                                         "one_minus_src1_alpha"};
 constexpr const char* kEquationNames[] = {"add", "subtract", "reverse_subtract", "min", "max"};
-constexpr const char* kFormatNames[] = {"none", "rgba8", "srgb8", "rgba16f", "rgba32f"};
 constexpr glm::vec4 kConstant(0.2f, 0.4f, 0.6f, 0.8f);
 
 glm::vec4 destination_color(int strip) { return strip == 0 ? glm::vec4(0.0f) : strip == 7 ? glm::vec4(1.0f) : color_number(strip); }
@@ -136,8 +135,9 @@ std::string name_of(ColorFormat format, const BlendState& b) {
     return std::string(kEquationNames[static_cast<int>(e)]) + "_" + kFactorNames[static_cast<int>(s)] + "_" +
            kFactorNames[static_cast<int>(d)];
   };
-  return std::string(kFormatNames[static_cast<int>(format)]) + "_" + half(b.color_equation, b.source_color, b.destination_color) +
-         "_alpha_" + half(b.alpha_equation, b.source_alpha, b.destination_alpha);
+  return (format == ColorFormat::srgb8a8 ? "srgb8" : std::string(texel_info(format).name)) + "_" +
+         half(b.color_equation, b.source_color, b.destination_color) + "_alpha_" +
+         half(b.alpha_equation, b.source_alpha, b.destination_alpha);
 }
 
 void add(Cases& cases, ColorFormat format, BlendState b, Kind kind = Kind::color) {

@@ -95,14 +95,13 @@ glm::vec4 Seen::color(int x, int y, std::size_t attachment) const {
 double Seen::depth(int x, int y) const {
   const std::size_t i = index(x, y);
   switch (depth_format) {
-    case DepthFormat::none: return 0.0;
     case DepthFormat::d16: return read<uint16_t>(bytes.depth, i);
     case DepthFormat::d24: return read<uint32_t>(bytes.depth, i);
     case DepthFormat::d24s8: return read<uint32_t>(bytes.depth, i) >> 8;
     case DepthFormat::d32f: return static_cast<double>(read<float>(bytes.depth, i));
-    case DepthFormat::d32fs8: break;
+    case DepthFormat::d32fs8: return static_cast<double>(read<DepthStencil>(bytes.depth, i).depth);
+    default: return 0.0;
   }
-  return static_cast<double>(read<DepthStencil>(bytes.depth, i).depth);
 }
 
 int Seen::stencil(int x, int y) const {

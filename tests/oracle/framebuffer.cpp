@@ -1,42 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "oracle/framebuffer.h"
 
-#include <bit>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <utility>
 
-#include "halfspace/core/srgb.h"
 #include "oracle/arithmetic.h"
+#include "oracle/texels.h"
 
 namespace halfspace::oracle {
 
 namespace {
-
-uint8_t encode_unorm8(float x) {
-  return static_cast<uint8_t>(std::lround(static_cast<double>(clamped(x, 0.0f, 1.0f)) * 255.0));  // the product is exact and never a tie
-}
-
-float decode_half(uint16_t h) {
-  const int exponent = h >> 10 & 31;
-  const int mantissa = h & 1023;
-  if (exponent == 31 && mantissa != 0)
-    return std::bit_cast<float>((h & 0x8000u) << 16 | 0x7fc00000u | static_cast<uint32_t>(mantissa) << 13);
-  const double size = exponent == 31 ? HUGE_VAL : exponent == 0 ? std::ldexp(mantissa, -24) : std::ldexp(1024 + mantissa, exponent - 25);
-  return static_cast<float>((h & 0x8000) != 0 ? -size : size);
-}
-
-// Rounds to the nearest half, ties to even. Infinities and values that are too large become the largest finite half.
-uint16_t encode_half(float x) {
-  const uint32_t sign = std::bit_cast<uint32_t>(x) >> 16 & 0x8000u;
-  if (std::isnan(x)) return static_cast<uint16_t>(sign | 0x7e00u | (std::bit_cast<uint32_t>(x) >> 13 & 0x3ffu));
-  const double size = std::fmin(std::fabs(static_cast<double>(x)), 65504.0);
-  if (size < 0x1p-14) return static_cast<uint16_t>(sign | static_cast<uint32_t>(std::nearbyint(size * 0x1p24)));
-  const int exponent = std::ilogb(size);
-  const auto mantissa =
-      static_cast<uint32_t>(std::nearbyint(std::ldexp(size, 10 - exponent)));  // 1024 to 2048; 2048 carries into the exponent
-  return static_cast<uint16_t>(sign | ((static_cast<uint32_t>(exponent + 14) << 10) + mantissa));
-}
 
 template <class T>
 T read(const std::vector<std::byte>& bytes, std::size_t index) {
@@ -77,43 +52,39 @@ void Framebuffer::clear_color(std::size_t attachment, glm::vec4 value) {
   for_each_sample(*this, [&](const Sample& s) { set_color(attachment, s, value); });
 }
 
-void Framebuffer::clear_depth(float value, uint8_t stencil_value) {
-  for_each_sample(*this, [&](const Sample& s) {
-    set_depth(s, depth_value(clamped(value, 0.0f, 1.0f)));
-    set_stencil(s, stencil_value);
-  });
+void Framebuffer::clear_depth(float value) {
+  for_each_sample(*this, [&](const Sample& s) { set_depth(s, depth_value(clamped(value, 0.0f, 1.0f))); });
+}
+void Framebuffer::clear_stencil(uint8_t value) {
+  for_each_sample(*this, [&](const Sample& s) { set_stencil(s, value); });
+}
+
+std::size_t Framebuffer::texel(std::size_t attachment, const Sample& s) const {
+  return pixel(s) * static_cast<std::size_t>(bytes_per_pixel(color_formats_[attachment]));
 }
 
 glm::vec4 Framebuffer::color(std::size_t attachment, const Sample& s) const {
-  glm::vec4 c(0.0f);
-  const std::vector<std::byte>& bytes = color_bytes[attachment];
-  for (int k = 0; k < 4; ++k) {
-    const std::size_t i = pixel(s) * 4 + static_cast<std::size_t>(k);
-    switch (color_formats_[attachment]) {
-      case ColorFormat::none: break;
-      case ColorFormat::rgba8: c[k] = static_cast<float>(read<uint8_t>(bytes, i)) / 255.0f; break;
-      case ColorFormat::srgb8a8:
-        c[k] = k == 3 ? static_cast<float>(read<uint8_t>(bytes, i)) / 255.0f : kSrgbToLinear[read<uint8_t>(bytes, i)];
-        break;
-      case ColorFormat::rgba16f: c[k] = decode_half(read<uint16_t>(bytes, i)); break;
-      case ColorFormat::rgba32f: c[k] = read<float>(bytes, i); break;
-      default: break;  // formats with fewer channels have tests of their own
-    }
-  }
-  return c;
+  if (color_formats_[attachment] == ColorFormat::none) return glm::vec4(0.0f);
+  return read_texel(color_formats_[attachment], &color_bytes[attachment][texel(attachment, s)]);
 }
 
 void Framebuffer::set_color(std::size_t attachment, const Sample& s, glm::vec4 value) {
-  std::vector<std::byte>& bytes = color_bytes[attachment];
-  for (int k = 0; k < 4; ++k) {
-    const std::size_t i = pixel(s) * 4 + static_cast<std::size_t>(k);
-    switch (color_formats_[attachment]) {
-      case ColorFormat::none: break;
-      case ColorFormat::rgba8: write(bytes, i, encode_unorm8(value[k])); break;
-      case ColorFormat::srgb8a8: write(bytes, i, k == 3 ? encode_unorm8(value[k]) : static_cast<uint8_t>(linear_to_srgb(value[k]))); break;
-      case ColorFormat::rgba16f: write(bytes, i, encode_half(value[k])); break;
-      case ColorFormat::rgba32f: write(bytes, i, value[k]); break;
-      default: break;
+  if (color_formats_[attachment] == ColorFormat::none) return;
+  write_texel(color_formats_[attachment], value, &color_bytes[attachment][texel(attachment, s)]);
+}
+
+void Framebuffer::combine_color(std::size_t attachment, const Sample& s, glm::vec4 value, LogicOp op, const ColorMask& mask) {
+  const ColorFormat format = color_formats_[attachment];
+  std::array<std::byte, 16> source{};
+  write_texel(format, value, source.data());
+  std::byte* const stored = &color_bytes[attachment][texel(attachment, s)];
+  for (int k = 0, bit = 0; k < texel_info(format).channels; ++k) {
+    for (int end = bit + channel_bits(format, k); bit < end; ++bit) {
+      const auto byte = static_cast<std::size_t>(bit / 8);
+      const std::byte one = std::byte{1} << (bit % 8);
+      const bool from_source = (source[byte] & one) != std::byte{0}, from_stored = (stored[byte] & one) != std::byte{0};
+      const bool result = (static_cast<int>(op) >> ((from_source ? 0 : 2) + (from_stored ? 0 : 1)) & 1) != 0;
+      if (mask[k]) stored[byte] = result ? stored[byte] | one : stored[byte] & ~one;
     }
   }
 }
@@ -121,12 +92,12 @@ void Framebuffer::set_color(std::size_t attachment, const Sample& s, glm::vec4 v
 double Framebuffer::depth(const Sample& s) const {
   const std::size_t i = pixel(s);
   switch (depth_format_) {
-    case DepthFormat::none: break;
     case DepthFormat::d16: return read<uint16_t>(depth_bytes, i);
     case DepthFormat::d24: return read<uint32_t>(depth_bytes, i);
     case DepthFormat::d32f: return static_cast<double>(read<float>(depth_bytes, i));
     case DepthFormat::d24s8: return read<uint32_t>(depth_bytes, i) / 256;
     case DepthFormat::d32fs8: return static_cast<double>(read<float>(depth_bytes, 2 * i));
+    default: break;
   }
   return 0.0;
 }
@@ -134,12 +105,12 @@ double Framebuffer::depth(const Sample& s) const {
 void Framebuffer::set_depth(const Sample& s, double value) {
   const std::size_t i = pixel(s);
   switch (depth_format_) {
-    case DepthFormat::none: break;
     case DepthFormat::d16: write(depth_bytes, i, static_cast<uint16_t>(value)); break;
     case DepthFormat::d24: write(depth_bytes, i, static_cast<uint32_t>(value)); break;
     case DepthFormat::d32f: write(depth_bytes, i, static_cast<float>(value)); break;
     case DepthFormat::d24s8: write(depth_bytes, i, static_cast<uint32_t>(value) * 256 + stencil(s)); break;
     case DepthFormat::d32fs8: write(depth_bytes, 2 * i, static_cast<float>(value)); break;
+    default: break;
   }
 }
 

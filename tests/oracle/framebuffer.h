@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "halfspace/raster/draw_state.h"
 #include "halfspace/raster/target.h"
 
 namespace halfspace::oracle {
@@ -31,11 +32,14 @@ class Framebuffer {
   DepthFormat depth_format() const { return depth_format_; }
 
   void clear_color(std::size_t attachment, glm::vec4 value);
-  void clear_depth(float value, uint8_t stencil);
+  void clear_depth(float value);
+  void clear_stencil(uint8_t value);
 
   /// Returns the decoded color of a sample.
   glm::vec4 color(std::size_t attachment, const Sample& s) const;
   void set_color(std::size_t attachment, const Sample& s, glm::vec4 value);
+  /// Combines the bits of a color with those of the sample, in the channels of the mask.
+  void combine_color(std::size_t attachment, const Sample& s, glm::vec4 value, LogicOp op, const ColorMask& mask);
   /// Returns the depth of a sample as stored in the format: an integer (UNORM), or the depth itself for float formats.
   double depth(const Sample& s) const;
   void set_depth(const Sample& s, double value);
@@ -51,6 +55,7 @@ class Framebuffer {
 
  private:
   std::size_t pixel(const Sample& s) const;
+  std::size_t texel(std::size_t attachment, const Sample& s) const;  // index of its first byte
 
   int width_, height_, samples_;
   std::vector<ColorFormat> color_formats_;

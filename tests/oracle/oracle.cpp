@@ -38,7 +38,7 @@ void Renderer::draw_pixel(const DrawState& state, const ShaderFacts& facts, cons
   for (int i = 0; i < target_.samples(); ++i) {
     const Sample s{x, y, i};
     if (!covers(t, position_of(s, target_.samples()))) continue;
-    if (target_.samples() > 1 && (state.sample_mask >> i) % 2 == 0) continue;
+    if (target_.samples() > 1 && !allows_sample(state, i)) continue;
     if (state.sample_shading || supersample_) {
       const Point at = position_of(s, target_.samples());
       draw_sample(state, facts, t, s, shade(t, surface, at, at));
@@ -47,6 +47,13 @@ void Renderer::draw_pixel(const DrawState& state, const ShaderFacts& facts, cons
       draw_sample(state, facts, t, s, *of_pixel);
     }
   }
+}
+
+bool Renderer::allows_sample(const DrawState& state, int number) const {
+  if ((state.sample_mask >> number) % 2 == 0) return false;
+  if (!state.sample_coverage) return true;
+  const bool is_covered = state.sample_coverage->value * static_cast<float>(target_.samples()) >= static_cast<float>(number) + 0.5f;
+  return is_covered != state.sample_coverage->invert;
 }
 
 void Renderer::draw_sample(const DrawState& state, const ShaderFacts& facts, const WindowTriangle& t, const Sample& s,
@@ -94,14 +101,21 @@ void Renderer::write_colors(const DrawState& state, const Sample& s, const std::
     const ColorMask mask = own ? state.attachments[i]->mask : state.color_mask;
     const glm::vec4 before = target_.color(i, s);
     glm::vec4 color = colors[i];
+    glm::vec4 second = colors.size() > 1 ? colors[1] : none;
+    if (state.alpha_to_one && target_.samples() > 1 && !is_integer(format)) color.w = second.w = 1.0f;
+    if (state.logic_op) {
+      target_.combine_color(i, s, color, *state.logic_op, mask);
+      continue;
+    }
     if (blending) {
       const auto in_range = [&](glm::vec4 c) {
-        const bool fixed_point = format == ColorFormat::rgba8 || format == ColorFormat::srgb8a8;
-        for (int k = 0; fixed_point && k < 4; ++k) c[k] = clamped(c[k], 0.0f, 1.0f);
+        const TexelKind kind = texel_info(format).kind;
+        const bool is_fixed_point = kind == TexelKind::unorm || kind == TexelKind::srgb || kind == TexelKind::snorm;
+        for (int k = 0; is_fixed_point && k < 4; ++k) c[k] = clamped(c[k], kind == TexelKind::snorm ? -1.0f : 0.0f, 1.0f);
         return c;
       };
       const float unit = format == ColorFormat::rgba8 ? 255.0f : 1.0f;
-      color = blend(*blending, in_range(color), in_range(colors.size() > 1 ? colors[1] : none), before, in_range(blending->constant), unit);
+      color = blend(*blending, in_range(color), in_range(second), before, in_range(blending->constant), unit);
       // The float nearest to code/255 is encoded as this code.
       for (int k = 0; unit != 1.0f && k < 4; ++k) color[k] = std::nearbyint(clamped(color[k], 0.0f, unit)) / unit;
     }

@@ -249,6 +249,16 @@ StencilFace random_stencil_face(Random& random) {
 }
 
 // Adds state for the operations after coverage: stencil, masks, per-attachment state, dual-source blending, samples and queries.
+// Returns true if a draw can have a logic operation: its attachments have unsigned normalized values, and it does not blend.
+bool can_combine_codes(const Scene& scene, const DrawState& s) {
+  std::vector<ColorFormat> formats{scene.color.format};
+  for (const ColorTarget& c : scene.more_colors) formats.push_back(c.format);
+  for (std::size_t i = 0; i < formats.size(); ++i) {
+    if (formats[i] != ColorFormat::none && (texel_info(formats[i]).kind != TexelKind::unorm || blend_of(s, i))) return false;
+  }
+  return true;
+}
+
 void add_operations(const Scene& scene, bool dual_sources, Random& random, DrawState& s) {
   if (!random.once_in(3)) {
     s.stencil.emplace();
@@ -271,6 +281,9 @@ void add_operations(const Scene& scene, bool dual_sources, Random& random, DrawS
   if (random.once_in(4)) s.sample_shading = true;
   if (random.once_in(5)) s.alpha_to_coverage = true;
   if (random.once_in(5)) s.sample_mask = random.bits();
+  if (random.once_in(6)) s.alpha_to_one = true;
+  if (random.once_in(6)) s.sample_coverage = {random.real(0.0f, 1.0f), random.once_in(2)};
+  if (random.once_in(4) && can_combine_codes(scene, s)) s.logic_op = static_cast<LogicOp>(random.below(16));
   if (random.once_in(3)) s.query = static_cast<uint32_t>(random.below(3));
 }
 
@@ -519,13 +532,22 @@ SceneDraw random_draw(Theme theme, const Scene& scene, bool depth_only, const Ge
   }
 }
 
+// Returns the format of a color attachment: often one of those that have code of their own.
+ColorFormat random_color_format(Random& random) {
+  if (!random.once_in(3)) return random.pick({ColorFormat::rgba8, ColorFormat::srgb8a8, ColorFormat::rgba16f, ColorFormat::rgba32f});
+  for (;;) {
+    const auto format = static_cast<ColorFormat>(random.between(1, static_cast<int>(kTexelFormats) - 1));
+    if (!is_integer(format) && !is_depth(format) && format != ColorFormat::rgb9_e5) return format;
+  }
+}
+
 // Adds a stencil buffer, more color attachments and more samples.
 void add_attachments(Theme theme, bool depth_only, Random& random, Scene& s) {
   s.depth.format = random.pick({DepthFormat::d24s8, DepthFormat::d32fs8, DepthFormat::d32fs8, DepthFormat::d24});
   s.depth.stencil_clear_value = static_cast<uint8_t>(random.pick({0, 0, 1, 128, 255}));
   for (int i = depth_only ? 0 : random.pick({0, 0, 1, 3}); i > 0; --i) {
     ColorTarget c;
-    c.format = random.pick({ColorFormat::none, ColorFormat::rgba8, ColorFormat::srgb8a8, ColorFormat::rgba16f, ColorFormat::rgba32f});
+    c.format = random.once_in(5) ? ColorFormat::none : random_color_format(random);
     c.clear_value = {random.real(0, 1), random.real(0, 1), random.real(0, 1), random.real(0, 1)};
     s.more_colors.push_back(c);
   }
@@ -545,8 +567,7 @@ Scene random_scene(Theme theme, uint64_t seed) {
   if (random.once_in(10)) s.width = random.pick({1, 8, 64, 65, 128});
   if (random.once_in(10)) s.height = random.pick({1, 8, 64, 65, 127});
   const bool depth_only = random.once_in(15);
-  s.color.format =
-      depth_only ? ColorFormat::none : random.pick({ColorFormat::rgba8, ColorFormat::srgb8a8, ColorFormat::rgba16f, ColorFormat::rgba32f});
+  s.color.format = depth_only ? ColorFormat::none : random_color_format(random);
   s.depth.format = random.pick({DepthFormat::d32f, DepthFormat::d32f, DepthFormat::d24, DepthFormat::d16, DepthFormat::none});
   s.color.clear_value = {random.real(0, 1), random.real(0, 1), random.real(-0.5f, 1.5f), random.real(0, 1)};
   s.depth.clear_value = random.pick({0.0f, 0.0f, 0.4f, 1.0f, 1.0f, 1.0f});
@@ -555,10 +576,11 @@ Scene random_scene(Theme theme, uint64_t seed) {
   if (random.once_in(4)) {
     fill_images(s, random);
     s.color.load = s.depth.load = LoadOp::load;
+    if (random.once_in(3)) s.depth.stencil_load = LoadOp::clear;
     for (ColorTarget& c : s.more_colors) c.load = LoadOp::load;
   }
   if (!depth_only && random.once_in(4)) {
-    s.post_format = random.pick({ColorFormat::rgba8, ColorFormat::srgb8a8, ColorFormat::rgba16f, ColorFormat::rgba32f});
+    s.post_format = random_color_format(random);
     s.has_color_image = s.color.load == LoadOp::load || random.once_in(2);
   }
   s.has_depth_image = s.depth.load == LoadOp::load || !random.once_in(5);

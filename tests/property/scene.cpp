@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "property/scene.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <sstream>
 
-#include "halfspace/core/half.h"
 #include "halfspace/core/srgb.h"
+#include "halfspace/core/texel_codec.h"
+#include "oracle/texels.h"
 
 namespace halfspace {
 
 namespace {
 
-constexpr const char* kColorNames[] = {"none", "rgba8", "srgb8a8", "rgba16f", "rgba32f"};
-constexpr const char* kDepthNames[] = {"none", "d16", "d24", "d32f", "d24s8", "d32fs8"};
 constexpr const char* kCompareNames[] = {"never", "less", "equal", "less_equal", "greater", "not_equal", "greater_equal", "always"};
 
 std::size_t pixels_of(const Scene& s) { return static_cast<std::size_t>(s.width) * static_cast<std::size_t>(s.height); }
@@ -73,8 +73,9 @@ std::string compare(const char* name, const Scene& scene, const std::vector<std:
 
 std::string compare_color(const char* name, const Scene& scene, ColorFormat format, const std::vector<std::byte>& expected,
                           const std::vector<std::byte>& actual) {
-  const auto size = static_cast<std::size_t>(bytes_per_pixel(format)) / 4;
-  return compare(name, scene, expected, actual, 4, size, format == ColorFormat::rgba32f);
+  const TexelInfo& info = texel_info(format);  // packed formats are compared as one word
+  const std::size_t components = info.bits == 0 ? 1 : info.channels;
+  return compare(name, scene, expected, actual, components, info.bytes / components, format == ColorFormat::rgba32f);
 }
 
 }  // namespace
@@ -205,7 +206,8 @@ OracleResult run_oracle(const Scene& scene) {
     for (std::size_t i = 0; !before.empty() && i < bytes.size(); ++i) bytes[i] = before[i % before.size()];
   };
   fill(target.depth_bytes, scene.depth_before);
-  if (scene.depth.load == LoadOp::clear) target.clear_depth(scene.depth.clear_value, scene.depth.stencil_clear_value);
+  if (scene.depth.load == LoadOp::clear) target.clear_depth(scene.depth.clear_value);
+  if (stencil_load_of(scene.depth) == LoadOp::clear) target.clear_stencil(scene.depth.stencil_clear_value);
   for (std::size_t i = 0; i < colors.size(); ++i) {
     if (colors[i].load == LoadOp::clear) {
       target.clear_color(i, colors[i].clear_value);
@@ -241,19 +243,15 @@ std::string difference(const Scene& scene, const Pictures& expected, const Pictu
 Image<glm::u8vec4> codes_of(const Scene& scene, const Pictures& pictures) {
   const bool is_color = !pictures.color.empty(), is_post = !is_color && !pictures.post.empty();
   const std::vector<std::byte>& bytes = is_color ? pictures.color : is_post ? pictures.post : pictures.depth;
-  const ColorFormat color = is_color ? scene.color.format : is_post ? scene.post_format : ColorFormat::none;
-  const std::size_t components = color == ColorFormat::none ? 1 : 4, size = bytes.size() / pixels_of(scene) / components;
-  const auto code_at = [&](std::size_t i) {
-    const double value = value_at(bytes, i, size, color == ColorFormat::rgba32f || scene.depth.format == DepthFormat::d32f);
-    if (size == 1) return static_cast<int>(value);
-    if (color == ColorFormat::rgba16f) return linear_to_srgb(half_to_float(static_cast<uint16_t>(value)));
-    if (color == ColorFormat::rgba32f) return linear_to_srgb(static_cast<float>(value));
-    const double max_code = scene.depth.format == DepthFormat::d16 ? 0xffff : scene.depth.format == DepthFormat::d24 ? 0xffffff : 1;
-    return static_cast<int>(std::lround(255.0 * value / max_code));
-  };
+  const TexelFormat format = is_color ? scene.color.format : is_post ? scene.post_format : scene.depth.format;
   Image<glm::u8vec4> codes(scene.width, scene.height);
   for (std::size_t i = 0; i < pixels_of(scene); ++i) {
-    const auto code = [&](std::size_t k) { return code_at(i * components + std::min(k, components - 1)); };
+    const std::byte* const texel = bytes.data() + i * texel_info(format).bytes;
+    const glm::vec4 c = is_depth(format) ? glm::vec4(decode_texel(format, texel).x) : oracle::read_texel(format, texel);
+    const auto code = [&](int k) {
+      const bool is_encoded = format == ColorFormat::rgba8 || is_depth(format);
+      return is_encoded ? std::lround(255.0f * std::clamp(c[k], 0.0f, 1.0f)) : linear_to_srgb(c[k]);
+    };
     codes.data()[i] = glm::u8vec4(code(0), code(1), code(2), 255);
   }
   return codes;
@@ -268,9 +266,8 @@ std::string describe(const PassOptions& o, int threads) {
 
 std::string describe(const Scene& s) {
   std::ostringstream out;
-  out << s.width << 'x' << s.height << ' ' << kColorNames[static_cast<int>(s.color.format)] << ' '
-      << kDepthNames[static_cast<int>(s.depth.format)] << ", " << 1 + s.more_colors.size() << " colors, " << s.samples << " samples"
-      << (s.supersample ? ", supersampled" : "") << '\n';
+  out << s.width << 'x' << s.height << ' ' << texel_info(s.color.format).name << ' ' << texel_info(s.depth.format).name << ", "
+      << 1 + s.more_colors.size() << " colors, " << s.samples << " samples" << (s.supersample ? ", supersampled" : "") << '\n';
   for (const SceneDraw& d : s.draws) {
     const DepthState& z = d.state.depth;
     out << "  " << d.shader << ", " << d.triangles << " triangles (topology " << static_cast<int>(d.state.topology) << ", "

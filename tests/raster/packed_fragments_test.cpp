@@ -8,6 +8,7 @@
 #include <random>
 #include <vector>
 
+#include "halfspace/raster/pipeline/pass_context.h"
 #include "halfspace/raster/tile/tile.h"
 
 namespace halfspace {
@@ -111,11 +112,12 @@ TEST(PackedPixels, AreUsedWhereTheySaveAQuarterOfThePackets) {
 TEST(PackedPixels, AreNotUsedInQueuesOfPointsOrForConstantOrCentroidShaders) {
   if (kLanes == 1) GTEST_SKIP() << "a packet of one lane is always full";
   ShaderKernels kernels;
-  Draw draw(kernels, KeptShader(nullptr, [](const void*) {}), nullptr, {}, {});
+  DrawState state;
+  Draw draw(kernels, KeptShader(nullptr, [](const void*) {}), nullptr, {}, state, {});
   const auto tile = std::make_unique<Tile>();
   const std::vector<PacketMask> packets(4, PacketMask{0, 1});
   EXPECT_TRUE(packs_queue(draw, *tile, packets));
-  draw.state.topology = Topology::points;
+  state.topology = Topology::points;
   EXPECT_FALSE(packs_queue(draw, *tile, packets));
   EXPECT_TRUE(can_pack(draw, *tile));
   kernels.uses_centroid = true;

@@ -24,6 +24,9 @@ bool has_one_color(const Draw& draw, const Attachments& attachments) {
          draw.kernels.color_count >= static_cast<int>(attachments.colors.size());
 }
 
+// Returns true if a pass clears either the depth or the stencil of a target. The other one must be kept.
+bool clears_a_part(const DepthTarget& target) { return has_stencil(target.format) && stencil_load_of(target) != target.load; }
+
 }  // namespace
 
 ConstantTiles constant_tiles(const PassContext& context, const Attachments& attachments, int tile_x0, int tile_x1, int tile_y,
@@ -44,7 +47,7 @@ ConstantTiles constant_tiles(const PassContext& context, const Attachments& atta
       }
     }
   }
-  if (draw == nullptr) return {true, nullptr};
+  if (draw == nullptr) return clears_a_part(attachments.depth) ? no : ConstantTiles{true, nullptr};
   if (attachments.depth.format != DepthFormat::none || context.samples != 1) return no;
   const PixelBounds area = tile_pixels(context, tile_x0, tile_x1, tile_y);
   const bool is_triangle = std::all_of(triangles.begin(), triangles.begin() + count, [](const Triangle* t) { return t->is_triangle(); });

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <concepts>
 #include <memory>
 #include <numeric>
 
@@ -31,8 +32,12 @@ Target between_flushes(Target target, const std::vector<std::byte>& spill) {
   if (!spill.empty()) target.data = const_cast<std::byte*>(spill.data());
   target.load = LoadOp::load;
   target.store = StoreOp::store;
+  if constexpr (std::same_as<Target, DepthTarget>) target.stencil_load.reset();
   return target;
 }
+
+bool clears(const ColorTarget& target) { return target.load == LoadOp::clear; }
+bool clears(const DepthTarget& target) { return target.load == LoadOp::clear || stencil_load_of(target) == LoadOp::clear; }
 
 class TileWorker {
  public:
@@ -135,7 +140,7 @@ class TileWorker {
     const bool spills = context_.samples > 1 && !(round_.first && round_.last);
     const auto changes = [&](const auto& target) {
       const bool fills_spill = !round_.last && !keeps_in_image(context_, target);
-      return drawn || spills || (round_.first && (target.load == LoadOp::clear || fills_spill) && bytes_per_pixel(target.format) != 0);
+      return drawn || spills || (round_.first && (clears(target) || fills_spill) && bytes_per_pixel(target.format) != 0);
     };
     const bool changes_color = std::any_of(colors.begin(), colors.end(), changes), changes_depth = changes(attachments_.depth);
     const bool has_post_step = round_.last && attachments_.post.kernel != nullptr;

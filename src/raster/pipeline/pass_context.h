@@ -63,6 +63,7 @@ struct DrawPlacement {
   /// Alpha to coverage applies: there are several samples, and the first color attachment does not contain integers (OpenGL 4.6, section
   /// 17.3.1).
   bool covers_by_alpha = false;
+  bool sets_alpha_to_one = false;  ///< alpha_to_one, and there are several samples
 };
 
 /// A draw as stored by the pass: its arguments, and values derived from them once for all triangles. A pass may contain many thousands of

@@ -69,7 +69,8 @@ inline Mask late_tests(const QueuedShading& c, const FragmentOutput& out, std::s
 
 inline void add_to_layers(const QueuedShading& c, const FragmentOutput& out, std::size_t i, int packet, Mask mask, Real z, TriangleId id) {
   const PacketColor color = out.packet_color(0, i);
-  const Mask merged = c.layers.add(packet, mask, z, is_fixed_point(c.d.tile.color[0].format) ? clamped_color(color) : color);
+  const Mask merged =
+      c.layers.add(packet, mask, z, is_fixed_point(c.d.tile.color[0].format) ? clamped_color(color, c.d.tile.color[0].format) : color);
   c.statistics.layers_merged += static_cast<uint64_t>(std::popcount(bits(merged)));
   if (c.d.trace != nullptr) c.d.trace->add_layers(id, packet, bits(mask), bits(merged));
 }

@@ -62,6 +62,7 @@ void finish_sample_of_pixels(const QueuedShading& c, PacketQueue& queue, std::si
 // Returns the buffer to which the colors of the queue can be written directly, if no test follows the shader.
 WriteTarget queue_target(const QueuedShading& c) {
   const bool is_single = c.d.tile.color_count == 1 && c.d.draw.kernels.color_count == 1;
+  if (c.d.draw.state.logic_op || c.d.draw.sets_alpha_to_one) return {};
   const bool is_supported = c.d.trace == nullptr && c.d.mode == VisibilityMode::early && !c.d.draw.kernels.is_constant;
   if (!is_single || !is_supported) return {};
   const AttachmentState state{blend_of(c.d.draw.state, 0), color_mask_of(c.d.draw.state, 0)};

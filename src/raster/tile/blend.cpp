@@ -9,12 +9,13 @@ namespace halfspace::HS_LANES {
 
 namespace {
 
-// Writes a format with one to three 32-bit channels.
-void write_narrow(ColorBuffer& buffer, std::size_t first, Mask mask, const PacketColor& c, const ColorMask& channels) {
-  for (int k = 0; k < narrow_channels(buffer.format); ++k) {
+// Writes a format with planes of words.
+void write_planes(ColorBuffer& buffer, std::size_t first, Mask mask, const PacketColor& color, const ColorMask& channels) {
+  const PacketColor nearest = nearest_color(buffer.format, color);
+  for (int k = 0; k < word_planes(buffer.format); ++k) {
     if (!channels[k]) continue;
     float* to = plane<float>(buffer, k) + first;
-    store(to, select(mask, c[static_cast<std::size_t>(k)], load<Real>(to)));
+    store(to, select(mask, nearest[static_cast<std::size_t>(k)], load<Real>(to)));
   }
 }
 
@@ -30,15 +31,17 @@ void read_packets(const ColorBuffer& buffer, std::span<const PacketMask> packets
 
 void read_batch(const ColorBuffer& buffer, std::span<const PacketMask> packets, PacketColor* out) {
   switch (buffer.format) {
-    case ColorFormat::none: return;
     case ColorFormat::rgba8: return read_packets<ColorFormat::rgba8>(buffer, packets, out);
     case ColorFormat::srgb8a8: return read_packets<ColorFormat::srgb8a8>(buffer, packets, out);
     case ColorFormat::rgba16f: return read_packets<ColorFormat::rgba16f>(buffer, packets, out);
-    case ColorFormat::rgba32f: return read_packets<ColorFormat::rgba32f>(buffer, packets, out);
-    case ColorFormat::r32f:
-    case ColorFormat::r32ui: return read_packets<ColorFormat::r32f>(buffer, packets, out);
-    case ColorFormat::rg32f: return read_packets<ColorFormat::rg32f>(buffer, packets, out);
-    case ColorFormat::rgb32f: return read_packets<ColorFormat::rgb32f>(buffer, packets, out);
+    default: break;
+  }
+  switch (word_planes(buffer.format)) {
+    case 1: return read_packets<ColorFormat::r32f>(buffer, packets, out);
+    case 2: return read_packets<ColorFormat::rg32f>(buffer, packets, out);
+    case 3: return read_packets<ColorFormat::rgb32f>(buffer, packets, out);
+    case 4: return read_packets<ColorFormat::rgba32f>(buffer, packets, out);
+    default: return;
   }
 }
 
@@ -59,20 +62,12 @@ void write_color(ColorBuffer& buffer, int packet, Mask mask, const PacketColor& 
   if (blend && buffer.format == ColorFormat::rgba8)
     return write_enabled(blended_codes(operation_of(*blend), buffer, first, src, src1, blend->constant));
   const PacketColor c =
-      blend ? blended_color(operation_of(*blend), read_color(buffer, packet), is_fixed_point(buffer.format), src, src1, blend->constant)
-            : src;
+      blend ? blended_color(operation_of(*blend), read_color(buffer, packet), buffer.format, src, src1, blend->constant) : src;
   if (buffer.format == ColorFormat::rgba8) return write_enabled(packed_codes<ColorFormat::rgba8>(c));
   if (buffer.format == ColorFormat::srgb8a8) return write_enabled(packed_codes<ColorFormat::srgb8a8>(c));
-  if (narrow_channels(buffer.format) != 0) return write_narrow(buffer, first, mask, c, state.mask);
+  if (buffer.format != ColorFormat::rgba16f) return write_planes(buffer, first, mask, c, state.mask);
   for (int k = 0; k < 4; ++k) {
-    if (!state.mask[k]) continue;
-    const Real value = c[static_cast<std::size_t>(k)];
-    if (buffer.format == ColorFormat::rgba16f) {
-      store_halves(plane<uint16_t>(buffer, k) + first, value, mask);
-    } else {
-      float* to = plane<float>(buffer, k) + first;
-      store(to, select(mask, value, load<Real>(to)));
-    }
+    if (state.mask[k]) store_halves(plane<uint16_t>(buffer, k) + first, c[static_cast<std::size_t>(k)], mask);
   }
 }
 

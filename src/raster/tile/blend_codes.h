@@ -85,13 +85,13 @@ template <class Operation>
 HS_INLINE Int blended_codes(const Operation& o, const ColorBuffer& buffer, std::size_t first, const PacketColor& linear,
                             const PacketColor& src1, const glm::vec4& constant) {
   const Int codes = read_codes(buffer, first);
-  const PacketColor src = clamped_color(linear);
+  const PacketColor src = clamped_color(linear, ColorFormat::rgba8);
   PacketColor dst, dst_codes;
   for (std::size_t k = 0; k < 4; ++k) {
     dst_codes[k] = to_real<Real>(code_of(codes, static_cast<int>(k)));
     dst[k] = unorm8_to_linear(dst_codes[k]);
   }
-  const BlendSources from{src, dst, src1, constant, true};
+  const BlendSources from{src, dst, src1, constant, ColorFormat::rgba8};
   return combines_codes(o) ? detail::combined_codes(o, codes, from) : detail::summed_codes(o, dst_codes, from);
 }
 

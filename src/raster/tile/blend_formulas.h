@@ -11,9 +11,9 @@ namespace halfspace::HS_LANES {
 struct BlendSources {
   const PacketColor &src, &dst, &src1;
   const glm::vec4& constant;
-  bool fixed_point;
+  ColorFormat format;
 
-  Real clamped(Real x) const { return fixed_point ? clamp(x, Real(0.0f), Real(1.0f)) : x; }
+  Real clamped(Real x) const { return is_fixed_point(format) ? clamp(x, Real(lowest_value(format)), Real(1.0f)) : x; }
 };
 
 /// Returns factor f for channel k.
@@ -198,17 +198,17 @@ HS_INLINE PacketColor blend_sums(const Operation& o, const PacketColor& src, con
 }
 
 /// Clamps the source color of a fixed-point format, which must precede blending (OpenGL 4.6, section 17.3.6).
-HS_INLINE PacketColor clamped_color(PacketColor c) {
-  for (Real& x : c) x = clamp(x, Real(0.0f), Real(1.0f));
+HS_INLINE PacketColor clamped_color(PacketColor c, ColorFormat format) {
+  for (Real& x : c) x = clamp(x, Real(lowest_value(format)), Real(1.0f));
   return c;
 }
 
 /// Returns the color that blending writes to a buffer that is not rgba8, before it is clamped. dst: the existing color.
 template <class Operation>
-HS_INLINE PacketColor blended_color(const Operation& o, const PacketColor& dst, bool fixed_point, const PacketColor& src,
+HS_INLINE PacketColor blended_color(const Operation& o, const PacketColor& dst, ColorFormat format, const PacketColor& src,
                                     const PacketColor& src1, const glm::vec4& constant) {
-  const PacketColor in_range = fixed_point ? clamped_color(src) : src;
-  return blend_sums(o, in_range, dst, {in_range, dst, src1, constant, fixed_point});
+  const PacketColor in_range = is_fixed_point(format) ? clamped_color(src, format) : src;
+  return blend_sums(o, in_range, dst, {in_range, dst, src1, constant, format});
 }
 
 }  // namespace halfspace::HS_LANES

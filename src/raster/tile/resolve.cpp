@@ -58,7 +58,7 @@ void resolve_words(const Tile& tile, ColorBuffer& color) {
 }  // namespace
 
 void resolve_color(const Tile& tile, ColorBuffer& color) {
-  if (tile.samples == 1 || color.format == ColorFormat::none || color.format == ColorFormat::r32ui) return;
+  if (tile.samples == 1 || color.format == ColorFormat::none || is_integer(color.format)) return;
   if (color.format == ColorFormat::rgba8) return resolve_words<ColorFormat::rgba8>(tile, color);
   if (color.format == ColorFormat::srgb8a8) return resolve_words<ColorFormat::srgb8a8>(tile, color);
   const std::array<int, kMaxSamples> shifts = sample_shifts(tile);

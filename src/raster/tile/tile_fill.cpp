@@ -69,7 +69,11 @@ void fill_color(const ColorTarget& target, int width, int height, const PixelBou
     fill_rows(value, target.data, width, height, pixels);
   };
   switch (bytes_per_pixel(target.format)) {
+    case 1: return fill(uint8_t{});
+    case 2: return fill(uint16_t{});
+    case 3: return fill(std::array<uint8_t, 3>{});
     case 4: return fill(uint32_t{});
+    case 6: return fill(std::array<uint16_t, 3>{});
     case 8: return fill(std::array<uint16_t, 4>{});
     case 12: return fill(std::array<float, 3>{});
     case 16: return fill(std::array<float, 4>{});

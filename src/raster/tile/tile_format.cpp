@@ -2,28 +2,28 @@
 #include "halfspace/raster/tile/tile_format.h"
 
 #include <algorithm>
+#include <bit>
 
 namespace halfspace::HS_LANES {
 
+PacketColor nearest_color(ColorFormat format, const PacketColor& color) {
+  if (has_word_channels(format)) return color;
+  if (is_integer(format)) {
+    const std::array<Int, 4> integers =
+        nearest_integers<Real>(format, {as_int(color[0]), as_int(color[1]), as_int(color[2]), as_int(color[3])});
+    return {as_real(integers[0]), as_real(integers[1]), as_real(integers[2]), as_real(integers[3])};
+  }
+  const vec4<Real> nearest = nearest_texel(format, vec4<Real>(color[0], color[1], color[2], color[3]));
+  return {nearest.x, nearest.y, nearest.z, nearest.w};
+}
+
 PixelBytes encode_pixel(ColorFormat format, const PacketColor& color) {
   PixelBytes bytes{};
-  const auto put = [&bytes](std::size_t k, auto value) { std::memcpy(&bytes[k * sizeof value], &value, sizeof value); };
-  switch (format) {
-    case ColorFormat::none: break;
-    case ColorFormat::rgba8: put(0, lane(packed_codes<ColorFormat::rgba8>(color), 0)); break;
-    case ColorFormat::srgb8a8: put(0, lane(packed_codes<ColorFormat::srgb8a8>(color), 0)); break;
-    case ColorFormat::rgba16f:
-      for (std::size_t k = 0; k < 4; ++k) put(k, static_cast<uint16_t>(lane(Int(float_to_finite_half(color[k])), 0)));
-      break;
-    case ColorFormat::rgba32f:
-      for (std::size_t k = 0; k < 4; ++k) put(k, lane(color[k], 0));
-      break;
-    case ColorFormat::r32f:
-    case ColorFormat::rg32f:
-    case ColorFormat::rgb32f:
-    case ColorFormat::r32ui:
-      for (std::size_t k = 0; k < static_cast<std::size_t>(narrow_channels(format)); ++k) put(k, lane(color[k], 0));
-      break;
+  const glm::vec4 value(lane(color[0], 0), lane(color[1], 0), lane(color[2], 0), lane(color[3], 0));
+  if (is_integer(format)) {
+    encode_integers(format, std::bit_cast<glm::ivec4>(value), bytes.data());
+  } else {
+    encode_texel(format, value, bytes.data());
   }
   return bytes;
 }
@@ -37,16 +37,14 @@ void fill_buffer(ColorBuffer& buffer, const PacketColor& color) {
     }
   };
   switch (buffer.format) {
-    case ColorFormat::none: return;
     case ColorFormat::rgba8:
     case ColorFormat::srgb8a8: return fill(uint32_t{}, 1);
     case ColorFormat::rgba16f: return fill(uint16_t{}, 4);
-    case ColorFormat::rgba32f: return fill(float{}, 4);
-    case ColorFormat::r32f:
-    case ColorFormat::rg32f:
-    case ColorFormat::rgb32f:
-    case ColorFormat::r32ui: return fill(uint32_t{}, narrow_channels(buffer.format));
+    default: break;
   }
+  const PacketColor nearest = nearest_color(buffer.format, color);
+  for (int k = 0; k < word_planes(buffer.format); ++k)
+    std::fill_n(plane<int32_t>(buffer, k), kMaxTilePixels, lane(as_int(nearest[static_cast<std::size_t>(k)]), 0));
 }
 
 }  // namespace halfspace::HS_LANES

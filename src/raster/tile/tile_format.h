@@ -7,20 +7,29 @@
 
 #include "halfspace/core/half.h"
 #include "halfspace/core/srgb.h"
+#include "halfspace/core/texel_codec.h"
 #include "halfspace/raster/tile/tile.h"
 
 namespace halfspace::HS_LANES {
 
 // ---- color -----------------------------------------------------------------------------------------------------
 
-constexpr bool is_fixed_point(ColorFormat f) { return f == ColorFormat::rgba8 || f == ColorFormat::srgb8a8; }
-
-/// Returns the number of 32-bit channels for formats with fewer than four, otherwise 0.
-constexpr int narrow_channels(ColorFormat f) {
-  if (f == ColorFormat::rgb32f) return 3;
-  if (f == ColorFormat::rg32f) return 2;
-  return f == ColorFormat::r32f || f == ColorFormat::r32ui ? 1 : 0;
+/// Returns true if colors are clamped before blending (OpenGL 4.6, section 17.3.6), to lowest_value() and 1.
+constexpr bool is_fixed_point(ColorFormat f) {
+  const TexelKind kind = texel_info(f).kind;
+  return kind == TexelKind::unorm || kind == TexelKind::srgb || kind == TexelKind::snorm;
 }
+constexpr float lowest_value(ColorFormat f) { return texel_info(f).kind == TexelKind::snorm ? -1.0f : 0.0f; }
+
+/// Tiles store rgba8 and srgb8a8 as one word per pixel, rgba16f as a plane of halves for each channel, and all other formats as a plane of
+/// floats or 32-bit integers for each channel. Their values are those that the format can store. Returns the number of these planes, or 0.
+constexpr int word_planes(ColorFormat f) {
+  return f == ColorFormat::rgba8 || f == ColorFormat::srgb8a8 || f == ColorFormat::rgba16f ? 0 : texel_info(f).channels;
+}
+/// Returns the size of a pixel in a tile in bytes.
+constexpr int bytes_in_tile(ColorFormat f) { return word_planes(f) != 0 ? 4 * word_planes(f) : bytes_per_pixel(f); }
+/// Returns true if planes of words contain the texels of the image, without conversion.
+constexpr bool has_word_channels(ColorFormat f) { return texel_info(f).bits == 32; }
 
 /// Returns plane k of a planar buffer, or plane 0 for 8-bit formats.
 template <class T>
@@ -116,16 +125,17 @@ HS_INLINE void write_codes(ColorBuffer& buffer, std::size_t first, Mask mask, In
 /// Returns channel k of the packet that starts with pixel `first`, as linear floats.
 template <ColorFormat format>
 HS_INLINE Real read_channel(const ColorBuffer& buffer, std::size_t first, int k) {
-  if constexpr (narrow_channels(format) != 0) {
-    return k < narrow_channels(format) ? load<Real>(plane<float>(buffer, k) + first) : Real(k == 3 ? 1.0f : 0.0f);
-  } else if constexpr (format == ColorFormat::rgba32f) {
-    return load<Real>(plane<float>(buffer, k) + first);
+  if constexpr (word_planes(format) != 0) {
+    return k < word_planes(format) ? load<Real>(plane<float>(buffer, k) + first) : Real(k == 3 ? 1.0f : 0.0f);
   } else if constexpr (format == ColorFormat::rgba16f) {
     return load_halves<Real>(plane<uint16_t>(buffer, k) + first);
   } else {
     return decode8(format, code_of(read_codes(buffer, first), k), k == 3);
   }
 }
+
+/// Returns the color of a format with planes of words that is nearest to a color.
+PacketColor nearest_color(ColorFormat format, const PacketColor& color);
 
 /// A color as stored in an image. Only bytes_per_pixel(format) bytes are used.
 using PixelBytes = std::array<std::byte, 16>;
@@ -187,12 +197,12 @@ struct Depth32Stencil8 {
 template <class F>
 void with_codec(DepthFormat format, F f) {
   switch (format) {
-    case DepthFormat::none: return;
     case DepthFormat::d16: return f(Depth16{});
     case DepthFormat::d24: return f(Depth24{});
     case DepthFormat::d32f: return f(Depth32{});
     case DepthFormat::d24s8: return f(Depth24Stencil8{});
     case DepthFormat::d32fs8: return f(Depth32Stencil8{});
+    default: return;
   }
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <bit>
 
 #include "halfspace/raster/tile/tile_format.h"
 #include "halfspace/raster/tile/tile_layout.h"
@@ -13,12 +14,24 @@ HS_INLINE void for_each_load(const Tile& tile, const ImageLayout& p, F f) {
   for_each_pixel(tile, p.width, p.height, p.stored, tile.samples, f);
 }
 
-template <class T, std::size_t channels = 4>
+template <class T, std::size_t channels>
 void load_planes(const std::byte* data, const ImageLayout& place, const Tile& tile, ColorBuffer& color) {
   const T* image = reinterpret_cast<const T*>(data);
   T* to = plane<T>(color, 0);
   for_each_load(tile, place, [&](std::size_t t, std::size_t i) {
     for (std::size_t k = 0; k < channels; ++k) to[k * kMaxTilePixels + t] = image[channels * i + k];
+  });
+}
+
+// For formats whose channels are not words.
+void load_texels(const std::byte* image, const ImageLayout& place, const Tile& tile, ColorBuffer& color) {
+  const auto bytes = static_cast<std::size_t>(bytes_per_pixel(color.format));
+  float* to = plane<float>(color, 0);
+  for_each_load(tile, place, [&](std::size_t t, std::size_t i) {
+    const std::byte* texel = image + i * bytes;
+    const glm::vec4 value =
+        is_integer(color.format) ? std::bit_cast<glm::vec4>(decode_integers(color.format, texel)) : decode_texel(color.format, texel);
+    for (int k = 0; k < word_planes(color.format); ++k) to[static_cast<std::size_t>(k) * kMaxTilePixels + t] = value[k];
   });
 }
 
@@ -55,7 +68,7 @@ void load_half_planes(const std::byte* data, const ImageLayout& place, const Til
   if (for_each_two_rows<4>(tile, place, two_quads)) return;
 #endif
   const auto quad = [&](std::size_t t, std::size_t row0, std::size_t row1) { split_quad(image + row0, image + row1, to + t); };
-  if (!for_each_two_rows<2>(tile, place, quad)) load_planes<uint16_t>(data, place, tile, color);
+  if (!for_each_two_rows<2>(tile, place, quad)) load_planes<uint16_t, 4>(data, place, tile, color);
 }
 
 }  // namespace
@@ -64,7 +77,7 @@ void load_color(const ColorTarget& target, int width, int height, ImageSamples s
   color.format = target.format;
   if (target.format == ColorFormat::none) return;
   if (target.load == LoadOp::dont_care) {  // zeros, so that undrawn pixels are deterministic
-    std::fill_n(color.bytes.data(), kMaxTilePixels * bytes_per_pixel(target.format), std::byte{0});
+    std::fill_n(color.bytes.data(), kMaxTilePixels * bytes_in_tile(target.format), std::byte{0});
     return;
   }
   if (target.load == LoadOp::clear) {
@@ -73,12 +86,13 @@ void load_color(const ColorTarget& target, int width, int height, ImageSamples s
     return;
   }
   const ImageLayout place{width, height, stored};
-  switch (target.format) {
-    case ColorFormat::rgba32f: load_planes<float>(target.data, place, tile, color); break;
-    case ColorFormat::rgba16f: load_half_planes(target.data, place, tile, color); break;
-    case ColorFormat::rg32f: load_planes<float, 2>(target.data, place, tile, color); break;
-    case ColorFormat::rgb32f: load_planes<float, 3>(target.data, place, tile, color); break;
-    default: copy_words<true>(tile, width, height, stored, tile.samples, color.bytes.data(), target.data); break;
+  if (target.format == ColorFormat::rgba16f) return load_half_planes(target.data, place, tile, color);
+  if (word_planes(target.format) != 0 && !has_word_channels(target.format)) return load_texels(target.data, place, tile, color);
+  switch (word_planes(target.format)) {
+    case 2: return load_planes<float, 2>(target.data, place, tile, color);
+    case 3: return load_planes<float, 3>(target.data, place, tile, color);
+    case 4: return load_planes<float, 4>(target.data, place, tile, color);
+    default: return copy_words<true>(tile, width, height, stored, tile.samples, color.bytes.data(), target.data);
   }
 }
 
@@ -86,22 +100,27 @@ void load_depth(const DepthTarget& target, int width, int height, ImageSamples s
   tile.depth_format = depth_part(target.format);
   tile.has_stencil = has_stencil(target.format);
   if (target.format == DepthFormat::none) return;
-  const float clear = depth_value(tile.depth_format, std::clamp(target.clear_value, 0.0f, 1.0f));
-  if (target.load != LoadOp::load) {
+  const bool loads_depth = target.load == LoadOp::load;
+  const bool loads_stencil = tile.has_stencil && stencil_load_of(target) == LoadOp::load;
+  if (loads_depth || loads_stencil) {
+    tile.depth.fill(0.0f);  // for pixels outside the target
+    if (tile.has_stencil) tile.stencil.fill(0);
+    with_codec(target.format, [&]<class C>(C) {
+      const auto* image = reinterpret_cast<const typename C::Image*>(target.data);
+      for_each_load(tile, {width, height, stored},
+                    [&](std::size_t t, std::size_t i) { C::load(image[i], tile.depth[t], tile.stencil[t]); });
+    });
+  }
+  if (loads_depth) {
+    for (int b = 0; b < kBlocks; ++b) refresh_hiz(tile, b);
+  } else {
+    const float clear = depth_value(tile.depth_format, std::clamp(target.clear_value, 0.0f, 1.0f));
     tile.depth.fill(clear);
     tile.hiz_min.fill(clear);
     tile.hiz_max.fill(clear);
     tile.hiz_is_stale.fill(false);
-    if (tile.has_stencil) tile.stencil.fill(target.stencil_clear_value);
-    return;
   }
-  tile.depth.fill(0.0f);  // for pixels outside the target
-  if (tile.has_stencil) tile.stencil.fill(0);
-  with_codec(target.format, [&]<class C>(C) {
-    const auto* image = reinterpret_cast<const typename C::Image*>(target.data);
-    for_each_load(tile, {width, height, stored}, [&](std::size_t t, std::size_t i) { C::load(image[i], tile.depth[t], tile.stencil[t]); });
-  });
-  for (int b = 0; b < kBlocks; ++b) refresh_hiz(tile, b);
+  if (tile.has_stencil && !loads_stencil) tile.stencil.fill(target.stencil_clear_value);
 }
 
 }  // namespace halfspace::HS_LANES

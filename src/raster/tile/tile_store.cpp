@@ -45,12 +45,27 @@ HS_INLINE void for_each_store(const Tile& tile, const ImageLayout& p, F f) {
   for_each_pixel(tile, p.width, p.height, p.stored, stored_samples(tile, p.stored), f);
 }
 
-template <class T, std::size_t channels = 4>
+template <class T, std::size_t channels>
 void store_planes(std::byte* data, const ImageLayout& place, const Tile& tile, const ColorBuffer& color) {
   T* image = reinterpret_cast<T*>(data);
   const T* from = plane<T>(color, 0);
   for_each_store(tile, place, [&](std::size_t t, std::size_t i) {
     for (std::size_t k = 0; k < channels; ++k) image[channels * i + k] = from[k * kMaxTilePixels + t];
+  });
+}
+
+// For formats whose channels are not words. The values in the tile are exact, so encoding does not round.
+void store_texels(std::byte* image, const ImageLayout& place, const Tile& tile, const ColorBuffer& color) {
+  const auto bytes = static_cast<std::size_t>(bytes_per_pixel(color.format));
+  const float* from = plane<float>(color, 0);
+  for_each_store(tile, place, [&](std::size_t t, std::size_t i) {
+    glm::vec4 value(0.0f);
+    for (int k = 0; k < word_planes(color.format); ++k) value[k] = from[static_cast<std::size_t>(k) * kMaxTilePixels + t];
+    if (is_integer(color.format)) {
+      encode_integers(color.format, std::bit_cast<glm::ivec4>(value), image + i * bytes);
+    } else {
+      encode_texel(color.format, value, image + i * bytes);
+    }
   });
 }
 
@@ -82,7 +97,7 @@ void store_half_planes(std::byte* data, const ImageLayout& place, const Tile& ti
   if (for_each_two_rows<4>(tile, place, two_quads)) return;
 #endif
   const auto quad = [&](std::size_t t, std::size_t row0, std::size_t row1) { join_quad(from + t, image + row0, image + row1); };
-  if (!for_each_two_rows<2>(tile, place, quad)) store_planes<uint16_t>(data, place, tile, color);
+  if (!for_each_two_rows<2>(tile, place, quad)) store_planes<uint16_t, 4>(data, place, tile, color);
 }
 
 }  // namespace
@@ -90,12 +105,13 @@ void store_half_planes(std::byte* data, const ImageLayout& place, const Tile& ti
 void store_color(const ColorTarget& target, int width, int height, ImageSamples stored, const Tile& tile, const ColorBuffer& color) {
   if (target.format == ColorFormat::none || target.store == StoreOp::dont_care || target.data == nullptr) return;
   const ImageLayout place{width, height, stored};
-  switch (target.format) {
-    case ColorFormat::rgba32f: store_planes<float>(target.data, place, tile, color); break;
-    case ColorFormat::rgba16f: store_half_planes(target.data, place, tile, color); break;
-    case ColorFormat::rg32f: store_planes<float, 2>(target.data, place, tile, color); break;
-    case ColorFormat::rgb32f: store_planes<float, 3>(target.data, place, tile, color); break;
-    default: store_words(tile, width, height, stored, stored_samples(tile, stored), color.bytes.data(), target.data); break;
+  if (target.format == ColorFormat::rgba16f) return store_half_planes(target.data, place, tile, color);
+  if (word_planes(target.format) != 0 && !has_word_channels(target.format)) return store_texels(target.data, place, tile, color);
+  switch (word_planes(target.format)) {
+    case 2: return store_planes<float, 2>(target.data, place, tile, color);
+    case 3: return store_planes<float, 3>(target.data, place, tile, color);
+    case 4: return store_planes<float, 4>(target.data, place, tile, color);
+    default: return store_words(tile, width, height, stored, stored_samples(tile, stored), color.bytes.data(), target.data);
   }
 }
 

@@ -58,7 +58,7 @@ HS_INLINE void blend_packet(ColorBuffer& buffer, const PacketMask& packet, const
   } else {
     PacketColor dst;
     for (int k = 0; k < 4; ++k) dst[static_cast<std::size_t>(k)] = read_channel<format>(buffer, first, k);
-    const PacketColor out = blended_color(o, dst, is_fixed_point(format), src, src1, s.blend->constant);
+    const PacketColor out = blended_color(o, dst, format, src, src1, s.blend->constant);
     replace_packet<format, masked>(buffer, packet, out, s.mask);
   }
 }

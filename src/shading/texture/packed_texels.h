@@ -1,25 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Texel formats, and the decoding of packed texels: 8-bit texels in one 32-bit word, red in the low byte, and half-float texels in two
+// Decoding of packed texels: 8-bit texels in one 32-bit word, red in the low byte, and half-float texels in two
 // words.
 #pragma once
 
 #include "halfspace/core/half.h"
 #include "halfspace/core/lane_pairs.h"
 #include "halfspace/core/srgb.h"
+#include "halfspace/core/texel_format.h"
 #include "halfspace/core/vec.h"
 
 namespace halfspace::HS_LANES {
-
-/// Storage formats of texels. Formats with one channel read as (r, 0, 0, 1).
-enum class TexelFormat : uint8_t {
-  rgba8,    ///< value = integer/255
-  srgb8a8,  ///< sRGB-encoded red, green and blue; linear alpha, integer/255
-  r8,       ///< value = integer/255
-  r16,      ///< value = integer/65535
-  rgba16f,  ///< linear half floats, always finite: values are clamped to ±65504, NaN becomes 0
-  rgba32f   ///< linear floats, clamped to ±kMaxTexel; NaN becomes 0
-};
 
 namespace detail {
 

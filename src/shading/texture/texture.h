@@ -34,6 +34,9 @@
 
 namespace halfspace::HS_LANES {
 
+/// The formats of textures are r8, r16, rgba8, srgb8a8, rgba16f (always finite: values are clamped to ±65504, NaN becomes 0) and rgba32f
+/// (clamped to ±kMaxTexel, NaN becomes 0).
+///
 /// The largest rgba32f texel: half of the largest float, so that the difference of two texels cannot overflow.
 inline constexpr float kMaxTexel = 0x1.fffffep126f;
 
@@ -357,7 +360,7 @@ HS_INLINE vec3<R> Texture2D::sample_rgb(const Sampler& sampler, const vec2<R>& u
 template <Number R>
 HS_INLINE R Texture2D::sample_alpha(const Sampler& sampler, const vec2<R>& uv, const vec2<R>& duv_dx, const vec2<R>& duv_dy) const {
   if constexpr (!std::is_same_v<R, double>) {
-    if (format_ <= TexelFormat::srgb8a8) {
+    if (format_ == TexelFormat::rgba8 || format_ == TexelFormat::srgb8a8) {
       const CommonLookup<R, TexelFormat::rgba8, R> lookup{*this, sampler};
       if (alphas_.empty() && !has_border(sampler)) return lookup.finish(R(static_cast<float>(static_cast<uint32_t>(texels_[0]) >> 24)));
       if (is_common(sampler) && sampler.anisotropy <= 1) return lookup.finish(lookup(uv, levels_of(sampler, duv_dx, duv_dy)));
