@@ -123,7 +123,11 @@ template <int L, class T>
 struct VectorT : std::type_identity<DiscreteVec<L, T>> {};
 template <int L, Number R>
 struct VectorT<L, R> : std::type_identity<VecN<L, R>> {};
-/// The vector type with L components of type T.
+template <class T>
+struct VectorT<0, T> : std::type_identity<T> {};
+template <Number R>
+struct VectorT<0, R> : std::type_identity<R> {};
+/// The vector type with L components of type T; T itself if L is 0.
 template <int L, class T>
 using VectorOf = typename VectorT<L, T>::type;
 

@@ -35,6 +35,10 @@ using vec3 = VecN<3, R>;
 template <class R>
 using vec4 = VecN<4, R>;
 
+/// A matrix with C columns and L rows (glsl_matrix.h).
+template <int C, int L, Number R>
+struct MatN;
+
 /// S converts to R without loss: a vector of S converts to a vector of R implicitly.
 template <class S, class R>
 concept WidensTo = std::same_as<S, float> ||(std::same_as<S, double>&& std::same_as<R, double>);
@@ -191,6 +195,46 @@ struct VecN<4, R> {
   friend HS_INLINE VecN mix(const VecN& a, const VecN& b, R t) { return a * (R(1) - t) + b * t; }
   friend HS_INLINE VecN reflect(const VecN& v, const VecN& n) { return v - n * dot(n, v) * R(2); }
 };
+
+// ---- vector and scalar -----------------------------------------------------------------------------------------
+
+template <int L, Number R>
+HS_INLINE constexpr VecN<L, R> operator+(const VecN<L, R>& v, std::type_identity_t<R> s) {
+  return v + VecN<L, R>(s);
+}
+template <int L, Number R>
+HS_INLINE constexpr VecN<L, R> operator+(std::type_identity_t<R> s, const VecN<L, R>& v) {
+  return VecN<L, R>(s) + v;
+}
+template <int L, Number R>
+HS_INLINE constexpr VecN<L, R> operator-(const VecN<L, R>& v, std::type_identity_t<R> s) {
+  return v - VecN<L, R>(s);
+}
+template <int L, Number R>
+HS_INLINE constexpr VecN<L, R> operator-(std::type_identity_t<R> s, const VecN<L, R>& v) {
+  return VecN<L, R>(s) - v;
+}
+template <int L, Number R>
+HS_INLINE constexpr VecN<L, R> operator/(std::type_identity_t<R> s, const VecN<L, R>& v) {
+  return VecN<L, R>(s) / v;
+}
+template <int L, Number R>
+HS_INLINE constexpr VecN<L, R>& operator+=(VecN<L, R>& v, std::type_identity_t<R> s) {
+  return v = v + s;
+}
+template <int L, Number R>
+HS_INLINE constexpr VecN<L, R>& operator-=(VecN<L, R>& v, std::type_identity_t<R> s) {
+  return v = v - s;
+}
+/// Divides component by component.
+template <int L, Number R>
+HS_INLINE constexpr VecN<L, R>& operator/=(VecN<L, R>& v, const VecN<L, R>& w) {
+  return v = v / w;
+}
+template <int L, Number R>
+HS_INLINE constexpr MaskOf<R> operator!=(const VecN<L, R>& v, const VecN<L, R>& w) {
+  return !(v == w);
+}
 
 // ---- uniform and varying ---------------------------------------------------------------------------------------
 
