@@ -327,7 +327,7 @@ template <Number R>
 HS_INLINE R cos(R x) {
   return sin_cos(x).cos;
 }
-/// Returns sin(x)/cos(x). For |x| <= 1e4 the error is at most TAN_ULP ulp, even near zeros and poles. Otherwise as sin_cos.
+/// Returns sin(x)/cos(x). For |x| <= 1e4 the error is at most 3.33 ulp, even near zeros and poles. Otherwise as sin_cos.
 template <Number R>
 HS_INLINE R tan(R x) {
   if constexpr (std::is_same_v<R, double>) {

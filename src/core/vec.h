@@ -82,6 +82,7 @@ struct VecN<2, R> {
   HS_INLINE constexpr VecN& operator*=(R s) { return *this = *this * s; }
   HS_INLINE constexpr VecN& operator/=(R s) { return *this = *this / s; }
   friend HS_INLINE constexpr MaskOf<R> operator==(const VecN& a, const VecN& b) { return a.x == b.x && a.y == b.y; }
+  friend HS_INLINE constexpr MaskOf<R> operator!=(const VecN& a, const VecN& b) { return !(a == b); }
 
   friend HS_INLINE R dot(const VecN& a, const VecN& b) { return a.x * b.x + a.y * b.y; }
   friend HS_INLINE R length(const VecN& a) { return sqrt(dot(a, a)); }
@@ -128,6 +129,7 @@ struct VecN<3, R> {
   HS_INLINE constexpr VecN& operator*=(R s) { return *this = *this * s; }
   HS_INLINE constexpr VecN& operator/=(R s) { return *this = *this / s; }
   friend HS_INLINE constexpr MaskOf<R> operator==(const VecN& a, const VecN& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
+  friend HS_INLINE constexpr MaskOf<R> operator!=(const VecN& a, const VecN& b) { return !(a == b); }
 
   /// Rounds once per component for float and lanes. For double it is the plain sum of products.
   friend HS_INLINE R dot(const VecN& a, const VecN& b) {
@@ -188,6 +190,7 @@ struct VecN<4, R> {
   friend HS_INLINE constexpr MaskOf<R> operator==(const VecN& a, const VecN& b) {
     return a.x == b.x && a.y == b.y && a.z == b.z && a.w == b.w;
   }
+  friend HS_INLINE constexpr MaskOf<R> operator!=(const VecN& a, const VecN& b) { return !(a == b); }
 
   friend HS_INLINE R dot(const VecN& a, const VecN& b) { return (a.x * b.x + a.y * b.y) + (a.z * b.z + a.w * b.w); }
   friend HS_INLINE R length(const VecN& a) { return sqrt(dot(a, a)); }
@@ -231,11 +234,6 @@ template <int L, Number R>
 HS_INLINE constexpr VecN<L, R>& operator/=(VecN<L, R>& v, const VecN<L, R>& w) {
   return v = v / w;
 }
-template <int L, Number R>
-HS_INLINE constexpr MaskOf<R> operator!=(const VecN<L, R>& v, const VecN<L, R>& w) {
-  return !(v == w);
-}
-
 // ---- uniform and varying ---------------------------------------------------------------------------------------
 
 /// Number types whose product with a uniform vector is not defined by GLM.
