@@ -41,7 +41,7 @@ TEST(GlslRelational, ComparisonsCombineComponents) {
   EXPECT_TRUE(greaterThanEqual(a, b) == B(false, true, true, false));
   EXPECT_TRUE(equal(a, b) == B(false, true, false, false));
   EXPECT_TRUE(notEqual(a, b) == B(true, false, true, true));
-  EXPECT_TRUE(not(equal(a, b)) == notEqual(a, b));
+  EXPECT_TRUE((not(equal(a, b))) == notEqual(a, b));
   EXPECT_TRUE(any(lessThan(a, b)) && !all(lessThan(a, b)) && !any(lessThan(a, -10.0f)));
   EXPECT_TRUE(all(greaterThan(vec2<float>(3, 4), 2)) && all(lessThan(ivec2<float>(1, 2), 3)));
   EXPECT_TRUE(equal(B(true, false, true, false), B(true, true, false, false)) == B(true, false, false, true));
