@@ -122,11 +122,11 @@ requires detail::IntegerVectors<A, B> HS_INLINE auto operator*(const A& a, const
 }
 template <class A, class B>
 requires detail::IntegerVectors<A, B> HS_INLINE auto operator/(const A& a, const B& b) {
-  return detail::map_integers([](auto x, auto y) { return divide(x, y); }, a, b);
+  return detail::map_integers([](auto x, auto y) { return int_divide(x, y); }, a, b);
 }
 template <class A, class B>
 requires detail::IntegerVectors<A, B> HS_INLINE auto operator%(const A& a, const B& b) {
-  return detail::map_integers([](auto x, auto y) { return modulo(x, y); }, a, b);
+  return detail::map_integers([](auto x, auto y) { return int_modulo(x, y); }, a, b);
 }
 template <class A, class B>
 requires detail::IntegerVectors<A, B> HS_INLINE auto operator&(const A& a, const B& b) {

@@ -88,10 +88,10 @@ struct IntPair {
   friend HS_INLINE IntPair operator<<(IntPair a, IntPair n) { return {a.low << (n.low & 31), a.high << (n.high & 31)}; }
   friend HS_INLINE IntPair operator>>(IntPair a, IntPair n) { return {a.low >> (n.low & 31), a.high >> (n.high & 31)}; }
 
-  friend HS_INLINE IntPair divide(IntPair a, IntPair b) { return {divide(a.low, b.low), divide(a.high, b.high)}; }
-  friend HS_INLINE IntPair modulo(IntPair a, IntPair b) { return {modulo(a.low, b.low), modulo(a.high, b.high)}; }
-  friend HS_INLINE IntPair operator/(IntPair a, IntPair b) { return divide(a, b); }
-  friend HS_INLINE IntPair operator%(IntPair a, IntPair b) { return modulo(a, b); }
+  friend HS_INLINE IntPair int_divide(IntPair a, IntPair b) { return {int_divide(a.low, b.low), int_divide(a.high, b.high)}; }
+  friend HS_INLINE IntPair int_modulo(IntPair a, IntPair b) { return {int_modulo(a.low, b.low), int_modulo(a.high, b.high)}; }
+  friend HS_INLINE IntPair operator/(IntPair a, IntPair b) { return int_divide(a, b); }
+  friend HS_INLINE IntPair operator%(IntPair a, IntPair b) { return int_modulo(a, b); }
   HS_INLINE IntPair& operator+=(IntPair b) { return *this = *this + b; }
   HS_INLINE IntPair& operator-=(IntPair b) { return *this = *this - b; }
 

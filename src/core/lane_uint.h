@@ -5,7 +5,7 @@
 // rounds to the nearest float, and truncate_to_uint(x) converts back.
 //
 // The operators of the scalar types are C++'s own: dividing by zero or shifting by 32 is an error for uint32_t and int32_t, but has a
-// result for lanes. Code that is compiled for both and may meet such operands calls divide and modulo, and masks shift counts.
+// result for lanes. Code that is compiled for both and may meet such operands calls int_divide and int_modulo, and masks shift counts.
 #pragma once
 
 #include <concepts>
@@ -116,10 +116,10 @@ struct UintLanes {
   HS_INLINE UintLanes& operator+=(UintLanes b) { return *this = *this + b; }
   HS_INLINE UintLanes& operator-=(UintLanes b) { return *this = *this - b; }
 
-  friend HS_INLINE UintLanes divide(UintLanes a, UintLanes b) { return UintLanes(detail::divide_unsigned(a.bits, b.bits)); }
-  friend HS_INLINE UintLanes modulo(UintLanes a, UintLanes b) { return UintLanes(detail::modulo_unsigned(a.bits, b.bits)); }
-  friend HS_INLINE UintLanes operator/(UintLanes a, UintLanes b) { return divide(a, b); }
-  friend HS_INLINE UintLanes operator%(UintLanes a, UintLanes b) { return modulo(a, b); }
+  friend HS_INLINE UintLanes int_divide(UintLanes a, UintLanes b) { return UintLanes(detail::divide_unsigned(a.bits, b.bits)); }
+  friend HS_INLINE UintLanes int_modulo(UintLanes a, UintLanes b) { return UintLanes(detail::modulo_unsigned(a.bits, b.bits)); }
+  friend HS_INLINE UintLanes operator/(UintLanes a, UintLanes b) { return int_divide(a, b); }
+  friend HS_INLINE UintLanes operator%(UintLanes a, UintLanes b) { return int_modulo(a, b); }
 
   friend HS_INLINE M operator<(UintLanes a, UintLanes b) { return detail::less_unsigned(a.bits, b.bits); }
   friend HS_INLINE M operator>(UintLanes a, UintLanes b) { return b < a; }
@@ -143,9 +143,9 @@ HS_INLINE uint32_t max(uint32_t a, uint32_t b) { return a > b ? a : b; }
 HS_INLINE uint32_t lane(uint32_t a, int) { return a; }
 HS_INLINE void set_lane(uint32_t& a, int, uint32_t x) { a = x; }
 /// Returns a/b. Division by zero gives 2^32 − 1.
-HS_INLINE uint32_t divide(uint32_t a, uint32_t b) { return detail::divide_unsigned(a, b); }
+HS_INLINE uint32_t int_divide(uint32_t a, uint32_t b) { return detail::divide_unsigned(a, b); }
 /// Returns the remainder of a/b. Modulo zero gives a.
-HS_INLINE uint32_t modulo(uint32_t a, uint32_t b) { return detail::modulo_unsigned(a, b); }
+HS_INLINE uint32_t int_modulo(uint32_t a, uint32_t b) { return detail::modulo_unsigned(a, b); }
 
 // ---- both ------------------------------------------------------------------------------------------------------
 

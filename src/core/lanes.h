@@ -86,11 +86,11 @@ struct MaskN {
 // Division of integers with a result for every operand. The operators / and % of lanes use it. Those of int32_t are C++'s own, and
 // must not divide by zero.
 /// Returns a/b, truncated towards zero. Division by zero gives -1, and INT32_MIN / -1 wraps to INT32_MIN.
-HS_INLINE int32_t divide(int32_t a, int32_t b) {
+HS_INLINE int32_t int_divide(int32_t a, int32_t b) {
   return b == 0 ? -1 : b == -1 ? static_cast<int32_t>(0u - static_cast<uint32_t>(a)) : a / b;
 }
-/// Returns a - b*divide(a, b). Modulo zero gives a.
-HS_INLINE int32_t modulo(int32_t a, int32_t b) { return b == 0 ? a : b == -1 ? 0 : a % b; }
+/// Returns a - b*int_divide(a, b). Modulo zero gives a.
+HS_INLINE int32_t int_modulo(int32_t a, int32_t b) { return b == 0 ? a : b == -1 ? 0 : a % b; }
 
 /// W 32-bit integers. Arithmetic wraps in two's complement; >> is an arithmetic shift. Of a variable shift count, the low five bits count.
 template <int W>
@@ -119,16 +119,16 @@ struct IntN {
   friend HS_INLINE IntN operator<<(IntN a, IntN n) { return IntN((V)((U)a.v << ((U)n.v & 31))); }
   friend HS_INLINE IntN operator>>(IntN a, IntN n) { return IntN(a.v >> (n.v & 31)); }
 
-  friend HS_INLINE IntN divide(IntN a, IntN b) {
+  friend HS_INLINE IntN int_divide(IntN a, IntN b) {
     const V zero = b.v == 0;  // all ones if true, which is also the result
     return IntN((a.v / nonzero(a.v, b.v)) | zero);
   }
-  friend HS_INLINE IntN modulo(IntN a, IntN b) {
+  friend HS_INLINE IntN int_modulo(IntN a, IntN b) {
     const V zero = b.v == 0;
     return IntN((a.v % nonzero(a.v, b.v)) | (zero & a.v));
   }
-  friend HS_INLINE IntN operator/(IntN a, IntN b) { return divide(a, b); }
-  friend HS_INLINE IntN operator%(IntN a, IntN b) { return modulo(a, b); }
+  friend HS_INLINE IntN operator/(IntN a, IntN b) { return int_divide(a, b); }
+  friend HS_INLINE IntN operator%(IntN a, IntN b) { return int_modulo(a, b); }
   HS_INLINE IntN& operator+=(IntN b) { return *this = *this + b; }
   HS_INLINE IntN& operator-=(IntN b) { return *this = *this - b; }
 

@@ -85,8 +85,8 @@ TEST(LaneUint, SignedDivisionAndShiftsMatchInt32) {
     const int64_t p = static_cast<int32_t>(x), q = static_cast<int32_t>(y);  // 64 bits, where INT32_MIN / −1 does not overflow
     ASSERT_EQ(lane(i / j, k), q == 0 ? -1 : static_cast<int32_t>(p / q)) << p << '/' << q;
     ASSERT_EQ(lane(i % j, k), q == 0 ? p : p % q) << p << '%' << q;
-    ASSERT_EQ(divide(lane(i, k), lane(j, k)), lane(i / j, k));
-    ASSERT_EQ(modulo(lane(i, k), lane(j, k)), lane(i % j, k));
+    ASSERT_EQ(int_divide(lane(i, k), lane(j, k)), lane(i / j, k));
+    ASSERT_EQ(int_modulo(lane(i, k), lane(j, k)), lane(i % j, k));
     ASSERT_EQ(lane(i << j, k), static_cast<int32_t>(x << (y & 31)));
     ASSERT_EQ(lane(i >> j, k), static_cast<int32_t>(x) >> (y & 31));
     ASSERT_EQ(lane(i >> b, k), static_cast<int32_t>(x) >> (y & 31));
@@ -95,12 +95,12 @@ TEST(LaneUint, SignedDivisionAndShiftsMatchInt32) {
 }
 
 TEST(LaneUint, ScalarDivisionAcceptsEveryDivisor) {
-  EXPECT_EQ(divide(7u, 0u), 0xffffffffu);
-  EXPECT_EQ(modulo(7u, 0u), 7u);
-  EXPECT_EQ(divide(7u, 2u), 3u);
-  EXPECT_EQ(modulo(7u, 4u), 3u);
-  EXPECT_EQ(divide(-7, 2), -3);
-  EXPECT_EQ(modulo(-7, 2), -1);
+  EXPECT_EQ(int_divide(7u, 0u), 0xffffffffu);
+  EXPECT_EQ(int_modulo(7u, 0u), 7u);
+  EXPECT_EQ(int_divide(7u, 2u), 3u);
+  EXPECT_EQ(int_modulo(7u, 4u), 3u);
+  EXPECT_EQ(int_divide(-7, 2), -3);
+  EXPECT_EQ(int_modulo(-7, 2), -1);
 }
 
 TEST(LaneUint, ConversionsRoundToNearestAndTruncate) {
