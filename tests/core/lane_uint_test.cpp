@@ -152,7 +152,7 @@ TEST(DiscreteVec, ScalarsAreDefinedForEveryOperand) {
   EXPECT_TRUE(I2(kMin, 5) / I2(-1, 0) == I2(kMin, -1));
   EXPECT_TRUE(I2(kMin, 5) % I2(-1, 0) == I2(0, 5));
   EXPECT_TRUE(I2(kMin, 1) - I2(1, 2) == I2(0x7fffffff, -1));
-  EXPECT_TRUE(I2(1, 2) << 33 == I2(2, 4));
+  EXPECT_TRUE((I2(1, 2) << 33) == I2(2, 4));
   EXPECT_TRUE(I2(1, 2) != I2(1, 3));
   const ivec4<float> four(I2(1, 2), 3, 4);
   EXPECT_EQ(four[0] + 10 * four[1] + 100 * four[2] + 1000 * four[3], 4321);
