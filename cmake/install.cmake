@@ -8,8 +8,9 @@ set(halfspace_modules core shading raster image geometry procedural scene model 
 
 # Public headers. The headers that these include are installed as well. docs/reference/api.md describes the same list.
 set(halfspace_public_headers
-  core/check.h core/cpu.h core/half.h core/image.h core/lane_math.h core/lanes.h core/parallel.h core/srgb.h core/tool_folder.h
-  core/units.h core/vec.h
+  core/check.h core/cpu.h core/discrete_vec.h core/glsl.h core/glsl_common.h core/glsl_geometric.h core/glsl_integer.h core/glsl_matrix.h
+  core/glsl_packing.h core/glsl_relational.h core/glsl_trigonometric.h core/half.h core/image.h core/lane_hyperbolic.h core/lane_math.h
+  core/lane_uint.h core/lanes.h core/parallel.h core/srgb.h core/swizzle.h core/tool_folder.h core/units.h core/vec.h
   shading/contract.h shading/environment/environment.h shading/environment/environment_sky.h shading/environment/star_sky.h
   shading/values/light_types.h shading/light/lighting.h shading/shadow/shadow.h shading/shadow/shadow_map.h shading/sphere/sphere_depth.h
   shading/sphere/sphere_impostor.h shading/surface/colored_primitives.h shading/surface/depth_only.h shading/surface/lit_surface.h

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Fits the polynomials of src/core/lane_math.h and prints their coefficients as floats, lowest power first.
+"""Fits the polynomials of src/core/lane_math.h and src/core/lane_hyperbolic.h and prints their coefficients as floats, lowest power first.
 
 Each row is the minimax polynomial p of a given degree for target(x) on [a, b], with the error weighted by weight(x). It is computed with
 the Remez exchange algorithm in 50 digits. The weight converts the error of p to the relative error of the function that lane_math.h
@@ -8,7 +8,7 @@ builds from it, which is printed next to the name. Needs mpmath; takes no argume
 """
 import struct
 
-from mpmath import asin, atan, cos, cospi, exp, fabs, linspace, log, lu_solve, matrix, mp, mpf, polyval, sign, sin, sqrt
+from mpmath import asin, atan, cos, cospi, exp, fabs, linspace, log, lu_solve, matrix, mp, mpf, polyval, sign, sin, sinh, sqrt, tanh
 
 mp.dps = 50
 LN2 = log(2)
@@ -87,6 +87,8 @@ show("cos", remez(lambda z: (cos(sqrt(z)) - 1 + z / 2) / z**2, lambda z: z**2 / 
 float_sum("pi/2", mp.pi / 2)
 show("atan", remez(lambda z: (atan(sqrt(z)) / sqrt(z) - 1) / z, lambda z: z * sqrt(z) / atan(sqrt(z)), tiny, mpf(1), 8))
 show("asin", remez(lambda z: (asin(sqrt(z)) / sqrt(z) - 1) / z, lambda z: z * sqrt(z) / asin(sqrt(z)), tiny, mpf(1) / 4, 4))
+show("sinh", remez(lambda z: (sinh(sqrt(z)) / sqrt(z) - 1) / z, lambda z: z * sqrt(z) / sinh(sqrt(z)), tiny, mpf(1), 3))
+show("tanh", remez(lambda z: (tanh(sqrt(z)) / sqrt(z) - 1) / z, lambda z: z * sqrt(z) / tanh(sqrt(z)), tiny, mpf("0.36"), 4))
 # For the initial guess y of inverse_sqrt, r = 1 - x*y^2 is in [-0.0691, 0.0676].
 guess = remez(lambda r: (1 / sqrt(1 - r) - 1) / r, lambda r: fabs(r) * sqrt(1 - r), mpf("-0.0691"), mpf("0.0676") + tiny, 3)
 show("inverse_sqrt", guess)

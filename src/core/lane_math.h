@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Elementary functions with bit-identical results at every SIMD width, on every CPU and with every compiler: exp2 log2 exp log
-// pow unit_pow inverse_sqrt sin cos atan2 atan asin acos.
+// pow unit_pow inverse_sqrt sin cos tan atan2 atan asin acos. lane_hyperbolic.h adds the hyperbolic functions.
 //
 // A single template serves float and lanes of float. It uses only + − × ÷ sqrt, fma and bit operations, all of them correctly rounded, so
 // each lane holds exactly what the scalar code would compute. libm is not used because it selects its code by CPU. For double, the
@@ -166,19 +166,28 @@ HS_INLINE R exp2(R x) {
   }
 }
 
+namespace detail {
+
+/// Returns e^x·2^k for |k| <= 1, rounded like e^x.
+template <class R>
+HS_INLINE R exp_times_power_of_two(R x, int32_t k) {
+  static constexpr float kC[] = {0.49999994f, 0.166665211f, 0.041668389f, 0.00836871099f, 0.00138146093f};
+  const R clamped = clamp(x, -110.0f, 110.0f);
+  const R n = round_even(clamped * R(1.44269502f));
+  const R f = fma(-n, R(1.42860677e-06f), fma(-n, R(0.693145752f), clamped));  // ln 2 is split in two; the first step is exact
+  const R p = fma(f * f, polynomial(f, kC), f) + R(1.0f);
+  return select(x == x, scale(p, round_to_int(n) + k), x);
+}
+
+}  // namespace detail
+
 /// Returns e^x. The error is at most 1.02 ulp. Returns 0 for x < −104 and infinity for x > 88.8.
 template <Number R>
 HS_INLINE R exp(R x) {
   if constexpr (std::is_same_v<R, double>)
     return std::exp(x);
-  else {
-    static constexpr float kC[] = {0.49999994f, 0.166665211f, 0.041668389f, 0.00836871099f, 0.00138146093f};
-    const R clamped = clamp(x, -110.0f, 110.0f);
-    const R n = round_even(clamped * R(1.44269502f));
-    const R f = fma(-n, R(1.42860677e-06f), fma(-n, R(0.693145752f), clamped));  // ln 2 is split in two; the first step is exact
-    const R p = fma(f * f, detail::polynomial(f, kC), f) + R(1.0f);
-    return select(x == x, detail::scale(p, round_to_int(n)), x);
-  }
+  else
+    return detail::exp_times_power_of_two(x, 0);
 }
 
 /// Returns the base-2 logarithm. The error is at most 1.04 ulp; powers of two give exact results. log2(±0) = −inf,
@@ -317,6 +326,16 @@ HS_INLINE R sin(R x) {
 template <Number R>
 HS_INLINE R cos(R x) {
   return sin_cos(x).cos;
+}
+/// Returns sin(x)/cos(x). For |x| <= 1e4 the error is at most 3.33 ulp, even near zeros and poles. Otherwise as sin_cos.
+template <Number R>
+HS_INLINE R tan(R x) {
+  if constexpr (std::is_same_v<R, double>) {
+    return std::tan(x);
+  } else {
+    const SinCos<R> of = sin_cos(x);
+    return of.sin / of.cos;
+  }
 }
 
 /// Returns the angle of the point (x, y) in [−π, π], with the sign of y. The error is at most 1.5 ulp (the largest error found

@@ -85,6 +85,13 @@ struct IntPair {
   friend HS_INLINE IntPair operator~(IntPair a) { return {~a.low, ~a.high}; }
   friend HS_INLINE IntPair operator<<(IntPair a, int n) { return {a.low << n, a.high << n}; }
   friend HS_INLINE IntPair operator>>(IntPair a, int n) { return {a.low >> n, a.high >> n}; }
+  friend HS_INLINE IntPair operator<<(IntPair a, IntPair n) { return {a.low << (n.low & 31), a.high << (n.high & 31)}; }
+  friend HS_INLINE IntPair operator>>(IntPair a, IntPair n) { return {a.low >> (n.low & 31), a.high >> (n.high & 31)}; }
+
+  friend HS_INLINE IntPair int_divide(IntPair a, IntPair b) { return {int_divide(a.low, b.low), int_divide(a.high, b.high)}; }
+  friend HS_INLINE IntPair int_modulo(IntPair a, IntPair b) { return {int_modulo(a.low, b.low), int_modulo(a.high, b.high)}; }
+  friend HS_INLINE IntPair operator/(IntPair a, IntPair b) { return int_divide(a, b); }
+  friend HS_INLINE IntPair operator%(IntPair a, IntPair b) { return int_modulo(a, b); }
   HS_INLINE IntPair& operator+=(IntPair b) { return *this = *this + b; }
   HS_INLINE IntPair& operator-=(IntPair b) { return *this = *this - b; }
 
@@ -159,6 +166,7 @@ template <class H>
 struct LaneTraits<RealPair<H>> {
   static constexpr int width = 2 * kWidthOf<H>;
   using Int = IntPair<H>;
+  using Uint = UintLanes<IntPair<H>>;
   using Mask = MaskPair<H>;
 };
 template <class H>

@@ -17,6 +17,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <type_traits>
 
 #include "halfspace/core/namespace.h"
@@ -82,7 +83,16 @@ struct MaskN {
   HS_INLINE MaskN& operator|=(MaskN b) { return v |= b.v, *this; }
 };
 
-/// W 32-bit integers. Arithmetic wraps in two's complement; >> is an arithmetic shift.
+// Division of integers with a result for every operand. The operators / and % of lanes use it. Those of int32_t are C++'s own, and
+// must not divide by zero.
+/// Returns a/b, truncated towards zero. Division by zero gives -1, and INT32_MIN / -1 wraps to INT32_MIN.
+HS_INLINE int32_t int_divide(int32_t a, int32_t b) {
+  return b == 0 ? -1 : b == -1 ? static_cast<int32_t>(0u - static_cast<uint32_t>(a)) : a / b;
+}
+/// Returns a - b*int_divide(a, b). Modulo zero gives a.
+HS_INLINE int32_t int_modulo(int32_t a, int32_t b) { return b == 0 ? a : b == -1 ? 0 : a % b; }
+
+/// W 32-bit integers. Arithmetic wraps in two's complement; >> is an arithmetic shift. Of a variable shift count, the low five bits count.
 template <int W>
 struct IntN {
   using V = typename detail::Vectors<W>::I;
@@ -106,6 +116,19 @@ struct IntN {
   friend HS_INLINE IntN operator~(IntN a) { return IntN(~a.v); }
   friend HS_INLINE IntN operator<<(IntN a, int n) { return IntN((V)((U)a.v << n)); }
   friend HS_INLINE IntN operator>>(IntN a, int n) { return IntN(a.v >> n); }
+  friend HS_INLINE IntN operator<<(IntN a, IntN n) { return IntN((V)((U)a.v << ((U)n.v & 31))); }
+  friend HS_INLINE IntN operator>>(IntN a, IntN n) { return IntN(a.v >> (n.v & 31)); }
+
+  friend HS_INLINE IntN int_divide(IntN a, IntN b) {
+    const V zero = b.v == 0;  // all ones if true, which is also the result
+    return IntN((a.v / nonzero(a.v, b.v)) | zero);
+  }
+  friend HS_INLINE IntN int_modulo(IntN a, IntN b) {
+    const V zero = b.v == 0;
+    return IntN((a.v % nonzero(a.v, b.v)) | (zero & a.v));
+  }
+  friend HS_INLINE IntN operator/(IntN a, IntN b) { return int_divide(a, b); }
+  friend HS_INLINE IntN operator%(IntN a, IntN b) { return int_modulo(a, b); }
   HS_INLINE IntN& operator+=(IntN b) { return *this = *this + b; }
   HS_INLINE IntN& operator-=(IntN b) { return *this = *this - b; }
 
@@ -115,7 +138,18 @@ struct IntN {
   friend HS_INLINE MaskN<W> operator>=(IntN a, IntN b) { return MaskN<W>(a.v >= b.v); }
   friend HS_INLINE MaskN<W> operator==(IntN a, IntN b) { return MaskN<W>(a.v == b.v); }
   friend HS_INLINE MaskN<W> operator!=(IntN a, IntN b) { return MaskN<W>(a.v != b.v); }
+
+ private:
+  // Replaces the divisors that the processor traps on by 1.
+  HS_INLINE static V nonzero(V a, V b) {
+    const V traps = (b == 0) | ((a == std::numeric_limits<int32_t>::min()) & (b == -1));
+    return traps ? V{} + 1 : b;
+  }
 };
+
+/// W unsigned 32-bit integers, or a pair of W each, stored as the IntN or IntPair with the same bits (lane_uint.h).
+template <class I>
+struct UintLanes;
 
 /// W floats (IEEE 754 binary32).
 template <int W>
@@ -148,13 +182,14 @@ struct RealN {
 
 // ---- types that belong to a number type R ----------------------------------------------------------------------
 
-/// Properties of a number type R: its width in lanes, and the matching integer and mask types.
+/// Properties of a number type R: its width in lanes, and the matching integer, unsigned integer and mask types.
 template <class R>
 struct LaneTraits;
 template <>
 struct LaneTraits<float> {
   static constexpr int width = 1;
   using Int = int32_t;
+  using Uint = uint32_t;
   using Mask = bool;
 };
 template <>
@@ -163,11 +198,14 @@ template <int W>
 struct LaneTraits<RealN<W>> {
   static constexpr int width = W;
   using Int = IntN<W>;
+  using Uint = UintLanes<IntN<W>>;
   using Mask = MaskN<W>;
 };
 
 template <class R>
 using IntOf = typename LaneTraits<R>::Int;
+template <class R>
+using UintOf = typename LaneTraits<R>::Uint;
 template <class R>
 using MaskOf = typename LaneTraits<R>::Mask;
 template <class R>

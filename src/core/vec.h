@@ -35,6 +35,10 @@ using vec3 = VecN<3, R>;
 template <class R>
 using vec4 = VecN<4, R>;
 
+/// A matrix with C columns and L rows (glsl_matrix.h).
+template <int C, int L, Number R>
+struct MatN;
+
 /// S converts to R without loss: a vector of S converts to a vector of R implicitly.
 template <class S, class R>
 concept WidensTo = std::same_as<S, float> ||(std::same_as<S, double>&& std::same_as<R, double>);
@@ -78,6 +82,7 @@ struct VecN<2, R> {
   HS_INLINE constexpr VecN& operator*=(R s) { return *this = *this * s; }
   HS_INLINE constexpr VecN& operator/=(R s) { return *this = *this / s; }
   friend HS_INLINE constexpr MaskOf<R> operator==(const VecN& a, const VecN& b) { return a.x == b.x && a.y == b.y; }
+  friend HS_INLINE constexpr MaskOf<R> operator!=(const VecN& a, const VecN& b) { return !(a == b); }
 
   friend HS_INLINE R dot(const VecN& a, const VecN& b) { return a.x * b.x + a.y * b.y; }
   friend HS_INLINE R length(const VecN& a) { return sqrt(dot(a, a)); }
@@ -124,6 +129,7 @@ struct VecN<3, R> {
   HS_INLINE constexpr VecN& operator*=(R s) { return *this = *this * s; }
   HS_INLINE constexpr VecN& operator/=(R s) { return *this = *this / s; }
   friend HS_INLINE constexpr MaskOf<R> operator==(const VecN& a, const VecN& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
+  friend HS_INLINE constexpr MaskOf<R> operator!=(const VecN& a, const VecN& b) { return !(a == b); }
 
   /// Rounds once per component for float and lanes. For double it is the plain sum of products.
   friend HS_INLINE R dot(const VecN& a, const VecN& b) {
@@ -184,6 +190,7 @@ struct VecN<4, R> {
   friend HS_INLINE constexpr MaskOf<R> operator==(const VecN& a, const VecN& b) {
     return a.x == b.x && a.y == b.y && a.z == b.z && a.w == b.w;
   }
+  friend HS_INLINE constexpr MaskOf<R> operator!=(const VecN& a, const VecN& b) { return !(a == b); }
 
   friend HS_INLINE R dot(const VecN& a, const VecN& b) { return (a.x * b.x + a.y * b.y) + (a.z * b.z + a.w * b.w); }
   friend HS_INLINE R length(const VecN& a) { return sqrt(dot(a, a)); }
@@ -192,6 +199,41 @@ struct VecN<4, R> {
   friend HS_INLINE VecN reflect(const VecN& v, const VecN& n) { return v - n * dot(n, v) * R(2); }
 };
 
+// ---- vector and scalar -----------------------------------------------------------------------------------------
+
+template <int L, Number R>
+HS_INLINE constexpr VecN<L, R> operator+(const VecN<L, R>& v, std::type_identity_t<R> s) {
+  return v + VecN<L, R>(s);
+}
+template <int L, Number R>
+HS_INLINE constexpr VecN<L, R> operator+(std::type_identity_t<R> s, const VecN<L, R>& v) {
+  return VecN<L, R>(s) + v;
+}
+template <int L, Number R>
+HS_INLINE constexpr VecN<L, R> operator-(const VecN<L, R>& v, std::type_identity_t<R> s) {
+  return v - VecN<L, R>(s);
+}
+template <int L, Number R>
+HS_INLINE constexpr VecN<L, R> operator-(std::type_identity_t<R> s, const VecN<L, R>& v) {
+  return VecN<L, R>(s) - v;
+}
+template <int L, Number R>
+HS_INLINE constexpr VecN<L, R> operator/(std::type_identity_t<R> s, const VecN<L, R>& v) {
+  return VecN<L, R>(s) / v;
+}
+template <int L, Number R>
+HS_INLINE constexpr VecN<L, R>& operator+=(VecN<L, R>& v, std::type_identity_t<R> s) {
+  return v = v + s;
+}
+template <int L, Number R>
+HS_INLINE constexpr VecN<L, R>& operator-=(VecN<L, R>& v, std::type_identity_t<R> s) {
+  return v = v - s;
+}
+/// Divides component by component.
+template <int L, Number R>
+HS_INLINE constexpr VecN<L, R>& operator/=(VecN<L, R>& v, const VecN<L, R>& w) {
+  return v = v / w;
+}
 // ---- uniform and varying ---------------------------------------------------------------------------------------
 
 /// Number types whose product with a uniform vector is not defined by GLM.

@@ -57,6 +57,11 @@ struct FieldTraits<VecN<L, R>> {
   static constexpr std::size_t components = static_cast<std::size_t>(L);
   static constexpr Interpolation interpolation = Interpolation::smooth;
 };
+template <int C, int L, Number R>
+struct FieldTraits<MatN<C, L, R>> {
+  static constexpr std::size_t components = static_cast<std::size_t>(C) * L;
+  static constexpr Interpolation interpolation = Interpolation::smooth;
+};
 template <class T>
 struct FieldTraits<Flat<T>> : FieldTraits<T> {
   static constexpr Interpolation interpolation = Interpolation::flat;
@@ -143,7 +148,8 @@ HS_INLINE std::array<R, kComponents<T>> to_components(const T& t) {
   if constexpr (kComponents<T> != 0) {
     static_assert(
         sizeof(T) == sizeof(a),
-        "the members of attributes and varyings must be R, vec2<R>, vec3<R>, vec4<R>, or Flat, NoPerspective or Centroid of these");
+        "the members of attributes and varyings must be R, vec2<R>, vec3<R>, vec4<R>, mat2<R> … mat4<R>, or Flat, NoPerspective or "
+        "Centroid of these");
     detail::copy_components(reinterpret_cast<const R*>(&t), a.data(), std::make_index_sequence<kComponents<T>>());
   }
   return a;
