@@ -94,26 +94,26 @@ template <class... A>
 using IntegerOf = Or<typename First<HasIntegerLanes, A...>::type,
                      Or<typename First<IsVectorOfIntegers, A...>::type, typename First<IsInteger, A...>::type>>;
 
-/// A converts to T: it has components of type T, or of a uniform type. Numbers in the code of a shader may be doubles or integers.
+/// A converts to T: it has components of type T, or of a uniform type. NumberArguments in the code of a shader may be doubles or integers.
 template <class A, class T>
 concept ConvertsTo = std::same_as<ComponentOf<A>, T> || WidensTo<ComponentOf<A>, T> ||
     (kLengthOf<A> == 0 && std::is_arithmetic_v<A> && !std::same_as<A, bool>);
 
 /// Arguments of a function of numbers: scalars, or at least one vector of Halfspace, and vectors of one length.
 template <class... A>
-concept Numbers = !std::is_void_v<NumberOf<A...>> && kLengthsMatch<A...> && (ConvertsTo<A, NumberOf<A...>> && ...) &&
-                  (kCommonLength<A...> == 0 || kHasVector<A...>);
+concept NumberArguments = !std::is_void_v<NumberOf<A...>> && kLengthsMatch<A...> && (ConvertsTo<A, NumberOf<A...>> && ...) &&
+                          (kCommonLength<A...> == 0 || kHasVector<A...>);
 template <class... A>
-concept NumberVectors = Numbers<A...> && kCommonLength<A...>
+concept NumberVectors = NumberArguments<A...> && kCommonLength<A...>
 != 0;
 
 /// The same for integers. Signed and unsigned ones do not mix, except that uniforms convert.
 template <class... A>
-concept Integers =
+concept IntegerArguments =
     !std::is_void_v<IntegerOf<A...>> && kLengthsMatch<A...> &&
     ((std::same_as<ComponentOf<A>, IntegerOf<A...>> || (kLengthOf<A> == 0 && std::is_integral_v<A> && !std::same_as<A, bool>)) && ...);
 template <class... A>
-concept IntegerVectors = Integers<A...> && kHasVector<A...>;
+concept IntegerVectors = IntegerArguments<A...> && kHasVector<A...>;
 
 /// N can be the count of a shift of a DiscreteVec<L, T>.
 template <class N, int L, class T>
@@ -172,14 +172,14 @@ HS_INLINE auto map_as(F f, const A&... a) {
   }
 }
 template <class F, class... A>
-requires Numbers<A...> HS_INLINE auto map_numbers(F f, const A&... a) { return map_as<NumberOf<A...>>(f, a...); }
+requires NumberArguments<A...> HS_INLINE auto map_numbers(F f, const A&... a) { return map_as<NumberOf<A...>>(f, a...); }
 template <class F, class... A>
-requires Integers<A...> HS_INLINE auto map_integers(F f, const A&... a) { return map_as<IntegerOf<A...>>(f, a...); }
+requires IntegerArguments<A...> HS_INLINE auto map_integers(F f, const A&... a) { return map_as<IntegerOf<A...>>(f, a...); }
 
 template <class... A>
 struct AlikeT : std::type_identity<IntegerOf<A...>> {};
 template <class... A>
-requires Numbers<A...>
+requires NumberArguments<A...>
 struct AlikeT<A...> : std::type_identity<NumberOf<A...>> {
 };
 /// The type that a function of numbers or of integers computes with.

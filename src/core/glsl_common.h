@@ -25,7 +25,7 @@ HS_INLINE R with_sign_of(R m, R s) {
 }
 
 template <class X>
-concept SignedIntegers = Integers<X> && kIsInt<ComponentOf<X>>;
+concept SignedIntegers = IntegerArguments<X> && kIsInt<ComponentOf<X>>;
 
 }  // namespace detail
 
@@ -41,7 +41,7 @@ HS_INLINE auto abs(const X& x) {
 
 /// Returns 1, 0 or −1, exact; NaN gives 0. GLSL 8.3.
 template <class X>
-requires detail::Numbers<X> || detail::SignedIntegers<X> HS_INLINE auto sign(const X& x) {
+requires detail::NumberArguments<X> || detail::SignedIntegers<X> HS_INLINE auto sign(const X& x) {
   return detail::map_as<detail::ComponentOf<X>>([]<class R>(R a) { return select(a > R(0), R(1), select(a < R(0), R(-1), R(0))); }, x);
 }
 
@@ -52,12 +52,12 @@ HS_INLINE VecN<L, R> floor(const VecN<L, R>& x) {
 }
 /// Rounds towards zero, exact; keeps the sign of zero. GLSL 8.3.
 template <class X>
-requires detail::Numbers<X> HS_INLINE auto trunc(const X& x) {
+requires detail::NumberArguments<X> HS_INLINE auto trunc(const X& x) {
   return detail::map_numbers([](auto a) { return detail::with_sign_of(floor(abs(a)), a); }, x);
 }
 /// Rounds to the nearest integer, and halves away from zero, exact. GLSL 8.3.
 template <class X>
-requires detail::Numbers<X> HS_INLINE auto round(const X& x) {
+requires detail::NumberArguments<X> HS_INLINE auto round(const X& x) {
   return detail::map_numbers(
       []<class R>(R a) {
         const R size = abs(a), below = floor(size);
@@ -67,24 +67,24 @@ requires detail::Numbers<X> HS_INLINE auto round(const X& x) {
 }
 /// Rounds to the nearest integer, and halves to the even one, exact. GLSL 8.3.
 template <class X>
-requires detail::Numbers<X> HS_INLINE auto roundEven(const X& x) {
+requires detail::NumberArguments<X> HS_INLINE auto roundEven(const X& x) {
   return detail::map_numbers([](auto a) { return round_even(a); }, x);
 }
 /// Rounds up, exact; keeps the sign of zero. GLSL 8.3.
 template <class X>
-requires detail::Numbers<X> HS_INLINE auto ceil(const X& x) {
+requires detail::NumberArguments<X> HS_INLINE auto ceil(const X& x) {
   return detail::map_numbers([](auto a) { return -floor(-a); }, x);
 }
 /// Returns x − floor(x), correctly rounded, in [0, 1]: it rounds to 1 for tiny negative x. Infinities give NaN. GLSL 8.3.
 template <class X>
-requires detail::Numbers<X> HS_INLINE auto fract(const X& x) {
+requires detail::NumberArguments<X> HS_INLINE auto fract(const X& x) {
   return detail::map_numbers([](auto a) { return a - floor(a); }, x);
 }
 
 /// Returns x − y·floor(x/y), which has the sign of y. Correctly rounded for |x/y| < 2^22; beyond, floor(x/y) itself is rounded. y = 0 and
 /// infinities give NaN. GLSL 8.3.
 template <class X, class Y>
-requires detail::Numbers<X, Y> HS_INLINE auto mod(const X& x, const Y& y) {
+requires detail::NumberArguments<X, Y> HS_INLINE auto mod(const X& x, const Y& y) {
   return detail::map_numbers(
       []<class R>(R a, R b) {
         const R rest = fma(-b, floor(a / b), a);
@@ -95,7 +95,7 @@ requires detail::Numbers<X, Y> HS_INLINE auto mod(const X& x, const Y& y) {
 }
 /// Splits x into the integer part i and the fraction, which is returned. Both have the sign of x. Exact. GLSL 8.3.
 template <class X>
-requires detail::Numbers<X> HS_INLINE X modf(const X& x, X& i) {
+requires detail::NumberArguments<X> HS_INLINE X modf(const X& x, X& i) {
   i = trunc(x);
   return detail::map_numbers(
       []<class R>(R a) {
@@ -117,8 +117,8 @@ requires detail::NumberVectors<X, Y> || detail::IntegerVectors<X, Y> HS_INLINE a
 }
 /// Returns min(max(x, low), high), exact; NaN gives low. GLSL 8.3.
 template <class X, class Low, class High>
-requires detail::NumberVectors<X, Low, High> || detail::Integers<X, Low, High> HS_INLINE auto clamp(const X& x, const Low& low,
-                                                                                                    const High& high) {
+requires detail::NumberVectors<X, Low, High> || detail::IntegerArguments<X, Low, High> HS_INLINE auto clamp(const X& x, const Low& low,
+                                                                                                            const High& high) {
   return detail::map_alike([](auto a, auto b, auto c) { return min(max(a, b), c); }, x, low, high);
 }
 // More specialized than std::min, std::max and std::clamp, also after `using namespace std`.
@@ -137,26 +137,26 @@ HS_INLINE VecN<L, R> clamp(const VecN<L, R>& x, const VecN<L, R>& low, const Vec
 
 /// Returns x·(1 − a) + y·a, with four roundings. The version with vectors x and y and a scalar a is in vec.h. GLSL 8.3.
 template <class X, class Y, class A>
-requires detail::Numbers<X, Y, A> &&(detail::kLengthOf<A> != 0 || detail::kCommonLength<X, Y, A> == 0)  //
+requires detail::NumberArguments<X, Y, A> &&(detail::kLengthOf<A> != 0 || detail::kCommonLength<X, Y, A> == 0)  //
     HS_INLINE auto mix(const X& x, const Y& y, const A& a) {
   return detail::map_numbers([]<class R>(R v, R w, R t) { return v * (R(1) - t) + w * t; }, x, y, a);
 }
 /// Returns y where a is true and x elsewhere, exact. GLSL 8.3.
 template <class X, class Y, class A>
-requires detail::kIsMask<detail::ComponentOf<A>> &&(detail::Numbers<X, Y> || detail::Integers<X, Y>)  //
+requires detail::kIsMask<detail::ComponentOf<A>> &&(detail::NumberArguments<X, Y> || detail::IntegerArguments<X, Y>)  //
     HS_INLINE auto mix(const X& x, const Y& y, const A& a) {
   using T = detail::AlikeOf<X, Y>;
   return detail::map_each([](auto m, auto v, auto w) { return select(m, detail::cast<T>(w), detail::cast<T>(v)); }, a, x, y);
 }
 /// Returns 0 where x < edge and 1 elsewhere, exact. GLSL 8.3.
 template <class Edge, class X>
-requires detail::Numbers<X, Edge> HS_INLINE auto step(const Edge& edge, const X& x) {
+requires detail::NumberArguments<X, Edge> HS_INLINE auto step(const Edge& edge, const X& x) {
   return detail::map_numbers([]<class R>(R a, R e) { return select(a < e, R(0), R(1)); }, x, edge);
 }
 /// Returns t·t·(3 − 2·t) for t = clamp((x − low)/(high − low), 0, 1), with a rounding for every operation. low = high gives 0 or 1, or 0
 /// where x is equal to both. GLSL 8.3.
 template <class Low, class High, class X>
-requires detail::Numbers<X, Low, High> HS_INLINE auto smoothstep(const Low& low, const High& high, const X& x) {
+requires detail::NumberArguments<X, Low, High> HS_INLINE auto smoothstep(const Low& low, const High& high, const X& x) {
   return detail::map_numbers(
       []<class R>(R a, R l, R h) {
         const R t = min(max((a - l) / (h - l), R(0)), R(1));
@@ -167,12 +167,12 @@ requires detail::Numbers<X, Low, High> HS_INLINE auto smoothstep(const Low& low,
 
 /// Whether x is NaN, as a mask per component. GLSL 8.3.
 template <class X>
-requires detail::Numbers<X> HS_INLINE auto isnan(const X& x) {
+requires detail::NumberArguments<X> HS_INLINE auto isnan(const X& x) {
   return detail::map_numbers([](auto a) { return a != a; }, x);
 }
 /// Whether x is infinite, as a mask per component. GLSL 8.3.
 template <class X>
-requires detail::Numbers<X> HS_INLINE auto isinf(const X& x) {
+requires detail::NumberArguments<X> HS_INLINE auto isinf(const X& x) {
   return detail::map_numbers([]<class R>(R a) { return abs(a) == R(detail::kInfinity); }, x);
 }
 
@@ -218,13 +218,14 @@ HS_INLINE R times_power_of_two(R x, IntOf<R> exponent) {
 /// Returns the significand in [1/2, 1) of x and sets the exponent: x = significand·2^exponent. Exact. Zero, infinities and NaN return
 /// themselves and set 0. GLSL 4.00, 8.3.
 template <class X, class E>
-requires detail::Numbers<X> HS_INLINE X frexp(const X& x, E& exponent) {
+requires detail::NumberArguments<X> HS_INLINE X frexp(const X& x, E& exponent) {
   exponent = detail::map_numbers([](auto a) { return detail::significand_and_exponent(a).e; }, x);
   return detail::map_numbers([](auto a) { return detail::significand_and_exponent(a).m; }, x);
 }
 /// Returns x·2^exponent, rounded once: exact unless the result is subnormal. GLSL 4.00, 8.3.
 template <class X, class E>
-requires detail::Numbers<X> &&(detail::Integers<E> && (detail::kLengthOf<E> == 0 || detail::kLengthOf<E> == detail::kLengthOf<X>))  //
+requires detail::NumberArguments<X> &&
+    (detail::IntegerArguments<E> && (detail::kLengthOf<E> == 0 || detail::kLengthOf<E> == detail::kLengthOf<X>))  //
     HS_INLINE auto ldexp(const X& x, const E& exponent) {
   return detail::map_each([]<class R>(R a, auto e) { return detail::times_power_of_two(a, detail::cast<IntOf<R>>(e)); }, x, exponent);
 }

@@ -11,7 +11,7 @@ namespace halfspace::HS_LANES {
 namespace detail {
 /// Arguments of a geometric function: vectors or numbers of one length.
 template <class... A>
-concept OfOneLength = Numbers<A...> &&((kLengthOf<A> == kCommonLength<A...>)&&...);
+concept OfOneLength = NumberArguments<A...> &&((kLengthOf<A> == kCommonLength<A...>)&&...);
 /// Converts an argument to the type that the function returns.
 template <class V, class A>
 HS_INLINE V as_vector(const A& a) {
@@ -63,7 +63,7 @@ requires detail::OfOneLength<N, I, Ref> HS_INLINE auto faceforward(const N& n, c
 /// Refracts the unit vector `incident` at a plane with the unit normal n: eta·incident − (eta·d + sqrt(k))·n, where d = dot(n, incident)
 /// and k = 1 − eta²·(1 − d²). Total reflection (k < 0) gives 0. Rounds after every operation. GLSL 8.4.
 template <class I, class N, class Eta>
-requires detail::OfOneLength<I, N> && detail::Numbers<I, N, Eta> &&(detail::kLengthOf<Eta> == 0)  //
+requires detail::OfOneLength<I, N> && detail::NumberArguments<I, N, Eta> &&(detail::kLengthOf<Eta> == 0)  //
     HS_INLINE auto refract(const I& incident, const N& n, const Eta& eta) {
   using R = detail::NumberOf<I, N, Eta>;
   using V = detail::VectorOf<detail::kLengthOf<I>, R>;

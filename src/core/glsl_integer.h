@@ -53,7 +53,7 @@ HS_INLINE U high_product(U a, U b) {
 }
 
 template <class... X>
-concept UnsignedIntegers = Integers<X...> && kIsUint<IntegerOf<X...>>;
+concept UnsignedIntegers = IntegerArguments<X...> && kIsUint<IntegerOf<X...>>;
 template <class X>
 concept IntegerCount = kLengthOf<X>
 == 0 && (Integer<X> || std::is_integral_v<X>);
@@ -63,7 +63,7 @@ concept IntegerCount = kLengthOf<X>
 /// Returns `bits` bits of value from bit `offset` on, in the lowest bits. Signed ones are extended by their sign. 0 bits give 0. The result
 /// is unspecified unless offset and bits are >= 0 and their sum is <= 32. GLSL 8.8.
 template <class X, detail::IntegerCount Offset, detail::IntegerCount Bits>
-requires detail::Integers<X> HS_INLINE X bitfieldExtract(const X& value, const Offset& offset, const Bits& bits) {
+requires detail::IntegerArguments<X> HS_INLINE X bitfieldExtract(const X& value, const Offset& offset, const Bits& bits) {
   return detail::map_integers(
       [&]<class T>(T v) {
         using I = SignedOf<T>;
@@ -80,8 +80,8 @@ requires detail::Integers<X> HS_INLINE X bitfieldExtract(const X& value, const O
 /// Replaces `bits` bits of base from bit `offset` on by the lowest bits of insert. The result is unspecified unless offset and bits are >=
 /// 0 and their sum is <= 32. GLSL 8.8.
 template <class X, class Insert, detail::IntegerCount Offset, detail::IntegerCount Bits>
-requires detail::Integers<X, Insert> HS_INLINE auto bitfieldInsert(const X& base, const Insert& insert, const Offset& offset,
-                                                                   const Bits& bits) {
+requires detail::IntegerArguments<X, Insert> HS_INLINE auto bitfieldInsert(const X& base, const Insert& insert, const Offset& offset,
+                                                                           const Bits& bits) {
   return detail::map_integers(
       [&]<class T>(T b, T i) {
         using U = UnsignedOf<T>;
@@ -94,17 +94,17 @@ requires detail::Integers<X, Insert> HS_INLINE auto bitfieldInsert(const X& base
 }
 /// Reverses the order of the bits. GLSL 8.8.
 template <class X>
-requires detail::Integers<X> HS_INLINE X bitfieldReverse(const X& x) {
+requires detail::IntegerArguments<X> HS_INLINE X bitfieldReverse(const X& x) {
   return detail::map_integers([]<class T>(T v) { return T(detail::reverse_bits(UnsignedOf<T>(v))); }, x);
 }
 /// Number of bits that are set, as a signed integer. GLSL 8.8.
 template <class X>
-requires detail::Integers<X> HS_INLINE auto bitCount(const X& x) {
+requires detail::IntegerArguments<X> HS_INLINE auto bitCount(const X& x) {
   return detail::map_integers([]<class T>(T v) { return SignedOf<T>(detail::count_bits(UnsignedOf<T>(v))); }, x);
 }
 /// Number of the lowest bit that is set, as a signed integer; −1 for 0. GLSL 8.8.
 template <class X>
-requires detail::Integers<X> HS_INLINE auto findLSB(const X& x) {
+requires detail::IntegerArguments<X> HS_INLINE auto findLSB(const X& x) {
   return detail::map_integers(
       []<class T>(T v) {
         using U = UnsignedOf<T>;
@@ -116,7 +116,7 @@ requires detail::Integers<X> HS_INLINE auto findLSB(const X& x) {
 }
 /// Number of the highest bit that is set, or for negative numbers that is not set, as a signed integer; −1 for 0 and −1. GLSL 8.8.
 template <class X>
-requires detail::Integers<X> HS_INLINE auto findMSB(const X& x) {
+requires detail::IntegerArguments<X> HS_INLINE auto findMSB(const X& x) {
   return detail::map_integers(
       []<class T>(T v) {
         if constexpr (detail::kIsUint<T>) {
@@ -148,8 +148,8 @@ requires detail::UnsignedIntegers<X, Y> HS_INLINE void umulExtended(const X& x, 
 }
 /// Sets msb and lsb to the upper and lower 32 bits of the signed product. GLSL 8.8.
 template <class X, class Y, class P>
-requires detail::Integers<X, Y> && detail::kIsInt<detail::IntegerOf<X, Y>> HS_INLINE void imulExtended(const X& x, const Y& y, P& msb,
-                                                                                                       P& lsb) {
+requires detail::IntegerArguments<X, Y> && detail::kIsInt<detail::IntegerOf<X, Y>> HS_INLINE void imulExtended(const X& x, const Y& y,
+                                                                                                               P& msb, P& lsb) {
   const P low = detail::map_integers([](auto a, auto b) { return detail::wrapping(a, b, std::multiplies()); }, x, y);
   msb = detail::map_integers(
       []<class I>(I a, I b) {

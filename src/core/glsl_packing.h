@@ -14,7 +14,7 @@ namespace detail {
 template <class R>
 concept SinglePrecision = Number<R> && !std::same_as<R, double>;
 template <class X>
-concept SinglePrecisionNumbers = Numbers<X> && SinglePrecision<ComponentOf<X>>;
+concept SinglePrecisionNumbers = NumberArguments<X> && SinglePrecision<ComponentOf<X>>;
 
 /// Returns x as an integer with `bits` bits in the low bits of the result: x·scale, rounded to nearest, ties to even.
 template <int bits, class R>
@@ -84,12 +84,12 @@ HS_INLINE auto floatBitsToUint(const X& x) {
 }
 /// The float with the bits of a signed integer, exact. GLSL 8.3.
 template <class X>
-requires detail::Integers<X> && detail::kIsInt<detail::ComponentOf<X>> HS_INLINE auto intBitsToFloat(const X& x) {
+requires detail::IntegerArguments<X> && detail::kIsInt<detail::ComponentOf<X>> HS_INLINE auto intBitsToFloat(const X& x) {
   return detail::map_integers([](auto i) { return as_real(i); }, x);
 }
 /// The float with the bits of an unsigned integer, exact. GLSL 8.3.
 template <class X>
-requires detail::Integers<X> && detail::kIsUint<detail::ComponentOf<X>> HS_INLINE auto uintBitsToFloat(const X& x) {
+requires detail::IntegerArguments<X> && detail::kIsUint<detail::ComponentOf<X>> HS_INLINE auto uintBitsToFloat(const X& x) {
   return detail::map_integers([]<class U>(U u) { return as_real(SignedOf<U>(u)); }, x);
 }
 

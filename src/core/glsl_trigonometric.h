@@ -13,12 +13,12 @@ namespace halfspace::HS_LANES {
 
 /// Converts degrees to radians. The error is at most 0.63 ulp, unless the result is subnormal. GLSL 8.1.
 template <class X>
-requires detail::Numbers<X> HS_INLINE auto radians(const X& degrees) {
+requires detail::NumberArguments<X> HS_INLINE auto radians(const X& degrees) {
   return detail::map_numbers([]<class R>(R a) { return a * R(static_cast<float>(std::numbers::pi / 180)); }, degrees);
 }
 /// Converts radians to degrees. The error is at most 0.7 ulp. GLSL 8.1.
 template <class X>
-requires detail::Numbers<X> HS_INLINE auto degrees(const X& radians) {
+requires detail::NumberArguments<X> HS_INLINE auto degrees(const X& radians) {
   return detail::map_numbers([]<class R>(R a) { return a * R(static_cast<float>(180 / std::numbers::pi)); }, radians);
 }
 
@@ -54,7 +54,7 @@ HS_INLINE VecN<L, R> atan(const VecN<L, R>& x) {
 }
 /// The angle of the point (x, y): atan2(y, x), which also states the error. GLSL 8.1.
 template <class Y, class X>
-requires detail::Numbers<Y, X> HS_INLINE auto atan(const Y& y, const X& x) {
+requires detail::NumberArguments<Y, X> HS_INLINE auto atan(const Y& y, const X& x) {
   return detail::map_numbers([](auto a, auto b) { return atan2(a, b); }, y, x);
 }
 /// Hyperbolic sine of each component. GLSL 8.1.
@@ -121,7 +121,7 @@ HS_INLINE VecN<L, R> sqrt(const VecN<L, R>& x) {
 /// Returns 1/sqrt(x) for every x: ±0 gives ±infinity and x < 0 gives NaN. The error is at most 1.5 ulp. inverse_sqrt is faster, for normal
 /// numbers x > 0. GLSL 8.2.
 template <class X>
-requires detail::Numbers<X> HS_INLINE auto inversesqrt(const X& x) {
+requires detail::NumberArguments<X> HS_INLINE auto inversesqrt(const X& x) {
   return detail::map_numbers([]<class R>(R a) { return R(1) / sqrt(a); }, x);
 }
 

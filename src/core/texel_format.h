@@ -145,6 +145,13 @@ constexpr int channel_bits(TexelFormat f, int k) {
   return texel_info(f).bits;
 }
 
+/// The type of a color of a fragment, which must be that of its attachment.
+enum class ColorType : uint8_t { real, signed_integer, unsigned_integer };
+constexpr ColorType color_type(TexelFormat f) {
+  const TexelKind kind = texel_info(f).kind;
+  return kind == TexelKind::sints ? ColorType::signed_integer : kind == TexelKind::uints ? ColorType::unsigned_integer : ColorType::real;
+}
+
 constexpr bool is_integer(TexelFormat f) { return texel_info(f).kind == TexelKind::sints || texel_info(f).kind == TexelKind::uints; }
 constexpr bool is_depth(TexelFormat f) { return texel_info(f).kind == TexelKind::depth; }
 constexpr bool has_stencil(TexelFormat f) { return f == TexelFormat::d24s8 || f == TexelFormat::d32fs8; }

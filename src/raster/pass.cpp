@@ -108,6 +108,7 @@ class PassState {
 
  private:
   int tile_size() const;
+  void check_color_types(const ShaderKernels& kernels) const;
   // Checks what does not depend on the shader.
   void check_state(const DrawState& state) const;
   DrawPlacement place(const DrawState& state) const;
@@ -184,6 +185,7 @@ void PassState::add_draw(const ShaderKernels& kernels, KeptShader shader, const 
   // Most draws have the same state as the one before.
   const Draw* const equal = !context_.draws.empty() && context_.draws.back().state == state ? &context_.draws.back() : nullptr;
   if (equal == nullptr) check_state(state);
+  check_color_types(kernels);
   for (std::size_t i = 0; i < attachments_.colors.size(); ++i) {
     const std::optional<BlendState>& blend = blend_of(state, i);
     HS_CHECK(!blend || !uses_second_source(*blend) || (kernels.color_count > 1 && attachments_.colors.size() == 1),
@@ -203,6 +205,17 @@ void PassState::add_draw(const ShaderKernels& kernels, KeptShader shader, const 
   if (d.writes_color && !state.order_independent) ++layer_group_;
   d.layer_group = layer_group_;
   plan_.add(d, context_.draws.size() - 1);
+}
+
+void PassState::check_color_types(const ShaderKernels& kernels) const {
+  if (kernels.fragment == nullptr || kernels.color_types == nullptr) return;
+  for (std::size_t i = 0; i < std::min(attachments_.colors.size(), static_cast<std::size_t>(kernels.color_count)); ++i) {
+    const ColorFormat format = attachments_.colors[i].format;
+    HS_CHECK(
+        format == ColorFormat::none || kernels.color_types[i] == color_type(format),
+        "Pass::draw: a color of the shader has another type than its attachment; expected ivec4 for signed integers, uvec4 for unsigned "
+        "integers, and vec4 for all others");
+  }
 }
 
 void PassState::check_state(const DrawState& state) const {
@@ -334,6 +347,13 @@ struct ClearShader {
   }
 };
 
+// The colors of a clear are bits of the type of each attachment.
+constexpr ShaderKernels kClearKernels = [] {
+  ShaderKernels kernels = detail::kKernels<ClearShader, detail::DrawKind::color>;
+  kernels.color_types = nullptr;
+  return kernels;
+}();
+
 // All depths of the depth range are the depth of the clear, so the triangle has exactly that.
 DrawState state_of(const Clear& clear) {
   DrawState state;
@@ -363,8 +383,8 @@ void Pass::clear(const Clear& clear) {
     has_color |= clear.colors[i].has_value();
   }
   const VertexView corners = make_vertex_view(stream(std::span<const glm::vec4>(kCorners)));
-  if (has_color) return draw(shader, corners, state_of(clear));
-  draw_depth(shader, corners, state_of(clear));
+  detail::add_draw(*state_, has_color ? kClearKernels : detail::kKernels<ClearShader, detail::DrawKind::depth_only>,
+                   detail::keep_shader(shader, detail::memory_of(*state_)), corners, sequential(corners), state_of(clear));
 }
 
 PassStatistics Pass::run(const Workers& workers) {

@@ -35,6 +35,8 @@
 
 #include <array>
 
+#include "halfspace/core/discrete_vec.h"
+#include "halfspace/core/texel_format.h"
 #include "halfspace/shading/pixel.h"
 
 namespace halfspace::HS_LANES {
@@ -93,12 +95,6 @@ struct DepthFragment {
   R depth;
 };
 
-/// Returns a color that stores an integer in an attachment of format r32ui.
-template <Number R>
-HS_INLINE vec4<R> integer_color(IntOf<R> i) {
-  return {as_real(i), R(0), R(0), R(0)};
-}
-
 /// A fragment with N colors: one per attachment, or the two sources of dual-source blending.
 template <class R, std::size_t N>
 struct FragmentMRT {
@@ -112,6 +108,47 @@ struct DiscardingFragmentMRT {
 template <class R, std::size_t N>
 struct DepthFragmentMRT {
   std::array<vec4<R>, N> color;
+  MaskOf<R> keep;
+  R depth;
+};
+
+namespace detail {
+template <class R>
+HS_INLINE const vec4<R>& color_bits(const vec4<R>& color) {
+  return color;
+}
+template <class R>
+HS_INLINE vec4<R> color_bits(const ivec4<R>& color) {
+  return {as_real(color.x), as_real(color.y), as_real(color.z), as_real(color.w)};
+}
+template <class R>
+HS_INLINE vec4<R> color_bits(const uvec4<R>& color) {
+  return color_bits<R>(ivec4<R>(IntOf<R>(color.x), IntOf<R>(color.y), IntOf<R>(color.z), IntOf<R>(color.w)));
+}
+}  // namespace detail
+
+/// Colors for attachments of different types, one each: ivec4<R> for signed integers, uvec4<R> for unsigned ones, and vec4<R> for all
+/// others.
+template <class R, class... Colors>
+struct TypedColors {
+  std::array<vec4<R>, sizeof...(Colors)> bits;  ///< integers are stored as the bits of floats
+
+  TypedColors() = default;
+  HS_INLINE TypedColors(const Colors&... colors) : bits{detail::color_bits<R>(colors)...} {}
+};
+/// A fragment for attachments of different types. TypedFragment<R, vec4<R>, uvec4<R>> has a color and four unsigned integers.
+template <class R, class... Colors>
+struct TypedFragment {
+  TypedColors<R, Colors...> color;
+};
+template <class R, class... Colors>
+struct DiscardingTypedFragment {
+  TypedColors<R, Colors...> color;
+  MaskOf<R> keep;
+};
+template <class R, class... Colors>
+struct DepthTypedFragment {
+  TypedColors<R, Colors...> color;
   MaskOf<R> keep;
   R depth;
 };
@@ -166,6 +203,12 @@ template <class R, std::size_t N>
 inline constexpr bool kIsFragment<DiscardingFragmentMRT<R, N>> = true;
 template <class R, std::size_t N>
 inline constexpr bool kIsFragment<DepthFragmentMRT<R, N>> = true;
+template <class R, class... C>
+inline constexpr bool kIsFragment<TypedFragment<R, C...>> = true;
+template <class R, class... C>
+inline constexpr bool kIsFragment<DiscardingTypedFragment<R, C...>> = true;
+template <class R, class... C>
+inline constexpr bool kIsFragment<DepthTypedFragment<R, C...>> = true;
 }  // namespace detail
 /// The types that a fragment function may return.
 template <class T>
@@ -266,16 +309,33 @@ template <class R, std::size_t N>
 inline constexpr bool kIsDiscarding<DiscardingFragmentMRT<R, N>> = true;
 template <class R, std::size_t N>
 inline constexpr bool kIsDiscarding<DepthFragmentMRT<R, N>> = true;
+template <class R, class... C>
+inline constexpr bool kIsDiscarding<DiscardingTypedFragment<R, C...>> = true;
+template <class R, class... C>
+inline constexpr bool kIsDiscarding<DepthTypedFragment<R, C...>> = true;
 template <class F>
 inline constexpr bool kHasDepth = false;
 template <class R>
 inline constexpr bool kHasDepth<DepthFragment<R>> = true;
 template <class R, std::size_t N>
 inline constexpr bool kHasDepth<DepthFragmentMRT<R, N>> = true;
+template <class R, class... C>
+inline constexpr bool kHasDepth<DepthTypedFragment<R, C...>> = true;
 template <class C>
 inline constexpr std::size_t kColorsIn = 1;
 template <class C, std::size_t N>
 inline constexpr std::size_t kColorsIn<std::array<C, N>> = N;
+template <class R, class... C>
+inline constexpr std::size_t kColorsIn<TypedColors<R, C...>> = sizeof...(C);
+template <class C>
+inline constexpr ColorType kColorType = ColorType::real;
+template <class R>
+inline constexpr ColorType kColorType<DiscreteVec<4, R>> =
+    std::is_same_v<R, int32_t> ? ColorType::signed_integer : ColorType::unsigned_integer;
+template <class C>
+inline constexpr auto kColorTypesIn = std::array<ColorType, kColorsIn<C>>{};  // all real
+template <class R, class... C>
+inline constexpr auto kColorTypesIn<TypedColors<R, C...>> = std::array{kColorType<C>...};
 template <class R>
 HS_INLINE const vec4<R>& nth_color(const vec4<R>& color, std::size_t) {
   return color;
@@ -283,6 +343,10 @@ HS_INLINE const vec4<R>& nth_color(const vec4<R>& color, std::size_t) {
 template <class R, std::size_t N>
 HS_INLINE const vec4<R>& nth_color(const std::array<vec4<R>, N>& colors, std::size_t n) {
   return colors[n];
+}
+template <class R, class... C>
+HS_INLINE const vec4<R>& nth_color(const TypedColors<R, C...>& colors, std::size_t n) {
+  return colors.bits[n];
 }
 }  // namespace detail
 
@@ -392,6 +456,9 @@ HS_INLINE vec4<R> position_of(const PointSpriteVertex<R>& v) {
 /// Number of colors that the shader returns.
 template <class S>
 inline constexpr std::size_t kColors = detail::kColorsIn<decltype(FragmentOf<S>::color)>;
+/// The types of these colors.
+template <class S>
+inline constexpr auto kColorTypes = detail::kColorTypesIn<decltype(FragmentOf<S>::color)>;
 /// Whether the shader may discard fragments.
 template <class S>
 inline constexpr bool kDiscards = detail::kIsDiscarding<FragmentOf<S>>;

@@ -17,7 +17,7 @@
 #include <string_view>
 #include <vector>
 
-namespace halfspace {
+namespace halfspace::texel_codec {
 namespace {
 
 constexpr float kInf = std::numeric_limits<float>::infinity(), kNan = std::numeric_limits<float>::quiet_NaN();
@@ -273,4 +273,4 @@ TEST(TexelFormats, HaveDistinctNamesAndTheSizesOfOpenGl) {
 }
 
 }  // namespace
-}  // namespace halfspace
+}  // namespace halfspace::texel_codec

@@ -9,7 +9,7 @@
 #include "halfspace/core/texel_codec.h"
 #include "raster/raster_test.h"
 
-namespace halfspace::raster_test {
+namespace halfspace::raster_test::color_formats {
 namespace {
 
 constexpr int kWidth = 70, kHeight = 21;  // tiles at the right and upper border are partial
@@ -57,25 +57,34 @@ int differences(const Bytes& image, const F& color_at) {
   return count;
 }
 
-// Colors from −1.3 to 1.9 that depend on the pixel, or integers.
+// Colors from −1.3 to 1.9 that depend on the pixel.
 template <class R>
-vec4<R> color_at(R x, R y, bool integers) {
-  if (integers) {
-    const IntOf<R> i = truncate_to_int(x), j = truncate_to_int(y);
-    return {as_real(i * 7 - 200), as_real(i * 1000 - j * 3000), as_real(j - 10), as_real((i + j) << 20)};
-  }
+vec4<R> color_at(R x, R y) {
   return {x * R(0.0457f) - R(1.3f), y * R(0.15f) - R(1.3f), (x + y) * R(0.011f), y * R(0.06f) - R(0.1f)};
 }
+template <class R>
+ivec4<R> integers_at(R x, R y) {
+  const IntOf<R> i = truncate_to_int(x), j = truncate_to_int(y);
+  return {i * 7 - 200, i * 1000 - j * 3000, j - 10, (i + j) << 20};
+}
 struct PlaceShader : PositionShader {
-  bool integers = false;
   template <class R>
   Fragment<R> fragment(const Varyings<R>&, const Pixel<R>& px) const {
-    return {color_at<R>(px.x, px.y, integers)};
+    return {color_at<R>(px.x, px.y)};
+  }
+};
+template <template <class> class Integers>
+struct IntegerPlaceShader : PositionShader {
+  template <class R>
+  TypedFragment<R, Integers<R>> fragment(const Varyings<R>&, const Pixel<R>& px) const {
+    return {Integers<R>(integers_at<R>(px.x, px.y))};
   }
 };
 glm::vec4 drawn_at(int x, int y, ColorFormat format) {
-  const vec4<float> c = color_at<float>(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f, is_integer(format));
-  return {c.x, c.y, c.z, c.w};
+  const float px = static_cast<float>(x) + 0.5f, py = static_cast<float>(y) + 0.5f;
+  const vec4<float> c = color_at<float>(px, py);
+  const ivec4<float> i = integers_at<float>(px, py);
+  return is_integer(format) ? std::bit_cast<glm::vec4>(glm::ivec4(i.x, i.y, i.z, i.w)) : glm::vec4(c.x, c.y, c.z, c.w);
 }
 
 const std::vector<glm::vec4>& everywhere() {
@@ -83,10 +92,13 @@ const std::vector<glm::vec4>& everywhere() {
   return positions;
 }
 
-PlaceShader shader_for(ColorFormat format) {
-  PlaceShader shader;
-  shader.integers = is_integer(format);
-  return shader;
+// Draws the colors of the pixels, with the type of the format.
+void draw_places(Pass& pass, ColorFormat format, const DrawState& state = {}) {
+  const VertexView vertices = make_vertex_view(stream(everywhere()));
+  const TexelKind kind = texel_info(format).kind;
+  if (kind == TexelKind::sints) return pass.draw(IntegerPlaceShader<ivec4>{}, vertices, state);
+  if (kind == TexelKind::uints) return pass.draw(IntegerPlaceShader<uvec4>{}, vertices, state);
+  pass.draw(PlaceShader{}, vertices, state);
 }
 
 TEST(ColorFormats, StoreTheNearestTexel) {
@@ -94,7 +106,7 @@ TEST(ColorFormats, StoreTheNearestTexel) {
     for (const int samples : {1, 4}) {
       Bytes image(format);
       Pass pass(kWidth, kHeight, image.target(), {}, {.samples = samples});
-      pass.draw(shader_for(format), make_vertex_view(stream(everywhere())));
+      draw_places(pass, format);
       pass.run(one_worker());
       EXPECT_EQ(differences(image, [&](int x, int y) { return drawn_at(x, y, format); }), 0) << texel_info(format).name << ' ' << samples;
     }
@@ -109,7 +121,7 @@ TEST(ColorFormats, ClearToTheNearestTexel) {
     for (const bool draws : {false, true}) {
       Bytes image(format);
       Pass pass(kWidth, kHeight, image.target(LoadOp::clear, clear), {});
-      if (draws) pass.draw(shader_for(format), make_vertex_view(stream(everywhere())), {.scissor = Rect{0, 0, 10, kHeight}});
+      if (draws) draw_places(pass, format, {.scissor = Rect{0, 0, 10, kHeight}});
       pass.run(one_worker());
       const auto expected = [&](int x, int y) { return draws && x < 10 ? drawn_at(x, y, format) : clear; };
       EXPECT_EQ(differences(image, expected), 0) << texel_info(format).name << ' ' << draws;
@@ -123,12 +135,11 @@ TEST(ColorFormats, LoadWhatTheyHaveStored) {
     for (const int samples : {1, 2}) {
       Bytes image(format);
       Pass first(kWidth, kHeight, image.target(), {});
-      first.draw(shader_for(format), make_vertex_view(stream(everywhere())));
+      draw_places(first, format);
       first.run(one_worker());
       const std::vector<std::byte> before = image.bytes;
       Pass second(kWidth, kHeight, image.target(LoadOp::load), {}, {.samples = samples, .tuning = {.bin_budget = 1}});
-      for (int i = 0; i < 100; ++i)
-        second.draw(shader_for(format), make_vertex_view(stream(everywhere())), {.scissor = Rect{i % kWidth, i % kHeight, 1, 1}});
+      for (int i = 0; i < 100; ++i) draw_places(second, format, {.scissor = Rect{i % kWidth, i % kHeight, 1, 1}});
       const PassStatistics statistics = second.run(one_worker());
       EXPECT_GT(statistics.flushes, 0);
       EXPECT_EQ(image.bytes, before) << texel_info(format).name << ' ' << samples;
@@ -143,7 +154,7 @@ TEST(ColorFormats, AddToTheExistingTexel) {
     const glm::vec4 before(0.25f, -0.5f, 0.125f, 0.75f);
     Bytes image(format);
     Pass pass(kWidth, kHeight, image.target(LoadOp::clear, before), {});
-    for (int i = 0; i < 2; ++i) pass.draw(shader_for(format), make_vertex_view(stream(everywhere())), {.blend = kAdd});
+    for (int i = 0; i < 2; ++i) draw_places(pass, format, {.blend = kAdd});
     pass.run(one_worker());
     const TexelKind kind = texel_info(format).kind;
     const bool is_normalized = kind == TexelKind::unorm || kind == TexelKind::srgb || kind == TexelKind::snorm;
@@ -163,7 +174,7 @@ TEST(ColorFormats, MasksKeepOtherChannels) {
     const glm::vec4 before = is_integer(format) ? std::bit_cast<glm::vec4>(glm::ivec4(3, 4, 5, 1)) : glm::vec4(0.25f, 0.5f, 0.125f, 0.75f);
     Bytes image(format);
     Pass pass(kWidth, kHeight, image.target(LoadOp::clear, before), {});
-    pass.draw(shader_for(format), make_vertex_view(stream(everywhere())), {.color_mask = {true, false, true, false}});
+    draw_places(pass, format, {.color_mask = {true, false, true, false}});
     pass.run(one_worker());
     EXPECT_EQ(differences(image,
                           [&](int x, int y) {
@@ -184,6 +195,20 @@ TEST(ColorFormats, ImagesOfAnyPixelsAreTargets) {
   EXPECT_DEATH(color_target(ColorFormat::rg16, image), "another size than the format");
 }
 
+TEST(ColorFormatsDeathTest, ColorsOfAnotherTypeAreRefused) {
+  const auto expect_refused = [](ColorFormat format, const auto& shader) {
+    Bytes image(format);
+    Pass pass(kWidth, kHeight, image.target(), {});
+    EXPECT_DEATH(pass.draw(shader, make_vertex_view(stream(everywhere()))), "another type than its attachment") << texel_info(format).name;
+  };
+  expect_refused(ColorFormat::r32ui, PlaceShader{});
+  expect_refused(ColorFormat::rgba8i, PlaceShader{});
+  expect_refused(ColorFormat::rgba8i, IntegerPlaceShader<uvec4>{});
+  expect_refused(ColorFormat::r16ui, IntegerPlaceShader<ivec4>{});
+  expect_refused(ColorFormat::rgba8, IntegerPlaceShader<uvec4>{});
+  expect_refused(ColorFormat::r32f, IntegerPlaceShader<ivec4>{});
+}
+
 TEST(ColorFormatsDeathTest, FormatsThatCannotBeDrawnToAreRefused) {
   Bytes image(ColorFormat::rgb9_e5), depth(ColorFormat::d32f);
   EXPECT_DEATH(Pass(kWidth, kHeight, image.target(), {}), "cannot be drawn to");
@@ -192,4 +217,4 @@ TEST(ColorFormatsDeathTest, FormatsThatCannotBeDrawnToAreRefused) {
 }
 
 }  // namespace
-}  // namespace halfspace::raster_test
+}  // namespace halfspace::raster_test::color_formats

@@ -257,9 +257,9 @@ TEST(Multisample, AlphaToCoverageSkipsIntegerFormats) {
   const std::vector<glm::vec4> p = square({0, 0}, {16 * 256, 16 * 256});
   Image<uint32_t> image(16, 16);
   Pass pass(16, 16, r32ui_target(image), {}, {.samples = 4});
-  pass.draw(ConstantShader{glm::vec4(1.0f, 0.0f, 0.0f, 0.0f)}, make_vertex_view(stream(p)), {.alpha_to_coverage = true});
+  pass.draw(ConstantIntegers<uvec4>{glm::ivec4(5, 0, 0, 0)}, make_vertex_view(stream(p)), {.alpha_to_coverage = true});
   pass.run(one_worker());
-  EXPECT_EQ(image.at(7, 7), std::bit_cast<uint32_t>(1.0f));
+  EXPECT_EQ(image.at(7, 7), 5u);
 }
 
 // The sum of the samples is infinite, but their mean is not.

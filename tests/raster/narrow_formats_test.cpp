@@ -32,8 +32,8 @@ struct PlaceShader : PositionShader {
 // Writes an integer whose bits, read as a float, are a NaN.
 struct IntegerShader : PositionShader {
   template <class R>
-  Fragment<R> fragment(const Varyings<R>&, const Pixel<R>& px) const {
-    return {integer_color<R>(truncate_to_int(px.x) | IntOf<R>(static_cast<int32_t>(0xffff0000u)))};
+  TypedFragment<R, uvec4<R>> fragment(const Varyings<R>&, const Pixel<R>& px) const {
+    return {uvec4<R>(UintOf<R>(truncate_to_int(px.x)) | UintOf<R>(0xffff0000u))};
   }
 };
 

@@ -12,7 +12,7 @@ namespace {
 
 // Writes the primitive index, the instance index, a number that identifies the draw, and the barycentric coordinates. Instances are side by
 // side.
-template <template <class R, std::size_t N> class Result>
+template <template <class R, class... Colors> class Result>
 struct IdShader {
   int32_t draw = 0;
   float step_x = 0.0f;  // NDC
@@ -31,16 +31,16 @@ struct IdShader {
     return p;
   }
   template <class R>
-  Result<R, 4> fragment(const Varyings<R>&, const PrimitiveId<R>& id, const Pixel<R>&) const {
-    Result<R, 4> out;
-    out.color = {integer_color<R>(id.primitive), integer_color<R>(id.instance), integer_color<R>(IntOf<R>(draw)),
-                 vec4<R>(id.barycentrics, R(1))};
+  Result<R, uvec4<R>, uvec4<R>, uvec4<R>, vec4<R>> fragment(const Varyings<R>&, const PrimitiveId<R>& id, const Pixel<R>&) const {
+    Result<R, uvec4<R>, uvec4<R>, uvec4<R>, vec4<R>> out;
+    const auto number = [](IntOf<R> i) { return uvec4<R>(UintOf<R>(i)); };
+    out.color = {number(id.primitive), number(id.instance), number(IntOf<R>(draw)), vec4<R>(id.barycentrics, R(1))};
     if constexpr (requires { out.keep; }) out.keep = MaskOf<R>(true);
     return out;
   }
 };
-using Ids = IdShader<FragmentMRT>;
-using DiscardingIds = IdShader<DiscardingFragmentMRT>;
+using Ids = IdShader<TypedFragment>;
+using DiscardingIds = IdShader<DiscardingTypedFragment>;
 
 constexpr int kWidth = 128, kHeight = 64;
 

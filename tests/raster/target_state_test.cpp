@@ -10,7 +10,7 @@
 #include "halfspace/core/texel_codec.h"
 #include "raster/raster_test.h"
 
-namespace halfspace::raster_test {
+namespace halfspace::raster_test::target_state {
 namespace {
 
 constexpr int kEdge = 70;  // tiles at the right and upper border are partial
@@ -54,24 +54,25 @@ TEST(LogicOps, CombineIntegersAndPackedCodes) {
       for (uint32_t shift = 0; shift < bits; shift += 4) result |= uint32_t{kLogicResults[op]} << shift;
       return bits == 32 ? result : result & ((1u << bits) - 1);
     };
-    const auto draw = [&](auto& image, ColorFormat format, const glm::vec4& source, const glm::vec4& destination) {
+    const auto draw = [&](auto& image, ColorFormat format, const auto& shader, const glm::vec4& destination) {
       ColorTarget target = color_target(format, image);
       target.clear_value = destination;
       Pass pass(kEdge, kEdge, target, {});
-      pass.draw(ConstantShader{source}, whole_target(), {.logic_op = static_cast<LogicOp>(op)});
+      pass.draw(shader, whole_target(), {.logic_op = static_cast<LogicOp>(op)});
       pass.run(one_worker());
     };
-    const auto integers = [](int32_t x) { return std::bit_cast<glm::vec4>(glm::ivec4(x)); };
+    const auto bits = [](int32_t x) { return std::bit_cast<glm::vec4>(glm::ivec4(x)); };
+    const auto unsigned_integers = [](int32_t x) { return ConstantIntegers<uvec4>(glm::ivec4(x)); };
     Image<uint32_t> words(kEdge, kEdge);
-    draw(words, ColorFormat::r32ui, integers(static_cast<int32_t>(0xcccccccc)), integers(static_cast<int32_t>(0xaaaaaaaa)));
+    draw(words, ColorFormat::r32ui, unsigned_integers(static_cast<int32_t>(0xcccccccc)), bits(static_cast<int32_t>(0xaaaaaaaa)));
     EXPECT_TRUE(all_are(words, combined(32))) << op;
     Image<uint16_t> shorts(kEdge, kEdge);
-    draw(shorts, ColorFormat::r16ui, integers(0xcccc), integers(0xaaaa));
+    draw(shorts, ColorFormat::r16ui, unsigned_integers(0xcccc), bits(0xaaaa));
     EXPECT_TRUE(all_are(shorts, static_cast<uint16_t>(combined(16)))) << op;
     Image<int8_t> bytes(kEdge, kEdge);
-    draw(bytes, ColorFormat::r8i, integers(static_cast<int8_t>(0xcc)), integers(static_cast<int8_t>(0xaa)));
+    draw(bytes, ColorFormat::r8i, ConstantIntegers<ivec4>(glm::ivec4(static_cast<int8_t>(0xcc))), bits(static_cast<int8_t>(0xaa)));
     EXPECT_TRUE(all_are(bytes, static_cast<int8_t>(combined(8)))) << op;
-    draw(words, ColorFormat::rgb10_a2, glm::vec4(glm::vec3(0b1011001100 / 1023.0f), 2.0f / 3.0f),
+    draw(words, ColorFormat::rgb10_a2, ConstantShader{glm::vec4(glm::vec3(0b1011001100 / 1023.0f), 2.0f / 3.0f)},
          glm::vec4(glm::vec3(0b1010101010 / 1023.0f), 2.0f / 3.0f));
     const auto channel = [&](uint32_t s, uint32_t d) {
       uint32_t result = 0;
@@ -113,7 +114,7 @@ TEST(Samples, AlphaToOneFollowsAlphaToCoverage) {
   }
   Image<uint32_t> integers(kEdge, kEdge);
   Pass pass(kEdge, kEdge, r32ui_target(integers), {}, {.samples = 4});
-  pass.draw(ConstantShader{std::bit_cast<glm::vec4>(glm::ivec4(7))}, whole_target(), {.alpha_to_one = true});
+  pass.draw(ConstantIntegers<uvec4>{glm::ivec4(7)}, whole_target(), {.alpha_to_one = true});
   pass.run(one_worker());
   EXPECT_TRUE(all_are(integers, 7u));
 }
@@ -224,4 +225,4 @@ TEST(LoadStore, DepthAndStencilAreLoadedApart) {
 }
 
 }  // namespace
-}  // namespace halfspace::raster_test
+}  // namespace halfspace::raster_test::target_state

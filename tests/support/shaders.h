@@ -44,6 +44,17 @@ struct MatrixShader {
   }
 };
 
+/// The same integers everywhere. Colors: ivec4 or uvec4.
+template <template <class> class Colors>
+struct ConstantIntegers : PositionShader {
+  glm::ivec4 values{0};
+  ConstantIntegers(const glm::ivec4& v) : values(v) {}
+  template <class R>
+  TypedFragment<R, Colors<R>> fragment(const NoVaryings<R>&, const Pixel<R>&) const {
+    return {Colors<R>(ivec4<R>(IntOf<R>(values.x), IntOf<R>(values.y), IntOf<R>(values.z), IntOf<R>(values.w)))};
+  }
+};
+
 /// A single color for all pixels.
 struct ConstantShader : PositionShader {
   glm::vec4 color{1.0f};

@@ -60,6 +60,7 @@ constexpr ShaderKernels kernels_of() {
     k.fragment = fragment_kernel<S, true>;
     k.color = fragment_kernel<S, !kDecidesVisibility<S>>;
     k.color_count = static_cast<int>(kColors<S>);
+    k.color_types = kColorTypes<S>.data();
     k.discards = kDiscards<S>;
     k.is_constant = kIsConstant<S>;
     // Without a visibility function, the fragment function is compiled a second time, to compute only the keep mask and the depth. This is

@@ -32,11 +32,12 @@ struct ShaderKernels {
   int primitive_count = 0;                                            ///< floats per triangle in Chunk::primitives
   const Interpolation* interpolations = nullptr;                      ///< varying_count entries
   bool uses_centroid = false;                                         ///< some varying has centroid interpolation
-  bool uses_id = false;             ///< the fragment function has a PrimitiveId parameter; primitive_count is kIdRow
-  bool gives_point_size = false;    ///< the vertex function sets the point size
-  bool gives_point_sprite = false;  ///< the vertex function sets the bounds of points
-  int clip_distance_count = 0;      ///< clip distances set by the vertex function
-  int color_count = 1;              ///< colors returned by the fragment function
+  bool uses_id = false;                    ///< the fragment function has a PrimitiveId parameter; primitive_count is kIdRow
+  bool gives_point_size = false;           ///< the vertex function sets the point size
+  bool gives_point_sprite = false;         ///< the vertex function sets the bounds of points
+  int clip_distance_count = 0;             ///< clip distances set by the vertex function
+  int color_count = 1;                     ///< colors returned by the fragment function
+  const ColorType* color_types = nullptr;  ///< color_count entries; null: not checked
   bool discards = false;
   bool writes_depth = false;
   bool is_constant = false;  ///< the whole draw has one color: the fragment kernel only uses the count and the output of its batch

@@ -19,7 +19,7 @@ struct SphereValueShader : SphereImpostor<exact> {
   using Varyings = typename SphereImpostor<exact>::template Varyings<R>;
 
   template <class R>
-  DepthFragmentMRT<R, kFrameValues> fragment(const Varyings<R>& in, const PrimitiveId<R>& id, const Pixel<R>& px) const {
+  FrameResult<DepthTypedFragment, R> fragment(const Varyings<R>& in, const PrimitiveId<R>& id, const Pixel<R>& px) const {
     const SphereIntersection& rays = this->lens;
     const SphereHit<R> h = this->hit(in, px);
     vec3<R> position_cs = in.center_cs.value + h.n_cs * in.radius.value;

@@ -44,7 +44,7 @@ struct SurfaceValueShader : SurfaceValueUniforms {
     vec4<R> color;
   };
   template <class R>
-  using Result = std::conditional_t<masked, DiscardingFragmentMRT<R, kFrameValues>, FragmentMRT<R, kFrameValues>>;
+  using Result = std::conditional_t<masked, FrameResult<DiscardingTypedFragment, R>, FrameResult<TypedFragment, R>>;
 
   template <class R>
   vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {

@@ -43,13 +43,18 @@ struct SurfaceValues {
   vec3<R> barycentrics;
 };
 
+/// A result of a fragment function, such as TypedFragment, with the types of all attachments.
+template <template <class, class...> class Result, class R>
+using FrameResult = Result<R, vec4<R>, vec4<R>, vec4<R>, vec4<R>, vec4<R>, vec4<R>, vec4<R>, uvec4<R>, uvec4<R>, uvec4<R>, vec4<R>>;
+
 /// Returns the colors of all attachments.
 template <class R>
-HS_INLINE std::array<vec4<R>, kFrameValues> frame_values(const FrameCamera& camera, const SurfaceValues<R>& v) {
+HS_INLINE FrameResult<TypedColors, R> frame_values(const FrameCamera& camera, const SurfaceValues<R>& v) {
   const R one(1), zero(0);
   const vec3<R>&p = v.position_rws, &n = v.normal_ws;
   const R depth = dot(p, camera.forward_ws), distance = camera.perspective ? length(p) : depth;
   const vec3<R> normal_cs(dot(n, camera.right_ws), dot(n, camera.up_ws), -dot(n, camera.forward_ws));
+  const auto number = [](IntOf<R> i) { return uvec4<R>(UintOf<R>(i), UintOf<R>(0u), UintOf<R>(0u), UintOf<R>(0u)); };
   return {vec4<R>(depth, zero, zero, one),
           vec4<R>(distance, zero, zero, one),
           vec4<R>(n, one),
@@ -57,9 +62,9 @@ HS_INLINE std::array<vec4<R>, kFrameValues> frame_values(const FrameCamera& came
           vec4<R>(v.albedo, one),
           vec4<R>((p + camera.eye_low_ws) + camera.eye_ws, one),
           vec4<R>(v.uv, zero, one),
-          integer_color<R>(v.object),
-          integer_color<R>(v.instance),
-          integer_color<R>(v.triangle),
+          number(v.object),
+          number(v.instance),
+          number(v.triangle),
           vec4<R>(v.barycentrics, one)};
 }
 
