@@ -62,8 +62,10 @@ static_assert(!consists_of_floats<IntegerAtTheEnd>() && !consists_of_floats<Inte
 TEST(StreamTypes, AMemberOfAStructWithIntegersCanBeAStream) {
   const std::vector<Packed> vertices{{{1, 2, 3}, 7}, {{4, 5, 6}, 8}};
   const StreamOf<glm::vec3> positions = stream(vertices, &Packed::position);
-  EXPECT_EQ(positions.stride, 4);
-  EXPECT_EQ(positions.data[4], 4.0f);
+  EXPECT_EQ(positions.stride, 16);
+  std::array<float, 3> second{};
+  read_row(positions, 1, second.data());
+  EXPECT_EQ(second, (std::array{4.0f, 5.0f, 6.0f}));
 }
 
 }  // namespace
