@@ -262,7 +262,7 @@ auto stream(const std::vector<V>& vertices, F V::*member) {
 template <class T, class... Member>
 void stream(const std::vector<T>&& values, Member...) = delete;  // the vector must outlive the stream
 template <ReadAs as, class T, class... Member>
-void stream(const std::vector<T>&& values, Member...) = delete;
+void stream(const std::vector<T>&& values, Member...) = delete;  // the vector must outlive the stream
 
 /// Returns the stream with one row per `divisor` instances instead of one row per vertex. divisor must be at least 1.
 template <std::derived_from<VertexStream> S>

@@ -427,7 +427,8 @@ SceneDraw primitives_draw(const S& shader, const char* name, const Geometry& g, 
   }
   const auto vertex_layout = random.pick({VertexLayout::tight, VertexLayout::padded, VertexLayout::separate});
   IndexLayout index_layout = random.once_in(2) ? IndexLayout::narrow : IndexLayout::wide;
-  const StreamFormat format = input.indices.empty() ? StreamFormat::in_place : vary_vertex_data(random, input, state);
+  StreamFormat format = input.indices.empty() ? StreamFormat::in_place : vary_vertex_data(random, input, state);
+  if (kHasIntegers<A> && format == StreamFormat::in_place) format = StreamFormat::floats;
   const bool fits = std::ranges::all_of(input.indices, [&](uint32_t i) { return i < 255 || i == oracle::kRestart; });
   if (fits && index_layout == IndexLayout::narrow) index_layout = IndexLayout::bytes;
   return make_draw(shader, name, input, state, vertex_layout, index_layout, format);

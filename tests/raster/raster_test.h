@@ -74,8 +74,8 @@ ShadedVertices shade(const S& shader, const VertexView& view, const Rect& viewpo
   std::pmr::monotonic_buffer_resource memory;
   Draw draw(detail::kKernels<S, detail::DrawKind::color>, detail::keep_shader(shader, memory),
             std::make_shared<const Indices>(Indices::sequential(view.vertex_count)),
-            {view.used_streams(), view.has_instance_streams, view.needs_conversion}, state, {});
-  draw.viewport = make_viewport(viewport, state.depth);
+            {view.used_streams(), view.has_instance_streams, view.needs_conversion}, state,
+            {.viewport = make_viewport(viewport, state.depth)});
   ShadedVertices out;
   allocate_vertices(draw, out);
   shade_vertices(draw, 0, view.vertex_count, out);

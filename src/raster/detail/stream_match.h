@@ -106,6 +106,13 @@ constexpr std::array<StreamPart, sizeof...(I)> parts_of_struct(std::index_sequen
   return {part_at<T, I>()...};
 }
 
+template <std::size_t N>
+constexpr std::size_t components_of_parts(const std::array<StreamPart, N>& parts) {
+  std::size_t n = 0;
+  for (const StreamPart& p : parts) n += p.components;
+  return n;
+}
+
 /// Returns the parts of the element type of a stream.
 template <class T>
 constexpr auto parts_of() {
@@ -115,15 +122,11 @@ constexpr auto parts_of() {
     return std::array{StreamPart{is_matrix ? PartKind::block : PartKind::vector, size}};
   } else if constexpr (std::is_class_v<T> && std::is_aggregate_v<T> && !requires { typename T::value_type; }) {
     constexpr auto parts = parts_of_struct<T>(std::make_index_sequence<count_fields<T, size>()>{});
-    constexpr std::size_t sum = [] {
-      std::size_t n = 0;
-      for (const StreamPart& p : parts) n += p.components;
-      return n;
-    }();
-    if constexpr (sum == size)
+    if constexpr (components_of_parts(parts) == size) {
       return parts;
-    else
+    } else {
       return std::array{StreamPart{PartKind::block, size}};
+    }
   } else {
     return std::array{StreamPart{PartKind::block, size}};
   }
