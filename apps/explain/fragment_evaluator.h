@@ -113,10 +113,7 @@ class FragmentEvaluator {
     for (std::size_t i = 0; i < out.size(); ++i) {
       const auto row = static_cast<int64_t>(t.index[i]) + t.draw->state.base_vertex;
       std::array<float, kComponents<A>> in{};
-      std::size_t c = 0;
-      for (const VertexStream& stream : streams) {
-        for (int k = 0; k < stream.components && c < in.size(); ++k) in[c++] = stream.data[row * stream.stride + k];
-      }
+      read_vertex(streams, static_cast<std::size_t>(row), in);
       call_vertex<S, float>(shader, from_components<A, float>(in), {static_cast<int32_t>(row), static_cast<int32_t>(t.instance)}, out[i]);
     }
     return out;

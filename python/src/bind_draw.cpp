@@ -67,7 +67,8 @@ class ArrayPass {
     std::vector<py::object> kept;
     for (std::size_t i = 0; i < streams.size(); ++i) {
       const auto n = static_cast<int32_t>(streams[i].shape(1));
-      list.at(i) = {streams[i].data(), n, n, static_cast<std::size_t>(streams[i].shape(0)), divisors.at(i)};
+      list.at(i) = {reinterpret_cast<const std::byte*>(streams[i].data()), n * static_cast<int32_t>(sizeof(float)), n,
+                    static_cast<std::size_t>(streams[i].shape(0)), divisors.at(i)};
       kept.push_back(streams[i]);
     }
     const VertexView view = detail::bind_streams(std::span(list).first(streams.size()));

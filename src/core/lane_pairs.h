@@ -171,6 +171,8 @@ struct LaneTraits<RealPair<H>> {
 };
 template <class H>
 inline constexpr bool kIsLanes<RealPair<H>> = true;
+template <class H>
+inline constexpr bool kIsIntLanes<IntPair<H>> = true;
 template <class R>
 inline constexpr bool kIsPair = false;
 template <class H>

@@ -216,6 +216,12 @@ inline constexpr bool kIsLanes = false;
 template <int W>
 inline constexpr bool kIsLanes<RealN<W>> = true;
 
+/// Whether T is the IntOf a number type: int32_t or lanes of it.
+template <class T>
+inline constexpr bool kIsIntLanes = std::is_same_v<T, int32_t>;
+template <int W>
+inline constexpr bool kIsIntLanes<IntN<W>> = true;
+
 /// float, double or lanes of float: the types that can be the parameter R of a shader.
 template <class R>
 concept Number = std::is_same_v<R, float> || std::is_same_v<R, double> || kIsLanes<R>;

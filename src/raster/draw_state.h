@@ -185,9 +185,12 @@ struct StencilState {
 /// Complete state of a draw call, apart from the shader, vertices and indices.
 struct DrawState {
   Topology topology = Topology::triangles;
-  int32_t base_vertex = 0;  ///< added to every index
-  uint32_t instances = 1;   ///< number of instances; see VertexId and per_instance()
-  float point_size = 1.0f;  ///< side length of a point in pixels, at least 0, unless the vertex function sets it
+  uint32_t first = 0;               ///< the first vertex of a draw without indices, or the place of the first index in the list
+  std::optional<uint32_t> count{};  ///< number of vertices or indices from `first` on; default: all
+  int32_t base_vertex = 0;          ///< added to every index
+  uint32_t instances = 1;           ///< number of instances; see VertexId and per_instance()
+  uint32_t base_instance = 0;  ///< row of the per-instance streams at which instance 0 starts; VertexId::instance starts at 0 all the same
+  float point_size = 1.0f;     ///< side length of a point in pixels, at least 0, unless the vertex function sets it
   PointOrigin point_origin = PointOrigin::upper_left;
   float line_width = 1.0f;  ///< in pixels, 0 to kMaxLineWidth; rounded to an integer if there is one sample per pixel
   PolygonMode polygon_mode = PolygonMode::fill;

@@ -10,11 +10,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "halfspace/core/float_mode.h"
 #include "halfspace/core/image.h"
+#include "halfspace/raster/detail/draw_input.h"
 #include "halfspace/raster/detail/naive_steps.h"
 #include "halfspace/raster/draw_state.h"
 #include "halfspace/raster/shade/plane_anchor.h"
@@ -40,12 +42,12 @@ namespace naive {
 // Step 1: fetch the attributes from the vertex streams and run the vertex function.
 template <class A, class R>
 A attributes_of(const VertexView& view, std::size_t index) {
+  std::array<float, kComponents<A>> row{};
+  read_vertex(view.used_streams(), index, row);
   std::array<R, kComponents<A>> in{};
-  std::size_t c = 0;
-  for (int s = 0; s < view.stream_count; ++s) {
-    const VertexStream& stream = view.streams[static_cast<std::size_t>(s)];
-    for (int k = 0; k < stream.components; ++k)
-      in[c++] = static_cast<R>(stream.data[index * static_cast<std::size_t>(stream.stride) + static_cast<std::size_t>(k)]);
+  for (std::size_t i = 0; i < in.size(); ++i) {
+    const bool converts = !kIsFloat<R> && (view.integer_components >> i & 1) != 0;  // see shading/varyings.h
+    in[i] = converts ? static_cast<R>(as_int(row[i])) : static_cast<R>(row[i]);
   }
   return from_components<A, R>(in);
 }
@@ -171,18 +173,16 @@ void rasterize(NaiveTarget<R>& target, const S& shader, const std::array<const V
 
 /// Draws an indexed triangle list. The vertex function must return a vec4<R>, and the fragment function must return a single color.
 ///
-/// Only these parts of the state are used: viewport, scissor, cull, front, provoking and depth; in double, depth.clamp is ignored. There is
-/// no blending, no stencil test, no polygon offset and no instancing.
+/// Only these parts of the state are used: first, count, base_vertex, viewport, scissor, cull, front, provoking and depth; in double,
+/// depth.clamp is ignored. There is no blending, no stencil test, no polygon offset, no instancing and no primitive restart.
 template <class R, Shader S>
 void draw_naive(NaiveTarget<R>& target, const S& shader, const VertexView& vertices, const Indices& indices, const DrawState& state = {}) {
   const FloatMode float_mode;
   static_assert(!kUsesPrimitiveId<S>, "draw_naive() does not support primitive ids");
   using V = typename S::template Varyings<R>;
-  HS_CHECK_OP(indices.end_vertex(), <=, vertices.vertex_count,
-              "draw_naive: an index is too large; expected less than the number of vertices");
-  HS_CHECK_OP(static_cast<std::size_t>(vertices.components), ==, (kComponents<typename S::template Attributes<R>>),
-              "draw_naive: the vertex streams have another number of components than the attributes of the shader; expected one stream per "
-              "attribute");
+  const std::shared_ptr<const Indices> list = detail::view_indices(indices, vertices.vertex_count, state);
+  detail::check_vertices(vertices, *list, state);
+  detail::check_streams<typename S::template Attributes<float>>(vertices);
   HS_CHECK_OP(target.depth.width(), ==, target.color.width(),
               "draw_naive: the depths have another width than the colors; expected images of one size");
   HS_CHECK_OP(target.depth.height(), ==, target.color.height(),
@@ -192,9 +192,10 @@ void draw_naive(NaiveTarget<R>& target, const S& shader, const VertexView& verti
   Rect bounds = intersect({0, 0, target.color.width(), target.color.height()}, rect);
   if (state.scissor) bounds = intersect(bounds, *state.scissor);
   const std::size_t provoking = state.provoking == ProvokingVertex::first ? 0 : 2;
-  for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
+  const auto vertex_at = [&](std::size_t i) { return static_cast<std::size_t>(int64_t{(*list)[i]} + state.base_vertex); };
+  for (std::size_t i = 0; i + 2 < list->size(); i += 3) {
     std::array<naive::Vertex<R, V>, 3> whole;
-    for (std::size_t k = 0; k < 3; ++k) whole[k] = naive::shade_vertex<R>(shader, vertices, indices[i + k]);
+    for (std::size_t k = 0; k < 3; ++k) whole[k] = naive::shade_vertex<R>(shader, vertices, vertex_at(i + k));
     PrimitiveOf<S, R> face{};
     if constexpr (HasPrimitive<S>) face = shader.primitive(whole[0].varyings, whole[1].varyings, whole[2].varyings);
     for (const std::array<naive::Vertex<R, V>, 3>& piece : naive::clipped(whole, viewport, state.depth, provoking)) {

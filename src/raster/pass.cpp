@@ -30,11 +30,18 @@ const DrawState& keep_state(const DrawState& state, std::pmr::memory_resource& m
   return *::new (memory.allocate(sizeof(DrawState), alignof(DrawState))) DrawState(state);
 }
 
-VertexStreams keep_streams(const VertexView& view, std::pmr::memory_resource& memory) {
+// Copies the streams of a view. Row 0 of the per-instance streams becomes the row of the first instance.
+VertexStreams keep_streams(const VertexView& view, uint32_t base_instance, std::pmr::memory_resource& memory) {
   const auto count = static_cast<std::size_t>(view.stream_count);
   auto* const kept = static_cast<VertexStream*>(memory.allocate(count * sizeof(VertexStream), alignof(VertexStream)));
   std::uninitialized_copy_n(view.streams.begin(), count, kept);
-  return {{kept, count}, view.has_instance_streams};
+  for (std::size_t i = 0; base_instance != 0 && i < count; ++i) {
+    if (kept[i].divisor == 0) continue;
+    const std::size_t rows = std::min<std::size_t>(base_instance, kept[i].count);
+    kept[i].data += rows * static_cast<std::size_t>(kept[i].stride);
+    kept[i].count -= rows;
+  }
+  return {{kept, count}, view.has_instance_streams, view.needs_conversion};
 }
 
 // Returns the samples that may be drawn, as bits.
@@ -176,12 +183,8 @@ std::pmr::memory_resource& PassState::memory() {
 
 void PassState::add_draw(const ShaderKernels& kernels, KeptShader shader, const VertexView& vertices,
                          std::shared_ptr<const Indices> indices, const DrawState& state) {
-  HS_CHECK_OP(int64_t{indices->first_vertex()} + state.base_vertex, >=, 0,
-              "Pass::draw: an index plus base_vertex is negative; expected vertices of the streams");
-  HS_CHECK_OP(int64_t{indices->end_vertex()} + state.base_vertex, <=, static_cast<int64_t>(vertices.vertex_count),
-              "Pass::draw: an index plus base_vertex is too large; expected less than the number of vertices");
-  HS_CHECK_OP(std::size_t{state.instances}, <=, vertices.instance_count,
-              "Pass::draw: there are more instances than rows of a per-instance stream; expected a row for each");
+  check_vertices(vertices, *indices, state);
+  check_instances(vertices, state);
   // Most draws have the same state as the one before.
   const Draw* const equal = !context_.draws.empty() && context_.draws.back().state == state ? &context_.draws.back() : nullptr;
   if (equal == nullptr) check_state(state);
@@ -193,7 +196,8 @@ void PassState::add_draw(const ShaderKernels& kernels, KeptShader shader, const 
   }
   const DrawPlacement placement = equal != nullptr ? static_cast<const DrawPlacement&>(*equal) : place(state);
   const DrawState& kept = equal != nullptr ? equal->state : keep_state(state, memory());
-  Draw& d = context_.draws.emplace_back(kernels, std::move(shader), std::move(indices), keep_streams(vertices, memory()), kept, placement);
+  Draw& d = context_.draws.emplace_back(kernels, std::move(shader), std::move(indices),
+                                        keep_streams(vertices, state.base_instance, memory()), kept, placement);
   d.vertex_count = d.indices->used_count() * state.instances;
   count_primitives(d);
   const bool replaces = set_color_writes(d);
@@ -384,7 +388,8 @@ void Pass::clear(const Clear& clear) {
   }
   const VertexView corners = make_vertex_view(stream(std::span<const glm::vec4>(kCorners)));
   detail::add_draw(*state_, has_color ? kClearKernels : detail::kKernels<ClearShader, detail::DrawKind::depth_only>,
-                   detail::keep_shader(shader, detail::memory_of(*state_)), corners, sequential(corners), state_of(clear));
+                   detail::keep_shader(shader, detail::memory_of(*state_)), corners,
+                   std::make_shared<const Indices>(Indices::sequential(corners.vertex_count)), state_of(clear));
 }
 
 PassStatistics Pass::run(const Workers& workers) {

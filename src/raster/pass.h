@@ -71,24 +71,25 @@ class Pass {
   /// Adds an indexed draw. The shader is copied. The vertices, the indices and all data that the shader points to are not copied; they must
   /// stay valid and unchanged until run() returns.
   ///
-  /// indices is an Indices object or a raw list: a vector, array or span of uint32_t or uint16_t. Raw lists are scanned on every call, so
-  /// create an Indices object once for a list that is drawn repeatedly. Incomplete primitives at the end of a list are ignored, as in
-  /// OpenGL.
+  /// indices is an Indices object or a raw list without restarts: a vector, array or span of uint32_t, uint16_t or uint8_t. Raw lists are
+  /// scanned on every call, so create an Indices object once for a list that is drawn repeatedly. DrawState::first and count select a part
+  /// of it. Incomplete primitives at the end of a list are ignored, as in OpenGL.
   ///
-  /// Every index plus DrawState::base_vertex must be a valid vertex of the view, and per-instance streams must have rows for all instances.
-  /// The streams must match the members of the shader's Attributes; this is checked at compile time where the vertex type is known. Other
-  /// violations fail an HS_CHECK (core/check.h).
+  /// Every index plus DrawState::base_vertex must be a valid vertex of the view, and per-instance streams must have rows for all instances
+  /// from DrawState::base_instance on. The streams must match the members of the shader's Attributes one by one; this is checked at compile
+  /// time where the vertex type is known. Of a plain VertexView, the total number of components and the places of the integers are checked
+  /// when the draw is added. Other violations fail an HS_CHECK (core/check.h), also when the draw is added.
   template <class S, class V, detail::IndexList I>
   void draw(const S& shader, const V& vertices, I&& indices, const DrawState& state = {}) {
     check_lifetime<I>();
     if constexpr (detail::require_draw<S, V>())
-      detail::draw<detail::DrawKind::color>(*state_, shader, vertices, detail::view_indices(indices, vertices.vertex_count), state);
+      detail::draw<detail::DrawKind::color>(*state_, shader, vertices, detail::view_indices(indices, vertices.vertex_count, state), state);
   }
-  /// Adds a draw without indices: vertices 0, 1, 2, ... of the view.
+  /// Adds a draw without indices: vertices 0, 1, 2, ... of the view, or those that DrawState::first and count select.
   template <class S, class V>
   void draw(const S& shader, const V& vertices, const DrawState& state = {}) {
     if constexpr (detail::require_draw<S, V>())
-      detail::draw<detail::DrawKind::color>(*state_, shader, vertices, sequential(vertices), state);
+      detail::draw<detail::DrawKind::color>(*state_, shader, vertices, detail::sequential_indices(vertices.vertex_count, state), state);
   }
 
   /// Adds a draw that only writes depth and stencil. The shader's fragment function, if any, is not called. Its visibility function, if
@@ -97,13 +98,15 @@ class Pass {
   void draw_depth(const S& shader, const V& vertices, I&& indices, const DrawState& state = {}) {
     check_lifetime<I>();
     if constexpr (detail::require_depth_draw<S, V>())
-      detail::draw<detail::DrawKind::depth_only>(*state_, shader, vertices, detail::view_indices(indices, vertices.vertex_count), state);
+      detail::draw<detail::DrawKind::depth_only>(*state_, shader, vertices, detail::view_indices(indices, vertices.vertex_count, state),
+                                                 state);
   }
   /// Adds a depth-only draw without indices.
   template <class S, class V>
   void draw_depth(const S& shader, const V& vertices, const DrawState& state = {}) {
     if constexpr (detail::require_depth_draw<S, V>())
-      detail::draw<detail::DrawKind::depth_only>(*state_, shader, vertices, sequential(vertices), state);
+      detail::draw<detail::DrawKind::depth_only>(*state_, shader, vertices, detail::sequential_indices(vertices.vertex_count, state),
+                                                 state);
   }
 
   /// Sets colors, depth or stencil of a part of the target, after the draws that were added before. It counts as a draw of one triangle.
@@ -133,10 +136,6 @@ class Pass {
     static_assert(std::is_lvalue_reference_v<I> || std::ranges::borrowed_range<I>,
                   "the index list is a temporary; it must stay valid until Pass::run() returns");
   }
-  static std::shared_ptr<const Indices> sequential(const VertexView& vertices) {
-    return std::make_shared<const Indices>(Indices::sequential(vertices.vertex_count));
-  }
-
   std::unique_ptr<detail::PassState> state_;
 };
 

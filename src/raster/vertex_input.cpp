@@ -5,6 +5,25 @@
 
 namespace halfspace::HS_LANES {
 
+namespace {
+
+// Checks what a stream that was made by hand can get wrong.
+void check_stream(const VertexStream& s) {
+  HS_CHECK_OP(s.stride, >=, 0, "make_vertex_view: the stride of a stream is negative; expected at least 0");
+  HS_CHECK_OP(s.components, >=, 0, "make_vertex_view: the number of components of a stream is negative; expected at least 0");
+  HS_CHECK(s.data != nullptr || s.count == 0 || s.components == 0, "make_vertex_view: a stream has rows but no data; expected an array");
+  const bool is_packed = s.type == ComponentType::uint_2_10_10_10 || s.type == ComponentType::int_2_10_10_10;
+  HS_CHECK(!is_packed || s.components == 4, "make_vertex_view: a stream of packed numbers has another number of components; expected 4");
+  const bool has_integers = s.type >= ComponentType::uint8 && !is_packed;
+  HS_CHECK(s.read_as == ReadAs::floats || has_integers || (s.read_as == ReadAs::normalized && is_packed),
+           "make_vertex_view: the type of a stream cannot be read in this way; expected floats, or integers for normalized and integers");
+  // gather uses 32-bit indices. The division avoids an overflow of the product.
+  HS_CHECK_OP(s.count, <=, ((std::size_t{1} << 31) - 1) / std::max<std::size_t>(static_cast<std::size_t>(s.stride) / sizeof(float), 1),
+              "make_vertex_view: a stream is too long; expected fewer than 2^31 rows and 2^33 bytes");
+}
+
+}  // namespace
+
 namespace detail {
 
 VertexView bind_streams(std::span<const VertexStream> streams) {
@@ -15,20 +34,19 @@ VertexView bind_streams(std::span<const VertexStream> streams) {
 }
 
 VertexView bind_streams(std::span<const VertexStream> streams, std::size_t vertex_count) {
-  HS_CHECK_OP(streams.size(), <=, kMaxStreams, "make_vertex_view: too many streams; expected at most 12");
+  HS_CHECK_OP(streams.size(), <=, kMaxStreams, "make_vertex_view: too many streams; expected at most 16");
   VertexView v{.streams = {}, .stream_count = static_cast<int>(streams.size()), .vertex_count = vertex_count};
   std::ranges::copy(streams, v.streams.begin());
   for (const VertexStream& s : streams) {
-    HS_CHECK_OP(s.stride, >=, 0, "make_vertex_view: the stride of a stream is negative; expected at least 0");
-    HS_CHECK_OP(s.components, >=, 0, "make_vertex_view: the number of components of a stream is negative; expected at least 0");
-    HS_CHECK(s.data != nullptr || s.count == 0 || s.components == 0, "make_vertex_view: a stream has rows but no data; expected an array");
-    // gather uses 32-bit indices. The division avoids an overflow of the product.
-    HS_CHECK_OP(s.count, <=, ((std::size_t{1} << 31) - 1) / std::max<std::size_t>(static_cast<std::size_t>(s.stride), 1),
-                "make_vertex_view: a stream is too long; expected fewer than 2^31 numbers");
+    check_stream(s);
+    HS_CHECK_OP(s.components, <=, kMaxStreamComponents - v.components,
+                "make_vertex_view: the streams have too many components; expected at most 64 in all streams");
+    for (int i = v.components; s.read_as == ReadAs::integers && i < v.components + s.components; ++i)
+      v.integer_components |= uint64_t{1} << i;
     v.components += s.components;
+    v.needs_conversion |= !is_read_in_place(s);
     if (s.divisor != 0) {
       v.has_instance_streams = true;
-      v.instance_count = std::min(v.instance_count, s.count * s.divisor);
     } else {
       HS_CHECK_OP(s.count, ==, vertex_count, "make_vertex_view: the streams have different lengths; expected one row per vertex in each");
     }
@@ -47,18 +65,36 @@ Indices Indices::sequential(std::size_t vertex_count) {
 }
 
 Indices::Indices(std::span<const uint32_t> list, std::size_t vertex_count, PrimitiveRestart restart)
-    : wide_(list.data()), size_(list.size()) {
-  scan(list, vertex_count, restart);
+    : wide_(list.data()), size_(list.size()), restart_(restart) {
+  scan(list, vertex_count);
 }
 
 Indices::Indices(std::span<const uint16_t> list, std::size_t vertex_count, PrimitiveRestart restart)
-    : narrow_(list.data()), size_(list.size()) {
-  scan(list, vertex_count, restart);
+    : narrow_(list.data()), size_(list.size()), restart_(restart) {
+  scan(list, vertex_count);
+}
+
+Indices::Indices(std::span<const uint8_t> list, std::size_t vertex_count, PrimitiveRestart restart)
+    : bytes_(list.data()), size_(list.size()), restart_(restart) {
+  scan(list, vertex_count);
+}
+
+Indices Indices::range(std::size_t first, std::size_t count) const {
+  HS_CHECK_OP(first, <=, size_, "Indices: the first index of a range is too large; expected at most the number of indices");
+  HS_CHECK_OP(count, <=, size_ - first, "Indices: a range has too many indices; expected that it ends with the list or before");
+  if (wide_ != nullptr) return {std::span(wide_ + first, count), end_, restart_};
+  if (narrow_ != nullptr) return {std::span(narrow_ + first, count), end_, restart_};
+  if (bytes_ != nullptr) return {std::span(bytes_ + first, count), end_, restart_};
+  Indices i;
+  i.size_ = count;
+  i.first_ = first_ + static_cast<uint32_t>(first);
+  i.end_ = i.first_ + static_cast<uint32_t>(count);
+  return i;
 }
 
 template <class T>
-void Indices::scan(std::span<const T> list, std::size_t vertex_count, PrimitiveRestart restart) {
-  const auto is_restart = [restart](T i) { return restart == PrimitiveRestart::on && i == std::numeric_limits<T>::max(); };
+void Indices::scan(std::span<const T> list, std::size_t vertex_count) {
+  const auto is_restart = [this](T i) { return restart_.ends_at(i); };
   T low = std::numeric_limits<T>::max(), high = 0;
   for (std::size_t place = 0; place < list.size(); ++place) {
     if (is_restart(list[place])) {
@@ -96,6 +132,13 @@ std::span<const VertexStream> at_instance(const VertexStreams& vertices, uint32_
     s.stride = 0;
   }
   return moved;
+}
+
+void read_vertex(std::span<const VertexStream> streams, std::size_t vertex, std::span<float> out) {
+  for (const VertexStream& s : streams) {
+    read_row(s, vertex, out.data());
+    out = out.subspan(static_cast<std::size_t>(s.components));
+  }
 }
 
 }  // namespace halfspace::HS_LANES

@@ -13,7 +13,7 @@ constexpr std::array<float, 4> kZeros{0, 0, 0, 0}, kOnes{1, 1, 1, 1}, kTangent{1
 template <class T>
 StreamOf<T> stream_or(std::span<const T> rows, const std::array<float, 4>& constant, std::size_t vertices) {
   if (!rows.empty()) return stream(rows);
-  return {{.data = constant.data(), .stride = 0, .components = T::length(), .count = vertices}};
+  return {{.data = std::as_bytes(std::span(constant)).data(), .stride = 0, .components = T::length(), .count = vertices}};
 }
 
 }  // namespace

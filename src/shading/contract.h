@@ -2,8 +2,9 @@
 //
 // The interface of a shader. A shader is a plain struct whose members are its uniforms, with
 //
-//   template <class R> struct Attributes { … };      the vertex streams, e.g. vec3<R> position; vec2<R> uv;
+//   template <class R> struct Attributes { … };      the vertex streams, e.g. vec3<R> position; vec2<R> uv; IntOf<R> joint;
 //   template <class R> struct Varyings { … };        the values passed from the vertex function to the fragment function
+//                                                    (each at most 16 members and 64 components; see shading/varyings.h)
 //   template <class R> vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const;      → clip space
 //   template <class R> Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>& px) const; → linear color
 //
@@ -395,6 +396,10 @@ consteval bool require_vertex_shader() {
     static_assert(detail::kComplete<S>,
                   "the shader's visibility function must be: template <class R> Visibility<R> visibility(const Varyings<R>& in, "
                   "const Pixel<R>& px) const;");
+  } else {
+    using V = typename S::template Varyings<float>;
+    static_assert(!kInterpolatesIntegers<V>, "integer varyings are not interpolated: declare them as Flat<IntOf<R>>");
+    static_assert(kComponents<V> <= kMaxComponents, "the varyings of a shader must not have more than 64 components");
   }
   return VertexShader<S>;
 }

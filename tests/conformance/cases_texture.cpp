@@ -66,7 +66,9 @@ std::string derivative_formula(const Picture& p, const Seen& seen) {
 
 // ---- textures ------------------------------------------------------------------------------------------------------
 
-constexpr const char* kTexelNames[] = {"rgba8", "srgb8", "r8", "r16", "rgba16f", "rgba32f"};
+constexpr std::pair<TexelFormat, const char*> kTextureFormats[] = {{TexelFormat::rgba8, "rgba8"},     {TexelFormat::srgb8a8, "srgb8"},
+                                                                   {TexelFormat::r8, "r8"},           {TexelFormat::r16, "r16"},
+                                                                   {TexelFormat::rgba16f, "rgba16f"}, {TexelFormat::rgba32f, "rgba32f"}};
 constexpr const char* kFilterNames[] = {"nearest", "linear", "mipmap"};
 constexpr const char* kWrapNames[] = {"repeat", "mirror", "clamp", "border"};
 
@@ -132,10 +134,10 @@ void add_filters(Cases& cases) {
         const Sampler s{.mag = static_cast<Filter>(mag), .min = static_cast<Filter>(min)};
         const bool magnified = (f + min) % 2 == 0;
         const glm::vec4 uv = magnified ? glm::vec4(-0.31f, 0.13f, 0.57f, 0.91f) : glm::vec4(-3.1f, 1.2f, 4.7f, 6.3f);
-        add_filter(
-            cases,
-            std::string(kTexelNames[f]) + "_" + kFilterNames[mag] + "_" + kFilterNames[min] + (magnified ? "_magnified" : "_minified"), 16,
-            16, static_cast<TexelFormat>(f), s, uv, f % 2 == 1);
+        add_filter(cases,
+                   std::string(kTextureFormats[f].second) + "_" + kFilterNames[mag] + "_" + kFilterNames[min] +
+                       (magnified ? "_magnified" : "_minified"),
+                   16, 16, kTextureFormats[f].first, s, uv, f % 2 == 1);
       }
     }
   }

@@ -96,7 +96,8 @@ const char* not_comparable(const conformance::Picture& p) {
     if (d.kind == Kind::color && d.mode == conformance::kLinear && turns_over)
       return "OpenGL does not define noperspective interpolation if w changes sign";
     if (s.stencil && s.polygon_mode != PolygonMode::fill) return "llvmpipe applies the front-face stencil state to outlines of back faces";
-    if (d.texture && d.texture->format() > TexelFormat::srgb8a8) return "only 8-bit RGBA textures can be uploaded";
+    if (d.texture && d.texture->format() != TexelFormat::rgba8 && d.texture->format() != TexelFormat::srgb8a8)
+      return "only 8-bit RGBA textures can be uploaded";
     if (draws_points(s) && (d.kind == Kind::clip || !std::all_of(d.vertices.begin(), d.vertices.end(), is_inside)))
       return "Mesa clips points by their center";
     if (p.samples > 1 && s.scissor) return "llvmpipe's scissor passes samples of pixels next to the rectangle";

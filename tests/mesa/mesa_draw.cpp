@@ -57,11 +57,11 @@ void link(GLuint program) {
 // ---- draw calls ----------------------------------------------------------------------------------------------------
 
 void bind_stream(GLuint location, const Buffer& buffer, const VertexStream& s) {
-  const std::size_t floats = s.count == 0 ? 0 : (s.count - 1) * static_cast<std::size_t>(s.stride) + static_cast<std::size_t>(s.components);
+  const std::size_t bytes = s.count == 0 ? 0 : (s.count - 1) * static_cast<std::size_t>(s.stride) + row_bytes(s);
   glBindBuffer(GL_ARRAY_BUFFER, buffer.id);
-  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(floats * sizeof(float)), s.data, GL_STATIC_DRAW);
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(bytes), s.data, GL_STATIC_DRAW);
   glEnableVertexAttribArray(location);
-  glVertexAttribPointer(location, s.components, GL_FLOAT, GL_FALSE, s.stride * static_cast<GLsizei>(sizeof(float)), nullptr);
+  glVertexAttribPointer(location, s.components, GL_FLOAT, GL_FALSE, s.stride, nullptr);
   glVertexAttribDivisor(location, s.divisor);
 }
 

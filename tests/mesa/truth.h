@@ -85,12 +85,7 @@ class TruthDrawOf final : public TruthDraw {
   void shade_vertex(const VertexView& view, std::size_t i) {
     using A = typename S::template Attributes<float>;
     std::array<float, kComponents<A>> row;
-    std::size_t c = 0;
-    for (int s = 0; s < view.stream_count; ++s) {
-      const VertexStream& stream = view.streams[static_cast<std::size_t>(s)];
-      for (int k = 0; k < stream.components; ++k)
-        row[c++] = stream.data[i * static_cast<std::size_t>(stream.stride) + static_cast<std::size_t>(k)];
-    }
+    read_vertex(view.used_streams(), i, row);
     V out{};
     pos_clip_.push_back(call_vertex<S, float>(shader_, from_components<A, float>(row), {}, out));
     varyings_.push_back(to_components<float>(out));

@@ -17,6 +17,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "halfspace/raster/draw_state.h"
@@ -46,6 +47,9 @@ struct Counts {
   std::map<uint32_t, uint64_t> queries;
 };
 
+/// The index that ends a primitive in most tests.
+inline constexpr uint32_t kRestart = 0xffffffffu;
+
 /// Input of a draw. Attributes come from the row of the vertex, except for the last instance_components, which come from the row of the
 /// instance.
 template <class S>
@@ -53,15 +57,22 @@ struct Input {
   using Row = typename S::template Attributes<float>;
   std::vector<Row> vertices;
   std::vector<uint32_t> indices;
-  bool restart = false;  ///< the index kRestart ends a primitive
+  bool restart = false;  ///< restart_index ends a primitive
   std::size_t instance_components = 0;
   std::vector<Row> instances;
   uint32_t divisor = 1;
-};
-inline constexpr uint32_t kRestart = 0xffffffffu;
+  uint32_t restart_index = kRestart;
 
-/// Returns the triangles that the indices form. The provoking vertex is first or last, as the state requires.
-std::vector<std::array<uint32_t, 3>> assemble(const std::vector<uint32_t>& indices, bool restart, const DrawState& state);
+  std::optional<uint32_t> restart_at() const { return restart ? std::optional(restart_index) : std::nullopt; }
+};
+
+/// Returns the indices that the state selects (DrawState::first and count).
+std::vector<uint32_t> selected(const std::vector<uint32_t>& indices, const DrawState& state);
+
+/// Returns the triangles that the indices form. The provoking vertex is first or last, as the state requires. restart: the index that ends
+/// a primitive.
+std::vector<std::array<uint32_t, 3>> assemble(const std::vector<uint32_t>& indices, std::optional<uint32_t> restart,
+                                              const DrawState& state);
 
 class Renderer {
  public:
@@ -133,13 +144,14 @@ void Renderer::draw_instance(const S& shader, const Input<S>& input, const DrawS
   using P = PrimitiveOf<S, float>;
   const ShaderFacts facts = detail::facts_of<S>();
   std::map<uint32_t, ShadedVertex> shaded;
-  for (const uint32_t i : input.indices) {
-    if ((input.restart && i == kRestart) || shaded.contains(i)) continue;
+  const std::vector<uint32_t> indices = selected(input.indices, state);
+  for (const uint32_t i : indices) {
+    if (input.restart_at() == i || shaded.contains(i)) continue;
     ++counts_.vertices_shaded;
     const auto row = static_cast<uint32_t>(static_cast<int64_t>(i) + state.base_vertex);
     auto attributes = detail::components_of(input.vertices[row]);
     for (std::size_t k = attributes.size() - input.instance_components; k < attributes.size(); ++k) {
-      attributes[k] = detail::components_of(input.instances[instance / input.divisor])[k];
+      attributes[k] = detail::components_of(input.instances[instance / input.divisor + state.base_instance])[k];
     }
     V out{};
     const VertexId<float> id{static_cast<int32_t>(row), static_cast<int32_t>(instance)};
@@ -148,7 +160,7 @@ void Renderer::draw_instance(const S& shader, const Input<S>& input, const DrawS
     detail::take_vertex(vertex, shaded[i]);
     shaded[i].varyings = detail::components_of(out);
   }
-  for (const auto& [a, b, c] : assemble(input.indices, input.restart, state)) {
+  for (const auto& [a, b, c] : assemble(indices, input.restart_at(), state)) {
     const std::array<const ShadedVertex*, 3> v{&shaded[a], &shaded[b], &shaded[c]};
     P face{};
     if constexpr (HasPrimitive<S>) {

@@ -15,7 +15,14 @@
 
 namespace halfspace::oracle {
 
-std::vector<std::array<uint32_t, 3>> assemble(const std::vector<uint32_t>& indices, bool restart, const DrawState& state) {
+std::vector<uint32_t> selected(const std::vector<uint32_t>& indices, const DrawState& state) {
+  std::vector<uint32_t> out;
+  for (std::size_t i = state.first; i < indices.size() && (!state.count || i - state.first < *state.count); ++i) out.push_back(indices[i]);
+  return out;
+}
+
+std::vector<std::array<uint32_t, 3>> assemble(const std::vector<uint32_t>& indices, std::optional<uint32_t> restart,
+                                              const DrawState& state) {
   std::vector<std::array<uint32_t, 3>> out;
   std::vector<uint32_t> run;
   const auto finish_run = [&] {
@@ -47,7 +54,7 @@ std::vector<std::array<uint32_t, 3>> assemble(const std::vector<uint32_t>& indic
     run.clear();
   };
   for (const uint32_t i : indices) {
-    if (restart && i == kRestart) {
+    if (restart == i) {
       finish_run();
     } else {
       run.push_back(i);

@@ -372,7 +372,47 @@ std::vector<A> random_rows(const std::vector<glm::vec4>& positions, Random& rand
   return rows;
 }
 
-// Returns a draw with a random combination of topology, primitive restart, instances and base vertex.
+// Replaces the attributes after the position by the nearest numbers of the format.
+template <class A>
+void round_rows(StreamFormat format, std::vector<A>& rows) {
+  constexpr uint64_t integers = kIntegerComponents<A>;
+  for (A& row : rows) {
+    auto numbers = to_components<float>(row);
+    for (std::size_t k = 4; k < numbers.size(); ++k) {
+      if ((integers >> k & 1) == 0) numbers[k] = rounded_to(format, numbers[k]);
+    }
+    row = from_components<A, float>(numbers);
+  }
+}
+
+// Selects a part of the vertices or indices.
+void select_range(std::size_t size, Random& random, DrawState& state) {
+  state.first = static_cast<uint32_t>(random.below(static_cast<int>(size) + 1));
+  if (random.once_in(2)) state.count = static_cast<uint32_t>(random.below(static_cast<int>(size - state.first) + 1));
+}
+
+// Changes the format of the streams, the range of indices, the first instance and the restart index, without changing the random numbers of
+// the rest of the scene. Returns the format.
+template <class S>
+StreamFormat vary_vertex_data(Random random, oracle::Input<S>& input, DrawState& state) {
+  if (random.once_in(3)) return StreamFormat::in_place;
+  if (random.once_in(2)) select_range(input.indices.size(), random, state);
+  if (input.restart && random.once_in(2)) {
+    // An index that the geometry uses ends primitives.
+    input.restart_index = input.indices[static_cast<std::size_t>(random.below(static_cast<int>(input.indices.size())))];
+    std::ranges::replace(input.indices, oracle::kRestart, input.restart_index);
+  }
+  if (input.instance_components != 0 && random.once_in(2)) {
+    state.base_instance = random.pick({1u, 2u, 9u});
+    input.instances.insert(input.instances.begin(), state.base_instance, input.instances.front());
+  }
+  const auto format = static_cast<StreamFormat>(random.below(static_cast<int>(StreamFormat::scaled8) + 1));
+  round_rows(format, input.vertices);
+  round_rows(format, input.instances);
+  return format;
+}
+
+// Returns a draw with a random combination of topology, primitive restart, instances, base vertex and formats.
 template <class S>
 SceneDraw primitives_draw(const S& shader, const char* name, const Geometry& g, DrawState state, Random& random) {
   using A = typename S::template Attributes<float>;
@@ -399,7 +439,12 @@ SceneDraw primitives_draw(const S& shader, const char* name, const Geometry& g, 
     input.instances = random_rows<A>(std::vector<glm::vec4>(state.instances / input.divisor + 1), random);
   }
   const auto vertex_layout = random.pick({VertexLayout::tight, VertexLayout::padded, VertexLayout::separate});
-  return make_draw(shader, name, input, state, vertex_layout, random.once_in(2) ? IndexLayout::narrow : IndexLayout::wide);
+  IndexLayout index_layout = random.once_in(2) ? IndexLayout::narrow : IndexLayout::wide;
+  StreamFormat format = input.indices.empty() ? StreamFormat::in_place : vary_vertex_data(random, input, state);
+  if (kHasIntegers<A> && format == StreamFormat::in_place) format = StreamFormat::floats;
+  const bool fits = std::ranges::all_of(input.indices, [&](uint32_t i) { return i < 255 || i == oracle::kRestart; });
+  if (fits && index_layout == IndexLayout::narrow) index_layout = IndexLayout::bytes;
+  return make_draw(shader, name, input, state, vertex_layout, index_layout, format);
 }
 
 template <class S>
@@ -413,7 +458,10 @@ SceneDraw shader_draw(const S& shader, const char* name, const Geometry& g, cons
     for (const uint32_t i : g.indices) repeated.push_back(rows[i]);
     for (int i = random.below(3); i > 0 && !rows.empty(); --i) repeated.push_back(rows.front());
     for (uint32_t i = 0; i < repeated.size(); ++i) sequence.push_back(i);
-    return make_draw(shader, name, std::move(repeated), std::move(sequence), state, vertex_layout, IndexLayout::none);
+    DrawState part = state;
+    Random copy(random);  // leaves the random numbers of the rest of the scene as they are
+    if (copy.once_in(2)) select_range(repeated.size(), copy, part);
+    return make_draw(shader, name, std::move(repeated), std::move(sequence), part, vertex_layout, IndexLayout::none);
   }
   return make_draw(shader, name, std::move(rows), g.indices, state, vertex_layout,
                    random.once_in(2) ? IndexLayout::narrow : IndexLayout::wide);
@@ -421,7 +469,10 @@ SceneDraw shader_draw(const S& shader, const char* name, const Geometry& g, cons
 
 SceneDraw random_primitives(bool depth_only, const Geometry& g, const DrawState& state, const glm::mat4& matrix, Random& random) {
   if (depth_only) return primitives_draw(DepthShader{matrix}, "DepthShader", g, state, random);
-  switch (random.below(4)) {
+  const int which = random.below(4);
+  const bool has_integers = Random(random).once_in(2);  // from a copy, which leaves the other scenes as they are
+  if (which >= 2 && has_integers) return primitives_draw(IntegerShader{}, "IntegerShader", g, state, random);
+  switch (which) {
     case 0: return primitives_draw(MixedShader{}, "MixedShader", g, state, random);
     case 1: return primitives_draw(FaceShader{}, "FaceShader", g, state, random);
     default: return primitives_draw(InstanceShader{}, "InstanceShader", g, state, random);

@@ -83,71 +83,64 @@ std::string compare_color(const char* name, const Scene& scene, ColorFormat form
 namespace draw_memory {
 
 void lay_out_vertices(const float* rows, std::size_t count, int components, VertexLayout layout, DrawMemory& memory) {
-  VertexView& view = memory.view;
-  view.vertex_count = count;
-  view.components = components;
   const auto n = static_cast<std::size_t>(components);
   // A stream is a sequence of components. With two streams, the split may be in the middle of a member.
   const std::size_t first_part = layout == VertexLayout::tight || n < 2 ? n : std::min(n - 1, std::size_t{3});
   const std::size_t gap = layout == VertexLayout::padded ? 3 : 0;
+  const auto add = [&](const std::vector<float>& buffer, std::size_t first, std::size_t stride, std::size_t floats) {
+    const std::byte* data = count == 0 ? nullptr : std::as_bytes(std::span(buffer)).data() + first * sizeof(float);
+    memory.streams.push_back({data, static_cast<int32_t>(stride * sizeof(float)), static_cast<int32_t>(floats), count});
+  };
+  memory.buffers.resize(2);
+  std::vector<float>&all = memory.buffers[0], &rest = memory.buffers[1];
   if (layout == VertexLayout::separate) {
-    memory.buffers.resize(2);
     for (std::size_t v = 0; v < count; ++v) {
-      memory.buffers[0].insert(memory.buffers[0].end(), rows + v * n, rows + v * n + first_part);
-      memory.buffers[1].insert(memory.buffers[1].end(), rows + v * n + first_part, rows + v * n + n);
+      all.insert(all.end(), rows + v * n, rows + v * n + first_part);
+      rest.insert(rest.end(), rows + v * n + first_part, rows + v * n + n);
     }
-    view.streams[0] = {memory.buffers[0].data(), static_cast<int32_t>(first_part), static_cast<int32_t>(first_part), count};
-    view.streams[1] = {memory.buffers[1].data(), static_cast<int32_t>(n - first_part), static_cast<int32_t>(n - first_part), count};
-    view.stream_count = n > first_part ? 2 : 1;
+    add(all, 0, first_part, first_part);
+    if (n > first_part) add(rest, 0, n - first_part, n - first_part);
     return;
   }
-  memory.buffers.resize(1);
   for (std::size_t v = 0; v < count; ++v) {
-    memory.buffers[0].insert(memory.buffers[0].end(), rows + v * n, rows + v * n + n);
-    if (v + 1 < count) memory.buffers[0].insert(memory.buffers[0].end(), gap, 1e30f);
+    all.insert(all.end(), rows + v * n, rows + v * n + n);
+    if (v + 1 < count) all.insert(all.end(), gap, 1e30f);
   }
-  const auto stride = static_cast<int32_t>(n + gap);
-  view.streams[0] = {memory.buffers[0].data(), stride, static_cast<int32_t>(first_part), count};
-  view.stream_count = 1;
-  if (first_part < n && count > 0)
-    view.streams[static_cast<std::size_t>(view.stream_count++)] = {memory.buffers[0].data() + first_part, stride,
-                                                                   static_cast<int32_t>(n - first_part), count};
+  add(all, 0, n + gap, first_part);
+  if (first_part < n) add(all, first_part, n + gap, n - first_part);
 }
 
 void lay_out_instances(const float* rows, std::size_t count, int components, std::size_t instance_components, uint32_t divisor,
                        DrawMemory& memory) {
   if (instance_components == 0) return;
   // Remove the last components from the vertex streams. The remaining ones keep their offsets.
-  VertexView& view = memory.view;
-  std::size_t rest = static_cast<std::size_t>(components) - instance_components;
-  int streams = 0;
-  for (int i = 0; i < view.stream_count; ++i) {
-    VertexStream& s = view.streams[static_cast<std::size_t>(i)];
+  const std::size_t first = static_cast<std::size_t>(components) - instance_components;
+  std::size_t rest = first;
+  for (VertexStream& s : memory.streams) {
     s.components = std::min(s.components, static_cast<int32_t>(rest));
     rest -= static_cast<std::size_t>(s.components);
-    if (s.components != 0) ++streams;
   }
-  const std::size_t n = count * static_cast<std::size_t>(components);
-  memory.buffers.emplace_back(rows, rows + n);
-  view.streams[static_cast<std::size_t>(streams)] =
-      per_instance(VertexStream{memory.buffers.back().data() + (static_cast<std::size_t>(components) - instance_components),
-                                static_cast<int32_t>(components), static_cast<int32_t>(instance_components), count},
-                   divisor);
-  view.stream_count = streams + 1;
-  view.has_instance_streams = true;
-  view.instance_count = count * divisor;
+  std::erase_if(memory.streams, [](const VertexStream& s) { return s.components == 0; });
+  memory.buffers.emplace_back(rows, rows + count * static_cast<std::size_t>(components));
+  memory.streams.push_back(
+      per_instance(VertexStream{std::as_bytes(std::span(memory.buffers.back())).data() + first * sizeof(float),
+                                components * static_cast<int32_t>(sizeof(float)), static_cast<int32_t>(instance_components), count},
+                   divisor));
 }
 
-void lay_out_indices(const std::vector<uint32_t>& list, std::size_t vertex_count, bool restart, IndexLayout layout, DrawMemory& memory) {
+void lay_out_indices(const std::vector<uint32_t>& list, std::size_t vertex_count, std::optional<uint32_t> restart, IndexLayout layout,
+                     DrawMemory& memory) {
   if (layout == IndexLayout::none) return;
-  const PrimitiveRestart mode = restart ? PrimitiveRestart::on : PrimitiveRestart::off;
-  if (layout == IndexLayout::narrow) {
-    for (const uint32_t i : list) memory.narrow.push_back(static_cast<uint16_t>(i));
-    memory.indices.emplace(std::span<const uint16_t>(memory.narrow), vertex_count, mode);
-  } else {
-    memory.wide = list;
-    memory.indices.emplace(std::span<const uint32_t>(memory.wide), vertex_count, mode);
-  }
+  const PrimitiveRestart mode = !restart                       ? PrimitiveRestart::off
+                                : *restart == oracle::kRestart ? PrimitiveRestart::on
+                                                               : PrimitiveRestart::at(*restart);
+  const auto store = [&]<class T>(std::vector<T>& to) {
+    for (const uint32_t i : list) to.push_back(static_cast<T>(i));
+    memory.indices.emplace(std::span<const T>(to), vertex_count, mode);
+  };
+  if (layout == IndexLayout::bytes) store(memory.bytes);
+  if (layout == IndexLayout::narrow) store(memory.narrow);
+  if (layout == IndexLayout::wide) store(memory.wide);
 }
 
 }  // namespace draw_memory

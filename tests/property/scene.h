@@ -13,6 +13,7 @@
 #include "halfspace/raster/pass.h"
 #include "oracle/oracle.h"
 #include "property/test_shaders.h"
+#include "property/vertex_formats.h"
 
 namespace halfspace {
 
@@ -74,17 +75,18 @@ std::string describe(const Scene& scene);
 
 /// How the vertices of a draw are stored in memory.
 enum class VertexLayout { tight, padded, separate };
-enum class IndexLayout { none, narrow, wide };
+enum class IndexLayout { none, narrow, wide, bytes };
 
-/// Creates a draw of a shader. With IndexLayout::none, the indices must be 0, 1, 2, ….
+/// Creates a draw of a shader. With IndexLayout::none, the indices must be 0, 1, 2, …. With a format other than StreamFormat::in_place, the
+/// rows of the input must be representable in it (vertex_formats.h), and the layout does not matter.
 template <class S>
 SceneDraw make_draw(const S& shader, const std::string& name, const oracle::Input<S>& input, const DrawState& state,
-                    VertexLayout vertex_layout, IndexLayout index_layout);
+                    VertexLayout vertex_layout, IndexLayout index_layout, StreamFormat format = StreamFormat::in_place);
 template <class S>
 SceneDraw make_draw(const S& shader, const std::string& name, std::vector<typename S::template Attributes<float>> vertex_rows,
                     std::vector<uint32_t> index_list, const DrawState& state, VertexLayout vertex_layout, IndexLayout index_layout) {
-  return make_draw(shader, name, oracle::Input<S>{std::move(vertex_rows), std::move(index_list), false, 0, {}, 1}, state, vertex_layout,
-                   index_layout);
+  return make_draw(shader, name, oracle::Input<S>{.vertices = std::move(vertex_rows), .indices = std::move(index_list)}, state,
+                   vertex_layout, index_layout);
 }
 
 // ---- code that depends on the shader type ------------------------------------------------------------------------
@@ -94,7 +96,10 @@ namespace draw_memory {
 /// Owns the memory of a draw.
 struct DrawMemory {
   std::vector<std::vector<float>> buffers;
+  std::vector<std::vector<std::byte>> formatted;
+  std::vector<VertexStream> streams;
   VertexView view;
+  std::vector<uint8_t> bytes;
   std::vector<uint16_t> narrow;
   std::vector<uint32_t> wide;
   std::optional<Indices> indices;  ///< none: sequential
@@ -102,7 +107,9 @@ struct DrawMemory {
 
 /// Stores rows of `components` floats as streams.
 void lay_out_vertices(const float* rows, std::size_t count, int components, VertexLayout layout, DrawMemory& memory);
-void lay_out_indices(const std::vector<uint32_t>& list, std::size_t vertex_count, bool restart, IndexLayout layout, DrawMemory& memory);
+/// restart: the index that ends a primitive. The largest 32-bit value becomes the largest value of the index type.
+void lay_out_indices(const std::vector<uint32_t>& list, std::size_t vertex_count, std::optional<uint32_t> restart, IndexLayout layout,
+                     DrawMemory& memory);
 /// Replaces the last `instance_components` components of each vertex with per-instance values. Each row of `components` floats applies to
 /// `divisor` consecutive instances.
 void lay_out_instances(const float* rows, std::size_t count, int components, std::size_t instance_components, uint32_t divisor,
@@ -112,19 +119,29 @@ void lay_out_instances(const float* rows, std::size_t count, int components, std
 
 template <class S>
 SceneDraw make_draw(const S& shader, const std::string& name, const oracle::Input<S>& input, const DrawState& state,
-                    VertexLayout vertex_layout, IndexLayout index_layout) {
-  constexpr auto components = static_cast<int>(kComponents<typename S::template Attributes<float>>);
+                    VertexLayout vertex_layout, IndexLayout index_layout, StreamFormat format) {
+  using A = typename S::template Attributes<float>;
+  constexpr auto components = static_cast<int>(kComponents<A>);
   const auto memory = std::make_shared<draw_memory::DrawMemory>();
-  draw_memory::lay_out_vertices(reinterpret_cast<const float*>(input.vertices.data()), input.vertices.size(), components, vertex_layout,
-                                *memory);
-  draw_memory::lay_out_instances(reinterpret_cast<const float*>(input.instances.data()), input.instances.size(), components,
-                                 input.instance_components, input.divisor, *memory);
+  const auto* vertices = reinterpret_cast<const float*>(input.vertices.data());
+  const auto* instances = reinterpret_cast<const float*>(input.instances.data());
+  if (format == StreamFormat::in_place) {
+    draw_memory::lay_out_vertices(vertices, input.vertices.size(), components, vertex_layout, *memory);
+    draw_memory::lay_out_instances(instances, input.instances.size(), components, input.instance_components, input.divisor, *memory);
+  } else {
+    const FormattedRows per_vertex{vertices, input.vertices.size(), components, kIntegerComponents<A>};
+    const FormattedRows per_instance_rows{instances, input.instances.size(), components, kIntegerComponents<A>};
+    const int end = components - static_cast<int>(input.instance_components);
+    add_formatted(per_vertex, 0, end, format, 0, memory->formatted, memory->streams);
+    add_formatted(per_instance_rows, end, components, format, input.divisor, memory->formatted, memory->streams);
+  }
+  memory->view = detail::bind_streams(memory->streams, input.vertices.size());
   const std::size_t indexable = input.vertices.size() + static_cast<std::size_t>(-std::min(state.base_vertex, 0));
-  draw_memory::lay_out_indices(input.indices, indexable, input.restart, index_layout, *memory);
+  draw_memory::lay_out_indices(input.indices, indexable, input.restart_at(), index_layout, *memory);
   SceneDraw d;
   d.state = state;
   d.shader = name;
-  d.triangles = oracle::assemble(input.indices, input.restart, state).size() * state.instances;
+  d.triangles = oracle::assemble(oracle::selected(input.indices, state), input.restart_at(), state).size() * state.instances;
   d.submit = [memory, shader, state](Pass& pass) {
     if constexpr (HasFragmentFunction<S>) {
       if (memory->indices) {

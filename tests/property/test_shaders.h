@@ -4,6 +4,7 @@
 // a NaN, because the bits of a NaN depend on the operand order of instructions.
 #pragma once
 
+#include <array>
 #include <limits>
 
 #include "halfspace/raster/pass.h"
@@ -299,6 +300,39 @@ struct InstanceShader {
   template <class R>
   Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>&) const {
     return {clamped(vec4<R>(in.color, in.number.value), 8.0f)};
+  }
+};
+
+/// Integers and arrays as attributes and varyings.
+struct IntegerShader {
+  template <class R>
+  struct Attributes {
+    vec4<R> position;
+    std::array<vec2<R>, 2> scales;
+    std::array<IntOf<R>, 2> codes;
+    R last;
+  };
+  template <class R>
+  struct Varyings {
+    Flat<std::array<IntOf<R>, 2>> codes;
+    std::array<vec3<R>, 2> colors;
+    Flat<IntOf<R>> instance;
+    NoPerspective<std::array<R, 2>> ramps;
+  };
+  template <class R>
+  vec4<R> vertex(const Attributes<R>& in, const VertexId<R>& id, Varyings<R>& out) const {
+    out.codes.value = {in.codes[1], in.codes[0] ^ id.vertex};
+    const R third = to_real<R>(in.codes[0] & IntOf<R>(255)) * R(1.0f / 255.0f);
+    out.colors = {vec3<R>(in.scales[0], third), vec3<R>(in.scales[1], in.last)};
+    out.instance.value = IntOf<R>(id.instance) - IntOf<R>(3);
+    out.ramps.value = {in.last, in.scales[1].y};
+    return in.position;
+  }
+  template <class R>
+  Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>&) const {
+    const auto fraction = [](const IntOf<R>& i) { return to_real<R>((i >> 8) & IntOf<R>(255)) * R(1.0f / 255.0f); };
+    const vec3<R> color = in.colors[0] * fraction(in.codes.value[0]) + in.colors[1] * fraction(in.codes.value[1]);
+    return {clamped(vec4<R>(color, in.ramps.value[0] * to_real<R>(in.instance.value) + in.ramps.value[1]), 8.0f)};
   }
 };
 

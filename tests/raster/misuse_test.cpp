@@ -107,12 +107,22 @@ TEST_F(MisuseTest, NumbersThatAreNotInRangeAreRefused) {
 }
 
 TEST_F(MisuseTest, StreamsMadeByHandAreChecked) {
-  const float number = 0.0f;
+  const std::array<float, 4> numbers{};
+  const std::byte* data = std::as_bytes(std::span(numbers)).data();
   const auto message = [](const VertexStream& s) { return failure_of([&] { make_vertex_view(s); }); };
-  EXPECT_EQ(message({.data = &number, .stride = 0, .components = 1, .count = 9}), "");
-  EXPECT_NE(message({.data = nullptr, .stride = 1, .components = 1, .count = 9}), "");
-  EXPECT_NE(message({.data = &number, .stride = -1, .components = 1, .count = 9}), "");
-  EXPECT_NE(message({.data = &number, .stride = 4, .components = 4, .count = std::size_t{1} << 62}), "") << "the product overflows";
+  EXPECT_EQ(message({.data = data, .stride = 0, .components = 1, .count = 9}), "");
+  EXPECT_NE(message({.data = nullptr, .stride = 4, .components = 1, .count = 9}), "");
+  EXPECT_NE(message({.data = data, .stride = -1, .components = 1, .count = 9}), "");
+  EXPECT_NE(message({.data = data, .stride = 16, .components = 4, .count = std::size_t{1} << 62}), "") << "the product overflows";
+  EXPECT_NE(message({.data = data, .stride = 0, .components = -1, .count = 9}), "");
+  EXPECT_NE(message({.data = data, .stride = 0, .components = 65, .count = 9}), "");
+  EXPECT_NE(message({.data = data, .components = 3, .count = 9, .type = ComponentType::int_2_10_10_10}), "") << "four are packed";
+  EXPECT_NE(message({.data = data, .components = 4, .count = 9, .type = ComponentType::int_2_10_10_10, .read_as = ReadAs::integers}), "");
+  for (const ComponentType type : {ComponentType::float32, ComponentType::float16, ComponentType::float64}) {
+    EXPECT_EQ(message({.data = data, .components = 1, .count = 9, .type = type}), "");
+    EXPECT_NE(message({.data = data, .components = 1, .count = 9, .type = type, .read_as = ReadAs::normalized}), "");
+    EXPECT_NE(message({.data = data, .components = 1, .count = 9, .type = type, .read_as = ReadAs::integers}), "");
+  }
 }
 
 TEST_F(MisuseTest, TheNaivePipelineChecksIndicesAndSizes) {

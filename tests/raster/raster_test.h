@@ -74,7 +74,7 @@ ShadedVertices shade(const S& shader, const VertexView& view, const Rect& viewpo
   std::pmr::monotonic_buffer_resource memory;
   Draw draw(detail::kKernels<S, detail::DrawKind::color>, detail::keep_shader(shader, memory),
             std::make_shared<const Indices>(Indices::sequential(view.vertex_count)),
-            {std::span(view.streams).first(static_cast<std::size_t>(view.stream_count)), view.has_instance_streams}, state,
+            {view.used_streams(), view.has_instance_streams, view.needs_conversion}, state,
             {.viewport = make_viewport(viewport, state.depth)});
   ShadedVertices out;
   allocate_vertices(draw, out);

@@ -10,6 +10,8 @@
 #include <span>
 #include <tuple>
 
+#include "halfspace/raster/detail/draw_input.h"
+#include "halfspace/raster/detail/stream_match.h"
 #include "halfspace/raster/primitives/primitive_stage.h"
 #include "halfspace/raster/primitives/vertex_kernel.h"
 #include "halfspace/raster/shade/fragment_kernel.h"
@@ -81,42 +83,6 @@ KeptShader keep_shader(const S& shader, std::pmr::memory_resource& memory) {
   return {::new (memory.allocate(sizeof(S), alignof(S))) S(shader), [](const void* kept) { static_cast<const S*>(kept)->~S(); }};
 }
 
-/// Number of floats of each member of an attribute struct, in order; 0 for absent members.
-template <class Tuple>
-struct MemberSizes;
-template <class... F>
-struct MemberSizes<std::tuple<F&...>> {
-  static constexpr std::array<std::size_t, sizeof...(F)> value{FieldTraits<std::remove_const_t<F>>::components...};
-};
-
-/// Returns true if streams with elements T... provide the floats for each member of the attributes A. An element is one attribute, or
-/// several consecutive ones if it is a struct.
-template <class A, class... T>
-constexpr bool streams_match() {
-  constexpr auto members = MemberSizes<FieldsOf<A>>::value;
-  std::size_t next = 0;
-  const auto skip_absent = [&] {
-    while (next < members.size() && members[next] == 0) ++next;
-  };
-  const auto take = [&](std::size_t floats, bool is_one_attribute) {
-    skip_absent();
-    if (is_one_attribute) return next < members.size() && members[next++] == floats;
-    while (floats != 0 && next < members.size() && members[next] <= floats) floats -= members[next++];
-    return floats == 0;
-  };
-  const auto is_one = []<class E>(std::type_identity<E>) {
-    return std::same_as<E, float> || requires { E::length(); };
-  };
-  const bool all_taken = (take(sizeof(T) / sizeof(float), is_one(std::type_identity<T>())) && ...);
-  skip_absent();
-  return all_taken && next == members.size();
-}
-
-template <class A, class V>
-inline constexpr bool kStreamsMatch = true;  // for a plain VertexView, the pass checks the number of floats at run time
-template <class A, class... T>
-inline constexpr bool kStreamsMatch<A, VertexViewOf<T...>> = streams_match<A, T...>();
-
 /// Returns true if the view's streams match the shader's Attributes. Otherwise, compilation fails with a message that names both types.
 template <class S, class V>
 consteval bool require_streams() {
@@ -147,29 +113,10 @@ void add_draw(PassState& state, const ShaderKernels& kernels, KeptShader shader,
               std::shared_ptr<const Indices> indices, const DrawState& draw_state);
 void set_post_step(PassState& state, PostStep post);
 
-/// Index list that can be drawn: Indices, or a contiguous range of uint32_t or uint16_t.
-template <class T>
-concept IndexList = std::same_as<std::remove_cvref_t<T>, Indices> || std::convertible_to<T, std::span<const uint32_t>> ||
-    std::convertible_to<T, std::span<const uint16_t>>;
-
-/// Returns a non-owning pointer to an Indices object, or creates one from a raw list.
-template <IndexList I>
-std::shared_ptr<const Indices> view_indices(I& indices, std::size_t vertex_count) {
-  if constexpr (std::same_as<std::remove_const_t<I>, Indices>) {
-    return {std::shared_ptr<void>(), &indices};
-  } else if constexpr (std::convertible_to<I&, std::span<const uint32_t>>) {
-    return std::make_shared<const Indices>(std::span<const uint32_t>(indices), vertex_count);
-  } else {
-    return std::make_shared<const Indices>(std::span<const uint16_t>(indices), vertex_count);
-  }
-}
-
 template <DrawKind kind, class S>
 void draw(PassState& state, const S& shader, const VertexView& vertices, std::shared_ptr<const Indices> indices,
           const DrawState& draw_state) {
-  HS_CHECK_OP(vertices.components, ==, static_cast<int>(kComponents<typename S::template Attributes<float>>),
-              "Pass::draw: the vertex streams have another number of components than the attributes of the shader; expected one stream per "
-              "attribute, in their order");
+  check_streams<typename S::template Attributes<float>>(vertices);
   add_draw(state, kKernels<S, kind>, keep_shader(shader, memory_of(state)), vertices, std::move(indices), draw_state);
 }
 

@@ -105,8 +105,8 @@ struct ShadedVertices {
 inline constexpr int kVertexBatch = 256;
 /// Vertices for a vertex kernel.
 struct VertexBatch {
-  std::span<const VertexStream> streams;
-  const uint32_t* ids;  ///< vertex indices, or null: first, first + 1, …
+  std::span<const VertexStream> streams;  ///< streams of floats, read in place
+  const uint32_t* ids;                    ///< vertex indices, or null: first, first + 1, …
   uint32_t first;
   int count;
   uint32_t slot_base;   ///< the varyings of vertex i are written to row i − slot_base (modulo 2^32)
@@ -116,6 +116,7 @@ struct VertexBatch {
   float* clip;          ///< output: clip-space x, y, z and w in four rows of kVertexBatch floats
   /// Output rows, or null: the point size and clip distances, or the min x, min y, max x and max y of a point sprite.
   float* extra;
+  bool is_converted = false;  ///< row i of the streams belongs to vertex i of the batch, not to the vertex with that index
 };
 inline constexpr int kMaxClipDistances = 8;
 inline constexpr int kMaxExtraRows = 1 + kMaxClipDistances;

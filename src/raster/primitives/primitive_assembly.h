@@ -47,7 +47,7 @@ class Assembly {
   /// nullopt and skips nothing.
   std::optional<uint32_t> next_sequence(uint32_t count) {
     if (!fast_path_ || !draw_.indices->is_sequential()) return std::nullopt;
-    return 3 * std::exchange(primitive_, primitive_ + count);
+    return draw_.indices->first_vertex() + 3 * std::exchange(primitive_, primitive_ + count);
   }
 
  private:

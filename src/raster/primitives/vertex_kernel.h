@@ -13,23 +13,25 @@ namespace halfspace::HS_LANES {
 
 namespace detail {
 
-/// Loads the attributes of W vertices. ids: rows in the streams.
+/// Loads the attributes of W vertices from streams of floats. ids: rows in the streams.
 template <class A>
 HS_INLINE A load_attributes(std::span<const VertexStream> streams, Int ids) {
+  static_assert(kComponents<A> <= kMaxComponents, "the attributes of a shader must not have more than 64 components");
   std::array<Real, kComponents<A>> components;
   alignas(64) std::array<int32_t, kLanes> rows;
   std::size_t c = 0;
   for (const VertexStream& stream : streams) {
-    const Int row = ids * stream.stride;
+    const auto* const data = reinterpret_cast<const float*>(stream.data);
+    const Int row = ids * static_cast<int32_t>(static_cast<uint32_t>(stream.stride) / sizeof(float));
     store(rows.data(), row);
     int32_t k = 0;
     if constexpr (kComponents<A> >= 4) {
       for (; k + 4 <= stream.components && c + 4 <= components.size(); k += 4) {
-        const std::array<Int, 4> words = load_aos4<Int>([&](int i) { return stream.data + k + rows[static_cast<std::size_t>(i)]; });
+        const std::array<Int, 4> words = load_aos4<Int>([&](int i) { return data + k + rows[static_cast<std::size_t>(i)]; });
         for (const Int& word : words) components[c++] = as_real(word);
       }
     }
-    for (; k < stream.components && c < components.size(); ++k) components[c++] = gather(stream.data + k, row);
+    for (; k < stream.components && c < components.size(); ++k) components[c++] = gather(data + k, row);
   }
   return from_components<A, Real>(components);
 }
@@ -79,7 +81,8 @@ HS_FLATTEN void vertex_kernel(const void* shader, const VertexBatch& batch) {
         batch.ids ? gather(reinterpret_cast<const int32_t*>(batch.ids), lane_index) : lane_index + static_cast<int32_t>(batch.first);
     Varyings out;
     const VertexId<Real> id{ids + batch.base_vertex, batch.instance};
-    const auto vertex = call_vertex<S, Real>(s, load_attributes<Attributes>(batch.streams, id.vertex), id, out);
+    const Int rows = batch.is_converted ? lane_index : id.vertex;
+    const auto vertex = call_vertex<S, Real>(s, load_attributes<Attributes>(batch.streams, rows), id, out);
     const vec4<Real> clip = position_of(vertex);
     for (int k = 0; k < 4; ++k) store(batch.clip + k * kVertexBatch + begin, clip[k]);
     if constexpr (with_extra && !std::is_same_v<std::remove_const_t<decltype(vertex)>, vec4<Real>>) {

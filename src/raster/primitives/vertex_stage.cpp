@@ -59,6 +59,53 @@ Outcode store_clip_distances(const float* rows, int count, SlotOf slot_of, Shade
   return any;
 }
 
+using VertexKernel = void (*)(const void* shader, const VertexBatch&);
+
+/// Vertices that are converted at once, so that their attributes stay in the L1 cache and on a small stack.
+constexpr int kConvertedBatch = 64;
+static_assert(kConvertedBatch % kLanes == 0);
+
+// Converts the rows of the given vertices to streams of floats that start at `values`.
+std::span<const VertexStream> convert_streams(std::span<const VertexStream> from, std::span<const uint32_t> vertices, float* values,
+                                              StreamStorage& to) {
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    const bool is_constant = from[i].stride == 0;
+    const std::span<const uint32_t> rows = vertices.first(is_constant ? 1 : vertices.size());
+    read_rows(from[i], rows, values);
+    to[i] = {.data = reinterpret_cast<const std::byte*>(values),
+             .stride = is_constant ? 0 : from[i].components * static_cast<int32_t>(sizeof(float)),
+             .components = from[i].components,
+             .count = rows.size()};
+    values += rows.size() * static_cast<std::size_t>(from[i].components);
+  }
+  return {to.data(), from.size()};
+}
+
+// Runs a kernel on streams that are not read in place. Not inlined, because other draws do not need its memory.
+__attribute__((noinline)) void run_on_converted(VertexKernel kernel, const void* shader, const VertexBatch& batch) {
+  std::array<float, kConvertedBatch * kMaxStreamComponents> values;
+  std::array<uint32_t, kConvertedBatch> vertices;
+  StreamStorage storage;
+  for (int begin = 0; begin < batch.count; begin += kConvertedBatch) {
+    VertexBatch part = batch;
+    part.count = std::min(kConvertedBatch, batch.count - begin);
+    if (part.ids != nullptr) part.ids += begin;
+    part.first += static_cast<uint32_t>(begin);
+    part.clip += begin;
+    if (part.extra != nullptr) part.extra += begin;
+    for (uint32_t i = 0; i < static_cast<uint32_t>(part.count); ++i)
+      vertices[i] = (part.ids != nullptr ? part.ids[i] : part.first + i) + static_cast<uint32_t>(batch.base_vertex);
+    part.streams = convert_streams(batch.streams, std::span(vertices).first(static_cast<std::size_t>(part.count)), values.data(), storage);
+    part.is_converted = true;
+    kernel(shader, part);
+  }
+}
+
+void run_kernel(VertexKernel kernel, const Draw& draw, const VertexBatch& batch) {
+  if (draw.vertices.needs_conversion) return run_on_converted(kernel, draw.shader.get(), batch);
+  kernel(draw.shader.get(), batch);
+}
+
 }  // namespace
 
 Viewport make_viewport(const Rect& r, const DepthState& depth) {
@@ -103,16 +150,17 @@ void allocate_vertices(const Draw& draw, ShadedVertices& out) {
 std::array<glm::vec4, 3> clip_positions(const Draw& draw, uint32_t instance, const std::array<uint32_t, 3>& index) {
   alignas(64) std::array<float, 4 * kVertexBatch> rows;
   StreamStorage storage;
-  draw.kernels.position(draw.shader.get(), {.streams = at_instance(draw.vertices, instance, storage),
-                                            .ids = index.data(),
-                                            .first = 0,
-                                            .count = 3,
-                                            .slot_base = 0,
-                                            .base_vertex = draw.state.base_vertex,
-                                            .instance = static_cast<int32_t>(instance),
-                                            .varyings = nullptr,
-                                            .clip = rows.data(),
-                                            .extra = nullptr});
+  run_kernel(draw.kernels.position, draw,
+             {.streams = at_instance(draw.vertices, instance, storage),
+              .ids = index.data(),
+              .first = 0,
+              .count = 3,
+              .slot_base = 0,
+              .base_vertex = draw.state.base_vertex,
+              .instance = static_cast<int32_t>(instance),
+              .varyings = nullptr,
+              .clip = rows.data(),
+              .extra = nullptr});
   std::array<glm::vec4, 3> out;
   for (std::size_t i = 0; i < 3; ++i) out[i] = {rows[i], rows[kVertexBatch + i], rows[2 * kVertexBatch + i], rows[3 * kVertexBatch + i]};
   return out;
@@ -135,16 +183,17 @@ Outcode shade_vertices(const Draw& draw, std::size_t begin, std::size_t end, Sha
     b += static_cast<std::size_t>(count);
     const uint32_t slot_base = out.first - instance * out.count;
     const uint32_t* ids = used.empty() ? nullptr : used.data() + local;
-    draw.kernels.vertex(draw.shader.get(), {.streams = at_instance(draw.vertices, instance, storage),
-                                            .ids = ids,
-                                            .first = out.first + static_cast<uint32_t>(local),
-                                            .count = count,
-                                            .slot_base = slot_base,
-                                            .base_vertex = draw.state.base_vertex,
-                                            .instance = static_cast<int32_t>(instance),
-                                            .varyings = out.varyings.get(),
-                                            .clip = clip.data(),
-                                            .extra = extra.data()});
+    run_kernel(draw.kernels.vertex, draw,
+               {.streams = at_instance(draw.vertices, instance, storage),
+                .ids = ids,
+                .first = out.first + static_cast<uint32_t>(local),
+                .count = count,
+                .slot_base = slot_base,
+                .base_vertex = draw.state.base_vertex,
+                .instance = static_cast<int32_t>(instance),
+                .varyings = out.varyings.get(),
+                .clip = clip.data(),
+                .extra = extra.data()});
     const auto slot_of = [&](int i) {
       return std::size_t{(ids != nullptr ? ids[i] : out.first + static_cast<uint32_t>(local) + static_cast<uint32_t>(i)) - slot_base};
     };

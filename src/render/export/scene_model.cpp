@@ -68,10 +68,7 @@ DrawnMesh drawn_mesh(const PreparedDraw& draw) {
 template <class V>
 std::vector<V> stream_rows(const VertexStream& stream) {
   std::vector<V> rows(stream.data == nullptr ? 0 : stream.count);
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    for (glm::length_t k = 0; k < V::length(); ++k)
-      rows[i][k] = stream.data[i * static_cast<std::size_t>(stream.stride) + static_cast<std::size_t>(k)];
-  }
+  for (std::size_t i = 0; i < rows.size(); ++i) read_row(stream, i, &rows[i].x);
   return rows;
 }
 
