@@ -6,6 +6,8 @@
 #include "halfspace/core/lane_hyperbolic.h"
 
 #include "core/glsl_lanes.h"
+#include "support/expected_hash.h"
+#include "support/hash.h"
 
 namespace halfspace {
 namespace {
@@ -56,6 +58,18 @@ TEST(LaneHyperbolic, LanesMatchScalarBits) {
       for (const auto& y : {sinh(x), cosh(x), tanh(x), asinh(x), acosh(x), atanh(x), tan(x)}) out.add(y);
     }
   });
+}
+
+/// Detects differences between compilers, optimization levels and CPUs.
+TEST(LaneHyperbolic, MatchesTheCommittedHash) {
+  Hash hash;
+  for (uint32_t pattern = 0, n = 0; n < 1u << 16; ++n, pattern += 65497) {
+    const float x = as_real(static_cast<int32_t>(pattern)), y = static_cast<float>(static_cast<int32_t>(n) - (1 << 15)) * 0x1p-9f;
+    for (const float v : {tan(y), sinh(y), cosh(y), tanh(y), asinh(x), acosh(abs(x)), atanh(y * 0x1p-6f), mod(x, y)}) {
+      hash.add(std::isnan(v) ? 0x7fc00000u : static_cast<uint32_t>(as_int(v)));
+    }
+  }
+  expect_hash("lane-hyperbolic", hash.value());
 }
 
 }  // namespace
