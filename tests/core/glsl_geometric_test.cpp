@@ -74,7 +74,7 @@ TEST(Swizzle, ReadsAndWritesNamedComponents) {
 
 TEST(GlslTrigonometric, ConversionsOfAnglesAndInverseSquareRootsAreWithinTheirErrorBounds) {
   constexpr long double kPiLong = std::numbers::pi_v<long double>;
-  // Measured over every float; the rounding of the constant adds to that of the product.
+  // Measured on every 61st float; the rounding of the constant adds to that of the product.
   EXPECT_LE(largest_glsl_error([](float x) { return radians(x); }, [](long double x) { return x * (kPiLong / 180); }, 0x1p-119f, 0x1p127f),
             0.63);
   EXPECT_LE(largest_glsl_error([](float x) { return degrees(x); }, [](long double x) { return x * (180 / kPiLong); }, 0.0f, 0x1p127f), 0.7);
