@@ -15,9 +15,9 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <ranges>
 #include <span>
 #include <type_traits>
-#include <vector>
 
 #include <glm/glm.hpp>
 
@@ -204,65 +204,55 @@ StreamOf<T> float_stream(const void* data, std::size_t stride, std::size_t count
   return {{static_cast<const std::byte*>(data), static_cast<int32_t>(stride), static_cast<int32_t>(sizeof(T) / sizeof(float)), count}};
 }
 
+/// The same for a range that the caller passes.
+template <class Range>
+consteval bool require_lasting() {
+  static_assert(std::is_lvalue_reference_v<Range> || std::ranges::borrowed_range<Range>, "the vector must outlive the stream");
+  return true;
+}
+
 /// The address of a member of the first vertex, or null.
-template <class V, class F>
-const void* first_member(std::span<const V> vertices, F V::*member) {
-  return vertices.empty() ? nullptr : &(vertices.front().*member);
+template <class Range, class V, class F>
+const void* first_member(const Range& vertices, F V::*member) {
+  return std::ranges::empty(vertices) ? nullptr : &((*std::ranges::data(vertices)).*member);
 }
 
 }  // namespace detail
 
-/// Creates a stream of tightly packed float, glm::vec2/3/4, or structs of floats such as Attributes<float>. Elements with other numbers,
-/// such as uint32_t, glm::ivec4 or a struct with a packed color, do not compile: state how to read them, or make a stream of a member (see
-/// below).
-template <class T>
-StreamOf<T> stream(std::span<const T> values) {
-  static_assert(detail::require_floats<T>());
-  return detail::float_stream<T>(values.data(), sizeof(T), values.size());
-}
-template <class T>
-StreamOf<T> stream(const std::vector<T>& values) {
-  return stream(std::span<const T>(values));
+/// Creates a stream of a vector, array or span of float, glm::vec2/3/4, or structs of floats such as Attributes<float>. Elements with other
+/// numbers, such as uint32_t, glm::ivec4 or a struct with a packed color, do not compile: state how to read them, or make a stream of a
+/// member (see below). The memory must stay valid and unchanged until Pass::run() returns, so a temporary vector does not compile.
+template <std::ranges::contiguous_range Range>
+auto stream(Range&& values) {
+  using T = std::ranges::range_value_t<Range>;
+  static_assert(detail::require_floats<T>() && detail::require_lasting<Range>());
+  return detail::float_stream<T>(std::ranges::data(values), sizeof(T), std::ranges::size(values));
 }
 
 /// Creates a stream of one member of an interleaved vertex struct: stream(vertices, &MyVertex::normal).
-template <class V, class F>
-StreamOf<F> stream(std::span<const V> vertices, F V::*member) {
-  static_assert(detail::require_floats<F>());
-  return detail::float_stream<F>(detail::first_member(vertices, member), sizeof(V), vertices.size());
-}
-template <class V, class F>
-StreamOf<F> stream(const std::vector<V>& vertices, F V::*member) {
-  return stream(std::span<const V>(vertices), member);
+template <std::ranges::contiguous_range Range, class V, class F>
+auto stream(Range&& vertices, F V::*member) {
+  static_assert(detail::require_floats<F>() && detail::require_lasting<Range>());
+  return detail::float_stream<F>(detail::first_member(vertices, member), sizeof(std::ranges::range_value_t<Range>),
+                                 std::ranges::size(vertices));
 }
 
-/// Creates a stream of tightly packed numbers, or of vectors or arrays of numbers, of any type that can be read in the given way:
+/// Creates a stream of numbers, or of vectors or arrays of numbers, of any type that can be read in the given way:
 /// stream<ReadAs::normalized>(colors) with a std::vector<glm::u8vec4>.
-template <ReadAs as, class T>
-auto stream(std::span<const T> values) {
-  static_assert(detail::require_readable<T, as>());
-  return detail::ReadElement<T, as>::stream(values.data(), sizeof(T), values.size());
-}
-template <ReadAs as, class T>
-auto stream(const std::vector<T>& values) {
-  return stream<as>(std::span<const T>(values));
+template <ReadAs as, std::ranges::contiguous_range Range>
+auto stream(Range&& values) {
+  using T = std::ranges::range_value_t<Range>;
+  static_assert(detail::require_readable<T, as>() && detail::require_lasting<Range>());
+  return detail::ReadElement<T, as>::stream(std::ranges::data(values), sizeof(T), std::ranges::size(values));
 }
 
 /// The same for one member of an interleaved vertex struct: stream<ReadAs::integers>(vertices, &MyVertex::joints).
-template <ReadAs as, class V, class F>
-auto stream(std::span<const V> vertices, F V::*member) {
-  static_assert(detail::require_readable<F, as>());
-  return detail::ReadElement<F, as>::stream(detail::first_member(vertices, member), sizeof(V), vertices.size());
+template <ReadAs as, std::ranges::contiguous_range Range, class V, class F>
+auto stream(Range&& vertices, F V::*member) {
+  static_assert(detail::require_readable<F, as>() && detail::require_lasting<Range>());
+  return detail::ReadElement<F, as>::stream(detail::first_member(vertices, member), sizeof(std::ranges::range_value_t<Range>),
+                                            std::ranges::size(vertices));
 }
-template <ReadAs as, class V, class F>
-auto stream(const std::vector<V>& vertices, F V::*member) {
-  return stream<as>(std::span<const V>(vertices), member);
-}
-
-template <class T, class... Member>
-void stream(const std::vector<T>&& values, Member...) = delete;  // the vector must outlive the stream
-template <ReadAs as, class T, class... Member>
-void stream(const std::vector<T>&& values, Member...) = delete;  // the vector must outlive the stream
 
 /// Returns the stream with one row per `divisor` instances instead of one row per vertex. divisor must be at least 1.
 template <std::derived_from<VertexStream> S>

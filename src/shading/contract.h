@@ -398,8 +398,8 @@ consteval bool require_vertex_shader() {
                   "const Pixel<R>& px) const;");
   } else {
     using V = typename S::template Varyings<float>;
-    static_assert(!kInterpolatesIntegers<V>, "integer varyings are not interpolated: declare them as Flat<IntOf<R>>");
-    static_assert(kComponents<V> <= kMaxComponents, "the varyings of a shader must not have more than 64 components");
+    static_assert(!kInterpolatesIntegers<V>, "the shader interpolates integer varyings: declare them as Flat<IntOf<R>>");
+    static_assert(kComponents<V> <= kMaxComponents, "the varyings of the shader have more than 64 components");
   }
   return VertexShader<S>;
 }

@@ -33,7 +33,7 @@ PLAIN_HEADERS = {"shading/texture/sampler.h", "shading/values/light_types.h", "s
 # its own row and of lower rows. The rooms of raster are the phases of the pipeline.
 ROOMS = {
     "raster": [
-        ["draw_state", "target", "vertex_input", "statistics", "pass_tuning"],
+        ["draw_state", "target", "vertex_stream", "vertex_input", "statistics", "pass_tuning"],
         ["pipeline/"],
         ["primitives/"],
         ["tile/"],

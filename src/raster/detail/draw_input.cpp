@@ -3,6 +3,8 @@
 
 namespace halfspace::HS_LANES::detail {
 
+static_assert(kMaxStreamComponents == kMaxComponents);
+
 std::size_t count_of(const DrawState& state, std::size_t size) {
   HS_CHECK_OP(state.first, <=, size, "DrawState: `first` is too large; expected at most the number of vertices or indices");
   const std::size_t rest = size - state.first;
