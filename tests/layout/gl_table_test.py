@@ -97,7 +97,7 @@ class Library:
     def __init__(self, headers):
         self.text = "\n".join(headers)
         self.bodies = {}
-        for match in re.finditer(r"\b(?:struct|class|enum(?: class)?) (\w+)\b[^;{}()]*\{", self.text):
+        for match in re.finditer(r"(?<![<,] )(?<!<)\b(?:struct|class|enum(?: class)?) (\w+)\b[^;{}()]*\{", self.text):
             self.bodies[match[1]] = self.bodies.get(match[1], "") + body_from(self.text, match.end() - 1)
 
     def declares(self, name):
@@ -106,7 +106,7 @@ class Library:
         if member:
             return re.search(rf"\b{member}\b", self.bodies.get(first, "")) is not None
         declarations = (rf"\b(?:struct|class|enum(?: class)?|using|concept) {name}\b", rf"\bconstexpr [\w:<> ]+ {name}\b",
-                        rf"^(?!.*\breturn\b)[\w:<>,&* ]*[\w>&*] [&*]?{name}\(")
+                        rf"^(?:(?!\breturn\b)[\w:<>,&* ])*[\w>&*] [&*]?{name}\(")
         return any(re.search(d, self.text, re.M) for d in declarations)
 
     def missing_names(self, code):
@@ -185,20 +185,21 @@ class Checks(unittest.TestCase):
     """Tests that the checks detect wrong rows."""
 
     LIBRARY = Library(["struct Box : Shape {\n  int width = 0;\n};\nenum class Op : int { add, take };\ntemplate <class T>\n"
-                       "Box make_box(T x);\ninline constexpr int kBoxes = 3;\n"])
+                       "Box make_box(T x) { return box_of(x); }\ninline constexpr int kBoxes = 3;\ntemplate <int n, class T>\n"
+                       "struct Lid {\n  T handle;\n};\n"])
     TESTS = Tests(["TEST(Boxes, AreWide) {\nTYPED_TEST(Types, Fit) {\nINSTANTIATE_TEST_SUITE_P(Conformance, Blend, x);\n"], ["wrong_box"])
 
     def check(self, here, test="", since="3.3"):
         return problems_of_row(["glBox", since, here, test], self.LIBRARY, self.TESTS)
 
     def test_correct_rows(self):
-        for here, test in (("`Box::width`", "`Boxes.AreWide`"), ("`make_box`, `Op::take`; the rest", "`Conformance/Blend`, `Types.Fit`"),
+        for here, test in (("`Box::width`", "`Boxes.AreWide`"), ("`Lid::handle`", "`Types.Fit`"), ("`make_box`, `Op::take`; the rest", "`Conformance/Blend`, `Types.Fit`"),
                            ('`make_box<Op::add>` of a `std::array`', "`Compile.wrong_box`"), ("partly: `kBoxes`; others are missing", ""),
                            ("no", ""), ("no; use a larger one", ""), ("not applicable: everything is a box", "")):
             self.assertEqual(self.check(here, test), [], here)
 
     def test_names_that_do_not_exist(self):
-        for here in ("`Box::height`", "`Shape::width`", "`make_boxes`", "`Op::width`", "`take`", "`make_box<Op::put>`", "partly: `kBox`"):
+        for here in ("`Box::height`", "`Shape::width`", "`make_boxes`", "`box_of`", "`Op::width`", "`take`", "`make_box<Op::put>`", "partly: `kBox`"):
             self.assertIn("do not declare", " ".join(self.check(here, "`Boxes.AreWide`")), here)
         for test in ("`Boxes.AreHigh`", "`Boxes`", "`Blend`", "`Conformance/Boxes`", "`Compile.box`", "`Boxes.AreWide`, `Types.Fits`"):
             self.assertIn("there is no test", " ".join(self.check("`Box`", test)), test)
