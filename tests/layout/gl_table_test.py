@@ -110,7 +110,7 @@ class Library:
         return any(re.search(d, self.text, re.M) for d in declarations)
 
     def missing_names(self, code):
-        """Returns the names in a quoted piece of code that are not declared. Parameters such as R and names of std and glm are not checked."""
+        """Returns the names in a piece of code that are not declared. Parameters such as R and names of std and glm are not checked."""
         names = re.findall(r"[A-Za-z_]\w*(?:::\w+)*", re.sub(r'"[^"]*"', "", code))
         checked = [n for n in names if len(n) > 1 and not n.startswith(("std::", "glm::"))]
         return [n for n in checked if not self.declares(n)] if names else [code]
@@ -193,13 +193,15 @@ class Checks(unittest.TestCase):
         return problems_of_row(["glBox", since, here, test], self.LIBRARY, self.TESTS)
 
     def test_correct_rows(self):
-        for here, test in (("`Box::width`", "`Boxes.AreWide`"), ("`Lid::handle`", "`Types.Fit`"), ("`make_box`, `Op::take`; the rest", "`Conformance/Blend`, `Types.Fit`"),
+        for here, test in (("`Box::width`", "`Boxes.AreWide`"), ("`Lid::handle`", "`Types.Fit`"),
+                           ("`make_box`, `Op::take`; the rest", "`Conformance/Blend`, `Types.Fit`"),
                            ('`make_box<Op::add>` of a `std::array`', "`Compile.wrong_box`"), ("partly: `kBoxes`; others are missing", ""),
                            ("no", ""), ("no; use a larger one", ""), ("not applicable: everything is a box", "")):
             self.assertEqual(self.check(here, test), [], here)
 
     def test_names_that_do_not_exist(self):
-        for here in ("`Box::height`", "`Shape::width`", "`make_boxes`", "`box_of`", "`Op::width`", "`take`", "`make_box<Op::put>`", "partly: `kBox`"):
+        for here in ("`Box::height`", "`Shape::width`", "`make_boxes`", "`box_of`", "`Op::width`", "`take`", "`make_box<Op::put>`",
+                     "partly: `kBox`"):
             self.assertIn("do not declare", " ".join(self.check(here, "`Boxes.AreWide`")), here)
         for test in ("`Boxes.AreHigh`", "`Boxes`", "`Blend`", "`Conformance/Boxes`", "`Compile.box`", "`Boxes.AreWide`, `Types.Fits`"):
             self.assertIn("there is no test", " ".join(self.check("`Box`", test)), test)
