@@ -94,7 +94,7 @@ template <class... A>
 using IntegerOf = Or<typename First<HasIntegerLanes, A...>::type,
                      Or<typename First<IsVectorOfIntegers, A...>::type, typename First<IsInteger, A...>::type>>;
 
-/// A converts to T: it has components of type T, or of a uniform type. NumberArguments in the code of a shader may be doubles or integers.
+/// A converts to T: it has components of type T, or of a uniform type. Numbers in the code of a shader may be doubles or integers.
 template <class A, class T>
 concept ConvertsTo = std::same_as<ComponentOf<A>, T> || WidensTo<ComponentOf<A>, T> ||
     (kLengthOf<A> == 0 && std::is_arithmetic_v<A> && !std::same_as<A, bool>);

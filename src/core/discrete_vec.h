@@ -2,7 +2,7 @@
 //
 // Vectors of integers and of masks: ivec2<R> … ivec4<R>, uvec2<R> … uvec4<R> and bvec2<R> … bvec4<R>, with the operators of GLSL.
 //
-// IntegerArguments behave as in lane_uint.h for lanes and scalars alike: sums and products wrap, a division by zero has a result, and of a
+// Integers behave as in lane_uint.h for lanes and scalars alike: sums and products wrap, a division by zero has a result, and of a
 // shift count the low five bits count. ivec3<R>(v) truncates the components of a vec3<R>, uvec3<R>(i) keeps the bits, and to_real<R>(i)
 // converts back. A bvec holds one mask per component, so any(lessThan(a, b)) is a mask that says for each pixel whether any component is
 // less.

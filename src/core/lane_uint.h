@@ -176,7 +176,7 @@ using SignedOf = typename detail::SignedT<T>::type;
 template <Integer T>
 using UnsignedOf = typename detail::UnsignedT<T>::type;
 
-/// IntegerArguments per lane: not int32_t or uint32_t, whose operators are built in.
+/// Integers per lane: not int32_t or uint32_t, whose operators are built in.
 template <class T>
 concept IntegerLanes = Integer<T> && std::is_class_v<T>;
 template <IntegerLanes T>
