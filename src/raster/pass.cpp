@@ -359,37 +359,37 @@ constexpr ShaderKernels kClearKernels = [] {
 }();
 
 // All depths of the depth range are the depth of the clear, so the triangle has exactly that.
-DrawState state_of(const Clear& clear) {
+DrawState state_of(const ClearValues& values) {
   DrawState state;
-  state.scissor = clear.rect;
-  state.depth = {.test = clear.depth.has_value(),
-                 .write = clear.depth.has_value(),
+  state.scissor = values.rect;
+  state.depth = {.test = values.depth.has_value(),
+                 .write = values.depth.has_value(),
                  .compare = CompareOp::always,
-                 .range_near = clear.depth.value_or(0.0f),
-                 .range_far = clear.depth.value_or(0.0f)};
-  if (clear.stencil) {
-    const StencilFace face{.pass = StencilOp::replace, .reference = *clear.stencil, .write_mask = clear.stencil_mask};
+                 .range_near = values.depth.value_or(0.0f),
+                 .range_far = values.depth.value_or(0.0f)};
+  if (values.stencil) {
+    const StencilFace face{.pass = StencilOp::replace, .reference = *values.stencil, .write_mask = values.stencil_mask};
     state.stencil = StencilState{face, face};
   }
   constexpr ColorMask kNothing{false, false, false, false};
-  for (std::size_t i = 0; i < clear.colors.size(); ++i)
-    state.attachments[i] = AttachmentState{.mask = clear.colors[i] ? clear.mask : kNothing};
+  for (std::size_t i = 0; i < values.colors.size(); ++i)
+    state.attachments[i] = AttachmentState{.mask = values.colors[i] ? values.mask : kNothing};
   return state;
 }
 
 }  // namespace
 
-void Pass::clear(const Clear& clear) {
+void Pass::clear(const ClearValues& values) {
   ClearShader shader;
   bool has_color = false;
-  for (std::size_t i = 0; i < clear.colors.size(); ++i) {
-    shader.colors[i] = clear.colors[i].value_or(glm::vec4(0.0f));
-    has_color |= clear.colors[i].has_value();
+  for (std::size_t i = 0; i < values.colors.size(); ++i) {
+    shader.colors[i] = values.colors[i].value_or(glm::vec4(0.0f));
+    has_color |= values.colors[i].has_value();
   }
   const VertexView corners = make_vertex_view(stream(std::span<const glm::vec4>(kCorners)));
   detail::add_draw(*state_, has_color ? kClearKernels : detail::kKernels<ClearShader, detail::DrawKind::depth_only>,
                    detail::keep_shader(shader, detail::memory_of(*state_)), corners,
-                   std::make_shared<const Indices>(Indices::sequential(corners.vertex_count)), state_of(clear));
+                   std::make_shared<const Indices>(Indices::sequential(corners.vertex_count)), state_of(values));
 }
 
 PassStatistics Pass::run(const Workers& workers) {

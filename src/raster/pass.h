@@ -40,7 +40,7 @@ struct PassOptions {
 };
 
 /// What Pass::clear() sets (glClear and glClearBuffer, OpenGL 4.6, section 17.4.3). Everything else keeps its contents.
-struct Clear {
+struct ClearValues {
   std::optional<Rect> rect{};  ///< window coordinates, as DrawState::scissor; default: the whole target
   /// Colors of the attachments: linear, straight alpha; for integer formats, integers stored with std::bit_cast.
   std::array<std::optional<glm::vec4>, kMaxColorTargets> colors{};
@@ -110,7 +110,7 @@ class Pass {
   }
 
   /// Sets colors, depth or stencil of a part of the target, after the draws that were added before. It counts as a draw of one triangle.
-  void clear(const Clear& clear);
+  void clear(const ClearValues& values);
 
   /// Passes the final color of each pixel in the first attachment through a functor and stores the result in another target of the same
   /// size. This happens while the tile is in cache and is intended for tone mapping and encoding. The functor is copied. It must have

@@ -55,11 +55,11 @@ inline constexpr uint32_t kRestart = 0xffffffffu;
 template <class S>
 struct Input {
   using Row = typename S::template Attributes<float>;
-  std::vector<Row> vertices;
-  std::vector<uint32_t> indices;
+  std::vector<Row> vertices{};
+  std::vector<uint32_t> indices{};
   bool restart = false;  ///< restart_index ends a primitive
   std::size_t instance_components = 0;
-  std::vector<Row> instances;
+  std::vector<Row> instances{};
   uint32_t divisor = 1;
   uint32_t restart_index = kRestart;
 

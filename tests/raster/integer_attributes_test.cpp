@@ -44,13 +44,13 @@ struct BitsShader {
 };
 
 /// One point per pixel, or a large triangle, or one that is clipped.
-enum class Shape { points, triangles, clipped_triangles };
+enum class PrimitiveKind { points, triangles, clipped_triangles };
 constexpr int kWidth = 32;
 
-std::vector<glm::vec4> positions_of(Shape shape) {
+std::vector<glm::vec4> positions_of(PrimitiveKind shape) {
   std::vector<glm::vec4> p;
   for (int i = 0; i < static_cast<int>(kBits.size()); ++i) {
-    if (shape == Shape::points) {
+    if (shape == PrimitiveKind::points) {
       p.push_back(clip_position({256 * i + 128, 128}, kWidth, kWidth));
       continue;
     }
@@ -58,7 +58,7 @@ std::vector<glm::vec4> positions_of(Shape shape) {
     p.push_back(clip_position({-256 * 40, 256 * i - 256 * 8}, kWidth, kWidth));
     p.push_back(clip_position({256 * 40, 256 * i}, kWidth, kWidth));
     p.push_back(clip_position({256 * 40, 256 * (i + 1)}, kWidth, kWidth));
-    if (shape == Shape::clipped_triangles) p[p.size() - 3] = {0, 0, -0.5f, -0.25f};
+    if (shape == PrimitiveKind::clipped_triangles) p[p.size() - 3] = {0, 0, -0.5f, -0.25f};
   }
   return p;
 }
@@ -71,27 +71,27 @@ std::vector<R> per_corner(const std::vector<R>& values, std::size_t corners) {
 }
 
 TEST(IntegerAttributes, KeepTheirBitsThroughTheWholePipeline) {
-  for (const Shape shape : {Shape::points, Shape::triangles, Shape::clipped_triangles}) {
+  for (const PrimitiveKind shape : {PrimitiveKind::points, PrimitiveKind::triangles, PrimitiveKind::clipped_triangles}) {
     const std::vector<glm::vec4> p = positions_of(shape);
     const std::vector<uint32_t> bits = per_corner(std::vector<uint32_t>(kBits.begin(), kBits.end()), p.size() / kBits.size());
     const std::vector<glm::i16vec2> zeros(p.size(), glm::i16vec2(0));
     Image<uint32_t> image(kWidth, kWidth);
     Pass pass(kWidth, kWidth, r32ui_target(image, 42), {});
     pass.draw(BitsShader{}, make_vertex_view(stream(p), stream<ReadAs::integers>(bits), stream<ReadAs::integers>(zeros)),
-              {.topology = shape == Shape::points ? Topology::points : Topology::triangles});
+              {.topology = shape == PrimitiveKind::points ? Topology::points : Topology::triangles});
     const PassStatistics s = pass.run(one_worker());
-    EXPECT_EQ(s.clipped, shape == Shape::clipped_triangles ? kBits.size() : 0u);
+    EXPECT_EQ(s.clipped, shape == PrimitiveKind::clipped_triangles ? kBits.size() : 0u);
     std::size_t found = 0;
     for (const uint32_t expected : kBits)
       found += std::find(image.data(), image.data() + kWidth * kWidth, expected) != image.data() + kWidth * kWidth ? 1 : 0;
     EXPECT_EQ(found, kBits.size()) << static_cast<int>(shape);
-    for (int i = 0; shape == Shape::points && i < static_cast<int>(kBits.size()); ++i)
+    for (int i = 0; shape == PrimitiveKind::points && i < static_cast<int>(kBits.size()); ++i)
       EXPECT_EQ(pixel(image, i, 0), kBits[static_cast<std::size_t>(i)]);
   }
 }
 
 TEST(IntegerAttributes, SmallIntegersAreExtended) {
-  const std::vector<glm::vec4> p = positions_of(Shape::points);
+  const std::vector<glm::vec4> p = positions_of(PrimitiveKind::points);
   std::vector<int8_t> signs;
   std::vector<std::array<uint16_t, 2>> pairs;
   for (int i = 0; i < 16; ++i) {
@@ -118,7 +118,7 @@ struct IntegerColorShader : BitsShader {
 };
 
 TEST(IntegerAttributes, TheNaivePipelineHasTheSame) {
-  for (const Shape shape : {Shape::triangles, Shape::clipped_triangles}) {
+  for (const PrimitiveKind shape : {PrimitiveKind::triangles, PrimitiveKind::clipped_triangles}) {
     const std::vector<glm::vec4> p = positions_of(shape);
     std::vector<uint32_t> bits;
     std::vector<glm::i8vec2> more;
