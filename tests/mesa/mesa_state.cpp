@@ -9,13 +9,68 @@ namespace halfspace::test {
 
 void enable(GLenum what, bool on) { (on ? glEnable : glDisable)(what); }
 
-GLenum gl(ColorFormat f) {
-  constexpr std::array<GLenum, 5> k{GL_NONE, GL_RGBA8, GL_SRGB8_ALPHA8, GL_RGBA16F, GL_RGBA32F};
-  return k[static_cast<std::size_t>(f)];
-}
-GLenum gl(DepthFormat f) {
-  constexpr std::array<GLenum, 6> k{
-      GL_NONE, GL_DEPTH_COMPONENT16, GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT32F, GL_DEPTH24_STENCIL8, GL_DEPTH32F_STENCIL8};
+// Internal formats, in the order of TexelFormat.
+GLenum gl(TexelFormat f) {
+  constexpr std::array<GLenum, kTexelFormats> k{GL_NONE,
+                                                GL_R8,
+                                                GL_RG8,
+                                                GL_RGB8,
+                                                GL_RGBA8,
+                                                GL_SRGB8,
+                                                GL_SRGB8_ALPHA8,
+                                                GL_R8_SNORM,
+                                                GL_RG8_SNORM,
+                                                GL_RGB8_SNORM,
+                                                GL_RGBA8_SNORM,
+                                                GL_R16,
+                                                GL_RG16,
+                                                GL_RGB16,
+                                                GL_RGBA16,
+                                                GL_R16_SNORM,
+                                                GL_RG16_SNORM,
+                                                GL_RGB16_SNORM,
+                                                GL_RGBA16_SNORM,
+                                                GL_R16F,
+                                                GL_RG16F,
+                                                GL_RGB16F,
+                                                GL_RGBA16F,
+                                                GL_R32F,
+                                                GL_RG32F,
+                                                GL_RGB32F,
+                                                GL_RGBA32F,
+                                                GL_R8I,
+                                                GL_RG8I,
+                                                GL_RGB8I,
+                                                GL_RGBA8I,
+                                                GL_R8UI,
+                                                GL_RG8UI,
+                                                GL_RGB8UI,
+                                                GL_RGBA8UI,
+                                                GL_R16I,
+                                                GL_RG16I,
+                                                GL_RGB16I,
+                                                GL_RGBA16I,
+                                                GL_R16UI,
+                                                GL_RG16UI,
+                                                GL_RGB16UI,
+                                                GL_RGBA16UI,
+                                                GL_R32I,
+                                                GL_RG32I,
+                                                GL_RGB32I,
+                                                GL_RGBA32I,
+                                                GL_R32UI,
+                                                GL_RG32UI,
+                                                GL_RGB32UI,
+                                                GL_RGBA32UI,
+                                                GL_RGB10_A2,
+                                                GL_RGB10_A2UI,
+                                                GL_R11F_G11F_B10F,
+                                                GL_RGB9_E5,
+                                                GL_DEPTH_COMPONENT16,
+                                                GL_DEPTH_COMPONENT24,
+                                                GL_DEPTH_COMPONENT32F,
+                                                GL_DEPTH24_STENCIL8,
+                                                GL_DEPTH32F_STENCIL8};
   return k[static_cast<std::size_t>(f)];
 }
 

@@ -10,8 +10,7 @@
 
 namespace halfspace::test {
 
-GLenum gl(ColorFormat format);
-GLenum gl(DepthFormat format);
+GLenum gl(TexelFormat format);
 
 /// Calls glEnable or glDisable.
 void enable(GLenum what, bool on);
