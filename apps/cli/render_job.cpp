@@ -82,11 +82,9 @@ void protect_inputs(const RenderJob& job, const std::filesystem::path& picture) 
 
 void protect_inputs(const RenderJob& job) {
   if (!job.pattern) return protect_inputs(job, job.out);
-  for (const std::filesystem::path& input : job.inputs) {
-    for (const int frame : job.pattern->frames_of(input)) {
-      const int i = (frame - job.options.frames->first) / job.options.frames->step;
-      if (job.options.is_list() || job.options.shard.contains(i)) protect_inputs(job, picture_of(job, i));
-    }
+  for (const int frame : job.pattern->existing_frames()) {
+    const int i = (frame - job.options.frames->first) / job.options.frames->step;
+    if (job.options.is_list() || job.options.shard.contains(i)) protect_inputs(job, picture_of(job, i));
   }
 }
 

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <memory>
 #include <string_view>
 #include <utility>
 
@@ -97,19 +96,30 @@ std::filesystem::path OutputPattern::path(int frame) const {
   return name;
 }
 
-std::set<int> OutputPattern::frames_of(const std::filesystem::path& file) const {
-  std::set<int> frames;
-  const std::string text = file.string(), name = file.filename().string();
-  // The number is any part of a row of digits, because the pattern may have digits next to it.
-  for (auto first = text.begin(); first != text.end(); ++first) {
-    for (auto end = first; end != text.end() && is_digit(*end); ++end) {
-      int frame = -1;
-      std::from_chars(std::to_address(first), std::to_address(end) + 1, frame);
-      if (frame < 0 || !range_.contains(frame)) continue;
-      const std::string stem = path(frame).stem().string();
-      if (name.starts_with(stem + ".") || name.starts_with(stem + "-")) frames.insert(frame);
-    }
+std::vector<int> OutputPattern::existing_frames() const {
+  std::vector<int> frames;
+  const std::string &text = parts_.front().text, &after = parts_.back().text;
+  const bool is_one_number = parts_.size() == 2 && after.find('/') == std::string::npos && (after.empty() || !is_digit(after.front()));
+  if (!is_one_number) {
+    for (int i = 0; i < range_.count(); ++i) frames.push_back(range_.at(i));
+    return frames;
   }
+  // Reads the folder instead of trying each name, because there may be millions of frames.
+  const std::string before = text.substr(text.rfind('/') + 1);  // the part of the file name before the number
+  const std::filesystem::path first = path(range_.first);
+  std::error_code error;
+  for (std::filesystem::directory_iterator entry(first.has_parent_path() ? first.parent_path() : ".", error), end; !error && entry != end;
+       entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    if (!name.starts_with(before)) continue;
+    int frame = -1;
+    std::from_chars(name.data() + before.size(), name.data() + name.size(), frame);
+    if (frame < 0 || !range_.contains(frame)) continue;
+    const std::string stem = path(frame).stem().string();
+    if (name.starts_with(stem + ".") || name.starts_with(stem + "-")) frames.push_back(frame);
+  }
+  std::ranges::sort(frames);
+  frames.erase(std::unique(frames.begin(), frames.end()), frames.end());
   return frames;
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -30,8 +29,8 @@ class OutputPattern {
   /// Returns the file of a frame of the range.
   std::filesystem::path path(int frame) const;
 
-  /// Returns the frames that may have a file of this name, in any folder: moon_0007.png or, for example, moon_0007-depth.exr.
-  std::set<int> frames_of(const std::filesystem::path& file) const;
+  /// Returns the frames of which at least one file may exist, in ascending order: moon_0007.png or, for example, moon_0007-depth.exr.
+  std::vector<int> existing_frames() const;
 
  private:
   struct Part {

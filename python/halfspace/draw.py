@@ -83,7 +83,7 @@ class Pass:
                 raise fail(label, "is not C-contiguous and writeable", "an array that is")
         if not isinstance(samples, (int, np.integer)) or samples not in (1, 2, 4, 8):
             raise fail("samples", f"is {samples!r}", "1, 2, 4 or 8")
-        self._core = _core.Pass(width, height, getattr(_core.ColorFormat, name), color, getattr(_core.DepthFormat, depth_format), depth,
+        self._core = _core.Pass(width, height, getattr(_core.TexelFormat, name), color, getattr(_core.TexelFormat, depth_format), depth,
                                 samples)
         self._core.set_load(bool(load), _check.vector("clear_color", clear_color, 4), _check.number("clear_depth", clear_depth, 0.0, 1.0),
                             _check.integer("clear_stencil", clear_stencil, 0, 255))

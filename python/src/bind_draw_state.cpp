@@ -35,8 +35,11 @@ void bind_enums(py::module_& m) {
   bind_enum<BlendEquation>(m, "BlendEquation", {"add", "subtract", "reverse_subtract", "min", "max"});
   bind_enum<StencilOp>(m, "StencilOp",
                        {"keep", "zero", "replace", "increment_clamp", "decrement_clamp", "invert", "increment_wrap", "decrement_wrap"});
-  bind_enum<ColorFormat>(m, "ColorFormat", {"none", "rgba8", "srgb8a8", "rgba16f", "rgba32f", "r32f", "rg32f", "rgb32f"});
-  bind_enum<DepthFormat>(m, "DepthFormat", {"none", "d16", "d24", "d32f", "d24s8", "d32fs8"});
+  py::enum_<TexelFormat> formats(m, "TexelFormat");
+  for (std::size_t i = 0; i < kTexelFormats; ++i) {
+    const auto format = static_cast<TexelFormat>(i);
+    formats.value(texel_info(format).name.data(), format);
+  }
 }
 
 void bind_structs(py::module_& m) {
