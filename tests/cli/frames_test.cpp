@@ -118,7 +118,7 @@ TEST_F(Frames, InputsAreNotOverwritten) {
     write_png(directory / texture, Image<glm::u8vec4>(2, 2));
     const Outcome o = run({"render", "a.obj", "--size", "16x9", "--frames", "1..4", "-o", out});
     EXPECT_EQ(o.exit_code, 4) << o.err;
-    EXPECT_EQ(o.err, "halfspace: error: " + std::string(texture) + ": is read by this command; expected another output file\n");
+    EXPECT_EQ(o.err, "halfspace: " + std::string(texture) + ": is read by this command; expected another output file\n");
     const auto entries = fs::recursive_directory_iterator(directory);
     EXPECT_EQ(std::count_if(begin(entries), end(entries), [](const fs::directory_entry& e) { return e.is_regular_file(); }), 3) << texture;
     fs::remove_all(directory);

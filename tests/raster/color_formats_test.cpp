@@ -138,7 +138,7 @@ TEST(ColorFormats, LoadWhatTheyHaveStored) {
       draw_places(first, format);
       first.run(one_worker());
       const std::vector<std::byte> before = image.bytes;
-      Pass second(kWidth, kHeight, image.target(LoadOp::load), {}, {.samples = samples, .tuning = {.bin_budget = 1}});
+      Pass second(kWidth, kHeight, image.target(LoadOp::load), {}, {.samples = samples, .tuning = {.chunk_triangles = 1, .bin_budget = 1}});
       for (int i = 0; i < 100; ++i) draw_places(second, format, {.scissor = Rect{i % kWidth, i % kHeight, 1, 1}});
       const PassStatistics statistics = second.run(one_worker());
       EXPECT_GT(statistics.flushes, 0);

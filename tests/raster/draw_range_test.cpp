@@ -79,7 +79,7 @@ TEST_F(DrawRangeTest, WithoutIndices) {
 TEST_F(DrawRangeTest, WithoutIndicesAsAList) {
   std::vector<glm::vec4> p;
   for (int i = 0; i < 100; ++i) {
-    for (const Point corner : {Point{0, 0}, Point{256, 0}, Point{0, 256}})
+    for (const Point corner : {Point{0, 0}, Point{384, 0}, Point{0, 384}})  // covers one pixel
       p.push_back(clip_position({corner.x + 256 * (i % 10), corner.y + 256 * (i / 10)}, 16, 16));
   }
   std::vector<float> n(p.size());

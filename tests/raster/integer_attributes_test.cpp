@@ -54,11 +54,11 @@ std::vector<glm::vec4> positions_of(PrimitiveKind shape) {
       p.push_back(clip_position({256 * i + 128, 128}, kWidth, kWidth));
       continue;
     }
-    // A triangle that covers row i. If it is clipped, its first vertex is behind the eye.
-    p.push_back(clip_position({-256 * 40, 256 * i - 256 * 8}, kWidth, kWidth));
+    // A triangle that covers row i. If it is clipped, its first vertex is behind the eye, in the plane of the lower edge of the row.
+    p.push_back(clip_position({-256 * 40, 256 * i}, kWidth, kWidth));
     p.push_back(clip_position({256 * 40, 256 * i}, kWidth, kWidth));
     p.push_back(clip_position({256 * 40, 256 * (i + 1)}, kWidth, kWidth));
-    if (shape == PrimitiveKind::clipped_triangles) p[p.size() - 3] = {0, 0, -0.5f, -0.25f};
+    if (shape == PrimitiveKind::clipped_triangles) p[p.size() - 3] = {-1.9f, -0.25f * p[p.size() - 2].y, -0.5f, -0.25f};
   }
   return p;
 }
