@@ -31,7 +31,7 @@ FormatTraits traits_of(StreamFormat format) {
 float max_code(StreamFormat format) { return format == StreamFormat::unorm8 ? 255.0f : format == StreamFormat::snorm16 ? 32767.0f : 7.0f; }
 float nearest_code(StreamFormat format, float x) {
   const float max = max_code(format), scale = format == StreamFormat::scaled8 ? 1.0f : max;
-  return std::clamp(std::nearbyint(x * scale), format == StreamFormat::unorm8 ? 0.0f : -max, max);
+  return std::clamp(std::nearbyint(x * scale), format == StreamFormat::unorm8 ? 0.0f : -max, max) + 0.0f;  // an integer 0 has no sign
 }
 
 // Returns the bits of a number that is a half: sign, exponent + 15, and ten bits of the significand.
