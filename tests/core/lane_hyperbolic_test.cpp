@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Tests the accuracy of tan and of the hyperbolic functions against the long double functions of std, special values, and that lanes
-// return the bits of scalars. Each bound is the largest error that was found, rounded up, when every float of the main range and every 23rd or
-// 101st of the rest were measured once. The sweeps here visit a part of them.
+// return the bits of scalars. Each bound is the largest error that was found, rounded up, when every float of the main range and every 23rd
+// or 101st of the rest were measured once. The sweeps here visit a part of them.
 #include "halfspace/core/lane_hyperbolic.h"
 
 #include "core/glsl_lanes.h"
