@@ -17,8 +17,9 @@ struct Rows {
 
 Rows rows_of(const ConstTexelView& view, int layer) {
   const std::byte* const lowest = view.at(0, view.row_pitch < 0 ? view.height - 1 : 0, layer);
-  return {reinterpret_cast<std::intptr_t>(lowest), std::intptr_t{view.width} * texel_info(view.format).bytes, view.height,
-          std::abs(view.row_pitch)};
+  // With a pitch of 0, all rows are the same.
+  return {reinterpret_cast<std::intptr_t>(lowest), std::intptr_t{view.width} * texel_info(view.format).bytes,
+          view.row_pitch == 0 ? 1 : view.height, std::abs(view.row_pitch)};
 }
 
 bool overlap(Rows a, Rows b) {
