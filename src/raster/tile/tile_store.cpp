@@ -111,9 +111,8 @@ void store_depth(const DepthTarget& target, const Tile& tile) {
   if (target.format == DepthFormat::d32f)  // stored as in the tile
     return store_words(tile, image, reinterpret_cast<const std::byte*>(tile.depth.data()));
   with_codec(target.format, [&]<class C>(C) {
-    const bool stencil = tile.has_stencil;
     for_each_pixel(tile, image, sizeof(typename C::Image), image.layers, [&](std::size_t t, std::byte* pixel) {
-      const typename C::Image value = C::store(tile.depth[t], stencil ? tile.stencil[t] : uint8_t{0});
+      const typename C::Image value = C::store(tile.depth[t], tile.stencil[t]);
       std::memcpy(pixel, &value, sizeof value);
     });
   });
