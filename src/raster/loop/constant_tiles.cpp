@@ -64,7 +64,7 @@ ConstantTiles constant_tiles(const PassContext& context, const Attachments& atta
   return {true, draw};
 }
 
-void fill_images(const PassContext& context, const Attachments& attachments, const ConstantArea& area) {
+void fill_images(const Attachments& attachments, const ConstantArea& area) {
   if (area.pixels.empty()) return;
   FragmentOutput out;
   if (area.draw != nullptr) constant_colors(*area.draw, out);
@@ -72,13 +72,12 @@ void fill_images(const PassContext& context, const Attachments& attachments, con
     const ColorTarget& c = attachments.colors[i];
     const glm::vec4& v = c.clear_value;
     if (area.draw != nullptr) {
-      fill_color(c, context.width, context.height, area.pixels, out.packet_color(i, 0));
+      fill_color(c, area.pixels, out.packet_color(i, 0));
     } else if (c.load == LoadOp::clear) {
-      fill_color(c, context.width, context.height, area.pixels, {Real(v.x), Real(v.y), Real(v.z), Real(v.w)});
+      fill_color(c, area.pixels, {Real(v.x), Real(v.y), Real(v.z), Real(v.w)});
     }
   }
-  if (area.draw == nullptr && attachments.depth.load == LoadOp::clear)
-    fill_depth(attachments.depth, context.width, context.height, area.pixels);
+  if (area.draw == nullptr && attachments.depth.load == LoadOp::clear) fill_depth(attachments.depth, area.pixels);
 }
 
 }  // namespace halfspace::HS_LANES
