@@ -16,8 +16,8 @@ set(halfspace_public_headers
   shading/values/light_types.h shading/light/lighting.h shading/shadow/shadow.h shading/shadow/shadow_map.h shading/sphere/sphere_depth.h
   shading/sphere/sphere_impostor.h shading/surface/colored_primitives.h shading/surface/depth_only.h shading/surface/lit_surface.h
   shading/surface/masked_depth.h shading/surface/metallic_surface.h shading/surface/shadow_catcher.h shading/surface/surface_shader.h
-  shading/surface/surface_uniforms.h shading/texture/sampler.h shading/texture/texture.h shading/values/tone.h
-  shading/values/tone_types.h
+  shading/surface/surface_uniforms.h shading/texture/sampler.h shading/texture/texture.h shading/texture/texture_memory.h
+  shading/texture/texture_view.h shading/values/tone.h shading/values/tone_types.h
   raster/blit.h raster/draw_state.h raster/naive.h raster/pass.h raster/statistics.h raster/target.h raster/vertex_input.h
   raster/vertex_stream.h
   image/image_difference.h image/image_io.h

@@ -10,6 +10,7 @@
 
 #include <glm/glm.hpp>
 
+#include "halfspace/core/compare_op.h"
 #include "halfspace/core/namespace.h"
 
 namespace halfspace::HS_LANES {
@@ -40,7 +41,6 @@ enum class PolygonMode : uint8_t { fill, line, point };
 /// Corner of a point at which its point coordinate is (0, 0) (GL_POINT_SPRITE_COORD_ORIGIN).
 enum class PointOrigin : uint8_t { upper_left, lower_left };
 
-enum class CompareOp : uint8_t { never, less, equal, less_equal, greater, not_equal, greater_equal, always };
 enum class CullMode : uint8_t { none, front, back, front_and_back };
 constexpr bool is_culled(CullMode mode, bool front_facing) {
   return mode == CullMode::front_and_back || mode == (front_facing ? CullMode::front : CullMode::back);

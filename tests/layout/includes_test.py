@@ -27,7 +27,7 @@ MODULES = {
     "reference": ["render"],
 }
 # Headers with only enums and plain structs, which do not include any SIMD headers. Scene descriptions and models may include these, too.
-PLAIN_HEADERS = {"shading/texture/sampler.h", "shading/values/light_types.h", "shading/values/tone_types.h"}
+PLAIN_HEADERS = {"core/compare_op.h", "shading/texture/sampler.h", "shading/values/light_types.h", "shading/values/tone_types.h"}
 
 # The rooms of modules, lowest first: folders, or the names of files without extensions at the top of the module. A file may include files of
 # its own row and of lower rows. The rooms of raster are the phases of the pipeline.

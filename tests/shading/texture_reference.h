@@ -14,7 +14,7 @@ namespace halfspace::test {
 
 inline constexpr TexelFormat kFormats[] = {TexelFormat::rgba8, TexelFormat::srgb8a8, TexelFormat::r8,
                                            TexelFormat::r16,   TexelFormat::rgba16f, TexelFormat::rgba32f};
-inline constexpr Wrap kWraps[] = {Wrap::repeat, Wrap::mirrored, Wrap::clamp, Wrap::border};
+inline constexpr Wrap kWraps[] = {Wrap::repeat, Wrap::mirrored, Wrap::clamp, Wrap::border, Wrap::mirrored_clamp};
 
 /// Returns a texture whose texels are derived from the 32-bit value bits(x, row): integer channels are its low bits, floats are computed
 /// from its bytes.
@@ -58,6 +58,7 @@ inline int wrapped_index(int64_t i, int size, Wrap wrap) {
     }
     case Wrap::clamp: return static_cast<int>(std::clamp<int64_t>(i, 0, size - 1));
     case Wrap::border: return i < 0 || i >= size ? -1 : static_cast<int>(i);
+    case Wrap::mirrored_clamp: return static_cast<int>(std::clamp<int64_t>(i >= 0 ? i : -1 - i, 0, size - 1));
   }
   return -1;
 }

@@ -25,22 +25,6 @@ HS_INLINE R inverse_pi() {
 // EnvironmentMap selects the levels itself; the lookup within a level is bilinear.
 constexpr Sampler kSampler{.mag = Filter::bilinear, .min = Filter::bilinear, .wrap_s = Wrap::repeat, .wrap_t = Wrap::clamp};
 
-// A vector in the coordinates of the cube face that d points to: along s, along t, and outward.
-template <class R>
-struct OnFace {
-  R s, t, out;
-};
-template <class R>
-struct Face {
-  MaskOf<R> is_x, is_y;
-  R sign;
-
-  HS_INLINE OnFace<R> operator()(const vec3<R>& v) const {
-    const R x = sign * v.x, y = sign * v.y, z = sign * v.z;
-    return {select(is_x, -z, select(is_y, v.x, x)), select(is_y, z, -v.y), select(is_x, x, select(is_y, y, z))};
-  }
-};
-
 // Returns a power of two whose product with the components of d is about 1, so that fourth powers of them neither overflow nor underflow.
 template <class R>
 HS_INLINE R unit_scale(const vec3<R>& d) {
@@ -53,23 +37,6 @@ HS_INLINE R unit_scale(const vec3<R>& d) {
 }
 
 }  // namespace
-
-template <class R>
-EnvironmentMap::Coordinates<R> EnvironmentMap::cube_coordinates(const vec3<R>& d, const vec3<R>& dx, const vec3<R>& dy) const {
-  Face<R> face;
-  face.is_x = abs(d.x) >= abs(d.y) && abs(d.x) >= abs(d.z);
-  face.is_y = !face.is_x && abs(d.y) >= abs(d.z);
-  const MaskOf<R> negative = select(face.is_x, d.x, select(face.is_y, d.y, d.z)) < R(0.0f);
-  face.sign = select(negative, R(-1.0f), R(1.0f));
-  const OnFace<R> at = face(d), x = face(dx), y = face(dy);
-  const R inverse = R(1.0f) / at.out, s = at.s * inverse, t = at.t * inverse;
-  const R half_inverse = R(0.5f) * inverse;  // faces are 2 wide
-  const vec2<R> dst_dx((x.s - s * x.out) * half_inverse, (x.t - t * x.out) * half_inverse);
-  const vec2<R> dst_dy((y.s - s * y.out) * half_inverse, (y.t - t * y.out) * half_inverse);
-  const IntOf<R> axis = select(face.is_x, IntOf<R>(0), select(face.is_y, IntOf<R>(2), IntOf<R>(4)));
-  return {axis + select(negative, IntOf<R>(1), IntOf<R>(0)), vec2<R>(fma(s, R(0.5f), R(0.5f)), fma(t, R(0.5f), R(0.5f))),
-          halfspace::level_of_detail(width(), height(), dst_dx, dst_dy)};
-}
 
 // A step of the direction rotates it by the angle |d × step| / |d|².
 template <class R>
@@ -86,7 +53,7 @@ EnvironmentMap::Coordinates<R> EnvironmentMap::panorama_coordinates(const vec3<R
 
 template <class R>
 EnvironmentMap::Coordinates<R> EnvironmentMap::coordinates(const vec3<R>& d, const vec3<R>& dx, const vec3<R>& dy) const {
-  return layout_ == EnvironmentLayout::cube ? cube_coordinates(d, dx, dy) : panorama_coordinates(d, dx, dy);
+  return layout_ == EnvironmentLayout::cube ? detail::cube_coordinates(width(), d, dx, dy) : panorama_coordinates(d, dx, dy);
 }
 
 template <class R>
@@ -152,7 +119,7 @@ template RealN<4> EnvironmentMap::level_of_detail(const vec3<RealN<4>>&, const v
 template RealN<8> EnvironmentMap::level_of_detail(const vec3<RealN<8>>&, const vec3<RealN<8>>&, const vec3<RealN<8>>&) const;
 template FragmentReal EnvironmentMap::level_of_detail(const vec3<FragmentReal>&, const vec3<FragmentReal>&,
                                                       const vec3<FragmentReal>&) const;
-#if HALFSPACE_LANES == 16  // as in texture_lookup.cpp
+#if HALFSPACE_LANES == 16  // as in texture.cpp
 template vec3<RealN<16>> EnvironmentMap::sample(const vec3<RealN<16>>&, const vec3<RealN<16>>&, const vec3<RealN<16>>&) const;
 template vec3<RealN<16>> EnvironmentMap::sample_level(const vec3<RealN<16>>&, RealN<16>) const;
 template RealN<16> EnvironmentMap::level_of_detail(const vec3<RealN<16>>&, const vec3<RealN<16>>&, const vec3<RealN<16>>&) const;

@@ -22,6 +22,7 @@
 #include <span>
 #include <vector>
 
+#include "halfspace/shading/texture/cube_faces.h"
 #include "halfspace/shading/texture/texture.h"
 
 namespace halfspace::HS_LANES {
@@ -76,11 +77,7 @@ class EnvironmentMap {
  private:
   // The result of mapping a direction: the image within a level, coordinates in [0, 1], and the level of detail.
   template <class R>
-  struct Coordinates {
-    IntOf<R> face;
-    vec2<R> st;
-    R lod;
-  };
+  using Coordinates = detail::CubeCoordinates<R>;
 
   template <class Texel>
   void add_levels(std::span<const std::array<Image<Texel>, 6>> levels, TexelFormat format, const Workers* workers);
@@ -89,8 +86,6 @@ class EnvironmentMap {
   Coordinates<R> coordinates(const vec3<R>& d, const vec3<R>& dx, const vec3<R>& dy) const;
   template <class R>
   Coordinates<R> panorama_coordinates(const vec3<R>& d, const vec3<R>& dx, const vec3<R>& dy) const;
-  template <class R>
-  Coordinates<R> cube_coordinates(const vec3<R>& d, const vec3<R>& dx, const vec3<R>& dy) const;
   template <class R>
   vec4<R> fetch(const Coordinates<R>& at, IntOf<R> level) const;
   template <class R>

@@ -248,7 +248,7 @@ template DirectionalReflectance<float> directional_reflectance(float, float);
 template DirectionalReflectance<double> directional_reflectance(double, double);
 template DirectionalReflectance<RealN<4>> directional_reflectance(RealN<4>, RealN<4>);
 template DirectionalReflectance<RealN<8>> directional_reflectance(RealN<8>, RealN<8>);
-#if HALFSPACE_LANES == 16  // as in texture_lookup.cpp
+#if HALFSPACE_LANES == 16  // as in texture.cpp
 template DirectionalReflectance<RealN<16>> directional_reflectance(RealN<16>, RealN<16>);
 #endif
 template DirectionalReflectance<FragmentReal> directional_reflectance(FragmentReal, FragmentReal);

@@ -7,6 +7,7 @@
 #include "halfspace/core/half.h"
 #include "halfspace/core/lane_bytes.h"
 #include "halfspace/core/srgb.h"
+#include "halfspace/shading/texture/mip_taps.h"
 #include "halfspace/shading/texture/texels.h"
 #include "halfspace/shading/texture/texture.h"
 
@@ -111,22 +112,6 @@ void texel_row(std::span<const glm::vec4> from, glm::u8vec4* to, TexelFormat for
 
 // ---- the next level ---------------------------------------------------------------------------------------------------
 
-/// The texels along one axis that a texel of the next level averages, and their weights, which add up to 1.
-template <class Number>
-struct Taps {
-  int first;
-  int count;
-  Number weight[3];
-};
-
-template <class Number>
-Taps<Number> taps_of(int size, int i) {
-  if (size == 1) return {0, 1, {1}};
-  if (size % 2 == 0) return {2 * i, 2, {Number(0.5f), Number(0.5f)}};
-  const auto n = static_cast<Number>(size / 2), whole = static_cast<Number>(size), at = static_cast<Number>(i);
-  return {2 * i, 3, {(n - at) / whole, n / whole, (at + 1) / whole}};
-}
-
 /// Averages squares of 2x2 texels of two rows.
 template <class Number, class Sum>
 void halve_rows(const Sum* first, const Sum* second, std::span<Sum> to) {
@@ -143,8 +128,8 @@ Image<SumOf<Texel>> next_level(int width, int height, const RowOf& row_of, const
   using Number = typename Averaging<Texel>::Number;
   using Sum = SumOf<Texel>;
   Image<Sum> to(detail::half_size(width), detail::half_size(height));
-  std::vector<Taps<Number>> columns;
-  for (int x = 0; x < to.width(); ++x) columns.push_back(taps_of<Number>(width, x));
+  std::vector<detail::MipTaps<Number>> columns;
+  for (int x = 0; x < to.width(); ++x) columns.push_back(detail::mip_taps<Number>(width, x));
   const auto row_length = static_cast<std::size_t>(width);
   if (width % 2 == 0 && height % 2 == 0) {  // the same result as below, since multiplication by 1/2 is exact
     detail::for_each_row(workers, to.height(), [&](int y) {
@@ -156,14 +141,14 @@ Image<SumOf<Texel>> next_level(int width, int height, const RowOf& row_of, const
   }
   detail::for_each_row(workers, to.height(), [&](int y) {
     std::vector<Sum> buffer(row_length), sum(row_length);
-    const Taps<Number> rows = taps_of<Number>(height, y);
+    const detail::MipTaps<Number> rows = detail::mip_taps<Number>(height, y);
     for (int j = 0; j < rows.count; ++j) {
       const Sum* row = row_of(rows.first + j, buffer.data());
       const Number weight = rows.weight[j];
       for (std::size_t x = 0; x < sum.size(); ++x) sum[x] = j == 0 ? weight * row[x] : sum[x] + weight * row[x];
     }
     Sum* out = to.row(y).data();
-    for (const Taps<Number>& taps : columns) {
+    for (const detail::MipTaps<Number>& taps : columns) {
       const Sum* from = sum.data() + taps.first;
       Sum v = taps.weight[0] * from[0];
       for (int i = 1; i < taps.count; ++i) v += taps.weight[i] * from[i];

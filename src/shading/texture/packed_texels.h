@@ -12,6 +12,9 @@
 
 namespace halfspace::HS_LANES {
 
+/// The largest rgba32f texel: half of the largest float, so that the difference of two texels cannot overflow.
+inline constexpr float kMaxTexel = 0x1.fffffep126f;
+
 namespace detail {
 
 /// Unpacks channels of an 8-bit texel for filtering: all (Value is vec4), or red, green and blue (vec3). sRGB colors become linear values;

@@ -15,7 +15,7 @@
 // blends.
 //
 // Common lookups (rgba8, any wrap mode but the border, bilinear or trilinear) are inlined into shaders from this header. All others call
-// texture_lookup.cpp.
+// texture.cpp.
 // R = double filters in double with unrounded fractions, on the same decoded texels. It is the accuracy reference.
 #pragma once
 
@@ -29,18 +29,18 @@
 #include "halfspace/core/parallel.h"
 #include "halfspace/core/vec.h"
 #include "halfspace/shading/texture/footprint.h"
+#include "halfspace/shading/texture/level_choice.h"
 #include "halfspace/shading/texture/sampler.h"
 #include "halfspace/shading/texture/texel_filter.h"
+#include "halfspace/shading/texture/texture_axis.h"
+#include "halfspace/shading/texture/texture_table.h"
 
 namespace halfspace::HS_LANES {
 
-/// The formats of textures are r8, r16, rgba8, srgb8a8, rgba16f (always finite: values are clamped to ±65504, NaN becomes 0) and rgba32f
-/// (clamped to ±kMaxTexel, NaN becomes 0).
+/// An immutable texture that owns its texels. Any number of threads may read it concurrently.
 ///
-/// The largest rgba32f texel: half of the largest float, so that the difference of two texels cannot overflow.
-inline constexpr float kMaxTexel = 0x1.fffffep126f;
-
-/// An immutable texture. It owns its texels. Any number of threads may read it concurrently.
+/// The formats are r8, r16, rgba8, srgb8a8, rgba16f (always finite: values are clamped to ±65504, NaN becomes 0) and rgba32f (clamped to
+/// ±kMaxTexel, NaN becomes 0). TextureView (texture_view.h) reads all formats, and textures of other kinds.
 class Texture2D {
  public:
   static constexpr int kMaxSize = 32768;  ///< per side; all levels together must be smaller than 8 GiB
@@ -88,29 +88,16 @@ class Texture2D {
   vec4<R> sample_level(const Sampler& sampler, const vec2<R>& uv, std::type_identity_t<R> lod) const;
 
  private:
-  static constexpr std::size_t kMaxLevels = 16;
+  static constexpr auto kMaxLevels = static_cast<std::size_t>(detail::kMaxLevels);
 
-  // The levels that a lookup reads: level `index` and, for lanes that are between levels, level index + 1 with the weight `fraction`.
   template <class R>
-  struct LevelChoice {
-    IntOf<R> index;
-    R fraction;  // 0 … 1 − 2^-14; 0 for lanes that are not between levels
-    MaskOf<R> between, nearest;
-  };
+  using LevelChoice = detail::LevelChoice<R>;
   // The properties of a level that a lookup needs.
   template <class R>
   struct Level {
     IntOf<R> width, height, offset, pitch;
     R columns, rows;  // width and height as floats
   };
-  // Position of a lookup along one axis: between texel i (−1 … size − 1) and the next one, whose weight is fraction.
-  template <class R>
-  struct Axis {
-    IntOf<R> i;
-    R fraction;
-    IntOf<R> steps;  // fraction · 2^kFractionBits; unused if R is double
-  };
-
   template <class Texel>
   void add_chain(const Image<Texel>& base, const Workers* workers);
   template <class Texel>
@@ -123,55 +110,43 @@ class Texture2D {
   /// Returns whether CommonLookup supports this sampler.
   bool is_common(const Sampler& sampler) const {
     const bool has_four_channels = format_ != TexelFormat::r8 && format_ != TexelFormat::r16;
-    return has_four_channels && !has_border(sampler) && sampler.mag != Filter::nearest && sampler.min != Filter::nearest;
+    return has_four_channels && is_common(sampler.wrap_s) && is_common(sampler.wrap_t) && is_common(sampler.mag) &&
+           is_common(sampler.min) && sampler.lod == LodControl{};
   }
+  static bool is_common(Wrap wrap) { return wrap <= Wrap::clamp; }
+  static bool is_common(Filter filter) { return filter == Filter::bilinear || filter == Filter::trilinear; }
   static bool has_border(const Sampler& sampler) { return sampler.wrap_s == Wrap::border || sampler.wrap_t == Wrap::border; }
-  // Implementations of sample and sample_level for every format and sampler, in texture_lookup.cpp, for all Number types. They are pure, so
-  // that a call does not keep the compiler from dropping unused values of the shader.
+  // Implementations of sample and sample_level for every format and sampler, in texture.cpp, for all Number types. They are pure, so that a
+  // call does not keep the compiler from dropping unused values of the shader.
   template <class R>
   __attribute__((pure)) vec4<R> sample_any(const Sampler& sampler, const vec2<R>& uv, const vec2<R>& duv_dx, const vec2<R>& duv_dy) const;
   template <class R>
-  __attribute__((pure)) vec4<R> sample_levels_any(const Sampler& sampler, const vec2<R>& uv, const LevelChoice<R>& levels) const;
-  /// Returns whether sample_nearest() supports this sampler.
-  static bool is_nearest(const Sampler& sampler) {
-    return sampler.mag == Filter::nearest && sampler.min == Filter::nearest && !has_border(sampler);
-  }
-  template <class R>
-  vec4<R> sample_nearest(const Sampler& sampler, const vec2<R>& uv) const;
-  // A lookup for any sampler, for one format (texels.h).
-  template <class R, class Texels>
-  struct AnyLookup;
+  __attribute__((pure)) vec4<R> sample_level_any(const Sampler& sampler, const vec2<R>& uv, const R& lod) const;
   // A lookup in a format with four channels, for common samplers. Value selects the channels: vec4, vec3 (no alpha) or, if alphas_ is not
   // empty, R (only alpha).
   template <class Value, TexelFormat texel_format, class R>
   struct CommonLookup;
   template <class R, class Function>
-  vec4<R> with_texels(const Function& function) const;
-  template <class R, class Function>
   vec4<R> with_lookup(const Sampler& sampler, const Function& function) const;
+  template <class R>
+  vec4<R> sample_levels(const Sampler& sampler, const vec2<R>& uv, const LevelChoice<R>& levels) const;
 
   template <class Value, class R>
   Value sample_channels(const Sampler& sampler, const vec2<R>& uv, const vec2<R>& duv_dx, const vec2<R>& duv_dy) const;
-  template <class R>
-  LevelChoice<R> choose_level(const Sampler& sampler, R lod, IntOf<R> whole) const;
-  /// Select the levels for a level of detail or for derivatives.
-  template <class R>
-  LevelChoice<R> levels_at(const Sampler& sampler, R lod) const;
+  /// Selects the levels for derivatives, for samplers without special levels (level_choice.h).
   template <class R>
   LevelChoice<R> levels_of(const Sampler& sampler, const vec2<R>& duv_dx, const vec2<R>& duv_dy) const;
   template <class R>
   Level<R> level(IntOf<R> index) const;
-  template <class R>
-  static R wrapped(R coordinate, Wrap wrap);
-  template <class R>
-  static Axis<R> axis(R coordinate, R size);
 
   TexelFormat format_;
   int levels_ = 0;
   std::array<int32_t, kMaxLevels> width_{}, height_{}, offset_{}, pitch_{};  // offset: index of texel (0, 0) of a level
   std::array<int32_t, kMaxLevels> columns_{}, rows_{};                       // width and height as bits of floats
-  // All levels, in the layout of texels.h. Each level has a border of one texel that repeats the opposite edge, so that neighbors are
-  // adjacent in memory even across the seams. The last texels are followed by a few words that gather_row may read.
+  detail::TextureTable table_;                                               // the same levels, for lookups that are not common
+  // All levels, in the formats of core/texel_format.h, where srgb8a8 and rgba8 are words. Each level has a border of one texel that repeats
+  // the opposite edge, so that neighbors are adjacent in memory even across the seams. The last texels are followed by a few words that
+  // gather_row may read.
   std::vector<int32_t, CacheLineAllocator<int32_t>> texels_;
   // Only for 8-bit formats with four channels whose alpha is not the same everywhere: the alpha of each texel in the low byte, and of the
   // texel above it in the high byte. sample_alpha finds all it needs with one load.
@@ -208,51 +183,15 @@ HS_INLINE Texture2D::Level<R> Texture2D::level(IntOf<R> index) const {
           R(as_real(look_up(rows_, index)))};
 }
 
-namespace detail {
-
-/// Reduces a coordinate to [0, 2), the period of Wrap::mirrored, for both signs: |coordinate| mod 2, exact for every float.
-template <class R>
-HS_INLINE R mirror_phase(R coordinate) {
-  const R a = abs(coordinate);
-  return a - R(2.0f) * floor(a * R(0.5f));
-}
-/// Mirrors the phase at 1: the result is the distance to the nearest even number. NaN and infinities become 0.
-template <class R>
-HS_INLINE R mirrored_at(R phase) {
-  return clamp(min(phase, R(2.0f) - phase), R(0.0f), R(1.0f));
-}
-
-}  // namespace detail
-
-/// Wraps a coordinate to [0, 1], so that all later computations are in range. NaN becomes 0.
-template <class R>
-HS_INLINE R Texture2D::wrapped(R coordinate, Wrap wrap) {
-  if (wrap == Wrap::repeat) return max(coordinate - floor(coordinate), R(0.0f));
-  if (wrap == Wrap::mirrored) return detail::mirrored_at(detail::mirror_phase(coordinate));
-  return clamp(coordinate, R(0.0f), R(1.0f));
-}
-
-/// Converts a coordinate in [0, 1] to a position between texel centers, which are at i + 1/2.
-template <class R>
-HS_INLINE Texture2D::Axis<R> Texture2D::axis(R coordinate, R n) {
-  if constexpr (std::is_same_v<R, double>) {
-    const double u = coordinate * n - 0.5;
-    return {truncate_to_int(floor(u)), u - floor(u), 0};
-  } else {
-    constexpr int kBits = detail::kFractionBits;
-    const IntOf<R> u = round_to_int(fma(coordinate * R(1 << kBits), n, R(-(1 << kBits) / 2)));
-    const IntOf<R> steps = u & ((1 << kBits) - 1);
-    return {u >> kBits, to_real<R>(steps) * R(1.0f / (1 << kBits)), steps};
-  }
-}
-
 template <class Value, TexelFormat texel_format, class R>
 struct Texture2D::CommonLookup {
   const Texture2D& texture;
   const Sampler& sampler;
 
   /// With clamping and mirroring, positions beyond the center of the outermost texel use only that texel.
-  HS_INLINE static Axis<R> clamped(const Axis<R>& a, IntOf<R> size, Wrap wrap) {
+  using Axis = detail::Axis<R>;
+
+  HS_INLINE static Axis clamped(const Axis& a, IntOf<R> size, Wrap wrap) {
     if (wrap == Wrap::repeat) return a;
     const MaskOf<R> between = a.i >= 0 && a.i < size - 1;
     return {max(a.i, IntOf<R>(0)), select(between, a.fraction, R(0.0f)), select(between, a.steps, IntOf<R>(0))};
@@ -261,7 +200,8 @@ struct Texture2D::CommonLookup {
   /// Filters one level, in filtering units. st must be in [0, 1].
   HS_INLINE Value filter(const vec2<R>& st, IntOf<R> level_index) const {
     const Level<R> l = texture.level<R>(level_index);
-    const Axis<R> x = clamped(axis(st.x, l.columns), l.width, sampler.wrap_s), y = clamped(axis(st.y, l.rows), l.height, sampler.wrap_t);
+    const Axis x = clamped(detail::axis(st.x, l.columns), l.width, sampler.wrap_s),
+               y = clamped(detail::axis(st.y, l.rows), l.height, sampler.wrap_t);
     const IntOf<R> row = y.i * l.pitch + (l.offset + x.i);  // adds the product last, because it has the longest latency
     if constexpr (std::is_same_v<Value, R>) {
       return detail::filtered_alpha(detail::AlphaSquare<R>{texture.alphas_.data(), row, x.fraction, y.fraction});
@@ -273,7 +213,7 @@ struct Texture2D::CommonLookup {
 
   /// Filters one or two levels, in filtering units.
   HS_INLINE Value operator()(const vec2<R>& uv, const LevelChoice<R>& levels) const {
-    const vec2<R> st(wrapped(uv.x, sampler.wrap_s), wrapped(uv.y, sampler.wrap_t));
+    const vec2<R> st(detail::wrapped(uv.x, sampler.wrap_s), detail::wrapped(uv.y, sampler.wrap_t));
     const Value c = filter(st, levels.index);
     if (!any(levels.between)) return c;
     return detail::lerp(c, filter(st, min(levels.index + 1, IntOf<R>(texture.levels_ - 1))), levels.fraction);
@@ -289,54 +229,33 @@ struct Texture2D::CommonLookup {
 
 namespace detail {
 
-/// If the fractional LOD is below this, only the finer mip level is read. The result changes by less than 1/16384 of the difference between
-/// the levels. A quad drawn at its native size has a level of detail of about 1e-7.
-template <class R>
-inline constexpr float kLevelSnap = std::is_same_v<R, double> ? 0.0f : 0x1p-14f;
-
 /// Coefficients of log2(1 + f)/f for log2_of_normal. Levels of detail are accurate to 2^-16, so results change by less than 1/65536 of the
 /// difference between the levels.
 inline constexpr float kLevelLog2[] = {1.44264627f, -0.720555007f, 0.485306472f, -0.390892416f, 0.254752129f};
 
 }  // namespace detail
 
-/// whole must be floor(lod + kLevelSnap). If lod is out of range, any level beyond that end of the mip chain will do.
-template <class R>
-HS_INLINE Texture2D::LevelChoice<R> Texture2D::choose_level(const Sampler& sampler, R lod, IntOf<R> whole) const {
-  const MaskOf<R> minified = lod > R(0.0f);
-  const MaskOf<R> nearest = select(minified, MaskOf<R>(sampler.min == Filter::nearest), MaskOf<R>(sampler.mag == Filter::nearest));
-  const int32_t last = sampler.min == Filter::trilinear ? levels_ - 1 : 0;
-  const IntOf<R> index = min(max(whole, IntOf<R>(0)), IntOf<R>(last));
-  const R fraction = lod - to_real<R>(index);
-  const MaskOf<R> between = fraction > R(detail::kLevelSnap<R>) && index < IntOf<R>(last);
-  return {index, select(between, fraction, R(0.0f)), between, nearest};
-}
-
-template <class R>
-HS_INLINE Texture2D::LevelChoice<R> Texture2D::levels_at(const Sampler& sampler, R lod) const {
-  return choose_level(sampler, lod, truncate_to_int(floor(clamp(lod, R(0.0f), R(kMaxLevels)) + R(detail::kLevelSnap<R>))));
-}
-
 /// The integer part of the level is half the exponent of ρ², so texels can be fetched before the logarithm is known.
 template <class R>
-HS_INLINE Texture2D::LevelChoice<R> Texture2D::levels_of(const Sampler& sampler, const vec2<R>& duv_dx, const vec2<R>& duv_dy) const {
+HS_INLINE detail::LevelChoice<R> Texture2D::levels_of(const Sampler& sampler, const vec2<R>& duv_dx, const vec2<R>& duv_dy) const {
   const bool same_filter = (sampler.min == Filter::nearest) == (sampler.mag == Filter::nearest);
-  if (same_filter && (sampler.min != Filter::trilinear || levels_ == 1)) return choose_level(sampler, R(0.0f), IntOf<R>(0));
+  if (same_filter && (sampler.min != Filter::trilinear || levels_ == 1))
+    return detail::choose_common_level(sampler, levels_, R(0.0f), IntOf<R>(0));
   const R rho2 = max(squared_scale_factor(width(), height(), duv_dx, duv_dy), R(0x1p-126f));  // NaN gives level 0, too
   if constexpr (std::is_same_v<R, double>) {
-    return levels_at(sampler, 0.5 * log2(rho2));
+    return detail::choose_common_level(sampler, levels_, detail::kMaxLevels, 0.5 * log2(rho2));
   } else {
     constexpr float kSnapFactor = 1.0f + 2 * 0.693147181f * detail::kLevelSnap<R>;
     const IntOf<R> exponent = (as_int(rho2 * R(kSnapFactor)) >> 23) - 127;
-    return choose_level(sampler, R(0.5f) * detail::log2_of_normal(rho2, detail::kLevelLog2), exponent >> 1);
+    return detail::choose_common_level(sampler, levels_, R(0.5f) * detail::log2_of_normal(rho2, detail::kLevelLog2), exponent >> 1);
   }
 }
 
 template <Number R>
 vec4<R> Texture2D::sample_level(const Sampler& sampler, const vec2<R>& uv, std::type_identity_t<R> lod) const {
-  if (format_ != TexelFormat::rgba8 || !is_common(sampler)) return sample_levels_any<R>(sampler, uv, levels_at(sampler, lod));
+  if (format_ != TexelFormat::rgba8 || !is_common(sampler)) return sample_level_any<R>(sampler, uv, lod);
   const CommonLookup<vec4<R>, TexelFormat::rgba8, R> lookup{*this, sampler};
-  return lookup.finish(lookup(uv, levels_at(sampler, lod)));
+  return lookup.finish(lookup(uv, detail::choose_common_level(sampler, levels_, detail::kMaxLevels, lod)));
 }
 
 template <class Value, class R>

@@ -8,13 +8,14 @@
 #include <cstring>
 
 #include "halfspace/core/float_mode.h"
+#include "halfspace/shading/texture/texel_reader.h"
 #include "halfspace/shading/texture/texels.h"
 
 namespace halfspace::HS_LANES {
 
 namespace {
 
-// ---- packing of texels into 32-bit words, as texels.h reads them ------------------------------------------------------
+// ---- packing of texels into 32-bit words, red in the low bits ------------------------------------------------------
 
 /// Number of texels of a level, including its border.
 std::size_t with_border(int width, int height) { return static_cast<std::size_t>(width + 2) * static_cast<std::size_t>(height + 2); }
@@ -128,6 +129,10 @@ void Texture2D::add_level(const Image<Texel>& image, const Workers* workers) {
   columns_[l] = as_int(static_cast<float>(image.width()));
   rows_[l] = as_int(static_cast<float>(image.height()));
   offset_[l] = static_cast<int32_t>(begin) + image.width() + 3;
+  const int unit = detail::texel_unit(format_), stride = texel_info(format_).bytes / unit;
+  table_.format = format_;
+  table_.levels = levels_;
+  table_.level[l] = {offset_[l] * std::ptrdiff_t{stride * unit}, image.width(), image.height(), 1, pitch_[l] * stride, 0};
   // Rows of r8 and r16 may share a word, but these formats never have workers.
   const int last_y = image.height() - 1;
   const std::size_t pitch = static_cast<std::size_t>(image.width()) + 2;

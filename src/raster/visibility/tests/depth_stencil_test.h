@@ -4,25 +4,10 @@
 // stencil values of the tile (OpenGL 4.6, section 17.3.3).
 #pragma once
 
+#include "halfspace/core/compare.h"
 #include "halfspace/raster/tile/tile.h"
 
 namespace halfspace::HS_LANES {
-
-/// Compares z with the stored depth in each lane (OpenGL 4.6, section 17.3.4). NaN only passes not_equal and always.
-template <Number R>
-HS_INLINE MaskOf<R> compare(CompareOp op, R z, R stored) {
-  switch (op) {
-    case CompareOp::never: return false;
-    case CompareOp::less: return z < stored;
-    case CompareOp::equal: return z == stored;
-    case CompareOp::less_equal: return z <= stored;
-    case CompareOp::greater: return z > stored;
-    case CompareOp::not_equal: return z != stored;
-    case CompareOp::greater_equal: return z >= stored;
-    case CompareOp::always: return true;
-  }
-  return false;
-}
 
 /// Returns the lanes of mask that pass the stencil test.
 Mask stencil_test(const StencilFace& face, const Tile& tile, int packet, Mask mask);
