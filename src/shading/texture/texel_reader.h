@@ -34,7 +34,8 @@ HS_INLINE IntOf<R> gather_bytes(const std::byte* base, IntOf<R> i, int bytes) {
   }
 }
 
-/// Reads the texels of a level. Index i counts units (texel_unit) from `data`, which is aligned to the unit.
+/// Reads the texels of a level. Its functions are not forced inline, because a lookup would contain some fifty copies of them. Index i
+/// counts units (texel_unit) from `data`, which is aligned to the unit.
 ///
 /// The units of values are those that are filtered: codes of normalized formats as integers, but linear values for the colors of sRGB, for
 /// floats and for depths.
@@ -52,7 +53,7 @@ struct TexelReader {
 
   /// Returns the bits of all channels, sign-extended if the format is signed. Missing channels are 0, and alpha is 1. Not for rgb9_e5 and
   /// formats of depths.
-  HS_INLINE std::array<I, 4> codes(I i) const {
+  std::array<I, 4> codes(I i) const {
     const TexelInfo& info = texel_info(format);
     std::array<I, 4> out{I(0), I(0), I(0), I(1)};
     if (info.bits == 0) {  // packed in a word
@@ -79,7 +80,7 @@ struct TexelReader {
     return out;
   }
 
-  HS_INLINE R depth(I i) const {
+  R depth(I i) const {
     switch (format) {
       case TexelFormat::d16: return unorm16_to_linear(to_real<R>(load(i)));
       case TexelFormat::d24: return to_real<R>(word(i) & I(0xffffff)) / R(16777215.0f);
@@ -90,7 +91,7 @@ struct TexelReader {
   /// Returns the stencil values of a format that has them.
   HS_INLINE I stencil(I i) const { return (format == TexelFormat::d24s8 ? word(i) : word(i + I(1))) & I(255); }
 
-  HS_INLINE Value operator()(I i) const {
+  Value operator()(I i) const {
     const TexelInfo& info = texel_info(format);
     Value v(R(0.0f), R(0.0f), R(0.0f), R(1.0f));
     if (info.kind == TexelKind::depth) {
@@ -109,7 +110,7 @@ struct TexelReader {
   }
 
   /// Converts a value in the units of filtering to a linear one.
-  HS_INLINE Value to_linear(const Value& v) const {
+  Value to_linear(const Value& v) const {
     const TexelInfo& info = texel_info(format);
     Value linear = v;
     for (int k = 0; k < info.channels; ++k) {

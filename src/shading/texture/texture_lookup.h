@@ -48,7 +48,7 @@ constexpr bool has_rows(TextureKind kind) { return kind != TextureKind::one_d &&
 
 /// Calls f(k) for each level that a lane of `index` names, and returns in each lane the value for its level.
 template <class Value, class R, class F>
-HS_INLINE Value for_each_level(IntOf<R> index, const F& f) {
+Value for_each_level(IntOf<R> index, const F& f) {
   Value value{};
   for (uint32_t left = bits(MaskOf<R>(true)); left != 0;) {
     const int32_t k = lane(index, std::countr_zero(left));
@@ -94,14 +94,13 @@ struct TextureLookup {
 
   HS_INLINE TexelReader<R> reader(const TextureLevel& level) const { return {table.format, base + level.offset}; }
 
-  HS_INLINE Value texel(const TexelReader<R>& from, I index, MaskOf<R> inside) const {
+  Value texel(const TexelReader<R>& from, I index, MaskOf<R> inside) const {
     const Value v = texels(from, index);
     return has_border ? select(inside, texels.to_linear(from, v), border) : v;
   }
 
   /// Filters within a layer. layer: the index of its first texel.
-  HS_INLINE Value in_layer(const TextureLevel& l, const AxisTaps<R>& x, const AxisTaps<R>& y, I layer, MaskOf<R> inside,
-                           bool single) const {
+  Value in_layer(const TextureLevel& l, const AxisTaps<R>& x, const AxisTaps<R>& y, I layer, MaskOf<R> inside, bool single) const {
     const TexelReader<R> from = reader(l);
     const I row0 = layer + y.first * I(l.row_pitch), row1 = layer + y.second * I(l.row_pitch);
     const I column0 = x.first * I(stride), column1 = x.second * I(stride);
@@ -117,7 +116,7 @@ struct TextureLookup {
 
   /// The four texels of a cube at (x, y), (x + 1, y), (x, y + 1) and (x + 1, y + 1), where those beyond an edge belong to the adjacent
   /// face. At a corner, where three faces meet, the fourth texel is the mean of the three.
-  HS_INLINE std::array<Value, 4> cube_square(const TextureLevel& l, I cube, I face, I x, I y) const {
+  std::array<Value, 4> cube_square(const TextureLevel& l, I cube, I face, I x, I y) const {
     const TexelReader<R> from = reader(l);
     const I last(l.width - 1);
     const auto read = [&](const I& i, const I& j) {
@@ -139,7 +138,7 @@ struct TextureLookup {
     return v;
   }
 
-  HS_INLINE Value in_cube(const TextureLevel& l, const LevelPlace<R>& at, MaskOf<R> nearest, bool single) const {
+  Value in_cube(const TextureLevel& l, const LevelPlace<R>& at, MaskOf<R> nearest, bool single) const {
     const TexelAxis axis = axis_of(l.width, Wrap::clamp);
     const I cube = at.layer - cube_face_of(at.layer), face = cube_face_of(at.layer);
     const Axis<R> x = between_texels(wrap_coordinate(at.st.x, axis), axis, nearest),
@@ -153,7 +152,7 @@ struct TextureLookup {
   HS_INLINE static I cube_face_of(I layer) { return layer - truncate_to_int((to_real<R>(layer) + R(0.5f)) * R(1.0f / 6.0f)) * I(6); }
 
   /// Filters one level, linearly or to the nearest texel.
-  HS_INLINE Value filter(const LevelPlace<R>& at, int level, MaskOf<R> nearest) const {
+  Value filter(const LevelPlace<R>& at, int level, MaskOf<R> nearest) const {
     const TextureLevel& l = table.level[static_cast<std::size_t>(level)];
     const bool single = all(nearest);
     if (is_cube(table.kind)) return in_cube(l, at, nearest, single);
@@ -172,7 +171,7 @@ struct TextureLookup {
   }
 
   /// Filters the levels of a choice.
-  HS_INLINE Value operator()(const LevelPlace<R>& at, const LevelChoice<R>& levels) const {
+  Value operator()(const LevelPlace<R>& at, const LevelChoice<R>& levels) const {
     const auto level = [&](I index) { return for_each_level<Value, R>(index, [&](int k) { return filter(at, k, levels.nearest); }); };
     const Value c = level(levels.index);
     if (!any(levels.between)) return c;
@@ -187,7 +186,7 @@ struct TextureLookup {
 template <class R>
 struct AllChannels {
   using Value = vec4<R>;
-  HS_INLINE Value operator()(const TexelReader<R>& from, IntOf<R> i) const { return from(i); }
+  Value operator()(const TexelReader<R>& from, IntOf<R> i) const { return from(i); }
   HS_INLINE Value to_linear(const TexelReader<R>& from, const Value& v) const { return from.to_linear(v); }
   HS_INLINE Value border(const glm::vec4& color) const { return {R(color.x), R(color.y), R(color.z), R(color.w)}; }
 };
