@@ -114,8 +114,8 @@ struct IntN {
   friend HS_INLINE IntN operator|(IntN a, IntN b) { return IntN(a.v | b.v); }
   friend HS_INLINE IntN operator^(IntN a, IntN b) { return IntN(a.v ^ b.v); }
   friend HS_INLINE IntN operator~(IntN a) { return IntN(~a.v); }
-  friend HS_INLINE IntN operator<<(IntN a, int n) { return IntN((V)((U)a.v << n)); }
-  friend HS_INLINE IntN operator>>(IntN a, int n) { return IntN(a.v >> n); }
+  friend HS_INLINE IntN operator<<(IntN a, int n) { return IntN((V)((U)a.v << (n & 31))); }
+  friend HS_INLINE IntN operator>>(IntN a, int n) { return IntN(a.v >> (n & 31)); }
   friend HS_INLINE IntN operator<<(IntN a, IntN n) { return IntN((V)((U)a.v << ((U)n.v & 31))); }
   friend HS_INLINE IntN operator>>(IntN a, IntN n) { return IntN(a.v >> (n.v & 31)); }
 
