@@ -146,16 +146,11 @@ void fill_buffer(ColorBuffer& buffer, const PacketColor& color);
 
 // ---- depth -----------------------------------------------------------------------------------------------------
 
-/// Returns a depth in [0, 1] as represented by the format (see Tile::depth). unorm values are rounded to nearest, once. The sum of 2^23 and
-/// a value below 2^23 has no fraction bits, so the rounding of the fma produces an integer. For larger values, rounding the product has the
-/// same effect.
+/// Returns a depth in [0, 1] as represented by the format (see Tile::depth). unorm values are rounded to nearest, once, as in encode_d24().
 template <Number R>
 HS_INLINE R depth_value(DepthFormat format, R z) {
   const R two_to_23(0x1p23f);
-  if (format == DepthFormat::d24) {
-    const R code = z * R(16777215.0f);
-    return select(code < two_to_23, fma(z, R(16777215.0f), two_to_23) - two_to_23, code);
-  }
+  if (format == DepthFormat::d24) return encode_d24(z);
   if (format == DepthFormat::d16) return fma(z, R(65535.0f), two_to_23) - two_to_23;
   return z;
 }
@@ -168,7 +163,7 @@ struct Depth16 {
 };
 struct Depth24 {
   using Image = uint32_t;
-  static void load(Image i, float& depth, uint8_t&) { depth = static_cast<float>(i); }
+  static void load(Image i, float& depth, uint8_t&) { depth = static_cast<float>(i & 0xffffff); }
   static Image store(float depth, uint8_t) { return static_cast<Image>(depth); }
 };
 struct Depth32 {
