@@ -71,9 +71,9 @@ enum class TexelFormat : uint8_t {
   rgb10_a2ui,      ///< the same, integers
   r11f_g11f_b10f,  ///< unsigned floats of 11, 11 and 10 bits with 5 bits of exponent; of colors that are drawn, negative ones are stored as
                    ///< 0, and infinities as the largest finite value
-  rgb9_e5,  ///< three unsigned mantissas of 9 bits with a common exponent
-  d16,      ///< depth in [0, 1] as code/65535
-  d24,      ///< depth as code/(2^24 − 1), in the low 24 bits of a word
+  rgb9_e5,         ///< three unsigned mantissas of 9 bits with a common exponent
+  d16,             ///< depth in [0, 1] as code/65535
+  d24,             ///< depth as code/(2^24 − 1), in the low 24 bits of a word
   d32f,
   d24s8,  ///< a word: depth in the high 24 bits, stencil in the low 8
   d32fs8  ///< two words: depth, and stencil in the low 8 bits
@@ -144,6 +144,12 @@ constexpr int channel_bits(TexelFormat f, int k) {
   if (f == TexelFormat::rgb10_a2 || f == TexelFormat::rgb10_a2ui) return k == 3 ? 2 : 10;
   if (f == TexelFormat::r11f_g11f_b10f) return k == 2 ? 10 : 11;
   return texel_info(f).bits;
+}
+
+/// Returns the bytes of a channel, or of a word of a packed or depth format. Attachments must be aligned to it.
+constexpr int bytes_per_channel(TexelFormat f) {
+  if (f == TexelFormat::d16) return 2;
+  return texel_info(f).bits != 0 ? texel_info(f).bits / 8 : 4;
 }
 
 /// The type of a color of a fragment, which must be that of its attachment.

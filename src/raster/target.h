@@ -46,7 +46,7 @@ enum class StoreOp : uint8_t { store, dont_care };
 /// result, and its size does not matter. Otherwise, the size must be that of the pass, which an HS_CHECK verifies.
 struct ColorTarget {
   ColorFormat format = ColorFormat::none;
-  std::byte* data = nullptr;  ///< not owned; width × height pixels, tightly packed, top row first
+  std::byte* data = nullptr;  ///< not owned; width × height pixels, tightly packed, top row first; aligned to bytes_per_channel(format)
   int width = 0, height = 0;  ///< of the image, in pixels
   LoadOp load = LoadOp::clear;
   StoreOp store = StoreOp::store;
