@@ -664,6 +664,12 @@ HS_INLINE IntN<W> max(IntN<W> a, int32_t b) {
   return max(a, IntN<W>(b));
 }
 
+/// Returns x in all lanes, with the same bits even if they are those of an integer. R(x) may change a signaling NaN.
+template <class R>
+HS_INLINE R spread(float x) {
+  return as_real(IntOf<R>(as_int(x)));
+}
+
 /// Clamps x to [lo, hi]. NaN gives lo.
 template <Number R>
 HS_INLINE R clamp(R x, std::type_identity_t<R> lo, std::type_identity_t<R> hi) {

@@ -141,6 +141,11 @@ PacketColor nearest_color(ColorFormat format, const PacketColor& color);
 using PixelBytes = std::array<std::byte, 16>;
 PixelBytes encode_pixel(ColorFormat format, const PacketColor& color);
 
+/// Returns a color in all lanes, with the same bits: those of an integer format are integers.
+HS_INLINE PacketColor spread_color(const glm::vec4& c) {
+  return {spread<Real>(c.x), spread<Real>(c.y), spread<Real>(c.z), spread<Real>(c.w)};
+}
+
 /// Fills the buffer with one color.
 void fill_buffer(ColorBuffer& buffer, const PacketColor& color);
 

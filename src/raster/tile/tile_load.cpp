@@ -81,8 +81,7 @@ void load_color(const ColorTarget& target, int width, int height, ImageSamples s
     return;
   }
   if (target.load == LoadOp::clear) {
-    const PacketColor c{Real(target.clear_value.x), Real(target.clear_value.y), Real(target.clear_value.z), Real(target.clear_value.w)};
-    fill_buffer(color, c);
+    fill_buffer(color, spread_color(target.clear_value));
     return;
   }
   const ImageLayout place{width, height, stored};
