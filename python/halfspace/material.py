@@ -11,8 +11,8 @@ from . import _check, _core
 from ._check import fail
 from ._immutable import Immutable
 
-_FILTERS = ("nearest", "bilinear", "trilinear")
-_WRAPS = ("repeat", "mirrored", "clamp")
+_FILTERS = ("nearest", "bilinear", "trilinear", "nearest_mipmap_nearest", "bilinear_mipmap_nearest", "nearest_mipmap_linear")
+_WRAPS = ("repeat", "mirrored", "clamp", "mirrored_clamp")
 _ALPHA_MODES = ("opaque", "mask", "blend")
 _NUMBERS = ("metallic", "roughness", "specular", "ior", "clearcoat", "clearcoat_roughness", "sheen", "sheen_roughness", "alpha_cutoff",
             "normal_scale", "occlusion_strength", "unlit", "double_sided")  # properties of _core.Material with the same name
@@ -26,8 +26,9 @@ class Texture(Immutable):
 
     texels: uint8 of shape (H, W), (H, W, 3) or (H, W, 4), top row first. Base color and emissive textures contain sRGB values with
         straight alpha; all others contain linear values. The member has the shape (H, W, 4) and is read-only.
-    filter: "nearest", "bilinear" or "trilinear" (with mip levels).
-    wrap: "repeat", "mirrored" or "clamp", or a pair of them for u and v. The member is a pair.
+    filter: "nearest", "bilinear", or one with mip levels: "trilinear", "nearest_mipmap_nearest", "bilinear_mipmap_nearest" or
+        "nearest_mipmap_linear" (OpenGL's minification filters).
+    wrap: "repeat", "mirrored", "clamp" or "mirrored_clamp", or a pair of them for u and v. The member is a pair.
     anisotropy: maximum number of probes along an elongated footprint, 1 to 16.
     """
 

@@ -138,11 +138,18 @@ void bind_sampler(py::module_& m) {
   py::enum_<Filter>(m, "Filter")
       .value("nearest", Filter::nearest)
       .value("bilinear", Filter::bilinear)
-      .value("trilinear", Filter::trilinear);
-  py::enum_<Wrap>(m, "Wrap").value("repeat", Wrap::repeat).value("mirrored", Wrap::mirrored).value("clamp", Wrap::clamp);
+      .value("trilinear", Filter::trilinear)
+      .value("nearest_mipmap_nearest", Filter::nearest_mipmap_nearest)
+      .value("bilinear_mipmap_nearest", Filter::bilinear_mipmap_nearest)
+      .value("nearest_mipmap_linear", Filter::nearest_mipmap_linear);
+  py::enum_<Wrap>(m, "Wrap")
+      .value("repeat", Wrap::repeat)
+      .value("mirrored", Wrap::mirrored)
+      .value("clamp", Wrap::clamp)
+      .value("mirrored_clamp", Wrap::mirrored_clamp);
   py::class_<Sampler>(m, "Sampler").def(py::init([](Filter filter, Wrap wrap_s, Wrap wrap_t, int anisotropy) {
     Sampler s;
-    s.mag = filter == Filter::nearest ? Filter::nearest : Filter::bilinear;
+    s.mag = reads_nearest_texel(filter) ? Filter::nearest : Filter::bilinear;
     s.min = filter;
     s.wrap_s = wrap_s;
     s.wrap_t = wrap_t;

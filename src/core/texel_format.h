@@ -146,12 +146,6 @@ constexpr int channel_bits(TexelFormat f, int k) {
   return texel_info(f).bits;
 }
 
-/// Returns the bytes of a channel, or of a word of a packed or depth format. Attachments must be aligned to it.
-constexpr int bytes_per_channel(TexelFormat f) {
-  if (f == TexelFormat::d16) return 2;
-  return texel_info(f).bits != 0 ? texel_info(f).bits / 8 : 4;
-}
-
 /// The type of a color of a fragment, which must be that of its attachment.
 enum class ColorType : uint8_t { real, signed_integer, unsigned_integer };
 constexpr ColorType color_type(TexelFormat f) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <new>
 #include <type_traits>
 #include <utility>
@@ -15,6 +16,7 @@
 #include "halfspace/raster/primitives/vertex_stage.h"
 #include "halfspace/raster/tile/blend.h"
 #include "halfspace/raster/tile/logic_op.h"
+#include "halfspace/raster/tile/texel_overlap.h"
 #include "halfspace/raster/tile/tile_format.h"
 
 namespace halfspace::HS_LANES {
@@ -71,16 +73,30 @@ bool loads(const DepthTarget& target) { return target.load == LoadOp::load || st
 
 bool can_be_drawn(ColorFormat format) { return !is_depth(format) && format != ColorFormat::rgb9_e5; }
 
-// Checks that the image of a target has the size of the pass, width x height pixels, or is not needed.
+// Checks that the image of a target has the size of the pass, width x height pixels with 1 or `samples` values, or is not needed.
 template <class Target>
-void check_target(const Target& target, int width, int height) {
+void check_target(const Target& target, int width, int height, int samples) {
   HS_CHECK(target.data != nullptr || (!loads(target) && target.store == StoreOp::dont_care),
            "target: it has no image, but is loaded or stored; expected an image, or clear and dont_care");
   if (target.data == nullptr) return;
   HS_CHECK_OP(target.width, ==, width, "target: its image has another width than the pass; expected an image of the size of the pass");
   HS_CHECK_OP(target.height, ==, height, "target: its image has another height than the pass; expected an image of the size of the pass");
-  HS_CHECK_OP(reinterpret_cast<std::uintptr_t>(target.data) % static_cast<std::uintptr_t>(bytes_per_channel(target.format)), ==, 0u,
-              "target: its image is not aligned; expected an address that is a multiple of the size of a channel or a packed word");
+  HS_CHECK(target.samples == 1 || target.samples == samples,
+           "target: its image has another number of samples than the pass; expected 1 or the samples of the pass");
+  const TexelView texels = target_texels(target);
+  HS_CHECK_OP(std::abs(texels.row_pitch), >=, std::ptrdiff_t{width} * bytes_per_pixel(target.format),
+              "target: the row pitch is smaller than a row; expected at least the width times the bytes of a pixel, or 0");
+  HS_CHECK(!has_overlapping_layers(texels),
+           "target: the images of its samples overlap; expected a sample pitch of at least an image, or 0");
+}
+
+// Checks that no target is stored to memory of another one that is loaded or stored.
+template <class A, class B>
+void check_overlap(const A& a, const B& b) {
+  const auto is_used = [](const auto& target) { return target.data != nullptr && (target.store == StoreOp::store || loads(target)); };
+  if (!is_used(a) || !is_used(b) || (a.store != StoreOp::store && b.store != StoreOp::store)) return;
+  HS_CHECK(!overlap(target_texels(a), target_texels(b)),
+           "Pass: two targets use the same memory, and one of them is stored; expected an image of its own for each target");
 }
 
 // Comparisons are written so that NaN fails.
@@ -152,12 +168,18 @@ PassState::PassState(int width, int height, std::span<const ColorTarget> colors,
     if (c.format == ColorFormat::none) continue;
     HS_CHECK(can_be_drawn(c.format),
              "Pass: the format of a color target cannot be drawn to; expected one that is neither a depth format nor rgb9_e5");
-    check_target(c, width, height);
+    check_target(c, width, height, options.samples);
+    for (const ColorTarget* other = colors.data(); other != &c; ++other) {
+      if (other->format != ColorFormat::none) check_overlap(*other, c);
+    }
     attachments_.has_color = true;
   }
   if (depth.format != DepthFormat::none) {
     HS_CHECK(is_depth(depth.format), "Pass: the format of the depth target has no depth; expected d16, d24, d32f, d24s8 or d32fs8");
-    check_target(depth, width, height);
+    check_target(depth, width, height, options.samples);
+    for (const ColorTarget& c : colors) {
+      if (c.format != ColorFormat::none) check_overlap(c, depth);
+    }
   }
   context_.width = width;
   context_.height = height;
@@ -296,7 +318,10 @@ void PassState::set_post_step(PostStep post) {
   HS_CHECK(!is_integer(attachments_.colors[0].format), "Pass::post: the first color target has integers; expected another format");
   HS_CHECK(can_be_drawn(post.target.format) && !is_integer(post.target.format),
            "Pass::post: the target cannot store colors; expected a format that is neither integers, a depth format nor rgb9_e5");
-  check_target(post.target, context_.width, context_.height);
+  check_target(post.target, context_.width, context_.height, 1);
+  for (const ColorTarget& c : attachments_.colors) {
+    if (c.format != ColorFormat::none && c.store == StoreOp::store) check_overlap(c, post.target);
+  }
   attachments_.post = std::move(post);
 }
 

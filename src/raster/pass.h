@@ -32,7 +32,7 @@ namespace halfspace::HS_LANES {
 /// Options of a pass.
 struct PassOptions {
   /// Samples per pixel: 1, 2, 4 or 8, at the standard positions. Colors are resolved to the mean of the samples; depth and stencil are
-  /// taken from sample 0.
+  /// taken from sample 0. Targets with images for all samples keep them instead: see ColorTarget::samples.
   int samples = 1;
   /// Run all fragment functions once per sample, as if every draw had DrawState::sample_shading.
   bool supersample = false;
@@ -54,8 +54,8 @@ struct ClearValues {
 /// used by one thread at a time.
 class Pass {
  public:
-  /// Creates a pass for images of width x height pixels, each 1 to 16384. The images of all targets must have this size, which is checked,
-  /// and must outlive the pass.
+  /// Creates a pass for images of width x height pixels, each 1 to 16384. The images of all targets must have this size and must not
+  /// overlap, which is checked, and must outlive the pass.
   Pass(int width, int height, const ColorTarget& color, const DepthTarget& depth, const PassOptions& options = {})
       : Pass(std::span(&color, 1), width, height, depth, options) {}
   /// Creates a pass with up to kMaxColorTargets color attachments. Fragment output n is written to attachment n; attachments without an
@@ -116,7 +116,7 @@ class Pass {
   /// size. This happens while the tile is in cache and is intended for tone mapping and encoding. The functor is copied. It must have
   /// `template <class R> vec4<R> operator()(vec4<R> color) const`, or the same with window coordinates: `operator()(vec4<R> color,
   /// IntOf<R> x, IntOf<R> y)`. The format of the first color attachment must not be none. The target must have an image of the size of the
-  /// pass, which is checked.
+  /// pass with one sample, which must not overlap those that are stored; this is checked.
   template <class F>
   void post(const F& function, const ColorTarget& target) {
     detail::set_post_step(*state_, {std::make_shared<const F>(function), detail::post_kernel<F>, target});

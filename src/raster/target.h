@@ -13,6 +13,7 @@
 
 #include "halfspace/core/image.h"
 #include "halfspace/core/texel_format.h"
+#include "halfspace/core/texel_view.h"
 
 namespace halfspace::HS_LANES {
 
@@ -43,23 +44,33 @@ enum class LoadOp : uint8_t { clear, load, dont_care };
 enum class StoreOp : uint8_t { store, dont_care };
 
 /// Color attachment. data can be null if the pass does not load the image and StoreOp is dont_care. The color is then only an intermediate
-/// result, and its size does not matter. Otherwise, the size must be that of the pass, which an HS_CHECK verifies.
+/// result, and its size does not matter. Otherwise, the size must be that of the pass, which an HS_CHECK verifies. Memory that is stored to
+/// must not be that of another target of the pass, which is checked as well; rows of one atlas may alternate.
+/// Neither the address nor the pitches need to be aligned.
 struct ColorTarget {
   ColorFormat format = ColorFormat::none;
-  std::byte* data = nullptr;  ///< not owned; width × height pixels, tightly packed, top row first; aligned to bytes_per_channel(format)
-  int width = 0, height = 0;  ///< of the image, in pixels
+  std::byte* data = nullptr;     ///< not owned; width × height pixels, top row first
+  int width = 0, height = 0;     ///< of the image, in pixels
+  std::ptrdiff_t row_pitch = 0;  ///< bytes from a row to the one below it in the window, negative if that precedes it; 0: tightly packed
+  /// Values of a pixel in the image: 1, or one for each sample of the pass, in an image of its own. If it is 1, the samples are resolved
+  /// when they are stored, and all samples are loaded with the same value.
+  int samples = 1;
+  std::ptrdiff_t sample_pitch = 0;  ///< bytes from the image of a sample to that of the next one; 0: tightly packed
   LoadOp load = LoadOp::clear;
   StoreOp store = StoreOp::store;
   glm::vec4 clear_value = glm::vec4(0.0f);  ///< linear, straight alpha; for integer formats, integers stored with std::bit_cast
 };
 
 /// Depth attachment with values in [0, 1]. Pixels are uint16_t for d16, uint32_t for d24 (0 to 2^24 − 1), float for d32f, uint32_t for
-/// d24s8 (depth · 2^8 + stencil) and DepthStencil for d32fs8. data and the size are the same as in ColorTarget. Depth and stencil are
-/// stored together.
+/// d24s8 (depth · 2^8 + stencil) and DepthStencil for d32fs8. data, size, pitches and samples are the same as in ColorTarget. Depth and
+/// stencil are stored together.
 struct DepthTarget {
   DepthFormat format = DepthFormat::none;
   std::byte* data = nullptr;
   int width = 0, height = 0;
+  std::ptrdiff_t row_pitch = 0;
+  int samples = 1;
+  std::ptrdiff_t sample_pitch = 0;
   LoadOp load = LoadOp::clear;
   StoreOp store = StoreOp::dont_care;
   float clear_value = 1.0f;
@@ -83,7 +94,41 @@ Target target_of(Format format, Image<Pixel>& image) {
   return target;
 }
 
+template <class Target>
+Target target_of(const TexelView& view) {
+  const TexelView top_first = view.flipped();
+  Target target;
+  target.format = view.format;
+  target.data = top_first.data;
+  target.width = view.width;
+  target.height = view.height;
+  target.row_pitch = top_first.row_pitch;
+  target.samples = view.layers;
+  target.sample_pitch = view.layer_pitch;
+  target.store = StoreOp::store;
+  return target;
+}
+
+template <class Target>
+TexelView texels_of(const Target& target) {
+  const std::ptrdiff_t tight = std::ptrdiff_t{target.width} * bytes_per_pixel(target.format);
+  const std::ptrdiff_t row_pitch = target.row_pitch != 0 ? target.row_pitch : tight;
+  const std::ptrdiff_t sample_pitch =
+      target.sample_pitch != 0 ? target.sample_pitch : target.height * (row_pitch < 0 ? -row_pitch : row_pitch);
+  return TexelView{target.format, target.data, target.width, target.height, target.samples, row_pitch, sample_pitch}.flipped();
+}
+
 }  // namespace detail
+
+/// Each of these functions returns a target that is a view: row 0 of the view is the bottom row of the window, so what is drawn can be
+/// sampled through the same view. Several layers are the samples of the pass. The view can be a rectangle, a level, a layer or a face of
+/// something larger; nothing else is written.
+inline ColorTarget color_target(const TexelView& view) { return detail::target_of<ColorTarget>(view); }
+inline DepthTarget depth_target(const TexelView& view) { return detail::target_of<DepthTarget>(view); }
+
+/// The inverse: returns a view of the texels of a target with an image. Layer k has sample k.
+inline TexelView target_texels(const ColorTarget& target) { return detail::texels_of(target); }
+inline TexelView target_texels(const DepthTarget& target) { return detail::texels_of(target); }
 
 // Each of these functions returns a target that refers to an image and has its size. The image must outlive the pass, and its size must
 // not change.

@@ -41,11 +41,12 @@ struct ChoiceNames<TextureSource> {
 };
 template <>
 struct ChoiceNames<Filter> {
-  static constexpr std::array<std::string_view, 3> names{"nearest", "bilinear", "trilinear"};
+  static constexpr std::array<std::string_view, 6> names{
+      "nearest", "bilinear", "trilinear", "nearest_mipmap_nearest", "bilinear_mipmap_nearest", "nearest_mipmap_linear"};
 };
 template <>
 struct ChoiceNames<Wrap> {
-  static constexpr std::array<std::string_view, 4> names{"repeat", "mirrored", "clamp", "border"};
+  static constexpr std::array<std::string_view, 5> names{"repeat", "mirrored", "clamp", "border", "mirrored_clamp"};
 };
 template <>
 struct ChoiceNames<ModelUp> {

@@ -190,6 +190,17 @@ struct Pixel {
     return interpolate_all<V>(w, components<V>(), std::make_index_sequence<kComponents<V>>());
   }
 
+  /// Return the change of a value to the next pixel to the right and up, within the 2x2 quad, like dFdxCoarse and dFdyCoarse in GLSL:
+  /// px.template quad_ddx<Varyings<R>>([&](const auto& v) { return v.uv * scale; }). f computes the value from varyings.
+  template <class V, class F>
+  HS_INLINE auto quad_ddx(const F& f) const {
+    return f(at_quad<V>(1, 0)) - f(at_quad<V>(0, 0));
+  }
+  template <class V, class F>
+  HS_INLINE auto quad_ddy(const F& f) const {
+    return f(at_quad<V>(0, 1)) - f(at_quad<V>(0, 0));
+  }
+
   // Set by the pipeline.
   const TriangleLanes<R>* triangle;
   const void* component_lanes;  ///< ComponentLanes<R, kComponents<V>> of the shader's Varyings V

@@ -45,7 +45,7 @@ ROOMS = {
         ["visibility/full_tile"],
         ["shade/"],
         ["loop/", "detail/"],
-        ["pass", "naive"],
+        ["pass", "naive", "blit"],
         ["inspect/"],
     ],
     "shading": [

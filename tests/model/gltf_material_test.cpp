@@ -282,6 +282,21 @@ TEST(GltfMaterial, MapsSamplers) {
   EXPECT_EQ(sampler.wrap_t, Wrap::mirrored);
 }
 
+TEST(GltfMaterial, KeepsEveryMinificationFilter) {
+  const std::pair<int, Filter> filters[] = {{9728, Filter::nearest},
+                                            {9729, Filter::bilinear},
+                                            {9984, Filter::nearest_mipmap_nearest},
+                                            {9985, Filter::bilinear_mipmap_nearest},
+                                            {9986, Filter::nearest_mipmap_linear},
+                                            {9987, Filter::trilinear}};
+  for (const auto& [number, filter] : filters) {
+    GltfBuilder file = file_with_texture();
+    file.add("samplers", {{"minFilter", number}});
+    file.add("textures", {{"source", 0}, {"sampler", 0}});
+    EXPECT_EQ(file.read().textures.at(1).sampler.min, filter) << number;
+  }
+}
+
 TEST(GltfMaterial, LocatesImages) {
   const TemporaryFolder folder;
   write_bytes(folder.path() / "a b.png", "x");

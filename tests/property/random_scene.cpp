@@ -341,23 +341,44 @@ glm::mat4 random_matrix(Random& random) {
   return m;
 }
 
-// Fills the images that the pass loads, with finite and moderate floats and with depths in [0, 1].
+// Fills a sample of all pixels with finite and moderate floats and with depths in [0, 1].
+void fill_sample(int sample, Random& random, oracle::Framebuffer& f) {
+  for (int y = 0; y < f.height(); ++y) {
+    for (int x = 0; x < f.width(); ++x) {
+      for (std::size_t i = 0; i < f.color_formats().size(); ++i) {
+        f.set_color(i, {x, y, sample}, glm::vec4{random.real(0, 1), random.real(0, 1), random.real(0, 2), random.real(0, 1)});
+      }
+      f.set_depth({x, y, sample}, f.depth_value(random.real(0, 1)));
+      f.set_stencil({x, y, sample}, static_cast<uint8_t>(random.below(256)));
+    }
+  }
+}
+
+// Fills the images that the pass loads. Only the first sample changes the random numbers of the rest of the scene.
 void fill_images(Scene& s, Random& random) {
   std::vector<ColorFormat> formats{s.color.format};
   for (const ColorTarget& c : s.more_colors) formats.push_back(c.format);
-  oracle::Framebuffer f(s.width, s.height, formats, s.depth.format);
-  for (int y = 0; y < s.height; ++y) {
-    for (int x = 0; x < s.width; ++x) {
-      for (std::size_t i = 0; i < formats.size(); ++i) {
-        f.set_color(i, {x, y, 0}, glm::vec4{random.real(0, 1), random.real(0, 1), random.real(0, 2), random.real(0, 1)});
-      }
-      f.set_depth({x, y, 0}, f.depth_value(random.real(0, 1)));
-      f.set_stencil({x, y, 0}, static_cast<uint8_t>(random.below(256)));
-    }
-  }
-  s.color_before = f.color_bytes[0];
-  s.more_before.assign(f.color_bytes.begin() + 1, f.color_bytes.end());
-  s.depth_before = f.depth_bytes;
+  oracle::Framebuffer f(s.width, s.height, formats, s.depth.format, s.samples);
+  fill_sample(0, random, f);
+  Random more = random;
+  for (int sample = 1; sample < s.samples; ++sample) fill_sample(sample, more, f);
+  const auto stored = [&](std::vector<std::byte> bytes, int samples) {
+    bytes.resize(bytes.size() / static_cast<std::size_t>(s.samples) * static_cast<std::size_t>(samples));
+    return bytes;
+  };
+  s.color_before = stored(f.color_bytes[0], s.color.samples);
+  for (std::size_t i = 0; i < s.more_colors.size(); ++i) s.more_before.push_back(stored(f.color_bytes[i + 1], s.more_colors[i].samples));
+  s.depth_before = stored(f.depth_bytes, s.depth.samples);
+}
+
+// Draws into views, and stores all samples, without changing the random numbers of the rest of the scene.
+void vary_images(Random random, Scene& s) {
+  s.in_views = random.once_in(3);
+  if (random.once_in(2)) return;
+  const auto samples = [&] { return random.once_in(2) ? s.samples : 1; };
+  s.color.samples = samples();
+  s.depth.samples = samples();
+  for (ColorTarget& c : s.more_colors) c.samples = samples();
 }
 
 // Returns rows with the given positions and random values for all other attributes.
@@ -624,6 +645,7 @@ Scene random_scene(Theme theme, uint64_t seed) {
   s.depth.clear_value = random.pick({0.0f, 0.0f, 0.4f, 1.0f, 1.0f, 1.0f});
   const bool many_points = (theme == Theme::points || theme == Theme::lines) && random.once_in(theme == Theme::points ? 2 : 4);
   if (theme == Theme::operations || theme == Theme::samples || many_points) add_attachments(theme, depth_only, random, s);
+  vary_images(random, s);
   if (random.once_in(4)) {
     fill_images(s, random);
     s.color.load = s.depth.load = LoadOp::load;

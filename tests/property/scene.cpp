@@ -18,6 +18,11 @@ constexpr const char* kCompareNames[] = {"never", "less", "equal", "less_equal",
 
 std::size_t pixels_of(const Scene& s) { return static_cast<std::size_t>(s.width) * static_cast<std::size_t>(s.height); }
 
+template <class Target>
+std::size_t image_bytes(const Scene& s, const Target& target) {
+  return pixels_of(s) * static_cast<std::size_t>(bytes_per_pixel(target.format)) * static_cast<std::size_t>(target.samples);
+}
+
 // Returns the value of a component, for messages and for finding the worst pixel.
 double value_at(const std::vector<std::byte>& bytes, std::size_t index, std::size_t size, bool is_float) {
   const std::byte* p = bytes.data() + index * size;
@@ -46,7 +51,7 @@ std::string compare(const char* name, const Scene& scene, const std::vector<std:
   std::size_t differing = 0, worst = 0;
   double worst_by = -1.0;
   const std::size_t pixel_bytes = components * size;
-  for (std::size_t i = 0; i < pixels_of(scene); ++i) {
+  for (std::size_t i = 0; i < expected.size() / pixel_bytes; ++i) {
     if (std::memcmp(&expected[i * pixel_bytes], &actual[i * pixel_bytes], pixel_bytes) == 0) continue;
     ++differing;
     double by = 0.0;
@@ -63,8 +68,9 @@ std::string compare(const char* name, const Scene& scene, const std::vector<std:
   std::ostringstream out;
   out.precision(9);
   const auto width = static_cast<std::size_t>(scene.width);
-  out << name << ": " << differing << " of " << pixels_of(scene) << " pixels differ; worst, window (" << worst % width << ", "
-      << static_cast<std::size_t>(scene.height) - 1 - worst / width << "):";
+  const std::size_t place = worst % pixels_of(scene);
+  out << name << ": " << differing << " of " << expected.size() / pixel_bytes << " pixels differ; worst, window (" << place % width << ", "
+      << static_cast<std::size_t>(scene.height) - 1 - place / width << "), image of sample " << worst / pixels_of(scene) << ":";
   for (std::size_t k = 0; k < components; ++k) out << ' ' << value_at(expected, worst * components + k, size, is_float);
   out << " expected, got";
   for (std::size_t k = 0; k < components; ++k) out << ' ' << value_at(actual, worst * components + k, size, is_float);
@@ -77,6 +83,54 @@ std::string compare_color(const char* name, const Scene& scene, ColorFormat form
   const std::size_t components = info.bits == 0 ? 1 : info.channels;
   return compare(name, scene, expected, actual, components, info.bytes / components, format == ColorFormat::rgba32f);
 }
+
+void copy_texels(const TexelView& from, const TexelView& to) {
+  const auto bytes = static_cast<std::size_t>(from.width) * texel_info(from.format).bytes;
+  for (int layer = 0; layer < from.layers; ++layer) {
+    for (int y = 0; y < from.height; ++y) std::memcpy(to.at(0, y, layer), from.at(0, y, layer), bytes);
+  }
+}
+
+// A copy of an image in the middle of a larger one, whose rows are stored bottom row first and have an odd pitch.
+class Surrounded {
+ public:
+  explicit Surrounded(const TexelView& image) : image_(image) {
+    if (image.data == nullptr) return;
+    view_ = image;
+    view_.row_pitch = (image.width + 5) * std::ptrdiff_t{texel_info(image.format).bytes} + 1;
+    view_.layer_pitch = (image.height + 7) * view_.row_pitch;
+    memory_.assign(static_cast<std::size_t>(image.layers * view_.layer_pitch), kGuard);
+    view_.data = memory_.data();
+    view_.data = view_.at(2, 3);
+    copy_texels(image_, view_);
+  }
+
+  // Makes a target draw into the copy.
+  template <class Target>
+  void replace(Target& target) const {
+    if (view_.data == nullptr) return;
+    const TexelView top_first = view_.flipped();
+    target.data = top_first.data;
+    target.row_pitch = top_first.row_pitch;
+    target.sample_pitch = top_first.layer_pitch;
+  }
+
+  // Copies the texels back. Returns true if nothing was written around them.
+  bool finish() {
+    if (view_.data == nullptr) return true;
+    copy_texels(view_, image_);
+    const std::vector<std::byte> guards(static_cast<std::size_t>(view_.width) * texel_info(view_.format).bytes, kGuard);
+    for (int layer = 0; layer < view_.layers; ++layer) {
+      for (int y = 0; y < view_.height; ++y) std::ranges::copy(guards, view_.at(0, y, layer));
+    }
+    return std::ranges::all_of(memory_, [](std::byte b) { return b == kGuard; });
+  }
+
+ private:
+  static constexpr std::byte kGuard{0xa5};
+  TexelView image_, view_;
+  std::vector<std::byte> memory_;
+};
 
 }  // namespace
 
@@ -154,7 +208,7 @@ PassResult run_pass(const Scene& scene, const PassOptions& options, int threads)
   DepthTarget depth = scene.depth;
   if (scene.has_color_image) {
     p.color = scene.color_before;
-    p.color.resize(pixels_of(scene) * static_cast<std::size_t>(bytes_per_pixel(color.format)));
+    p.color.resize(image_bytes(scene, color));
     color.data = p.color.data();
     color.width = scene.width, color.height = scene.height;
   } else {
@@ -162,7 +216,7 @@ PassResult run_pass(const Scene& scene, const PassOptions& options, int threads)
   }
   if (scene.has_depth_image) {
     p.depth = scene.depth_before;
-    p.depth.resize(pixels_of(scene) * static_cast<std::size_t>(bytes_per_pixel(depth.format)));
+    p.depth.resize(image_bytes(scene, depth));
     depth.data = p.depth.data();
     depth.width = scene.width, depth.height = scene.height;
     depth.store = StoreOp::store;
@@ -172,9 +226,14 @@ PassResult run_pass(const Scene& scene, const PassOptions& options, int threads)
   p.more.resize(scene.more_colors.size());
   for (std::size_t i = 0; i < scene.more_colors.size(); ++i) {
     colors.push_back(scene.more_colors[i]);
-    p.more[i].resize(pixels_of(scene) * static_cast<std::size_t>(bytes_per_pixel(colors.back().format)));
+    p.more[i].resize(image_bytes(scene, colors.back()));
     colors.back().data = p.more[i].data();
     colors.back().width = scene.width, colors.back().height = scene.height;
+  }
+  std::vector<Surrounded> views;
+  if (scene.in_views) {
+    for (ColorTarget& c : colors) views.emplace_back(target_texels(c)).replace(c);
+    views.emplace_back(target_texels(depth)).replace(depth);
   }
   PassOptions all_options = options;
   all_options.samples = scene.samples;
@@ -186,6 +245,9 @@ PassResult run_pass(const Scene& scene, const PassOptions& options, int threads)
   }
   for (const SceneDraw& d : scene.draws) d.submit(pass);
   r.statistics = pass.run(Workers(threads));
+  bool is_clean = true;
+  for (Surrounded& v : views) is_clean &= v.finish();
+  if (!is_clean) p = {};
   return r;
 }
 
@@ -214,9 +276,10 @@ OracleResult run_oracle(const Scene& scene) {
   r.counts = renderer.counts();
   const oracle::Framebuffer seen = target.resolved();
   if (scene.post_format != ColorFormat::none) r.pictures.post = oracle::post(seen, Curve{}, scene.post_format).color_bytes[0];
-  if (scene.has_color_image) r.pictures.color = seen.color_bytes[0];
-  if (scene.has_depth_image) r.pictures.depth = seen.depth_bytes;
-  r.pictures.more.assign(seen.color_bytes.begin() + 1, seen.color_bytes.end());
+  const auto color_of = [&](std::size_t i) { return (colors[i].samples > 1 ? target : seen).color_bytes[i]; };
+  if (scene.has_color_image) r.pictures.color = color_of(0);
+  if (scene.has_depth_image) r.pictures.depth = (scene.depth.samples > 1 ? target : seen).depth_bytes;
+  for (std::size_t i = 1; i < colors.size(); ++i) r.pictures.more.push_back(color_of(i));
   return r;
 }
 

@@ -30,18 +30,19 @@ struct Scene {
   int width = 1, height = 1;
   int samples = 1;
   bool supersample = false;
-  ColorTarget color;  ///< run_pass sets the data pointers
+  ColorTarget color;  ///< run_pass sets the data pointers and the sizes; `samples` may be those of the scene
   DepthTarget depth;
   std::vector<ColorTarget> more_colors;               ///< attachments 1, 2 and 3, which have images
-  std::vector<std::byte> color_before, depth_before;  ///< contents of the images before the pass
+  std::vector<std::byte> color_before, depth_before;  ///< contents of the images before the pass, of all samples that they store
   std::vector<std::vector<std::byte>> more_before;
+  bool in_views = false;  ///< the pass draws into rectangles of larger images, which store the bottom row first
   std::vector<SceneDraw> draws;
   bool has_color_image = true;  ///< if false, the color is only visible through the post step
   bool has_depth_image = true;
   ColorFormat post_format = ColorFormat::none;  ///< if not none, a post step applies Curve and writes an image of this format
 };
 
-/// The visible results of a scene.
+/// The visible results of a scene. If a pass writes next to its views, they are empty.
 struct Pictures {
   std::vector<std::byte> color, depth, post;
   std::vector<std::vector<std::byte>> more;

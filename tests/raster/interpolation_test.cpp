@@ -401,7 +401,8 @@ TEST(Interpolation, ClippedTrianglesKeepTheirValues) {
 // ---- derivatives and quads -------------------------------------------------------------------------------------
 
 struct DerivativeShader {
-  int what = 0;  // 0: ddx, 1: ddy, 2 to 5: the value at pixel (0,0), (1,0), (0,1), (1,1) of the quad; 6: 1/w, z, position
+  int what = 0;  // 0: ddx, 1: ddy, 2 to 5: the value at pixel (0,0), (1,0), (0,1), (1,1) of the quad; 6: 1/w, z, position;
+                 // 7, 8: quad_ddx and quad_ddy of the value
   template <class R>
   using Attributes = ValueShader::Attributes<R>;
   template <class R>
@@ -420,6 +421,9 @@ struct DerivativeShader {
     if (what == 0) return {px.ddx(&Varyings<R>::value)};
     if (what == 1) return {px.ddy(&Varyings<R>::value)};
     if (what == 6) return {vec4<R>(px.inv_w(), px.z(), px.x, px.y)};
+    const auto value = [](const Varyings<R>& v) { return v.value; };
+    if (what == 7) return {px.template quad_ddx<Varyings<R>>(value)};
+    if (what == 8) return {px.template quad_ddy<Varyings<R>>(value)};
     return {px.template at_quad<Varyings<R>>((what - 2) & 1, (what - 2) >> 1).value};
   }
 };
@@ -492,6 +496,19 @@ TEST(Derivatives, QuadNeighborsMatchTheirOwnPixels) {
     }
   }
   EXPECT_GT(compared, effort(60) * 4000);
+}
+
+TEST(Derivatives, DifferencesInTheQuadAreThoseOfItsPixels) {
+  Random r(11);
+  for (int i = 0; i < effort(20); ++i) {
+    const Scene s = random_scene(r, i % 2 ? Shape::large : Shape::medium, Values::symmetric, r.magnitude(1.0, 100.0));
+    const Image<glm::vec4> dx = draw(DerivativeShader{7}, s), dy = draw(DerivativeShader{8}, s);
+    const Image<glm::vec4> first = draw(DerivativeShader{2}, s), right = draw(DerivativeShader{3}, s), up = draw(DerivativeShader{4}, s);
+    for_each_covered(dx, [&](int x, int y, const glm::vec4& got) {
+      ASSERT_EQ(got, pixel(right, x, y) - pixel(first, x, y));
+      ASSERT_EQ(pixel(dy, x, y), pixel(up, x, y) - pixel(first, x, y));
+    });
+  }
 }
 
 TEST(Pixels, ProvidePositionDepthAndW) {

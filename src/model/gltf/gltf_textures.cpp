@@ -14,7 +14,8 @@ namespace halfspace::HS_LANES {
 namespace {
 
 // OpenGL constants.
-constexpr uint64_t kNearest = 9728, kLinear = 9729, kNearestMipmapNearest = 9984, kLinearMipmapLinear = 9987;
+constexpr uint64_t kNearest = 9728, kLinear = 9729, kNearestMipmapNearest = 9984, kLinearMipmapNearest = 9985, kNearestMipmapLinear = 9986,
+                   kLinearMipmapLinear = 9987;
 constexpr uint64_t kRepeat = 10497, kClampToEdge = 33071, kMirroredRepeat = 33648;
 
 Wrap wrap_of(const GltfDocument& document, const GltfValue& json, const char* key) {
@@ -26,22 +27,25 @@ Wrap wrap_of(const GltfDocument& document, const GltfValue& json, const char* ke
   }
 }
 
-// All four filters with mip levels are treated as trilinear, because the transitions between levels would be visible otherwise.
+Filter min_filter_of(const GltfDocument& document, const GltfValue& json) {
+  switch (document.integer(json, "minFilter", kLinearMipmapLinear)) {
+    case kNearest: return Filter::nearest;
+    case kLinear: return Filter::bilinear;
+    case kNearestMipmapNearest: return Filter::nearest_mipmap_nearest;
+    case kLinearMipmapNearest: return Filter::bilinear_mipmap_nearest;
+    case kNearestMipmapLinear: return Filter::nearest_mipmap_linear;
+    case kLinearMipmapLinear: return Filter::trilinear;
+    default: document.fail(json, "minFilter", "is not a filter; expected 9728, 9729 or 9984 to 9987");
+  }
+}
+
 Sampler sampler_of(const GltfDocument& document, const GltfValue& json) {
   Sampler sampler;
-  const uint64_t mag = document.integer(json, "magFilter", kLinear), min = document.integer(json, "minFilter", kLinearMipmapLinear);
+  const uint64_t mag = document.integer(json, "magFilter", kLinear);
   if (mag != kNearest && mag != kLinear) document.fail(json, "magFilter", "is not a filter; expected 9728 or 9729");
   sampler.mag = mag == kNearest ? Filter::nearest : Filter::bilinear;
-  if (min == kNearest) {
-    sampler.min = Filter::nearest;
-  } else if (min == kLinear) {
-    sampler.min = Filter::bilinear;
-  } else if (min >= kNearestMipmapNearest && min <= kLinearMipmapLinear) {
-    sampler.min = Filter::trilinear;
-    sampler.anisotropy = kModelAnisotropy;
-  } else {
-    document.fail(json, "minFilter", "is not a filter; expected 9728, 9729 or 9984 to 9987");
-  }
+  sampler.min = min_filter_of(document, json);
+  if (sampler.min == Filter::trilinear) sampler.anisotropy = kModelAnisotropy;
   sampler.wrap_s = wrap_of(document, json, "wrapS");
   sampler.wrap_t = wrap_of(document, json, "wrapT");
   return sampler;

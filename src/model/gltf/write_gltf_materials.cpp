@@ -16,7 +16,7 @@ namespace halfspace::HS_LANES {
 
 namespace {
 
-constexpr int kGlNearest = 9728, kGlLinear = 9729, kGlTrilinear = 9987;
+constexpr int kGlNearest = 9728, kGlLinear = 9729;
 constexpr int kGlRepeat = 10497, kGlClampToEdge = 33071, kGlMirroredRepeat = 33648;
 
 int gl_wrap(Wrap wrap, GltfOutput& out) {
@@ -24,16 +24,27 @@ int gl_wrap(Wrap wrap, GltfOutput& out) {
     case Wrap::repeat: return kGlRepeat;
     case Wrap::mirrored: return kGlMirroredRepeat;
     case Wrap::clamp: return kGlClampToEdge;
-    case Wrap::border: break;
+    case Wrap::border:
+    case Wrap::mirrored_clamp: break;
   }
-  out.warn("glTF cannot store border colors; textures with borders are clamped to their edges");
+  out.warn("glTF cannot store border colors and mirroring at one edge; such textures are clamped to their edges");
   return kGlClampToEdge;
 }
 
-int gl_filter(Filter filter) { return filter == Filter::nearest ? kGlNearest : filter == Filter::bilinear ? kGlLinear : kGlTrilinear; }
+int gl_filter(Filter filter) {
+  switch (filter) {
+    case Filter::nearest: return kGlNearest;
+    case Filter::bilinear: return kGlLinear;
+    case Filter::nearest_mipmap_nearest: return 9984;
+    case Filter::bilinear_mipmap_nearest: return 9985;
+    case Filter::nearest_mipmap_linear: return 9986;
+    case Filter::trilinear: break;
+  }
+  return 9987;
+}
 
 OutputJson sampler_json(const Sampler& s, GltfOutput& out) {
-  return {{"magFilter", s.mag == Filter::nearest ? kGlNearest : kGlLinear},
+  return {{"magFilter", reads_nearest_texel(s.mag) ? kGlNearest : kGlLinear},
           {"minFilter", gl_filter(s.min)},
           {"wrapS", gl_wrap(s.wrap_s, out)},
           {"wrapT", gl_wrap(s.wrap_t, out)}};

@@ -65,20 +65,19 @@ ConstantTiles constant_tiles(const PassContext& context, const Attachments& atta
   return {true, draw};
 }
 
-void fill_images(const PassContext& context, const Attachments& attachments, const ConstantArea& area) {
+void fill_images(const Attachments& attachments, const ConstantArea& area) {
   if (area.pixels.empty()) return;
   FragmentOutput out;
   if (area.draw != nullptr) constant_colors(*area.draw, out);
   for (std::size_t i = 0; i < attachments.colors.size(); ++i) {
     const ColorTarget& c = attachments.colors[i];
     if (area.draw != nullptr) {
-      fill_color(c, context.width, context.height, area.pixels, out.packet_color(i, 0));
+      fill_color(c, area.pixels, out.packet_color(i, 0));
     } else if (c.load == LoadOp::clear) {
-      fill_color(c, context.width, context.height, area.pixels, spread_color(c.clear_value));
+      fill_color(c, area.pixels, spread_color(c.clear_value));
     }
   }
-  if (area.draw == nullptr && attachments.depth.load == LoadOp::clear)
-    fill_depth(attachments.depth, context.width, context.height, area.pixels);
+  if (area.draw == nullptr && attachments.depth.load == LoadOp::clear) fill_depth(attachments.depth, area.pixels);
 }
 
 }  // namespace halfspace::HS_LANES

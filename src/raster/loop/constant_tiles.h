@@ -30,6 +30,6 @@ struct ConstantArea {
 };
 
 /// Writes the color of the area to the images, and the clear depth if draw is null. Does nothing if the area is empty.
-void fill_images(const PassContext& context, const Attachments& attachments, const ConstantArea& area);
+void fill_images(const Attachments& attachments, const ConstantArea& area);
 
 }  // namespace halfspace::HS_LANES

@@ -23,13 +23,19 @@ namespace {
 // Returns true if a target is stored in its image between flushes. Otherwise it has a spill buffer.
 template <class Target>
 bool keeps_in_image(const PassContext& context, const Target& target) {
-  return target.data != nullptr && target.store == StoreOp::store && context.samples == 1;
+  return target.data != nullptr && target.store == StoreOp::store && target.samples == context.samples;
 }
 
 // Returns where a target is stored between flushes: in its image, or in the spill buffer if it has one.
 template <class Target>
-Target between_flushes(Target target, const std::vector<std::byte>& spill) {
-  if (!spill.empty()) target.data = const_cast<std::byte*>(spill.data());
+Target between_flushes(const PassContext& context, Target target, const std::vector<std::byte>& spill) {
+  if (!spill.empty()) {
+    target.data = const_cast<std::byte*>(spill.data());
+    target.width = context.width;
+    target.height = context.height;
+    target.samples = context.samples;
+    target.row_pitch = target.sample_pitch = 0;
+  }
   target.load = LoadOp::load;
   target.store = StoreOp::store;
   if constexpr (std::same_as<Target, DepthTarget>) target.stencil_load.reset();
@@ -76,7 +82,7 @@ class TileWorker {
       const auto row = static_cast<std::size_t>(y);
       const ConstantTiles tiles = constant_tiles(context_, attachments_, 0, context_.tiles_x, y, by_row[row]);
       filled[row] = tiles.are_constant;
-      if (tiles.are_constant) fill_images(context_, attachments_, {tile_pixels(context_, 0, context_.tiles_x, y), tiles.draw});
+      if (tiles.are_constant) fill_images(attachments_, {tile_pixels(context_, 0, context_.tiles_x, y), tiles.draw});
       finish_stores();
     });
     std::vector<int> rest;
@@ -104,12 +110,12 @@ class TileWorker {
         area.pixels.x1 = pixels.x1;
         continue;
       }
-      fill_images(context_, attachments_, area);
+      fill_images(attachments_, area);
       area = is_constant ? ConstantArea{pixels, draw} : ConstantArea{};
       // If this is the only round, a tile without geometry has a constant color and does not get here.
       if (!is_constant) run_measured_tile(x, tile_y, alone || is_drawn(x, tile_y), *memory, statistics, trace.get());
     }
-    fill_images(context_, attachments_, area);
+    fill_images(attachments_, area);
     finish_stores();
   }
 
@@ -152,8 +158,10 @@ class TileWorker {
     if (drawn) draw_tile(context_, attachments_.has_color, tile_x, tile_y, memory, statistics, trace);
     if (trace != nullptr) finish_trace(tile, tile_x, tile_y, *trace);
     store(tile, changes_color, changes_depth);
+    // The colors are not resolved if their image stores all samples.
+    if (round_.last && !colors.empty() && colors[0].samples > 1 && (trace != nullptr || has_post_step)) resolve_color(tile, tile.color[0]);
     if (trace != nullptr && round_.last) record_resolved(tile, *trace_);
-    if (has_post_step) run_post_step(attachments_.post, context_.width, context_.height, tile, memory.post_color);
+    if (has_post_step) run_post_step(attachments_.post, tile, memory.post_color);
   }
 
   void place_tile(Tile& tile, int tile_x, int tile_y) const {
@@ -166,8 +174,6 @@ class TileWorker {
     tile.width = pixels.x1 - pixels.x0;
     tile.height = pixels.y1 - pixels.y0;
   }
-
-  ImageSamples spilled_samples() const { return context_.samples > 1 ? ImageSamples::all : ImageSamples::one; }
 
   // Returns true if the only triangle of a tile replaces the colors of all its pixels.
   bool replaces_color(int tile_x, int tile_y) const {
@@ -188,35 +194,33 @@ class TileWorker {
 
   // Loads the attachments of a tile, or only the format of its colors if they are replaced.
   void load(Tile& tile, bool replaces_color) const {
-    const int width = context_.width, height = context_.height;
     for (std::size_t i = 0; i < attachments_.colors.size(); ++i) {
       const ColorTarget& c = attachments_.colors[i];
       if (replaces_color) {
         tile.color[i].format = c.format;
       } else if (round_.first) {
-        load_color(c, width, height, ImageSamples::one, tile, tile.color[i]);
+        load_color(c, tile, tile.color[i]);
       } else {
-        load_color(between_flushes(c, attachments_.color_spills[i]), width, height, spilled_samples(), tile, tile.color[i]);
+        load_color(between_flushes(context_, c, attachments_.color_spills[i]), tile, tile.color[i]);
       }
     }
-    if (round_.first) load_depth(attachments_.depth, width, height, ImageSamples::one, tile);
-    if (!round_.first) load_depth(between_flushes(attachments_.depth, attachments_.depth_spill), width, height, spilled_samples(), tile);
+    if (round_.first) load_depth(attachments_.depth, tile);
+    if (!round_.first) load_depth(between_flushes(context_, attachments_.depth, attachments_.depth_spill), tile);
   }
 
   void store(Tile& tile, bool changes_color, bool changes_depth) const {
-    const int width = context_.width, height = context_.height;
     for (std::size_t i = 0; changes_color && i < attachments_.colors.size(); ++i) {
       const ColorTarget& c = attachments_.colors[i];
       if (round_.last) {
-        resolve_color(tile, tile.color[i]);
-        store_color(c, width, height, ImageSamples::one, tile, tile.color[i]);
+        if (c.samples == 1) resolve_color(tile, tile.color[i]);
+        store_color(c, tile, tile.color[i]);
       } else {
-        store_color(between_flushes(c, attachments_.color_spills[i]), width, height, spilled_samples(), tile, tile.color[i]);
+        store_color(between_flushes(context_, c, attachments_.color_spills[i]), tile, tile.color[i]);
       }
     }
     if (!changes_depth) return;
-    if (round_.last) store_depth(attachments_.depth, width, height, ImageSamples::one, tile);
-    if (!round_.last) store_depth(between_flushes(attachments_.depth, attachments_.depth_spill), width, height, spilled_samples(), tile);
+    if (round_.last) store_depth(attachments_.depth, tile);
+    if (!round_.last) store_depth(between_flushes(context_, attachments_.depth, attachments_.depth_spill), tile);
   }
 
   const PassContext& context_;

@@ -5,7 +5,7 @@
 
 namespace halfspace::HS_LANES {
 
-void run_post_step(const PostStep& post, int target_width, int target_height, const Tile& tile, ColorBuffer& scratch) {
+void run_post_step(const PostStep& post, const Tile& tile, ColorBuffer& scratch) {
   constexpr std::size_t kPostBatch = 16;
   scratch.format = post.target.format;
   std::array<PacketMask, kPostBatch> packets;
@@ -22,7 +22,7 @@ void run_post_step(const PostStep& post, int target_width, int target_height, co
     write_batch(scratch, batch, colors.data(), colors.data(), {});
     count = 0;
   }
-  store_color(post.target, target_width, target_height, ImageSamples::one, tile, scratch);
+  store_color(post.target, tile, scratch);
 }
 
 }  // namespace halfspace::HS_LANES

@@ -26,11 +26,11 @@ using PostKernel = void (*)(const void* function, const PostBatch& batch);
 struct PostStep {
   std::shared_ptr<const void> function;
   PostKernel kernel = nullptr;  ///< null: the pass has no post step
-  ColorTarget target;           ///< its image has the size of the pass
+  ColorTarget target;           ///< its image has the size of the pass and one sample
 };
 
 /// Applies the functor to the colors of the tile's first attachment and stores the result in the post step's target.
-void run_post_step(const PostStep& post, int target_width, int target_height, const Tile& tile, ColorBuffer& scratch);
+void run_post_step(const PostStep& post, const Tile& tile, ColorBuffer& scratch);
 
 namespace detail {
 

@@ -120,23 +120,16 @@ struct Tile {
   std::array<bool, kBlocks> hiz_is_stale;
 };
 
-/// How an image stores multisampled pixels.
-enum class ImageSamples : uint8_t {
-  one,  ///< one value per pixel; loaded into all samples, stored from sample 0
-  all   ///< one image per sample, one after the other
-};
-
-// Copies between a tile and an image. Images store the top row first and tiles the bottom row first, so these functions flip rows. They
+// Copies between a tile and an image. If the image has one value per pixel, it is loaded into all samples, and stored from sample 0. These
 // and the fill functions may write with streaming stores; see finish_stores().
-void load_color(const ColorTarget& target, int target_width, int target_height, ImageSamples stored, const Tile& tile, ColorBuffer& color);
-void load_depth(const DepthTarget& target, int target_width, int target_height, ImageSamples stored, Tile& tile);
-void store_color(const ColorTarget& target, int target_width, int target_height, ImageSamples stored, const Tile& tile,
-                 const ColorBuffer& color);
-void store_depth(const DepthTarget& target, int target_width, int target_height, ImageSamples stored, const Tile& tile);
+void load_color(const ColorTarget& target, const Tile& tile, ColorBuffer& color);
+void load_depth(const DepthTarget& target, Tile& tile);
+void store_color(const ColorTarget& target, const Tile& tile, const ColorBuffer& color);
+void store_depth(const DepthTarget& target, const Tile& tile);
 
-/// Fills pixels of an image with a color, or with the clear depth and stencil of the target.
-void fill_color(const ColorTarget& target, int target_width, int target_height, const PixelBounds& pixels, const PacketColor& color);
-void fill_depth(const DepthTarget& target, int target_width, int target_height, const PixelBounds& pixels);
+/// Fills pixels of an image with a color, or with the clear depth and stencil of the target. All samples of the image are filled.
+void fill_color(const ColorTarget& target, const PixelBounds& pixels, const PacketColor& color);
+void fill_depth(const DepthTarget& target, const PixelBounds& pixels);
 
 /// Makes all preceding streaming stores of this thread visible to other threads. A task must call it before it ends. Calling it after each
 /// tile would delay the next tile until the stores have reached the memory.

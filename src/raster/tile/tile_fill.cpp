@@ -3,6 +3,7 @@
 // Fills pixels of images with one color, or with the clear depth of the target, without using a tile.
 #include <algorithm>
 #include <bit>
+#include <cstdlib>
 
 #include "halfspace/raster/tile/tile_format.h"
 #include "halfspace/raster/tile/tile_layout.h"
@@ -30,43 +31,48 @@ void fill_words(std::byte* out, uint32_t word, std::size_t words) {
 }
 constexpr std::size_t kLongRun = std::size_t{64} << 10;  // in bytes
 
-// Sets pixels of an image to the same value.
+// Sets pixels of an image with one layer to the same value.
 template <class T>
-void fill_rows(T value, std::byte* data, int width, int height, const PixelBounds& pixels) {
-  const auto at = [&](int y) {
-    return data +
-           (static_cast<std::size_t>(height - 1 - y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(pixels.x0)) * sizeof(T);
-  };
+void fill_rows(T value, const TexelView& image, const PixelBounds& pixels) {
   auto bytes = static_cast<std::size_t>(pixels.x1 - pixels.x0) * sizeof(T);  // per run
   int runs = pixels.y1 - pixels.y0;
-  if (pixels.x1 - pixels.x0 == width) {  // complete rows are contiguous
+  // Address of the first run. Its row is the one at the lowest address, and the next run is in the row after it.
+  const std::ptrdiff_t pitch = std::abs(image.row_pitch);
+  std::byte* const first = image.at(pixels.x0, image.row_pitch < 0 ? pixels.y1 - 1 : pixels.y0);
+  if (static_cast<std::ptrdiff_t>(bytes) == pitch) {  // complete rows are contiguous
     bytes *= static_cast<std::size_t>(runs);
     runs = 1;
   }
-  const bool large = 64 % sizeof(T) == 0 && streams(data, width, height, sizeof(T));
+  const bool large = 64 % sizeof(T) == 0 && streams(image, sizeof(T));
   if constexpr (sizeof(T) == sizeof(uint32_t)) {
-    if (large && runs == 1 && bytes >= kLongRun) return fill_words(at(pixels.y1 - 1), std::bit_cast<uint32_t>(value), bytes / sizeof(T));
+    if (large && runs == 1 && bytes >= kLongRun) return fill_words(first, std::bit_cast<uint32_t>(value), bytes / sizeof(T));
   }
   alignas(64) std::array<std::byte, 64> line;
   for (std::size_t i = 0; i + sizeof(T) <= 64; i += sizeof(T)) std::memcpy(&line[i], &value, sizeof(T));
   const bool stream = large && bytes % 64 == 0 && static_cast<std::size_t>(pixels.x0) * sizeof(T) % 64 == 0;
-  for (int y = pixels.y1 - runs; y < pixels.y1; ++y) {
+  for (int run = 0; run < runs; ++run) {
+    std::byte* const out = first + run * pitch;
     if (stream) {
-      stream_lines(line.data(), at(y), bytes);
+      stream_lines(line.data(), out, bytes);
     } else {
-      std::fill_n(reinterpret_cast<T*>(at(y)), bytes / sizeof(T), value);
+      for (std::size_t i = 0; i < bytes; i += sizeof(T)) std::memcpy(out + i, &value, sizeof(T));
     }
   }
 }
 
+template <class T>
+void fill_layers(T value, const TexelView& image, const PixelBounds& pixels) {
+  for (int layer = 0; layer < image.layers; ++layer) fill_rows(value, image.part_of_layers(layer), pixels);
+}
+
 }  // namespace
 
-void fill_color(const ColorTarget& target, int width, int height, const PixelBounds& pixels, const PacketColor& color) {
+void fill_color(const ColorTarget& target, const PixelBounds& pixels, const PacketColor& color) {
   if (target.store == StoreOp::dont_care || target.data == nullptr) return;
   const PixelBytes pixel = encode_pixel(target.format, color);
   const auto fill = [&]<class T>(T value) {
     std::memcpy(&value, pixel.data(), sizeof(T));
-    fill_rows(value, target.data, width, height, pixels);
+    fill_layers(value, target_texels(target), pixels);
   };
   switch (bytes_per_pixel(target.format)) {
     case 1: return fill(uint8_t{});
@@ -81,11 +87,10 @@ void fill_color(const ColorTarget& target, int width, int height, const PixelBou
   }
 }
 
-void fill_depth(const DepthTarget& target, int width, int height, const PixelBounds& pixels) {
+void fill_depth(const DepthTarget& target, const PixelBounds& pixels) {
   if (target.store == StoreOp::dont_care || target.data == nullptr) return;
   const float clear = depth_value(depth_part(target.format), std::clamp(target.clear_value, 0.0f, 1.0f));
-  with_codec(target.format,
-             [&]<class C>(C) { fill_rows(C::store(clear, target.stencil_clear_value), target.data, width, height, pixels); });
+  with_codec(target.format, [&]<class C>(C) { fill_layers(C::store(clear, target.stencil_clear_value), target_texels(target), pixels); });
 }
 
 }  // namespace halfspace::HS_LANES

@@ -22,7 +22,7 @@ namespace halfspace::HS_LANES {
 
 Sampler make_sampler(const TextureDescription& t) {
   Sampler s;
-  s.mag = t.filter == Filter::nearest ? Filter::nearest : Filter::bilinear;
+  s.mag = reads_nearest_texel(t.filter) ? Filter::nearest : Filter::bilinear;
   s.min = t.filter;
   s.wrap_s = t.wrap_s;
   s.wrap_t = t.wrap_t;
