@@ -171,7 +171,9 @@ template <class T, ReadAs as>
 struct ReadElement {
   using Number = typename NumberIn<T>::type;
   static constexpr std::size_t n = kIsPacked<Number> ? 4 : sizeof(T) / sizeof(Number);
-  using Stream = StreamOf<typename Received<std::conditional_t<as == ReadAs::integers, int32_t, float>, n>::type>;
+  using Read = std::conditional_t<as == ReadAs::integers, int32_t, float>;
+  static constexpr bool is_matrix = requires { typename T::col_type; };  // not one vector, even if it has four numbers
+  using Stream = StreamOf<std::conditional_t<is_matrix, std::array<Read, n>, typename Received<Read, n>::type>>;
 
   static Stream stream(const void* data, std::size_t stride, std::size_t count) {
     return {{static_cast<const std::byte*>(data), static_cast<int32_t>(stride), static_cast<int32_t>(n), count, 0,
