@@ -96,13 +96,14 @@ requires detail::NumberArguments<X, Y> HS_INLINE auto mod(const X& x, const Y& y
 /// Splits x into the integer part i and the fraction, which is returned. Both have the sign of x. Exact. GLSL 8.3.
 template <class X>
 requires detail::NumberArguments<X> HS_INLINE X modf(const X& x, X& i) {
-  i = trunc(x);
-  return detail::map_numbers(
+  const X fraction = detail::map_numbers(  // before i is set, which may be x
       []<class R>(R a) {
         const R size = abs(a);
         return detail::with_sign_of(select(size == R(detail::kInfinity), R(0), size - floor(size)), a);
       },
       x);
+  i = trunc(x);
+  return fraction;
 }
 
 /// The smaller argument, exact; if either is NaN, the second. GLSL 8.3.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The integer functions of GLSL 4.00, section 8.8 (8.7 in 4.00 and 4.10), for signed and unsigned scalars and vectors. All are exact.
+// The integer functions of GLSL (section 8.8 of GLSL 4.60), for signed and unsigned scalars and vectors. All are exact.
 #pragma once
 
 #include "halfspace/core/discrete_vec.h"
@@ -71,8 +71,8 @@ requires detail::IntegerArguments<X> HS_INLINE X bitfieldExtract(const X& value,
         if constexpr (detail::kIsUint<T>) {
           return T((v >> (from & 31)) & detail::low_bits<T>(count));
         } else {
-          const T top = v << ((T(32) - from - count) & 31);
-          return select(count == T(0), T(0), T(top >> ((T(32) - count) & 31)));
+          const T top = v << ((T(64) - (from & 31) - (count & 31)) & 31);
+          return select(count == T(0), T(0), T(top >> ((T(32) - (count & 31)) & 31)));
         }
       },
       value);
@@ -131,20 +131,23 @@ requires detail::IntegerArguments<X> HS_INLINE auto findMSB(const X& x) {
 /// Returns the sum modulo 2^32, and sets carry to 1 where it overflows and 0 elsewhere. GLSL 8.8.
 template <class X, class Y, class C>
 requires detail::UnsignedIntegers<X, Y> HS_INLINE auto uaddCarry(const X& x, const Y& y, C& carry) {
+  const auto sum = detail::map_integers([]<class U>(U a, U b) { return U(a + b); }, x, y);  // before carry is set, which may be x or y
   carry = detail::map_integers([]<class U>(U a, U b) { return select(U(a + b) < a, U(1u), U(0u)); }, x, y);
-  return detail::map_integers([]<class U>(U a, U b) { return U(a + b); }, x, y);
+  return sum;
 }
 /// Returns the difference modulo 2^32, and sets borrow to 1 where x < y and 0 elsewhere. GLSL 8.8.
 template <class X, class Y, class B>
 requires detail::UnsignedIntegers<X, Y> HS_INLINE auto usubBorrow(const X& x, const Y& y, B& borrow) {
+  const auto difference = detail::map_integers([]<class U>(U a, U b) { return U(a - b); }, x, y);
   borrow = detail::map_integers([]<class U>(U a, U b) { return select(a < b, U(1u), U(0u)); }, x, y);
-  return detail::map_integers([]<class U>(U a, U b) { return U(a - b); }, x, y);
+  return difference;
 }
 /// Sets msb and lsb to the upper and lower 32 bits of the unsigned product. GLSL 8.8.
 template <class X, class Y, class P>
 requires detail::UnsignedIntegers<X, Y> HS_INLINE void umulExtended(const X& x, const Y& y, P& msb, P& lsb) {
+  const P low = detail::map_integers([]<class U>(U a, U b) { return U(a * b); }, x, y);
   msb = detail::map_integers([](auto a, auto b) { return detail::high_product(a, b); }, x, y);
-  lsb = detail::map_integers([]<class U>(U a, U b) { return U(a * b); }, x, y);
+  lsb = low;
 }
 /// Sets msb and lsb to the upper and lower 32 bits of the signed product. GLSL 8.8.
 template <class X, class Y, class P>

@@ -83,8 +83,8 @@ struct IntPair {
   friend HS_INLINE IntPair operator|(IntPair a, IntPair b) { return {a.low | b.low, a.high | b.high}; }
   friend HS_INLINE IntPair operator^(IntPair a, IntPair b) { return {a.low ^ b.low, a.high ^ b.high}; }
   friend HS_INLINE IntPair operator~(IntPair a) { return {~a.low, ~a.high}; }
-  friend HS_INLINE IntPair operator<<(IntPair a, int n) { return {a.low << n, a.high << n}; }
-  friend HS_INLINE IntPair operator>>(IntPair a, int n) { return {a.low >> n, a.high >> n}; }
+  friend HS_INLINE IntPair operator<<(IntPair a, int n) { return {a.low << (n & 31), a.high << (n & 31)}; }
+  friend HS_INLINE IntPair operator>>(IntPair a, int n) { return {a.low >> (n & 31), a.high >> (n & 31)}; }
   friend HS_INLINE IntPair operator<<(IntPair a, IntPair n) { return {a.low << (n.low & 31), a.high << (n.high & 31)}; }
   friend HS_INLINE IntPair operator>>(IntPair a, IntPair n) { return {a.low >> (n.low & 31), a.high >> (n.high & 31)}; }
 

@@ -114,8 +114,8 @@ struct IntN {
   friend HS_INLINE IntN operator|(IntN a, IntN b) { return IntN(a.v | b.v); }
   friend HS_INLINE IntN operator^(IntN a, IntN b) { return IntN(a.v ^ b.v); }
   friend HS_INLINE IntN operator~(IntN a) { return IntN(~a.v); }
-  friend HS_INLINE IntN operator<<(IntN a, int n) { return IntN((V)((U)a.v << n)); }
-  friend HS_INLINE IntN operator>>(IntN a, int n) { return IntN(a.v >> n); }
+  friend HS_INLINE IntN operator<<(IntN a, int n) { return IntN((V)((U)a.v << (n & 31))); }
+  friend HS_INLINE IntN operator>>(IntN a, int n) { return IntN(a.v >> (n & 31)); }
   friend HS_INLINE IntN operator<<(IntN a, IntN n) { return IntN((V)((U)a.v << ((U)n.v & 31))); }
   friend HS_INLINE IntN operator>>(IntN a, IntN n) { return IntN(a.v >> (n.v & 31)); }
 
@@ -662,6 +662,12 @@ HS_INLINE IntN<W> max(IntN<W> a, IntN<W> b) {
 template <int W>
 HS_INLINE IntN<W> max(IntN<W> a, int32_t b) {
   return max(a, IntN<W>(b));
+}
+
+/// Returns x in all lanes, with the same bits even if they are those of an integer. R(x) may change a signaling NaN.
+template <class R>
+HS_INLINE R spread(float x) {
+  return as_real(IntOf<R>(as_int(x)));
 }
 
 /// Clamps x to [lo, hi]. NaN gives lo.

@@ -8,10 +8,10 @@
 //   v.xy = a;               swizzle_ref<"xy">(v) = a;
 //   v.xz *= 2.0;            swizzle_ref<"xz">(v) *= 2.0f;
 //
-// The names are a string that is checked when the code is compiled. Members such as v.zyx() would need a macro or 340 functions for each
-// length, and assignable members, as GLM has them, would need a union of 340 proxies, which makes every vector as hard to optimize as the
-// worst of its uses. Reading returns a vector and writing a reference, with different names: a proxy that does both is deduced as a proxy
-// where a function expects a vector.
+// The names are a string that is checked when the code is compiled. Members such as v.zyx() would need a macro or up to 340 functions for
+// each length, and assignable members, as GLM has them, would need a union of up to 340 proxies, which makes every vector as hard to
+// optimize as the worst of its uses. Reading returns a vector and writing a reference, with different names: a proxy that does both is
+// deduced as a proxy where a function expects a vector.
 #pragma once
 
 #include "halfspace/core/discrete_vec.h"
@@ -89,7 +89,8 @@ class SwizzleRef {
   SwizzleRef(const SwizzleRef&) = delete;
   SwizzleRef& operator=(const SwizzleRef&) = delete;
 
-  HS_INLINE void operator=(const Value& value) const {
+  // By value, because the value may be the vector itself.
+  HS_INLINE void operator=(Value value) const {
     for (int i = 0; i < names.size(); ++i) {
       if constexpr (names.size() == 1) {
         v_[names.index(i)] = value;

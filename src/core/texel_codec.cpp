@@ -3,6 +3,7 @@
 
 #include <bit>
 #include <cstring>
+#include <limits>
 
 namespace halfspace::HS_LANES {
 
@@ -11,13 +12,10 @@ namespace {
 // Bits of the mantissa of a channel of r11f_g11f_b10f.
 constexpr int small_mantissa(int k) { return channel_bits(TexelFormat::r11f_g11f_b10f, k) - 5; }
 
-constexpr float kMaxD24 = 16777215.0f;
-
-// Returns the code of a depth, an integer from 0 to 2^24 − 1 as a float. The product of a depth above 1/2 has no fraction bits.
+// Returns the code of a depth, which is clamped.
 template <class R>
 R d24_code(R depth) {
-  const R z = clamp(depth, 0.0f, 1.0f), two_to_23(0x1p23f), code = z * R(kMaxD24);
-  return select(code < two_to_23, fma(z, R(kMaxD24), two_to_23) - two_to_23, code);
+  return encode_d24(R(clamp(depth, 0.0f, 1.0f)));
 }
 
 // A channel of a format whose channels all have the same number of bits. The code is sign-extended if its kind is signed.
@@ -27,7 +25,7 @@ IntOf<R> encode_channel(const TexelInfo& info, R x, bool alpha) {
   if (info.kind == TexelKind::snorm) return encode_snorm(x, info.bits);
   if (info.kind != TexelKind::floats) return encode_unorm(x, info.bits);
   if (info.bits == 32) return as_int(x);
-  return IntOf<R>(float_to_finite_half(x));
+  return IntOf<R>(float_to_half(select(abs(x) < R(std::numeric_limits<float>::infinity()), finite_half_range(x), x)));
 }
 template <class R>
 R decode_channel(const TexelInfo& info, IntOf<R> code, bool alpha) {
@@ -98,7 +96,10 @@ vec4<R> nearest_texel(TexelFormat format, const vec4<R>& color) {
       for (int k = 0; k < 4; ++k) y[k] = decode_unorm<R>(encode_unorm(x[k], channel_bits(format, k)), channel_bits(format, k));
       break;
     case TexelFormat::r11f_g11f_b10f:
-      for (int k = 0; k < 3; ++k) y[k] = decode_small_float<R>(encode_small_float(x[k], small_mantissa(k)), small_mantissa(k));
+      for (int k = 0; k < 3; ++k) {
+        const R finite = min(R(std::numeric_limits<float>::max()), x[k]);  // the order of the arguments keeps NaN
+        y[k] = decode_small_float<R>(encode_small_float(finite, small_mantissa(k)), small_mantissa(k));
+      }
       break;
     case TexelFormat::rgb9_e5: return vec4<R>(decode_rgb9_e5<R>(encode_rgb9_e5(vec3<R>(x[0], x[1], x[2]))), R(1.0f));
     case TexelFormat::d16: y[0] = decode_unorm<R>(encode_unorm(x[0], 16), 16); break;
@@ -106,8 +107,13 @@ vec4<R> nearest_texel(TexelFormat format, const vec4<R>& color) {
     case TexelFormat::d24s8: y[0] = d24_code(x[0]) / R(kMaxD24); break;
     case TexelFormat::d32f:
     case TexelFormat::d32fs8: y[0] = clamp(x[0], 0.0f, 1.0f); break;
-    default:
-      for (std::size_t k = 0; k < info.channels; ++k) y[k] = decode_channel<R>(info, encode_channel(info, x[k], k == 3), k == 3);
+    default: {
+      const bool is_half = info.kind == TexelKind::floats && info.bits == 16;
+      for (std::size_t k = 0; k < info.channels; ++k) {
+        const R finite = is_half ? finite_half_range(x[k]) : x[k];
+        y[k] = decode_channel<R>(info, encode_channel(info, finite, k == 3), k == 3);
+      }
+    }
   }
   return {y[0], y[1], y[2], y[3]};
 }

@@ -35,7 +35,7 @@ enum class TexelFormat : uint8_t {
   rg16_snorm,
   rgb16_snorm,
   rgba16_snorm,
-  r16f,  ///< IEEE half; values beyond ±65504 and infinities are stored as ±65504
+  r16f,  ///< IEEE half; colors that are drawn beyond ±65504, and infinities, are stored as ±65504
   rg16f,
   rgb16f,
   rgba16f,
@@ -69,7 +69,8 @@ enum class TexelFormat : uint8_t {
   rgba32ui,
   rgb10_a2,        ///< 10, 10, 10 and 2 bits, unsigned normalized
   rgb10_a2ui,      ///< the same, integers
-  r11f_g11f_b10f,  ///< unsigned floats of 11, 11 and 10 bits with 5 bits of exponent; negative values are stored as 0
+  r11f_g11f_b10f,  ///< unsigned floats of 11, 11 and 10 bits with 5 bits of exponent; of colors that are drawn, negative ones are stored as
+                   ///< 0, and infinities as the largest finite value
   rgb9_e5,         ///< three unsigned mantissas of 9 bits with a common exponent
   d16,             ///< depth in [0, 1] as code/65535
   d24,             ///< depth as code/(2^24 − 1), in the low 24 bits of a word

@@ -181,6 +181,8 @@ void draw_naive(NaiveTarget<R>& target, const S& shader, const VertexView& verti
   static_assert(!kUsesPrimitiveId<S>, "draw_naive() does not support primitive ids");
   using V = typename S::template Varyings<R>;
   const std::shared_ptr<const Indices> list = detail::view_indices(indices, vertices.vertex_count, state);
+  HS_CHECK(!vertices.has_instance_streams, "draw_naive: a stream has one row per instance; expected one row per vertex in all streams");
+  HS_CHECK(list->restarts().empty(), "draw_naive: the indices contain restarts; expected a list without them");
   detail::check_vertices(vertices, *list, state);
   detail::check_streams<typename S::template Attributes<float>>(vertices);
   HS_CHECK_OP(target.depth.width(), ==, target.color.width(),

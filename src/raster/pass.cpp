@@ -71,6 +71,8 @@ void check_rect(const Rect& r, int smallest) {
 bool loads(const ColorTarget& target) { return target.load == LoadOp::load; }
 bool loads(const DepthTarget& target) { return target.load == LoadOp::load || stencil_load_of(target) == LoadOp::load; }
 
+bool can_be_drawn(ColorFormat format) { return !is_depth(format) && format != ColorFormat::rgb9_e5; }
+
 // Checks that the image of a target has the size of the pass, width x height pixels with 1 or `samples` values, or is not needed.
 template <class Target>
 void check_target(const Target& target, int width, int height, int samples) {
@@ -129,6 +131,7 @@ class PassState {
   void add_draw(const ShaderKernels& kernels, KeptShader shader, const VertexView& vertices, std::shared_ptr<const Indices> indices,
                 const DrawState& state);
   void set_post_step(PostStep post);
+  void check_clear(const ClearValues& values) const;
   PassStatistics run(TileRunner& tiles, const Workers& workers);
 
  private:
@@ -163,7 +166,7 @@ PassState::PassState(int width, int height, std::span<const ColorTarget> colors,
   HS_CHECK_OP(colors.size(), <=, std::size_t{kMaxColorTargets}, "Pass: too many color targets; expected at most 12");
   for (const ColorTarget& c : colors) {
     if (c.format == ColorFormat::none) continue;
-    HS_CHECK(!is_depth(c.format) && c.format != ColorFormat::rgb9_e5,
+    HS_CHECK(can_be_drawn(c.format),
              "Pass: the format of a color target cannot be drawn to; expected one that is neither a depth format nor rgb9_e5");
     check_target(c, width, height, options.samples);
     for (const ColorTarget* other = colors.data(); other != &c; ++other) {
@@ -312,11 +315,29 @@ void PassState::set_post_step(PostStep post) {
   HS_CHECK(!attachments_.colors.empty() && attachments_.colors[0].format != ColorFormat::none,
            "Pass::post: the pass has no color target; expected one");
   HS_CHECK(post.target.format != ColorFormat::none, "Pass::post: the target has no format; expected an image");
+  HS_CHECK(!is_integer(attachments_.colors[0].format), "Pass::post: the first color target has integers; expected another format");
+  HS_CHECK(can_be_drawn(post.target.format) && !is_integer(post.target.format),
+           "Pass::post: the target cannot store colors; expected a format that is neither integers, a depth format nor rgb9_e5");
   check_target(post.target, context_.width, context_.height, 1);
   for (const ColorTarget& c : attachments_.colors) {
     if (c.format != ColorFormat::none && c.store == StoreOp::store) check_overlap(c, post.target);
   }
   attachments_.post = std::move(post);
+}
+
+void PassState::check_clear(const ClearValues& values) const {
+  if (values.depth) {
+    HS_CHECK(*values.depth >= 0.0f && *values.depth <= 1.0f, "Pass::clear: the depth is outside of its range; expected 0 to 1");
+  }
+  if (values.rect) {
+    const Rect& r = *values.rect;
+    HS_CHECK(r.width >= 0 && r.width <= kMaxTargetSize && r.height >= 0 && r.height <= kMaxTargetSize,
+             "Pass::clear: the size of the rectangle is outside of its range; expected a width and a height from 0 to 16384");
+    HS_CHECK(r.x >= -kMaxTargetSize && r.x <= kMaxTargetSize && r.y >= -kMaxTargetSize && r.y <= kMaxTargetSize,
+             "Pass::clear: the origin of the rectangle is too far away; expected at most 16384 from 0");
+  }
+  for (std::size_t i = attachments_.colors.size(); i < values.colors.size(); ++i)
+    HS_CHECK(!values.colors[i], "Pass::clear: there is a color for an attachment that the pass does not have; expected no color");
 }
 
 std::pmr::memory_resource& memory_of(PassState& state) { return state.memory(); }
@@ -373,7 +394,10 @@ struct ClearShader {
   template <class R>
   FragmentMRT<R, kMaxColorTargets> fragment(const Varyings<R>&) const {
     FragmentMRT<R, kMaxColorTargets> out;
-    for (std::size_t n = 0; n < colors.size(); ++n) out.color[n] = {R(colors[n].x), R(colors[n].y), R(colors[n].z), R(colors[n].w)};
+    for (std::size_t n = 0; n < colors.size(); ++n) {
+      const glm::vec4& c = colors[n];
+      out.color[n] = {spread<R>(c.x), spread<R>(c.y), spread<R>(c.z), spread<R>(c.w)};
+    }
     return out;
   }
 };
@@ -407,6 +431,7 @@ DrawState state_of(const ClearValues& values) {
 }  // namespace
 
 void Pass::clear(const ClearValues& values) {
+  state_->check_clear(values);
   ClearShader shader;
   bool has_color = false;
   for (std::size_t i = 0; i < values.colors.size(); ++i) {

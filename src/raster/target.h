@@ -46,6 +46,7 @@ enum class StoreOp : uint8_t { store, dont_care };
 /// Color attachment. data can be null if the pass does not load the image and StoreOp is dont_care. The color is then only an intermediate
 /// result, and its size does not matter. Otherwise, the size must be that of the pass, which an HS_CHECK verifies. Memory that is stored to
 /// must not be that of another target of the pass, which is checked as well; rows of one atlas may alternate.
+/// Neither the address nor the pitches need to be aligned.
 struct ColorTarget {
   ColorFormat format = ColorFormat::none;
   std::byte* data = nullptr;     ///< not owned; width × height pixels, top row first

@@ -7,16 +7,27 @@ namespace halfspace::HS_LANES {
 
 namespace {
 
+bool can_read_as(ComponentType type, ReadAs as) {
+  const bool has_integers = type >= ComponentType::uint8 && !is_packed(type);
+  switch (as) {
+    case ReadAs::floats: return true;
+    case ReadAs::normalized: return has_integers || is_packed(type);
+    case ReadAs::integers: return has_integers;
+    case ReadAs::halves: return type == ComponentType::float16;
+  }
+  return false;
+}
+
 // Checks what a stream that was made by hand can get wrong.
 void check_stream(const VertexStream& s) {
   HS_CHECK_OP(s.stride, >=, 0, "make_vertex_view: the stride of a stream is negative; expected at least 0");
   HS_CHECK_OP(s.components, >=, 0, "make_vertex_view: the number of components of a stream is negative; expected at least 0");
   HS_CHECK(s.data != nullptr || s.count == 0 || s.components == 0, "make_vertex_view: a stream has rows but no data; expected an array");
-  const bool is_packed = s.type == ComponentType::uint_2_10_10_10 || s.type == ComponentType::int_2_10_10_10;
-  HS_CHECK(!is_packed || s.components == 4, "make_vertex_view: a stream of packed numbers has another number of components; expected 4");
-  const bool has_integers = s.type >= ComponentType::uint8 && !is_packed;
-  HS_CHECK(s.read_as == ReadAs::floats || has_integers || (s.read_as == ReadAs::normalized && is_packed),
-           "make_vertex_view: the type of a stream cannot be read in this way; expected floats, or integers for normalized and integers");
+  HS_CHECK(!is_packed(s.type) || s.components == 4,
+           "make_vertex_view: a stream of packed numbers has another number of components; expected 4");
+  HS_CHECK(can_read_as(s.type, s.read_as),
+           "make_vertex_view: the type of a stream cannot be read in this way; expected floats, integers for normalized and integers, or "
+           "float16 for halves");
   // gather uses 32-bit indices. The division avoids an overflow of the product.
   HS_CHECK_OP(s.count, <=, ((std::size_t{1} << 31) - 1) / std::max<std::size_t>(static_cast<std::size_t>(s.stride) / sizeof(float), 1),
               "make_vertex_view: a stream is too long; expected fewer than 2^31 rows and 2^33 bytes");

@@ -124,10 +124,7 @@ void read_row(const VertexStream& s, std::size_t row, float* out) {
   read_rows(at, {&first, 1}, out);
 }
 
-std::size_t row_bytes(const VertexStream& s) {
-  const bool is_packed = s.type == ComponentType::uint_2_10_10_10 || s.type == ComponentType::int_2_10_10_10;
-  return bytes_of(s.type) * (is_packed ? 1 : static_cast<std::size_t>(s.components));
-}
+std::size_t row_bytes(const VertexStream& s) { return bytes_of(s.type) * (is_packed(s.type) ? 1 : static_cast<std::size_t>(s.components)); }
 
 bool is_read_in_place(const VertexStream& s) {
   return s.type == ComponentType::float32 && reinterpret_cast<std::uintptr_t>(s.data) % alignof(float) == 0 &&

@@ -42,12 +42,14 @@ enum class ComponentType : uint8_t {
   int_2_10_10_10
 };
 
+constexpr bool is_packed(ComponentType type) { return type == ComponentType::uint_2_10_10_10 || type == ComponentType::int_2_10_10_10; }
+
 /// How a shader receives the numbers of a stream (OpenGL 4.6, sections 2.3.5 and 10.3.1).
 enum class ReadAs : uint8_t {
   floats,      ///< R: the nearest float to the number, without scaling
   normalized,  ///< R: of b bits, c/(2^b − 1) if unsigned, in [0, 1], or max(c/(2^(b−1) − 1), −1) if signed
   integers,    ///< IntOf<R>: the value; unsigned 32-bit integers keep their bits
-  halves       ///< R: the numbers are stored in uint16_t as IEEE 754 binary16
+  halves       ///< R: the numbers are IEEE 754 binary16; for stream() in uint16_t, and in a VertexStream as ComponentType::float16
 };
 
 /// Four packed numbers; see ComponentType. Read as normalized or as floats.
@@ -169,7 +171,9 @@ template <class T, ReadAs as>
 struct ReadElement {
   using Number = typename NumberIn<T>::type;
   static constexpr std::size_t n = kIsPacked<Number> ? 4 : sizeof(T) / sizeof(Number);
-  using Stream = StreamOf<typename Received<std::conditional_t<as == ReadAs::integers, int32_t, float>, n>::type>;
+  using Read = std::conditional_t<as == ReadAs::integers, int32_t, float>;
+  static constexpr bool is_matrix = requires { typename T::col_type; };  // not one vector, even if it has four numbers
+  using Stream = StreamOf<std::conditional_t<is_matrix, std::array<Read, n>, typename Received<Read, n>::type>>;
 
   static Stream stream(const void* data, std::size_t stride, std::size_t count) {
     return {{static_cast<const std::byte*>(data), static_cast<int32_t>(stride), static_cast<int32_t>(n), count, 0,

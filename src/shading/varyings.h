@@ -3,9 +3,9 @@
 // The pipeline's view of a shader's Attributes, Varyings and Primitive structs: an array of components of type R and, for
 // varyings, the interpolation mode of each. Both are derived from the member types, so shaders do not have to register anything.
 //
-// A member is an R, vec2<R>, vec3<R>, vec4<R>, an integer IntOf<R>, or a std::array of these. Among the components, an integer is an R with
-// its bits; only for R = double, which is wider, it is an R with its value. Integers are not interpolated, so a varying with integers must
-// be Flat. Unsigned integers are IntOf<R> with the same bits.
+// A member is an R, vec2<R>, vec3<R>, vec4<R>, a matrix mat2<R> to mat4<R>, an integer IntOf<R>, or a std::array of these. Among the
+// components, an integer is an R with its bits; only for R = double, which is wider, it is an R with its value. Integers are not
+// interpolated, so a varying with integers must be Flat. Unsigned integers are IntOf<R> with the same bits.
 #pragma once
 
 #include <array>

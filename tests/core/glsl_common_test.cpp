@@ -40,6 +40,15 @@ TEST(GlslCommon, RoundingFunctionsAreThoseOfTheCLibrary) {
   EXPECT_EQ(fract(-0x1p-30f), 1.0f);  // x − floor(x) rounds to 1
 }
 
+TEST(GlslCommon, ModfMaySetItsArgument) {
+  float x = -2.75f;
+  EXPECT_EQ(modf(x, x), -0.75f);
+  EXPECT_EQ(x, -2.0f);
+  vec2<float> v(1.5f, -3.25f);
+  EXPECT_TRUE(modf(v, v) == vec2<float>(0.5f, -0.25f));
+  EXPECT_TRUE(v == vec2<float>(1, -3));
+}
+
 TEST(GlslCommon, ModIsCorrectlyRoundedForQuotientsBelow2To22) {
   std::mt19937 random(9);
   std::uniform_real_distribution<double> unit(-1, 1);

@@ -72,6 +72,17 @@ TEST(Swizzle, ReadsAndWritesNamedComponents) {
   EXPECT_TRUE(swizzle<"yx">(bvec2<float>(true, false)) == bvec2<float>(false, true));
 }
 
+TEST(Swizzle, AssignsTheVectorItself) {
+  vec2<float> v(1, 2);
+  swizzle_ref<"yx">(v) = v;
+  EXPECT_TRUE(v == vec2<float>(2, 1));
+  vec4<float> w(1, 2, 3, 4);
+  swizzle_ref<"wzyx">(w) = w;
+  EXPECT_TRUE(w == vec4<float>(4, 3, 2, 1));
+  swizzle_ref<"yzwx">(w) = w;
+  EXPECT_TRUE(w == vec4<float>(1, 4, 3, 2));
+}
+
 TEST(GlslTrigonometric, ConversionsOfAnglesAndInverseSquareRootsAreWithinTheirErrorBounds) {
   constexpr long double kPiLong = std::numbers::pi_v<long double>;
   // Measured on every 61st float; the rounding of the constant adds to that of the product.

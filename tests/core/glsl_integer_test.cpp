@@ -74,6 +74,44 @@ TEST(GlslInteger, ExtendedArithmeticMatches64Bits) {
   }
 }
 
+TEST(GlslInteger, OutputsMayBeInputs) {
+  constexpr uint32_t x = 0xfffffff1u, y = 0x87654321u;
+  uint32_t a = x, low = 0;
+  umulExtended(a, y, a, low);
+  EXPECT_EQ(uint64_t{a} << 32 | low, uint64_t{x} * y);
+  uint32_t b = y, high = 0;
+  umulExtended(x, b, high, b);
+  EXPECT_EQ(uint64_t{high} << 32 | b, uint64_t{x} * y);
+  int32_t i = -5, other = 0;
+  imulExtended(i, 7, i, other);
+  EXPECT_EQ(i, -1);
+  EXPECT_EQ(other, -35);
+  uint32_t c = x;
+  EXPECT_EQ(uaddCarry(c, y, c), x + y);
+  EXPECT_EQ(c, 1u);
+  c = y;
+  EXPECT_EQ(uaddCarry(5u, c, c), y + 5);
+  EXPECT_EQ(c, 0u);
+  c = x;
+  EXPECT_EQ(usubBorrow(y, c, c), y - x);
+  EXPECT_EQ(c, 1u);
+  uvec2<float> v(x, 3);
+  EXPECT_TRUE(uaddCarry(uvec2<float>(y, 4), v, v) == uvec2<float>(x + y, 7));
+  EXPECT_TRUE(v == uvec2<float>(1, 0));
+}
+
+TEST(GlslInteger, UnspecifiedPlacesOfBitfieldsAreSafe) {  // without overflow, as the sanitizers check
+  constexpr int32_t kLow = std::numeric_limits<int32_t>::min(), kHigh = std::numeric_limits<int32_t>::max();
+  for (const int32_t offset : {kLow, -1, 31, 33, kHigh}) {
+    for (const int32_t bits : {kLow, -1, 32, 33, kHigh}) {
+      const int32_t lanes = lane(bitfieldExtract(IntN<4>(-9), IntN<4>(offset), IntN<4>(bits)), 1);
+      EXPECT_EQ(bitfieldExtract(-9, offset, bits), lanes) << offset << ' ' << bits;
+      EXPECT_EQ(bitfieldExtract(9u, offset, bits), lane(bitfieldExtract(UintOf<RealN<4>>(9u), IntN<4>(offset), IntN<4>(bits)), 1));
+      EXPECT_EQ(bitfieldInsert(-9, 5, offset, bits), lane(bitfieldInsert(IntN<4>(-9), IntN<4>(5), IntN<4>(offset), IntN<4>(bits)), 1));
+    }
+  }
+}
+
 TEST(GlslInteger, LanesMatchScalarBits) {
   expect_glsl_lanes_match_scalars([](const auto& a, auto& out) {
     const auto i = a.i3(0), j = a.i3(3);

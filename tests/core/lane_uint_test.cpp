@@ -94,6 +94,32 @@ TEST(LaneUint, SignedDivisionAndShiftsMatchInt32) {
   });
 }
 
+/// Shifts by a count that the compiler does not know.
+template <class R>
+void expect_counts_modulo_32() {
+  using I = IntOf<R>;
+  volatile int counts[] = {0, 1, 31, 32, 33, 63, -1};
+  for (const volatile int& count : counts) {
+    const int n = count;
+    const I left = I(-123456789) << n, right = I(-123456789) >> n;
+    const UintOf<R> left_uint = UintOf<R>(0x87654321u) << n, right_uint = UintOf<R>(0x87654321u) >> n;
+    for (int k = 0; k < kWidthOf<R>; ++k) {
+      EXPECT_EQ(lane(left, k), static_cast<int32_t>(static_cast<uint32_t>(-123456789) << (n & 31))) << n;
+      EXPECT_EQ(lane(right, k), -123456789 >> (n & 31)) << n;
+      EXPECT_EQ(lane(left_uint, k), 0x87654321u << (n & 31)) << n;
+      EXPECT_EQ(lane(right_uint, k), 0x87654321u >> (n & 31)) << n;
+    }
+  }
+}
+TEST(LaneUint, OfShiftCountsTheLowFiveBitsCount) {
+  expect_counts_modulo_32<RealN<4>>();
+  expect_counts_modulo_32<RealN<8>>();
+  expect_counts_modulo_32<RealN<16>>();
+  expect_counts_modulo_32<RealPair<RealN<4>>>();
+  expect_counts_modulo_32<RealPair<RealN<16>>>();
+  expect_counts_modulo_32<RealPair<float>>();
+}
+
 TEST(LaneUint, ScalarDivisionAcceptsEveryDivisor) {
   EXPECT_EQ(int_divide(7u, 0u), 0xffffffffu);
   EXPECT_EQ(int_modulo(7u, 0u), 7u);

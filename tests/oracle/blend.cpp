@@ -47,12 +47,16 @@ float blend_channel(BlendEquation equation, float s, float s_factor, float d, fl
 }  // namespace
 
 glm::vec4 blend(const BlendState& b, const glm::vec4& src, const glm::vec4& src1, const glm::vec4& dst, const glm::vec4& constant,
-                float unit) {
+                float unit, bool clamps_factors) {
+  const auto factor = [&](BlendFactor f, int k) {
+    const float x = blend_factor(f, src, src1, dst, constant, k);
+    return !clamps_factors ? x : x > 1.0f ? 1.0f : x < -1.0f ? -1.0f : x;
+  };
   glm::vec4 out;
   for (int k = 0; k < 4; ++k) {
     const bool alpha = k == 3;
-    const float s = blend_factor(alpha ? b.source_alpha : b.source_color, src, src1, dst, constant, k);
-    const float d = blend_factor(alpha ? b.destination_alpha : b.destination_color, src, src1, dst, constant, k);
+    const float s = factor(alpha ? b.source_alpha : b.source_color, k);
+    const float d = factor(alpha ? b.destination_alpha : b.destination_color, k);
     const float existing = unit == 1.0f ? dst[k] : std::round(dst[k] * unit);
     out[k] = blend_channel(alpha ? b.alpha_equation : b.color_equation, src[k] * unit, s, existing, d);
   }

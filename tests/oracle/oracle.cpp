@@ -115,7 +115,8 @@ void Renderer::write_colors(const DrawState& state, const Sample& s, const std::
         return c;
       };
       const float unit = format == ColorFormat::rgba8 ? 255.0f : 1.0f;
-      color = blend(*blending, in_range(color), in_range(second), before, in_range(blending->constant), unit);
+      color = blend(*blending, in_range(color), in_range(second), before, in_range(blending->constant), unit,
+                    texel_info(format).kind == TexelKind::snorm);
       // The float nearest to code/255 is encoded as this code.
       for (int k = 0; unit != 1.0f && k < 4; ++k) color[k] = std::nearbyint(clamped(color[k], 0.0f, unit)) / unit;
     }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <limits>
 #include <vector>
 
 #include "halfspace/core/texel_codec.h"
@@ -167,6 +168,35 @@ TEST(ColorFormats, AddToTheExistingTexel) {
     };
     EXPECT_EQ(differences(image, sum), 0) << texel_info(format).name;
   });
+}
+
+// What is loaded and stored keeps its infinities.
+TEST(ColorFormats, InfinitiesThatNobodyDrewAreKept) {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  for (const ColorFormat format : {ColorFormat::r16f, ColorFormat::rgba16f, ColorFormat::r11f_g11f_b10f, ColorFormat::r32f}) {
+    Bytes image(format);
+    for (std::size_t i = 0; i < image.bytes.size(); i += bytes_of(format)) {
+      const Texel infinite = encoded(format, glm::vec4(kInfinity));
+      std::copy_n(infinite.begin(), bytes_of(format), &image.bytes[i]);
+    }
+    const std::vector<std::byte> before = image.bytes;
+    Pass pass(kWidth, kHeight, image.target(LoadOp::load), {});
+    draw_places(pass, format, {.scissor = Rect{0, 0, 1, 1}});
+    pass.run(one_worker());
+    std::copy_n(before.begin(), bytes_of(format), const_cast<std::byte*>(image.texel(0, 0)));
+    EXPECT_EQ(image.bytes, before) << texel_info(format).name;
+  }
+}
+
+// 1 − (−1) is clamped to 1 (OpenGL 4.6, section 17.3.6): 0.5 · 1 is the code 63.5, which is rounded to even.
+TEST(ColorFormats, FactorsOfSignedNormalizedFormatsAreClamped) {
+  Bytes image(ColorFormat::rgba8_snorm);
+  Pass pass(kWidth, kHeight, image.target(LoadOp::clear, glm::vec4(-1.0f)), {});
+  const BlendState blend{BlendEquation::add, BlendFactor::one_minus_dst_color, BlendFactor::zero,
+                         BlendEquation::add, BlendFactor::one_minus_dst_color, BlendFactor::zero};
+  pass.draw(ConstantShader{glm::vec4(0.5f)}, make_vertex_view(stream(everywhere())), {.blend = blend});
+  pass.run(one_worker());
+  EXPECT_TRUE(std::ranges::all_of(image.bytes, [](std::byte b) { return b == std::byte{64}; }));
 }
 
 TEST(ColorFormats, MasksKeepOtherChannels) {

@@ -81,6 +81,12 @@ TEST_F(MisuseTest, EveryAttachmentAndThePostTargetAreChecked) {
   EXPECT_NE(failure_of([&] { pass.post(identity, srgb8a8_target(codes)); }).find("(8 vs 16)"), std::string::npos);
   EXPECT_NE(failure_of([&] { pass.post(identity, {.format = ColorFormat::rgba8}); }), "");
   EXPECT_NE(failure_of([&] { pass.post(identity, {}); }), "");
+  Image<float> depth(16, 16);
+  Image<uint32_t> words(16, 16);
+  for (const TexelFormat format : {TexelFormat::rgb9_e5, TexelFormat::d24, TexelFormat::r32ui, TexelFormat::rgba8i})
+    EXPECT_NE(failure_of([&] { pass.post(identity, color_target(format, words)); }).find("cannot store colors"), std::string::npos);
+  Pass of_integers(16, 16, r32ui_target(words), {});
+  EXPECT_NE(failure_of([&] { of_integers.post(identity, r32f_target(depth)); }).find("integers"), std::string::npos);
   // Attachments without an image have no size.
   Pass(640, 480, {.format = ColorFormat::rgba32f, .store = StoreOp::dont_care}, {.format = DepthFormat::d32f});
 }
@@ -106,6 +112,19 @@ TEST_F(MisuseTest, NumbersThatAreNotInRangeAreRefused) {
   EXPECT_EQ(pass.run(one_worker()).queries.size(), kMaxQueries);
 }
 
+TEST_F(MisuseTest, ClearsAreChecked) {
+  Image<glm::vec4> image(16, 16);
+  Image<float> depth(16, 16);
+  Pass pass(16, 16, rgba32f_target(image), d32f_target(depth));
+  const auto message = [&](const ClearValues& values) { return failure_of([&] { pass.clear(values); }); };
+  EXPECT_EQ(message({.rect = Rect{-5, 3, 0, 4}, .colors = {glm::vec4(1)}, .depth = 1.0f}), "");
+  for (const float z : {kNaN, -0.5f, 1.5f})
+    EXPECT_NE(message({.depth = z}).find("Pass::clear: the depth"), std::string::npos) << message({.depth = z});
+  for (const Rect& r : {Rect{0, 0, -1, 4}, Rect{0, 0, 4, 20000}, Rect{20000, 0, 1, 1}})
+    EXPECT_NE(message({.rect = r}).find("Pass::clear: the"), std::string::npos);
+  EXPECT_NE(message({.colors = {std::nullopt, glm::vec4(1)}}).find("does not have"), std::string::npos);
+}
+
 TEST_F(MisuseTest, StreamsMadeByHandAreChecked) {
   const std::array<float, 4> numbers{};
   const std::byte* data = std::as_bytes(std::span(numbers)).data();
@@ -122,7 +141,11 @@ TEST_F(MisuseTest, StreamsMadeByHandAreChecked) {
     EXPECT_EQ(message({.data = data, .components = 1, .count = 9, .type = type}), "");
     EXPECT_NE(message({.data = data, .components = 1, .count = 9, .type = type, .read_as = ReadAs::normalized}), "");
     EXPECT_NE(message({.data = data, .components = 1, .count = 9, .type = type, .read_as = ReadAs::integers}), "");
+    const std::string halves = message({.data = data, .components = 1, .count = 9, .type = type, .read_as = ReadAs::halves});
+    EXPECT_EQ(halves == "", type == ComponentType::float16) << halves;
   }
+  for (const ComponentType type : {ComponentType::uint8, ComponentType::uint16, ComponentType::int32})
+    EXPECT_NE(message({.data = data, .components = 1, .count = 9, .type = type, .read_as = ReadAs::halves}), "");
 }
 
 TEST_F(MisuseTest, TheNaivePipelineChecksIndicesAndSizes) {
@@ -136,6 +159,9 @@ TEST_F(MisuseTest, TheNaivePipelineChecksIndicesAndSizes) {
   EXPECT_EQ(draw(make_vertex_view(stream(positions_)), in_order), "");
   EXPECT_NE(draw(make_vertex_view(stream(positions_)), of_six), "");
   EXPECT_NE(draw(make_vertex_view(stream(numbers)), in_order), "") << "one float per vertex instead of four";
+  const std::vector<uint32_t> ended{0, 1, 2, 0xffffffff};
+  EXPECT_NE(draw(make_vertex_view(stream(positions_)), Indices(ended, 3, PrimitiveRestart::on)).find("restarts"), std::string::npos);
+  EXPECT_NE(draw(make_vertex_view(3, per_instance(stream(positions_))), in_order).find("one row per instance"), std::string::npos);
   target.depth = Image<float>(8, 8);
   EXPECT_NE(draw(make_vertex_view(stream(positions_)), in_order), "");
 }

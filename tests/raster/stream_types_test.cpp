@@ -3,6 +3,7 @@
 // Which element types a vertex stream accepts. tests/compile has the refused ones that users meet first.
 #include <array>
 
+#include "halfspace/core/glsl_matrix.h"
 #include "halfspace/core/vec.h"
 #include "raster/raster_test.h"
 
@@ -87,6 +88,11 @@ struct WithMatrix {
   std::array<vec2<R>, 2> uvs;
 };
 template <class R>
+struct WithSmallMatrix {
+  vec3<R> position;
+  mat2<R> matrix;
+};
+template <class R>
 struct WithJoints {
   vec3<R> position;
   std::array<IntOf<R>, 4> joints;
@@ -118,6 +124,9 @@ static_assert(fits<WithMatrix, VectorsInArrays> && fits<WithMatrix, Matrices>);
 static_assert(fits<WithMatrix, glm::vec3, glm::mat4, std::array<glm::vec2, 2>>);
 static_assert(fits<WithMatrix, glm::vec3, glm::vec4, glm::vec4, glm::vec4, glm::vec4, glm::vec2, glm::vec2>);
 static_assert(!fits<WithMatrix, glm::vec3, glm::mat3, std::array<glm::vec2, 2>>);
+static_assert(fits<WithSmallMatrix, glm::vec3, glm::mat2> && fits<WithSmallMatrix, glm::vec3, std::array<glm::vec2, 2>>);
+static_assert(fits<WithSmallMatrix, glm::vec3, glm::vec2, glm::vec2> && fits<WithSmallMatrix, glm::vec3, mat2<float>>);
+static_assert(!fits<WithSmallMatrix, glm::vec3, glm::vec4> && !fits<WithSmallMatrix, glm::vec3, glm::mat3>);
 static_assert(fits<WithJoints, glm::vec3, glm::ivec4, int32_t>);
 static_assert(!fits<WithJoints, glm::vec3, glm::vec4, int32_t> && !fits<WithJoints, glm::vec3, glm::ivec4, float>);
 static_assert(!fits<PositionUv, glm::ivec3, glm::vec2>);
@@ -133,6 +142,8 @@ static_assert(std::is_same_v<Read<ReadAs::integers, glm::u8vec4>, glm::ivec4> &&
 static_assert(std::is_same_v<Read<ReadAs::normalized, Int2_10_10_10>, glm::vec4>);
 static_assert(std::is_same_v<Read<ReadAs::normalized, std::array<int16_t, 3>>, glm::vec3>);
 static_assert(std::is_same_v<Read<ReadAs::floats, glm::dmat3>, std::array<float, 9>>);
+static_assert(std::is_same_v<Read<ReadAs::floats, glm::dmat2>, std::array<float, 4>>);
+static_assert(fits<WithSmallMatrix, glm::vec3, Read<ReadAs::floats, glm::dmat2>>);
 
 // Which numbers can be read in which way.
 using detail::can_read;

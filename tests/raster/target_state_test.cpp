@@ -206,6 +206,21 @@ TEST(Clears, WorkWithoutColorsAndWithIntegers) {
   EXPECT_TRUE(all_are(integers, 0xfffffffbu));
 }
 
+// These are the bits of a signaling NaN.
+TEST(Clears, KeepTheBitsOfIntegers) {
+  constexpr uint32_t kBits = 0x7f800001;
+  for (const int samples : {1, 4}) {
+    for (const int kind : {0, 1, 2}) {  // without a tile, in a tile, and between draws
+      Image<uint32_t> integers(kEdge, kEdge);
+      Pass pass(kEdge, kEdge, r32ui_target(integers, kind == 2 ? 0 : kBits), {}, {.samples = samples});
+      if (kind == 1) pass.clear({.rect = Rect{0, 0, 0, 0}, .colors = {glm::vec4(0.0f)}});
+      if (kind == 2) pass.clear({.colors = {glm::vec4(std::bit_cast<float>(kBits))}});
+      pass.run(one_worker());
+      EXPECT_TRUE(all_are(integers, kBits)) << samples << kind;
+    }
+  }
+}
+
 TEST(LoadStore, DepthAndStencilAreLoadedApart) {
   for (const bool draws : {false, true}) {
     for (const bool loads_depth : {false, true}) {

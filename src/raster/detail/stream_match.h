@@ -118,7 +118,7 @@ template <class T>
 constexpr auto parts_of() {
   constexpr std::size_t size = sizeof(T) / sizeof(float);
   if constexpr (std::is_arithmetic_v<T> || kVectorSize<T> != 0 || requires { T::length(); }) {
-    constexpr bool is_matrix = size > 4;
+    constexpr bool is_matrix = requires { typename T::col_type; };
     return std::array{StreamPart{is_matrix ? PartKind::block : PartKind::vector, size}};
   } else if constexpr (std::is_class_v<T> && std::is_aggregate_v<T> && !requires { typename T::value_type; }) {
     constexpr auto parts = parts_of_struct<T>(std::make_index_sequence<count_fields<T, size>()>{});

@@ -7,6 +7,7 @@
 #include "halfspace/raster/pipeline/pixel_box.h"
 #include "halfspace/raster/primitives/bin.h"
 #include "halfspace/raster/shade/fragment_batch.h"
+#include "halfspace/raster/tile/tile_format.h"
 #include "halfspace/raster/visibility/coverage/area_coverage.h"
 
 namespace halfspace::HS_LANES {
@@ -70,11 +71,10 @@ void fill_images(const Attachments& attachments, const ConstantArea& area) {
   if (area.draw != nullptr) constant_colors(*area.draw, out);
   for (std::size_t i = 0; i < attachments.colors.size(); ++i) {
     const ColorTarget& c = attachments.colors[i];
-    const glm::vec4& v = c.clear_value;
     if (area.draw != nullptr) {
       fill_color(c, area.pixels, out.packet_color(i, 0));
     } else if (c.load == LoadOp::clear) {
-      fill_color(c, area.pixels, {Real(v.x), Real(v.y), Real(v.z), Real(v.w)});
+      fill_color(c, area.pixels, spread_color(c.clear_value));
     }
   }
   if (area.draw == nullptr && attachments.depth.load == LoadOp::clear) fill_depth(attachments.depth, area.pixels);

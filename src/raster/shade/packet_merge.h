@@ -111,13 +111,10 @@ HS_INLINE void for_each_value(PacketTriangles<N, P, with_id>& t, F put) {
   }
 }
 
-/// Returns x in all lanes, with the same bits even if they are those of an integer. Real(x) may change a signaling NaN.
-HS_INLINE Real spread(float x) { return as_real(Int(as_int(x))); }
-
 /// Copies the values of one triangle to all lanes of packet i.
 template <int i, std::size_t N, std::size_t P, bool with_id>
 HS_INLINE void spread_triangle(const TriangleScalars<N, with_id>& s, PacketTriangles<N, P, with_id>& out) {
-  for_each_value<i>(out, [&](Real& lanes, auto value) { lanes = spread(value(s)); });
+  for_each_value<i>(out, [&](Real& lanes, auto value) { lanes = spread<Real>(value(s)); });
   half<i>(out.front) = Mask(s.front);
   half<i>(out.lanes.planar) = Mask(s.planar);
 }
@@ -127,7 +124,8 @@ HS_INLINE void spread_triangle(const TriangleScalars<N, with_id>& s, PacketTrian
 template <int i, std::size_t N, std::size_t P, bool with_id>
 HS_INLINE void merge_two(const TriangleScalars<N, with_id>& first, const TriangleScalars<N, with_id>& second, Mask shows_second,
                          PacketTriangles<N, P, with_id>& out) {
-  for_each_value<i>(out, [&](Real& lanes, auto value) { lanes = select(shows_second, spread(value(second)), spread(value(first))); });
+  for_each_value<i>(
+      out, [&](Real& lanes, auto value) { lanes = select(shows_second, spread<Real>(value(second)), spread<Real>(value(first))); });
   half<i>(out.front) = select(shows_second, Mask(second.front), Mask(first.front));
   half<i>(out.lanes.planar) = select(shows_second, Mask(second.planar), Mask(first.planar));
 }
@@ -135,7 +133,7 @@ HS_INLINE void merge_two(const TriangleScalars<N, with_id>& first, const Triangl
 /// Copies the values of another triangle to the lanes of packet i that show it.
 template <int i, std::size_t N, std::size_t P, bool with_id>
 HS_INLINE void add_triangle(const TriangleScalars<N, with_id>& s, Mask shows, PacketTriangles<N, P, with_id>& out) {
-  for_each_value<i>(out, [&](Real& lanes, auto value) { lanes = select(shows, spread(value(s)), lanes); });
+  for_each_value<i>(out, [&](Real& lanes, auto value) { lanes = select(shows, spread<Real>(value(s)), lanes); });
   Mask &front = half<i>(out.front), &planar = half<i>(out.lanes.planar);
   front = select(shows, Mask(s.front), front);
   planar = select(shows, Mask(s.planar), planar);

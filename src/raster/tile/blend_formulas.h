@@ -7,13 +7,21 @@
 
 namespace halfspace::HS_LANES {
 
-/// Values that blend factors refer to. With a fixed-point attachment, src1 and constant must be clamped before use.
+/// Clamps a channel to the range of a fixed-point format (OpenGL 4.6, section 17.3.6). Channels of other formats are returned unchanged.
+HS_INLINE Real clamped_channel(Real x, ColorFormat format) {
+  return is_fixed_point(format) ? clamp(x, Real(lowest_value(format)), Real(1.0f)) : x;
+}
+
+/// Values that blend factors refer to. With a fixed-point attachment, src1, constant and factors must be clamped before use.
 struct BlendSources {
   const PacketColor &src, &dst, &src1;
   const glm::vec4& constant;
   ColorFormat format;
 
-  Real clamped(Real x) const { return is_fixed_point(format) ? clamp(x, Real(lowest_value(format)), Real(1.0f)) : x; }
+  Real clamped(Real x) const { return clamped_channel(x, format); }
+  /// Returns true if 1 − x can leave the range of the format.
+  bool clamps_complements() const { return lowest_value(format) < 0.0f; }
+  Real complement(Real x) const { return clamps_complements() ? clamped(Real(1.0f) - x) : Real(1.0f) - x; }
 };
 
 /// Returns factor f for channel k.
@@ -24,22 +32,22 @@ HS_INLINE Real blend_factor(BlendFactor f, const BlendSources& s, std::size_t k)
     case BlendFactor::zero: return Real(0.0f);
     case BlendFactor::one: return one;
     case BlendFactor::src_color: return s.src[k];
-    case BlendFactor::one_minus_src_color: return one - s.src[k];
+    case BlendFactor::one_minus_src_color: return s.complement(s.src[k]);
     case BlendFactor::dst_color: return s.dst[k];
-    case BlendFactor::one_minus_dst_color: return one - s.dst[k];
+    case BlendFactor::one_minus_dst_color: return s.complement(s.dst[k]);
     case BlendFactor::src_alpha: return s.src[3];
-    case BlendFactor::one_minus_src_alpha: return one - s.src[3];
+    case BlendFactor::one_minus_src_alpha: return s.complement(s.src[3]);
     case BlendFactor::dst_alpha: return s.dst[3];
-    case BlendFactor::one_minus_dst_alpha: return one - s.dst[3];
+    case BlendFactor::one_minus_dst_alpha: return s.complement(s.dst[3]);
     case BlendFactor::constant_color: return constant(k);
-    case BlendFactor::one_minus_constant_color: return one - constant(k);
+    case BlendFactor::one_minus_constant_color: return s.complement(constant(k));
     case BlendFactor::constant_alpha: return constant(3);
-    case BlendFactor::one_minus_constant_alpha: return one - constant(3);
+    case BlendFactor::one_minus_constant_alpha: return s.complement(constant(3));
     case BlendFactor::src_alpha_saturate: return k == 3 ? one : min(s.src[3], one - s.dst[3]);
     case BlendFactor::src1_color: return s.clamped(s.src1[k]);
-    case BlendFactor::one_minus_src1_color: return one - s.clamped(s.src1[k]);
+    case BlendFactor::one_minus_src1_color: return s.complement(s.clamped(s.src1[k]));
     case BlendFactor::src1_alpha: return s.clamped(s.src1[3]);
-    case BlendFactor::one_minus_src1_alpha: return one - s.clamped(s.src1[3]);
+    case BlendFactor::one_minus_src1_alpha: return s.complement(s.clamped(s.src1[3]));
   }
   return one;
 }
@@ -170,17 +178,20 @@ HS_INLINE FactorOperands factor_operands(const BlendSources& s) {
 /// PacketFactors for an operation that is only known at run time. The factors have the same bits.
 class AnyPacketFactors {
  public:
-  AnyPacketFactors(const AnyOperation& o, const BlendSources& from) : factors_(o.factors), operands_(detail::factor_operands(from)) {}
+  AnyPacketFactors(const AnyOperation& o, const BlendSources& from)
+      : factors_(o.factors), from_(from), operands_(detail::factor_operands(from)) {}
   HS_INLINE Real source(std::size_t k) const { return factor(k == 3 ? factors_.source_alpha : factors_.source_color, k); }
   HS_INLINE Real destination(std::size_t k) const { return factor(k == 3 ? factors_.destination_alpha : factors_.destination_color, k); }
 
  private:
   HS_INLINE Real factor(BlendFactor f, std::size_t k) const {
     const detail::FactorTerm& term = detail::kFactorTerms[static_cast<std::size_t>(f)][k];
-    return fma(operands_.values[term.operand], Real(term.scale), Real(term.offset));
+    const Real value = fma(operands_.values[term.operand], Real(term.scale), Real(term.offset));
+    return from_.clamps_complements() ? from_.clamped(value) : value;
   }
 
   const BlendFactors& factors_;
+  const BlendSources& from_;
   detail::FactorOperands operands_;
 };
 
@@ -197,9 +208,9 @@ HS_INLINE PacketColor blend_sums(const Operation& o, const PacketColor& src, con
   return out;
 }
 
-/// Clamps the source color of a fixed-point format, which must precede blending (OpenGL 4.6, section 17.3.6).
+/// Clamps a color to the range of a fixed-point format, which must precede blending.
 HS_INLINE PacketColor clamped_color(PacketColor c, ColorFormat format) {
-  for (Real& x : c) x = clamp(x, Real(lowest_value(format)), Real(1.0f));
+  for (Real& x : c) x = clamped_channel(x, format);
   return c;
 }
 
@@ -207,7 +218,7 @@ HS_INLINE PacketColor clamped_color(PacketColor c, ColorFormat format) {
 template <class Operation>
 HS_INLINE PacketColor blended_color(const Operation& o, const PacketColor& dst, ColorFormat format, const PacketColor& src,
                                     const PacketColor& src1, const glm::vec4& constant) {
-  const PacketColor in_range = is_fixed_point(format) ? clamped_color(src, format) : src;
+  const PacketColor in_range = clamped_color(src, format);
   return blend_sums(o, in_range, dst, {in_range, dst, src1, constant, format});
 }
 

@@ -19,7 +19,8 @@ PacketColor nearest_color(ColorFormat format, const PacketColor& color) {
 
 PixelBytes encode_pixel(ColorFormat format, const PacketColor& color) {
   PixelBytes bytes{};
-  const glm::vec4 value(lane(color[0], 0), lane(color[1], 0), lane(color[2], 0), lane(color[3], 0));
+  const PacketColor nearest = nearest_color(format, color);  // finite, as in a tile
+  const glm::vec4 value(lane(nearest[0], 0), lane(nearest[1], 0), lane(nearest[2], 0), lane(nearest[3], 0));
   if (is_integer(format)) {
     encode_integers(format, std::bit_cast<glm::ivec4>(value), bytes.data());
   } else {

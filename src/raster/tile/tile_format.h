@@ -141,21 +141,21 @@ PacketColor nearest_color(ColorFormat format, const PacketColor& color);
 using PixelBytes = std::array<std::byte, 16>;
 PixelBytes encode_pixel(ColorFormat format, const PacketColor& color);
 
+/// Returns a color in all lanes, with the same bits: those of an integer format are integers.
+HS_INLINE PacketColor spread_color(const glm::vec4& c) {
+  return {spread<Real>(c.x), spread<Real>(c.y), spread<Real>(c.z), spread<Real>(c.w)};
+}
+
 /// Fills the buffer with one color.
 void fill_buffer(ColorBuffer& buffer, const PacketColor& color);
 
 // ---- depth -----------------------------------------------------------------------------------------------------
 
-/// Returns a depth in [0, 1] as represented by the format (see Tile::depth). unorm values are rounded to nearest, once. The sum of 2^23 and
-/// a value below 2^23 has no fraction bits, so the rounding of the fma produces an integer. For larger values, rounding the product has the
-/// same effect.
+/// Returns a depth in [0, 1] as represented by the format (see Tile::depth). unorm values are rounded to nearest, once, as in encode_d24().
 template <Number R>
 HS_INLINE R depth_value(DepthFormat format, R z) {
   const R two_to_23(0x1p23f);
-  if (format == DepthFormat::d24) {
-    const R code = z * R(16777215.0f);
-    return select(code < two_to_23, fma(z, R(16777215.0f), two_to_23) - two_to_23, code);
-  }
+  if (format == DepthFormat::d24) return encode_d24(z);
   if (format == DepthFormat::d16) return fma(z, R(65535.0f), two_to_23) - two_to_23;
   return z;
 }
@@ -168,7 +168,7 @@ struct Depth16 {
 };
 struct Depth24 {
   using Image = uint32_t;
-  static void load(Image i, float& depth, uint8_t&) { depth = static_cast<float>(i); }
+  static void load(Image i, float& depth, uint8_t&) { depth = static_cast<float>(i & 0xffffff); }
   static Image store(float depth, uint8_t) { return static_cast<Image>(depth); }
 };
 struct Depth32 {

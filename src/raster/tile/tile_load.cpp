@@ -73,8 +73,7 @@ void load_color(const ColorTarget& target, const Tile& tile, ColorBuffer& color)
     return;
   }
   if (target.load == LoadOp::clear) {
-    const PacketColor c{Real(target.clear_value.x), Real(target.clear_value.y), Real(target.clear_value.z), Real(target.clear_value.w)};
-    fill_buffer(color, c);
+    fill_buffer(color, spread_color(target.clear_value));
     return;
   }
   const TexelView image = target_texels(target);

@@ -45,7 +45,8 @@ void store_planes(const TexelView& image, const Tile& tile, const ColorBuffer& c
   });
 }
 
-// For formats whose channels are not words. The values in the tile are exact, so encoding does not round.
+// For formats whose channels are not words. The values in the tile are exact, so encoding does not round. A texel that was only loaded
+// keeps its bytes (texel_codec.h: encode_texel).
 void store_texels(const TexelView& image, const Tile& tile, const ColorBuffer& color) {
   const auto bytes = static_cast<std::size_t>(bytes_per_pixel(color.format));
   const float* from = plane<float>(color, 0);

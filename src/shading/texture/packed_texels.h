@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Decoding of packed texels: 8-bit texels in one 32-bit word, red in the low byte, and half-float texels in two
-// words.
+// Decoding of packed texels: 8-bit texels in one 32-bit word, red in the low byte, and half-float texels in two words.
 #pragma once
 
 #include "halfspace/core/half.h"
