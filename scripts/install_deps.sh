@@ -11,7 +11,7 @@
 set -euo pipefail
 
 packages=(g++ cmake ninja-build libglm-dev libtbb-dev libopenimageio-dev libopenexr-dev libjpeg-dev libspng-dev libcli11-dev nlohmann-json3-dev
-  libfmt-dev libxxhash-dev libwebp-dev libgif-dev libmeshoptimizer-dev libdraco-dev libembree-dev pybind11-dev python3-dev python3-numpy)
+  libfmt-dev libxxhash-dev libwebp-dev zlib1g-dev libzstd-dev libgif-dev libmeshoptimizer-dev libdraco-dev libembree-dev pybind11-dev python3-dev python3-numpy)
 benchmark_packages=(libvulkan1)
 dask_packages=(python3-distributed)
 mpi_packages=(libopenmpi-dev openmpi-bin)

@@ -29,6 +29,7 @@ constexpr Signature kSignatures[] = {
     {"P6"sv, {"pnm"}},
     {"8BPS"sv, {"psd"}},
     {"DDS "sv, {"dds"}},
+    {"\xabKTX 20\xbb\r\n\x1a\n"sv, {"ktx2"}},
     {"\x76\x2f\x31\x01"sv, {"openexr", "OpenEXR"}},
     {"#?RADIANCE"sv, {"hdr", "Radiance HDR"}},
     {"#?RGBE"sv, {"hdr", "Radiance HDR"}},
@@ -44,7 +45,7 @@ struct OtherType {
 };
 constexpr OtherType kOtherTypes[] = {
     {4, "ftypavif"sv, "AVIF"},    {4, "ftypheic"sv, "HEIF"},  {4, "ftypmif1"sv, "HEIF"},  {4, "jP  "sv, "JPEG 2000"},
-    {0, "\xff\x0a"sv, "JPEG XL"}, {4, "JXL "sv, "JPEG XL"},   {1, "KTX"sv, "KTX"},        {0, "sB"sv, "Basis Universal"},
+    {0, "\xff\x0a"sv, "JPEG XL"}, {4, "JXL "sv, "JPEG XL"},   {1, "KTX 11"sv, "KTX 1"},   {0, "sB"sv, "Basis Universal"},
     {0, "<svg"sv, "SVG"},         {0, "<?xml"sv, "XML"},      {0, "<!DOCTYPE"sv, "HTML"}, {0, "<html"sv, "HTML"},
     {0, "%PDF"sv, "PDF"},         {0, "PK\x03\x04"sv, "ZIP"}, {0, "\x1f\x8b"sv, "gzip"},  {0, "glTF"sv, "binary glTF"},
 };

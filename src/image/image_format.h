@@ -14,11 +14,11 @@
 namespace halfspace::HS_LANES {
 
 /// Lists for messages: formats that store 8- or 16-bit integers, and all formats.
-inline constexpr const char* kCodeFormats = "PNG, JPEG, TIFF, TGA, BMP, GIF, WebP, PNM, PSD or DDS";
-inline constexpr const char* kAllFormats = "PNG, JPEG, TIFF, TGA, BMP, GIF, WebP, PNM, PSD, DDS, OpenEXR, HDR or PFM";
+inline constexpr const char* kCodeFormats = "PNG, JPEG, TIFF, TGA, BMP, GIF, WebP, PNM, PSD, DDS or KTX2";
+inline constexpr const char* kAllFormats = "PNG, JPEG, TIFF, TGA, BMP, GIF, WebP, PNM, PSD, DDS, KTX2, OpenEXR, HDR or PFM";
 
 struct ToolFormat {
-  /// OpenImageIO's name for the format.
+  /// The name of the format: OpenImageIO's, or "ktx2".
   const char* name = nullptr;
   /// Display name if the format stores only linear values; nullptr for formats that store integers.
   const char* linear_name = nullptr;

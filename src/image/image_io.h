@@ -6,10 +6,10 @@
 // this process.
 //
 // Images have straight alpha and store the top row first, however the file stores them: the tags of the file that state the order of rows
-// and columns (TIFF, TGA, BMP, Radiance), the display window (OpenEXR) and premultiplied alpha (TIFF, TGA, DDS, OpenEXR) are applied. EXIF
-// data is not: texture coordinates refer to the stored pixels. There are two kinds of files:
-//   integers       PNG, JPEG, TIFF, TGA, BMP, GIF, WebP, PNM, PSD, DDS: 8 or 16 bits per channel, sRGB-encoded if they are colors
-//   linear values  OpenEXR, Radiance HDR, PFM, and floating-point TIFF, PSD or DDS
+// and columns (TIFF, TGA, BMP, Radiance, KTX2), the display window (OpenEXR) and premultiplied alpha (TIFF, TGA, DDS, KTX2, OpenEXR) are
+// applied. EXIF data is not: texture coordinates refer to the stored pixels. There are two kinds of files:
+//   integers       PNG, JPEG, TIFF, TGA, BMP, GIF, WebP, PNM, PSD, DDS, KTX2: 8 or 16 bits per channel, sRGB-encoded if they are colors
+//   linear values  OpenEXR, Radiance HDR, PFM, and TIFF, PSD, DDS or KTX2 with floats or signed numbers (BC6H, signed BC4 and BC5)
 // Readers detect the format from the content of a file, writers from its name. A file can also be read from memory, for example if it is
 // part of a model; `name` then takes the place of the path in messages. Readers throw InputError ("PATH: problem; expected ...") for files
 // that are missing, damaged or too large (more than 2^28 pixels or 32768 pixels per side). Writers throw OutputError; an output file is
@@ -24,6 +24,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "halfspace/core/image.h"
@@ -62,6 +63,14 @@ Image<float> read_gray(std::span<const std::byte> file, const std::string& name)
 /// Radiance files are ignored. Infinities are clamped to ±65504; NaN throws an InputError that names the pixel.
 Image<glm::vec4> read_linear(const std::filesystem::path& path);
 Image<glm::vec4> read_linear(std::span<const std::byte> file, const std::string& name);
+
+/// What the values of an image stand for.
+enum class ImageUse { colors, data };
+
+/// Reads any file without loss. 8-bit values are returned as they are, and all others as numbers: colors like those of read_linear, and
+/// data like those of read_gray, but with infinities clamped to ±65504.
+std::variant<Image<glm::u8vec4>, Image<glm::vec4>> read_texels(const std::filesystem::path& path, ImageUse use);
+std::variant<Image<glm::u8vec4>, Image<glm::vec4>> read_texels(std::span<const std::byte> file, const std::string& name, ImageUse use);
 
 /// Text in image files: lines of UTF-8. Nothing is stored for empty text.
 struct ImageText {

@@ -3,6 +3,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <variant>
 
 #include "halfspace/image/image_errors.h"
 #include "halfspace/image/image_format.h"
@@ -41,9 +42,17 @@ Image<float> gray_of(ImageSource& source) {
   return to_numbers(first_channel(read_color(source)), source.name());
 }
 
-Image<glm::vec4> linear_of(ImageSource& source) {
-  const bool premultiplied = source.tool_format() && source.tool_format()->name == std::string_view("openexr");
-  return to_linear(read_color(source), premultiplied, source.name());
+bool is_premultiplied(const ImageSource& source) {
+  return source.tool_format() && source.tool_format()->name == std::string_view("openexr");
+}
+
+Image<glm::vec4> linear_of(ImageSource& source) { return to_linear(read_color(source), is_premultiplied(source), source.name()); }
+
+std::variant<Image<glm::u8vec4>, Image<glm::vec4>> texels_of(ImageSource& source, ImageUse use) {
+  ColorPicture picture = read_color(source);
+  if (auto* codes = std::get_if<Image<glm::u8vec4>>(&picture)) return std::move(*codes);
+  if (const auto* wide = std::get_if<Image<glm::u16vec4>>(&picture); wide != nullptr && use == ImageUse::data) return to_numbers(*wide);
+  return to_linear(std::move(picture), is_premultiplied(source), source.name());
 }
 
 // Calls decode(source) for a file on disk. `expected` lists formats for messages.
@@ -84,6 +93,13 @@ Image<float> read_gray(std::span<const std::byte> file, const std::string& name)
 Image<glm::vec4> read_linear(const std::filesystem::path& path) { return read_path(path, kAllFormats, linear_of); }
 Image<glm::vec4> read_linear(std::span<const std::byte> file, const std::string& name) {
   return read_memory(file, name, kAllFormats, linear_of);
+}
+
+std::variant<Image<glm::u8vec4>, Image<glm::vec4>> read_texels(const std::filesystem::path& path, ImageUse use) {
+  return read_path(path, kAllFormats, [use](ImageSource& source) { return texels_of(source, use); });
+}
+std::variant<Image<glm::u8vec4>, Image<glm::vec4>> read_texels(std::span<const std::byte> file, const std::string& name, ImageUse use) {
+  return read_memory(file, name, kAllFormats, [use](ImageSource& source) { return texels_of(source, use); });
 }
 
 }  // namespace halfspace::HS_LANES

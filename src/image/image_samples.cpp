@@ -103,6 +103,11 @@ Image<float> to_numbers(GrayPicture picture, const std::string& name) {
   return std::visit([&](auto&& image) { return numbers(std::move(image), name); }, std::move(picture));
 }
 
+Image<glm::vec4> to_numbers(const Image<glm::u16vec4>& codes) {
+  const FloatMode float_mode;
+  return map_texels<glm::vec4>(codes, [](const glm::u16vec4& c) { return glm::vec4(c) / 65535.0f; });
+}
+
 Image<glm::vec4> to_linear(ColorPicture picture, bool premultiplied, const std::string& name) {
   const FloatMode float_mode;
   return std::visit([&](auto&& image) { return linear(std::move(image), premultiplied, name); }, std::move(picture));

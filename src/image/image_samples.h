@@ -25,6 +25,9 @@ GrayPicture first_channel(const ColorPicture& picture);
 /// Returns integers divided by 255 or 65535, correctly rounded, and floats unchanged. Throws if a float is infinite or NaN.
 Image<float> to_numbers(GrayPicture picture, const std::string& name);
 
+/// Returns 16-bit values divided by 65535, correctly rounded.
+Image<glm::vec4> to_numbers(const Image<glm::u16vec4>& codes);
+
 /// Converts to linear RGB and alpha. Integer colors are decoded from sRGB; integer alpha is divided by 255 or 65535. Floats are unchanged,
 /// but infinities become ±65504 and NaN throws. Premultiplied colors are divided by their alpha where it is positive.
 Image<glm::vec4> to_linear(ColorPicture picture, bool premultiplied, const std::string& name);

@@ -35,7 +35,7 @@ enum class ToolTask : uint32_t { read_gray, read_color, write };
 struct ToolRequest {
   uint32_t magic = kImageToolMagic;
   ToolTask task = ToolTask::read_color;
-  /// OpenImageIO's name for the format, for example "jpeg", padded with zeros.
+  /// The name of the format (ToolFormat::name), for example "jpeg", padded with zeros.
   char format[16] = {};
   /// Limits for reading: pixels of the image, and bytes of the decoded pixels with all channels of the file.
   uint64_t max_pixels = 0, max_bytes = 0;

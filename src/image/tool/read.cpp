@@ -20,6 +20,7 @@
 #include "halfspace/image/tool/protocol.h"
 #include "halfspace/image/tool/radiance_header.h"
 #include "halfspace/image/tool/read_webp.h"
+#include "halfspace/image/tool/texture_file.h"
 
 namespace halfspace::HS_LANES {
 
@@ -118,6 +119,8 @@ Picture arranged(Picture p, const OIIO::ImageSpec& spec, const ReadRequest& requ
 }
 
 Picture read_picture(const ReadRequest& request) {
+  if (request.format == "dds") return read_dds(request);
+  if (request.format == "ktx2") return read_ktx2(request);
   if (request.format == "webp") {
     if (std::optional<Picture> p = read_webp(request)) return *std::move(p);
   }

@@ -15,7 +15,7 @@ struct ReadRequest {
   /// An open file. The service closes it after the request.
   int file = -1;
   uint64_t file_bytes = 0;
-  /// OpenImageIO's name for the format.
+  /// See ToolRequest.
   std::string format;
   /// Read only the first channel instead of RGBA.
   bool gray = false;
