@@ -125,7 +125,7 @@ TEST_F(ImageNumbers, ErrorListsReadableFormats) {
   const std::filesystem::path path = put("a.txt", "This is not a picture.");
   const std::string line = path.string() +
                            ": is not a supported image (it begins with \"This is \"); expected PNG, JPEG, TIFF, TGA, BMP, GIF, WebP, PNM, "
-                           "PSD, DDS, OpenEXR, HDR or PFM";
+                           "PSD, DDS, KTX2, OpenEXR, HDR or PFM";
   EXPECT_EQ(input_error([&] { read_gray(path); }), line);
   EXPECT_TRUE(reports(input_error([&] { read_linear(path); }), path.string(), {"OpenEXR, HDR or PFM"}));
 }

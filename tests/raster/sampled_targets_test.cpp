@@ -173,13 +173,13 @@ struct FetchShader {
   const Texture2DView* positions;
   template <class R>
   struct Attributes {
-    R column;
+    vec2<R> texel;
   };
   template <class R>
   struct Varyings {};
   template <class R>
   vec4<R> vertex(const Attributes<R>& in, Varyings<R>&) const {
-    const vec4<R> p = positions->fetch<R>(ivec3<R>(truncate_to_int(in.column), IntOf<R>(0), IntOf<R>(0)));
+    const vec4<R> p = positions->fetch<R>(ivec3<R>(truncate_to_int(in.texel.x), truncate_to_int(in.texel.y), IntOf<R>(0)));
     return vec4<R>(p.x, p.y, R(0.0f), R(1.0f));
   }
   template <class R>
@@ -195,8 +195,8 @@ TEST(SampledTargets, VertexFunctionsReadTextures) {
   Image<glm::u8vec4> expected(kWidth, kHeight), image(kWidth, kHeight);
   draw_shape(rgba8_target(expected));
   Pass pass(kWidth, kHeight, rgba8_target(image), {});
-  const std::vector<float> columns{0.0f, 1.0f, 2.0f};
-  pass.draw(FetchShader{&view}, make_vertex_view(stream(columns)));
+  const std::vector<glm::vec2> texels{{0, 0}, {1, 0}, {2, 0}};
+  pass.draw(FetchShader{&view}, make_vertex_view(stream(texels)));
   pass.run(workers());
   for (int y = 0; y < kHeight; ++y) {
     for (int x = 0; x < kWidth; ++x) ASSERT_EQ(image.at(x, y).w, expected.at(x, y).w);

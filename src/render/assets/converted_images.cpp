@@ -43,6 +43,7 @@ int wrapped(int i, int size, Wrap wrap) {
       const int k = modulo(i, 2 * size);
       return k < size ? k : 2 * size - 1 - k;
     }
+    case Wrap::mirrored_clamp: return std::min(i < 0 ? -1 - i : i, size - 1);
     case Wrap::clamp:
     case Wrap::border: break;
   }
