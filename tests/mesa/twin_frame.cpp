@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <set>
 #include <stdexcept>
@@ -201,6 +202,9 @@ void expect_same_picture(TwinTexture& texture, const PictureTolerance& tolerance
     for (int k = 0; k < 4; ++k) d = std::max(d, std::abs(int{ours[i][k]} - int{mesa[i][k]}));
     differing += d > 0;
     beyond += d > tolerance.codes;
+    if (d > tolerance.codes && std::getenv("HALFSPACE_MESA_PIXELS") != nullptr)
+      std::printf("    x %zu y %zu: Halfspace %d,%d,%d  Mesa %d,%d,%d\n", i % static_cast<std::size_t>(width),
+                  i / static_cast<std::size_t>(width), ours[i].x, ours[i].y, ours[i].z, mesa[i].x, mesa[i].y, mesa[i].z);
     worst = std::max(worst, d);
     const auto code = [](const glm::u8vec4& c) { return c.x | uint32_t{c.y} << 8 | uint32_t{c.z} << 16; };
     our_colors.insert(code(ours[i]));

@@ -96,7 +96,8 @@ struct PictureTolerance {
   double share = 0.0;
   const char* reason;  ///< is printed with the result
 };
-/// Compares the texels of a texture of format rgba8. Both must show something: at least `colors` different colors.
+/// Compares the texels of a texture of format rgba8. Both must show something: at least `colors` different colors. If the
+/// environment variable HALFSPACE_MESA_PIXELS is set, the pixels beyond the tolerance are printed.
 void expect_same_picture(TwinTexture& texture, const PictureTolerance& tolerance, std::size_t colors = 50);
 
 }  // namespace halfspace::test

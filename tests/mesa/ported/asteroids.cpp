@@ -106,7 +106,7 @@ TEST_F(Ported, InstancedAsteroidsWithByteColors) {
       state);
   stage.run();
   expect_same_picture(picture,
-                      {2, 0.005, "positions depend on sin and cos, whose last bits differ, so a few pixels at edges change sides"});
+                      {1, 0.002, "positions depend on sin and cos, whose last bits differ, so a few pixels at edges change sides"});
 }
 
 }  // namespace halfspace::test::ported::asteroids

@@ -84,7 +84,7 @@ TEST_F(Ported, BlinnPhong) {
                set("shininess", shader.shininess);
              });
   stage.run();
-  expect_same_picture(picture, {1, 0.002, "Mesa does not snap vertices before interpolation, which moves some edges by up to 1/256 px"});
+  expect_same_picture(picture, {1, 0.001, "Mesa does not snap vertices before interpolation, which moves some edges by up to 1/256 px"});
 }
 
 }  // namespace halfspace::test::ported::blinn_phong

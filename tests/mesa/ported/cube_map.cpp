@@ -94,7 +94,7 @@ TEST_F(Ported, CubeMapReflectionAndRefraction) {
                set("environment", environment, shader.sampler);
              });
   stage.run();
-  expect_same_picture(picture, {4, 0.02, "Mesa's level of detail of cubes is approximate"});
+  expect_same_picture(picture, {4, 0.002, "edges move by up to 1/256 px"});
 }
 
 }  // namespace halfspace::test::ported::cube_map

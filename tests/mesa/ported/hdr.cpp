@@ -110,7 +110,7 @@ TEST_F(Ported, HighDynamicRange) {
     set("light", light, sampler);
     set("exposure", tone.exposure);
   });
-  expect_same_picture(picture, {1, 0.003, "halves round differently in their last bit, and edges move by up to 1/256 px"});
+  expect_same_picture(picture, {1, 0.002, "halves round differently in their last bit, and edges move by up to 1/256 px"});
 }
 
 }  // namespace halfspace::test::ported::hdr

@@ -96,7 +96,7 @@ TEST_F(Ported, NormalMapping) {
                set("normals", normals, shader.sampler);
              });
   stage.run();
-  expect_same_picture(picture, {3, 0.01, "Mesa's level of detail uses an approximate log2, which is off by up to 0.04 levels"});
+  expect_same_picture(picture, {3, 0.001, "Mesa's level of detail uses an approximate log2, which is off by up to 0.04 levels"});
 }
 
 }  // namespace halfspace::test::ported::normal_mapping

@@ -124,7 +124,7 @@ TEST_F(Ported, ParallaxMapping) {
       kWithoutDepth);
   stage.run();
   expect_same_picture(picture,
-                      {4, 0.01, "the loop may end one layer earlier or later; Mesa's level of detail is off by up to 0.04 levels"});
+                      {4, 0.001, "the loop may end one layer earlier or later, and Mesa's level of detail is off by up to 0.04 levels"});
 }
 
 }  // namespace halfspace::test::ported::parallax

@@ -87,6 +87,7 @@ void draw_full_screen(std::vector<TwinTarget> targets, const S& shader, const ch
   stage.run();
 }
 
+// [copy]
 /// Copies a texture of the size of the window.
 struct Copy : FullScreen {
   Texture2DView image;
@@ -96,6 +97,7 @@ struct Copy : FullScreen {
     return {image.fetch<R>(ivec3<R>(truncate_to_int(px.x), truncate_to_int(px.y), IntOf<R>(0)))};
   }
 };
+// [end]
 inline constexpr const char* kCopyFragment = R"glsl(#version 330 core
 uniform sampler2D image;
 out vec4 color;
