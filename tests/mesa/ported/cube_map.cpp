@@ -94,7 +94,10 @@ TEST_F(Ported, CubeMapReflectionAndRefraction) {
                set("environment", environment, shader.sampler);
              });
   stage.run();
-  expect_same_picture(picture, {4, 0.002, "edges move by up to 1/256 px"});
+  // The pixels beyond 4 codes are at the silhouette. Without levels, there are none, and none differs by more than 2 codes.
+  expect_same_picture(
+      picture,
+      {4, 0.002, "at the silhouette, differences within the quad read values outside of thin triangles, so levels of detail differ"});
 }
 
 }  // namespace halfspace::test::ported::cube_map
