@@ -56,14 +56,36 @@ void link(GLuint program) {
 
 // ---- draw calls ----------------------------------------------------------------------------------------------------
 
+GLenum type_of(const VertexStream& s) {
+  if (s.read_as == ReadAs::halves) return GL_HALF_FLOAT;
+  constexpr std::array<GLenum, 11> names{GL_FLOAT,
+                                         GL_HALF_FLOAT,
+                                         GL_DOUBLE,
+                                         GL_UNSIGNED_BYTE,
+                                         GL_BYTE,
+                                         GL_UNSIGNED_SHORT,
+                                         GL_SHORT,
+                                         GL_UNSIGNED_INT,
+                                         GL_INT,
+                                         GL_UNSIGNED_INT_2_10_10_10_REV,
+                                         GL_INT_2_10_10_10_REV};
+  return names[static_cast<std::size_t>(s.type)];
+}
+
 void bind_stream(GLuint location, const Buffer& buffer, const VertexStream& s) {
   const std::size_t bytes = s.count == 0 ? 0 : (s.count - 1) * static_cast<std::size_t>(s.stride) + row_bytes(s);
   glBindBuffer(GL_ARRAY_BUFFER, buffer.id);
   glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(bytes), s.data, GL_STATIC_DRAW);
   glEnableVertexAttribArray(location);
-  glVertexAttribPointer(location, s.components, GL_FLOAT, GL_FALSE, s.stride, nullptr);
+  if (s.read_as == ReadAs::integers) {
+    glVertexAttribIPointer(location, s.components, type_of(s), s.stride, nullptr);
+  } else {
+    glVertexAttribPointer(location, s.components, type_of(s), s.read_as == ReadAs::normalized, s.stride, nullptr);
+  }
   glVertexAttribDivisor(location, s.divisor);
 }
+
+}  // namespace
 
 void run(const MesaDraw& draw, const TargetSpec& target, MesaPrograms& programs) {
   const GLuint program = programs.of(draw);
@@ -87,6 +109,8 @@ void run(const MesaDraw& draw, const TargetSpec& target, MesaPrograms& programs)
   glDrawElementsInstancedBaseVertex(gl(draw.state.topology), static_cast<GLsizei>(draw.indices.size()), GL_UNSIGNED_INT, nullptr,
                                     static_cast<GLsizei>(draw.state.instances), draw.state.base_vertex);
 }
+
+namespace {
 
 // A framebuffer with textures of the target's size and the given number of samples as attachments.
 class Attachments {
@@ -136,9 +160,13 @@ void draw_all(const TargetSpec& target, const std::vector<MesaDraw>& draws, Mesa
   for (const MesaDraw& draw : draws) run(draw, target, programs);
 }
 
+}  // namespace
+
 void expect_no_error() {
   if (const GLenum error = glGetError(); error != GL_NO_ERROR) throw std::runtime_error("OpenGL error " + std::to_string(error));
 }
+
+namespace {
 
 // The first row in OpenGL is the lowest; in our images it is the top row.
 template <class T>
@@ -150,7 +178,9 @@ void read(Image<T>& image, GLenum format, GLenum type) {
 }  // namespace
 
 int UniformSetter::location(const char* name) const { return glGetUniformLocation(program_, name); }
+void UniformSetter::operator()(const char* name, int v) const { glUniform1i(location(name), v); }
 void UniformSetter::operator()(const char* name, float v) const { glUniform1f(location(name), v); }
+void UniformSetter::operator()(const char* name, const glm::vec2& v) const { glUniform2fv(location(name), 1, &v.x); }
 void UniformSetter::operator()(const char* name, const glm::vec3& v) const { glUniform3fv(location(name), 1, &v.x); }
 void UniformSetter::operator()(const char* name, const glm::vec4& v) const { glUniform4fv(location(name), 1, &v.x); }
 void UniformSetter::operator()(const char* name, const glm::mat4& v) const { glUniformMatrix4fv(location(name), 1, GL_FALSE, &v[0].x); }

@@ -16,6 +16,8 @@
 
 namespace halfspace::test {
 
+class TwinTexture;
+
 /// The render target for both renderers: a cleared color image and a cleared depth image.
 struct TargetSpec {
   int width = 320;  ///< must not be 512: llvmpipe on LLVM 15 crashes at that width
@@ -38,16 +40,21 @@ struct Picture {
 class UniformSetter {
  public:
   explicit UniformSetter(unsigned program) : program_(program) {}
+  void operator()(const char* name, int value) const;
   void operator()(const char* name, float value) const;
+  void operator()(const char* name, const glm::vec2& value) const;
   void operator()(const char* name, const glm::vec3& value) const;
   void operator()(const char* name, const glm::vec4& value) const;
   void operator()(const char* name, const glm::mat4& value) const;
   /// Uploads the levels of the texture one by one. A shader has at most one texture.
   void operator()(const char* name, const Texture2D& texture, const Sampler& sampler) const;
+  /// Binds a texture of any kind to a unit of its own. A texture has one sampler per draw. compares: for shadow samplers.
+  void operator()(const char* name, const TwinTexture& texture, const Sampler& sampler, bool compares = false) const;
 
  private:
   int location(const char* name) const;
   unsigned program_;
+  mutable unsigned units_ = 1;  ///< unit 0 is that of a Texture2D
 };
 
 /// One draw call. shared_glsl is prepended to both sources. Stream i of the vertices is the attribute at location i.
@@ -78,6 +85,10 @@ class MesaPrograms {
   std::map<std::array<const char*, 3>, unsigned> programs_;
 };
 
+/// Draws to the bound framebuffer, which has the size of the target.
+void run(const MesaDraw& draw, const TargetSpec& target, MesaPrograms& programs);
+/// Throws if OpenGL reports an error.
+void expect_no_error();
 /// Draws with the current context (see MesaContext) and returns the stored colors (8-bit values are divided by 255), bottom row first.
 /// Multisampled targets are resolved.
 std::vector<glm::vec4> colors_by_mesa(const TargetSpec& target, const std::vector<MesaDraw>& draws, MesaPrograms& programs);
