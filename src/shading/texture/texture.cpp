@@ -8,6 +8,35 @@
 
 namespace halfspace::HS_LANES {
 
+namespace {
+
+/// A texture that is not common: its memory and its levels.
+struct AnyTexture {
+  const std::byte* base;
+  const detail::TextureTable& table;
+};
+
+/// A lookup in layer 0 of a texture, for any sampler.
+template <class R>
+struct AnyLookup {
+  const detail::TextureLookup<R, detail::AllChannels<R>>& lookup;
+
+  HS_INLINE vec4<R> operator()(const vec2<R>& uv, const detail::LevelChoice<R>& levels) const {
+    return lookup(detail::LevelPlace<R>{vec3<R>(uv, R(0.0f)), IntOf<R>(0)}, levels);
+  }
+  HS_INLINE vec4<R> finish(const vec4<R>& v) const { return lookup.finish(v); }
+};
+
+/// Not inlined, so that common lookups do not pay for its variables.
+template <class R, class Function>
+__attribute__((noinline)) vec4<R> with_any_lookup(const AnyTexture& texture, const Sampler& sampler, const Function& function) {
+  const detail::AllChannels<R> texels;
+  const detail::TextureLookup<R, detail::AllChannels<R>> lookup{texture.base, texture.table, sampler, texels};
+  return function(AnyLookup<R>{lookup});
+}
+
+}  // namespace
+
 /// Calls function with a lookup that supports this texture and the sampler: lookup(uv, levels) returns a value to blend, which
 /// lookup.finish(value) converts to a color.
 template <class R, class Function>
@@ -20,17 +49,7 @@ HS_INLINE vec4<R> Texture2D::with_lookup(const Sampler& sampler, const Function&
       default: return function(CommonLookup<vec4<R>, TexelFormat::srgb8a8, R>{*this, sampler});
     }
   }
-  const detail::AllChannels<R> texels;
-  const detail::TextureLookup<R, detail::AllChannels<R>> lookup{reinterpret_cast<const std::byte*>(texels_.data()), table_, sampler,
-                                                                texels};
-  struct Flat {
-    const detail::TextureLookup<R, detail::AllChannels<R>>& lookup;
-    HS_INLINE vec4<R> operator()(const vec2<R>& uv, const LevelChoice<R>& levels) const {
-      return lookup(detail::LevelPlace<R>{vec3<R>(uv, R(0.0f)), IntOf<R>(0)}, levels);
-    }
-    HS_INLINE vec4<R> finish(const vec4<R>& v) const { return lookup.finish(v); }
-  };
-  return function(Flat{lookup});
+  return with_any_lookup<R>({reinterpret_cast<const std::byte*>(texels_.data()), table_}, sampler, function);
 }
 
 template <class R>
@@ -54,7 +73,9 @@ vec4<R> Texture2D::sample_any(const Sampler& sampler, const vec2<R>& uv, const v
   const LevelChoice<R> levels = detail::choose_level(sampler, levels_, detail::kMaxLevels, area.lod);
   return with_lookup<R>(sampler, [&](const auto& lookup) {
     return lookup.finish(detail::mean_of_probes<R>(
-        area, [&](R along) { return lookup(vec2<R>(fma(area.span.x, along, uv.x), fma(area.span.y, along, uv.y)), levels); }));
+        area, [&](R along) __attribute__((always_inline)) {
+          return lookup(vec2<R>(fma(area.span.x, along, uv.x), fma(area.span.y, along, uv.y)), levels);
+        }));
   });
 }
 

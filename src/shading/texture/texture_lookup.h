@@ -211,7 +211,7 @@ struct ComparedRed {
 template <class R, class Probe>
 HS_INLINE auto mean_of_probes(const Footprint<R>& area, const Probe& probe) {
   const R step = R(1.0f) / max(to_real<R>(area.probes) - R(1.0f), R(1.0f));
-  const auto at = [&](int i) { return probe(fma(R(static_cast<float>(i)), step, R(-0.5f))); };
+  const auto at = [&](int i) __attribute__((always_inline)) { return probe(fma(R(static_cast<float>(i)), step, R(-0.5f))); };
   auto mean = at(0);
   for (int i = 1;; ++i) {
     const MaskOf<R> more = area.probes > IntOf<R>(i);
