@@ -81,7 +81,7 @@ void decode_masks(const TextureLayout& layout, std::span<const std::byte> level,
   const int colors = form.channels - (has_alpha ? 1 : 0);
   // The second of two channels is alpha.
   const std::array<CodeScale<T>, 4> scales = {CodeScale<T>(layout.masks[0]), CodeScale<T>(layout.masks[colors == 3 ? 1 : 3]),
-                                        CodeScale<T>(layout.masks[2]), CodeScale<T>(layout.masks[3])};
+                                              CodeScale<T>(layout.masks[2]), CodeScale<T>(layout.masks[3])};
   const auto step = static_cast<std::size_t>(layout.bytes), channels = static_cast<std::size_t>(form.channels);
   for (; !level.empty(); level = level.subspan(step), to += channels * sizeof(T)) {
     uint64_t texel = 0;
