@@ -3,20 +3,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <new>
 #include <type_traits>
 #include <utility>
 
 #include "halfspace/core/float_mode.h"
 #include "halfspace/core/lane_math.h"
+#include "halfspace/raster/detail/target_checks.h"
 #include "halfspace/raster/loop/pass_rounds.h"
 #include "halfspace/raster/pipeline/pass_memory.h"
 #include "halfspace/raster/primitives/primitive_assembly.h"
 #include "halfspace/raster/primitives/vertex_stage.h"
 #include "halfspace/raster/tile/blend.h"
 #include "halfspace/raster/tile/logic_op.h"
-#include "halfspace/raster/tile/texel_overlap.h"
 #include "halfspace/raster/tile/tile_format.h"
 
 namespace halfspace::HS_LANES {
@@ -66,37 +65,6 @@ void check_rect(const Rect& r, int smallest) {
   HS_CHECK_OP(r.height, <=, kMaxTargetSize, "DrawState: the viewport or the scissor is too high; expected at most 16384");
   HS_CHECK(r.x >= -kMaxTargetSize && r.x <= kMaxTargetSize && r.y >= -kMaxTargetSize && r.y <= kMaxTargetSize,
            "DrawState: the origin of the viewport or the scissor is too far away; expected at most 16384 from 0");
-}
-
-bool loads(const ColorTarget& target) { return target.load == LoadOp::load; }
-bool loads(const DepthTarget& target) { return target.load == LoadOp::load || stencil_load_of(target) == LoadOp::load; }
-
-bool can_be_drawn(ColorFormat format) { return !is_depth(format) && format != ColorFormat::rgb9_e5; }
-
-// Checks that the image of a target has the size of the pass, width x height pixels with 1 or `samples` values, or is not needed.
-template <class Target>
-void check_target(const Target& target, int width, int height, int samples) {
-  HS_CHECK(target.data != nullptr || (!loads(target) && target.store == StoreOp::dont_care),
-           "target: it has no image, but is loaded or stored; expected an image, or clear and dont_care");
-  if (target.data == nullptr) return;
-  HS_CHECK_OP(target.width, ==, width, "target: its image has another width than the pass; expected an image of the size of the pass");
-  HS_CHECK_OP(target.height, ==, height, "target: its image has another height than the pass; expected an image of the size of the pass");
-  HS_CHECK(target.samples == 1 || target.samples == samples,
-           "target: its image has another number of samples than the pass; expected 1 or the samples of the pass");
-  const TexelView texels = target_texels(target);
-  HS_CHECK_OP(std::abs(texels.row_pitch), >=, std::ptrdiff_t{width} * bytes_per_pixel(target.format),
-              "target: the row pitch is smaller than a row; expected at least the width times the bytes of a pixel, or 0");
-  HS_CHECK(!has_overlapping_layers(texels),
-           "target: the images of its samples overlap; expected a sample pitch of at least an image, or 0");
-}
-
-// Checks that no target is stored to memory of another one that is loaded or stored.
-template <class A, class B>
-void check_overlap(const A& a, const B& b) {
-  const auto is_used = [](const auto& target) { return target.data != nullptr && (target.store == StoreOp::store || loads(target)); };
-  if (!is_used(a) || !is_used(b) || (a.store != StoreOp::store && b.store != StoreOp::store)) return;
-  HS_CHECK(!overlap(target_texels(a), target_texels(b)),
-           "Pass: two targets use the same memory, and one of them is stored; expected an image of its own for each target");
 }
 
 // Comparisons are written so that NaN fails.

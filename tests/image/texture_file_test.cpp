@@ -205,6 +205,12 @@ TEST_F(TextureFiles, Ktx2StatesItsOrientation) {
   EXPECT_TRUE(reports(error, "file: ", {"orientation \"xy\"", "expected rd"}));
 }
 
+TEST_F(TextureFiles, Ktx2ChannelsAreNotExchanged) {
+  EXPECT_EQ(error_of(ktx2({.swizzle = "rgb1"}, "\x01\x02\x03\x04")), "(no error)");
+  const std::string error = error_of(ktx2({.orientation = "rd", .swizzle = "bgra"}, "\x01\x02\x03\x04"));
+  EXPECT_TRUE(reports(error, "file: ", {"swizzle \"bgra\"", "expected none"}));
+}
+
 constexpr uint32_t kZstandard = 2, kZlib = 3;
 
 TEST_F(TextureFiles, Ktx2IsUncompressed) {

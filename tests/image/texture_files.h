@@ -61,6 +61,7 @@ struct Ktx2Header {
   uint32_t width = 1, height = 1, depth = 0, layers = 0, faces = 1, scheme = 0;
   uint8_t model = 1, flags = 0;  ///< of the data format descriptor
   std::string orientation{};     ///< empty: the file does not state it
+  std::string swizzle{};         ///< likewise
   uint64_t content_bytes = 0;    ///< size of level 0 before supercompression; 0: that of the level
 };
 
@@ -71,9 +72,10 @@ inline std::string ktx2(const Ktx2Header& h, const std::string& level) {
   descriptor[12] = static_cast<char>(h.model);
   descriptor[15] = static_cast<char>(h.flags);
   std::string pairs;
-  if (!h.orientation.empty()) {
-    const std::string pair = std::string("KTXorientation") + '\0' + h.orientation + '\0';
-    pairs = memory_of<uint32_t>({static_cast<uint32_t>(pair.size())}) + pair;
+  for (const auto& [key, value] : {std::pair("KTXorientation", h.orientation), std::pair("KTXswizzle", h.swizzle)}) {
+    if (value.empty()) continue;
+    const std::string pair = std::string(key) + '\0' + value + '\0';
+    pairs += memory_of<uint32_t>({static_cast<uint32_t>(pair.size())}) + pair;
     pairs.resize((pairs.size() + 3) / 4 * 4);
   }
   const auto pairs_bytes = static_cast<uint32_t>(pairs.size());

@@ -239,5 +239,17 @@ TEST(LoadStore, DepthAndStencilAreLoadedApart) {
   }
 }
 
+TEST(LoadStore, TheUnusedBitsOfDepthsAreIgnored) {
+  Image<uint32_t> depths(kEdge, kEdge);
+  std::fill_n(depths.data(), kEdge * kEdge, 0xff000001u);  // code 1, nearer than the quad at depth 1/2
+  Image<glm::u8vec4> image(kEdge, kEdge);
+  DepthTarget target = d24_target(depths);
+  target.load = LoadOp::load;
+  Pass pass(kEdge, kEdge, rgba8_target(image), target);
+  pass.draw(ConstantShader{glm::vec4(1.0f)}, whole_target());
+  pass.run(one_worker());
+  EXPECT_TRUE(all_are(image, glm::u8vec4(0)));
+}
+
 }  // namespace
 }  // namespace halfspace::raster_test::target_state

@@ -105,6 +105,11 @@ TEST(TextureViews, StencilIsReadAsIntegers) {
     const Texture2DView texture = memory.view<TextureKind::two_d>();
     for (int s = 0; s < 256; ++s) EXPECT_EQ(texture.fetch_integers<float>(ivec3<float>(s, 0, 0)).x, s);
   }
+  for (const TexelFormat format : {TexelFormat::d16, TexelFormat::d24, TexelFormat::d32f}) {
+    TextureMemory memory(TextureKind::two_d, format, {1, 1});
+    std::memset(memory.level().data, 0xff, texel_info(format).bytes);
+    EXPECT_EQ(memory.view<TextureKind::two_d>().fetch_integers<float>(ivec3<float>(0)).x, 0);
+  }
 }
 
 // ---- the same bits as Texture2D, and at every width
@@ -615,6 +620,20 @@ TEST(TextureMemories, MipmapsAverageEveryFormatAndKind) {
   for (int face = 0; face < 6; ++face)
     EXPECT_EQ(glm::vec4(cube.view<TextureKind::cube>().fetch<float>(ivec3<float>(0, 0, face), 2)),
               glm::vec4(static_cast<float>(face), 7.5f, 0, 1));
+}
+
+TEST(TextureMemories, MipmapsHaveTheSameBitsForAnyNumberOfThreads) {
+  const TextureSize size{37, 22, 5};
+  TextureMemory one(TextureKind::three_d, TexelFormat::rgba16, size, 6), four(TextureKind::three_d, TexelFormat::rgba16, size, 6);
+  fill_with_noise(one.level(), 3);
+  fill_with_noise(four.level(), 3);
+  one.generate_mipmaps();
+  const Workers workers(4);
+  four.generate_mipmaps(&workers);
+  for (int k = 0; k < one.levels(); ++k) {
+    const TexelView a = one.level(k), b = four.level(k);
+    EXPECT_EQ(std::memcmp(a.data, b.data, static_cast<std::size_t>(a.layers * a.layer_pitch)), 0) << k;
+  }
 }
 
 TEST(TextureViewsDeathTest, RefuseLevelsThatDoNotFit) {

@@ -91,6 +91,13 @@ int orientation_of(std::span<const std::byte> pairs) {
   throw Failure{"has the orientation \"" + one_line(std::string(value)) + "\"; expected rd, ru, ld or lu"};
 }
 
+// Refuses channels that a reader has to exchange. Files state the order that Halfspace uses anyway in several ways.
+void check_swizzle(std::span<const std::byte> pairs) {
+  const std::string_view value = value_of(pairs, "KTXswizzle").value_or("rgba");
+  if (value == "rgba" || value == "rgb1" || value == "rg01" || value == "r001" || value == "rrr1") return;
+  throw Failure{"has the swizzle \"" + one_line(std::string(value)) + "\"; expected none, or one that keeps the channels"};
+}
+
 std::string name_of_format(uint32_t format, const Descriptor& descriptor) {
   if (descriptor.model == kEtc1s) return "Basis Universal (ETC1S) texels";
   if (descriptor.model == kUastc) return "Basis Universal (UASTC) texels";
@@ -124,8 +131,9 @@ Picture read_ktx2(const ReadRequest& request) {
     throw Failure{"has the supercompression scheme " + std::to_string(scheme) + "; expected 0, 2 (Zstandard) or 3 (zlib)"};
   const uint32_t width = number_at(header, kWidth), height = number_at(header, kHeight);
   check_texture_size(request, *layout, width, height);
-  const int orientation =
-      orientation_of(file.part(number_at(header, kValuesOffset), number_at(header, kValuesBytes), "the key/value data"));
+  const auto pairs = file.part(number_at(header, kValuesOffset), number_at(header, kValuesBytes), "the key/value data");
+  const int orientation = orientation_of(pairs);
+  check_swizzle(pairs);
   const std::size_t bytes = level_bytes(*layout, width, height);
   const uint64_t offset = number_at<uint64_t>(header, kHeaderBytes), stored = number_at<uint64_t>(header, kHeaderBytes + 8);
   std::span<const std::byte> level = file.part(offset, scheme == kNone ? bytes : stored, "level 0");

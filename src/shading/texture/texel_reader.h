@@ -5,6 +5,8 @@
 
 #include <array>
 #include <cstddef>
+#include <cstring>
+#include <type_traits>
 
 #include "halfspace/core/texel_codec.h"
 #include "halfspace/shading/texture/packed_texels.h"
@@ -47,6 +49,9 @@ struct TexelReader {
   TexelFormat format;
   const std::byte* data;
 
+  /// The texel codec decodes to floats; R = double takes over their values.
+  using Decoded = std::conditional_t<std::is_same_v<R, double>, float, R>;
+
   /// Loads one unit.
   HS_INLINE I load(I i) const { return texel_unit(format) == 4 ? word(i) : gather_bytes<R>(data, i, texel_unit(format)); }
   HS_INLINE I word(I i) const { return gather(reinterpret_cast<const int32_t*>(data), i); }
@@ -83,13 +88,16 @@ struct TexelReader {
   R depth(I i) const {
     switch (format) {
       case TexelFormat::d16: return unorm16_to_linear(to_real<R>(load(i)));
-      case TexelFormat::d24: return to_real<R>(word(i) & I(0xffffff)) / R(16777215.0f);
-      case TexelFormat::d24s8: return to_real<R>((word(i) >> 8) & I(0xffffff)) / R(16777215.0f);
+      case TexelFormat::d24: return to_real<R>(word(i) & I(0xffffff)) / R(kMaxD24);
+      case TexelFormat::d24s8: return to_real<R>((word(i) >> 8) & I(0xffffff)) / R(kMaxD24);
       default: return R(as_real(word(i)));
     }
   }
-  /// Returns the stencil values of a format that has them.
-  HS_INLINE I stencil(I i) const { return (format == TexelFormat::d24s8 ? word(i) : word(i + I(1))) & I(255); }
+  /// Returns the stencil values, or 0 if the format has none.
+  HS_INLINE I stencil(I i) const {
+    if (!has_stencil(format)) return I(0);
+    return (format == TexelFormat::d24s8 ? word(i) : word(i + I(1))) & I(255);
+  }
 
   Value operator()(I i) const {
     const TexelInfo& info = texel_info(format);
@@ -98,12 +106,7 @@ struct TexelReader {
       v.x = depth(i);
       return v;
     }
-    if (info.kind == TexelKind::shared_exponent) {
-      const I packed = word(i);
-      const R scale = R(as_real((((packed >> 27) & I(31)) + I(127 - 24)) << 23));
-      return {to_real<R>(packed & I(511)) * scale, to_real<R>((packed >> 9) & I(511)) * scale, to_real<R>((packed >> 18) & I(511)) * scale,
-              R(1.0f)};
-    }
+    if (info.kind == TexelKind::shared_exponent) return Value(vec3<R>(decode_rgb9_e5<Decoded>(word(i))), R(1.0f));
     const std::array<I, 4> code = codes(i);
     for (int k = 0; k < info.channels; ++k) v[k] = filtered_unit(info, code[static_cast<std::size_t>(k)], k);
     return v;
@@ -133,15 +136,9 @@ struct TexelReader {
       case TexelKind::snorm: return max(to_real<R>(code), R(static_cast<float>(1 - (1 << (info.bits - 1)))));
       case TexelKind::floats:
         if (info.bits == 32) return R(as_real(code));
-        return info.bits == 16 ? low_half<R>(code) : small_float(code, channel_bits(format, k) - 5);
+        return info.bits == 16 ? low_half<R>(code) : R(decode_small_float<Decoded>(code, channel_bits(format, k) - 5));
       default: return to_real<R>(code);
     }
-  }
-  HS_INLINE static R small_float(I code, int mantissa_bits) {
-    if constexpr (std::is_same_v<R, double>)
-      return decode_small_float<float>(code, mantissa_bits);
-    else
-      return decode_small_float<R>(code, mantissa_bits);
   }
 };
 

@@ -49,12 +49,14 @@ constexpr bool has_rows(TextureKind kind) { return kind != TextureKind::one_d &&
 /// Calls f(k) for each level that a lane of `index` names, and returns in each lane the value for its level.
 template <class Value, class R, class F>
 Value for_each_level(IntOf<R> index, const F& f) {
+  const uint32_t all_lanes = bits(MaskOf<R>(true));
   Value value{};
-  for (uint32_t left = bits(MaskOf<R>(true)); left != 0;) {
+  for (uint32_t left = all_lanes; left != 0;) {
     const int32_t k = lane(index, std::countr_zero(left));
     const MaskOf<R> here = index == IntOf<R>(k);
     const uint32_t lanes = bits(here);
-    value = lanes == left && left == bits(MaskOf<R>(true)) ? f(k) : select(here, f(k), value);
+    if (lanes == all_lanes) return f(k);
+    value = select(here, f(k), value);
     left &= ~lanes;
   }
   return value;
@@ -73,8 +75,7 @@ struct TextureLookup {
   const Sampler& sampler;
   const Texels& texels;
   glm::ivec3 offset{0};
-  int unit = texel_unit(table.format);
-  int stride = texel_info(table.format).bytes / unit;
+  int stride = texel_info(table.format).bytes / texel_unit(table.format);
   bool has_border = uses_border(table, sampler);
   Value border = texels.border(clamped_border(sampler.border_color, table.format));
 
@@ -140,7 +141,7 @@ struct TextureLookup {
 
   Value in_cube(const TextureLevel& l, const LevelPlace<R>& at, MaskOf<R> nearest, bool single) const {
     const TexelAxis axis = axis_of(l.width, Wrap::clamp);
-    const I cube = at.layer - cube_face_of(at.layer), face = cube_face_of(at.layer);
+    const I face = cube_face_of(at.layer), cube = at.layer - face;
     const Axis<R> x = between_texels(wrap_coordinate(at.st.x, axis), axis, nearest),
                   y = between_texels(wrap_coordinate(at.st.y, axis), axis, nearest);
     if (single) {

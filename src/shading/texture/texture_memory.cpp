@@ -27,53 +27,48 @@ struct Slices {
   TextureSize size;
   std::vector<glm::dvec4> values;
 
-  const glm::dvec4& at(int x, int y, int z) const {
-    return values[(static_cast<std::size_t>(z) * static_cast<std::size_t>(size.height) + static_cast<std::size_t>(y)) *
-                      static_cast<std::size_t>(size.width) +
-                  static_cast<std::size_t>(x)];
-  }
+  explicit Slices(const TextureSize& s) : size(s), values(static_cast<std::size_t>(s.width) * static_cast<std::size_t>(rows())) {}
+  int rows() const { return size.height * size.depth; }
+  glm::dvec4* row(int r) { return values.data() + static_cast<std::size_t>(r) * static_cast<std::size_t>(size.width); }
+  const glm::dvec4* row(int r) const { return values.data() + static_cast<std::size_t>(r) * static_cast<std::size_t>(size.width); }
 };
 
-Slices read_slices(const ConstTexelView& view) {
-  Slices slices{{view.width, view.height, view.layers}, {}};
-  for (int z = 0; z < view.layers; ++z) {
-    for (int y = 0; y < view.height; ++y) {
-      for (int x = 0; x < view.width; ++x) {
-        const vec4<double> v = detail::TexelReader<double>{view.format, view.at(x, y, z)}(0);
-        slices.values.emplace_back(v.x, v.y, v.z, v.w);
-      }
+Slices read_slices(const ConstTexelView& view, const Workers* workers) {
+  Slices slices({view.width, view.height, view.layers});
+  detail::for_each_row(workers, slices.rows(), [&](int r) {
+    for (int x = 0; x < view.width; ++x) {
+      const vec4<double> v = detail::TexelReader<double>{view.format, view.at(x, r % view.height, r / view.height)}(0);
+      slices.row(r)[x] = {v.x, v.y, v.z, v.w};
     }
-  }
+  });
   return slices;
 }
 
-Slices next_slices(const Slices& from) {
-  Slices to{size_of_level(TextureKind::three_d, from.size, 1), {}};
-  for (int z = 0; z < to.size.depth; ++z) {
-    const auto slices = detail::mip_taps<double>(from.size.depth, z);
-    for (int y = 0; y < to.size.height; ++y) {
-      const auto rows = detail::mip_taps<double>(from.size.height, y);
-      for (int x = 0; x < to.size.width; ++x) {
-        const auto columns = detail::mip_taps<double>(from.size.width, x);
-        glm::dvec4 sum(0.0);
-        for (int k = 0; k < slices.count; ++k) {
-          for (int j = 0; j < rows.count; ++j) {
-            for (int i = 0; i < columns.count; ++i)
-              sum += slices.weight[k] * rows.weight[j] * columns.weight[i] * from.at(columns.first + i, rows.first + j, slices.first + k);
-          }
+Slices next_slices(const Slices& from, const Workers* workers) {
+  Slices to(size_of_level(TextureKind::three_d, from.size, 1));
+  std::vector<detail::MipTaps<double>> columns;
+  for (int x = 0; x < to.size.width; ++x) columns.push_back(detail::mip_taps<double>(from.size.width, x));
+  detail::for_each_row(workers, to.rows(), [&](int r) {
+    const FloatMode float_mode;
+    const auto slices = detail::mip_taps<double>(from.size.depth, r / to.size.height);
+    const auto rows = detail::mip_taps<double>(from.size.height, r % to.size.height);
+    for (int k = 0; k < slices.count; ++k) {
+      for (int j = 0; j < rows.count; ++j) {
+        const glm::dvec4* const row = from.row((slices.first + k) * from.size.height + rows.first + j);
+        for (int x = 0; x < to.size.width; ++x) {
+          const detail::MipTaps<double>& taps = columns[static_cast<std::size_t>(x)];
+          for (int i = 0; i < taps.count; ++i) to.row(r)[x] += slices.weight[k] * rows.weight[j] * taps.weight[i] * row[taps.first + i];
         }
-        to.values.push_back(sum);
       }
     }
-  }
+  });
   return to;
 }
 
 /// Encodes a value in the units of TexelReader. The codes of normalized formats are rounded to the nearest integer, ties to even.
 void encode_units(TexelFormat format, const glm::dvec4& v, std::byte* texel) {
   const TexelInfo& info = texel_info(format);
-  const glm::ivec4 codes(round_to_int(static_cast<float>(v.x)), round_to_int(static_cast<float>(v.y)),
-                         round_to_int(static_cast<float>(v.z)), round_to_int(static_cast<float>(v.w)));
+  const glm::ivec4 codes(round_to_int(v.x), round_to_int(v.y), round_to_int(v.z), round_to_int(v.w));
   const auto integers = [&](TexelFormat with_one_channel) {
     return static_cast<TexelFormat>(static_cast<int>(with_one_channel) + info.channels - 1);
   };
@@ -86,12 +81,11 @@ void encode_units(TexelFormat format, const glm::dvec4& v, std::byte* texel) {
   encode_texel(format, color, texel);
 }
 
-void write_slices(const Slices& slices, const TexelView& view) {
-  for (int z = 0; z < view.layers; ++z) {
-    for (int y = 0; y < view.height; ++y) {
-      for (int x = 0; x < view.width; ++x) encode_units(view.format, slices.at(x, y, z), view.at(x, y, z));
-    }
-  }
+void write_slices(const Slices& slices, const TexelView& view, const Workers* workers) {
+  detail::for_each_row(workers, slices.rows(), [&](int r) {
+    const FloatMode float_mode;
+    for (int x = 0; x < view.width; ++x) encode_units(view.format, slices.row(r)[x], view.at(x, r % view.height, r / view.height));
+  });
 }
 
 }  // namespace
@@ -140,16 +134,14 @@ void TextureMemory::generate_mipmaps(const Workers* workers) {
   HS_CHECK(!is_integer(format_) && !has_stencil(format_),
            "TextureMemory: integers and stencil values have no mean; expected another format for mipmaps");
   const bool volume = kind_ == TextureKind::three_d;
-  const int parts = volume ? 1 : levels_[0].layers;
-  detail::for_each_row(workers, parts, [&](int part) {
-    const FloatMode float_mode;
+  for (int part = 0; part < (volume ? 1 : levels_[0].layers); ++part) {
     const auto slices_of = [&](int k) { return volume ? level(k) : layer(part, k); };
-    Slices slices = read_slices(slices_of(0));
+    Slices slices = read_slices(slices_of(0), workers);
     for (int k = 1; k < levels(); ++k) {
-      slices = next_slices(slices);
-      write_slices(slices, slices_of(k));
+      slices = next_slices(slices, workers);
+      write_slices(slices, slices_of(k), workers);
     }
-  });
+  }
 }
 
 }  // namespace halfspace::HS_LANES

@@ -47,7 +47,7 @@ class TextureMemory {
 
   /// Computes all levels from level 0 (glGenerateMipmap). Each texel is the mean of the texels of the level before, weighted by area as in
   /// mip_chain() (texture.h), before that is rounded; sRGB is averaged in linear light. Not for integers and formats with stencil. If
-  /// workers are given they share the layers; the result is bit-identical.
+  /// workers are given they share the rows; the result is bit-identical.
   void generate_mipmaps(const Workers* workers = nullptr);
 
  private:

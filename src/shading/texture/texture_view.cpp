@@ -211,30 +211,35 @@ struct IntegerTexels {
 template <class R>
 vec4<R> sample_texture(const TextureSource& source, const Sampler& sampler, const TexturePlace<R>& place, const TextureSlopes<R>& slopes,
                        const LookupOptions& options) {
+  HS_DCHECK(!is_integer(source.table.format));
   return swizzled(source.table, sample_with(AllChannels<R>{}, source, sampler, place, slopes, options));
 }
 
 template <class R>
 vec4<R> sample_texture_level(const TextureSource& source, const Sampler& sampler, const TexturePlace<R>& place, const R& lod,
                              const glm::ivec3& offset) {
+  HS_DCHECK(!is_integer(source.table.format));
   return swizzled(source.table, sample_level_with(AllChannels<R>{}, source, sampler, place, lod, offset));
 }
 
 template <class R>
 R compare_texture(const TextureSource& source, const Sampler& sampler, const TexturePlace<R>& place, const R& reference,
                   const TextureSlopes<R>& slopes, const LookupOptions& options) {
+  HS_DCHECK(!is_integer(source.table.format));
   return sample_with(compared_red(source, sampler, reference), source, sampler, place, slopes, options);
 }
 
 template <class R>
 R compare_texture_level(const TextureSource& source, const Sampler& sampler, const TexturePlace<R>& place, const R& reference, const R& lod,
                         const glm::ivec3& offset) {
+  HS_DCHECK(!is_integer(source.table.format));
   return sample_level_with(compared_red(source, sampler, reference), source, sampler, place, lod, offset);
 }
 
 template <class R>
 vec4<R> gather_texture(const TextureSource& source, const Sampler& sampler, const TexturePlace<R>& place, int component,
                        const glm::ivec3& offset) {
+  HS_DCHECK(!is_integer(source.table.format));
   const std::array<vec4<R>, 4> v = gathered(AllChannels<R>{}, source, sampler, place, offset);
   const auto channel = [&](std::size_t k) { return swizzled(source.table, v[k])[component]; };
   return {channel(0), channel(1), channel(2), channel(3)};
@@ -280,7 +285,7 @@ vec2<R> query_texture_lod(const TextureSource& source, const Sampler& sampler, c
   return {has_mips ? clamp(lod, 0.0f, R(static_cast<float>(source.table.levels - 1))) : R(0.0f), lod};
 }
 
-// A macro would name the ten functions once, but hide them from tools that find definitions.
+/// Instantiates all lookups of a number type.
 template <class R>
 struct Instances {
   static constexpr auto kAll =

@@ -126,7 +126,7 @@ class TextureView {
   }
 
   /// GLSL's texture() and textureGrad(). dx and dy are the changes in the coordinates to the next pixel to the right and to the next pixel
-  /// up. Not for integer formats. Depths are returned in red.
+  /// up. Not for integer formats, which builds with asserts check. Depths are returned in red.
   template <class P, class R = CoordinateReal<P>>
   requires std::is_same_v<P, TextureCoordinates<kind, R>> vec4<R> sample(const Sampler& sampler, const P& p,
                                                                          const TextureDerivatives<kind, R>& dx,
@@ -191,7 +191,7 @@ class TextureView {
   /// GLSL's texelFetch(): reads a texel by its column, row and layer (slice, face or sample). Outside of the level, all channels are 0.
   template <class R>
   vec4<R> fetch(const ivec3<R>& texel, std::type_identity_t<IntOf<R>> level = IntOf<R>(0)) const;
-  /// The same for integer formats, and for the stencil of formats that have it, in the first channel.
+  /// The same for integer formats, and for the stencil of formats with depth, in the first channel; 0 if there is none.
   template <class R>
   ivec4<R> fetch_integers(const ivec3<R>& texel, std::type_identity_t<IntOf<R>> level = IntOf<R>(0)) const;
 
