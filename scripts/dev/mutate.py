@@ -137,11 +137,20 @@ def select(faults, arguments):
     return [stems[argument] for argument in arguments]
 
 
-def listed_files():
-    """Returns the paths of the files of the tree, relative to its root."""
+def listed_names():
+    """Returns the paths of the files and links of the tree, relative to its root."""
     listed = subprocess.run(["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"], cwd=ROOT, check=True, text=True,
                             stdout=subprocess.PIPE).stdout
-    return sorted(name for name in filter(None, listed.split("\0")) if (ROOT / name).is_file())  # a deleted file is still listed
+    return sorted(filter(None, listed.split("\0")))
+
+
+def listed_files():
+    return [name for name in listed_names() if (ROOT / name).is_file()]  # a deleted file is still listed
+
+
+def listed_folder_links():
+    """Returns the links to folders, such as include/halfspace."""
+    return [name for name in listed_names() if (ROOT / name).is_symlink() and (ROOT / name).is_dir()]
 
 
 def source_key(names):
@@ -177,6 +186,11 @@ class Copy:
                 target.parent.mkdir(parents=True, exist_ok=True)
                 target.write_bytes(content)
                 shutil.copymode(ROOT / name, target)
+        for name in listed_folder_links():
+            link = self.root / name
+            if not link.is_symlink():
+                link.parent.mkdir(parents=True, exist_ok=True)
+                link.symlink_to(os.readlink(ROOT / name))
 
     def run(self, command, timeout=None):
         """Runs a command. Returns its exit code, or None if it did not finish in time."""

@@ -107,6 +107,12 @@ class Checks(unittest.TestCase):
                 mutate.record(mutate.parse("stem", path.read_text()), "raster New.Test")
             self.assertEqual("name: A fault\nfile: src/core/a.h\ntest: raster New.Test\n- test: one\n+ two\n", path.read_text())
 
+    def test_copies_have_the_links_of_the_tree(self):
+        self.assertIn("include/halfspace", mutate.listed_folder_links())
+        with tempfile.TemporaryDirectory() as folder:
+            copy = mutate.Copy(Path(folder), ["src/core/check.h"], 1)
+            self.assertTrue((copy.root / "include" / "halfspace" / "core" / "check.h").is_file())
+
     def test_results_depend_on_the_fault_and_the_sources(self):
         first, second = (mutate.Fault("stem", "A fault", "src/core/a.h", "one", new) for new in ("two", "three"))
         self.assertEqual(mutate.fault_key("sources", first), mutate.fault_key("sources", first))
