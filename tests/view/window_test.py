@@ -276,24 +276,37 @@ class Desktop(Folder):
     @classmethod
     def setUpClass(cls):
         read_end, write_end = os.pipe()
-        cls.server = subprocess.Popen(["Xvfb", "-displayfd", str(write_end), "-screen", "0", "1280x1024x24", "-dpi", "96"],
+        # With -noreset: without it, the server resets itself when its only client leaves. If that is wmctrl, which asks for the window manager,
+        # the server closes the connection of the window manager that starts at that moment, and the window manager ends.
+        cls.server = subprocess.Popen(["Xvfb", "-displayfd", str(write_end), "-noreset", "-screen", "0", "1280x1024x24", "-dpi", "96"],
                                       pass_fds=[write_end], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        cls.addClassCleanup(cls.end, cls.server)
         os.close(write_end)
         with os.fdopen(read_end) as number:
             cls.environment = {**os.environ, "DISPLAY": ":" + number.readline().strip(), **LEAKS_ARE_READ}
         cls.environment.pop("SDL_VIDEODRIVER", None)
         cls.manager = subprocess.Popen(["openbox"], env=cls.environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        cls.addClassCleanup(cls.end, cls.manager)
+        cls.wait_for(cls.manager_runs, "window manager starts")
+
+    @staticmethod
+    def end(process):
+        process.terminate()
+        process.wait()
 
     @classmethod
-    def tearDownClass(cls):
-        for process in (cls.manager, cls.server):
-            process.terminate()
-            process.wait()
+    def manager_runs(cls):
+        """Returns whether a window manager answers. Fails if it has ended."""
+        if cls.manager.poll() is not None:
+            raise AssertionError(f"openbox ended with code {cls.manager.returncode}")
+        return cls.tool("wmctrl", "-m", check=False)
 
-    def tool(self, *command, check=True):
-        return subprocess.run([str(word) for word in command], env=self.environment, check=check, capture_output=True, text=True, timeout=30).stdout
+    @classmethod
+    def tool(cls, *command, check=True):
+        return subprocess.run([str(word) for word in command], env=cls.environment, check=check, capture_output=True, text=True, timeout=30).stdout
 
-    def wait_for(self, condition, what):
+    @staticmethod
+    def wait_for(condition, what):
         """Waits until the condition holds. The limit is long because of busy machines, and because of the first start of a newly built
         program: a window once took more than 20 s to open while other tests ran."""
         limit = 180
@@ -302,11 +315,7 @@ class Desktop(Folder):
             if value := condition():
                 return value
             time.sleep(0.05)
-        self.fail(f"{what}: did not happen within {limit} s")
-
-    def setUp(self):
-        super().setUp()
-        self.wait_for(lambda: self.tool("wmctrl", "-m", check=False), "window manager starts")
+        raise AssertionError(f"{what}: did not happen within {limit} s")
 
     def start(self, scene, *options, size=f"{WIDTH}x{HEIGHT}"):
         self.process = subprocess.Popen([program("halfspace-view"), scene, "--size", size, "--threads", "2", *options],
