@@ -4,6 +4,7 @@
 // BlendState is set up for straight alpha blending. There is no global state; every draw has its own copy.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -21,12 +22,13 @@ struct Rect {
   friend bool operator==(const Rect&, const Rect&) = default;
 };
 
-/// Returns the intersection of two rectangles. Its width or height is <= 0 if they do not overlap.
+/// Returns the intersection of two rectangles. Its width or height is 0 if they do not overlap. The right and upper sides of the rectangles
+/// can be beyond the range of int.
 constexpr Rect intersect(const Rect& a, const Rect& b) {
-  const int x0 = a.x > b.x ? a.x : b.x, y0 = a.y > b.y ? a.y : b.y;
-  const int x1 = a.x + a.width < b.x + b.width ? a.x + a.width : b.x + b.width;
-  const int y1 = a.y + a.height < b.y + b.height ? a.y + a.height : b.y + b.height;
-  return {x0, y0, x1 - x0, y1 - y0};
+  const int x = std::max(a.x, b.x), y = std::max(a.y, b.y);
+  const int64_t right = std::min(int64_t{a.x} + a.width, int64_t{b.x} + b.width);
+  const int64_t top = std::min(int64_t{a.y} + a.height, int64_t{b.y} + b.height);
+  return {x, y, static_cast<int>(std::max<int64_t>(right - x, 0)), static_cast<int>(std::max<int64_t>(top - y, 0))};
 }
 
 /// Primitive topology (OpenGL 4.6, section 10.1). In a strip, every other triangle has two of its vertices swapped so that all triangles
@@ -67,7 +69,8 @@ struct DepthState {
   friend bool operator==(const DepthState&, const DepthState&) = default;
 };
 
-/// Polygon offset for filled triangles (OpenGL 4.6, section 14.6.5). The offset slope·m + constant·r is clamped and then added to the
+/// Polygon offset for filled triangles (OpenGL 4.6, section 14.6.5). Points and lines have none; an offset of outlines or corners of
+/// triangles (PolygonMode) is refused. The offset slope·m + constant·r is clamped and then added to the
 /// window depth. Here m = max(|dz/dx|, |dz/dy|), and r is the smallest resolvable difference of the depth format. For 32-bit float depth,
 /// r = 2^(e−23), where e is the exponent of the largest |z| of the triangle. A positive offset moves the triangle away from the eye, or
 /// towards it with reversed Z.
@@ -102,8 +105,10 @@ enum class BlendFactor : uint8_t {
 enum class BlendEquation : uint8_t { add, subtract, reverse_subtract, min, max };
 
 /// Blending: result = src·source + dst·destination for each channel (OpenGL 4.6, section 17.3.6). Alpha has its own equation and factors.
-/// Blending is linear: colors stored as sRGB are decoded first. The src1 factors require a single color attachment and a fragment function
-/// that returns at least two colors.
+/// The defaults are straight alpha blending with a correct alpha of the result: glBlendFuncSeparate(SRC_ALPHA, ONE_MINUS_SRC_ALPHA, ONE,
+/// ONE_MINUS_SRC_ALPHA). glBlendFunc(SRC_ALPHA, ONE_MINUS_SRC_ALPHA) has source_alpha = src_alpha, and OpenGL's initial state is (one,
+/// zero). Blending is linear: colors stored as sRGB are decoded first. The src1 factors require a single color attachment and a fragment
+/// function that returns at least two colors.
 struct BlendState {
   BlendEquation color_equation = BlendEquation::add;
   BlendFactor source_color = BlendFactor::src_alpha, destination_color = BlendFactor::one_minus_src_alpha;
@@ -182,7 +187,9 @@ struct StencilState {
   friend bool operator==(const StencilState&, const StencilState&) = default;
 };
 
-/// Complete state of a draw call, apart from the shader, vertices and indices.
+/// Complete state of a draw call, apart from the shader, vertices and indices. As in OpenGL, state for multisampling has no effect in
+/// passes with one sample per pixel, the depth test always passes without a depth buffer, and the size of points, the width of lines and
+/// the provoking vertex are for draws that have such. The same state can therefore be used with different passes and topologies.
 struct DrawState {
   Topology topology = Topology::triangles;
   uint32_t first = 0;               ///< the first vertex of a draw without indices, or the place of the first index in the list
@@ -190,19 +197,19 @@ struct DrawState {
   int32_t base_vertex = 0;          ///< added to every index
   uint32_t instances = 1;           ///< number of instances; see VertexId and per_instance()
   uint32_t base_instance = 0;  ///< row of the per-instance streams at which instance 0 starts; VertexId::instance starts at 0 all the same
-  float point_size = 1.0f;     ///< side length of a point in pixels, at least 0, unless the vertex function sets it
+  float point_size = 1.0f;     ///< side length of a point in pixels, at least 0; ignored if the vertex function returns a PerVertex
   PointOrigin point_origin = PointOrigin::upper_left;
   float line_width = 1.0f;  ///< in pixels, 0 to kMaxLineWidth; rounded to an integer if there is one sample per pixel
   PolygonMode polygon_mode = PolygonMode::fill;
   std::optional<Rect> viewport{};  ///< default: the whole target
-  std::optional<Rect> scissor{};   ///< default: no scissor test
+  std::optional<Rect> scissor{};   ///< of any size, at least 0 x 0; default: no scissor test
   CullMode cull = CullMode::none;
   Winding front = Winding::counter_clockwise;
   ProvokingVertex provoking = ProvokingVertex::last;
   DepthState depth{};
   DepthOffset offset{};
-  std::optional<StencilState> stencil{};  ///< default: no stencil test
-  bool sample_shading = false;            ///< run the fragment function once per sample, at the sample position
+  std::optional<StencilState> stencil{};  ///< default: no stencil test; without a stencil buffer, the test always passes
+  bool sample_shading = false;            ///< multisampling only: run the fragment function once per sample, at the sample position
   /// Multisampling only: the alpha of the first color determines how many samples are drawn. Has no effect if the first color attachment
   /// contains integers.
   bool alpha_to_coverage = false;
@@ -218,7 +225,8 @@ struct DrawState {
   bool order_independent = false;
   std::optional<BlendState> blend{};  ///< default: no blending, the color is replaced
   ColorMask color_mask{};
-  std::array<std::optional<AttachmentState>, kMaxColorTargets> attachments{};  ///< override blend and color_mask
+  /// Entry i replaces both blend and color_mask for attachment i, which the pass must have.
+  std::array<std::optional<AttachmentState>, kMaxColorTargets> attachments{};
   /// Combines the codes of unsigned normalized and integer formats bit by bit (OpenGL 4.6, section 17.3.9). Requires that all attachments
   /// have such formats, except sRGB, and no blending.
   std::optional<LogicOp> logic_op{};

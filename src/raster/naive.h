@@ -18,6 +18,7 @@
 #include "halfspace/core/image.h"
 #include "halfspace/raster/detail/draw_input.h"
 #include "halfspace/raster/detail/naive_steps.h"
+#include "halfspace/raster/detail/stream_match.h"
 #include "halfspace/raster/draw_state.h"
 #include "halfspace/raster/shade/plane_anchor.h"
 #include "halfspace/raster/vertex_input.h"

@@ -56,15 +56,15 @@ uint32_t coverage_mask(const std::optional<SampleCoverage>& coverage, int sample
 
 PixelBounds to_bounds(const Rect& r) { return {r.x, r.y, r.x + r.width, r.y + r.height}; }
 
-void check_rect(const Rect& r, int smallest) {
-  HS_CHECK_OP(r.width, >=, smallest,
-              "DrawState: the viewport or the scissor is too narrow; expected a width of at least 1, or 0 for the scissor");
-  HS_CHECK_OP(r.height, >=, smallest,
-              "DrawState: the viewport or the scissor is too low; expected a height of at least 1, or 0 for the scissor");
-  HS_CHECK_OP(r.width, <=, kMaxTargetSize, "DrawState: the viewport or the scissor is too wide; expected at most 16384");
-  HS_CHECK_OP(r.height, <=, kMaxTargetSize, "DrawState: the viewport or the scissor is too high; expected at most 16384");
+void check_viewport(const Rect& r) {
+  HS_CHECK(r.width >= 1 && r.width <= kMaxTargetSize && r.height >= 1 && r.height <= kMaxTargetSize,
+           "DrawState: the size of the viewport is outside of its range; expected a width and a height from 1 to 16384");
   HS_CHECK(r.x >= -kMaxTargetSize && r.x <= kMaxTargetSize && r.y >= -kMaxTargetSize && r.y <= kMaxTargetSize,
-           "DrawState: the origin of the viewport or the scissor is too far away; expected at most 16384 from 0");
+           "DrawState: the origin of the viewport is too far away; expected at most 16384 from 0");
+}
+
+void check_scissor(const Rect& r) {
+  HS_CHECK(r.width >= 0 && r.height >= 0, "DrawState: the size of the scissor is negative; expected a width and a height of at least 0");
 }
 
 // Comparisons are written so that NaN fails.
@@ -82,8 +82,8 @@ void check_numbers(const DrawState& state) {
              "sample_coverage: the value is outside of its range; expected 0 to 1");
   }
   if (state.query) HS_CHECK_OP(*state.query, <, kMaxQueries, "query: is too large; expected less than 65536");
-  if (state.viewport) check_rect(*state.viewport, 1);
-  if (state.scissor) check_rect(*state.scissor, 0);
+  if (state.viewport) check_viewport(*state.viewport);
+  if (state.scissor) check_scissor(*state.scissor);
 }
 
 }  // namespace
@@ -100,6 +100,7 @@ class PassState {
                 const DrawState& state);
   void set_post_step(PostStep post);
   void check_clear(const ClearValues& values) const;
+  std::size_t attachment_count() const { return attachments_.colors.size(); }
   PassStatistics run(TileRunner& tiles, const Workers& workers);
 
  private:
@@ -183,6 +184,8 @@ void PassState::add_draw(const ShaderKernels& kernels, KeptShader shader, const 
   // Most draws have the same state as the one before.
   const Draw* const equal = !context_.draws.empty() && context_.draws.back().state == state ? &context_.draws.back() : nullptr;
   if (equal == nullptr) check_state(state);
+  HS_CHECK(!kernels.gives_point_sprite || draws_points(state),
+           "Pass::draw: the shader computes rectangles of points, but no points are drawn; expected Topology::points");
   check_color_types(kernels);
   for (std::size_t i = 0; i < attachments_.colors.size(); ++i) {
     const std::optional<BlendState>& blend = blend_of(state, i);
@@ -219,6 +222,10 @@ void PassState::check_color_types(const ShaderKernels& kernels) const {
 
 void PassState::check_state(const DrawState& state) const {
   check_numbers(state);
+  HS_CHECK(state.polygon_mode == PolygonMode::fill || (state.offset.slope == 0 && state.offset.constant == 0),
+           "DrawState: a depth offset is combined with outlines or corners of triangles; expected PolygonMode::fill or no offset");
+  for (std::size_t i = attachments_.colors.size(); i < state.attachments.size(); ++i)
+    HS_CHECK(!state.attachments[i], "DrawState: there is a state for an attachment that the pass does not have; expected none");
   if (state.order_independent) {
     HS_CHECK(attachments_.colors.size() == 1 && attachments_.has_color && !is_integer(attachments_.colors[0].format),
              "DrawState: order_independent needs one color target of colors; expected no integers and no second target");
@@ -299,10 +306,8 @@ void PassState::check_clear(const ClearValues& values) const {
   }
   if (values.rect) {
     const Rect& r = *values.rect;
-    HS_CHECK(r.width >= 0 && r.width <= kMaxTargetSize && r.height >= 0 && r.height <= kMaxTargetSize,
-             "Pass::clear: the size of the rectangle is outside of its range; expected a width and a height from 0 to 16384");
-    HS_CHECK(r.x >= -kMaxTargetSize && r.x <= kMaxTargetSize && r.y >= -kMaxTargetSize && r.y <= kMaxTargetSize,
-             "Pass::clear: the origin of the rectangle is too far away; expected at most 16384 from 0");
+    HS_CHECK(r.width >= 0 && r.height >= 0,
+             "Pass::clear: the size of the rectangle is negative; expected a width and a height of at least 0");
   }
   for (std::size_t i = attachments_.colors.size(); i < values.colors.size(); ++i)
     HS_CHECK(!values.colors[i], "Pass::clear: there is a color for an attachment that the pass does not have; expected no color");
@@ -378,7 +383,7 @@ constexpr ShaderKernels kClearKernels = [] {
 }();
 
 // All depths of the depth range are the depth of the clear, so the triangle has exactly that.
-DrawState state_of(const ClearValues& values) {
+DrawState state_of(const ClearValues& values, std::size_t attachment_count) {
   DrawState state;
   state.scissor = values.rect;
   state.depth = {.test = values.depth.has_value(),
@@ -391,7 +396,7 @@ DrawState state_of(const ClearValues& values) {
     state.stencil = StencilState{face, face};
   }
   constexpr ColorMask kNothing{false, false, false, false};
-  for (std::size_t i = 0; i < values.colors.size(); ++i)
+  for (std::size_t i = 0; i < attachment_count; ++i)
     state.attachments[i] = AttachmentState{.mask = values.colors[i] ? values.mask : kNothing};
   return state;
 }
@@ -409,7 +414,8 @@ void Pass::clear(const ClearValues& values) {
   const VertexView corners = make_vertex_view(stream(std::span<const glm::vec4>(kCorners)));
   detail::add_draw(*state_, has_color ? kClearKernels : detail::kKernels<ClearShader, detail::DrawKind::depth_only>,
                    detail::keep_shader(shader, detail::memory_of(*state_)), corners,
-                   std::make_shared<const Indices>(Indices::sequential(corners.vertex_count)), state_of(values));
+                   std::make_shared<const Indices>(Indices::sequential(corners.vertex_count)),
+                   state_of(values, state_->attachment_count()));
 }
 
 PassStatistics Pass::run(const Workers& workers) {

@@ -34,7 +34,7 @@ struct PassOptions {
   /// Samples per pixel: 1, 2, 4 or 8, at the standard positions. Colors are resolved to the mean of the samples; depth and stencil are
   /// taken from sample 0. Targets with images for all samples keep them instead: see ColorTarget::samples.
   int samples = 1;
-  /// Run all fragment functions once per sample, as if every draw had DrawState::sample_shading.
+  /// Run all fragment functions once per sample, as if every draw had DrawState::sample_shading. With one sample, there is no difference.
   bool supersample = false;
   PassTuning tuning{};
 };
@@ -58,8 +58,9 @@ class Pass {
   /// overlap, which is checked, and must outlive the pass.
   Pass(int width, int height, const ColorTarget& color, const DepthTarget& depth, const PassOptions& options = {})
       : Pass(std::span(&color, 1), width, height, depth, options) {}
-  /// Creates a pass with up to kMaxColorTargets color attachments. Fragment output n is written to attachment n; attachments without an
-  /// output are left unchanged.
+  /// Creates a pass with up to kMaxColorTargets color attachments. Fragment output n is written to attachment n. As in OpenGL, attachments
+  /// without an output are left unchanged, and outputs without an attachment are ignored. A draw that leaves an attachment unchanged is
+  /// slower: it is shaded at once, also where later draws cover it.
   template <class Colors>
   requires std::convertible_to<const Colors&, std::span<const ColorTarget>> Pass(int width, int height, const Colors& colors,
                                                                                  const DepthTarget& depth, const PassOptions& options = {})
@@ -77,8 +78,8 @@ class Pass {
   ///
   /// Every index plus DrawState::base_vertex must be a valid vertex of the view, and per-instance streams must have rows for all instances
   /// from DrawState::base_instance on. The streams must match the members of the shader's Attributes one by one; this is checked at compile
-  /// time where the vertex type is known. Of a plain VertexView, the total number of components and the places of the integers are checked
-  /// when the draw is added. Other violations fail an HS_CHECK (core/check.h), also when the draw is added.
+  /// time where the vertex type is known. Of a plain VertexView, the components of the streams are checked when the draw is added. Other
+  /// violations fail an HS_CHECK (core/check.h), also when the draw is added.
   template <class S, class V, detail::IndexList I>
   void draw(const S& shader, const V& vertices, I&& indices, const DrawState& state = {}) {
     check_lifetime<I>();
@@ -93,7 +94,8 @@ class Pass {
   }
 
   /// Adds a draw that only writes depth and stencil. The shader's fragment function, if any, is not called. Its visibility function, if
-  /// any, determines coverage, and the depth if the fragment function returns one.
+  /// any, determines coverage, and the depth if the fragment function returns one. A shader whose fragment function discards or returns a
+  /// depth must have a visibility function; otherwise compilation fails.
   template <class S, class V, detail::IndexList I>
   void draw_depth(const S& shader, const V& vertices, I&& indices, const DrawState& state = {}) {
     check_lifetime<I>();

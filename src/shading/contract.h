@@ -27,7 +27,9 @@
 //     what they draw in it.
 //   template <class R> Visibility<R> visibility(const Varyings<R>& in, const Pixel<R>& px) const;
 //     Computes the keep mask and the depth that fragment will return, without the color. With it, a shader that discards
-//     fragments or writes depth can be shaded once per visible pixel, like an opaque one.
+//     fragments or writes depth can be shaded once per visible pixel, like an opaque one, and drawn with Pass::draw_depth. Both
+//     functions must return the same keep mask and depth; nothing checks that, and if they differ, so can pictures of the same draw.
+//     The depth is ignored unless the fragment function returns one.
 //
 // R is float, double or lanes. float and glm::vec3 are uniform; R and vec3<R> vary per pixel. The return type of fragment states
 // what it can do: Fragment (color only), DiscardingFragment or DepthFragment, or their variants FragmentMRT<R, N>,
@@ -59,7 +61,8 @@ struct PrimitiveId {
   vec3<R> barycentrics;
 };
 
-/// Return type of vertex functions that output more than the clip-space position.
+/// Return type of vertex functions that output more than the clip-space position. Its point size replaces DrawState::point_size, also if
+/// the function only sets clip distances.
 template <class R, std::size_t clip_distances = 0>
 struct PerVertex {
   vec4<R> position;
@@ -67,7 +70,8 @@ struct PerVertex {
   std::array<R, clip_distances> clip_distance{};  ///< at most 8; parts where a distance is negative are clipped
 };
 
-/// Return type of vertex functions that compute the bounds of a point. Pixels with a sample inside the rectangle are drawn.
+/// Return type of vertex functions that compute the bounds of a point. Pixels with a sample inside the rectangle are drawn. The topology
+/// of the draw must be points, which is checked.
 template <class R>
 struct PointSpriteVertex {
   vec2<R> low, high;  ///< corners of the rectangle in NDC (x/w, y/w)
@@ -154,7 +158,7 @@ struct DepthTypedFragment {
   R depth;
 };
 
-/// The part of a DepthFragment that determines visibility.
+/// Return type of visibility functions: the part of a DepthFragment that determines visibility.
 template <class R>
 struct Visibility {
   MaskOf<R> keep;
@@ -404,6 +408,20 @@ consteval bool require_vertex_shader() {
   return VertexShader<S>;
 }
 
+/// Returns true if Pass::draw_depth draws S as Pass::draw does; otherwise compilation fails with a message that says what is missing.
+template <class S>
+consteval bool require_depth_shader() {
+  if constexpr (!require_vertex_shader<S>()) {
+    return false;
+  } else if constexpr (HasFragmentFunction<S>) {
+    using F = FragmentOf<S>;
+    static_assert(HasVisibilityFunction<S> || (!detail::kIsDiscarding<F> && !detail::kHasDepth<F>),
+                  "draw_depth() does not call the fragment function, but that of this shader discards or returns a depth; the shader is "
+                  "missing: template <class R> Visibility<R> visibility(const Varyings<R>& in, const Pixel<R>& px) const;");
+  }
+  return true;
+}
+
 /// Returns true if Pass::draw accepts S; otherwise compilation fails with a message that says what is missing.
 template <class S>
 consteval bool require_shader() {
@@ -424,6 +442,9 @@ consteval bool require_shader() {
     static_assert(detail::kIsFragment<FragmentOf<S>>,
                   "the shader's fragment function must return Fragment<R>, DiscardingFragment<R> or DepthFragment<R>, or one of "
                   "their variants for several colors");
+    static_assert(!HasVisibilityFunction<S> || detail::kIsDiscarding<FragmentOf<S>>,
+                  "the shader has a visibility function, but its fragment function neither discards nor returns a depth: return a "
+                  "DiscardingFragment<R> or a DepthFragment<R>");
     return Shader<S>;
   }
   return false;

@@ -264,7 +264,7 @@ TEST_F(IntegerMisuseTest, ViewsWithoutTypesAreChecked) {
   Pass pass(8, 8, rgba32f_target(image), {});
   const auto draw = [&](const VertexView& view) { return failure_of([&] { pass.draw(IntegerColorShader{}, view); }); };
   EXPECT_EQ(draw(make_vertex_view(stream(p), stream<ReadAs::integers>(bits), stream<ReadAs::integers>(more))), "");
-  EXPECT_NE(draw(make_vertex_view(stream(p), stream(numbers), stream<ReadAs::integers>(more))).find("expected stream<ReadAs::integers>"),
+  EXPECT_NE(draw(make_vertex_view(stream(p), stream(numbers), stream<ReadAs::integers>(more))).find("and stream<ReadAs::integers> for IntOf<R>"),
             std::string::npos);
   EXPECT_NE(draw(make_vertex_view(stream(p), stream<ReadAs::floats>(bits), stream<ReadAs::integers>(more))), "");
   EXPECT_NE(draw(make_vertex_view(stream<ReadAs::integers>(bits), stream(p), stream<ReadAs::integers>(more))), "") << "another order";

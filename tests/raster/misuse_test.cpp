@@ -120,9 +120,122 @@ TEST_F(MisuseTest, ClearsAreChecked) {
   EXPECT_EQ(message({.rect = Rect{-5, 3, 0, 4}, .colors = {glm::vec4(1)}, .depth = 1.0f}), "");
   for (const float z : {kNaN, -0.5f, 1.5f})
     EXPECT_NE(message({.depth = z}).find("Pass::clear: the depth"), std::string::npos) << message({.depth = z});
-  for (const Rect& r : {Rect{0, 0, -1, 4}, Rect{0, 0, 4, 20000}, Rect{20000, 0, 1, 1}})
+  for (const Rect& r : {Rect{0, 0, -1, 4}, Rect{0, 0, 4, -20000}})
     EXPECT_NE(message({.rect = r}).find("Pass::clear: the"), std::string::npos);
   EXPECT_NE(message({.colors = {std::nullopt, glm::vec4(1)}}).find("does not have"), std::string::npos);
+}
+
+constexpr int kIntMax = std::numeric_limits<int>::max(), kIntMin = std::numeric_limits<int>::min();
+
+// OpenGL has no largest scissor, and programs without a scissor test set one that is larger than every window.
+TEST_F(MisuseTest, AScissorCanHaveAnySize) {
+  Image<glm::vec4> image(16, 16);
+  const auto pixels_drawn = [&](const Rect& scissor, bool clears) {
+    Pass pass(16, 16, rgba32f_target(image), {});
+    if (clears) {
+      pass.clear({.rect = scissor, .colors = {glm::vec4(1)}});
+    } else {
+      pass.draw(ConstantShader{}, make_vertex_view(stream(positions_)), {.scissor = scissor});
+    }
+    pass.run(one_worker());
+    return std::count(image.data(), image.data() + 256, glm::vec4(1));
+  };
+  for (const bool clears : {false, true}) {
+    EXPECT_EQ(pixels_drawn({0, 0, kIntMax, kIntMax}, clears), 256);
+    EXPECT_EQ(pixels_drawn({8, 12, kIntMax, kIntMax}, clears), 32);
+    EXPECT_EQ(pixels_drawn({-20000, -20000, 20004, 20016}, clears), 64);
+    EXPECT_EQ(pixels_drawn({kIntMin, kIntMin, kIntMax, kIntMax}, clears), 0);
+    EXPECT_EQ(pixels_drawn({kIntMax, kIntMax, kIntMax, kIntMax}, clears), 0);
+    EXPECT_EQ(pixels_drawn({20000, 0, 16, 16}, clears), 0);
+  }
+}
+static_assert(intersect({kIntMin, 0, kIntMax, 4}, {kIntMax, 2, kIntMax, 4}) == Rect{kIntMax, 2, 0, 2});
+
+// State without effect that OpenGL has no counterpart for.
+TEST_F(MisuseTest, StateThatHasNoEffectIsRefused) {
+  Image<glm::vec4> image(16, 16);
+  Image<float> depth(16, 16);
+  Pass pass(16, 16, rgba32f_target(image), {});
+  const auto message = [&](const DrawState& state) {
+    return failure_of([&] { pass.draw(ConstantShader{}, make_vertex_view(stream(positions_)), state); });
+  };
+  for (const PolygonMode mode : {PolygonMode::line, PolygonMode::point}) {
+    EXPECT_NE(message({.polygon_mode = mode, .offset = {.slope = 1}}).find("depth offset"), std::string::npos);
+    EXPECT_NE(message({.polygon_mode = mode, .offset = {.constant = -1}}).find("depth offset"), std::string::npos);
+    EXPECT_EQ(message({.polygon_mode = mode}), "");
+  }
+  EXPECT_EQ(message({.offset = {.slope = 1, .constant = 1}}), "");
+  DrawState state;
+  state.attachments[0] = AttachmentState{};
+  EXPECT_EQ(message(state), "");
+  state.attachments[1] = AttachmentState{};
+  EXPECT_NE(message(state).find("does not have"), std::string::npos);
+
+  const auto target_message = [&](auto target) {
+    target.store = StoreOp::dont_care;
+    return failure_of([&] {
+      if constexpr (std::is_same_v<decltype(target), ColorTarget>) {
+        Pass(16, 16, target, {});
+      } else {
+        Pass(16, 16, ColorTarget{}, target);
+      }
+    });
+  };
+  EXPECT_NE(target_message(rgba32f_target(image)).find("neither loaded nor stored"), std::string::npos);
+  EXPECT_NE(target_message(d32f_target(depth)).find("neither loaded nor stored"), std::string::npos);
+  DepthTarget loaded = d32f_target(depth);
+  loaded.load = LoadOp::load;
+  EXPECT_EQ(target_message(loaded), "");
+}
+
+struct SpriteShader : PositionShader {
+  template <class R>
+  PointSpriteVertex<R> vertex(const Attributes<R>&, Varyings<R>&) const {
+    return {vec2<R>(R(-1)), vec2<R>(R(1)), R(0), MaskOf<R>(true)};
+  }
+};
+
+TEST_F(MisuseTest, OnlyPointsHaveRectangles) {
+  Image<glm::vec4> image(16, 16);
+  Pass pass(16, 16, rgba32f_target(image), {});
+  const auto message = [&](const DrawState& state) {
+    return failure_of([&] { pass.draw_depth(SpriteShader{}, make_vertex_view(stream(positions_)), state); });
+  };
+  EXPECT_EQ(message({.topology = Topology::points}), "");
+  EXPECT_EQ(message({.polygon_mode = PolygonMode::point}), "");
+  for (const Topology topology : {Topology::triangles, Topology::triangle_fan, Topology::lines, Topology::line_strip})
+    EXPECT_NE(message({.topology = topology}).find("expected Topology::points"), std::string::npos);
+}
+
+struct PositionAndUv {
+  template <class R>
+  struct Attributes {
+    vec3<R> position;
+    vec2<R> uv;
+  };
+  template <class R>
+  struct Varyings {};
+
+  template <class R>
+  vec4<R> vertex(const Attributes<R>& in, Varyings<R>&) const {
+    return vec4<R>(in.position, in.uv.x);
+  }
+};
+
+// The compiler does not know the streams of a plain VertexView.
+TEST_F(MisuseTest, StreamsOfPlainViewsAreCompared) {
+  const std::vector<float> numbers(15);
+  const std::byte* data = std::as_bytes(std::span(numbers)).data();
+  Pass pass(16, 16, ColorTarget{}, {.format = DepthFormat::d32f});
+  const auto message = [&](std::initializer_list<int32_t> components) {
+    std::vector<VertexStream> streams;
+    for (const int32_t n : components) streams.push_back({.data = data, .stride = 20, .components = n, .count = 3});
+    return failure_of([&] { pass.draw_depth(PositionAndUv{}, detail::bind_streams(streams)); });
+  };
+  EXPECT_EQ(message({3, 2}), "");
+  EXPECT_EQ(message({5}), "") << "interleaved";
+  for (const auto& other : {std::initializer_list<int32_t>{2, 3}, {4, 1}, {1, 2, 2}, {3}, {3, 1}, {3, 2, 1}, {6}})
+    EXPECT_NE(message(other).find("do not match the attributes"), std::string::npos) << other.size();
 }
 
 TEST_F(MisuseTest, StreamsMadeByHandAreChecked) {

@@ -182,6 +182,15 @@ TEST(Anisotropy, MoreProbesApproachTheAverageOfNoise) {
   EXPECT_GT(std::sqrt(squares[1] / kCount), 0.045);
 }
 
+TEST(Anisotropy, MoreThanTheMaximumIsTheMaximum) {
+  const Texture2D texture = test::make_noise(128, 128, TexelFormat::r8, 6);
+  const vec2<float> uv(0.4f, 0.1f), along(0.5f, 0.0f), across(0.0f, 1.0f / 128.0f);  // an axis ratio of 64
+  const auto sample = [&](int anisotropy) { return texture.sample(Sampler{.anisotropy = anisotropy}, uv, along, across).x; };
+  EXPECT_NE(sample(kMaxAnisotropy), sample(kMaxAnisotropy / 2));
+  EXPECT_EQ(sample(kMaxAnisotropy + 1), sample(kMaxAnisotropy));
+  EXPECT_EQ(sample(1000), sample(kMaxAnisotropy));
+}
+
 TEST(Anisotropy, PreservesALineThatIsotropicFilteringBlurs) {
   // Pairs of black and white rows alternate. The footprint follows a white pair and is 16 texels long and one texel high.
   const Texture2D texture = test::make_texture(64, 64, TexelFormat::r8, [](int, int y) { return y / 2 % 2 == 0 ? 0u : 255u; });

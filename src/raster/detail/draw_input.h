@@ -50,18 +50,6 @@ inline std::shared_ptr<const Indices> sequential_indices(std::size_t vertex_coun
   return std::make_shared<const Indices>(Indices::sequential(vertex_count).range(state.first, count_of(state, vertex_count)));
 }
 
-/// Checks what the compiler does not know about a plain VertexView: the numbers of components, and which of them are integers.
-template <class A>
-void check_streams(const VertexView& vertices) {
-  HS_CHECK_OP(vertices.components, ==, static_cast<int>(kComponents<A>),
-              "Pass::draw: the vertex streams have another number of components than the attributes of the shader; expected one stream per "
-              "attribute, in their order");
-  HS_CHECK(
-      vertices.integer_components == kIntegerComponents<A>,
-      "Pass::draw: a stream of integers is not an integer attribute of the shader, or the reverse; expected stream<ReadAs::integers> for "
-      "IntOf<R> and only for it");
-}
-
 /// Checks that the vertices of all indices exist.
 void check_vertices(const VertexView& view, const Indices& indices, const DrawState& state);
 /// Checks that per-instance streams have rows for all instances (OpenGL 4.6, section 10.3.4).

@@ -100,7 +100,7 @@ consteval bool require_draw() {
 }
 template <class S, class V>
 consteval bool require_depth_draw() {
-  if constexpr (require_vertex_shader<S>()) return require_streams<S, V>();
+  if constexpr (require_depth_shader<S>()) return require_streams<S, V>();
   return false;
 }
 
@@ -113,10 +113,9 @@ void add_draw(PassState& state, const ShaderKernels& kernels, KeptShader shader,
               std::shared_ptr<const Indices> indices, const DrawState& draw_state);
 void set_post_step(PassState& state, PostStep post);
 
-template <DrawKind kind, class S>
-void draw(PassState& state, const S& shader, const VertexView& vertices, std::shared_ptr<const Indices> indices,
-          const DrawState& draw_state) {
-  check_streams<typename S::template Attributes<float>>(vertices);
+template <DrawKind kind, class S, class V>
+void draw(PassState& state, const S& shader, const V& vertices, std::shared_ptr<const Indices> indices, const DrawState& draw_state) {
+  if constexpr (std::same_as<V, VertexView>) check_streams<typename S::template Attributes<float>>(vertices);
   add_draw(state, kKernels<S, kind>, keep_shader(shader, memory_of(state)), vertices, std::move(indices), draw_state);
 }
 

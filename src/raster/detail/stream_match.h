@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Compares the element types of vertex streams with the members of a shader's Attributes, at compile time. Private, but installed because
-// pass.h includes it.
+// Compares vertex streams with the members of a shader's Attributes: their element types at compile time or, if a plain VertexView does not
+// have them, their components when a draw is added. Private, but installed because pass.h includes it.
 //
 // Attributes are a sequence of vectors: one per member, and one per column or element of an array. The streams must provide the same
 // sequence. The elements of a stream are one vector, or a struct whose members are vectors, one after the other. Two kinds of struct
@@ -141,6 +141,7 @@ class StreamMatcher {
  public:
   constexpr explicit StreamMatcher(std::span<const AttributeVector> vectors) : vectors_(vectors) {}
 
+  /// Takes the vectors of the next stream. Returns false if Attributes has other ones.
   constexpr bool take(std::span<const StreamPart> parts, bool is_integer) {
     for (const StreamPart& p : parts) {
       if (!take(p, is_integer)) return false;
@@ -185,8 +186,24 @@ constexpr bool streams_match() {
   return (take(std::type_identity<T>()) && ...) && matcher.is_complete();
 }
 
+/// Checks that the streams of a plain VertexView provide the members of the attributes A. A stream can have several members, and one of
+/// nine floats can be three vec3 or a vec4, a vec3 and a vec2.
+template <class A>
+void check_streams(const VertexView& vertices) {
+  constexpr auto vectors = VectorsOf<FieldsOf<A>>::value;
+  StreamMatcher matcher(vectors);
+  bool match = true;
+  for (const VertexStream& s : vertices.used_streams()) {
+    const StreamPart part{PartKind::block, static_cast<std::size_t>(s.components)};
+    match = match && matcher.take(std::span(&part, 1), s.read_as == ReadAs::integers);
+  }
+  HS_CHECK(match && matcher.is_complete(),
+           "Pass::draw: the vertex streams do not match the attributes of the shader; expected the components of the attributes, in their "
+           "order, and stream<ReadAs::integers> for IntOf<R> and only for it");
+}
+
 template <class A, class V>
-inline constexpr bool kStreamsMatch = true;  // for a plain VertexView, the pass checks its components at run time
+inline constexpr bool kStreamsMatch = true;  // a plain VertexView: see check_streams()
 template <class A, class... T>
 inline constexpr bool kStreamsMatch<A, VertexViewOf<T...>> = streams_match<A, T...>();
 

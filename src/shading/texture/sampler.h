@@ -31,14 +31,16 @@ struct LodControl {
   friend constexpr bool operator==(const LodControl&, const LodControl&) = default;
 };
 
+inline constexpr int kMaxAnisotropy = 16;  ///< GL_MAX_TEXTURE_MAX_ANISOTROPY
+
 /// How a texture is sampled: uniform state that is separate from the texture, like OpenGL's sampler objects.
 struct Sampler {
   Filter mag = Filter::bilinear;   ///< magnification: texels are larger than pixels (level of detail <= 0)
   Filter min = Filter::trilinear;  ///< minification
   Wrap wrap_s = Wrap::repeat;
   Wrap wrap_t = Wrap::repeat;
-  /// Maximum number of probes along an elongated footprint (footprint.h): 1 (isotropic) … 16. Only for two-dimensional textures and layers
-  /// of them, and ignored by sample_level.
+  /// Maximum number of probes along an elongated footprint (footprint.h): 1 (isotropic) … kMaxAnisotropy. Larger numbers mean
+  /// kMaxAnisotropy. Only for two-dimensional textures and layers of them. sample_level ignores it, because it knows no footprint.
   int anisotropy = 1;
   /// Linear color outside the image for axes with Wrap::border. It is clamped to the range of the texture format, which is [0, 1] for
   /// unsigned normalized formats. Formats with one channel use only red. Integer formats use the nearest integers.

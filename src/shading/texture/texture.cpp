@@ -68,8 +68,7 @@ vec4<R> Texture2D::sample_any(const Sampler& sampler, const vec2<R>& uv, const v
     if (detail::has_special_levels(sampler)) return sample_level_any(sampler, uv, level_of_detail(width(), height(), duv_dx, duv_dy));
     return sample_levels(sampler, uv, levels_of(sampler, duv_dx, duv_dy));
   }
-  HS_DCHECK(sampler.anisotropy <= 16);
-  const Footprint<R> area = footprint(width(), height(), duv_dx, duv_dy, sampler.anisotropy);
+  const Footprint<R> area = footprint(width(), height(), duv_dx, duv_dy, std::min(sampler.anisotropy, kMaxAnisotropy));
   const LevelChoice<R> levels = detail::choose_level(sampler, levels_, detail::kMaxLevels, area.lod);
   return with_lookup<R>(sampler, [&](const auto& lookup) {
     return lookup.finish(detail::mean_of_probes<R>(

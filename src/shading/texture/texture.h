@@ -67,7 +67,7 @@ class Texture2D {
   glm::vec4 value(int level, int x, int row) const;
 
   /// Returns the filtered linear color at uv. duv_dx and duv_dy are the changes in uv to the next pixel to the right and to the
-  /// next pixel up.
+  /// next pixel up. If uv is a varying times a factor, its derivatives must be multiplied as well; otherwise the mip level is wrong.
   ///
   /// All inputs are safe. A NaN coordinate is treated as 0 or as the border. An infinite one is treated as the edge (clamp), the border,
   /// or 0 (repeat, mirrored). A level of detail that is NaN means level 0, and NaN derivatives mean one probe. With repeat,

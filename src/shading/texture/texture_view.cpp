@@ -101,7 +101,7 @@ auto sample_with(const Texels& texels, const TextureSource& source, const Sample
   const Sampled<R> s = sampled(source, place, slopes);
   if (!is_anisotropic(source.table, sampler)) return lookup.finish(lookup(s.at, levels_at(source, sampler, s.lod + R(options.bias))));
   const TextureLevel& l = finest(source);
-  const Footprint<R> area = footprint(l.width, l.height, vec2<R>(slopes.dx), vec2<R>(slopes.dy), std::min(sampler.anisotropy, 16));
+  const Footprint<R> area = footprint(l.width, l.height, vec2<R>(slopes.dx), vec2<R>(slopes.dy), std::min(sampler.anisotropy, kMaxAnisotropy));
   const LevelChoice<R> levels = levels_at(source, sampler, area.lod + R(options.bias));
   return lookup.finish(mean_of_probes<R>(area, [&](R along) {
     LevelPlace<R> at = s.at;

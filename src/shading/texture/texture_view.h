@@ -126,7 +126,7 @@ class TextureView {
   }
 
   /// GLSL's texture() and textureGrad(). dx and dy are the changes in the coordinates to the next pixel to the right and to the next pixel
-  /// up. Not for integer formats, which builds with asserts check. Depths are returned in red.
+  /// up, including factors that multiply a varying. Not for integer formats, which builds with asserts check. Depths are returned in red.
   template <class P, class R = CoordinateReal<P>>
   requires std::is_same_v<P, TextureCoordinates<kind, R>> vec4<R> sample(const Sampler& sampler, const P& p,
                                                                          const TextureDerivatives<kind, R>& dx,
