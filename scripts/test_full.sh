@@ -33,10 +33,11 @@ build() {
   grep -E -m 20 'error|Error|FAILED' "$dir/build.log" || tail -20 "$dir/build.log"
   return 1
 }
-# The folder of the default configuration.
-gcc=build/full/gcc
-build_gcc() { build "$gcc" "$1" -DCMAKE_CXX_COMPILER=g++ -DCMAKE_BUILD_TYPE=Release -DHALFSPACE_OPTIMIZE_TESTS=ON "${@:2}"; }
-# build_and_test FOLDER "PROGRAM..." CMAKE_ARGUMENTS...
+# The folder of the default configuration. Its objects are those of scripts/test.sh, and the folder has the same depth as build/release, so
+# that ccache has them if it is installed.
+gcc=build/full-gcc
+build_gcc() { build "$gcc" "$1" -DCMAKE_CXX_COMPILER=g++ -DCMAKE_BUILD_TYPE=Release "${@:2}"; }
+# build_and_test FOLDER "PROGRAM..." CMAKE_ARGUMENTS...    Tests are compiled at the optimization level of the library.
 build_and_test() {
   local dir=build/full/$1
   # shellcheck disable=SC2086
@@ -84,12 +85,15 @@ clang_native() {
   build_and_test clang-native "$pixels" -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_BUILD_TYPE=Release || return 1
   run_ctest build/full/clang-native '^Compile[.]'
 }
-# without "PROGRAM..." CMAKE_ARGUMENTS...    The default configuration without an optional dependency.
-without() {
+# The default configuration without optional dependencies, and the programs that they affect.
+without_libraries() {
+  local programs="core image model raster render cli view"
   # shellcheck disable=SC2086
-  build_gcc "halfspace $(printf 'test-%s ' $1)" "${@:2}" && run_tests "$gcc" "$1"
+  build_gcc "halfspace $(printf 'test-%s ' $programs)" -DHALFSPACE_WITH_TBB=OFF -DHALFSPACE_WITH_OPENIMAGEIO=OFF \
+    -DHALFSPACE_WITH_EMBREE=OFF -DCMAKE_DISABLE_FIND_PACKAGE_SDL2=ON && run_tests "$gcc" "$programs"
 }
-# Sanitizer builds use clang, which compiles them in a fraction of the time.
+# Sanitizer builds use clang, which compiles them in a fraction of the time. They draw as many random cases as scripts/test.sh, because they
+# run up to 50 times slower than others.
 # NDEBUG is defined as in other builds; HALFSPACE_ASSERTS checks our own preconditions.
 checked=(-DCMAKE_BUILD_TYPE=None -DHALFSPACE_ASSERTS=ON "-DCMAKE_CXX_FLAGS=-O1 -gline-tables-only -DNDEBUG")
 address() {
@@ -97,8 +101,12 @@ address() {
     "${checked[@]}"
 }
 asan_ubsan() {
-  address "" && run_tests build/full/asan-ubsan "$(programs_of build/full/asan-ubsan)"
+  address "" && (unset HALFSPACE_LONG_TESTS; run_tests build/full/asan-ubsan "$(programs_of build/full/asan-ubsan)")
 }
+thread_sanitizer() (
+  unset HALFSPACE_LONG_TESTS
+  build_and_test tsan "$threads" -DCMAKE_CXX_COMPILER=clang++ -DHALFSPACE_SANITIZE=thread -DHALFSPACE_WITH_TBB=OFF "${checked[@]}"
+)
 
 # Renders 100,000 blended points 100 times with 1, 2 and 64 threads; all images must have the same hash.
 blended_order() {
@@ -170,21 +178,17 @@ names=()
 step() { names+=("$1"); steps[$1]=$2; }
 step gcc-native        gcc_native
 step clang-native      clang_native
+# Each of these changes several things at once, so that every value of the compiler, the instruction set, the lanes, the optimization level
+# and the checks is built once or twice.
 step gcc-v3            "build_and_test gcc-v3 '$pixels' -DCMAKE_CXX_COMPILER=g++ -DCMAKE_BUILD_TYPE=Release -DHALFSPACE_ARCH=x86-64-v3"
-step clang-v3          "build_and_test clang-v3 '$kernels' -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_BUILD_TYPE=Release -DHALFSPACE_ARCH=x86-64-v3"
-step gcc-lanes1        "build_and_test gcc-lanes1 '$kernels render' -DCMAKE_CXX_COMPILER=g++ -DCMAKE_BUILD_TYPE=Release -DHALFSPACE_LANES=1"
-step gcc-lanes4        "build_and_test gcc-lanes4 '$kernels render' -DCMAKE_CXX_COMPILER=g++ -DCMAKE_BUILD_TYPE=Release -DHALFSPACE_LANES=4"
-step gcc-lanes8        "build_and_test gcc-lanes8 '$kernels render' -DCMAKE_CXX_COMPILER=g++ -DCMAKE_BUILD_TYPE=Release -DHALFSPACE_LANES=8"
-step gcc-O1            "build_and_test gcc-O1 '$pixels' -DCMAKE_CXX_COMPILER=g++ -DCMAKE_BUILD_TYPE=None -DCMAKE_CXX_FLAGS=-O1"
-step dev               "build_and_test dev '$pixels explain' -DCMAKE_CXX_COMPILER=g++ -DCMAKE_BUILD_TYPE=RelWithDebInfo -DHALFSPACE_ASSERTS=ON"
+step clang-v3-lanes4   "build_and_test clang-v3-lanes4 '$kernels' -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_BUILD_TYPE=Release -DHALFSPACE_ARCH=x86-64-v3 -DHALFSPACE_LANES=4"
+step gcc-O1-lanes1     "build_and_test gcc-O1-lanes1 '$pixels' -DCMAKE_CXX_COMPILER=g++ -DCMAKE_BUILD_TYPE=None -DCMAKE_CXX_FLAGS=-O1 -DHALFSPACE_LANES=1"
+step dev-lanes8        "build_and_test dev-lanes8 '$pixels explain' -DCMAKE_CXX_COMPILER=g++ -DCMAKE_BUILD_TYPE=RelWithDebInfo -DHALFSPACE_ASSERTS=ON -DHALFSPACE_LANES=8"
 step asan-ubsan        asan_ubsan
 step window            window
 step killed            "build_gcc halfspace && python3 tests/cli/killed_test.py \$gcc 50"
-step tsan              "build_and_test tsan '$threads' -DCMAKE_CXX_COMPILER=clang++ -DHALFSPACE_SANITIZE=thread -DHALFSPACE_WITH_TBB=OFF \"\${checked[@]}\""
-step without-tbb       "without 'core raster render cli' -DHALFSPACE_WITH_TBB=OFF"
-step without-oiio      "without 'image model render cli' -DHALFSPACE_WITH_OPENIMAGEIO=OFF"
-step without-embree    "without 'cli view' -DHALFSPACE_WITH_EMBREE=OFF"
-step without-window    "without view -DCMAKE_DISABLE_FIND_PACKAGE_SDL2=ON"
+step tsan              thread_sanitizer
+step without-libraries without_libraries
 step shared            "shared"
 step portable          "portable"
 step consumer          "consumer"

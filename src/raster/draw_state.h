@@ -69,11 +69,10 @@ struct DepthState {
   friend bool operator==(const DepthState&, const DepthState&) = default;
 };
 
-/// Polygon offset for filled triangles (OpenGL 4.6, section 14.6.5). Points and lines have none; an offset of outlines or corners of
-/// triangles (PolygonMode) is refused. The offset slope·m + constant·r is clamped and then added to the
-/// window depth. Here m = max(|dz/dx|, |dz/dy|), and r is the smallest resolvable difference of the depth format. For 32-bit float depth,
-/// r = 2^(e−23), where e is the exponent of the largest |z| of the triangle. A positive offset moves the triangle away from the eye, or
-/// towards it with reversed Z.
+/// Polygon offset for filled triangles (OpenGL 4.6, section 14.6.5). It has no effect on points, lines, and triangles drawn as outlines or
+/// corners (PolygonMode). The offset slope·m + constant·r is clamped and then added to the window depth. Here m = max(|dz/dx|, |dz/dy|),
+/// and r is the smallest resolvable difference of the depth format. For 32-bit float depth, r = 2^(e−23), where e is the exponent of the
+/// largest |z| of the triangle. A positive offset moves the triangle away from the eye, or towards it with reversed Z.
 struct DepthOffset {
   float slope = 0.0f;
   float constant = 0.0f;

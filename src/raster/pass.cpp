@@ -222,8 +222,6 @@ void PassState::check_color_types(const ShaderKernels& kernels) const {
 
 void PassState::check_state(const DrawState& state) const {
   check_numbers(state);
-  HS_CHECK(state.polygon_mode == PolygonMode::fill || (state.offset.slope == 0 && state.offset.constant == 0),
-           "DrawState: a depth offset is combined with outlines or corners of triangles; expected PolygonMode::fill or no offset");
   for (std::size_t i = attachments_.colors.size(); i < state.attachments.size(); ++i)
     HS_CHECK(!state.attachments[i], "DrawState: there is a state for an attachment that the pass does not have; expected none");
   if (state.order_independent) {

@@ -29,7 +29,7 @@ class FailedBuilds(unittest.TestCase):
             for name in ("install_deps.sh", "lesson_pictures.py"):
                 write_program(tree / "scripts" / name, 0)
             for name in ("test-conformance", "test-reference"):
-                write_program(tree / "build" / "full" / "gcc-native" / "bin" / name, 0)
+                write_program(tree / "build" / "full-gcc" / "bin" / name, 0)
             (tree / "scripts" / "test_full.sh").write_text(SCRIPT.read_text())
             environment = {**os.environ, "PATH": f"{tree / 'programs'}:{os.environ['PATH']}"}
             subprocess.run(["git", "init", "-q", folder], check=True)
