@@ -184,6 +184,7 @@ TEST(EdgeCases, StoreOpDontCareDoesNotChangeTheImages) {
   Image<float> depth(70, 50);
   ColorTarget c = rgba8_target(color);
   DepthTarget d = d32f_target(depth);
+  c.load = d.load = LoadOp::load;
   c.store = d.store = StoreOp::dont_care;
   Pass pass(70, 50, c, d);
   pass.draw(ColorShader{}, make_vertex_view(stream(rows)));

@@ -393,6 +393,15 @@ std::vector<A> random_rows(const std::vector<glm::vec4>& positions, Random& rand
   return rows;
 }
 
+// Returns the number of components of the last vectors of A that have at least n components together.
+template <class A>
+std::size_t last_vectors(std::size_t n) {
+  constexpr auto vectors = detail::VectorsOf<detail::FieldsOf<A>>::value;
+  std::size_t components = 0;
+  for (auto v = vectors.rbegin(); components < n; ++v) components += v->components;
+  return components;
+}
+
 // Replaces the attributes after the position by the nearest numbers of the format.
 template <class A>
 void round_rows(StreamFormat format, std::vector<A>& rows) {
@@ -455,7 +464,7 @@ SceneDraw primitives_draw(const S& shader, const char* name, const Geometry& g, 
   }
   state.instances = random.pick({1u, 1u, 2u, 3u, 7u, 0u});
   if (kComponents < A >> 4 && random.once_in(2)) {
-    input.instance_components = static_cast<std::size_t>(random.between(1, static_cast<int>(kComponents<A>) - 4));
+    input.instance_components = last_vectors<A>(static_cast<std::size_t>(random.between(1, static_cast<int>(kComponents<A>) - 4)));
     input.divisor = random.pick({1u, 2u, 5u});
     input.instances = random_rows<A>(std::vector<glm::vec4>(state.instances / input.divisor + 1), random);
   }

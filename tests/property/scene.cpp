@@ -138,8 +138,8 @@ namespace draw_memory {
 
 void lay_out_vertices(const float* rows, std::size_t count, int components, VertexLayout layout, DrawMemory& memory) {
   const auto n = static_cast<std::size_t>(components);
-  // A stream is a sequence of components. With two streams, the split may be in the middle of a member.
-  const std::size_t first_part = layout == VertexLayout::tight || n < 2 ? n : std::min(n - 1, std::size_t{3});
+  // One stream with all members, or one with the position and one with the others.
+  const std::size_t first_part = layout == VertexLayout::tight ? n : std::min(n, std::size_t{4});
   const std::size_t gap = layout == VertexLayout::padded ? 3 : 0;
   const auto add = [&](const std::vector<float>& buffer, std::size_t first, std::size_t stride, std::size_t floats) {
     const std::byte* data = count == 0 ? nullptr : std::as_bytes(std::span(buffer)).data() + first * sizeof(float);
