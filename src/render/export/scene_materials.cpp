@@ -4,19 +4,26 @@
 #include <algorithm>
 #include <cmath>
 
+#include "halfspace/core/srgb.h"
 #include "halfspace/image/png.h"
 
 namespace halfspace::HS_LANES {
 
 namespace {
 
-Image<glm::u8vec4> picture_of(const Texture2D& texture, bool flip_green) {
+// Returns the nearest 8-bit values.
+glm::u8vec4 codes_of(const glm::vec4& value, ImageUse use) {
+  if (use == ImageUse::data) return glm::u8vec4(glm::clamp(value, 0.0f, 1.0f) * 255.0f + 0.5f);
+  return {linear_to_srgb(value.x), linear_to_srgb(value.y), linear_to_srgb(value.z), linear_to_unorm8(value.w)};
+}
+
+Image<glm::u8vec4> picture_of(const Texture2D& texture, ImageUse use, bool flip_green) {
   const bool codes = texture.format() == TexelFormat::srgb8a8 || texture.format() == TexelFormat::rgba8;
   Image<glm::u8vec4> picture(texture.width(), texture.height());
   for (int y = 0; y < picture.height(); ++y) {
     for (int x = 0; x < picture.width(); ++x) {
       glm::u8vec4& texel = picture.at(x, y);
-      texel = codes ? texture.texel(0, x, y) : glm::u8vec4(glm::clamp(texture.value(0, x, y), 0.0f, 1.0f) * 255.0f + 0.5f);
+      texel = codes ? texture.texel(0, x, y) : codes_of(texture.value(0, x, y), use);
       if (flip_green) texel.y = static_cast<uint8_t>(255 - texel.y);
     }
   }
@@ -49,12 +56,13 @@ int SceneMaterials::add(const std::string& name, const DrawnMesh& drawn) {
   const glm::vec3 color = s.factors[kColor].constant * (drawn.unlit ? glm::vec3(1.0f) : s.factors[kDiffuse].constant);
   m.base_color = glm::vec4(glm::min(color, 1.0f), 1.0f);
   if (color != glm::vec3(m.base_color)) warn_once(model_, "colors above 1 are clamped to 1");
-  m.base_color_map = texture_use(s.factors[kColor].map, s.factors[kColor].sampler, false);
+  m.base_color_map = texture_use(s.factors[kColor].map, s.factors[kColor].sampler, ImageUse::colors, false);
   m.emissive = s.factors[kEmissive].constant;
-  if (m.emissive != glm::vec3(0.0f)) m.emissive_map = texture_use(s.factors[kEmissive].map, s.factors[kEmissive].sampler, false);
+  if (m.emissive != glm::vec3(0.0f))
+    m.emissive_map = texture_use(s.factors[kEmissive].map, s.factors[kEmissive].sampler, ImageUse::colors, false);
   convert_highlight(s, m);
   if (drawn.has_normal_map) {
-    m.normal_map = texture_use(s.detail.map, s.detail.sampler, s.detail.flip_green);
+    m.normal_map = texture_use(s.detail.map, s.detail.sampler, ImageUse::data, s.detail.flip_green);
     m.normal_scale = s.detail.strength;
   }
   if (drawn.has_other_detail) warn_once(model_, "bump maps and per-pixel slopes of displaced spheres are omitted");
@@ -68,13 +76,12 @@ int SceneMaterials::add(const std::string& name, const DrawnMesh& drawn) {
 }
 
 // Returns a use of the texture, which is added to the model if it is new.
-TextureUse SceneMaterials::texture_use(const Texture2D* texture, const Sampler& sampler, bool flip_green) {
+TextureUse SceneMaterials::texture_use(const Texture2D* texture, const Sampler& sampler, ImageUse image_use, bool flip_green) {
   TextureUse use;
   if (texture == nullptr) return use;
   const auto [known, added] = images_.try_emplace({texture, flip_green}, static_cast<int>(model_.images.size()));
   if (added) {
-    const bool color = texture->format() == TexelFormat::srgb8a8;
-    auto png = encode_png(picture_of(*texture, flip_green), color ? PngCodes::srgb : PngCodes::numbers);
+    auto png = encode_png(picture_of(*texture, image_use, flip_green), image_use == ImageUse::colors ? PngCodes::srgb : PngCodes::numbers);
     model_.images.push_back({"map" + std::to_string(known->second), {}, std::make_shared<const std::vector<std::byte>>(std::move(png))});
   }
   use.texture = static_cast<int>(model_.textures.size());

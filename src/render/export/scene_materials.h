@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "halfspace/image/image_io.h"
 #include "halfspace/model/model.h"
 #include "halfspace/render/prepared_scene.h"
 
@@ -32,7 +33,7 @@ class SceneMaterials {
   int add(const std::string& name, const DrawnMesh& drawn);
 
  private:
-  TextureUse texture_use(const Texture2D* texture, const Sampler& sampler, bool flip_green);
+  TextureUse texture_use(const Texture2D* texture, const Sampler& sampler, ImageUse image_use, bool flip_green);
 
   Model& model_;
   std::map<std::pair<const Texture2D*, bool>, int> images_;  // image index by texture and whether green is flipped

@@ -6,15 +6,19 @@
 #include <chrono>
 #include <functional>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <optional>
-#include <set>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "halfspace/core/resource_limits.h"
 #include "halfspace/image/image_io.h"
 #include "halfspace/image/image_limits.h"
 #include "halfspace/model/gltf/specular_glossiness.h"
 #include "halfspace/render/assets/converted_images.h"
+#include "halfspace/render/assets/texture_image.h"
 #include "halfspace/render/prepare/model_bumps.h"
 #include "halfspace/render/prepare/soft_mask.h"
 
@@ -66,15 +70,22 @@ uint64_t texture_memory_of(const Image<glm::u8vec4>& picture) {
   return texture_memory(static_cast<uint64_t>(picture.width()), static_cast<uint64_t>(picture.height()), sizeof(glm::u8vec4));
 }
 
-Texture2D texture_of(const Image<glm::u8vec4>& picture, bool color, const Workers& workers) {
-  return Texture2D(picture, color ? TexelFormat::srgb8a8 : TexelFormat::rgba8, &workers);
-}
+// How the materials of a model use an image.
+struct WantedImage {
+  int image = -1;
+  bool is_color = false;
+  bool has_normals = false;
+
+  ImageUse use() const { return is_color ? ImageUse::colors : ImageUse::data; }
+};
 
 // Decodes an image of a model.
-Texture2D decoded(const std::filesystem::path& file, const ModelImage& source, bool color, const Workers& workers) {
-  if (source.pixels != nullptr) return texture_of(*source.pixels, color, workers);
-  return texture_of(source.bytes != nullptr ? read_image(*source.bytes, file.string() + ": " + source.name) : read_image(source.file),
-                    color, workers);
+Texture2D decoded(const std::filesystem::path& file, const ModelImage& source, const WantedImage& wanted, const Workers& workers) {
+  const std::string place = source.bytes != nullptr ? file.string() + ": " + source.name : source.file.string();
+  if (source.pixels != nullptr) return texture_of(*source.pixels, wanted.use(), workers, place);
+  TextureImage image = source.bytes != nullptr ? read_texels(*source.bytes, place, wanted.use()) : read_texels(source.file, wanted.use());
+  if (wanted.has_normals) complete_normals(image);
+  return texture_of(image, wanted.use(), workers, place);
 }
 
 // Estimates the work of decoding an image by the size of its file. The result of a conversion needs two images.
@@ -86,10 +97,10 @@ std::uintmax_t decoding_work(const ModelImage& image) {
   return error ? 0 : bytes;
 }
 
-// Returns the images that the materials of a posed model use and that are not yet loaded, and for each, whether it is a color map.
-std::vector<std::pair<int, bool>> wanted_images(const ObjectDescription& o, const Model& model, const PosedModel& posed,
-                                                const UsedAssets& used) {
-  std::set<std::pair<int, bool>> wanted;
+// Returns the images that the materials of a posed model use and that are not yet loaded. An image that several maps use as data is listed
+// once.
+std::vector<WantedImage> wanted_images(const ObjectDescription& o, const Model& model, const PosedModel& posed, const UsedAssets& used) {
+  std::map<std::pair<int, bool>, bool> wanted;  // from image and is_color to has_normals
   for (const PosedMesh& part : posed.meshes) {
     if (part.material < 0) continue;
     const ModelMaterial& material = model.materials[static_cast<std::size_t>(part.material)];
@@ -97,22 +108,31 @@ std::vector<std::pair<int, bool>> wanted_images(const ObjectDescription& o, cons
     for (std::size_t i = 0; i < uses.size(); ++i) {
       if (uses[i]->texture < 0 || !has_effect(i, material)) continue;
       const int image = model.textures[static_cast<std::size_t>(uses[i]->texture)].image;
-      if (image >= 0 && !used.contains(image_recipe(o.file.path, image, is_color(i)))) wanted.emplace(image, is_color(i));
+      if (image < 0 || used.contains(image_recipe(o.file.path, image, is_color(i)))) continue;
+      wanted[{image, is_color(i)}] |= i == kNormalMap || i == kClearcoatNormalMap;
     }
   }
-  return {wanted.begin(), wanted.end()};
+  std::vector<WantedImage> list;
+  for (const auto& [key, has_normals] : wanted) list.push_back({key.first, key.second, has_normals});
+  return list;
+}
+
+// Returns a texel of level 0. Numbers are rounded to 8-bit values.
+glm::u8vec4 codes_at(const Texture2D& map, int x, int y) {
+  if (map.format() == TexelFormat::rgba8 || map.format() == TexelFormat::srgb8a8) return map.texel(0, x, y);
+  return glm::u8vec4(glm::clamp(map.value(0, x, y), 0.0f, 1.0f) * 255.0f + 0.5f);
 }
 
 }  // namespace
 
 // If `lit`, filters the environment at the same time, because a few images do not keep all threads busy.
 void ModelMaterials::load_images(const ObjectDescription& o, const Model& model, const PosedModel& posed, bool lit) {
-  const std::vector<std::pair<int, bool>> list = wanted_images(o, model, posed, used_);
+  const std::vector<WantedImage> list = wanted_images(o, model, posed, used_);
   if (list.empty()) return;
   const auto start = std::chrono::steady_clock::now();
   std::vector<std::optional<Texture2D>> textures(list.size());
   std::vector<std::vector<std::string>> problems(list.size());
-  const auto image_at = [&](std::size_t i) -> const ModelImage& { return model.images[static_cast<std::size_t>(list[i].first)]; };
+  const auto image_at = [&](std::size_t i) -> const ModelImage& { return model.images[static_cast<std::size_t>(list[i].image)]; };
   // Converts all consecutive images that are results of the same conversion.
   const auto convert = [&](std::size_t first) {
     if (first > 0 && are_converted_together(image_at(first - 1), image_at(first))) return;
@@ -121,17 +141,16 @@ void ModelMaterials::load_images(const ObjectDescription& o, const Model& model,
     for (std::size_t i = first; i < list.size() && are_converted_together(image_at(first), image_at(i)); ++i) {
       const Image<glm::u8vec4>& result = images.result(image_at(i));
       const MemoryClaim claim(texture_memory_of(result), file + ": " + image_at(i).name);
-      textures[i].emplace(texture_of(result, list[i].second, workers_));
+      textures[i].emplace(texture_of(result, list[i].use(), workers_, file));
     }
     problems[first] = std::move(images.problems);
   };
   const auto load = [&](std::size_t i) {
-    const auto [image, color] = list[i];
     const ModelImage& source = image_at(i);
     if (source.converted) return convert(i);
     if (source.file.empty() && source.bytes == nullptr && source.pixels == nullptr) return;  // the reader has already warned
     try {
-      textures[i].emplace(decoded(o.file.path, source, color, workers_));
+      textures[i].emplace(decoded(o.file.path, source, list[i], workers_));
     } catch (const LimitError&) {
       throw;
     } catch (const InputError& e) {  // the material is drawn without it
@@ -157,7 +176,7 @@ void ModelMaterials::load_images(const ObjectDescription& o, const Model& model,
   for (std::size_t i = 0; i < list.size(); ++i) {
     for (const std::string& problem : problems[i]) warnings_.warn_once(problem);
     if (textures[i])
-      used_.asset<Texture2D>(image_recipe(o.file.path, list[i].first, list[i].second), [&] { return std::move(*textures[i]); });
+      used_.asset<Texture2D>(image_recipe(o.file.path, list[i].image, list[i].is_color), [&] { return std::move(*textures[i]); });
   }
   images_ms_ += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
@@ -179,7 +198,7 @@ bool ModelMaterials::is_soft_mask(const ObjectDescription& o, const Model& model
   const Channel channel = separate ? m.opacity_map.channel : Channel::alpha;
   return *used_.asset<bool>(recipe("soft mask", o.file.path.string(), image, static_cast<int>(channel)), [&] {
     return is_soft(
-        map->width(), map->height(), [&](int x, int y) { return map->texel(0, x, y); }, channel);
+        map->width(), map->height(), [&](int x, int y) { return codes_at(*map, x, y); }, channel);
   });
 }
 

@@ -26,10 +26,7 @@ constexpr std::array<const char*, 6> kFaceNames{"right", "left", "top", "bottom"
 // A cube map face or a panorama in the format of its file.
 using Picture = std::variant<Image<glm::u8vec4>, Image<glm::vec4>>;
 
-Picture read_picture(const fs::path& path) {
-  if (holds_linear_numbers(path)) return read_linear(path);
-  return read_image(path);
-}
+Picture read_picture(const fs::path& path) { return read_texels(path, ImageUse::colors); }
 
 TexelFormat format_for(const Image<glm::u8vec4>&) { return TexelFormat::srgb8a8; }
 // Returns half floats if their range is sufficient, otherwise floats.
@@ -71,7 +68,7 @@ EnvironmentMap cube_of(const std::array<fs::path, 6>& files, std::array<Picture,
   for (std::size_t f = 0; f < 6; ++f) {
     auto* face = std::get_if<Image<Texel>>(&pictures[f]);
     if (face == nullptr)
-      throw InputError(fmt::format("{}: its format differs from that of {} (linear or 8-bit); expected six of the same kind",
+      throw InputError(fmt::format("{}: its format differs from that of {} (8-bit or not); expected six of the same kind",
                                    files[f].string(), files[0].string()));
     faces[f] = std::move(*face);
     const int width = faces[f].width(), height = faces[f].height(), size = faces[0].width();

@@ -13,6 +13,7 @@
 #include "halfspace/geometry/displaced_sphere.h"
 #include "halfspace/image/image_io.h"
 #include "halfspace/procedural/earth.h"
+#include "halfspace/render/assets/texture_image.h"
 #include "halfspace/render/prepare/scene_places.h"
 #include "halfspace/render/prepare/shape_mesh.h"
 #include "halfspace/render/shadow/shadow_views.h"
@@ -125,6 +126,10 @@ bool SceneMaps::has_texture(TextureSource source) const {
 
 namespace {
 
+Texture2D file_texture(const std::filesystem::path& file, ImageUse use, const Workers& workers, const std::string& where) {
+  return read_for(where, [&] { return texture_of(read_texels(file, use), use, workers, file.string()); });
+}
+
 [[noreturn]] void fail_not(const std::string& where, const TextureDescription& t, const char* expected) {
   const bool heights = t.source == TextureSource::earth_height || t.source == TextureSource::moon_height || is_pattern_height(t.source);
   const char* is = t.source == TextureSource::earth_normal ? "a normal map" : heights ? "a height map" : "a color map";
@@ -137,9 +142,8 @@ std::shared_ptr<const Texture2D> SceneMaps::color_texture(const MapUse& use, con
   if (is_pattern(use.texture.source) && !is_pattern_height(use.texture.source)) return pattern_texture(use);
   switch (use.texture.source) {
     case TextureSource::file:
-      return used_.asset<Texture2D>(recipe("color", use.texture.file.path.string()), [&] {
-        return Texture2D(read_for(where, [&] { return read_image(use.texture.file.path); }), TexelFormat::srgb8a8, &workers_);
-      });
+      return used_.asset<Texture2D>(recipe("color", use.texture.file.path.string()),
+                                    [&] { return file_texture(use.texture.file.path, ImageUse::colors, workers_, where); });
     case TextureSource::earth_color:
       return used_.asset<Texture2D>(recipe("earth_color", use.width), [&] {
         const bool has_relief = has_texture(TextureSource::earth_height) || has_texture(TextureSource::earth_normal);
@@ -157,9 +161,8 @@ std::shared_ptr<const Texture2D> SceneMaps::color_texture(const MapUse& use, con
 std::shared_ptr<const Texture2D> SceneMaps::data_texture(const MapUse& use, const std::string& where) {
   switch (use.texture.source) {
     case TextureSource::file:
-      return used_.asset<Texture2D>(recipe("data", use.texture.file.path.string()), [&] {
-        return Texture2D(read_for(where, [&] { return read_image(use.texture.file.path); }), TexelFormat::rgba8, &workers_);
-      });
+      return used_.asset<Texture2D>(recipe("data", use.texture.file.path.string()),
+                                    [&] { return file_texture(use.texture.file.path, ImageUse::data, workers_, where); });
     case TextureSource::earth_normal:
       return used_.asset<Texture2D>(recipe("earth_normal", use.width), [&] {
         MapUse relief = use;
