@@ -31,7 +31,7 @@ struct Case {
     SpecularGlossiness textures = source;
     const auto add = [&](const Picture& picture) {
       if (picture.empty()) return -1;
-      model.images.push_back({.name = "picture", .file = {}, .bytes = nullptr, .pixels = std::make_shared<const Picture>(picture)});
+      model.images.push_back({.name = "picture", .file = {}, .bytes = nullptr, .pixels = std::make_shared<const ModelPixels>(picture)});
       model.textures.push_back({static_cast<int>(model.images.size()) - 1, sampler});
       return static_cast<int>(model.textures.size()) - 1;
     };

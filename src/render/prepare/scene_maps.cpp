@@ -13,7 +13,6 @@
 #include "halfspace/geometry/displaced_sphere.h"
 #include "halfspace/image/image_io.h"
 #include "halfspace/procedural/earth.h"
-#include "halfspace/render/assets/texture_image.h"
 #include "halfspace/render/prepare/scene_places.h"
 #include "halfspace/render/prepare/shape_mesh.h"
 #include "halfspace/render/shadow/shadow_views.h"
@@ -126,8 +125,8 @@ bool SceneMaps::has_texture(TextureSource source) const {
 
 namespace {
 
-Texture2D file_texture(const std::filesystem::path& file, ImageUse use, const Workers& workers, const std::string& where) {
-  return read_for(where, [&] { return texture_of(read_texels(file, use), use, workers, file.string()); });
+Texture2D file_texture(const std::filesystem::path& file, TextureRole role, const Workers& workers, const std::string& where) {
+  return read_for(where, [&] { return texture_of(texels_of(file, role), role, file.string(), &workers); });
 }
 
 [[noreturn]] void fail_not(const std::string& where, const TextureDescription& t, const char* expected) {
@@ -143,7 +142,7 @@ std::shared_ptr<const Texture2D> SceneMaps::color_texture(const MapUse& use, con
   switch (use.texture.source) {
     case TextureSource::file:
       return used_.asset<Texture2D>(recipe("color", use.texture.file.path.string()),
-                                    [&] { return file_texture(use.texture.file.path, ImageUse::colors, workers_, where); });
+                                    [&] { return file_texture(use.texture.file.path, TextureRole::colors, workers_, where); });
     case TextureSource::earth_color:
       return used_.asset<Texture2D>(recipe("earth_color", use.width), [&] {
         const bool has_relief = has_texture(TextureSource::earth_height) || has_texture(TextureSource::earth_normal);
@@ -157,12 +156,12 @@ std::shared_ptr<const Texture2D> SceneMaps::color_texture(const MapUse& use, con
   }
 }
 
-// Textures that are not decoded from sRGB: normals, exponents.
-std::shared_ptr<const Texture2D> SceneMaps::data_texture(const MapUse& use, const std::string& where) {
+// Textures that are not decoded from sRGB.
+std::shared_ptr<const Texture2D> SceneMaps::data_texture(const MapUse& use, TextureRole role, const std::string& where) {
   switch (use.texture.source) {
     case TextureSource::file:
-      return used_.asset<Texture2D>(recipe("data", use.texture.file.path.string()),
-                                    [&] { return file_texture(use.texture.file.path, ImageUse::data, workers_, where); });
+      return used_.asset<Texture2D>(recipe("data", use.texture.file.path.string(), static_cast<int>(role)),
+                                    [&] { return file_texture(use.texture.file.path, role, workers_, where); });
     case TextureSource::earth_normal:
       return used_.asset<Texture2D>(recipe("earth_normal", use.width), [&] {
         MapUse relief = use;
