@@ -286,7 +286,7 @@ TEST_F(TextureFiles, OfExportedScenesKeep16Bits) {
 }
 
 TEST_F(ToolTextureFiles, OfExportedModelsKeep16Bits) {
-  Model model = GltfBuilder::read_text(square("", colored_by(0)).text());
+  Model model = GltfBuilder::read_text(square("x", colored_by(0)).text());
   const std::string image = gray_tiff_row<uint16_t>({32800}, TiffSampleFormat::unsigned_integer);
   const auto bytes = std::as_bytes(std::span(image));
   model.images[0].bytes = std::make_shared<const std::vector<std::byte>>(bytes.begin(), bytes.end());
