@@ -108,6 +108,7 @@ TEST(NormalMaps, WithNegativeValuesStoreTheNormalItself) {
   EXPECT_NEAR(glm::distance(normal, glm::vec4(0.2f, 0.5f, 0.9f, 0.3f)), 0, 1e-6);
   const glm::vec4 without_z = normal_of(glm::vec4(-0.6f, 0, 0, 1));
   EXPECT_NEAR(glm::distance(without_z, glm::vec4(0.2f, 0.5f, 0.9f, 1)), 0, 1e-6);
+  EXPECT_EQ(normal_of(glm::vec4(0, 0, 0, 1)), glm::vec4(0.5f, 0.5f, 1, 1)) << "a flat map without z";
 }
 
 // ---- models -----------------------------------------------------------------------------------------------------

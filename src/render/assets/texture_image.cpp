@@ -80,7 +80,9 @@ void complete_normals(TextureImage& image) {
   }
   auto& numbers = std::get<Image<glm::vec4>>(image);
   const std::span texels(numbers.data(), numbers.texels().size());
-  if (std::ranges::any_of(texels, [](const glm::vec4& t) { return t.x < 0.0f || t.y < 0.0f || t.z < 0.0f; })) {
+  const auto any = [&](const auto& condition) { return std::ranges::any_of(texels, condition); };
+  const bool has_negative = any([](const glm::vec4& t) { return t.x < 0.0f || t.y < 0.0f || t.z < 0.0f; });
+  if (has_negative || !any([](const glm::vec4& t) { return glm::vec3(t) != glm::vec3(0.0f); })) {
     for (glm::vec4& t : texels) t = glm::vec4(0.5f * glm::vec3(t) + 0.5f, t.w);
   }
   if (!lacks_z) return;

@@ -31,9 +31,9 @@ TextureImage texels_of(const ModelImage& image, TextureRole role, const std::str
 /// The same for an image in memory.
 TextureImage texels_of(const ColorPicture& picture, TextureRole role, const std::string& name);
 
-/// Converts a normal map to the form in which red, green and blue are x, y and z, with 0 for −1 and 1 for +1. A map with negative values
-/// stores x, y and z as they are. A map whose blue is 0 everywhere lacks z (BC5), which is computed: normals have length 1 and point away
-/// from the surface. All other maps are unchanged.
+/// Converts a normal map to the form in which red, green and blue are x, y and z, with 0 for −1 and 1 for +1. Numbers of
+/// which one is negative or all are 0 are x, y and z themselves. A map whose blue is 0 everywhere lacks z (BC5), which is computed: normals
+/// have length 1 and point away from the surface. All other maps are unchanged.
 void complete_normals(TextureImage& image);
 
 /// Returns a texture that keeps the values of the image. 8-bit values give srgb8a8 (colors) or rgba8 (all others). Numbers give rgba16f if

@@ -96,8 +96,11 @@ std::vector<TextureRole> image_roles(const Model& model) {
 void embed(Model& model, ModelImage& image, TextureRole role, const std::string& file) {
   if (!image.has_content()) return;  // the reader has already warned
   if (image.pixels == nullptr) {
-    if (image.bytes == nullptr) image.bytes = shared(file_bytes(image.file, memory_left()));
-    if (!image_extension(*image.bytes).empty()) return;
+    const auto bytes = image.bytes != nullptr ? image.bytes : shared(file_bytes(image.file, memory_left()));
+    if (!image_extension(*bytes).empty()) {
+      image.bytes = bytes;
+      return;
+    }
   }
   const TextureImage texels = texels_of(image, role, file);
   warn_if_clamped(model, texels);
