@@ -151,8 +151,8 @@ ConvertedImages converted_images(const Model& model, const SpecularGlossiness& s
   workers.for_each(height, [&](int y) {
     for (int x = 0; x < width; ++x) {
       const glm::vec4 d = diffuse_map.at(x, y), s = specular_map.at(x, y);
-      const MetallicColor c = metallic_color(glm::min(glm::dvec3(glm::vec3(d) * source.diffuse), 1.0),
-                                             glm::min(glm::dvec3(glm::vec3(s) * source.specular), 1.0));
+      const MetallicColor c = metallic_color(glm::clamp(glm::dvec3(glm::vec3(d) * source.diffuse), 0.0, 1.0),
+                                             glm::clamp(glm::dvec3(glm::vec3(s) * source.specular), 0.0, 1.0));
       out.base_color.at(x, y) = {srgb_code_of(c.base.x), srgb_code_of(c.base.y), srgb_code_of(c.base.z), code_of(d.w)};
       out.metallic_roughness.at(x, y) = {0, code_of(1.0 - s.w * source.glossiness), code_of(c.metallic), 255};
     }
