@@ -217,7 +217,7 @@ void bind_shaders(py::module_& m) {
                        const std::vector<Light>& lights, bool two_sided) {
         return Placing{clip_from_world, world_from_object, eye, lights, two_sided};
       }));
-  py::class_<Map>(m, "Map").def(py::init([](const std::optional<Array<uint8_t>>& texels, const Sampler& sampler) {
+  py::class_<Map>(m, "Map").def(py::init([](const std::optional<py::array>& texels, const Sampler& sampler) {
     return Map{texels, sampler};
   }));
   py::class_<Lens>(m, "Lens").def(
