@@ -62,13 +62,13 @@ def indices(name: str, value: Any, width: Optional[int], vertices: int) -> np.nd
 
 
 def texels(name: str, value: Any) -> np.ndarray:
-    """Returns an image as uint8 of shape (H, W, 4). Gray is replicated. If there is no alpha channel, alpha is 255."""
+    """Returns an image as uint8, uint16 or float32 of shape (H, W, 4). Gray is replicated. If there is no alpha channel, alpha is opaque."""
     try:
         array = np.asarray(value)
     except ValueError:  # rows of different lengths
-        raise fail(name, "is not an array", "uint8 of shape (H, W), (H, W, 3) or (H, W, 4)") from None
-    if array.dtype != np.uint8:
-        raise fail(name, f"has the dtype {array.dtype}", "uint8")
+        raise fail(name, "is not an array", "numbers of shape (H, W), (H, W, 3) or (H, W, 4)") from None
+    if array.dtype not in (np.uint8, np.uint16, np.float16, np.float32):
+        raise fail(name, f"has the dtype {array.dtype}", "uint8, uint16, float16 or float32")
     if array.ndim == 2:
         array = array[:, :, np.newaxis]
     if array.ndim != 3 or array.shape[2] not in (1, 3, 4) or 0 in array.shape or max(array.shape) > MAX_SIDE:
@@ -76,7 +76,10 @@ def texels(name: str, value: Any) -> np.ndarray:
     if array.shape[2] == 1:
         array = np.repeat(array, 3, axis=2)
     if array.shape[2] == 3:
-        array = np.dstack([array, np.full(array.shape[:2], 255, np.uint8)])
+        opaque = 1 if array.dtype.kind == "f" else np.iinfo(array.dtype).max
+        array = np.dstack([array, np.full(array.shape[:2], opaque, array.dtype)])
+    if array.dtype.kind == "f":
+        return numbers(name, array, (None, None, 4), np.float32)
     return np.ascontiguousarray(array)
 
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Creates meshes from arrays, as model files in memory.
-#include <cstring>
 #include <memory>
 #include <optional>
 
@@ -10,6 +9,7 @@
 #include "halfspace/model/geometry/single_mesh.h"
 #include "halfspace/model/pose/pose.h"
 #include "halfspace/render/assets/model_asset.h"
+#include "images.h"
 
 namespace halfspace::python {
 
@@ -68,10 +68,9 @@ std::shared_ptr<ModelAsset> make_model(ModelMesh mesh, const Model& materials, f
 }
 
 // Adds an image of shape (H, W, 4) and returns the number of its texture.
-int add_texture(Model& model, const Array<uint8_t>& texels, const Sampler& sampler) {
-  auto image = std::make_shared<Image<glm::u8vec4>>(static_cast<int>(texels.shape(1)), static_cast<int>(texels.shape(0)));
-  std::memcpy(image->data(), texels.data(), static_cast<std::size_t>(texels.nbytes()));
-  model.images.push_back({.name = "array", .file = {}, .bytes = nullptr, .pixels = std::move(image)});
+int add_texture(Model& model, const py::array& texels, const Sampler& sampler) {
+  auto pixels = std::make_shared<const ModelPixels>(pixels_of(texels));
+  model.images.push_back({.name = "array", .file = {}, .bytes = nullptr, .pixels = std::move(pixels)});
   model.textures.push_back({static_cast<int>(model.images.size()) - 1, sampler});
   return static_cast<int>(model.textures.size()) - 1;
 }
@@ -170,7 +169,7 @@ void bind_model(py::module_& m) {
   // The material and the textures of a mesh.
   py::class_<Model>(m, "Materials")
       .def(py::init<>())
-      .def("add_texture", &add_texture, py::arg("texels").noconvert(), py::arg("sampler"))
+      .def("add_texture", &add_texture, py::arg("texels"), py::arg("sampler"))
       .def("set_material", [](Model& self, const ModelMaterial& material) { self.materials = {material}; });
   py::class_<ModelAsset, std::shared_ptr<ModelAsset>>(m, "Model")
       .def(py::init([](const Array<double>& positions, std::optional<Array<float>> normals, std::optional<Array<float>> uvs,

@@ -4,12 +4,13 @@
 #include <array>
 #include <glm/gtc/matrix_inverse.hpp>
 #include <map>
+#include <variant>
 
 #include "bindings.h"
 #include "halfspace/core/text.h"
-#include "halfspace/image/image_io.h"
 #include "halfspace/model/pose/pose.h"
 #include "halfspace/render/assets/model_asset.h"
+#include "halfspace/render/assets/texture_image.h"
 #include "halfspace/render/export/embed_images.h"
 #include "halfspace/render/export/pack_maps.h"
 
@@ -97,19 +98,22 @@ py::dict arrays_of(const Model& part) {
   return arrays;
 }
 
-// Returns the texels, the filter, the wrap modes and the anisotropy of a texture, or None if there is none or it cannot be read.
-py::object texture_of(const Model& model, const TextureUse& use, const std::string& file) {
+// Returns the texels, the filter, the wrap modes and the anisotropy of a texture, or None if there is none or it cannot be read. Texels
+// with 8 bits are returned as they are, all others as numbers.
+py::object texture_of(const Model& model, const ModelMaterial& m, TextureUse ModelMaterial::*map, const std::string& file) {
+  const TextureUse& use = m.*map;
   const int number = use.texture < 0 ? -1 : model.textures[static_cast<std::size_t>(use.texture)].image;
   if (number < 0) return py::none();
   const ModelImage& image = model.images[static_cast<std::size_t>(number)];
   if (image.bytes == nullptr) return py::none();
-  Image<glm::u8vec4> texels;
+  TextureImage texels;
   {
     const py::gil_scoped_release release;
-    texels = read_image(*image.bytes, file + ": " + image.name);
+    texels = texels_of(image, role_of(map), file);
   }
+  const auto array = std::visit([](auto& t) -> py::array { return array_of(std::move(t)); }, texels);
   const Sampler& s = model.textures[static_cast<std::size_t>(use.texture)].sampler;
-  return py::make_tuple(array_of(std::move(texels)), s.min, s.wrap_s, s.wrap_t, s.anisotropy);
+  return py::make_tuple(array, s.min, s.wrap_s, s.wrap_t, s.anisotropy);
 }
 
 py::tuple color_of(const glm::vec3& c) { return py::make_tuple(c.x, c.y, c.z); }
@@ -117,16 +121,18 @@ py::tuple color_of(const glm::vec3& c) { return py::make_tuple(c.x, c.y, c.z); }
 // Returns the properties of a material whose maps have the channels of glTF, with the names of halfspace.Material.
 py::dict properties_of(const Model& model, const ModelMaterial& m, const std::string& file) {
   using namespace py::literals;
-  const TextureUse& shine = m.metallic_map.texture >= 0 ? m.metallic_map : m.roughness_map;
-  return py::dict(
-      "base_color"_a = py::make_tuple(m.base_color.x, m.base_color.y, m.base_color.z, m.base_color.w), "metallic"_a = m.metallic,
-      "roughness"_a = m.roughness, "specular"_a = m.specular, "ior"_a = m.ior, "emissive"_a = color_of(m.emissive),
-      "clearcoat"_a = m.clearcoat, "clearcoat_roughness"_a = m.clearcoat_roughness, "sheen"_a = m.sheen,
-      "sheen_roughness"_a = m.sheen_roughness, "alpha_mode"_a = m.alpha_mode, "alpha_cutoff"_a = m.alpha_cutoff, "unlit"_a = m.unlit,
-      "double_sided"_a = m.double_sided, "normal_scale"_a = m.normal_scale, "occlusion_strength"_a = m.occlusion_strength,
-      "base_color_texture"_a = texture_of(model, m.base_color_map, file), "metallic_roughness_texture"_a = texture_of(model, shine, file),
-      "normal_texture"_a = texture_of(model, m.normal_map, file), "occlusion_texture"_a = texture_of(model, m.occlusion_map, file),
-      "emissive_texture"_a = texture_of(model, m.emissive_map, file));
+  using M = ModelMaterial;
+  const auto texture = [&](TextureUse M::*map) { return texture_of(model, m, map, file); };
+  return py::dict("base_color"_a = py::make_tuple(m.base_color.x, m.base_color.y, m.base_color.z, m.base_color.w),
+                  "metallic"_a = m.metallic, "roughness"_a = m.roughness, "specular"_a = m.specular, "ior"_a = m.ior,
+                  "emissive"_a = color_of(m.emissive), "clearcoat"_a = m.clearcoat, "clearcoat_roughness"_a = m.clearcoat_roughness,
+                  "sheen"_a = m.sheen, "sheen_roughness"_a = m.sheen_roughness, "alpha_mode"_a = m.alpha_mode,
+                  "alpha_cutoff"_a = m.alpha_cutoff, "unlit"_a = m.unlit, "double_sided"_a = m.double_sided,
+                  "normal_scale"_a = m.normal_scale, "occlusion_strength"_a = m.occlusion_strength,
+                  "base_color_texture"_a = texture(&M::base_color_map),
+                  "metallic_roughness_texture"_a = texture(m.metallic_map.texture >= 0 ? &M::metallic_map : &M::roughness_map),
+                  "normal_texture"_a = texture(&M::normal_map), "occlusion_texture"_a = texture(&M::occlusion_map),
+                  "emissive_texture"_a = texture(&M::emissive_map));
 }
 
 // Returns a tuple for each mesh that is drawn, in the pose of the file: its model, its arrays, and the number of its material.

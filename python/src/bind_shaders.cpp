@@ -9,6 +9,8 @@
 #include "bindings.h"
 #include "draw_shader.h"
 #include "halfspace/geometry/camera.h"
+#include "halfspace/render/assets/texture_image.h"
+#include "images.h"
 #include "matrices.h"
 
 namespace halfspace::python {
@@ -61,16 +63,14 @@ void place(SurfaceUniforms& s, const Placing& p, Shader& out) {
 
 /// Texels of shape (H, W, 4), or None, and how they are sampled.
 struct Map {
-  std::optional<Array<uint8_t>> texels;
+  std::optional<py::array> texels;
   Sampler sampler;
 };
 
 // Adds a texture to the data of a shader. Returns null if the map has no texels.
-const Texture2D* add_texture(Shader& out, const Map& map, TexelFormat format) {
+const Texture2D* add_texture(Shader& out, const Map& map, TextureRole role) {
   if (!map.texels) return nullptr;
-  Image<glm::u8vec4> image(static_cast<int>(map.texels->shape(1)), static_cast<int>(map.texels->shape(0)));
-  std::memcpy(image.data(), map.texels->data(), static_cast<std::size_t>(map.texels->nbytes()));
-  auto texture = std::make_shared<const Texture2D>(image, format);
+  auto texture = std::make_shared<const Texture2D>(texture_of(texels_of(pixels_of(*map.texels), role, "texture"), role, "texture"));
   out.data.push_back(texture);
   return texture.get();
 }
@@ -90,10 +90,10 @@ Shader phong(const Placing& placing, const std::vector<Vector>& factors, float s
   for (std::size_t i = 0; i < factors.size() && i < kShininess; ++i) s.factors[i].constant = vec_of(factors[i]);
   s.factors[kShininess].constant = glm::vec3(shininess);
   s.model = model;
-  s.factors[kColor].map = add_texture(out, color, TexelFormat::srgb8a8);
+  s.factors[kColor].map = add_texture(out, color, TextureRole::colors);
   s.factors[kColor].sampler = color.sampler;
   if (normal.texels) {
-    s.detail = {.map = add_texture(out, normal, TexelFormat::rgba8), .sampler = normal.sampler, .strength = normal_scale};
+    s.detail = {.map = add_texture(out, normal, TextureRole::normals), .sampler = normal.sampler, .strength = normal_scale};
     out.shader = SceneShader(SurfaceShader<ShadingRate::phong, true, NormalDetail::map>{s});
     out.attributes = {"positions", "normals", "tangents", "uvs"};
   } else if (per_vertex) {
@@ -117,7 +117,7 @@ Shader metallic(const Placing& placing, const std::array<float, 4>& base_color, 
   m.blends = base_color[3] < 1.0f;
   out.attributes = {"positions", "normals"};
   if (map.texels) {
-    m.maps[kBaseColorMap].map = add_texture(out, map, TexelFormat::srgb8a8);
+    m.maps[kBaseColorMap].map = add_texture(out, map, TextureRole::colors);
     m.maps[kBaseColorMap].sampler = map.sampler;
     out.shader = SceneShader(MetallicSurface<MetallicStreams::mapped>{m});
     out.attributes.emplace_back("uvs");
@@ -134,7 +134,7 @@ Shader depth_only(const Array<double>& clip_from_object, const Map& map, float o
   const glm::mat4 clip(matrix_of(clip_from_object));
   if (!map.texels) return {DepthOnly{clip}, {"positions"}};
   Shader out;
-  MaterialMap alpha{.map = add_texture(out, map, TexelFormat::rgba8), .sampler = map.sampler, .channel = {0, 0, 0, 1}};
+  MaterialMap alpha{.map = add_texture(out, map, TextureRole::data), .sampler = map.sampler, .channel = {0, 0, 0, 1}};
   out.shader = MaskedDepth<false>{clip, OpacityTest{{alpha, {}}, opacity, cutoff}};
   out.attributes = {"positions", "uvs"};
   return out;
@@ -217,7 +217,7 @@ void bind_shaders(py::module_& m) {
                        const std::vector<Light>& lights, bool two_sided) {
         return Placing{clip_from_world, world_from_object, eye, lights, two_sided};
       }));
-  py::class_<Map>(m, "Map").def(py::init([](const std::optional<Array<uint8_t>>& texels, const Sampler& sampler) {
+  py::class_<Map>(m, "Map").def(py::init([](const std::optional<py::array>& texels, const Sampler& sampler) {
     return Map{texels, sampler};
   }));
   py::class_<Lens>(m, "Lens").def(

@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "bindings.h"
+#include "halfspace/model/model.h"
 
 namespace halfspace::python {
 
@@ -21,11 +22,21 @@ inline Image<glm::u8vec4> codes_of(const Array<uint8_t>& array) {
   return image;
 }
 
-/// Copies an array of shape (H, W, 4).
-inline Image<glm::vec4> light_of(const Array<float>& array) {
-  Image<glm::vec4> image(static_cast<int>(array.shape(1)), static_cast<int>(array.shape(0)));
+template <class T>
+Image<glm::vec<4, T>> rgba_of(const Array<T>& array) {
+  Image<glm::vec<4, T>> image(static_cast<int>(array.shape(1)), static_cast<int>(array.shape(0)));
   std::memcpy(image.data(), array.data(), static_cast<std::size_t>(array.nbytes()));
   return image;
 }
+
+/// Copies an array of uint8, uint16 or float32, of shape (H, W, 4).
+inline ModelPixels pixels_of(const py::array& array) {
+  if (py::isinstance<Array<uint8_t>>(array)) return rgba_of(array.cast<Array<uint8_t>>());
+  if (py::isinstance<Array<uint16_t>>(array)) return rgba_of(array.cast<Array<uint16_t>>());
+  return rgba_of(array.cast<Array<float>>());
+}
+
+/// Copies an array of shape (H, W, 4).
+inline Image<glm::vec4> light_of(const Array<float>& array) { return rgba_of(array); }
 
 }  // namespace halfspace::python

@@ -147,6 +147,48 @@ def test_textures_may_be_gray_or_have_alpha():
     assert (picture[:, :2] == 0).all() and (picture[:, 2:] == 200).all()
 
 
+UVS = np.array([[0, 0], [1, 0], [1, 1], [0, 1]], float)
+
+
+def light_of_texel(texel, dtype):
+    """Renders a quad whose texture has one color, without light. Returns the linear color."""
+    texels = np.full((2, 2, len(texel)), texel, dtype)
+    return shown(halfspace.Mesh(*QUAD, uvs=UVS, material=flat(base_color_texture=texels)))[10, 10, :3]
+
+
+def test_integer_textures_keep_16_bits():
+    codes = np.array([32800, 32960, 257])  # the first two have the same 8 bits
+    x = codes / 65535
+    expected = np.where(x <= 0.04045, x / 12.92, ((x + 0.055) / 1.055) ** 2.4)
+    assert np.allclose(light_of_texel(codes, np.uint16), expected, rtol=1e-6, atol=0)
+    assert np.array_equal(light_of_texel((257 * 200, 257, 0), np.uint16), light_of_texel((200, 1, 0), np.uint8))
+
+
+@pytest.mark.parametrize("dtype", [np.float16, np.float32])
+def test_float_textures_are_linear_and_may_exceed_1(dtype):
+    texel = np.array([0.1, 7.3, 0.0], dtype)
+    assert np.allclose(light_of_texel(texel, dtype), texel.astype(np.float32), rtol=1e-6)
+    gray = halfspace.Texture(np.full((2, 3), 0.25, dtype)).texels
+    assert gray.dtype == np.float32 and gray.shape == (2, 3, 4) and (gray == (0.25, 0.25, 0.25, 1)).all()
+
+
+def test_alpha_of_integer_textures_is_opaque():
+    assert (halfspace.Texture(np.zeros((1, 2, 3), np.uint16)).texels[..., 3] == 65535).all()
+
+
+def test_normal_textures_can_be_vectors():
+    def lit(texels):
+        scene = dark(halfspace.Mesh(*QUAD, uvs=UVS, material=halfspace.Material(specular=0, normal_texture=texels)))
+        scene.add_light(direction=(0, 0, 1), shadow=False)
+        return scene.render((8, 8), camera=CAMERA, linear=True)[4, 4, :3]
+
+    normal = np.array([-0.6, 0, 0.8], np.float32)
+    vectors, mapped = np.tile(normal, (2, 2, 1)), np.tile(normal / 2 + 0.5, (2, 2, 1)).astype(np.float32)
+    codes = np.rint(mapped * 65535).astype(np.uint16)
+    assert np.allclose(lit(vectors), lit(mapped), rtol=1e-5) and np.allclose(lit(vectors), lit(codes), rtol=1e-4)
+    assert np.allclose(lit(vectors), 0.8 * lit(np.float32([[[0.5, 0.5, 1]]])), rtol=1e-3)
+
+
 def test_normals_are_computed_or_given():
     vertices, faces, normals, _ = sphere()
     light = {"direction": (0.3, 0.5, 1), "shadow": False}
@@ -386,7 +428,8 @@ def test_materials_of_trimesh_like_objects(of_trimesh, own):
     (lambda: halfspace.Material((1, 2, 3)), "base_color: is [1.0, 2.0, 3.0]; expected 3 or 4 numbers from 0 to 1"),
     (lambda: halfspace.Material(roughness=-1), "roughness: is -1; expected a number from 0 to 1"),
     (lambda: halfspace.Material(sheen=1.5), "sheen: is 1.5; expected a number from 0 to 1"),
-    (lambda: halfspace.Material(base_color_texture=np.zeros((2, 2))), "base_color_texture: texels: has the dtype float64; expected uint8"),
+    (lambda: halfspace.Material(base_color_texture=np.zeros((2, 2))), "base_color_texture: texels: has the dtype float64; expected uint8, uint16, float16 or float32"),
+    (lambda: halfspace.Texture(np.full((1, 2, 3), np.nan, np.float32)), "texels[0, 0, 0]: is nan; expected a finite number"),
     (lambda: halfspace.Texture(np.zeros((2, 2, 2), np.uint8)), "texels: has the shape (2, 2, 2); expected (H, W), (H, W, 3) or (H, W, 4)"),
     (lambda: halfspace.Texture(np.zeros((2, 2), np.uint8), wrap="tile"), "wrap: is 'tile'; expected one of repeat, mirrored, clamp"),
     (lambda: halfspace.Scene().add(3), "mesh: an object of type int has no vertices; expected a halfspace.Mesh or an object like trimesh.Trimesh"),

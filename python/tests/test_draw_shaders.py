@@ -60,6 +60,19 @@ def test_normal_maps():
         assert abs(image[0, 0, 0] - (normal[axis] if scale else 1)) < 1e-6
 
 
+@pytest.mark.parametrize("texel, expected", [
+    (np.array([32800, 32960, 0], np.uint16), ((np.array([32800, 32960, 0]) / 65535 + 0.055) / 1.055) ** 2.4 * [1, 1, 0]),
+    (np.array([0.1, 3.5, 0.0], np.float32), [0.1, 3.5, 0.0]),
+])
+def test_textures_with_more_than_8_bits(texel, expected):
+    image = np.zeros((1, 1, 4), np.float32)
+    p = draw.Pass(image)
+    p.draw(draw.phong(np.eye(4), eye=(0, 0, 5), ambient=(1, 1, 1), texture=np.full((2, 2, 3), texel)),
+           positions=plane(), normals=NORMALS, uvs=UVS)
+    p.run()
+    assert np.allclose(image[0, 0, :3], expected, rtol=1e-6, atol=0)
+
+
 @pytest.mark.parametrize("height", [None, 4.0])
 def test_spheres_are_exact(height):
     image, depth = np.zeros((41, 41, 4), np.float32), np.zeros((41, 41), np.float32)

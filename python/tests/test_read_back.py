@@ -214,6 +214,18 @@ def test_textures_of_a_file_can_be_read(tmp_path):
     assert corners[(-1, -1, 0)] == (0, 1) and corners[(1, 1, 0)] == (1, 0) and read.uv_origin == "upper_left"
 
 
+def test_textures_of_a_file_keep_16_bits(tmp_path):
+    codes = np.array([[[32800, 32960, 0]]], np.uint16)
+    scene = halfspace.Scene(lighting="none")
+    scene.add(halfspace.Mesh(*QUAD, uvs=[[0, 0], [1, 0], [1, 1], [0, 1]],
+                             material=halfspace.Material(base_color_texture=codes, normal_texture=np.float32([[[0.5, 0.5, 0.75]]]))))
+    scene.export(tmp_path / "quad.glb")
+    read = halfspace.Mesh.load(tmp_path / "quad.glb").material
+    color, normal = read.base_color_texture.texels[0, 0], read.normal_texture.texels[0, 0]
+    assert color.dtype == np.float32 and np.allclose(color[:2], ((codes[0, 0, :2] / 65535 + 0.055) / 1.055) ** 2.4, rtol=1e-6)
+    assert np.allclose(normal, (0.5, 0.5, 0.75, 1), atol=1e-5)
+
+
 def test_a_model_needs_meshes_and_a_file(tmp_path):
     with pytest.raises(TypeError, match="Model.load"):
         halfspace.Model()

@@ -67,10 +67,13 @@ Image<glm::vec4> read_linear(std::span<const std::byte> file, const std::string&
 /// What the values of an image stand for.
 enum class ImageUse { colors, data };
 
+/// 8-bit values, in which colors are sRGB-encoded, or numbers, in which colors are linear.
+using TextureImage = std::variant<Image<glm::u8vec4>, Image<glm::vec4>>;
+
 /// Reads any file without loss. 8-bit values are returned as they are, and all others as numbers: colors like those of read_linear, and
 /// data like those of read_gray, but with infinities clamped to ±65504.
-std::variant<Image<glm::u8vec4>, Image<glm::vec4>> read_texels(const std::filesystem::path& path, ImageUse use);
-std::variant<Image<glm::u8vec4>, Image<glm::vec4>> read_texels(std::span<const std::byte> file, const std::string& name, ImageUse use);
+TextureImage read_texels(const std::filesystem::path& path, ImageUse use);
+TextureImage read_texels(std::span<const std::byte> file, const std::string& name, ImageUse use);
 
 /// Text in image files: lines of UTF-8. Nothing is stored for empty text.
 struct ImageText {

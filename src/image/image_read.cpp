@@ -48,11 +48,8 @@ bool is_premultiplied(const ImageSource& source) {
 
 Image<glm::vec4> linear_of(ImageSource& source) { return to_linear(read_color(source), is_premultiplied(source), source.name()); }
 
-std::variant<Image<glm::u8vec4>, Image<glm::vec4>> texels_of(ImageSource& source, ImageUse use) {
-  ColorPicture picture = read_color(source);
-  if (auto* codes = std::get_if<Image<glm::u8vec4>>(&picture)) return std::move(*codes);
-  if (const auto* wide = std::get_if<Image<glm::u16vec4>>(&picture); wide != nullptr && use == ImageUse::data) return to_numbers(*wide);
-  return to_linear(std::move(picture), is_premultiplied(source), source.name());
+TextureImage texels_of(ImageSource& source, ImageUse use) {
+  return to_texels(read_color(source), use, is_premultiplied(source), source.name());
 }
 
 // Calls decode(source) for a file on disk. `expected` lists formats for messages.
@@ -95,10 +92,10 @@ Image<glm::vec4> read_linear(std::span<const std::byte> file, const std::string&
   return read_memory(file, name, kAllFormats, linear_of);
 }
 
-std::variant<Image<glm::u8vec4>, Image<glm::vec4>> read_texels(const std::filesystem::path& path, ImageUse use) {
+TextureImage read_texels(const std::filesystem::path& path, ImageUse use) {
   return read_path(path, kAllFormats, [use](ImageSource& source) { return texels_of(source, use); });
 }
-std::variant<Image<glm::u8vec4>, Image<glm::vec4>> read_texels(std::span<const std::byte> file, const std::string& name, ImageUse use) {
+TextureImage read_texels(std::span<const std::byte> file, const std::string& name, ImageUse use) {
   return read_memory(file, name, kAllFormats, [use](ImageSource& source) { return texels_of(source, use); });
 }
 

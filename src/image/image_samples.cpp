@@ -103,14 +103,30 @@ Image<float> to_numbers(GrayPicture picture, const std::string& name) {
   return std::visit([&](auto&& image) { return numbers(std::move(image), name); }, std::move(picture));
 }
 
-Image<glm::vec4> to_numbers(const Image<glm::u16vec4>& codes) {
-  const FloatMode float_mode;
-  return map_texels<glm::vec4>(codes, [](const glm::u16vec4& c) { return glm::vec4(c) / 65535.0f; });
-}
-
 Image<glm::vec4> to_linear(ColorPicture picture, bool premultiplied, const std::string& name) {
   const FloatMode float_mode;
   return std::visit([&](auto&& image) { return linear(std::move(image), premultiplied, name); }, std::move(picture));
+}
+
+TextureImage to_texels(ColorPicture picture, ImageUse use, bool premultiplied, const std::string& name) {
+  if (auto* codes = std::get_if<Image<glm::u8vec4>>(&picture)) return std::move(*codes);
+  const auto* wide = std::get_if<Image<glm::u16vec4>>(&picture);
+  if (wide == nullptr || use == ImageUse::colors) return to_linear(std::move(picture), premultiplied, name);
+  const FloatMode float_mode;
+  return map_texels<glm::vec4>(*wide, [](const glm::u16vec4& c) { return glm::vec4(c) / 65535.0f; });
+}
+
+Image<glm::u16vec4> to_codes16(const Image<glm::vec4>& numbers, ImageUse use) {
+  const FloatMode float_mode;
+  const auto encoded = [use](float x) {
+    if (use == ImageUse::data) return x;
+    return x <= 0.0031308f ? 12.92f * x : 1.055f * pow(x, 1.0f / 2.4f) - 0.055f;
+  };
+  const auto code = [](float x) { return static_cast<uint16_t>(x * 65535.0f + 0.5f); };
+  return map_texels<glm::u16vec4>(numbers, [&](const glm::vec4& number) {
+    const glm::vec4 x = glm::clamp(number, 0.0f, 1.0f);
+    return glm::u16vec4(code(encoded(x.x)), code(encoded(x.y)), code(encoded(x.z)), code(x.w));
+  });
 }
 
 }  // namespace halfspace::HS_LANES

@@ -130,6 +130,12 @@ std::vector<std::byte> encode_png(const Image<glm::u16vec4>& image, const ImageT
   return encode_codes(image, PngCodes::srgb, text);
 }
 
+std::vector<std::byte> encode_png(const TextureImage& image, ImageUse use) {
+  const PngCodes codes = use == ImageUse::colors ? PngCodes::srgb : PngCodes::numbers;
+  if (const auto* bytes = std::get_if<Image<glm::u8vec4>>(&image)) return encode_codes(*bytes, codes, {});
+  return encode_codes(to_codes16(std::get<Image<glm::vec4>>(image), use), codes, {});
+}
+
 bool is_png(std::span<const std::byte> bytes) {
   constexpr unsigned char kSignature[] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
   return bytes.size() >= sizeof kSignature && std::memcmp(bytes.data(), kSignature, sizeof kSignature) == 0;

@@ -23,6 +23,8 @@ enum class PngCodes { srgb, numbers };
 std::vector<std::byte> encode_png(const Image<glm::u8vec4>& image, PngCodes codes = PngCodes::srgb, const ImageText& text = {});
 /// The same with 16 bits per channel. The file is marked as sRGB.
 std::vector<std::byte> encode_png(const Image<glm::u16vec4>& image, const ImageText& text = {});
+/// Encodes 8-bit values with 8 bits per channel, and numbers with 16 (to_codes16).
+std::vector<std::byte> encode_png(const TextureImage& image, ImageUse use);
 
 /// Returns whether the bytes begin with the PNG signature.
 bool is_png(std::span<const std::byte> bytes);

@@ -31,7 +31,7 @@ struct Case {
     SpecularGlossiness textures = source;
     const auto add = [&](const Picture& picture) {
       if (picture.empty()) return -1;
-      model.images.push_back({.name = "picture", .file = {}, .bytes = nullptr, .pixels = std::make_shared<const Picture>(picture)});
+      model.images.push_back({.name = "picture", .file = {}, .bytes = nullptr, .pixels = std::make_shared<const ModelPixels>(picture)});
       model.textures.push_back({static_cast<int>(model.images.size()) - 1, sampler});
       return static_cast<int>(model.textures.size()) - 1;
     };
@@ -110,6 +110,18 @@ TEST(ConvertedImages, FactorsMultiplyTexels) {
     EXPECT_NEAR(out.base_color.at(0, 0)[k], encoded(static_cast<double>(c.source.diffuse[k]) * 0.98 / 0.96), 0.501);
   EXPECT_EQ(out.base_color.at(0, 0).w, 128);
   EXPECT_EQ(out.metallic_roughness.at(0, 0), glm::u8vec4(0, 64, 0, 255)) << "roughness 0.25, which is 63.75 codes";
+}
+
+TEST(ConvertedImages, TexelsCanBeNumbers) {
+  Image<glm::vec4> light(1, 1);
+  light.at(0, 0) = {0.3f, 0.6f, 0.0f, 1.0f};
+  Model model;
+  model.images.push_back({.name = "light", .file = {}, .bytes = nullptr, .pixels = std::make_shared<const ModelPixels>(light)});
+  model.textures.push_back({0, {}});
+  const ConvertedImages out = converted_images(model, {.diffuse_texture = 0, .specular = glm::vec3(0.02f)}, "test", Workers(1));
+  EXPECT_TRUE(out.problems.empty());
+  for (glm::length_t k = 0; k < 3; ++k)
+    EXPECT_NEAR(out.base_color.at(0, 0)[k], encoded(static_cast<double>(light.at(0, 0)[k]) * 0.98 / 0.96), 0.501);
 }
 
 TEST(ConvertedImages, TexturesOfDifferentSizesAreResampled) {

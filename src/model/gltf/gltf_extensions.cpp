@@ -13,18 +13,19 @@ namespace halfspace::HS_LANES {
 
 namespace {
 
-constexpr std::array<std::string_view, 18> kSupported = {
+constexpr std::array<std::string_view, 19> kSupported = {
     "EXT_mesh_gpu_instancing", "EXT_meshopt_compression",         "EXT_texture_webp",           "KHR_lights_punctual",
     "KHR_materials_clearcoat", "KHR_materials_emissive_strength", "KHR_materials_ior",          "KHR_materials_pbrSpecularGlossiness",
     "KHR_materials_sheen",     "KHR_materials_specular",          "KHR_materials_transmission", "KHR_materials_unlit",
     "KHR_materials_variants",  "KHR_mesh_quantization",           "KHR_texture_transform",      "KHR_node_visibility",
+    "MSFT_texture_dds",
     "KHR_animation_pointer",  // to properties of nodes
     "KHR_xmp_json_ld",        // metadata, which has no effect
 };
 
 // A file that requires one of these extensions is drawn without it. Missing material extensions also affect only the appearance.
-constexpr std::array<std::string_view, 6> kAppearance = {
-    "EXT_lights_ies", "EXT_lights_image_based", "EXT_texture_avif", "KHR_texture_basisu", "KHR_texture_procedurals", "MSFT_texture_dds",
+constexpr std::array<std::string_view, 5> kAppearance = {
+    "EXT_lights_ies", "EXT_lights_image_based", "EXT_texture_avif", "KHR_texture_basisu", "KHR_texture_procedurals",
 };
 
 constexpr std::string_view kDracoExtension = "KHR_draco_mesh_compression";

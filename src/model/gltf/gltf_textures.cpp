@@ -54,8 +54,10 @@ Sampler sampler_of(const GltfDocument& document, const GltfValue& json) {
 // Returns the image of a texture, or −1 if it has no image that can be read.
 int image_of(GltfDocument& document, const GltfValue& json) {
   const std::size_t images = document.list("images").size();
-  if (const GltfValue* webp = document.extension(json, "EXT_texture_webp")) {
-    if (const int image = document.index(*webp, "source", images); image >= 0) return image;
+  for (const char* name : {"MSFT_texture_dds", "EXT_texture_webp"}) {
+    const GltfValue* extension = document.extension(json, name);
+    const int image = extension == nullptr ? -1 : document.index(*extension, "source", images);
+    if (image >= 0) return image;
   }
   return document.index(json, "source", images);
 }

@@ -3,36 +3,41 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <variant>
 
 #include "halfspace/core/resource_limits.h"
 #include "halfspace/core/srgb.h"
-#include "halfspace/image/image_io.h"
 #include "halfspace/model/gltf/specular_glossiness.h"
+#include "halfspace/render/assets/texture_image.h"
 
 namespace halfspace::HS_LANES {
 
 namespace {
 
-using TexelImage = Image<glm::u8vec4>;
-
 // Returns the image of a texture, or one white texel if there is none or if it cannot be read.
-TexelImage source_picture(const Model& model, int texture, const std::string& place, std::vector<std::string>& problems) {
-  TexelImage white(1, 1);
+TextureImage source_picture(const Model& model, int texture, const std::string& place, std::vector<std::string>& problems) {
+  Image<glm::u8vec4> white(1, 1);
   white.at(0, 0) = glm::u8vec4(255);
   if (texture < 0) return white;
   const int image = model.textures[static_cast<std::size_t>(texture)].image;
   if (image < 0) return white;
   const ModelImage& source = model.images[static_cast<std::size_t>(image)];
   try {
-    if (source.pixels != nullptr) return *source.pixels;
-    if (source.bytes != nullptr) return read_image(*source.bytes, place + ": " + source.name);
-    if (!source.file.empty()) return read_image(source.file);
+    if (source.has_content()) return texels_of(source, TextureRole::colors, place);
   } catch (const LimitError&) {
     throw;
   } catch (const InputError& e) {
     problems.emplace_back(e.what());
   }
   return white;
+}
+
+int width_of(const TextureImage& picture) {
+  return std::visit([](const auto& texels) { return texels.width(); }, picture);
+}
+int height_of(const TextureImage& picture) {
+  return std::visit([](const auto& texels) { return texels.height(); }, picture);
 }
 
 int wrapped(int i, int size, Wrap wrap) {
@@ -79,14 +84,14 @@ std::vector<std::vector<Tap>> taps_of(int from, int to, Wrap wrap, bool nearest)
 // A picture at another resolution with at least as many texels.
 class Resampled {
  public:
-  Resampled(const TexelImage& picture, const Sampler& sampler, int width, int height, const std::string& place)
+  Resampled(const TextureImage& picture, const Sampler& sampler, int width, int height, const std::string& place)
       : picture_(picture),
-        across_(taps_of(picture.width(), width, sampler.wrap_s, sampler.mag == Filter::nearest)),
-        down_(taps_of(picture.height(), height, sampler.wrap_t, sampler.mag == Filter::nearest)) {
+        across_(taps_of(width_of(picture), width, sampler.wrap_s, sampler.mag == Filter::nearest)),
+        down_(taps_of(height_of(picture), height, sampler.wrap_t, sampler.mag == Filter::nearest)) {
     // At most one axis has fewer texels than before. Its means are computed first, because they can have thousands of taps.
-    const bool narrower = width < picture.width(), lower = height < picture.height();
+    const bool narrower = width < width_of(picture), lower = height < height_of(picture);
     if (!narrower && !lower) return;
-    const int columns = narrower ? width : picture.width(), rows = lower ? height : picture.height();
+    const int columns = narrower ? width : width_of(picture), rows = lower ? height : height_of(picture);
     const MemoryClaim claim(sizeof(glm::vec4) * static_cast<uint64_t>(columns) * static_cast<uint64_t>(rows), place);
     Image<glm::vec4> reduced(columns, rows);
     for (int y = 0; y < rows; ++y) {
@@ -111,11 +116,12 @@ class Resampled {
  private:
   glm::vec4 texel(int x, int y) const {
     if (!reduced_.empty()) return reduced_.at(x, y);
-    const glm::u8vec4 t = picture_.at(x, y);
+    if (const auto* numbers = std::get_if<Image<glm::vec4>>(&picture_)) return numbers->at(x, y);
+    const glm::u8vec4 t = std::get<Image<glm::u8vec4>>(picture_).at(x, y);
     return {kSrgbToLinear[t.x], kSrgbToLinear[t.y], kSrgbToLinear[t.z], static_cast<float>(t.w) / 255.0f};
   }
 
-  const TexelImage& picture_;
+  const TextureImage& picture_;
   std::vector<std::vector<Tap>> across_, down_;
   Image<glm::vec4> reduced_;
 };
@@ -132,20 +138,21 @@ const Sampler& sampler_of(const Model& model, int texture) {
 
 ConvertedImages converted_images(const Model& model, const SpecularGlossiness& source, const std::string& place, const Workers& workers) {
   ConvertedImages out;
-  const TexelImage diffuse = source_picture(model, source.diffuse_texture, place, out.problems);
-  const TexelImage specular = source_picture(model, source.specular_texture, place, out.problems);
-  const bool diffuse_is_larger = diffuse.texels().size() >= specular.texels().size();
-  const int width = (diffuse_is_larger ? diffuse : specular).width(), height = (diffuse_is_larger ? diffuse : specular).height();
+  const TextureImage diffuse = source_picture(model, source.diffuse_texture, place, out.problems);
+  const TextureImage specular = source_picture(model, source.specular_texture, place, out.problems);
+  const auto texels = [](const TextureImage& picture) { return int64_t{width_of(picture)} * height_of(picture); };
+  const TextureImage& larger = texels(diffuse) >= texels(specular) ? diffuse : specular;
+  const int width = width_of(larger), height = height_of(larger);
   const MemoryClaim claim(uint64_t{2} * sizeof(glm::u8vec4) * static_cast<uint64_t>(width) * static_cast<uint64_t>(height), place);
-  out.base_color = TexelImage(width, height);
-  out.metallic_roughness = TexelImage(width, height);
+  out.base_color = Image<glm::u8vec4>(width, height);
+  out.metallic_roughness = Image<glm::u8vec4>(width, height);
   const Resampled diffuse_map(diffuse, sampler_of(model, source.diffuse_texture), width, height, place);
   const Resampled specular_map(specular, sampler_of(model, source.specular_texture), width, height, place);
   workers.for_each(height, [&](int y) {
     for (int x = 0; x < width; ++x) {
       const glm::vec4 d = diffuse_map.at(x, y), s = specular_map.at(x, y);
-      const MetallicColor c = metallic_color(glm::min(glm::dvec3(glm::vec3(d) * source.diffuse), 1.0),
-                                             glm::min(glm::dvec3(glm::vec3(s) * source.specular), 1.0));
+      const MetallicColor c = metallic_color(glm::clamp(glm::dvec3(glm::vec3(d) * source.diffuse), 0.0, 1.0),
+                                             glm::clamp(glm::dvec3(glm::vec3(s) * source.specular), 0.0, 1.0));
       out.base_color.at(x, y) = {srgb_code_of(c.base.x), srgb_code_of(c.base.y), srgb_code_of(c.base.z), code_of(d.w)};
       out.metallic_roughness.at(x, y) = {0, code_of(1.0 - s.w * source.glossiness), code_of(c.metallic), 255};
     }

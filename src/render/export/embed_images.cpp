@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "halfspace/render/export/embed_images.h"
 
+#include <algorithm>
 #include <deque>
 #include <map>
 
 #include "halfspace/core/resource_limits.h"
-#include "halfspace/image/image_io.h"
 #include "halfspace/image/png.h"
 #include "halfspace/model/gltf/specular_glossiness.h"
 #include "halfspace/model/text/file_bytes.h"
@@ -13,6 +13,7 @@
 #include "halfspace/model/write_model.h"
 #include "halfspace/model/written_model.h"
 #include "halfspace/render/assets/converted_images.h"
+#include "halfspace/render/assets/texture_image.h"
 #include "halfspace/render/export/scene_materials.h"
 
 namespace halfspace::HS_LANES {
@@ -78,25 +79,43 @@ void embed_conversions(Model& model, const std::vector<bool>& used, const std::s
   }
 }
 
-void embed(ModelImage& image, const std::string& file) {
-  if (image.pixels) {
-    image.bytes = shared(encode_png(*image.pixels));
-    return;
+// Returns the role of each image. An image with several roles has the first of colors, data and normals.
+std::vector<TextureRole> image_roles(const Model& model) {
+  std::vector<TextureRole> roles(model.images.size(), TextureRole::normals);
+  for (const ModelMaterial& m : model.materials) {
+    for (const auto map : kTextureUses) {
+      const int texture = (m.*map).texture;
+      const int image = texture < 0 ? -1 : model.textures[static_cast<std::size_t>(texture)].image;
+      if (image >= 0) roles[static_cast<std::size_t>(image)] = std::min(roles[static_cast<std::size_t>(image)], role_of(map));
+    }
   }
-  if (image.bytes == nullptr && image.file.empty()) return;  // the reader has already warned
-  auto bytes = image.bytes != nullptr ? image.bytes : shared(file_bytes(image.file, memory_left()));
-  if (image_extension(*bytes).empty()) bytes = shared(encode_png(read_image(*bytes, file + ": " + image.name)));
-  image.bytes = std::move(bytes);
+  return roles;
+}
+
+// Embeds the file of an image if models can contain its format, otherwise a PNG with the same texels.
+void embed(Model& model, ModelImage& image, TextureRole role, const std::string& file) {
+  if (!image.has_content()) return;  // the reader has already warned
+  if (image.pixels == nullptr) {
+    const auto bytes = image.bytes != nullptr ? image.bytes : shared(file_bytes(image.file, memory_left()));
+    if (!image_extension(*bytes).empty()) {
+      image.bytes = bytes;
+      return;
+    }
+  }
+  const TextureImage texels = texels_of(image, role, file);
+  warn_if_clamped(model, texels);
+  image.bytes = shared(encode_png(texels, image_use(role)));
 }
 
 void embed_used(Model& model, const std::vector<bool>& used, const std::string& file) {
+  const std::vector<TextureRole> roles = image_roles(model);
   for (std::size_t i = 0; i < model.images.size(); ++i) {
     if (!used[i]) {
       model.images[i] = {.name = std::move(model.images[i].name), .file = {}, .bytes = nullptr};
       continue;
     }
     try {
-      embed(model.images[i], file);
+      embed(model, model.images[i], roles[i], file);
     } catch (const LimitError&) {
       throw;
     } catch (const InputError& e) {

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <variant>
 
 #include "halfspace/image/png.h"
 
@@ -10,17 +12,11 @@ namespace halfspace::HS_LANES {
 
 namespace {
 
-Image<glm::u8vec4> picture_of(const Texture2D& texture, bool flip_green) {
-  const bool codes = texture.format() == TexelFormat::srgb8a8 || texture.format() == TexelFormat::rgba8;
-  Image<glm::u8vec4> picture(texture.width(), texture.height());
-  for (int y = 0; y < picture.height(); ++y) {
-    for (int x = 0; x < picture.width(); ++x) {
-      glm::u8vec4& texel = picture.at(x, y);
-      texel = codes ? texture.texel(0, x, y) : glm::u8vec4(glm::clamp(texture.value(0, x, y), 0.0f, 1.0f) * 255.0f + 0.5f);
-      if (flip_green) texel.y = static_cast<uint8_t>(255 - texel.y);
-    }
-  }
-  return picture;
+void flip_green(Image<glm::u8vec4>& image) {
+  for (glm::u8vec4& t : std::span(image.data(), image.texels().size())) t.y = static_cast<uint8_t>(255 - t.y);
+}
+void flip_green(Image<glm::vec4>& image) {
+  for (glm::vec4& t : std::span(image.data(), image.texels().size())) t.y = 1.0f - t.y;
 }
 
 void convert_highlight(const LitSurface& s, ModelMaterial& m) {
@@ -40,6 +36,12 @@ void warn_once(Model& model, const std::string& text) {
   if (std::ranges::find(model.warnings, text) == model.warnings.end()) model.warnings.push_back(text);
 }
 
+void warn_if_clamped(Model& model, const TextureImage& image) {
+  const auto* numbers = std::get_if<Image<glm::vec4>>(&image);
+  if (numbers != nullptr && std::ranges::any_of(numbers->texels(), [](const glm::vec4& t) { return t != glm::clamp(t, 0.0f, 1.0f); }))
+    warn_once(model, "texels below 0 or above 1 are clamped");
+}
+
 int SceneMaterials::add(const std::string& name, const DrawnMesh& drawn) {
   const LitSurface& s = *drawn.surface;
   ModelMaterial m;
@@ -49,12 +51,13 @@ int SceneMaterials::add(const std::string& name, const DrawnMesh& drawn) {
   const glm::vec3 color = s.factors[kColor].constant * (drawn.unlit ? glm::vec3(1.0f) : s.factors[kDiffuse].constant);
   m.base_color = glm::vec4(glm::min(color, 1.0f), 1.0f);
   if (color != glm::vec3(m.base_color)) warn_once(model_, "colors above 1 are clamped to 1");
-  m.base_color_map = texture_use(s.factors[kColor].map, s.factors[kColor].sampler, false);
+  m.base_color_map = texture_use(s.factors[kColor].map, s.factors[kColor].sampler, TextureRole::colors, false);
   m.emissive = s.factors[kEmissive].constant;
-  if (m.emissive != glm::vec3(0.0f)) m.emissive_map = texture_use(s.factors[kEmissive].map, s.factors[kEmissive].sampler, false);
+  if (m.emissive != glm::vec3(0.0f))
+    m.emissive_map = texture_use(s.factors[kEmissive].map, s.factors[kEmissive].sampler, TextureRole::colors, false);
   convert_highlight(s, m);
   if (drawn.has_normal_map) {
-    m.normal_map = texture_use(s.detail.map, s.detail.sampler, s.detail.flip_green);
+    m.normal_map = texture_use(s.detail.map, s.detail.sampler, TextureRole::normals, s.detail.flip_green);
     m.normal_scale = s.detail.strength;
   }
   if (drawn.has_other_detail) warn_once(model_, "bump maps and per-pixel slopes of displaced spheres are omitted");
@@ -68,13 +71,15 @@ int SceneMaterials::add(const std::string& name, const DrawnMesh& drawn) {
 }
 
 // Returns a use of the texture, which is added to the model if it is new.
-TextureUse SceneMaterials::texture_use(const Texture2D* texture, const Sampler& sampler, bool flip_green) {
+TextureUse SceneMaterials::texture_use(const Texture2D* texture, const Sampler& sampler, TextureRole role, bool flips_green) {
   TextureUse use;
   if (texture == nullptr) return use;
-  const auto [known, added] = images_.try_emplace({texture, flip_green}, static_cast<int>(model_.images.size()));
+  const auto [known, added] = images_.try_emplace({texture, flips_green}, static_cast<int>(model_.images.size()));
   if (added) {
-    const bool color = texture->format() == TexelFormat::srgb8a8;
-    auto png = encode_png(picture_of(*texture, flip_green), color ? PngCodes::srgb : PngCodes::numbers);
+    TextureImage image = image_of(*texture);
+    if (flips_green) std::visit([](auto& texels) { flip_green(texels); }, image);
+    warn_if_clamped(model_, image);
+    auto png = encode_png(image, image_use(role));
     model_.images.push_back({"map" + std::to_string(known->second), {}, std::make_shared<const std::vector<std::byte>>(std::move(png))});
   }
   use.texture = static_cast<int>(model_.textures.size());

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "halfspace/model/model.h"
+#include "halfspace/render/assets/texture_image.h"
 #include "halfspace/render/prepared_scene.h"
 
 namespace halfspace::HS_LANES {
@@ -21,6 +22,8 @@ struct DrawnMesh {
 
 /// Adds a warning to the model unless the model already has it.
 void warn_once(Model& model, const std::string& text);
+/// Adds a warning if an image has numbers outside of [0, 1], which encode_png clamps.
+void warn_if_clamped(Model& model, const TextureImage& image);
 
 /// Converts materials and adds them to a model, with their textures.
 class SceneMaterials {
@@ -32,7 +35,7 @@ class SceneMaterials {
   int add(const std::string& name, const DrawnMesh& drawn);
 
  private:
-  TextureUse texture_use(const Texture2D* texture, const Sampler& sampler, bool flip_green);
+  TextureUse texture_use(const Texture2D* texture, const Sampler& sampler, TextureRole role, bool flips_green);
 
   Model& model_;
   std::map<std::pair<const Texture2D*, bool>, int> images_;  // image index by texture and whether green is flipped

@@ -30,7 +30,7 @@ DetailMap DetailMaps::slopes_of(const Relief& relief, const ObjectDescription& o
 DetailMap DetailMaps::normal_map(const ObjectDescription& o, const std::string& where) {
   const MapUse use = maps_.use_of(o.surface.normal_map, o);
   DetailMap d;
-  d.map = maps_.data_texture(use, where).get();
+  d.map = maps_.data_texture(use, TextureRole::normals, where).get();
   d.sampler = make_sampler(use.texture);
   d.strength = static_cast<float>(o.surface.normal_strength);
   d.flip_green = o.surface.normal_flip_green;

@@ -7,6 +7,7 @@
 #include "halfspace/core/resource_limits.h"
 #include "halfspace/geometry/height_slopes.h"
 #include "halfspace/image/image_io.h"
+#include "halfspace/image/image_samples.h"
 
 namespace halfspace::HS_LANES {
 
@@ -32,11 +33,8 @@ ModelBumps bumps_of(const Image<float>& heights, const Sampler& sampler) {
 
 // Returns the first channel of an image.
 Image<float> heights_of(const ModelImage& image) {
-  if (image.pixels == nullptr) return image.bytes != nullptr ? read_gray(*image.bytes, image.name) : read_gray(image.file);
-  Image<float> heights(image.pixels->width(), image.pixels->height());
-  std::ranges::transform(image.pixels->texels(), heights.data(),
-                         [](const glm::u8vec4& texel) { return static_cast<float>(texel.x) / 255.0f; });
-  return heights;
+  if (image.pixels != nullptr) return to_numbers(first_channel(*image.pixels), image.name);
+  return image.bytes != nullptr ? read_gray(*image.bytes, image.name) : read_gray(image.file);
 }
 
 // Returns the size of the unit square of texture coordinates on a mesh, in model units: the mean over all triangles.
@@ -63,7 +61,7 @@ void add_bumps(MetallicMaterial& surface, const ObjectDescription& o, const Mode
   const ModelTexture& texture = model.textures[static_cast<std::size_t>(use.texture)];
   if (material.unlit || texture.image < 0 || m.uvs[static_cast<std::size_t>(use.uv_set)].empty()) return;
   const ModelImage& image = model.images[static_cast<std::size_t>(texture.image)];
-  if (image.file.empty() && image.bytes == nullptr && image.pixels == nullptr) return;
+  if (!image.has_content()) return;
   const std::string file = o.file.path.string();
   const double size = *used.asset<double>(recipe("model uv size", file, mesh, use.uv_set), [&] { return uv_size(m, use.uv_set); });
   const glm::vec2 u = use.uv_transform[0], v = use.uv_transform[1];

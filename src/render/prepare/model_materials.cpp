@@ -9,9 +9,12 @@
 #include <numeric>
 #include <optional>
 #include <set>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "halfspace/core/resource_limits.h"
-#include "halfspace/image/image_io.h"
+#include "halfspace/core/srgb.h"
 #include "halfspace/image/image_limits.h"
 #include "halfspace/model/gltf/specular_glossiness.h"
 #include "halfspace/render/assets/converted_images.h"
@@ -22,15 +25,16 @@ namespace halfspace::HS_LANES {
 
 namespace {
 
-// Returns the texture uses of a material, in the order of MetallicMap.
-std::array<const TextureUse*, kMetallicMaps> uses_of(const ModelMaterial& m) {
-  return {&m.base_color_map, &m.opacity_map,          &m.metallic_map,       &m.roughness_map,
-          &m.specular_map,   &m.specular_color_map,   &m.clearcoat_map,      &m.clearcoat_roughness_map,
-          &m.normal_map,     &m.clearcoat_normal_map, &m.occlusion_map,      &m.emissive_map,
-          &m.sheen_map,      &m.sheen_color_map,      &m.sheen_roughness_map};
-}
-
-bool is_color(std::size_t map) { return map == kBaseColorMap || map == kSpecularColorMap || map == kEmissiveMap || map == kSheenColorMap; }
+// The maps of a material, in the order of MetallicMap.
+constexpr std::array<TextureUse ModelMaterial::*, kMetallicMaps> kMaps{
+    &ModelMaterial::base_color_map,     &ModelMaterial::opacity_map,
+    &ModelMaterial::metallic_map,       &ModelMaterial::roughness_map,
+    &ModelMaterial::specular_map,       &ModelMaterial::specular_color_map,
+    &ModelMaterial::clearcoat_map,      &ModelMaterial::clearcoat_roughness_map,
+    &ModelMaterial::normal_map,         &ModelMaterial::clearcoat_normal_map,
+    &ModelMaterial::occlusion_map,      &ModelMaterial::emissive_map,
+    &ModelMaterial::sheen_map,          &ModelMaterial::sheen_color_map,
+    &ModelMaterial::sheen_roughness_map};
 
 // Returns whether a map affects the picture. Maps of a coat or sheen that the material does not have are not sampled.
 bool has_effect(std::size_t map, const ModelMaterial& m) {
@@ -58,23 +62,12 @@ glm::vec4 weights_of(Channel channel) {
   return {0.2126f, 0.7152f, 0.0722f, 0};  // ITU-R BT.709
 }
 
-std::string image_recipe(const std::filesystem::path& file, int image, bool color) {
-  return recipe("model image", file.string(), image, color ? "color" : "data");
+std::string image_recipe(const std::filesystem::path& file, int image, TextureRole role) {
+  return recipe("model image", file.string(), image, static_cast<int>(role));
 }
 
 uint64_t texture_memory_of(const Image<glm::u8vec4>& picture) {
   return texture_memory(static_cast<uint64_t>(picture.width()), static_cast<uint64_t>(picture.height()), sizeof(glm::u8vec4));
-}
-
-Texture2D texture_of(const Image<glm::u8vec4>& picture, bool color, const Workers& workers) {
-  return Texture2D(picture, color ? TexelFormat::srgb8a8 : TexelFormat::rgba8, &workers);
-}
-
-// Decodes an image of a model.
-Texture2D decoded(const std::filesystem::path& file, const ModelImage& source, bool color, const Workers& workers) {
-  if (source.pixels != nullptr) return texture_of(*source.pixels, color, workers);
-  return texture_of(source.bytes != nullptr ? read_image(*source.bytes, file.string() + ": " + source.name) : read_image(source.file),
-                    color, workers);
 }
 
 // Estimates the work of decoding an image by the size of its file. The result of a conversion needs two images.
@@ -86,28 +79,36 @@ std::uintmax_t decoding_work(const ModelImage& image) {
   return error ? 0 : bytes;
 }
 
-// Returns the images that the materials of a posed model use and that are not yet loaded, and for each, whether it is a color map.
-std::vector<std::pair<int, bool>> wanted_images(const ObjectDescription& o, const Model& model, const PosedModel& posed,
-                                                const UsedAssets& used) {
-  std::set<std::pair<int, bool>> wanted;
+// Returns the images that the materials of a posed model use and that are not yet loaded, with their roles.
+std::vector<std::pair<int, TextureRole>> wanted_images(const ObjectDescription& o, const Model& model, const PosedModel& posed,
+                                                       const UsedAssets& used) {
+  std::set<std::pair<int, TextureRole>> wanted;
   for (const PosedMesh& part : posed.meshes) {
     if (part.material < 0) continue;
     const ModelMaterial& material = model.materials[static_cast<std::size_t>(part.material)];
-    const auto uses = uses_of(material);
-    for (std::size_t i = 0; i < uses.size(); ++i) {
-      if (uses[i]->texture < 0 || !has_effect(i, material)) continue;
-      const int image = model.textures[static_cast<std::size_t>(uses[i]->texture)].image;
-      if (image >= 0 && !used.contains(image_recipe(o.file.path, image, is_color(i)))) wanted.emplace(image, is_color(i));
+    for (std::size_t i = 0; i < kMaps.size(); ++i) {
+      const int texture = (material.*kMaps[i]).texture;
+      if (texture < 0 || !has_effect(i, material)) continue;
+      const int image = model.textures[static_cast<std::size_t>(texture)].image;
+      const TextureRole role = role_of(kMaps[i]);
+      if (image >= 0 && !used.contains(image_recipe(o.file.path, image, role))) wanted.emplace(image, role);
     }
   }
   return {wanted.begin(), wanted.end()};
+}
+
+// Returns a texel of level 0. Numbers are rounded to 8-bit values.
+glm::u8vec4 codes_at(const Texture2D& map, int x, int y) {
+  if (map.format() == TexelFormat::rgba8 || map.format() == TexelFormat::srgb8a8) return map.texel(0, x, y);
+  const glm::vec4 v = map.value(0, x, y);
+  return {linear_to_unorm8(v.x), linear_to_unorm8(v.y), linear_to_unorm8(v.z), linear_to_unorm8(v.w)};
 }
 
 }  // namespace
 
 // If `lit`, filters the environment at the same time, because a few images do not keep all threads busy.
 void ModelMaterials::load_images(const ObjectDescription& o, const Model& model, const PosedModel& posed, bool lit) {
-  const std::vector<std::pair<int, bool>> list = wanted_images(o, model, posed, used_);
+  const std::vector<std::pair<int, TextureRole>> list = wanted_images(o, model, posed, used_);
   if (list.empty()) return;
   const auto start = std::chrono::steady_clock::now();
   std::vector<std::optional<Texture2D>> textures(list.size());
@@ -121,17 +122,17 @@ void ModelMaterials::load_images(const ObjectDescription& o, const Model& model,
     for (std::size_t i = first; i < list.size() && are_converted_together(image_at(first), image_at(i)); ++i) {
       const Image<glm::u8vec4>& result = images.result(image_at(i));
       const MemoryClaim claim(texture_memory_of(result), file + ": " + image_at(i).name);
-      textures[i].emplace(texture_of(result, list[i].second, workers_));
+      textures[i].emplace(result, list[i].second == TextureRole::colors ? TexelFormat::srgb8a8 : TexelFormat::rgba8, &workers_);
     }
     problems[first] = std::move(images.problems);
   };
   const auto load = [&](std::size_t i) {
-    const auto [image, color] = list[i];
     const ModelImage& source = image_at(i);
     if (source.converted) return convert(i);
-    if (source.file.empty() && source.bytes == nullptr && source.pixels == nullptr) return;  // the reader has already warned
+    if (!source.has_content()) return;  // the reader has already warned
     try {
-      textures[i].emplace(decoded(o.file.path, source, color, workers_));
+      const std::string file = o.file.path.string();
+      textures[i].emplace(texture_of(texels_of(source, list[i].second, file), list[i].second, file + ": " + source.name, &workers_));
     } catch (const LimitError&) {
       throw;
     } catch (const InputError& e) {  // the material is drawn without it
@@ -163,8 +164,8 @@ void ModelMaterials::load_images(const ObjectDescription& o, const Model& model,
 }
 
 // Returns a texture that load_images has loaded, or null if there is no such image.
-const Texture2D* ModelMaterials::model_texture(const std::filesystem::path& file, int image, bool color) {
-  return used_.existing<Texture2D>(image_recipe(file, image, color)).get();
+const Texture2D* ModelMaterials::model_texture(const std::filesystem::path& file, int image, TextureRole role) {
+  return used_.existing<Texture2D>(image_recipe(file, image, role)).get();
 }
 
 // Returns true if a mask is only a guess and its map has so many values between 0 and 1 that the surface must be blended.
@@ -174,12 +175,12 @@ bool ModelMaterials::is_soft_mask(const ObjectDescription& o, const Model& model
   const int texture = separate ? m.opacity_map.texture : m.base_color_map.texture;
   if (texture < 0) return false;
   const int image = model.textures[static_cast<std::size_t>(texture)].image;
-  const Texture2D* map = image < 0 ? nullptr : model_texture(o.file.path, image, !separate);
+  const Texture2D* map = image < 0 ? nullptr : model_texture(o.file.path, image, separate ? TextureRole::data : TextureRole::colors);
   if (map == nullptr) return false;
   const Channel channel = separate ? m.opacity_map.channel : Channel::alpha;
   return *used_.asset<bool>(recipe("soft mask", o.file.path.string(), image, static_cast<int>(channel)), [&] {
     return is_soft(
-        map->width(), map->height(), [&](int x, int y) { return map->texel(0, x, y); }, channel);
+        map->width(), map->height(), [&](int x, int y) { return codes_at(*map, x, y); }, channel);
   });
 }
 
@@ -211,16 +212,15 @@ MetallicMaterial ModelMaterials::metallic_material(const ObjectDescription& o, c
   out.blends = m.alpha_mode == AlphaMode::blend || (has_uvs && is_soft_mask(o, model, m));
   out.environment = m.unlit ? nullptr : environments_.light();
   if (!has_uvs) return out;
-  const auto uses = uses_of(m);
   const MaterialMap* previous = nullptr;  // the last map that has a texture
   int previous_texture = -1;
   for (std::size_t i = 0; i < kMetallicMaps; ++i) {
-    const TextureUse& use = *uses[i];
+    const TextureUse& use = m.*kMaps[i];
     if (use.texture < 0 || !has_effect(i, m)) continue;
     const ModelTexture& texture = model.textures[static_cast<std::size_t>(use.texture)];
     if (texture.image < 0) continue;
     MaterialMap& map = out.maps[i];
-    map.map = model_texture(o.file.path, texture.image, is_color(i));
+    map.map = model_texture(o.file.path, texture.image, role_of(kMaps[i]));
     map.sampler = texture.sampler;
     map.uv_set = use.uv_set;
     map.uv_transform = use.uv_transform;

@@ -7,6 +7,7 @@
 
 #include "halfspace/model/model.h"
 #include "halfspace/model/pose/pose.h"
+#include "halfspace/render/assets/texture_image.h"
 #include "halfspace/render/assets/used_assets.h"
 #include "halfspace/render/assets/warnings.h"
 #include "halfspace/render/prepare/scene_environments.h"
@@ -34,7 +35,7 @@ class ModelMaterials {
   MetallicMaterial surface_of(const ObjectDescription& o, const Model& model, int mesh, const ModelMaterial& m, bool has_uvs);
 
  private:
-  const Texture2D* model_texture(const std::filesystem::path& file, int image, bool color);
+  const Texture2D* model_texture(const std::filesystem::path& file, int image, TextureRole role);
   bool is_soft_mask(const ObjectDescription& o, const Model& model, const ModelMaterial& m);
   MetallicMaterial metallic_material(const ObjectDescription& o, const Model& model, const ModelMaterial& m, bool has_uvs);
 

@@ -23,13 +23,8 @@ namespace fs = std::filesystem;
 
 constexpr std::array<const char*, 6> kFaceNames{"right", "left", "top", "bottom", "front", "back"};
 
-// A cube map face or a panorama in the format of its file.
-using Picture = std::variant<Image<glm::u8vec4>, Image<glm::vec4>>;
-
-Picture read_picture(const fs::path& path) {
-  if (holds_linear_numbers(path)) return read_linear(path);
-  return read_image(path);
-}
+// Reads a cube map face or a panorama.
+TextureImage read_picture(const fs::path& path) { return read_texels(path, ImageUse::colors); }
 
 TexelFormat format_for(const Image<glm::u8vec4>&) { return TexelFormat::srgb8a8; }
 // Returns half floats if their range is sufficient, otherwise floats.
@@ -65,13 +60,13 @@ std::array<fs::path, 6> face_files(const EnvironmentDescription& e) {
 }
 
 template <class Texel>
-EnvironmentMap cube_of(const std::array<fs::path, 6>& files, std::array<Picture, 6>& pictures, const Workers& workers) {
+EnvironmentMap cube_of(const std::array<fs::path, 6>& files, std::array<TextureImage, 6>& pictures, const Workers& workers) {
   std::array<Image<Texel>, 6> faces;
   TexelFormat format = std::is_same_v<Texel, glm::u8vec4> ? TexelFormat::srgb8a8 : TexelFormat::rgba16f;
   for (std::size_t f = 0; f < 6; ++f) {
     auto* face = std::get_if<Image<Texel>>(&pictures[f]);
     if (face == nullptr)
-      throw InputError(fmt::format("{}: its format differs from that of {} (linear or 8-bit); expected six of the same kind",
+      throw InputError(fmt::format("{}: its format differs from that of {} (8-bit or not); expected six of the same kind",
                                    files[f].string(), files[0].string()));
     faces[f] = std::move(*face);
     const int width = faces[f].width(), height = faces[f].height(), size = faces[0].width();
@@ -86,7 +81,7 @@ EnvironmentMap cube_of(const std::array<fs::path, 6>& files, std::array<Picture,
 }
 
 EnvironmentMap read_cube(const std::array<fs::path, 6>& files, const Workers& workers) {
-  std::array<Picture, 6> pictures;
+  std::array<TextureImage, 6> pictures;
   std::ranges::transform(files, pictures.begin(), read_picture);
   return std::holds_alternative<Image<glm::u8vec4>>(pictures[0]) ? cube_of<glm::u8vec4>(files, pictures, workers)
                                                                  : cube_of<glm::vec4>(files, pictures, workers);

@@ -125,6 +125,10 @@ bool SceneMaps::has_texture(TextureSource source) const {
 
 namespace {
 
+Texture2D file_texture(const std::filesystem::path& file, TextureRole role, const Workers& workers, const std::string& where) {
+  return read_for(where, [&] { return texture_of(texels_of(file, role), role, file.string(), &workers); });
+}
+
 [[noreturn]] void fail_not(const std::string& where, const TextureDescription& t, const char* expected) {
   const bool heights = t.source == TextureSource::earth_height || t.source == TextureSource::moon_height || is_pattern_height(t.source);
   const char* is = t.source == TextureSource::earth_normal ? "a normal map" : heights ? "a height map" : "a color map";
@@ -137,9 +141,8 @@ std::shared_ptr<const Texture2D> SceneMaps::color_texture(const MapUse& use, con
   if (is_pattern(use.texture.source) && !is_pattern_height(use.texture.source)) return pattern_texture(use);
   switch (use.texture.source) {
     case TextureSource::file:
-      return used_.asset<Texture2D>(recipe("color", use.texture.file.path.string()), [&] {
-        return Texture2D(read_for(where, [&] { return read_image(use.texture.file.path); }), TexelFormat::srgb8a8, &workers_);
-      });
+      return used_.asset<Texture2D>(recipe("color", use.texture.file.path.string()),
+                                    [&] { return file_texture(use.texture.file.path, TextureRole::colors, workers_, where); });
     case TextureSource::earth_color:
       return used_.asset<Texture2D>(recipe("earth_color", use.width), [&] {
         const bool has_relief = has_texture(TextureSource::earth_height) || has_texture(TextureSource::earth_normal);
@@ -153,13 +156,12 @@ std::shared_ptr<const Texture2D> SceneMaps::color_texture(const MapUse& use, con
   }
 }
 
-// Textures that are not decoded from sRGB: normals, exponents.
-std::shared_ptr<const Texture2D> SceneMaps::data_texture(const MapUse& use, const std::string& where) {
+// Textures that are not decoded from sRGB.
+std::shared_ptr<const Texture2D> SceneMaps::data_texture(const MapUse& use, TextureRole role, const std::string& where) {
   switch (use.texture.source) {
     case TextureSource::file:
-      return used_.asset<Texture2D>(recipe("data", use.texture.file.path.string()), [&] {
-        return Texture2D(read_for(where, [&] { return read_image(use.texture.file.path); }), TexelFormat::rgba8, &workers_);
-      });
+      return used_.asset<Texture2D>(recipe("data", use.texture.file.path.string(), static_cast<int>(role)),
+                                    [&] { return file_texture(use.texture.file.path, role, workers_, where); });
     case TextureSource::earth_normal:
       return used_.asset<Texture2D>(recipe("earth_normal", use.width), [&] {
         MapUse relief = use;

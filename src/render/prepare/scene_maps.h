@@ -12,6 +12,7 @@
 #include "halfspace/procedural/earth.h"
 #include "halfspace/procedural/moon.h"
 #include "halfspace/procedural/patterns.h"
+#include "halfspace/render/assets/texture_image.h"
 #include "halfspace/render/assets/used_assets.h"
 #include "halfspace/render/view.h"
 #include "halfspace/scene/description.h"
@@ -48,7 +49,7 @@ class SceneMaps {
 
   // where: the path of the key, for error messages.
   std::shared_ptr<const Texture2D> color_texture(const MapUse& use, const std::string& where);
-  std::shared_ptr<const Texture2D> data_texture(const MapUse& use, const std::string& where);
+  std::shared_ptr<const Texture2D> data_texture(const MapUse& use, TextureRole role, const std::string& where);
   std::shared_ptr<const Image<float>> heights(const MapUse& use, const std::string& where);
   std::shared_ptr<const HeightField> height_field(const MapUse& use, const ObjectDescription& o, const std::string& where);
   std::shared_ptr<const MoonMaps> moon_maps(int width);

@@ -16,7 +16,7 @@ void SceneSurfaces::add_factor(LitSurface& s, MaterialFactor factor, const glm::
   const bool unread = o.surface.shading == ShadingRate::none && factor != kColor && factor != kEmissive;
   if (!is_map(map) || unread || f.constant == glm::vec3(0.0f) || (!o.surface.textured && factor != kShininess)) return;
   const MapUse use = maps_.use_of(map, o);
-  f.map = (factor == kShininess ? maps_.data_texture(use, where) : maps_.color_texture(use, where)).get();
+  f.map = (factor == kShininess ? maps_.data_texture(use, TextureRole::data, where) : maps_.color_texture(use, where)).get();
   f.sampler = make_sampler(use.texture);
 }
 
