@@ -466,6 +466,21 @@ TEST(TextureGather, ReturnsTheFourTexelsThatABilinearLookupBlends) {
   }
 }
 
+TEST(TextureGather, KeepsItsOrderWhereTheImageIsMirrored) {
+  TextureMemory memory(TextureKind::two_d, TexelFormat::r32f, {4, 4});
+  for (int i = 0; i < 16; ++i) memory.set(i % 4, i / 4, 0, 0, glm::vec4(static_cast<float>(i)));
+  const Texture2DView view = memory.view<TextureKind::two_d>();
+  const auto gather = [&](Wrap s, Wrap t, float x, float y, const glm::ivec3& offset = glm::ivec3(0)) {  // in texels
+    return glm::vec4(view.gather(Sampler{.wrap_s = s, .wrap_t = t}, vec2<float>(x / 4, y / 4), 0, offset));
+  };
+  // Texels of a row and their mirror images: ... 1 0 | 0 1 2 3 | 3 2 ...
+  EXPECT_EQ(gather(Wrap::mirrored, Wrap::clamp, 5.25f, 1.25f), glm::vec4(7, 6, 2, 3));   // columns 4 and 5 are 3 and 2
+  EXPECT_EQ(gather(Wrap::mirrored, Wrap::clamp, -1.25f, 1.25f), glm::vec4(5, 4, 0, 1));  // columns −2 and −1 are 1 and 0
+  EXPECT_EQ(gather(Wrap::clamp, Wrap::mirrored, 1.25f, 5.25f), glm::vec4(8, 9, 13, 12));
+  EXPECT_EQ(gather(Wrap::mirrored_clamp, Wrap::clamp, -2.25f, 1.25f), glm::vec4(6, 5, 1, 2));
+  EXPECT_EQ(gather(Wrap::mirrored, Wrap::clamp, 3.25f, 1.25f, glm::ivec3(2, 0, 0)), glm::vec4(7, 6, 2, 3));
+}
+
 TEST(TextureOffset, MovesByWholeTexelsBeforeWrapping) {
   const auto memory = noise<TextureKind::two_d>(TexelFormat::rgba8, {8, 4}, 2);
   const Texture2DView view = memory->view<TextureKind::two_d>();

@@ -88,9 +88,21 @@ struct TextureLookup {
   HS_INLINE TexelAxis axis_of(int size, Wrap wrap) const {
     return {size, table.kind == TextureKind::rectangle ? 1.0f : static_cast<float>(size), wrap};
   }
-  HS_INLINE static AxisTaps<R> taps_at(R coordinate, const TexelAxis& axis, int offset, MaskOf<R> nearest) {
+  HS_INLINE static WrappedCoordinate<R> wrapped_at(R coordinate, const TexelAxis& axis, int offset) {
     const R moved = offset == 0 ? coordinate : coordinate + R(static_cast<float>(offset) / axis.scale);
-    return taps(wrap_coordinate(moved, axis), axis, nearest);
+    return wrap_coordinate(moved, axis);
+  }
+  HS_INLINE static AxisTaps<R> taps_at(R coordinate, const TexelAxis& axis, int offset, MaskOf<R> nearest) {
+    return taps(wrapped_at(coordinate, axis, offset), axis, nearest);
+  }
+  /// The taps of a linear filter, the one at the smaller coordinate first, also where the image is mirrored. Without weights.
+  HS_INLINE static AxisTaps<R> ordered_taps_at(R coordinate, const TexelAxis& axis, int offset) {
+    const WrappedCoordinate<R> at = wrapped_at(coordinate, axis, offset);
+    AxisTaps<R> t = taps(at, axis, MaskOf<R>(false));
+    const IntOf<R> first = t.first;
+    t.first = select(at.mirrored, t.second, first);
+    t.second = select(at.mirrored, first, t.second);
+    return t;
   }
 
   HS_INLINE TexelReader<R> reader(const TextureLevel& level) const { return {table.format, base + level.offset}; }

@@ -150,8 +150,8 @@ auto gathered(const Texels& texels, const TextureSource& source, const Sampler& 
     for (std::size_t k = 0; k < 4; ++k) v[k] = lookup.finish(square[k]);
     return std::array<Value, 4>{v[2], v[3], v[1], v[0]};
   }
-  const AxisTaps<R> x = Lookup::taps_at(at.st.x, lookup.axis_of(l.width, sampler.wrap_s), offset.x, linear),
-                    y = Lookup::taps_at(at.st.y, lookup.axis_of(l.height, sampler.wrap_t), offset.y, linear);
+  const AxisTaps<R> x = Lookup::ordered_taps_at(at.st.x, lookup.axis_of(l.width, sampler.wrap_s), offset.x),
+                    y = Lookup::ordered_taps_at(at.st.y, lookup.axis_of(l.height, sampler.wrap_t), offset.y);
   const IntOf<R> layer = at.layer * IntOf<R>(l.layer_pitch);
   const auto texel = [&](IntOf<R> i, MaskOf<R> column_inside, IntOf<R> j, MaskOf<R> row_inside) {
     const IntOf<R> index = layer + j * IntOf<R>(l.row_pitch) + i * IntOf<R>(lookup.stride);
