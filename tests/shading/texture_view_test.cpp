@@ -381,6 +381,23 @@ TEST(TextureLevels, BiasAndLimitsApplyInThisOrder) {
   EXPECT_EQ(lods.y, 7.5f);
 }
 
+// The function ComputeAccessedLod of ARB_texture_query_lod.
+TEST(TextureLevels, QueriesReturnTheAccessedLevelAndTheLevelBeforeTheLimits) {
+  const auto memory = numbered_levels(64);
+  const Texture2DView view = memory->view<TextureKind::two_d>();
+  const auto query = [&](Filter min, const LodControl& lod) {
+    const vec2<float> v =
+        view.query_lod(Sampler{.min = min, .lod = lod}, vec2<float>(0.4f), vec2<float>(4.0f / 64, 0.0f), vec2<float>(0.0f));
+    return glm::vec2(v.x, v.y);
+  };
+  EXPECT_EQ(query(Filter::trilinear, {.bias = 0.75f, .max = 2.5f}), glm::vec2(2.5f, 2.75f));
+  EXPECT_EQ(query(Filter::trilinear, {.bias = -4.0f}), glm::vec2(0.0f, -2.0f));
+  EXPECT_EQ(query(Filter::nearest_mipmap_linear, {.min = 3.25f}), glm::vec2(3.25f, 2.0f));
+  EXPECT_EQ(query(Filter::nearest_mipmap_nearest, {.bias = 0.75f}), glm::vec2(3.0f, 2.75f));
+  EXPECT_EQ(query(Filter::bilinear_mipmap_nearest, {.bias = 0.5f}), glm::vec2(2.0f, 2.5f));
+  EXPECT_EQ(query(Filter::bilinear, {.bias = 0.5f}), glm::vec2(0.0f, 2.5f));
+}
+
 TEST(TextureLevels, BaseAndMaximumLevelAreAViewOfLevels) {
   const auto memory = numbered_levels(64);
   const Texture2DView view = memory->view<TextureKind::two_d>().part_of_levels(2, 3);

@@ -280,9 +280,12 @@ ivec4<R> fetch_integer_texel(const TextureSource& source, const ivec3<R>& texel,
 template <class R>
 vec2<R> query_texture_lod(const TextureSource& source, const Sampler& sampler, const TexturePlace<R>& place,
                           const TextureSlopes<R>& slopes) {
-  const R lod = controlled_lod(sampler.lod, sampled(source, place, slopes).lod);
-  const bool has_mips = sampler.min > Filter::bilinear;
-  return {has_mips ? clamp(lod, 0.0f, R(static_cast<float>(source.table.levels - 1))) : R(0.0f), lod};
+  const R derived = sampled(source, place, slopes).lod;
+  const R limited = clamp(controlled_lod(sampler.lod, derived), 0.0f, R(static_cast<float>(source.table.levels - 1)));
+  const R before = biased_lod(sampler.lod, derived);
+  if (sampler.min <= Filter::bilinear) return {R(0.0f), before};
+  const bool one_level = sampler.min == Filter::nearest_mipmap_nearest || sampler.min == Filter::bilinear_mipmap_nearest;
+  return {one_level ? nearest_level(limited) : limited, before};
 }
 
 /// Instantiates all lookups of a number type.

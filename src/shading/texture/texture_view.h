@@ -195,7 +195,8 @@ class TextureView {
   template <class R>
   ivec4<R> fetch_integers(const ivec3<R>& texel, std::type_identity_t<IntOf<R>> level = IntOf<R>(0)) const;
 
-  /// GLSL's textureQueryLod(): the level of detail that sample() uses after bias and limits, clamped to the levels (x) and before this (y).
+  /// GLSL's textureQueryLod(): the level that sample() reads, with a fraction if it is between two (x), and the level of detail after the
+  /// bias, before the limits (y).
   template <class P, class R = CoordinateReal<P>>
   requires std::is_same_v<P, TextureCoordinates<kind, R>> vec2<R> query_lod(const Sampler& sampler, const P& p,
                                                                             const TextureDerivatives<kind, R>& dx,
