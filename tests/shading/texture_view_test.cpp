@@ -435,6 +435,22 @@ TEST(TextureViews, SwizzlesSelectChannels) {
   EXPECT_EQ(glm::vec4(view.gather(Sampler{}, vec2<float>(0.5f), 2)), glm::vec4(2));
 }
 
+TEST(TextureComparison, SwizzlesApplyToTheResults) {
+  TextureMemory memory(TextureKind::two_d, TexelFormat::d32f, {1, 1});
+  memory.set(0, 0, 0, 0, glm::vec4(0.5f));
+  const std::pair<Swizzle, float> cases[] = {{Swizzle::red, 1.0f},   {Swizzle::green, 0.0f}, {Swizzle::blue, 0.0f},
+                                             {Swizzle::alpha, 1.0f}, {Swizzle::zero, 0.0f},  {Swizzle::one, 1.0f}};
+  for (const auto& [red, passed] : cases) {
+    const Texture2DView view = memory.view<TextureKind::two_d>().swizzled(red, Swizzle::zero, Swizzle::zero, Swizzle::zero);
+    const vec2<float> uv(0.5f), none(0.0f);
+    EXPECT_EQ(view.sample_compare_level(Sampler{}, uv, 0.25f, 0.0f), passed);
+    EXPECT_EQ(view.sample_compare(Sampler{}, uv, 0.25f, none, none), passed);
+    EXPECT_EQ(glm::vec4(view.gather_compare(Sampler{}, uv, 0.25f)), glm::vec4(passed));
+    const float failed = red == Swizzle::alpha || red == Swizzle::one ? 1.0f : 0.0f;
+    EXPECT_EQ(view.sample_compare_level(Sampler{}, uv, 0.75f, 0.0f), failed);
+  }
+}
+
 TEST(TextureComparison, EveryOperatorFiltersItsResults) {
   for (const TexelFormat format : {TexelFormat::d16, TexelFormat::d24, TexelFormat::d32f, TexelFormat::d24s8, TexelFormat::d32fs8}) {
     TextureMemory memory(TextureKind::two_d, format, {2, 2});

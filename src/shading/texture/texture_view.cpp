@@ -83,6 +83,13 @@ vec4<R> swizzled(const TextureTable& table, const vec4<R>& v) {
   return swizzled(table, v, R(0.0f), R(1.0f));
 }
 
+/// Returns the red channel of (result, 0, 0, 1): the swizzle also applies to the results of comparisons.
+template <class R>
+R swizzled_result(const TextureTable& table, R result) {
+  const R rgba[] = {result, R(0.0f), R(0.0f), R(1.0f)};
+  return swizzled_channel(table.swizzle[0], rgba, R(0.0f), R(1.0f));
+}
+
 template <class R>
 LevelChoice<R> levels_at(const TextureSource& source, const Sampler& sampler, R lod) {
   return choose_level(sampler, source.table.levels, kMaxLevels, lod);
@@ -226,14 +233,14 @@ template <class R>
 R compare_texture(const TextureSource& source, const Sampler& sampler, const TexturePlace<R>& place, const R& reference,
                   const TextureSlopes<R>& slopes, const LookupOptions& options) {
   HS_DCHECK(!is_integer(source.table.format));
-  return sample_with(compared_red(source, sampler, reference), source, sampler, place, slopes, options);
+  return swizzled_result(source.table, sample_with(compared_red(source, sampler, reference), source, sampler, place, slopes, options));
 }
 
 template <class R>
 R compare_texture_level(const TextureSource& source, const Sampler& sampler, const TexturePlace<R>& place, const R& reference, const R& lod,
                         const glm::ivec3& offset) {
   HS_DCHECK(!is_integer(source.table.format));
-  return sample_level_with(compared_red(source, sampler, reference), source, sampler, place, lod, offset);
+  return swizzled_result(source.table, sample_level_with(compared_red(source, sampler, reference), source, sampler, place, lod, offset));
 }
 
 template <class R>
@@ -249,7 +256,8 @@ template <class R>
 vec4<R> gather_compared(const TextureSource& source, const Sampler& sampler, const TexturePlace<R>& place, const R& reference,
                         const glm::ivec3& offset) {
   const std::array<R, 4> v = gathered(compared_red(source, sampler, reference), source, sampler, place, offset);
-  return {v[0], v[1], v[2], v[3]};
+  const auto result = [&](std::size_t k) { return swizzled_result(source.table, v[k]); };
+  return {result(0), result(1), result(2), result(3)};
 }
 
 template <class R>

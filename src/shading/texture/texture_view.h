@@ -109,7 +109,8 @@ class TextureView {
   /// Slices of a 3D texture, layers of an array (six times the number of cubes), 6 for a cube, or samples.
   int depth(int level = 0) const { return of(level).depth; }
 
-  /// Returns a view that reads other channels (TEXTURE_SWIZZLE_RGBA).
+  /// Returns a view that reads other channels (TEXTURE_SWIZZLE_RGBA). `red` also applies to the results of comparisons, which are the red
+  /// of (result, 0, 0, 1).
   TextureView swizzled(Swizzle red, Swizzle green, Swizzle blue, Swizzle alpha) const {
     TextureView view = *this;
     view.table_.swizzle = {red, green, blue, alpha};
