@@ -435,6 +435,20 @@ TEST(TextureViews, SwizzlesSelectChannels) {
   EXPECT_EQ(glm::vec4(view.gather(Sampler{}, vec2<float>(0.5f), 2)), glm::vec4(2));
 }
 
+TEST(TextureViews, BorderColorsAreClampedToTheRangeOfTheFormat) {
+  const std::pair<TexelFormat, glm::vec4> cases[] = {{TexelFormat::rgba8, {0, 1, 0.5f, 0}},
+                                                     {TexelFormat::rgba16_snorm, {-1, 1, 0.5f, -0.25f}},
+                                                     {TexelFormat::rgb16f, {-2, 3, 0.5f, 1}},
+                                                     {TexelFormat::r11f_g11f_b10f, {0, 3, 0.5f, 1}},
+                                                     {TexelFormat::rgb9_e5, {0, 3, 0.5f, 1}}};
+  for (const auto& [format, expected] : cases) {
+    TextureMemory memory(TextureKind::two_d, format, {1, 1});
+    const Sampler sampler{.wrap_s = Wrap::border, .border_color = {-2.0f, 3.0f, 0.5f, -0.25f}};
+    const Texture2DView view = memory.view<TextureKind::two_d>();
+    EXPECT_EQ(glm::vec4(view.sample_level(sampler, vec2<float>(9.0f), 0.0f)), expected) << texel_info(format).name;
+  }
+}
+
 TEST(TextureComparison, SwizzlesApplyToTheResults) {
   TextureMemory memory(TextureKind::two_d, TexelFormat::d32f, {1, 1});
   memory.set(0, 0, 0, 0, glm::vec4(0.5f));

@@ -33,6 +33,7 @@ inline glm::vec4 clamped_border(const glm::vec4& color, TexelFormat format) {
       case TexelKind::srgb:
       case TexelKind::depth: return {0.0f, 1.0f};
       case TexelKind::snorm: return {-1.0f, 1.0f};
+      case TexelKind::shared_exponent: return {0.0f, kMaxTexel};
       case TexelKind::floats:
         if (info.bits == 16) return {-kMaxHalf, kMaxHalf};
         return {info.bits == 0 ? 0.0f : -kMaxTexel, kMaxTexel};
