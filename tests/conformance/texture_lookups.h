@@ -86,5 +86,7 @@ LookupCases function_cases();
 LookupCases swizzle_cases();
 LookupCases level_cases();
 LookupCases multisample_cases();
+/// A case of a random kind, format, size, function, sampler, swizzle and range of levels. It is the same on every machine.
+LookupCase random_case(unsigned seed);
 
 }  // namespace halfspace::conformance::lookups

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <random>
 
 #include "conformance/texture_lookups.h"
 
@@ -63,6 +64,9 @@ void use_no_filter(LookupCase& c) {
 constexpr const char* kMagnifies = "llvmpipe magnifies up to a level of detail of 0, not 1/2, if only magnification is linear";
 constexpr const char* kRectangleLevel = "llvmpipe multiplies the derivatives of rectangle coordinates by the size of the texture";
 constexpr const char* kSizeOfOneLevel = "llvmpipe returns the size of one level for several pixels";
+constexpr const char* kTwoLevels = "GLSL has no function with both derivatives and a bias";
+constexpr const char* kQuery = "GLSL derives the level from the differences between pixels";
+constexpr const char* kNoFetch = "GLSL has no texelFetch for cubes";
 constexpr const char* kNoLevel = "GLSL has no comparison at a given level for this kind";
 
 /// Whether OpenGL magnifies up to a level of detail of 1/2 (section 8.15).
@@ -227,7 +231,7 @@ LookupCases function_cases() {
         if (offsets) add(kind, Function::sample_level, format, "texturelodoffset").options.offset = kOffset;
         LookupCase& biased = add(kind, Function::sample, format, "texture_bias");
         biased.options.bias = 0.75f;
-        biased.not_by_mesa = "GLSL has no function with both derivatives and a bias";
+        biased.not_by_mesa = kTwoLevels;
       }
       if (projects) {
         add(kind, Function::sample_projected, format, "textureproj");
@@ -250,7 +254,7 @@ LookupCases function_cases() {
           add(kind, Function::query_lod, TexelFormat::rgba8, ("texturequerylod_" + name_of(static_cast<Filter>(min))).c_str());
       query.sampler.min = static_cast<Filter>(min);
       query.sampler.lod = {.bias = 0.25f, .min = 0.75f, .max = 2.25f};
-      query.not_by_mesa = "GLSL derives the level from the differences between pixels";
+      query.not_by_mesa = kQuery;
     }
   }
   return cases;
@@ -333,6 +337,88 @@ LookupCases multisample_cases() {
     }
   }
   return cases;
+}
+
+namespace {
+
+std::vector<Function> functions_of(const LookupCase& c) {
+  const bool layers_of_two = c.kind != one_d && c.kind != one_d_array && c.kind != three_d;
+  std::vector<Function> functions;
+  if (is_integer(c.format)) {
+    functions = {Function::sample_integers, Function::fetch_integers};
+  } else if (is_depth(c.format)) {
+    functions = {Function::sample_compare, Function::sample_compare_level, Function::sample_level, Function::fetch};
+    if (layers_of_two) functions.push_back(Function::gather_compare);
+  } else {
+    functions = {Function::sample, Function::sample_level, Function::query_lod, Function::fetch};
+    if (layers_of_two) functions.push_back(Function::gather);
+    if (!is_array(c.kind) && !is_cube(c.kind)) functions.push_back(Function::sample_projected);
+  }
+  return functions;
+}
+
+const char* not_by_mesa(const LookupCase& c) {
+  const bool derives = c.function == Function::sample || c.function == Function::sample_projected || c.function == Function::sample_compare;
+  const bool compares_layers = c.kind != one_d && c.kind != two_d && c.kind != rectangle;
+  if (c.function == Function::query_lod) return kQuery;
+  if (c.options.bias != 0.0f) return kTwoLevels;
+  if (magnifies_longer(c.sampler)) return kMagnifies;
+  if (c.kind == rectangle && derives && c.sampler.mag != c.sampler.min) return kRectangleLevel;
+  if ((c.function == Function::sample_compare_level && compares_layers) || (c.function == Function::sample_compare && c.kind == cube_array))
+    return kNoLevel;
+  return is_cube(c.kind) && (c.function == Function::fetch || c.function == Function::fetch_integers) ? kNoFetch : nullptr;
+}
+
+}  // namespace
+
+LookupCase random_case(unsigned seed) {
+  std::mt19937 random(seed);
+  const auto below = [&](int count) { return static_cast<int>(random() % static_cast<unsigned>(count)); };
+  LookupCase c;
+  c.name = "random_" + std::to_string(seed);
+  c.kind = kFiltered[below(8)];
+  do {
+    c.format = static_cast<TexelFormat>(1 + below(static_cast<int>(kTexelFormats) - 1));
+  } while (is_depth(c.format) && c.kind == three_d);
+  const int w = 1 + below(17), h = 1 + below(17), d = 1 + below(9);
+  switch (c.kind) {
+    case one_d: c.size = {w, 1, 1}; break;
+    case one_d_array: c.size = {w, 1, d}; break;
+    case cube: c.size = {w, w, 6}; break;
+    case cube_array: c.size = {w, w, 6 * (1 + d % 3)}; break;
+    case three_d:
+    case two_d_array: c.size = {w, h, d}; break;
+    default: c.size = {w, h, 1};
+  }
+  if (has_mipmaps(c.kind)) c.levels = 1 + below(full_levels(c.kind, c.size));
+  c.base_level = below(c.levels);
+  c.max_level = c.base_level + below(4);
+  const std::vector<Function> functions = functions_of(c);
+  c.function = functions[static_cast<std::size_t>(below(static_cast<int>(functions.size())))];
+  const auto wrap = [&] { return static_cast<Wrap>(c.kind == rectangle ? 2 + below(2) : below(5)); };
+  const auto number = [&] { return static_cast<float>(below(49) - 24) / 16.0f; };
+  c.sampler = {.mag = static_cast<Filter>(below(2)),
+               .min = static_cast<Filter>(below(has_mipmaps(c.kind) ? 6 : 2)),
+               .wrap_s = wrap(),
+               .wrap_t = wrap(),
+               .wrap_r = wrap(),
+               .compare = static_cast<CompareOp>(below(8))};
+  if (is_integer(c.format)) use_no_filter(c);
+  for (int k = 0; k < 4; ++k) c.sampler.border_color[k] = is_integer(c.format) ? 0.0f : number();
+  if (has_mipmaps(c.kind) && below(2) == 0) {
+    c.sampler.lod.bias = static_cast<float>(below(9) - 4) / 4.0f;
+    c.sampler.lod.min = static_cast<float>(2 * below(16) - 7) / 16.0f;
+    c.sampler.lod.max = c.sampler.lod.min + static_cast<float>(below(32)) / 8.0f;
+  }
+  if (!is_cube(c.kind) && below(2) == 0) c.options.offset = {below(16) - 8, below(16) - 8, below(16) - 8};
+  if ((c.function == Function::sample || c.function == Function::sample_compare) && below(4) == 0)
+    c.options.bias = static_cast<float>(below(9) - 4) / 4.0f;
+  if (c.function == Function::gather) c.component = below(4);
+  if (below(2) == 0) {
+    for (Swizzle& s : c.swizzle) s = static_cast<Swizzle>(below(6));
+  }
+  c.not_by_mesa = not_by_mesa(c);
+  return c;
 }
 
 }  // namespace halfspace::conformance::lookups

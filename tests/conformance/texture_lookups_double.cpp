@@ -203,10 +203,16 @@ class Reference {
   glm::dvec4 border() const {
     const TexelInfo& info = texel_info(c_.format);
     glm::dvec4 color(0.0, 0.0, 0.0, 1.0);
+    const bool is_float = info.kind == TexelKind::floats || info.kind == TexelKind::shared_exponent;
+    const bool is_signed = info.kind == TexelKind::snorm || (is_float && info.bits != 0);
     for (int k = 0; k < info.channels; ++k) {
       const double v = static_cast<double>(c_.sampler.border_color[k]);
-      const bool is_float = info.kind == TexelKind::floats || info.kind == TexelKind::shared_exponent;
-      color[k] = is_integer(c_.format) ? std::nearbyint(v) : is_float ? v : std::clamp(v, info.kind == TexelKind::snorm ? -1.0 : 0.0, 1.0);
+      if (is_integer(c_.format))
+        color[k] = std::nearbyint(v);
+      else if (is_float)
+        color[k] = is_signed ? v : std::max(v, 0.0);
+      else
+        color[k] = std::clamp(v, is_signed ? -1.0 : 0.0, 1.0);
     }
     return color;
   }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "conformance/texture_lookups.h"
+#include "support/long_tests.h"
 
 namespace halfspace::conformance {
 namespace lookups {
@@ -55,6 +56,14 @@ INSTANTIATE_TEST_SUITE_P(Conformance, TextureLevels, testing::ValuesIn(level_cas
 class TextureMultisample : public LookupsOf {};
 TEST_P(TextureMultisample, FetchesEachSample) { expect_no_error(); }
 INSTANTIATE_TEST_SUITE_P(Conformance, TextureMultisample, testing::ValuesIn(multisample_cases()), lookup_name);
+
+TEST(ConformanceRandomLookups, MatchTheReference) {
+  for (unsigned seed = 0; seed < (runs_long_tests() ? 50000u : 2000u); ++seed) {
+    const LookupCase c = random_case(seed);
+    ASSERT_EQ(check(c), "") << c.name << ": kind " << static_cast<int>(c.kind) << ", " << texel_info(c.format).name << ", function "
+                            << static_cast<int>(c.function) << ", " << c.size.width << " x " << c.size.height << " x " << c.size.depth;
+  }
+}
 
 }  // namespace lookups
 }  // namespace halfspace::conformance
