@@ -63,6 +63,7 @@ void use_no_filter(LookupCase& c) {
 
 constexpr const char* kMagnifies = "llvmpipe magnifies up to a level of detail of 0, not 1/2, if only magnification is linear";
 constexpr const char* kRectangleLevel = "llvmpipe multiplies the derivatives of rectangle coordinates by the size of the texture";
+constexpr const char* kNoRectangleLevel = "GLSL has no lookup at a given level for rectangles, whose level selects the filter";
 constexpr const char* kSizeOfOneLevel = "llvmpipe returns the size of one level for several pixels";
 constexpr const char* kTwoLevels = "GLSL has no function with both derivatives and a bias";
 constexpr const char* kQuery = "GLSL derives the level from the differences between pixels";
@@ -363,7 +364,7 @@ const char* not_by_mesa(const LookupCase& c) {
   if (c.function == Function::query_lod) return kQuery;
   if (c.options.bias != 0.0f) return kTwoLevels;
   if (magnifies_longer(c.sampler)) return kMagnifies;
-  if (c.kind == rectangle && derives && c.sampler.mag != c.sampler.min) return kRectangleLevel;
+  if (c.kind == rectangle && c.sampler.mag != c.sampler.min) return derives ? kRectangleLevel : kNoRectangleLevel;
   if ((c.function == Function::sample_compare_level && compares_layers) || (c.function == Function::sample_compare && c.kind == cube_array))
     return kNoLevel;
   return is_cube(c.kind) && (c.function == Function::fetch || c.function == Function::fetch_integers) ? kNoFetch : nullptr;

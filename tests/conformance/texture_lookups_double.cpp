@@ -203,8 +203,9 @@ class Reference {
   glm::dvec4 border() const {
     const TexelInfo& info = texel_info(c_.format);
     glm::dvec4 color(0.0, 0.0, 0.0, 1.0);
-    const bool is_float = info.kind == TexelKind::floats || info.kind == TexelKind::shared_exponent;
-    const bool is_signed = info.kind == TexelKind::snorm || (is_float && info.bits != 0);
+    const bool float_depth = c_.format == TexelFormat::d32f || c_.format == TexelFormat::d32fs8;
+    const bool is_float = info.kind == TexelKind::floats || info.kind == TexelKind::shared_exponent || float_depth;
+    const bool is_signed = info.kind == TexelKind::snorm || float_depth || (is_float && info.bits != 0);
     for (int k = 0; k < info.channels; ++k) {
       const double v = static_cast<double>(c_.sampler.border_color[k]);
       if (is_integer(c_.format))

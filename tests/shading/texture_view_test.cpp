@@ -436,11 +436,11 @@ TEST(TextureViews, SwizzlesSelectChannels) {
 }
 
 TEST(TextureViews, BorderColorsAreClampedToTheRangeOfTheFormat) {
-  const std::pair<TexelFormat, glm::vec4> cases[] = {{TexelFormat::rgba8, {0, 1, 0.5f, 0}},
-                                                     {TexelFormat::rgba16_snorm, {-1, 1, 0.5f, -0.25f}},
-                                                     {TexelFormat::rgb16f, {-2, 3, 0.5f, 1}},
-                                                     {TexelFormat::r11f_g11f_b10f, {0, 3, 0.5f, 1}},
-                                                     {TexelFormat::rgb9_e5, {0, 3, 0.5f, 1}}};
+  const std::pair<TexelFormat, glm::vec4> cases[] = {
+      {TexelFormat::rgba8, {0, 1, 0.5f, 0}},   {TexelFormat::rgba16_snorm, {-1, 1, 0.5f, -0.25f}},
+      {TexelFormat::rgb16f, {-2, 3, 0.5f, 1}}, {TexelFormat::r11f_g11f_b10f, {0, 3, 0.5f, 1}},
+      {TexelFormat::rgb9_e5, {0, 3, 0.5f, 1}}, {TexelFormat::d24, {0, 0, 0, 1}},
+      {TexelFormat::d32f, {-2, 0, 0, 1}},      {TexelFormat::d32fs8, {-2, 0, 0, 1}}};
   for (const auto& [format, expected] : cases) {
     TextureMemory memory(TextureKind::two_d, format, {1, 1});
     const Sampler sampler{.wrap_s = Wrap::border, .border_color = {-2.0f, 3.0f, 0.5f, -0.25f}};

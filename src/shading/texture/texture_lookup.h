@@ -30,15 +30,18 @@ inline glm::vec4 clamped_border(const glm::vec4& color, TexelFormat format) {
   const auto range = [&]() -> glm::vec2 {
     switch (info.kind) {
       case TexelKind::unorm:
-      case TexelKind::srgb:
-      case TexelKind::depth: return {0.0f, 1.0f};
+      case TexelKind::srgb: return {0.0f, 1.0f};
+      case TexelKind::depth:
+        if (format == TexelFormat::d32f || format == TexelFormat::d32fs8) break;
+        return {0.0f, 1.0f};
       case TexelKind::snorm: return {-1.0f, 1.0f};
       case TexelKind::shared_exponent: return {0.0f, kMaxTexel};
       case TexelKind::floats:
         if (info.bits == 16) return {-kMaxHalf, kMaxHalf};
         return {info.bits == 0 ? 0.0f : -kMaxTexel, kMaxTexel};
-      default: return {-kMaxTexel, kMaxTexel};
+      default: break;
     }
+    return {-kMaxTexel, kMaxTexel};
   }();
   for (int k = 0; k < info.channels; ++k) border[k] = color[k] == color[k] ? clamp(color[k], range.x, range.y) : std::max(range.x, 0.0f);
   return border;
