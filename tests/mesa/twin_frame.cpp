@@ -19,37 +19,55 @@ namespace halfspace::test {
 namespace {
 
 GLenum gl_target(TextureKind kind) {
-  switch (kind) {
-    case TextureKind::one_d: return GL_TEXTURE_1D;
-    case TextureKind::two_d: return GL_TEXTURE_2D;
-    case TextureKind::rectangle: return GL_TEXTURE_RECTANGLE;
-    case TextureKind::three_d: return GL_TEXTURE_3D;
-    case TextureKind::one_d_array: return GL_TEXTURE_1D_ARRAY;
-    case TextureKind::two_d_array: return GL_TEXTURE_2D_ARRAY;
-    case TextureKind::cube: return GL_TEXTURE_CUBE_MAP;
-    case TextureKind::cube_array: return GL_TEXTURE_CUBE_MAP_ARRAY;
-    default: throw std::runtime_error("TwinTexture: there is no upload for this kind");
-  }
-}
-bool has_flat_storage(TextureKind kind) {
-  return kind == TextureKind::two_d || kind == TextureKind::rectangle || kind == TextureKind::cube;
+  constexpr std::array<GLenum, 9> names{GL_TEXTURE_1D,
+                                        GL_TEXTURE_2D,
+                                        GL_TEXTURE_RECTANGLE,
+                                        GL_TEXTURE_3D,
+                                        GL_TEXTURE_1D_ARRAY,
+                                        GL_TEXTURE_2D_ARRAY,
+                                        GL_TEXTURE_CUBE_MAP,
+                                        GL_TEXTURE_CUBE_MAP_ARRAY,
+                                        GL_TEXTURE_2D_MULTISAMPLE};
+  return names[static_cast<std::size_t>(kind)];
 }
 
-// Format and type of texels in memory, for formats with 8, 16 or 32 bits per channel and for d32f.
+// Format and type of texels in memory.
 struct Layout {
   GLenum format, type;
 };
 Layout layout_of(TexelFormat f) {
-  if (f == TexelFormat::d32f) return {GL_DEPTH_COMPONENT, GL_FLOAT};
+  switch (f) {
+    case TexelFormat::rgb10_a2: return {GL_RGBA, GL_UNSIGNED_INT_2_10_10_10_REV};
+    case TexelFormat::rgb10_a2ui: return {GL_RGBA_INTEGER, GL_UNSIGNED_INT_2_10_10_10_REV};
+    case TexelFormat::r11f_g11f_b10f: return {GL_RGB, GL_UNSIGNED_INT_10F_11F_11F_REV};
+    case TexelFormat::rgb9_e5: return {GL_RGB, GL_UNSIGNED_INT_5_9_9_9_REV};
+    case TexelFormat::d16: return {GL_DEPTH_COMPONENT, GL_UNSIGNED_SHORT};
+    case TexelFormat::d24: return {GL_DEPTH_COMPONENT, GL_UNSIGNED_INT};  // see row_of
+    case TexelFormat::d32f: return {GL_DEPTH_COMPONENT, GL_FLOAT};
+    case TexelFormat::d24s8: return {GL_DEPTH_STENCIL, GL_UNSIGNED_INT_24_8};
+    case TexelFormat::d32fs8: return {GL_DEPTH_STENCIL, GL_FLOAT_32_UNSIGNED_INT_24_8_REV};
+    default: break;
+  }
   const TexelInfo& info = texel_info(f);
-  constexpr std::array<GLenum, 4> formats{GL_RED, GL_RG, GL_RGB, GL_RGBA};
-  const bool floats = info.kind == TexelKind::floats;
-  if (info.bits == 0 || !(floats || info.kind == TexelKind::unorm || info.kind == TexelKind::srgb))
-    throw std::runtime_error("TwinTexture: there is no upload for this format");
-  return {formats[static_cast<std::size_t>(info.channels - 1)], static_cast<GLenum>(info.bits == 8    ? GL_UNSIGNED_BYTE
-                                                                                    : info.bits == 32 ? GL_FLOAT
-                                                                                    : floats          ? GL_HALF_FLOAT
-                                                                                                      : GL_UNSIGNED_SHORT)};
+  constexpr std::array<GLenum, 4> formats{GL_RED, GL_RG, GL_RGB, GL_RGBA},
+      integer_formats{GL_RED_INTEGER, GL_RG_INTEGER, GL_RGB_INTEGER, GL_RGBA_INTEGER};
+  const auto channels = static_cast<std::size_t>(info.channels - 1);
+  const bool is_signed = info.kind == TexelKind::snorm || info.kind == TexelKind::sints, floats = info.kind == TexelKind::floats;
+  const auto type = [&]() -> GLenum {
+    if (floats) return info.bits == 16 ? GL_HALF_FLOAT : GL_FLOAT;
+    if (info.bits == 8) return is_signed ? GL_BYTE : GL_UNSIGNED_BYTE;
+    if (info.bits == 16) return is_signed ? GL_SHORT : GL_UNSIGNED_SHORT;
+    return is_signed ? GL_INT : GL_UNSIGNED_INT;
+  };
+  return {(is_integer(f) ? integer_formats : formats)[channels], type()};
+}
+// Returns a row of texels as OpenGL expects them. Depths of 24 bits are the high bits of a word there, and the low bits here.
+const void* row_of(const TexelView& level, int y, int layer, std::vector<uint32_t>& converted) {
+  if (level.format != TexelFormat::d24) return level.at(0, y, layer);
+  converted.resize(static_cast<std::size_t>(level.width));
+  std::memcpy(converted.data(), level.at(0, y, layer), converted.size() * sizeof(uint32_t));
+  for (uint32_t& word : converted) word = word << 8 | (word >> 16 & 255);
+  return converted.data();
 }
 
 GLint gl_filter(Filter f) {
@@ -85,10 +103,15 @@ const TextureSize& size_of(const std::vector<TwinTarget>& colors, const std::opt
 TwinTexture::TwinTexture(TextureKind kind, TexelFormat format, const TextureSize& size, int levels)
     : memory_(kind, format, size, levels), format_(format), size_(size) {
   glCreateTextures(gl_target(kind), 1, &id_);
-  if (has_flat_storage(kind)) {
-    glTextureStorage2D(id_, levels, test::gl(format), size.width, size.height);
-  } else {
-    glTextureStorage3D(id_, levels, test::gl(format), size.width, size.height, size.depth);
+  const GLenum f = test::gl(format);
+  switch (kind) {
+    case TextureKind::one_d: glTextureStorage1D(id_, levels, f, size.width); break;
+    case TextureKind::two_d:
+    case TextureKind::rectangle:
+    case TextureKind::cube: glTextureStorage2D(id_, levels, f, size.width, size.height); break;
+    case TextureKind::one_d_array: glTextureStorage2D(id_, levels, f, size.width, size.depth); break;
+    case TextureKind::multisample: glTextureStorage2DMultisample(id_, size.depth, f, size.width, size.height, GL_TRUE); break;
+    default: glTextureStorage3D(id_, levels, f, size.width, size.height, size.depth);
   }
   expect_no_error();
 }
@@ -97,16 +120,20 @@ TwinTexture::~TwinTexture() { glDeleteTextures(1, &id_); }
 
 void TwinTexture::upload() {
   const auto [format, type] = layout_of(format_);
-  const bool flat = has_flat_storage(memory_.kind()) && memory_.kind() != TextureKind::cube;
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  std::vector<uint32_t> converted;
   for (int k = 0; k < memory_.levels(); ++k) {
     const TexelView level = memory_.level(k);
     for (int layer = 0; layer < level.layers; ++layer) {
       for (int y = 0; y < level.height; ++y) {
-        if (flat) {
-          glTextureSubImage2D(id_, k, 0, y, level.width, 1, format, type, level.at(0, y, layer));
-        } else {
-          glTextureSubImage3D(id_, k, 0, y, layer, level.width, 1, 1, format, type, level.at(0, y, layer));
+        const void* row = row_of(level, y, layer, converted);
+        switch (memory_.kind()) {
+          case TextureKind::one_d: glTextureSubImage1D(id_, k, 0, level.width, format, type, row); break;
+          case TextureKind::two_d:
+          case TextureKind::rectangle: glTextureSubImage2D(id_, k, 0, y, level.width, 1, format, type, row); break;
+          case TextureKind::one_d_array: glTextureSubImage2D(id_, k, 0, layer, level.width, 1, format, type, row); break;
+          case TextureKind::multisample: throw std::runtime_error("TwinTexture: OpenGL has no upload of multisample textures");
+          default: glTextureSubImage3D(id_, k, 0, y, layer, level.width, 1, 1, format, type, row);
         }
       }
     }
@@ -114,16 +141,28 @@ void TwinTexture::upload() {
   expect_no_error();
 }
 
-void UniformSetter::operator()(const char* name, const TwinTexture& texture, const Sampler& sampler, bool compares) const {
+namespace {
+
+void set_sampler(const TwinTexture& texture, const Sampler& sampler, bool compares) {
   const auto set = [&](GLenum what, GLint value) { glTextureParameteri(texture.mesa(), what, value); };
+  const auto set_real = [&](GLenum what, float value) { glTextureParameterf(texture.mesa(), what, value); };
   set(GL_TEXTURE_MAG_FILTER, gl_filter(sampler.mag));
   set(GL_TEXTURE_MIN_FILTER, gl_filter(sampler.min));
   set(GL_TEXTURE_WRAP_S, gl_wrap(sampler.wrap_s));
   set(GL_TEXTURE_WRAP_T, gl_wrap(sampler.wrap_t));
-  set(GL_TEXTURE_WRAP_R, gl_wrap(sampler.wrap_r));
+  if (texture.kind() == TextureKind::three_d) set(GL_TEXTURE_WRAP_R, gl_wrap(sampler.wrap_r));
   glTextureParameterfv(texture.mesa(), GL_TEXTURE_BORDER_COLOR, &sampler.border_color.x);
+  set_real(GL_TEXTURE_LOD_BIAS, sampler.lod.bias);
+  set_real(GL_TEXTURE_MIN_LOD, sampler.lod.min);
+  set_real(GL_TEXTURE_MAX_LOD, sampler.lod.max);
   set(GL_TEXTURE_COMPARE_MODE, compares ? GL_COMPARE_REF_TO_TEXTURE : GL_NONE);
   set(GL_TEXTURE_COMPARE_FUNC, static_cast<GLint>(halfspace::gl(sampler.compare)));
+}
+
+}  // namespace
+
+void UniformSetter::operator()(const char* name, const TwinTexture& texture, const Sampler& sampler, bool compares) const {
+  if (texture.kind() != TextureKind::multisample) set_sampler(texture, sampler, compares);
   glBindTextureUnit(units_, texture.mesa());
   (*this)(name, static_cast<int>(units_++));
 }

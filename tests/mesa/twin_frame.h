@@ -26,9 +26,12 @@ class TwinTexture {
     return memory_.view<kind>();
   }
   unsigned mesa() const { return id_; }
+  TextureKind kind() const { return memory_.kind(); }
   TexelFormat format() const { return format_; }
   const TextureSize& size() const { return size_; }
 
+  /// Copies all levels of ours() to Mesa. Not for multisample textures.
+  void upload();
   /// Sets the texels of level 0 in both: color(x, y, layer) returns a glm::vec4.
   template <class F>
   void fill(const F& color) {
@@ -44,8 +47,6 @@ class TwinTexture {
   }
 
  private:
-  void upload();
-
   TextureMemory memory_;
   TexelFormat format_;
   TextureSize size_;

@@ -381,6 +381,23 @@ TEST(TextureLevels, BiasAndLimitsApplyInThisOrder) {
   EXPECT_EQ(lods.y, 7.5f);
 }
 
+// The function ComputeAccessedLod of ARB_texture_query_lod.
+TEST(TextureLevels, QueriesReturnTheAccessedLevelAndTheLevelBeforeTheLimits) {
+  const auto memory = numbered_levels(64);
+  const Texture2DView view = memory->view<TextureKind::two_d>();
+  const auto query = [&](Filter min, const LodControl& lod) {
+    const vec2<float> v =
+        view.query_lod(Sampler{.min = min, .lod = lod}, vec2<float>(0.4f), vec2<float>(4.0f / 64, 0.0f), vec2<float>(0.0f));
+    return glm::vec2(v.x, v.y);
+  };
+  EXPECT_EQ(query(Filter::trilinear, {.bias = 0.75f, .max = 2.5f}), glm::vec2(2.5f, 2.75f));
+  EXPECT_EQ(query(Filter::trilinear, {.bias = -4.0f}), glm::vec2(0.0f, -2.0f));
+  EXPECT_EQ(query(Filter::nearest_mipmap_linear, {.min = 3.25f}), glm::vec2(3.25f, 2.0f));
+  EXPECT_EQ(query(Filter::nearest_mipmap_nearest, {.bias = 0.75f}), glm::vec2(3.0f, 2.75f));
+  EXPECT_EQ(query(Filter::bilinear_mipmap_nearest, {.bias = 0.5f}), glm::vec2(2.0f, 2.5f));
+  EXPECT_EQ(query(Filter::bilinear, {.bias = 0.5f}), glm::vec2(0.0f, 2.5f));
+}
+
 TEST(TextureLevels, BaseAndMaximumLevelAreAViewOfLevels) {
   const auto memory = numbered_levels(64);
   const Texture2DView view = memory->view<TextureKind::two_d>().part_of_levels(2, 3);
@@ -416,6 +433,36 @@ TEST(TextureViews, SwizzlesSelectChannels) {
   EXPECT_EQ(glm::vec4(view.sample_level(Sampler{}, vec2<float>(0.5f), 0.0f)), glm::vec4(5, 0, 2, 1));
   EXPECT_EQ(glm::vec4(view.fetch<float>(ivec3<float>(0))), glm::vec4(5, 0, 2, 1));
   EXPECT_EQ(glm::vec4(view.gather(Sampler{}, vec2<float>(0.5f), 2)), glm::vec4(2));
+}
+
+TEST(TextureViews, BorderColorsAreClampedToTheRangeOfTheFormat) {
+  const std::pair<TexelFormat, glm::vec4> cases[] = {
+      {TexelFormat::rgba8, {0, 1, 0.5f, 0}},   {TexelFormat::rgba16_snorm, {-1, 1, 0.5f, -0.25f}},
+      {TexelFormat::rgb16f, {-2, 3, 0.5f, 1}}, {TexelFormat::r11f_g11f_b10f, {0, 3, 0.5f, 1}},
+      {TexelFormat::rgb9_e5, {0, 3, 0.5f, 1}}, {TexelFormat::d24, {0, 0, 0, 1}},
+      {TexelFormat::d32f, {-2, 0, 0, 1}},      {TexelFormat::d32fs8, {-2, 0, 0, 1}}};
+  for (const auto& [format, expected] : cases) {
+    TextureMemory memory(TextureKind::two_d, format, {1, 1});
+    const Sampler sampler{.wrap_s = Wrap::border, .border_color = {-2.0f, 3.0f, 0.5f, -0.25f}};
+    const Texture2DView view = memory.view<TextureKind::two_d>();
+    EXPECT_EQ(glm::vec4(view.sample_level(sampler, vec2<float>(9.0f), 0.0f)), expected) << texel_info(format).name;
+  }
+}
+
+TEST(TextureComparison, SwizzlesApplyToTheResults) {
+  TextureMemory memory(TextureKind::two_d, TexelFormat::d32f, {1, 1});
+  memory.set(0, 0, 0, 0, glm::vec4(0.5f));
+  const std::pair<Swizzle, float> cases[] = {{Swizzle::red, 1.0f},   {Swizzle::green, 0.0f}, {Swizzle::blue, 0.0f},
+                                             {Swizzle::alpha, 1.0f}, {Swizzle::zero, 0.0f},  {Swizzle::one, 1.0f}};
+  for (const auto& [red, passed] : cases) {
+    const Texture2DView view = memory.view<TextureKind::two_d>().swizzled(red, Swizzle::zero, Swizzle::zero, Swizzle::zero);
+    const vec2<float> uv(0.5f), none(0.0f);
+    EXPECT_EQ(view.sample_compare_level(Sampler{}, uv, 0.25f, 0.0f), passed);
+    EXPECT_EQ(view.sample_compare(Sampler{}, uv, 0.25f, none, none), passed);
+    EXPECT_EQ(glm::vec4(view.gather_compare(Sampler{}, uv, 0.25f)), glm::vec4(passed));
+    const float failed = red == Swizzle::alpha || red == Swizzle::one ? 1.0f : 0.0f;
+    EXPECT_EQ(view.sample_compare_level(Sampler{}, uv, 0.75f, 0.0f), failed);
+  }
 }
 
 TEST(TextureComparison, EveryOperatorFiltersItsResults) {
@@ -464,6 +511,21 @@ TEST(TextureGather, ReturnsTheFourTexelsThatABilinearLookupBlends) {
       for (int k = 0; k < 4; ++k) EXPECT_EQ(passed[k], reference <= four[k] ? 1.0f : 0.0f);
     }
   }
+}
+
+TEST(TextureGather, KeepsItsOrderWhereTheImageIsMirrored) {
+  TextureMemory memory(TextureKind::two_d, TexelFormat::r32f, {4, 4});
+  for (int i = 0; i < 16; ++i) memory.set(i % 4, i / 4, 0, 0, glm::vec4(static_cast<float>(i)));
+  const Texture2DView view = memory.view<TextureKind::two_d>();
+  const auto gather = [&](Wrap s, Wrap t, float x, float y, const glm::ivec3& offset = glm::ivec3(0)) {  // in texels
+    return glm::vec4(view.gather(Sampler{.wrap_s = s, .wrap_t = t}, vec2<float>(x / 4, y / 4), 0, offset));
+  };
+  // Texels of a row and their mirror images: ... 1 0 | 0 1 2 3 | 3 2 ...
+  EXPECT_EQ(gather(Wrap::mirrored, Wrap::clamp, 5.25f, 1.25f), glm::vec4(7, 6, 2, 3));   // columns 4 and 5 are 3 and 2
+  EXPECT_EQ(gather(Wrap::mirrored, Wrap::clamp, -1.25f, 1.25f), glm::vec4(5, 4, 0, 1));  // columns −2 and −1 are 1 and 0
+  EXPECT_EQ(gather(Wrap::clamp, Wrap::mirrored, 1.25f, 5.25f), glm::vec4(8, 9, 13, 12));
+  EXPECT_EQ(gather(Wrap::mirrored_clamp, Wrap::clamp, -2.25f, 1.25f), glm::vec4(6, 5, 1, 2));
+  EXPECT_EQ(gather(Wrap::mirrored, Wrap::clamp, 3.25f, 1.25f, glm::ivec3(2, 0, 0)), glm::vec4(7, 6, 2, 3));
 }
 
 TEST(TextureOffset, MovesByWholeTexelsBeforeWrapping) {

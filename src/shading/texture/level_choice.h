@@ -43,10 +43,21 @@ HS_INLINE LevelChoice<R> choose_common_level(const Sampler& sampler, int levels,
 /// Returns whether a sampler needs choose_level.
 inline bool has_special_levels(const Sampler& sampler) { return sampler.min > Filter::trilinear || !(sampler.lod == LodControl{}); }
 
-/// Returns a level of detail after bias and limits. NaN means 0 before.
+/// Returns a level of detail after the bias. NaN means 0 before.
+template <class R>
+HS_INLINE R biased_lod(const LodControl& control, R lod) {
+  return select(lod == lod, lod, R(0.0f)) + R(control.bias);
+}
+/// The same after bias and limits.
 template <class R>
 HS_INLINE R controlled_lod(const LodControl& control, R lod) {
-  return clamp(select(lod == lod, lod, R(0.0f)) + R(control.bias), control.min, control.max);
+  return clamp(biased_lod(control, lod), control.min, control.max);
+}
+
+/// Returns the level next to a level of detail of at least 0, the finer one if it is between two: ceil(lod + 1/2) − 1, at least 0.
+template <class R>
+HS_INLINE R nearest_level(R lod) {
+  return max(-floor(-(lod + R(0.5f))) - R(1.0f), R(0.0f));
 }
 
 /// Chooses levels for any sampler. lod is before bias and limits.
@@ -66,8 +77,7 @@ HS_INLINE LevelChoice<R> choose_level(const Sampler& sampler, int levels, int ma
     const MaskOf<R> between = fraction > R(kLevelSnap<R>);
     return {truncate_to_int(whole), select(between, fraction, R(0.0f)), between, nearest};
   }
-  const R level = -floor(-(limited + R(0.5f))) - R(1.0f);  // ceil(lod + 1/2) − 1, at least 0 for lod > 0
-  return {truncate_to_int(max(level, R(0.0f))), R(0.0f), MaskOf<R>(false), nearest};
+  return {truncate_to_int(nearest_level(limited)), R(0.0f), MaskOf<R>(false), nearest};
 }
 
 }  // namespace halfspace::HS_LANES::detail

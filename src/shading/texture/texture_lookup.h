@@ -30,14 +30,18 @@ inline glm::vec4 clamped_border(const glm::vec4& color, TexelFormat format) {
   const auto range = [&]() -> glm::vec2 {
     switch (info.kind) {
       case TexelKind::unorm:
-      case TexelKind::srgb:
-      case TexelKind::depth: return {0.0f, 1.0f};
+      case TexelKind::srgb: return {0.0f, 1.0f};
+      case TexelKind::depth:
+        if (format == TexelFormat::d32f || format == TexelFormat::d32fs8) break;
+        return {0.0f, 1.0f};
       case TexelKind::snorm: return {-1.0f, 1.0f};
+      case TexelKind::shared_exponent: return {0.0f, kMaxTexel};
       case TexelKind::floats:
         if (info.bits == 16) return {-kMaxHalf, kMaxHalf};
         return {info.bits == 0 ? 0.0f : -kMaxTexel, kMaxTexel};
-      default: return {-kMaxTexel, kMaxTexel};
+      default: break;
     }
+    return {-kMaxTexel, kMaxTexel};
   }();
   for (int k = 0; k < info.channels; ++k) border[k] = color[k] == color[k] ? clamp(color[k], range.x, range.y) : std::max(range.x, 0.0f);
   return border;
@@ -88,9 +92,21 @@ struct TextureLookup {
   HS_INLINE TexelAxis axis_of(int size, Wrap wrap) const {
     return {size, table.kind == TextureKind::rectangle ? 1.0f : static_cast<float>(size), wrap};
   }
-  HS_INLINE static AxisTaps<R> taps_at(R coordinate, const TexelAxis& axis, int offset, MaskOf<R> nearest) {
+  HS_INLINE static WrappedCoordinate<R> wrapped_at(R coordinate, const TexelAxis& axis, int offset) {
     const R moved = offset == 0 ? coordinate : coordinate + R(static_cast<float>(offset) / axis.scale);
-    return taps(wrap_coordinate(moved, axis), axis, nearest);
+    return wrap_coordinate(moved, axis);
+  }
+  HS_INLINE static AxisTaps<R> taps_at(R coordinate, const TexelAxis& axis, int offset, MaskOf<R> nearest) {
+    return taps(wrapped_at(coordinate, axis, offset), axis, nearest);
+  }
+  /// The taps of a linear filter, the one at the smaller coordinate first, also where the image is mirrored. Without weights.
+  HS_INLINE static AxisTaps<R> ordered_taps_at(R coordinate, const TexelAxis& axis, int offset) {
+    const WrappedCoordinate<R> at = wrapped_at(coordinate, axis, offset);
+    AxisTaps<R> t = taps(at, axis, MaskOf<R>(false));
+    const IntOf<R> first = t.first;
+    t.first = select(at.mirrored, t.second, first);
+    t.second = select(at.mirrored, first, t.second);
+    return t;
   }
 
   HS_INLINE TexelReader<R> reader(const TextureLevel& level) const { return {table.format, base + level.offset}; }

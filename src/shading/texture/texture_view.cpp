@@ -83,6 +83,13 @@ vec4<R> swizzled(const TextureTable& table, const vec4<R>& v) {
   return swizzled(table, v, R(0.0f), R(1.0f));
 }
 
+/// Returns the red channel of (result, 0, 0, 1): the swizzle also applies to the results of comparisons.
+template <class R>
+R swizzled_result(const TextureTable& table, R result) {
+  const R rgba[] = {result, R(0.0f), R(0.0f), R(1.0f)};
+  return swizzled_channel(table.swizzle[0], rgba, R(0.0f), R(1.0f));
+}
+
 template <class R>
 LevelChoice<R> levels_at(const TextureSource& source, const Sampler& sampler, R lod) {
   return choose_level(sampler, source.table.levels, kMaxLevels, lod);
@@ -150,8 +157,8 @@ auto gathered(const Texels& texels, const TextureSource& source, const Sampler& 
     for (std::size_t k = 0; k < 4; ++k) v[k] = lookup.finish(square[k]);
     return std::array<Value, 4>{v[2], v[3], v[1], v[0]};
   }
-  const AxisTaps<R> x = Lookup::taps_at(at.st.x, lookup.axis_of(l.width, sampler.wrap_s), offset.x, linear),
-                    y = Lookup::taps_at(at.st.y, lookup.axis_of(l.height, sampler.wrap_t), offset.y, linear);
+  const AxisTaps<R> x = Lookup::ordered_taps_at(at.st.x, lookup.axis_of(l.width, sampler.wrap_s), offset.x),
+                    y = Lookup::ordered_taps_at(at.st.y, lookup.axis_of(l.height, sampler.wrap_t), offset.y);
   const IntOf<R> layer = at.layer * IntOf<R>(l.layer_pitch);
   const auto texel = [&](IntOf<R> i, MaskOf<R> column_inside, IntOf<R> j, MaskOf<R> row_inside) {
     const IntOf<R> index = layer + j * IntOf<R>(l.row_pitch) + i * IntOf<R>(lookup.stride);
@@ -226,14 +233,14 @@ template <class R>
 R compare_texture(const TextureSource& source, const Sampler& sampler, const TexturePlace<R>& place, const R& reference,
                   const TextureSlopes<R>& slopes, const LookupOptions& options) {
   HS_DCHECK(!is_integer(source.table.format));
-  return sample_with(compared_red(source, sampler, reference), source, sampler, place, slopes, options);
+  return swizzled_result(source.table, sample_with(compared_red(source, sampler, reference), source, sampler, place, slopes, options));
 }
 
 template <class R>
 R compare_texture_level(const TextureSource& source, const Sampler& sampler, const TexturePlace<R>& place, const R& reference, const R& lod,
                         const glm::ivec3& offset) {
   HS_DCHECK(!is_integer(source.table.format));
-  return sample_level_with(compared_red(source, sampler, reference), source, sampler, place, lod, offset);
+  return swizzled_result(source.table, sample_level_with(compared_red(source, sampler, reference), source, sampler, place, lod, offset));
 }
 
 template <class R>
@@ -249,7 +256,8 @@ template <class R>
 vec4<R> gather_compared(const TextureSource& source, const Sampler& sampler, const TexturePlace<R>& place, const R& reference,
                         const glm::ivec3& offset) {
   const std::array<R, 4> v = gathered(compared_red(source, sampler, reference), source, sampler, place, offset);
-  return {v[0], v[1], v[2], v[3]};
+  const auto result = [&](std::size_t k) { return swizzled_result(source.table, v[k]); };
+  return {result(0), result(1), result(2), result(3)};
 }
 
 template <class R>
@@ -280,9 +288,12 @@ ivec4<R> fetch_integer_texel(const TextureSource& source, const ivec3<R>& texel,
 template <class R>
 vec2<R> query_texture_lod(const TextureSource& source, const Sampler& sampler, const TexturePlace<R>& place,
                           const TextureSlopes<R>& slopes) {
-  const R lod = controlled_lod(sampler.lod, sampled(source, place, slopes).lod);
-  const bool has_mips = sampler.min > Filter::bilinear;
-  return {has_mips ? clamp(lod, 0.0f, R(static_cast<float>(source.table.levels - 1))) : R(0.0f), lod};
+  const R derived = sampled(source, place, slopes).lod;
+  const R limited = clamp(controlled_lod(sampler.lod, derived), 0.0f, R(static_cast<float>(source.table.levels - 1)));
+  const R before = biased_lod(sampler.lod, derived);
+  if (sampler.min <= Filter::bilinear) return {R(0.0f), before};
+  const bool one_level = sampler.min == Filter::nearest_mipmap_nearest || sampler.min == Filter::bilinear_mipmap_nearest;
+  return {one_level ? nearest_level(limited) : limited, before};
 }
 
 /// Instantiates all lookups of a number type.

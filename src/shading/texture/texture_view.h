@@ -109,7 +109,8 @@ class TextureView {
   /// Slices of a 3D texture, layers of an array (six times the number of cubes), 6 for a cube, or samples.
   int depth(int level = 0) const { return of(level).depth; }
 
-  /// Returns a view that reads other channels (TEXTURE_SWIZZLE_RGBA).
+  /// Returns a view that reads other channels (TEXTURE_SWIZZLE_RGBA). `red` also applies to the results of comparisons, which are the red
+  /// of (result, 0, 0, 1).
   TextureView swizzled(Swizzle red, Swizzle green, Swizzle blue, Swizzle alpha) const {
     TextureView view = *this;
     view.table_.swizzle = {red, green, blue, alpha};
@@ -195,7 +196,8 @@ class TextureView {
   template <class R>
   ivec4<R> fetch_integers(const ivec3<R>& texel, std::type_identity_t<IntOf<R>> level = IntOf<R>(0)) const;
 
-  /// GLSL's textureQueryLod(): the level of detail that sample() uses after bias and limits, clamped to the levels (x) and before this (y).
+  /// GLSL's textureQueryLod(): the level that sample() reads, with a fraction if it is between two (x), and the level of detail after the
+  /// bias, before the limits (y).
   template <class P, class R = CoordinateReal<P>>
   requires std::is_same_v<P, TextureCoordinates<kind, R>> vec2<R> query_lod(const Sampler& sampler, const P& p,
                                                                             const TextureDerivatives<kind, R>& dx,
