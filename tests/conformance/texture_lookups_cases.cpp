@@ -360,12 +360,12 @@ std::vector<Function> functions_of(const LookupCase& c) {
 
 const char* not_by_mesa(const LookupCase& c) {
   const bool derives = c.function == Function::sample || c.function == Function::sample_projected || c.function == Function::sample_compare;
-  const bool compares_layers = c.kind != one_d && c.kind != two_d && c.kind != rectangle;
+  const bool has_level = c.kind == one_d || c.kind == two_d;
   if (c.function == Function::query_lod) return kQuery;
   if (c.options.bias != 0.0f) return kTwoLevels;
   if (magnifies_longer(c.sampler)) return kMagnifies;
   if (c.kind == rectangle && c.sampler.mag != c.sampler.min) return derives ? kRectangleLevel : kNoRectangleLevel;
-  if ((c.function == Function::sample_compare_level && compares_layers) || (c.function == Function::sample_compare && c.kind == cube_array))
+  if ((c.function == Function::sample_compare_level && !has_level) || (c.function == Function::sample_compare && c.kind == cube_array))
     return kNoLevel;
   return is_cube(c.kind) && (c.function == Function::fetch || c.function == Function::fetch_integers) ? kNoFetch : nullptr;
 }
