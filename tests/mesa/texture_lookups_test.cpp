@@ -212,6 +212,9 @@ double tolerance(const LookupCase& c, double low, double high) {
   const double range = high - low, magnitude = std::max(std::fabs(low), std::fabs(high));
   // Fractions of texels have 15 bits here and are floats in Mesa, for up to three axes; both filter in float.
   double allowed = 0x1p-14 * range + 0x1p-20 * magnitude;
+  // llvmpipe multiplies the codes of normalized formats by a rounded factor, with an error of up to 2^-24 for 24 bits.
+  const TexelKind kind = texel_info(c.format).kind;
+  if (kind == TexelKind::unorm || kind == TexelKind::snorm || kind == TexelKind::depth) allowed += 0x1p-23;
   // The fourth texel at a corner of a cube is the mean of three, of magnitudes up to 4.
   if (c.function == Function::gather) allowed += 0x1p-20;
   // llvmpipe's log2 has an error of up to 0.04, which is the weight of the next level.
