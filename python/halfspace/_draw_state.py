@@ -91,7 +91,7 @@ class State:
         s.set_depth(bool(depth_test), bool(depth_write), word("CompareOp", "depth_compare", depth_compare),
                     word("ClipDepth", "depth_clip", depth_clip), bool(depth_clamp), near, far)
         s.set_offset(*_check.vector("offset", offset))
-        s.viewport, s.scissor = _rect("viewport", viewport, 1), _rect("scissor", scissor, 0)
+        s.viewport, s.scissor = _rect("viewport", viewport, 1, _check.MAX_SIDE), _rect("scissor", scissor, 0, 2**31 - 1)
         if isinstance(blend, str):
             blend = {"alpha": Blend(), "additive": Blend(destination="one", destination_alpha="one")}[
                 _check.choice("blend", blend, ("alpha", "additive"))]
@@ -126,12 +126,12 @@ class State:
         self._core = s
 
 
-def _rect(name: str, value: Any, smallest: int) -> Any:
+def _rect(name: str, value: Any, smallest: int, largest: int) -> Any:
     if value is None:
         return None
     x, y, width, height = _check.pair(name, value, "(x, y, width, height)", 4)
-    x, y = (_check.integer(name, n, -_check.MAX_SIDE, _check.MAX_SIDE) for n in (x, y))
+    x, y = (_check.integer(name, n, -largest, largest) for n in (x, y))
     width, height = (_check.integer(name, n, -2**31, 2**31 - 1) for n in (width, height))
-    if not (smallest <= width <= _check.MAX_SIDE and smallest <= height <= _check.MAX_SIDE):
-        raise fail(name, f"is {tuple(value)}", f"a width and a height from {smallest} to {_check.MAX_SIDE}")
+    if not (smallest <= width <= largest and smallest <= height <= largest):
+        raise fail(name, f"is {tuple(value)}", f"a width and a height from {smallest} to {largest}")
     return _core.Rect(x, y, width, height)

@@ -74,7 +74,7 @@ def test_viewport_and_scissor_count_from_the_lower_left():
     image = np.zeros((4, 4, 4), np.float32)
     p = draw.Pass(image, clear_color=(0, 0, 1, 1))
     paint(p, RED, state=draw.State(viewport=(0, 0, 2, 2)))
-    paint(p, GREEN, -0.5, state=draw.State(scissor=(3, 3, 1, 1)))
+    paint(p, GREEN, -0.5, state=draw.State(scissor=(3, 3, 2**31 - 1, 20000)))
     p.run(threads=2)
     names = {(1, 0, 0): "r", (0, 1, 0): "g", (0, 0, 1): "b"}
     assert ["".join(names[tuple(c[:3])] for c in row) for row in image] == ["bbbg", "bbbb", "rrbb", "rrbb"]
@@ -235,7 +235,8 @@ IMAGE = np.zeros((2, 2, 4), np.uint8)
     (lambda: draw.State(base_vertex=float("nan")), "base_vertex: is nan; expected an integer from"),
     (lambda: draw.State(viewport=(0, 0, 3)), "viewport: is (0, 0, 3); expected (x, y, width, height)"),
     (lambda: draw.State(viewport=(0, 0, 0, 0)), "viewport: is (0, 0, 0, 0); expected a width and a height from 1 to 16384"),
-    (lambda: draw.State(scissor=(0, 0, 20000, 1)), "scissor: is (0, 0, 20000, 1); expected a width and a height from 0 to 16384"),
+    (lambda: draw.State(viewport=(0, 0, 20000, 1)), "viewport: is (0, 0, 20000, 1); expected a width and a height from 1 to 16384"),
+    (lambda: draw.State(scissor=(0, 0, -1, 1)), "scissor: is (0, 0, -1, 1); expected a width and a height from 0 to 2147483647"),
     (lambda: draw.State(depth_range=0.5), "depth_range: is 0.5; expected a pair of depths"),
     (lambda: draw.State(color_mask=True), "color_mask: is True; expected 4 booleans"),
     (lambda: draw.State(stencil=(draw.Stencil(), 3)), "stencil: is of type int; expected a Stencil or a pair of them"),

@@ -64,7 +64,8 @@ void check_viewport(const Rect& r) {
 }
 
 void check_scissor(const Rect& r) {
-  HS_CHECK(r.width >= 0 && r.height >= 0, "DrawState: the size of the scissor is negative; expected a width and a height of at least 0");
+  HS_CHECK(r.width >= 0 && r.height >= 0,
+           "Pass: the size of a scissor or a cleared rectangle is negative; expected a width and a height of at least 0");
 }
 
 // Comparisons are written so that NaN fails.
@@ -184,8 +185,9 @@ void PassState::add_draw(const ShaderKernels& kernels, KeptShader shader, const 
   // Most draws have the same state as the one before.
   const Draw* const equal = !context_.draws.empty() && context_.draws.back().state == state ? &context_.draws.back() : nullptr;
   if (equal == nullptr) check_state(state);
-  HS_CHECK(!kernels.gives_point_sprite || draws_points(state),
-           "Pass::draw: the shader computes rectangles of points, but no points are drawn; expected Topology::points");
+  HS_CHECK(
+      !kernels.gives_point_sprite || draws_points(state),
+      "Pass::draw: the shader computes rectangles of points, but no points are drawn; expected Topology::points or PolygonMode::point");
   check_color_types(kernels);
   for (std::size_t i = 0; i < attachments_.colors.size(); ++i) {
     const std::optional<BlendState>& blend = blend_of(state, i);
@@ -302,11 +304,9 @@ void PassState::check_clear(const ClearValues& values) const {
   if (values.depth) {
     HS_CHECK(*values.depth >= 0.0f && *values.depth <= 1.0f, "Pass::clear: the depth is outside of its range; expected 0 to 1");
   }
-  if (values.rect) {
-    const Rect& r = *values.rect;
-    HS_CHECK(r.width >= 0 && r.height >= 0,
-             "Pass::clear: the size of the rectangle is negative; expected a width and a height of at least 0");
-  }
+  HS_CHECK(!values.depth || attachments_.depth.format != DepthFormat::none, "Pass::clear: the pass has no depth target; expected no depth");
+  HS_CHECK(!values.stencil || has_stencil(attachments_.depth.format), "Pass::clear: the pass has no stencil; expected no stencil");
+  if (values.rect) check_scissor(*values.rect);
   for (std::size_t i = attachments_.colors.size(); i < values.colors.size(); ++i)
     HS_CHECK(!values.colors[i], "Pass::clear: there is a color for an attachment that the pass does not have; expected no color");
 }

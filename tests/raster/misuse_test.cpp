@@ -120,9 +120,11 @@ TEST_F(MisuseTest, ClearsAreChecked) {
   EXPECT_EQ(message({.rect = Rect{-5, 3, 0, 4}, .colors = {glm::vec4(1)}, .depth = 1.0f}), "");
   for (const float z : {kNaN, -0.5f, 1.5f})
     EXPECT_NE(message({.depth = z}).find("Pass::clear: the depth"), std::string::npos) << message({.depth = z});
-  for (const Rect& r : {Rect{0, 0, -1, 4}, Rect{0, 0, 4, -20000}})
-    EXPECT_NE(message({.rect = r}).find("Pass::clear: the"), std::string::npos);
+  for (const Rect& r : {Rect{0, 0, -1, 4}, Rect{0, 0, 4, -20000}}) EXPECT_NE(message({.rect = r}).find("is negative"), std::string::npos);
   EXPECT_NE(message({.colors = {std::nullopt, glm::vec4(1)}}).find("does not have"), std::string::npos);
+  EXPECT_NE(message({.stencil = uint8_t{1}}).find("no stencil"), std::string::npos);
+  Pass of_colors(16, 16, rgba32f_target(image), {});
+  EXPECT_NE(failure_of([&] { of_colors.clear({.depth = 1.0f}); }).find("no depth target"), std::string::npos);
 }
 
 constexpr int kIntMax = std::numeric_limits<int>::max(), kIntMin = std::numeric_limits<int>::min();

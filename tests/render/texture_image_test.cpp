@@ -111,6 +111,29 @@ TEST(NormalMaps, WithNegativeValuesStoreTheNormalItself) {
   EXPECT_EQ(normal_of(glm::vec4(0, 0, 0, 1)), glm::vec4(0.5f, 0.5f, 1, 1)) << "a flat map without z";
 }
 
+TEST(NormalMaps, OfUnitVectorsAreRecognizedWithoutNegativeValues) {
+  EXPECT_EQ(normal_of(glm::vec4(0, 0, 1, 1)), glm::vec4(0.5f, 0.5f, 1, 1)) << "flat";
+  const glm::vec4 tilted = normal_of(glm::vec4(0.6f, 0, 0.8f, 1));
+  EXPECT_NEAR(glm::distance(tilted, glm::vec4(0.8f, 0.5f, 0.9f, 1)), 0, 1e-6);  // one rounding of each number
+  EXPECT_EQ(normal_of(glm::vec4(0.5f, 0.5f, 1, 1)), glm::vec4(0.5f, 0.5f, 1, 1)) << "flat, mapped to 0 to 1";
+}
+
+// Filters that sharpen can make single values negative.
+TEST(NormalMaps, MappedToZeroToOneStaySoWithANegativeValue) {
+  Image<glm::vec4> image(4, 4);
+  std::fill_n(image.data(), 16, glm::vec4(0.8f, 0.5f, 0.9f, 1));
+  image.at(1, 2) = glm::vec4(0.8f, -0.001f, 0.9f, 1);
+  TextureImage map = image;
+  complete_normals(map);
+  EXPECT_EQ(std::get<Image<glm::vec4>>(map), image);
+}
+
+TEST(TextureImages, DataAreLimitedToZeroToOne) {
+  const Image<glm::vec4> numbers = one(glm::vec4(-2, 0.5f, 7, 1));
+  EXPECT_EQ(std::get<Image<glm::vec4>>(texels_of(ColorPicture(numbers), TextureRole::data, "a")).at(0, 0), glm::vec4(0, 0.5f, 1, 1));
+  EXPECT_EQ(std::get<Image<glm::vec4>>(texels_of(ColorPicture(numbers), TextureRole::colors, "a")).at(0, 0), numbers.at(0, 0));
+}
+
 // ---- models -----------------------------------------------------------------------------------------------------
 
 // A square whose material has one texture. Its image is stored in the file.
@@ -203,13 +226,16 @@ TEST_F(ToolTextureFiles, OfModelsAreReadFromDds) {
   GltfBuilder file = square(png, colored_by(1));
   const std::string image = dxgi_dds(2, 1, 1, memory_of<float>({0.3f, 4.0f, 0.1f, 1.0f}));  // R32G32B32A32_FLOAT
   file.add("images", {{"bufferView", file.view(std::vector<char>(image.begin(), image.end()))}, {"mimeType", "image/vnd-ms.dds"}});
-  file.add("textures", {{"source", 0}, {"extensions", {{"MSFT_texture_dds", {{"source", 1}}}}}});
+  file.add("textures", {{"extensions", {{"MSFT_texture_dds", {{"source", 1}}}}}});
   file.json["extensionsUsed"] = {"MSFT_texture_dds", "KHR_materials_unlit"};
   file.json["extensionsRequired"] = {"MSFT_texture_dds"};
   const auto path = put("a.gltf", file.text());
   with_map(read_square(path), kBaseColorMap,
            [](const Texture2D& map) { EXPECT_EQ(map.value(0, 0, 0), glm::vec4(0.3f, 4.0f, 0.1f, 1.0f)); });
   EXPECT_TRUE(file.read().warnings.empty());
+  file.json["textures"][1]["source"] = 0;  // the PNG
+  with_map(read_square(put("b.gltf", file.text())), kBaseColorMap,
+           [](const Texture2D& map) { EXPECT_EQ(map.value(0, 0, 0), glm::vec4(0, 0, 0, 1)); });
 }
 
 TEST_F(ToolTextureFiles, OfNormalsInBc5HaveZ) {
@@ -283,7 +309,7 @@ TEST_F(TextureFiles, OfExportedScenesKeep16Bits) {
   ASSERT_EQ(model.images.size(), 2u);
   EXPECT_EQ(codes_of(model.images[0]).at(0, 0), glm::u16vec4(32800, 32960, 5, 65535));
   const glm::u16vec4 n = codes_of(model.images[1]).at(0, 0);
-  EXPECT_EQ(glm::u16vec2(n.x, n.z), glm::u16vec2(32800, 60000));
+  EXPECT_EQ(glm::u16vec3(n), glm::u16vec3(32800, 40000, 60000));
 }
 
 TEST_F(ToolTextureFiles, OfExportedModelsKeep16Bits) {

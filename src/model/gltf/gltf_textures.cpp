@@ -51,15 +51,15 @@ Sampler sampler_of(const GltfDocument& document, const GltfValue& json) {
   return sampler;
 }
 
-// Returns the image of a texture, or −1 if it has no image that can be read.
+// Returns the image of a texture, or −1 if it has none. A DDS image comes last, because it has fewer colors than the PNG or JPEG beside it,
+// and some builds cannot read it.
 int image_of(GltfDocument& document, const GltfValue& json) {
   const std::size_t images = document.list("images").size();
-  for (const char* name : {"MSFT_texture_dds", "EXT_texture_webp"}) {
-    const GltfValue* extension = document.extension(json, name);
-    const int image = extension == nullptr ? -1 : document.index(*extension, "source", images);
-    if (image >= 0) return image;
+  const auto image_in = [&](const GltfValue* texture) { return texture == nullptr ? -1 : document.index(*texture, "source", images); };
+  for (const GltfValue* texture : {document.extension(json, "EXT_texture_webp"), &json, document.extension(json, "MSFT_texture_dds")}) {
+    if (const int image = image_in(texture); image >= 0) return image;
   }
-  return document.index(json, "source", images);
+  return -1;
 }
 
 // The rotation is counter-clockwise as seen in an image whose v axis points down. (The matrix in the text of the extension has the

@@ -23,9 +23,33 @@ bool are_halfs(const Image<glm::vec4>& image) {
                              [](const glm::vec4& t) { return is_half(t.x) && is_half(t.y) && is_half(t.z) && is_half(t.w); });
 }
 
+// Shaders expect data, for example a shininess or an occlusion, from 0 to 1.
+void limit_data(TextureImage& image) {
+  auto* numbers = std::get_if<Image<glm::vec4>>(&image);
+  if (numbers == nullptr) return;
+  for (glm::vec4& t : std::span(numbers->data(), numbers->texels().size())) t = glm::clamp(t, 0.0f, 1.0f);
+}
+
 TextureImage completed(TextureImage image, TextureRole role) {
   if (role == TextureRole::normals) complete_normals(image);
+  if (role == TextureRole::data) limit_data(image);
   return image;
+}
+
+bool has_unit_length(const glm::vec3& v) { return std::fabs(glm::length(v) - 1.0f) < 0.05f; }
+
+// Returns whether the texels of a normal map are vectors, instead of vectors mapped to 0 to 1: more of them have the length 1 as they are.
+// If that does not decide, or z is missing, negative values do.
+bool are_vectors(std::span<const glm::vec4> texels, bool lacks_z) {
+  std::ptrdiff_t balance = 0;
+  bool has_negative = false, is_black = true;
+  for (const glm::vec4& t : texels) {
+    const glm::vec3 v(t);
+    balance += std::ptrdiff_t{has_unit_length(v)} - std::ptrdiff_t{has_unit_length(2.0f * v - 1.0f)};
+    has_negative = has_negative || v.x < 0.0f || v.y < 0.0f || v.z < 0.0f;
+    is_black = is_black && v == glm::vec3(0.0f);
+  }
+  return balance != 0 && !lacks_z ? balance > 0 : has_negative || is_black;
 }
 
 // Returns z for x and y. All of them are stored: 0 is −1 and 1 is +1.
@@ -80,9 +104,7 @@ void complete_normals(TextureImage& image) {
   }
   auto& numbers = std::get<Image<glm::vec4>>(image);
   const std::span texels(numbers.data(), numbers.texels().size());
-  const auto any = [&](const auto& condition) { return std::ranges::any_of(texels, condition); };
-  const bool has_negative = any([](const glm::vec4& t) { return t.x < 0.0f || t.y < 0.0f || t.z < 0.0f; });
-  if (has_negative || !any([](const glm::vec4& t) { return glm::vec3(t) != glm::vec3(0.0f); })) {
+  if (are_vectors(texels, lacks_z)) {
     for (glm::vec4& t : texels) t = glm::vec4(0.5f * glm::vec3(t) + 0.5f, t.w);
   }
   if (!lacks_z) return;

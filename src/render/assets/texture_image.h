@@ -24,16 +24,17 @@ constexpr ImageUse image_use(TextureRole role) { return role == TextureRole::col
 /// Returns the role of a map of a material.
 TextureRole role_of(TextureUse ModelMaterial::*map);
 
-/// Reads an image without loss (read_texels) and completes normals.
+/// Reads an image without loss (read_texels), completes normals, and limits data to 0 to 1.
 TextureImage texels_of(const std::filesystem::path& file, TextureRole role);
 /// The same for an image of the model in `file`, which must have a file, bytes or pixels.
 TextureImage texels_of(const ModelImage& image, TextureRole role, const std::string& file);
 /// The same for an image in memory.
 TextureImage texels_of(const ColorPicture& picture, TextureRole role, const std::string& name);
 
-/// Converts a normal map to the form in which red, green and blue are x, y and z, with 0 for −1 and 1 for +1. Numbers of
-/// which one is negative or all are 0 are x, y and z themselves. A map whose blue is 0 everywhere lacks z (BC5), which is computed: normals
-/// have length 1 and point away from the surface. All other maps are unchanged.
+/// Converts a normal map to the form in which red, green and blue are x, y and z, with 0 for −1 and 1 for +1. The numbers of a map are x, y
+/// and z themselves if more texels have the length 1 in this way than in the other. A map whose blue is 0 everywhere lacks z (BC5), which
+/// is computed: normals have length 1 and point away from the surface. There, and where no texel has the length 1, numbers are x and y
+/// themselves if one is negative or all are 0. All other maps are unchanged.
 void complete_normals(TextureImage& image);
 
 /// Returns a texture that keeps the values of the image. 8-bit values give srgb8a8 (colors) or rgba8 (all others). Numbers give rgba16f if

@@ -66,7 +66,7 @@ EnvironmentMap cube_of(const std::array<fs::path, 6>& files, std::array<TextureI
   for (std::size_t f = 0; f < 6; ++f) {
     auto* face = std::get_if<Image<Texel>>(&pictures[f]);
     if (face == nullptr)
-      throw InputError(fmt::format("{}: its format differs from that of {} (8-bit or not); expected six of the same kind",
+      throw InputError(fmt::format("{}: has 8 bits per channel and {} has more, or the reverse; expected six faces with the same number",
                                    files[f].string(), files[0].string()));
     faces[f] = std::move(*face);
     const int width = faces[f].width(), height = faces[f].height(), size = faces[0].width();

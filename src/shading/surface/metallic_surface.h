@@ -247,6 +247,10 @@ struct MetallicSurface : MetallicMaterial {
   };
 
   template <class R>
+  static HS_INLINE vec3<R> reflectance(const vec3<R>& color) {
+    return {min(color.x, R(1)), min(color.y, R(1)), min(color.z, R(1))};
+  }
+  template <class R>
   static HS_INLINE Layer<R> layer_of(const vec3<R>& n_ws, const vec3<R>& v_ws, R roughness, const vec3<R>& f0, const vec3<R>& f90) {
     return {n_ws, max(dot(n_ws, v_ws), R(1e-4f)), clamp(roughness, R(kMinRoughness), R(1)), f0, f90};
   }
@@ -262,9 +266,9 @@ struct MetallicSurface : MetallicMaterial {
     const R metal = clamp(R(metallic) * texels.number[kMetallicMap], R(0), R(1));
     const R strength = R(specular) * texels.number[kSpecularMap];
     vec3<R> f0 = specular_color * texels.specular_color * R(normal_reflectance);
-    f0 = vec3<R>(min(f0.x, R(1)), min(f0.y, R(1)), min(f0.z, R(1))) * strength;
+    f0 = reflectance(f0) * strength;
     const vec3<R> f90 = mix(vec3<R>(strength), vec3<R>(R(1)), metal);
-    const Layer<R> layer = layer_of(n_ws, v_ws, R(roughness) * texels.number[kRoughnessMap], mix(f0, base, metal), f90);
+    const Layer<R> layer = layer_of(n_ws, v_ws, R(roughness) * texels.number[kRoughnessMap], mix(f0, reflectance(base), metal), f90);
     const vec3<R> diffuse = base * (R(1) - metal);
 
     // The coat reflects part of all light and transmits the rest.

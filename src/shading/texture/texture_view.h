@@ -197,7 +197,7 @@ class TextureView {
   ivec4<R> fetch_integers(const ivec3<R>& texel, std::type_identity_t<IntOf<R>> level = IntOf<R>(0)) const;
 
   /// GLSL's textureQueryLod(): the level that sample() reads, with a fraction if it is between two (x), and the level of detail after the
-  /// bias, before the limits (y).
+  /// bias, before the limits (y). As if the sampler were isotropic.
   template <class P, class R = CoordinateReal<P>>
   requires std::is_same_v<P, TextureCoordinates<kind, R>> vec2<R> query_lod(const Sampler& sampler, const P& p,
                                                                             const TextureDerivatives<kind, R>& dx,
