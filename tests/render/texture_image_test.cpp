@@ -116,6 +116,7 @@ TEST(NormalMaps, OfUnitVectorsAreRecognizedWithoutNegativeValues) {
   const glm::vec4 tilted = normal_of(glm::vec4(0.6f, 0, 0.8f, 1));
   EXPECT_NEAR(glm::distance(tilted, glm::vec4(0.8f, 0.5f, 0.9f, 1)), 0, 1e-6);  // one rounding of each number
   EXPECT_EQ(normal_of(glm::vec4(0.5f, 0.5f, 1, 1)), glm::vec4(0.5f, 0.5f, 1, 1)) << "flat, mapped to 0 to 1";
+  EXPECT_EQ(normal_of(glm::vec4(0.5f, 0.5f, 0.75f, 1)), glm::vec4(0.5f, 0.5f, 0.75f, 1)) << "the same, with half the length";
 }
 
 // Filters that sharpen can make single values negative.

@@ -36,7 +36,8 @@ TextureImage completed(TextureImage image, TextureRole role) {
   return image;
 }
 
-bool has_unit_length(const glm::vec3& v) { return std::fabs(glm::length(v) - 1.0f) < 0.05f; }
+// Within the rounding of maps with 8 bits.
+bool has_unit_length(const glm::vec3& v) { return std::fabs(glm::length(v) - 1.0f) < 0.01f; }
 
 // Returns whether the texels of a normal map are vectors, instead of vectors mapped to 0 to 1: more of them have the length 1 as they are.
 // If that does not decide, or z is missing, negative values do.
