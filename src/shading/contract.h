@@ -70,8 +70,8 @@ struct PerVertex {
   std::array<R, clip_distances> clip_distance{};  ///< at most 8; parts where a distance is negative are clipped
 };
 
-/// Return type of vertex functions that compute the bounds of a point. Pixels with a sample inside the rectangle are drawn. The topology
-/// of the draw must be points, which is checked.
+/// Return type of vertex functions that compute the bounds of a point. Pixels with a sample inside the rectangle are drawn. The draw
+/// must draw points (Topology::points or PolygonMode::point), which is checked.
 template <class R>
 struct PointSpriteVertex {
   vec2<R> low, high;  ///< corners of the rectangle in NDC (x/w, y/w)
