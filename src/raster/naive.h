@@ -23,7 +23,7 @@
 #include "halfspace/raster/shade/plane_anchor.h"
 #include "halfspace/raster/vertex_input.h"
 #include "halfspace/raster/visibility/tests/depth_stencil_test.h"
-#include "halfspace/shading/contract.h"
+#include "halfspace/shading/shader_traits.h"
 
 namespace halfspace::HS_LANES {
 

@@ -49,7 +49,7 @@ ROOMS = {
         ["inspect/"],
     ],
     "shading": [
-        ["varyings", "pixel", "contract"],
+        ["varyings", "pixel", "contract", "shader_traits"],
         ["values/", "texture/"],
         ["shadow/"],
         ["light/"],

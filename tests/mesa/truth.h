@@ -10,7 +10,7 @@
 #include <cmath>
 #include <vector>
 
-#include "halfspace/shading/contract.h"
+#include "halfspace/shading/shader_traits.h"
 #include "mesa/mesa_draw.h"
 
 namespace halfspace::test {

@@ -22,7 +22,7 @@
 
 #include "halfspace/raster/draw_state.h"
 #include "halfspace/raster/target.h"
-#include "halfspace/shading/contract.h"
+#include "halfspace/shading/shader_traits.h"
 #include "oracle/framebuffer.h"
 #include "oracle/interpolation.h"
 #include "oracle/shader_call.h"

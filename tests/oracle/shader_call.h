@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "halfspace/raster/draw_state.h"
-#include "halfspace/shading/contract.h"
+#include "halfspace/shading/shader_traits.h"
 #include "oracle/interpolation.h"
 #include "oracle/shader_data.h"
 #include "oracle/window.h"

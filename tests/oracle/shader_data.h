@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "halfspace/shading/contract.h"
+#include "halfspace/shading/shader_traits.h"
 
 namespace halfspace::oracle {
 

@@ -8,7 +8,7 @@
 #include <random>
 
 #include "halfspace/core/lane_pairs.h"
-#include "halfspace/shading/contract.h"
+#include "halfspace/shading/shader_traits.h"
 
 namespace visitor {
 

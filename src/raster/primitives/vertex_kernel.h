@@ -7,7 +7,7 @@
 
 #include "halfspace/core/transpose.h"
 #include "halfspace/raster/pipeline/pipeline_data.h"
-#include "halfspace/shading/contract.h"
+#include "halfspace/shading/shader_traits.h"
 
 namespace halfspace::HS_LANES {
 

@@ -1,0 +1,349 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What the pipeline derives from the type of a shader: which functions of the contract it has and what they return, calls of them, and the
+// messages of the compiler if a part is missing.
+#pragma once
+
+#include <array>
+#include <concepts>
+#include <type_traits>
+#include <utility>
+
+#include "halfspace/core/texel_format.h"
+#include "halfspace/shading/contract.h"
+#include "halfspace/shading/varyings.h"
+
+namespace halfspace::HS_LANES {
+
+template <class S>
+concept HasAttributes = requires {
+  typename S::template Attributes<float>;
+};
+template <class S>
+concept HasVaryings = requires {
+  typename S::template Varyings<float>;
+};
+template <class S>
+concept HasPrimitive = requires {
+  typename S::template Primitive<float>;
+};
+namespace detail {
+template <class T>
+inline constexpr std::size_t kClipDistancesIn = 0;
+template <class R, std::size_t N>
+inline constexpr std::size_t kClipDistancesIn<PerVertex<R, N>> = N;
+template <class T>
+inline constexpr bool kIsPerVertex = false;
+template <class R, std::size_t N>
+inline constexpr bool kIsPerVertex<PerVertex<R, N>> = true;
+template <class T>
+inline constexpr bool kIsPointSpriteVertex = std::is_same_v<T, PointSpriteVertex<float>>;
+}  // namespace detail
+/// The types that a vertex function may return.
+template <class T>
+concept VertexResult = std::same_as<T, vec4<float>> || detail::kIsPerVertex<T> || detail::kIsPointSpriteVertex<T>;
+
+namespace detail {
+template <class T>
+inline constexpr bool kIsFragment = false;
+template <class R>
+inline constexpr bool kIsFragment<Fragment<R>> = true;
+template <class R>
+inline constexpr bool kIsFragment<DiscardingFragment<R>> = true;
+template <class R>
+inline constexpr bool kIsFragment<DepthFragment<R>> = true;
+template <class R, std::size_t N>
+inline constexpr bool kIsFragment<FragmentMRT<R, N>> = true;
+template <class R, std::size_t N>
+inline constexpr bool kIsFragment<DiscardingFragmentMRT<R, N>> = true;
+template <class R, std::size_t N>
+inline constexpr bool kIsFragment<DepthFragmentMRT<R, N>> = true;
+template <class R, class... C>
+inline constexpr bool kIsFragment<TypedFragment<R, C...>> = true;
+template <class R, class... C>
+inline constexpr bool kIsFragment<DiscardingTypedFragment<R, C...>> = true;
+template <class R, class... C>
+inline constexpr bool kIsFragment<DepthTypedFragment<R, C...>> = true;
+}  // namespace detail
+/// The types that a fragment function may return.
+template <class T>
+concept FragmentResult = detail::kIsFragment<T>;
+
+template <class S>
+concept HasVertexFunctionWithoutId = requires(const S& s, const typename S::template Attributes<float>& in,
+                                              typename S::template Varyings<float>& out) {
+  { s.vertex(in, out) } -> VertexResult;
+};
+template <class S>
+concept HasVertexIdFunction = requires(const S& s, const typename S::template Attributes<float>& in, const VertexId<float>& id,
+                                       typename S::template Varyings<float>& out) {
+  { s.vertex(in, id, out) } -> VertexResult;
+};
+template <class S>
+concept HasVertexFunction = HasVertexFunctionWithoutId<S> || HasVertexIdFunction<S>;
+template <class S>
+concept HasPrimitiveFunction = requires(const S& s, const typename S::template Varyings<float>& v) {
+  { s.primitive(v, v, v) } -> std::same_as<typename S::template Primitive<float>>;
+};
+template <class S>
+concept HasFragmentFunctionOfPixel = requires(const S& s, const typename S::template Varyings<float>& in, const Pixel<float>& px) {
+  s.fragment(in, px);
+};
+template <class S>
+concept HasFragmentFunctionOfVaryings = requires(const S& s, const typename S::template Varyings<float>& in) {
+  s.fragment(in);
+};
+template <class S>
+concept HasFragmentFunctionOfId = requires(const S& s, const typename S::template Varyings<float>& in, const PrimitiveId<float>& id,
+                                           const Pixel<float>& px) {
+  s.fragment(in, id, px);
+};
+template <class S>
+concept HasPrimitiveFragmentFunction = requires(const S& s, const typename S::template Varyings<float>& in,
+                                                const typename S::template Primitive<float>& face, const Pixel<float>& px) {
+  s.fragment(in, face, px);
+};
+template <class S>
+concept HasFragmentFunction = (HasPrimitive<S> && HasPrimitiveFunction<S> && HasPrimitiveFragmentFunction<S>) ||
+                              (!HasPrimitive<S> &&
+                               (HasFragmentFunctionOfPixel<S> || HasFragmentFunctionOfVaryings<S> || HasFragmentFunctionOfId<S>));
+template <class S>
+concept HasVisibilityFunction = requires(const S& s, const typename S::template Varyings<float>& in, const Pixel<float>& px) {
+  { s.visibility(in, px) } -> std::same_as<Visibility<float>>;
+};
+
+/// Calls the vertex function of the shader, passing the vertex ID if it has such a parameter.
+template <class S, class R>
+HS_INLINE auto call_vertex(const S& s, const typename S::template Attributes<R>& in, const VertexId<R>& id,
+                           typename S::template Varyings<R>& out) {
+  if constexpr (HasVertexIdFunction<S>) {
+    return s.vertex(in, id, out);
+  } else {
+    return s.vertex(in, out);
+  }
+}
+
+/// Whether the fragment function has a PrimitiveId parameter.
+template <class S>
+inline constexpr bool kUsesPrimitiveId = !HasPrimitive<S> && HasFragmentFunctionOfId<S>;
+
+/// Calls the fragment function of the shader, passing the per-triangle value or the primitive ID if it has such a parameter.
+template <class S, class R, class P>
+HS_INLINE auto call_fragment(const S& s, const typename S::template Varyings<R>& in, const P& face, const Pixel<R>& px) {
+  if constexpr (HasPrimitive<S> || kUsesPrimitiveId<S>) {
+    return s.fragment(in, face, px);
+  } else if constexpr (HasFragmentFunctionOfVaryings<S>) {
+    return s.fragment(in);
+  } else {
+    return s.fragment(in, px);
+  }
+}
+
+namespace detail {
+struct NoPrimitive {};
+template <class S, class R>
+struct PrimitiveOfT {
+  using type = NoPrimitive;
+};
+template <HasPrimitive S, class R>
+struct PrimitiveOfT<S, R> {
+  using type = typename S::template Primitive<R>;
+};
+template <class S, class R>
+requires kUsesPrimitiveId<S>
+struct PrimitiveOfT<S, R> {
+  using type = PrimitiveId<R>;
+};
+template <class F>
+inline constexpr bool kIsDiscarding = false;
+template <class R>
+inline constexpr bool kIsDiscarding<DiscardingFragment<R>> = true;
+template <class R>
+inline constexpr bool kIsDiscarding<DepthFragment<R>> = true;
+template <class R, std::size_t N>
+inline constexpr bool kIsDiscarding<DiscardingFragmentMRT<R, N>> = true;
+template <class R, std::size_t N>
+inline constexpr bool kIsDiscarding<DepthFragmentMRT<R, N>> = true;
+template <class R, class... C>
+inline constexpr bool kIsDiscarding<DiscardingTypedFragment<R, C...>> = true;
+template <class R, class... C>
+inline constexpr bool kIsDiscarding<DepthTypedFragment<R, C...>> = true;
+template <class F>
+inline constexpr bool kHasDepth = false;
+template <class R>
+inline constexpr bool kHasDepth<DepthFragment<R>> = true;
+template <class R, std::size_t N>
+inline constexpr bool kHasDepth<DepthFragmentMRT<R, N>> = true;
+template <class R, class... C>
+inline constexpr bool kHasDepth<DepthTypedFragment<R, C...>> = true;
+template <class C>
+inline constexpr std::size_t kColorsIn = 1;
+template <class C, std::size_t N>
+inline constexpr std::size_t kColorsIn<std::array<C, N>> = N;
+template <class R, class... C>
+inline constexpr std::size_t kColorsIn<TypedColors<R, C...>> = sizeof...(C);
+template <class C>
+inline constexpr ColorType kColorType = ColorType::real;
+template <class R>
+inline constexpr ColorType kColorType<DiscreteVec<4, R>> =
+    std::is_same_v<R, int32_t> ? ColorType::signed_integer : ColorType::unsigned_integer;
+template <class C>
+inline constexpr auto kColorTypesIn = std::array<ColorType, kColorsIn<C>>{};  // all real
+template <class R, class... C>
+inline constexpr auto kColorTypesIn<TypedColors<R, C...>> = std::array{kColorType<C>...};
+template <class R>
+HS_INLINE const vec4<R>& nth_color(const vec4<R>& color, std::size_t) {
+  return color;
+}
+template <class R, std::size_t N>
+HS_INLINE const vec4<R>& nth_color(const std::array<vec4<R>, N>& colors, std::size_t n) {
+  return colors[n];
+}
+template <class R, class... C>
+HS_INLINE const vec4<R>& nth_color(const TypedColors<R, C...>& colors, std::size_t n) {
+  return colors.bits[n];
+}
+}  // namespace detail
+
+/// The per-triangle value of the shader, its PrimitiveId, or an empty struct.
+template <class S, class R>
+using PrimitiveOf = typename detail::PrimitiveOfT<S, R>::type;
+
+template <class S>
+using FragmentOf = decltype(call_fragment<S, float>(std::declval<const S&>(), std::declval<const typename S::template Varyings<float>&>(),
+                                                    std::declval<const PrimitiveOf<S, float>&>(), std::declval<const Pixel<float>&>()));
+
+namespace detail {
+// S has a member template named visibility, of any signature.
+template <class S>
+concept HasVisibilityMember = requires {
+  &S::template visibility<float>;
+};
+}  // namespace detail
+
+/// The requirements of Pass::draw_depth.
+template <class S>
+concept VertexShader = HasAttributes<S> && HasVaryings<S> && HasVertexFunction<S> &&
+    (HasVisibilityFunction<S> || !detail::HasVisibilityMember<S>);
+
+/// The requirements of Pass::draw.
+template <class S>
+concept Shader = VertexShader<S> && HasFragmentFunction<S> && FragmentResult<FragmentOf<S>>;
+
+namespace detail {
+// Always false, but dependent on S, so that static_assert fails only on instantiation.
+template <class S>
+inline constexpr bool kComplete = false;
+}  // namespace detail
+
+/// Returns true if Pass::draw_depth accepts S; otherwise compilation fails with a message that says what is missing.
+template <class S>
+consteval bool require_vertex_shader() {
+  if constexpr (!HasAttributes<S>) {
+    static_assert(detail::kComplete<S>, "the shader is missing: template <class R> struct Attributes { vec3<R> position; … };");
+  } else if constexpr (!HasVaryings<S>) {
+    static_assert(detail::kComplete<S>, "the shader is missing: template <class R> struct Varyings { … };");
+  } else if constexpr (!HasVertexFunction<S>) {
+    static_assert(detail::kComplete<S>,
+                  "the shader is missing: template <class R> vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const;");
+  } else if constexpr (!HasVisibilityFunction<S> && detail::HasVisibilityMember<S>) {
+    static_assert(detail::kComplete<S>,
+                  "the shader's visibility function must be: template <class R> Visibility<R> visibility(const Varyings<R>& in, "
+                  "const Pixel<R>& px) const;");
+  } else {
+    using V = typename S::template Varyings<float>;
+    static_assert(!kInterpolatesIntegers<V>, "the shader interpolates integer varyings: declare them as Flat<IntOf<R>>");
+    static_assert(kComponents<V> <= kMaxComponents, "the varyings of the shader have more than 64 components");
+  }
+  return VertexShader<S>;
+}
+
+/// Returns true if Pass::draw_depth draws S as Pass::draw does; otherwise compilation fails with a message that says what is missing.
+template <class S>
+consteval bool require_depth_shader() {
+  if constexpr (!require_vertex_shader<S>()) {
+    return false;
+  } else if constexpr (HasFragmentFunction<S>) {
+    using F = FragmentOf<S>;
+    static_assert(HasVisibilityFunction<S> || (!detail::kIsDiscarding<F> && !detail::kHasDepth<F>),
+                  "draw_depth() does not call the fragment function, but that of this shader discards or returns a depth; the shader is "
+                  "missing: template <class R> Visibility<R> visibility(const Varyings<R>& in, const Pixel<R>& px) const;");
+  }
+  return true;
+}
+
+/// Returns true if Pass::draw accepts S; otherwise compilation fails with a message that says what is missing.
+template <class S>
+consteval bool require_shader() {
+  if constexpr (!require_vertex_shader<S>()) {
+    return false;
+  } else if constexpr (HasPrimitive<S> && !HasPrimitiveFunction<S>) {
+    static_assert(detail::kComplete<S>,
+                  "the shader has a Primitive struct but is missing: template <class R> Primitive<R> primitive(const Varyings<R>& v0, "
+                  "const Varyings<R>& v1, const Varyings<R>& v2) const;");
+  } else if constexpr (HasPrimitive<S> && !HasPrimitiveFragmentFunction<S>) {
+    static_assert(detail::kComplete<S>,
+                  "the shader has a Primitive struct but is missing: template <class R> Fragment<R> fragment(const Varyings<R>& in, "
+                  "const Primitive<R>& face, const Pixel<R>& px) const;");
+  } else if constexpr (!HasFragmentFunction<S>) {
+    static_assert(detail::kComplete<S>,
+                  "the shader is missing: template <class R> Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>& px) const;");
+  } else {
+    static_assert(detail::kIsFragment<FragmentOf<S>>,
+                  "the shader's fragment function must return Fragment<R>, DiscardingFragment<R> or DepthFragment<R>, or one of "
+                  "their variants for several colors");
+    static_assert(!HasVisibilityFunction<S> || detail::kIsDiscarding<FragmentOf<S>>,
+                  "the shader has a visibility function, but its fragment function neither discards nor returns a depth: return a "
+                  "DiscardingFragment<R> or a DepthFragment<R>");
+    return Shader<S>;
+  }
+  return false;
+}
+
+template <class S>
+using VertexOf =
+    decltype(call_vertex<S, float>(std::declval<const S&>(), std::declval<const typename S::template Attributes<float>&>(),
+                                   std::declval<const VertexId<float>&>(), std::declval<typename S::template Varyings<float>&>()));
+/// Number of clip distances that the vertex function outputs.
+template <class S>
+inline constexpr std::size_t kClipDistances = detail::kClipDistancesIn<VertexOf<S>>;
+/// Whether the vertex function outputs a point size.
+template <class S>
+inline constexpr bool kGivesPointSize = detail::kIsPerVertex<VertexOf<S>>;
+/// Whether the vertex function outputs the bounds of a point sprite.
+template <class S>
+inline constexpr bool kGivesPointSprite = detail::kIsPointSpriteVertex<VertexOf<S>>;
+
+/// Returns the clip-space position in the result of a vertex function. For a point sprite this is (0, 0, depth, 1), or w = −1 if
+/// it is not drawn.
+template <class R>
+HS_INLINE vec4<R> position_of(const vec4<R>& v) {
+  return v;
+}
+template <class R, std::size_t N>
+HS_INLINE vec4<R> position_of(const PerVertex<R, N>& v) {
+  return v.position;
+}
+template <class R>
+HS_INLINE vec4<R> position_of(const PointSpriteVertex<R>& v) {
+  return vec4<R>(R(0.0f), R(0.0f), v.depth, select(v.drawn, R(1.0f), R(-1.0f)));
+}
+
+/// Number of colors that the shader returns.
+template <class S>
+inline constexpr std::size_t kColors = detail::kColorsIn<decltype(FragmentOf<S>::color)>;
+/// The types of these colors.
+template <class S>
+inline constexpr auto kColorTypes = detail::kColorTypesIn<decltype(FragmentOf<S>::color)>;
+/// Whether the shader may discard fragments.
+template <class S>
+inline constexpr bool kDiscards = detail::kIsDiscarding<FragmentOf<S>>;
+/// Whether the shader replaces the depth of the triangle.
+template <class S>
+inline constexpr bool kWritesDepth = detail::kHasDepth<FragmentOf<S>>;
+/// Whether the shader has a single color for the whole draw call.
+template <class S>
+inline constexpr bool kIsConstant =
+    !HasPrimitive<S> && HasFragmentFunctionOfVaryings<S> && kComponents<typename S::template Varyings<float>> == 0 && !kDiscards<S>;
+
+}  // namespace halfspace::HS_LANES
