@@ -2,13 +2,12 @@
 #include "halfspace/raster/pass.h"
 
 #include <algorithm>
-#include <cmath>
 #include <new>
 #include <type_traits>
 #include <utility>
 
 #include "halfspace/core/float_mode.h"
-#include "halfspace/core/lane_math.h"
+#include "halfspace/raster/detail/state_checks.h"
 #include "halfspace/raster/detail/target_checks.h"
 #include "halfspace/raster/loop/pass_rounds.h"
 #include "halfspace/raster/pipeline/pass_memory.h"
@@ -22,7 +21,6 @@ namespace halfspace::HS_LANES {
 
 namespace {
 
-constexpr int kMaxTargetSize = static_cast<int>(kGuardBand);
 // Memory limit of a tile in bytes, chosen so that it stays in the L2 cache.
 constexpr int kTileBudget = 160 << 10;
 
@@ -56,37 +54,6 @@ uint32_t coverage_mask(const std::optional<SampleCoverage>& coverage, int sample
 
 PixelBounds to_bounds(const Rect& r) { return {r.x, r.y, r.x + r.width, r.y + r.height}; }
 
-void check_viewport(const Rect& r) {
-  HS_CHECK(r.width >= 1 && r.width <= kMaxTargetSize && r.height >= 1 && r.height <= kMaxTargetSize,
-           "DrawState: the size of the viewport is outside of its range; expected a width and a height from 1 to 16384");
-  HS_CHECK(r.x >= -kMaxTargetSize && r.x <= kMaxTargetSize && r.y >= -kMaxTargetSize && r.y <= kMaxTargetSize,
-           "DrawState: the origin of the viewport is too far away; expected at most 16384 from 0");
-}
-
-void check_scissor(const Rect& r) {
-  HS_CHECK(r.width >= 0 && r.height >= 0,
-           "Pass: the size of a scissor or a cleared rectangle is negative; expected a width and a height of at least 0");
-}
-
-// Comparisons are written so that NaN fails.
-void check_numbers(const DrawState& state) {
-  HS_CHECK_OP(state.line_width, >=, 0.0f, "line_width: is negative or NaN; expected 0 to 4096");
-  HS_CHECK_OP(state.line_width, <=, kMaxLineWidth, "line_width: is too large; expected 0 to 4096");
-  HS_CHECK_OP(state.point_size, >=, 0.0f, "point_size: is negative or NaN; expected at least 0");
-  HS_CHECK_OP(std::fabs(state.offset.slope), <, detail::kInfinity, "offset.slope: is not finite; expected a finite number");
-  HS_CHECK_OP(std::fabs(state.offset.constant), <, detail::kInfinity, "offset.constant: is not finite; expected a finite number");
-  HS_CHECK(state.offset.clamp == state.offset.clamp, "offset.clamp: is NaN; expected a number");
-  HS_CHECK(state.depth.range_near >= 0 && state.depth.range_near <= 1 && state.depth.range_far >= 0 && state.depth.range_far <= 1,
-           "DrawState: the depth range is outside of its limits; expected two depths from 0 to 1");
-  if (state.sample_coverage) {
-    HS_CHECK(state.sample_coverage->value >= 0.0f && state.sample_coverage->value <= 1.0f,
-             "sample_coverage: the value is outside of its range; expected 0 to 1");
-  }
-  if (state.query) HS_CHECK_OP(*state.query, <, kMaxQueries, "query: is too large; expected less than 65536");
-  if (state.viewport) check_viewport(*state.viewport);
-  if (state.scissor) check_scissor(*state.scissor);
-}
-
 }  // namespace
 
 namespace detail {
@@ -100,15 +67,12 @@ class PassState {
   void add_draw(const ShaderKernels& kernels, KeptShader shader, const VertexView& vertices, std::shared_ptr<const Indices> indices,
                 const DrawState& state);
   void set_post_step(PostStep post);
-  void check_clear(const ClearValues& values) const;
-  std::size_t attachment_count() const { return attachments_.colors.size(); }
+  const Attachments& attachments() const { return attachments_; }
   PassStatistics run(TileRunner& tiles, const Workers& workers);
 
  private:
   int tile_size() const;
   void check_color_types(const ShaderKernels& kernels) const;
-  // Checks what does not depend on the shader.
-  void check_state(const DrawState& state) const;
   DrawPlacement place(const DrawState& state) const;
   // Sets d.writes_color. Returns true if the draw replaces all colors of a pixel.
   bool set_color_writes(Draw& d) const;
@@ -184,7 +148,7 @@ void PassState::add_draw(const ShaderKernels& kernels, KeptShader shader, const 
   check_instances(vertices, state);
   // Most draws have the same state as the one before.
   const Draw* const equal = !context_.draws.empty() && context_.draws.back().state == state ? &context_.draws.back() : nullptr;
-  if (equal == nullptr) check_state(state);
+  if (equal == nullptr) check_state(state, attachments_);
   HS_CHECK(
       !kernels.gives_point_sprite || draws_points(state),
       "Pass::draw: the shader computes rectangles of points, but no points are drawn; expected Topology::points or PolygonMode::point");
@@ -219,32 +183,6 @@ void PassState::check_color_types(const ShaderKernels& kernels) const {
         format == ColorFormat::none || kernels.color_types[i] == color_type(format),
         "Pass::draw: a color of the shader has another type than its attachment; expected ivec4 for signed integers, uvec4 for unsigned "
         "integers, and vec4 for all others");
-  }
-}
-
-void PassState::check_state(const DrawState& state) const {
-  check_numbers(state);
-  for (std::size_t i = attachments_.colors.size(); i < state.attachments.size(); ++i)
-    HS_CHECK(!state.attachments[i], "DrawState: there is a state for an attachment that the pass does not have; expected none");
-  if (state.order_independent) {
-    HS_CHECK(attachments_.colors.size() == 1 && attachments_.has_color && !is_integer(attachments_.colors[0].format),
-             "DrawState: order_independent needs one color target of colors; expected no integers and no second target");
-    HS_CHECK(
-        !state.depth.write && !blend_of(state, 0) && color_mask_of(state, 0).all() && !state.logic_op && !state.alpha_to_one,
-        "DrawState: order_independent is combined with depth writes, blending, a color mask, a logic operation or alpha_to_one; expected "
-        "none of them");
-    HS_CHECK(state.depth.compare == CompareOp::less || state.depth.compare == CompareOp::less_equal ||
-                 state.depth.compare == CompareOp::greater || state.depth.compare == CompareOp::greater_equal,
-             "DrawState: order_independent is combined with another depth test; expected less, less_equal, greater or greater_equal");
-  }
-  for (std::size_t i = 0; i < attachments_.colors.size(); ++i) {
-    HS_CHECK(!blend_of(state, i) || !is_integer(attachments_.colors[i].format),
-             "DrawState: a target of integers is blended; expected no blending");
-    if (!state.logic_op || attachments_.colors[i].format == ColorFormat::none) continue;
-    HS_CHECK(has_logic_op(attachments_.colors[i].format),
-             "DrawState: logic_op applies to a target of floats, signed normalized or sRGB values; expected unsigned normalized values or "
-             "integers");
-    HS_CHECK(!blend_of(state, i), "DrawState: logic_op is combined with blending; expected one of them");
   }
 }
 
@@ -300,17 +238,6 @@ void PassState::set_post_step(PostStep post) {
   attachments_.post = std::move(post);
 }
 
-void PassState::check_clear(const ClearValues& values) const {
-  if (values.depth) {
-    HS_CHECK(*values.depth >= 0.0f && *values.depth <= 1.0f, "Pass::clear: the depth is outside of its range; expected 0 to 1");
-  }
-  HS_CHECK(!values.depth || attachments_.depth.format != DepthFormat::none, "Pass::clear: the pass has no depth target; expected no depth");
-  HS_CHECK(!values.stencil || has_stencil(attachments_.depth.format), "Pass::clear: the pass has no stencil; expected no stencil");
-  if (values.rect) check_scissor(*values.rect);
-  for (std::size_t i = attachments_.colors.size(); i < values.colors.size(); ++i)
-    HS_CHECK(!values.colors[i], "Pass::clear: there is a color for an attachment that the pass does not have; expected no color");
-}
-
 std::pmr::memory_resource& memory_of(PassState& state) { return state.memory(); }
 
 void add_draw(PassState& state, const ShaderKernels& kernels, KeptShader shader, const VertexView& vertices,
@@ -340,10 +267,6 @@ class DrawTiles : public TileRunner {
     run_tiles(context, attachments, round, workers, statistics);
   }
 };
-
-}  // namespace
-
-namespace {
 
 // A clear is a draw of one triangle that covers the target, so it has its place in the order of the draws.
 constexpr std::array kCorners{glm::vec4(-1, -1, 0, 1), glm::vec4(3, -1, 0, 1), glm::vec4(-1, 3, 0, 1)};
@@ -380,6 +303,17 @@ constexpr ShaderKernels kClearKernels = [] {
   return kernels;
 }();
 
+// The rectangle is checked as the scissor of the draw.
+void check_clear(const ClearValues& values, const Attachments& attachments) {
+  if (values.depth) {
+    HS_CHECK(*values.depth >= 0.0f && *values.depth <= 1.0f, "Pass::clear: the depth is outside of its range; expected 0 to 1");
+  }
+  HS_CHECK(!values.depth || attachments.depth.format != DepthFormat::none, "Pass::clear: the pass has no depth target; expected no depth");
+  HS_CHECK(!values.stencil || has_stencil(attachments.depth.format), "Pass::clear: the pass has no stencil; expected no stencil");
+  for (std::size_t i = attachments.colors.size(); i < values.colors.size(); ++i)
+    HS_CHECK(!values.colors[i], "Pass::clear: there is a color for an attachment that the pass does not have; expected no color");
+}
+
 // All depths of the depth range are the depth of the clear, so the triangle has exactly that.
 DrawState state_of(const ClearValues& values, std::size_t attachment_count) {
   DrawState state;
@@ -402,7 +336,7 @@ DrawState state_of(const ClearValues& values, std::size_t attachment_count) {
 }  // namespace
 
 void Pass::clear(const ClearValues& values) {
-  state_->check_clear(values);
+  check_clear(values, state_->attachments());
   ClearShader shader;
   bool has_color = false;
   for (std::size_t i = 0; i < values.colors.size(); ++i) {
@@ -413,7 +347,7 @@ void Pass::clear(const ClearValues& values) {
   detail::add_draw(*state_, has_color ? kClearKernels : detail::kKernels<ClearShader, detail::DrawKind::depth_only>,
                    detail::keep_shader(shader, detail::memory_of(*state_)), corners,
                    std::make_shared<const Indices>(Indices::sequential(corners.vertex_count)),
-                   state_of(values, state_->attachment_count()));
+                   state_of(values, state_->attachments().colors.size()));
 }
 
 PassStatistics Pass::run(const Workers& workers) {

@@ -6,10 +6,14 @@
 #include <cstdlib>
 
 #include "halfspace/core/check.h"
+#include "halfspace/raster/pipeline/pipeline_data.h"
 #include "halfspace/raster/target.h"
 #include "halfspace/raster/tile/texel_overlap.h"
 
 namespace halfspace::HS_LANES::detail {
+
+/// Largest width and height of a target, in pixels.
+inline constexpr int kMaxTargetSize = static_cast<int>(kGuardBand);
 
 /// Returns whether the contents of the image are read at the start of the pass.
 inline bool loads(const ColorTarget& target) { return target.load == LoadOp::load; }

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "halfspace/raster/detail/state_checks.h"
+
+#include <cmath>
+
+#include "halfspace/core/check.h"
+#include "halfspace/core/lane_math.h"
+#include "halfspace/raster/detail/target_checks.h"
+#include "halfspace/raster/tile/blend.h"
+#include "halfspace/raster/tile/logic_op.h"
+
+namespace halfspace::HS_LANES::detail {
+
+namespace {
+
+void check_viewport(const Rect& r) {
+  HS_CHECK(r.width >= 1 && r.width <= kMaxTargetSize && r.height >= 1 && r.height <= kMaxTargetSize,
+           "DrawState: the size of the viewport is outside of its range; expected a width and a height from 1 to 16384");
+  HS_CHECK(r.x >= -kMaxTargetSize && r.x <= kMaxTargetSize && r.y >= -kMaxTargetSize && r.y <= kMaxTargetSize,
+           "DrawState: the origin of the viewport is too far away; expected at most 16384 from 0");
+}
+
+void check_scissor(const Rect& r) {
+  HS_CHECK(r.width >= 0 && r.height >= 0,
+           "Pass: the size of a scissor or a cleared rectangle is negative; expected a width and a height of at least 0");
+}
+
+// Comparisons are written so that NaN fails.
+void check_numbers(const DrawState& state) {
+  HS_CHECK_OP(state.line_width, >=, 0.0f, "line_width: is negative or NaN; expected 0 to 4096");
+  HS_CHECK_OP(state.line_width, <=, kMaxLineWidth, "line_width: is too large; expected 0 to 4096");
+  HS_CHECK_OP(state.point_size, >=, 0.0f, "point_size: is negative or NaN; expected at least 0");
+  HS_CHECK_OP(std::fabs(state.offset.slope), <, detail::kInfinity, "offset.slope: is not finite; expected a finite number");
+  HS_CHECK_OP(std::fabs(state.offset.constant), <, detail::kInfinity, "offset.constant: is not finite; expected a finite number");
+  HS_CHECK(state.offset.clamp == state.offset.clamp, "offset.clamp: is NaN; expected a number");
+  HS_CHECK(state.depth.range_near >= 0 && state.depth.range_near <= 1 && state.depth.range_far >= 0 && state.depth.range_far <= 1,
+           "DrawState: the depth range is outside of its limits; expected two depths from 0 to 1");
+  if (state.sample_coverage) {
+    HS_CHECK(state.sample_coverage->value >= 0.0f && state.sample_coverage->value <= 1.0f,
+             "sample_coverage: the value is outside of its range; expected 0 to 1");
+  }
+  if (state.query) HS_CHECK_OP(*state.query, <, kMaxQueries, "query: is too large; expected less than 65536");
+  if (state.viewport) check_viewport(*state.viewport);
+  if (state.scissor) check_scissor(*state.scissor);
+}
+
+}  // namespace
+
+void check_state(const DrawState& state, const Attachments& attachments) {
+  check_numbers(state);
+  for (std::size_t i = attachments.colors.size(); i < state.attachments.size(); ++i)
+    HS_CHECK(!state.attachments[i], "DrawState: there is a state for an attachment that the pass does not have; expected none");
+  if (state.order_independent) {
+    HS_CHECK(attachments.colors.size() == 1 && attachments.has_color && !is_integer(attachments.colors[0].format),
+             "DrawState: order_independent needs one color target of colors; expected no integers and no second target");
+    HS_CHECK(
+        !state.depth.write && !blend_of(state, 0) && color_mask_of(state, 0).all() && !state.logic_op && !state.alpha_to_one,
+        "DrawState: order_independent is combined with depth writes, blending, a color mask, a logic operation or alpha_to_one; expected "
+        "none of them");
+    HS_CHECK(state.depth.compare == CompareOp::less || state.depth.compare == CompareOp::less_equal ||
+                 state.depth.compare == CompareOp::greater || state.depth.compare == CompareOp::greater_equal,
+             "DrawState: order_independent is combined with another depth test; expected less, less_equal, greater or greater_equal");
+  }
+  for (std::size_t i = 0; i < attachments.colors.size(); ++i) {
+    HS_CHECK(!blend_of(state, i) || !is_integer(attachments.colors[i].format),
+             "DrawState: a target of integers is blended; expected no blending");
+    if (!state.logic_op || attachments.colors[i].format == ColorFormat::none) continue;
+    HS_CHECK(has_logic_op(attachments.colors[i].format),
+             "DrawState: logic_op applies to a target of floats, signed normalized or sRGB values; expected unsigned normalized values or "
+             "integers");
+    HS_CHECK(!blend_of(state, i), "DrawState: logic_op is combined with blending; expected one of them");
+  }
+}
+
+}  // namespace halfspace::HS_LANES::detail
