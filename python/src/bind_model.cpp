@@ -69,7 +69,7 @@ std::shared_ptr<ModelAsset> make_model(ModelMesh mesh, const Model& materials, f
 
 // Adds an image of shape (H, W, 4) and returns the number of its texture.
 int add_texture(Model& model, const py::array& texels, const Sampler& sampler) {
-  auto pixels = std::make_shared<const ModelPixels>(pixels_of(texels));
+  auto pixels = std::make_shared<const ColorPicture>(pixels_of(texels));
   model.images.push_back({.name = "array", .file = {}, .bytes = nullptr, .pixels = std::move(pixels)});
   model.textures.push_back({static_cast<int>(model.images.size()) - 1, sampler});
   return static_cast<int>(model.textures.size()) - 1;

@@ -6,7 +6,7 @@
 #include <cstring>
 
 #include "bindings.h"
-#include "halfspace/model/model.h"
+#include "halfspace/core/image.h"
 
 namespace halfspace::python {
 
@@ -30,7 +30,7 @@ Image<glm::vec<4, T>> rgba_of(const Array<T>& array) {
 }
 
 /// Copies an array of uint8, uint16 or float32, of shape (H, W, 4).
-inline ModelPixels pixels_of(const py::array& array) {
+inline ColorPicture pixels_of(const py::array& array) {
   if (py::isinstance<Array<uint8_t>>(array)) return rgba_of(array.cast<Array<uint8_t>>());
   if (py::isinstance<Array<uint16_t>>(array)) return rgba_of(array.cast<Array<uint16_t>>());
   return rgba_of(array.cast<Array<float>>());

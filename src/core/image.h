@@ -2,7 +2,10 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <glm/glm.hpp>
 #include <span>
+#include <variant>
 #include <vector>
 
 #include "halfspace/core/cache_line_allocator.h"
@@ -50,5 +53,8 @@ class Image {
   int height_ = 0;
   Texels texels_;
 };
+
+/// Colors and alpha with 8-bit or 16-bit values, in which colors are sRGB-encoded, or with floating-point values, in which they are linear.
+using ColorPicture = std::variant<Image<glm::u8vec4>, Image<glm::u16vec4>, Image<glm::vec4>>;
 
 }  // namespace halfspace::HS_LANES

@@ -13,8 +13,6 @@
 
 namespace halfspace::HS_LANES {
 
-/// A decoded file: 8-bit, 16-bit or floating-point values.
-using ColorPicture = std::variant<Image<glm::u8vec4>, Image<glm::u16vec4>, Image<glm::vec4>>;
 using GrayPicture = std::variant<Image<uint8_t>, Image<uint16_t>, Image<float>>;
 
 /// Rounds 16-bit values to the nearest 8-bit values: 255·v/65535 for the 16-bit value v.

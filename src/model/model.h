@@ -15,7 +15,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "halfspace/core/image.h"
@@ -46,16 +45,13 @@ struct SpecularGlossiness {
   }
 };
 
-/// Texels that a program provides, with straight alpha. 8-bit and 16-bit colors are sRGB-encoded, floating-point colors are linear.
-using ModelPixels = std::variant<Image<glm::u8vec4>, Image<glm::u16vec4>, Image<glm::vec4>>;
-
 /// An image: a file, the bytes of a file (PNG, JPEG, ...) that were stored in the model file, pixels that a program provides, or the result
 /// of a conversion.
 struct ModelImage {
   std::string name;                                     ///< for messages: the path or name in the model file
   std::filesystem::path file;                           ///< absolute; empty if `bytes` or `pixels` has the image or there is none
   std::shared_ptr<const std::vector<std::byte>> bytes;  ///< null if the image is a file
-  std::shared_ptr<const ModelPixels> pixels{};          ///< replaces the other two; never set by readers
+  std::shared_ptr<const ColorPicture> pixels{};         ///< replaces the other two; never set by readers. Straight alpha
   bool missing = false;                                 ///< a material uses the image, but the reader did not find it
   std::optional<SpecularGlossiness> converted{};        ///< replaces file, bytes and pixels
 

@@ -31,7 +31,7 @@ struct Case {
     SpecularGlossiness textures = source;
     const auto add = [&](const Picture& picture) {
       if (picture.empty()) return -1;
-      model.images.push_back({.name = "picture", .file = {}, .bytes = nullptr, .pixels = std::make_shared<const ModelPixels>(picture)});
+      model.images.push_back({.name = "picture", .file = {}, .bytes = nullptr, .pixels = std::make_shared<const ColorPicture>(picture)});
       model.textures.push_back({static_cast<int>(model.images.size()) - 1, sampler});
       return static_cast<int>(model.textures.size()) - 1;
     };
@@ -116,7 +116,7 @@ TEST(ConvertedImages, TexelsCanBeNumbers) {
   Image<glm::vec4> light(1, 1);
   light.at(0, 0) = {0.3f, 0.6f, 0.0f, 1.0f};
   Model model;
-  model.images.push_back({.name = "light", .file = {}, .bytes = nullptr, .pixels = std::make_shared<const ModelPixels>(light)});
+  model.images.push_back({.name = "light", .file = {}, .bytes = nullptr, .pixels = std::make_shared<const ColorPicture>(light)});
   model.textures.push_back({0, {}});
   const ConvertedImages out = converted_images(model, {.diffuse_texture = 0, .specular = glm::vec3(0.02f)}, "test", Workers(1));
   EXPECT_TRUE(out.problems.empty());

@@ -22,7 +22,7 @@ Model bumpy_triangles() {
   for (int x = 0; x < 8; ++x) {
     for (int y = 0; y < 8; ++y) ramp->at(x, y) = glm::u8vec4(32 * x, 0, 0, 255);
   }
-  model.images = {{"ramp", {}, nullptr, std::make_shared<const ModelPixels>(*ramp)}};
+  model.images = {{"ramp", {}, nullptr, std::make_shared<const ColorPicture>(*ramp)}};
   model.textures = {{0, {}}, {0, {}}};
   model.textures[1].sampler.wrap_s = model.textures[1].sampler.wrap_t = Wrap::clamp;
   model.nodes.resize(1);

@@ -326,7 +326,7 @@ TEST_F(ToolTextureFiles, OfExportedModelsKeep16Bits) {
 TEST_F(TextureFiles, OfExportedModelsWarnAboutLight) {
   Model model = GltfBuilder::read_text(square("x", colored_by(0)).text());
   model.images[0].bytes = nullptr;
-  model.images[0].pixels = std::make_shared<const ModelPixels>(one(glm::vec4(0.5f, 3.0f, 0.0f, 1.0f)));
+  model.images[0].pixels = std::make_shared<const ColorPicture>(one(glm::vec4(0.5f, 3.0f, 0.0f, 1.0f)));
   embed_images(model, "a.gltf");
   EXPECT_EQ(codes_of(model.images[0]).at(0, 0).y, 65535);
   EXPECT_EQ(model.warnings, std::vector<std::string>{"texels below 0 or above 1 are clamped"});

@@ -123,8 +123,7 @@ Texture2D texture_of(const TextureImage& image, TextureRole role, const std::str
 }
 
 TextureImage image_of(const Texture2D& texture) {
-  const bool has_codes = texture.format() == TexelFormat::srgb8a8 || texture.format() == TexelFormat::rgba8;
-  if (has_codes) return level_0<glm::u8vec4>(texture);
+  if (has_codes(texture.format())) return level_0<glm::u8vec4>(texture);
   return level_0<glm::vec4>(texture);
 }
 

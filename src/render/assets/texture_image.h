@@ -42,6 +42,9 @@ void complete_normals(TextureImage& image);
 /// available. If workers are given they share the work.
 Texture2D texture_of(const TextureImage& image, TextureRole role, const std::string& place, const Workers* workers = nullptr);
 
+/// Returns whether the texels of a format are 8-bit values of four channels.
+constexpr bool has_codes(TexelFormat format) { return format == TexelFormat::srgb8a8 || format == TexelFormat::rgba8; }
+
 /// Returns level 0 of a texture: 8-bit values, or numbers for all other formats.
 TextureImage image_of(const Texture2D& texture);
 

@@ -99,7 +99,7 @@ std::vector<std::pair<int, TextureRole>> wanted_images(const ObjectDescription& 
 
 // Returns a texel of level 0. Numbers are rounded to 8-bit values.
 glm::u8vec4 codes_at(const Texture2D& map, int x, int y) {
-  if (map.format() == TexelFormat::rgba8 || map.format() == TexelFormat::srgb8a8) return map.texel(0, x, y);
+  if (has_codes(map.format())) return map.texel(0, x, y);
   const glm::vec4 v = map.value(0, x, y);
   return {linear_to_unorm8(v.x), linear_to_unorm8(v.y), linear_to_unorm8(v.z), linear_to_unorm8(v.w)};
 }
