@@ -57,7 +57,7 @@ struct Point {
 
 /// Number of levels that the case reads.
 int used_levels(const LookupCase& c);
-/// Fills all levels with random texels: every code of normalized, integer and depth formats, and floats of magnitudes 1/4 to 4.
+/// Fills all levels with random texels: any codes of normalized, integer and depth formats, and floats of magnitudes 1/4 to 4.
 void fill_with_noise(TextureMemory& memory);
 /// Returns random points for a case. Their texels and levels do not depend on rounding: coordinates are at least 2^-13 texels from the
 /// edges and centers of texels, and levels of detail that are derived at least 1/16 from a multiple of 1/2, where a filter selects another
