@@ -25,9 +25,10 @@ class Texture(Immutable):
     """An image that covers a surface. The texels are copied. All arguments can be read as members of the same name.
 
     texels: an array of shape (H, W), (H, W, 3) or (H, W, 4), top row first, with straight alpha. The dtype is uint8 (0 to 255), uint16 (0
-        to 65535), float16 or float32. Integers in base color and emissive textures are sRGB values; all other texels are linear. Floats
-        can exceed 1. They can also be the components of normals, from -1 to 1, instead of these mapped to 0 to 1. No texel is rounded. The
-        member has the shape (H, W, 4), float32 instead of float16, and is read-only.
+        to 65535), float16 or float32. Integers in base color and emissive textures are sRGB values; all other texels are linear. Floats of
+        colors can exceed 1. Floats of a normal texture can be the normals themselves, of length 1, instead of normals mapped to 0 to 1.
+        Other floats are limited to 0 to 1 when they are drawn. No texel is rounded. The member has the shape (H, W, 4), float32 instead of
+        float16, and is read-only.
     filter: "nearest", "bilinear", or one with mip levels: "trilinear", "nearest_mipmap_nearest", "bilinear_mipmap_nearest" or
         "nearest_mipmap_linear" (OpenGL's minification filters).
     wrap: "repeat", "mirrored", "clamp" or "mirrored_clamp", or a pair of them for u and v. The member is a pair.

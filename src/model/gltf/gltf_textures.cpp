@@ -51,8 +51,8 @@ Sampler sampler_of(const GltfDocument& document, const GltfValue& json) {
   return sampler;
 }
 
-// Returns the image of a texture, or −1 if it has none. A DDS image comes last, because it has fewer colors than the PNG or JPEG beside it,
-// and some builds cannot read it.
+// Returns the image of a texture, or −1 if it has none. The DDS image is read only if there is no other: it is usually a compressed copy of
+// the PNG or JPEG, and a build without halfspace-image-tool cannot read it.
 int image_of(GltfDocument& document, const GltfValue& json) {
   const std::size_t images = document.list("images").size();
   const auto image_in = [&](const GltfValue* texture) { return texture == nullptr ? -1 : document.index(*texture, "source", images); };
