@@ -16,6 +16,9 @@ struct Count {
 
 constexpr Count kCounts[] = {{"vertices_in", &PassStatistics::vertices_in},
                              {"vertices_shaded", &PassStatistics::vertices_shaded},
+                             {"patches_in", &PassStatistics::patches_in},
+                             {"vertices_evaluated", &PassStatistics::vertices_evaluated},
+                             {"geometry_invocations", &PassStatistics::geometry_invocations},
                              {"primitives_in", &PassStatistics::primitives_in},
                              {"culled_non_finite", &PassStatistics::culled_non_finite},
                              {"culled_outside", &PassStatistics::culled_outside},

@@ -32,9 +32,28 @@ constexpr Rect intersect(const Rect& a, const Rect& b) {
 }
 
 /// Primitive topology (OpenGL 4.6, section 10.1). In a strip, every other triangle has two of its vertices swapped so that all triangles
-/// have the same winding.
-enum class Topology : uint8_t { triangles, triangle_strip, triangle_fan, points, lines, line_strip, line_loop };
-constexpr bool is_lines(Topology t) { return t == Topology::lines || t == Topology::line_strip || t == Topology::line_loop; }
+/// have the same winding. The topologies with adjacency have the vertices of neighbors, which only geometry functions read; other draws
+/// ignore them.
+enum class Topology : uint8_t {
+  triangles,
+  triangle_strip,
+  triangle_fan,
+  points,
+  lines,
+  line_strip,
+  line_loop,
+  lines_adjacency,
+  line_strip_adjacency,
+  triangles_adjacency,
+  triangle_strip_adjacency,
+  patches  ///< for shaders with tessellation (shading/tessellation_stage.h), which state the number of vertices of a patch
+};
+constexpr bool has_adjacency(Topology t) { return t >= Topology::lines_adjacency && t <= Topology::triangle_strip_adjacency; }
+constexpr bool is_lines(Topology t) {
+  return t == Topology::lines || t == Topology::line_strip || t == Topology::line_loop || t == Topology::lines_adjacency ||
+         t == Topology::line_strip_adjacency;
+}
+constexpr bool is_triangles(Topology t) { return t != Topology::points && t != Topology::patches && !is_lines(t); }
 
 /// How triangles are rasterized: filled, as outlines, or as points at their vertices (glPolygonMode). The outline of a clipped triangle is
 /// the outline of the polygon that remains.

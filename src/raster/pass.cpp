@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "halfspace/core/float_mode.h"
+#include "halfspace/raster/amplify/emit_primitives.h"
 #include "halfspace/raster/detail/state_checks.h"
 #include "halfspace/raster/detail/target_checks.h"
 #include "halfspace/raster/loop/pass_rounds.h"
@@ -27,20 +28,6 @@ constexpr int kTileBudget = 160 << 10;
 const DrawState& keep_state(const DrawState& state, std::pmr::memory_resource& memory) {
   static_assert(std::is_trivially_destructible_v<DrawState>);
   return *::new (memory.allocate(sizeof(DrawState), alignof(DrawState))) DrawState(state);
-}
-
-// Copies the streams of a view. Row 0 of the per-instance streams becomes the row of the first instance.
-VertexStreams keep_streams(const VertexView& view, uint32_t base_instance, std::pmr::memory_resource& memory) {
-  const auto count = static_cast<std::size_t>(view.stream_count);
-  auto* const kept = static_cast<VertexStream*>(memory.allocate(count * sizeof(VertexStream), alignof(VertexStream)));
-  std::uninitialized_copy_n(view.streams.begin(), count, kept);
-  for (std::size_t i = 0; base_instance != 0 && i < count; ++i) {
-    if (kept[i].divisor == 0) continue;
-    const std::size_t rows = std::min<std::size_t>(base_instance, kept[i].count);
-    kept[i].data += rows * static_cast<std::size_t>(kept[i].stride);
-    kept[i].count -= rows;
-  }
-  return {{kept, count}, view.has_instance_streams, view.needs_conversion};
 }
 
 // Returns the samples that may be drawn, as bits.
@@ -74,6 +61,10 @@ class PassState {
   int tile_size() const;
   void check_color_types(const ShaderKernels& kernels) const;
   DrawPlacement place(const DrawState& state) const;
+  // Runs the emitting stages, replaces their draws by draws of what they emitted, and plans the pass. The primitives must outlive the
+  // draws.
+  void plan_emitted(std::vector<std::unique_ptr<const EmittedPrimitives>>& emitted, const Workers& workers);
+  Draw emitted_draw(Draw from, const EmittedPrimitives& primitives);
   // Sets d.writes_color. Returns true if the draw replaces all colors of a pixel.
   bool set_color_writes(Draw& d) const;
 
@@ -81,7 +72,8 @@ class PassState {
   Attachments attachments_;
   PassOptions options_;
   PassPlan plan_;
-  uint32_t layer_group_ = 0;  // of the last draw
+  uint32_t layer_group_ = 0;   // of the last draw
+  bool has_emitting_ = false;  // some draw has emitting stages; the pass is planned when it runs
 };
 
 PassState::PassState(int width, int height, std::span<const ColorTarget> colors, const DepthTarget& depth, const PassOptions& options)
@@ -153,6 +145,7 @@ void PassState::add_draw(const ShaderKernels& kernels, KeptShader shader, const 
       !kernels.gives_point_sprite || draws_points(state),
       "Pass::draw: the shader computes rectangles of points, but no points are drawn; expected Topology::points or PolygonMode::point");
   check_color_types(kernels);
+  check_topology(kernels, state);
   for (std::size_t i = 0; i < attachments_.colors.size(); ++i) {
     const std::optional<BlendState>& blend = blend_of(state, i);
     HS_CHECK(!blend || !uses_second_source(*blend) || (kernels.color_count > 1 && attachments_.colors.size() == 1),
@@ -172,6 +165,7 @@ void PassState::add_draw(const ShaderKernels& kernels, KeptShader shader, const 
   d.deferred = may_defer && !changes_colors && (!decides_visibility || kernels.visibility != nullptr);
   if (d.writes_color && !state.order_independent) ++layer_group_;
   d.layer_group = layer_group_;
+  has_emitting_ |= kernels.emitting != nullptr;
   plan_.add(d, context_.draws.size() - 1);
 }
 
@@ -216,8 +210,46 @@ bool PassState::set_color_writes(Draw& d) const {
   return replaces;
 }
 
+Draw PassState::emitted_draw(Draw from, const EmittedPrimitives& primitives) {
+  DrawState state = from.state;
+  state.topology = primitives.topology;
+  state.base_vertex = 0;
+  state.instances = 1;
+  const std::array<VertexStream, 3> streams = streams_of(primitives, from.kernels.varying_count);
+  auto* const kept = static_cast<VertexStream*>(memory().allocate(sizeof streams, alignof(VertexStream)));
+  std::uninitialized_copy(streams.begin(), streams.end(), kept);
+  const std::size_t vertices = primitives.vertex_count();
+  Draw d(from.kernels, std::move(from.shader), std::make_shared<const Indices>(std::span(primitives.indices), vertices),
+         {{kept, streams.size()}, false, false}, keep_state(state, memory()), from);
+  d.is_emitted = true;
+  d.deferred = from.deferred;
+  d.writes_color = from.writes_color;
+  d.layer_group = from.layer_group;
+  d.vertex_count = d.indices->used_count();
+  count_primitives(d);
+  return d;
+}
+
+void PassState::plan_emitted(std::vector<std::unique_ptr<const EmittedPrimitives>>& emitted, const Workers& workers) {
+  plan_ = PassPlan(context_.samples, options_.tuning.chunk_triangles);
+  std::vector<Draw> draws;
+  draws.reserve(context_.draws.size());
+  for (Draw& d : context_.draws) {
+    if (d.kernels.emitting == nullptr) {
+      draws.push_back(std::move(d));
+    } else {
+      emitted.push_back(std::make_unique<const EmittedPrimitives>(emit_primitives(d, workers, plan_.submitted)));
+      draws.push_back(emitted_draw(std::move(d), *emitted.back()));
+    }
+    plan_.add(draws.back(), draws.size() - 1);
+  }
+  context_.draws = std::move(draws);
+}
+
 PassStatistics PassState::run(TileRunner& tiles, const Workers& workers) {
   const FloatMode float_mode;
+  std::vector<std::unique_ptr<const EmittedPrimitives>> emitted;
+  if (std::exchange(has_emitting_, false)) plan_emitted(emitted, workers);
   PassPlan plan = std::exchange(plan_, PassPlan(context_.samples, options_.tuning.chunk_triangles));
   PassStatistics statistics = run_rounds(context_, attachments_, std::move(plan), options_.tuning.bin_budget, tiles, workers);
   if (context_.arena != nullptr) return_draw_list({std::exchange(context_.arena, {}), std::exchange(context_.draws, {})});

@@ -6,6 +6,9 @@ namespace halfspace::HS_LANES {
 PassStatistics& PassStatistics::operator+=(const PassStatistics& o) {
   vertices_in += o.vertices_in;
   vertices_shaded += o.vertices_shaded;
+  patches_in += o.patches_in;
+  vertices_evaluated += o.vertices_evaluated;
+  geometry_invocations += o.geometry_invocations;
   primitives_in += o.primitives_in;
   culled_non_finite += o.culled_non_finite;
   culled_outside += o.culled_outside;

@@ -22,6 +22,7 @@
 //   template <class R> Fragment<R> fragment(const Varyings<R>& in, const PrimitiveId<R>& id, const Pixel<R>& px) const;
 //     A fragment function that also receives the indices of the primitive and the instance, and the barycentric coordinates. It
 //     cannot be combined with a Primitive struct.
+//   Functions that emit primitives: geometry_stage.h has the geometry function, tessellation_stage.h the control and the evaluation function.
 //   PerVertex<R> or PerVertex<R, N> as the return type of vertex: adds a point size and N clip distances to the position.
 //   PointSpriteVertex<R> as the return type of vertex: the rectangle that a point covers, for shaders that know the bounds of
 //     what they draw in it.

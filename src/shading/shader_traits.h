@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What the pipeline derives from the type of a shader: which functions of the contract it has and what they return, calls of them, and the
-// messages of the compiler if a part is missing.
+// messages of the compiler if a part is missing. The stages before clipping are in vertex_traits.h.
 #pragma once
 
 #include <array>
@@ -10,39 +10,14 @@
 #include <utility>
 
 #include "halfspace/core/texel_format.h"
-#include "halfspace/shading/contract.h"
-#include "halfspace/shading/varyings.h"
+#include "halfspace/shading/vertex_traits.h"
 
 namespace halfspace::HS_LANES {
 
 template <class S>
-concept HasAttributes = requires {
-  typename S::template Attributes<float>;
-};
-template <class S>
-concept HasVaryings = requires {
-  typename S::template Varyings<float>;
-};
-template <class S>
 concept HasPrimitive = requires {
   typename S::template Primitive<float>;
 };
-namespace detail {
-template <class T>
-inline constexpr std::size_t kClipDistancesIn = 0;
-template <class R, std::size_t N>
-inline constexpr std::size_t kClipDistancesIn<PerVertex<R, N>> = N;
-template <class T>
-inline constexpr bool kIsPerVertex = false;
-template <class R, std::size_t N>
-inline constexpr bool kIsPerVertex<PerVertex<R, N>> = true;
-template <class T>
-inline constexpr bool kIsPointSpriteVertex = std::is_same_v<T, PointSpriteVertex<float>>;
-}  // namespace detail
-/// The types that a vertex function may return.
-template <class T>
-concept VertexResult = std::same_as<T, vec4<float>> || detail::kIsPerVertex<T> || detail::kIsPointSpriteVertex<T>;
-
 namespace detail {
 template <class T>
 inline constexpr bool kIsFragment = false;
@@ -69,18 +44,6 @@ inline constexpr bool kIsFragment<DepthTypedFragment<R, C...>> = true;
 template <class T>
 concept FragmentResult = detail::kIsFragment<T>;
 
-template <class S>
-concept HasVertexFunctionWithoutId = requires(const S& s, const typename S::template Attributes<float>& in,
-                                              typename S::template Varyings<float>& out) {
-  { s.vertex(in, out) } -> VertexResult;
-};
-template <class S>
-concept HasVertexIdFunction = requires(const S& s, const typename S::template Attributes<float>& in, const VertexId<float>& id,
-                                       typename S::template Varyings<float>& out) {
-  { s.vertex(in, id, out) } -> VertexResult;
-};
-template <class S>
-concept HasVertexFunction = HasVertexFunctionWithoutId<S> || HasVertexIdFunction<S>;
 template <class S>
 concept HasPrimitiveFunction = requires(const S& s, const typename S::template Varyings<float>& v) {
   { s.primitive(v, v, v) } -> std::same_as<typename S::template Primitive<float>>;
@@ -111,17 +74,6 @@ template <class S>
 concept HasVisibilityFunction = requires(const S& s, const typename S::template Varyings<float>& in, const Pixel<float>& px) {
   { s.visibility(in, px) } -> std::same_as<Visibility<float>>;
 };
-
-/// Calls the vertex function of the shader, passing the vertex ID if it has such a parameter.
-template <class S, class R>
-HS_INLINE auto call_vertex(const S& s, const typename S::template Attributes<R>& in, const VertexId<R>& id,
-                           typename S::template Varyings<R>& out) {
-  if constexpr (HasVertexIdFunction<S>) {
-    return s.vertex(in, id, out);
-  } else {
-    return s.vertex(in, out);
-  }
-}
 
 /// Whether the fragment function has a PrimitiveId parameter.
 template <class S>
@@ -214,17 +166,44 @@ using FragmentOf = decltype(call_fragment<S, float>(std::declval<const S&>(), st
                                                     std::declval<const PrimitiveOf<S, float>&>(), std::declval<const Pixel<float>&>()));
 
 namespace detail {
-// S has a member template named visibility, of any signature.
+// S has a member template of this name, of any signature.
 template <class S>
 concept HasVisibilityMember = requires {
   &S::template visibility<float>;
 };
+template <class S>
+concept HasGeometryMember = requires {
+  &S::template geometry<float>;
+};
+template <class S>
+concept HasEvaluateMember = requires {
+  &S::template evaluate<float>;
+};
+template <class S>
+concept HasVertexVaryings = requires {
+  typename S::template VertexVaryings<float>;
+};
+
+template <class S>
+consteval bool has_valid_geometry_layout() {
+  constexpr GeometryLayout layout = S::geometry_layout;
+  return layout.max_vertices >= 1 && layout.max_vertices <= kMaxGeometryVertices && layout.invocations >= 1 &&
+         layout.invocations <= kMaxGeometryInvocations;
+}
+template <class S>
+consteval bool has_valid_tessellation_layout() {
+  constexpr TessellationLayout layout = S::tessellation_layout;
+  return layout.patch_vertices >= 1 && layout.patch_vertices <= kMaxPatchVertices;
+}
 }  // namespace detail
 
 /// The requirements of Pass::draw_depth.
 template <class S>
 concept VertexShader = HasAttributes<S> && HasVaryings<S> && HasVertexFunction<S> &&
-    (HasVisibilityFunction<S> || !detail::HasVisibilityMember<S>);
+                       (HasVisibilityFunction<S> ||
+                        !detail::HasVisibilityMember<S>)&&(HasTessellationFunctions<S> ||
+                                                           (!HasTessellationLayout<S> && !detail::HasEvaluateMember<S>)) &&
+                       (HasGeometryFunction<S> || (!HasGeometryLayout<S> && !detail::HasGeometryMember<S>));
 
 /// The requirements of Pass::draw.
 template <class S>
@@ -250,8 +229,39 @@ consteval bool require_vertex_shader() {
     static_assert(detail::kComplete<S>,
                   "the shader's visibility function must be: template <class R> Visibility<R> visibility(const Varyings<R>& in, "
                   "const Pixel<R>& px) const;");
+  } else if constexpr (!HasTessellationLayout<S> && detail::HasEvaluateMember<S>) {
+    static_assert(detail::kComplete<S>,
+                  "the shader has an evaluation function but is missing: static constexpr TessellationLayout tessellation_layout{…};");
+  } else if constexpr (HasTessellationLayout<S> && !HasTessellationFunctions<S>) {
+    static_assert(detail::kComplete<S>,
+                  "the shader has a tessellation layout but is missing: template <class R> TessellationLevels<R> control(const "
+                  "PatchInput<R, Varyings<R>, N>& in) const; or: template <class R> vec4<R> evaluate(const PatchInput<R, Varyings<R>, N>& "
+                  "in, const vec3<R>& at, Varyings<R>& out) const; N is layout.patch_vertices (shading/tessellation_stage.h)");
+  } else if constexpr (!HasGeometryLayout<S> && detail::HasGeometryMember<S>) {
+    static_assert(detail::kComplete<S>,
+                  "the shader has a geometry function but is missing: static constexpr GeometryLayout geometry_layout{…};");
+  } else if constexpr (HasGeometryLayout<S> && !HasGeometryFunction<S>) {
+    static_assert(
+        detail::kComplete<S>,
+        "the shader has a geometry layout but is missing: template <class R> void geometry(const GeometryInput<R, Varyings<R>, N>& "
+        "in, Emitter<R, Varyings<R>>& out) const; N is the number of vertices of layout.input (shading/geometry_stage.h)");
+  } else if constexpr (detail::HasVertexVaryings<S> && !HasTessellationLayout<S> && !HasGeometryLayout<S>) {
+    static_assert(detail::kComplete<S>, "the shader has VertexVaryings but neither an evaluation nor a geometry function, which read them");
   } else {
     using V = typename S::template Varyings<float>;
+    if constexpr (HasTessellationLayout<S>) {
+      static_assert(detail::has_valid_tessellation_layout<S>(),
+                    "the number of vertices in the patches of the shader is outside of its range: expected 1 to 32");
+      static_assert(kComponents<PatchOf<S, float>> <= kMaxComponents, "the Patch of the shader has more than 64 components");
+      static_assert(kComponents<EvaluatedVaryingsOf<S, float>> <= kMaxComponents,
+                    "the EvaluatedVaryings of the shader have more than 64 components");
+    }
+    if constexpr (HasGeometryLayout<S>) {
+      static_assert(detail::has_valid_geometry_layout<S>(),
+                    "the geometry layout of the shader is outside of its range: expected 1 to 256 vertices and 1 to 32 invocations");
+    }
+    static_assert(kComponents<VertexVaryingsOf<S, float>> <= kMaxComponents,
+                  "the VertexVaryings of the shader have more than 64 components");
     static_assert(!kInterpolatesIntegers<V>, "the shader interpolates integer varyings: declare them as Flat<IntOf<R>>");
     static_assert(kComponents<V> <= kMaxComponents, "the varyings of the shader have more than 64 components");
   }
@@ -298,35 +308,6 @@ consteval bool require_shader() {
     return Shader<S>;
   }
   return false;
-}
-
-template <class S>
-using VertexOf =
-    decltype(call_vertex<S, float>(std::declval<const S&>(), std::declval<const typename S::template Attributes<float>&>(),
-                                   std::declval<const VertexId<float>&>(), std::declval<typename S::template Varyings<float>&>()));
-/// Number of clip distances that the vertex function outputs.
-template <class S>
-inline constexpr std::size_t kClipDistances = detail::kClipDistancesIn<VertexOf<S>>;
-/// Whether the vertex function outputs a point size.
-template <class S>
-inline constexpr bool kGivesPointSize = detail::kIsPerVertex<VertexOf<S>>;
-/// Whether the vertex function outputs the bounds of a point sprite.
-template <class S>
-inline constexpr bool kGivesPointSprite = detail::kIsPointSpriteVertex<VertexOf<S>>;
-
-/// Returns the clip-space position in the result of a vertex function. For a point sprite this is (0, 0, depth, 1), or w = −1 if
-/// it is not drawn.
-template <class R>
-HS_INLINE vec4<R> position_of(const vec4<R>& v) {
-  return v;
-}
-template <class R, std::size_t N>
-HS_INLINE vec4<R> position_of(const PerVertex<R, N>& v) {
-  return v.position;
-}
-template <class R>
-HS_INLINE vec4<R> position_of(const PointSpriteVertex<R>& v) {
-  return vec4<R>(R(0.0f), R(0.0f), v.depth, select(v.drawn, R(1.0f), R(-1.0f)));
 }
 
 /// Number of colors that the shader returns.

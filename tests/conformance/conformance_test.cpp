@@ -116,4 +116,8 @@ class PrimitiveRestart : public ConformanceOf {};
 TEST_P(PrimitiveRestart, MatchesSeparateDraws) { expect_no_error(); }
 INSTANTIATE_TEST_SUITE_P(Conformance, PrimitiveRestart, testing::ValuesIn(primitive_restart_cases()), case_name);
 
+class GeometryShading : public ConformanceOf {};
+TEST_P(GeometryShading, MatchesTheEmittedPrimitives) { expect_no_error(); }
+INSTANTIATE_TEST_SUITE_P(Conformance, GeometryShading, testing::ValuesIn(geometry_shading_cases()), case_name);
+
 }  // namespace halfspace::conformance

@@ -88,6 +88,7 @@ std::vector<Assembled> assembled(const Drawing& d) {
     case Topology::triangle_fan:
       for (std::size_t i = 1; i + 1 < n; ++i) out.push_back({{index[0], index[i], index[i + 1]}, index[first ? i : i + 1]});
       break;
+    default: break;  // those with adjacency are not used here
   }
   return out;
 }

@@ -28,6 +28,7 @@ Cases texture_mipmap_cases();
 Cases clears_cases();
 Cases instanced_cases();
 Cases primitive_restart_cases();
+Cases geometry_shading_cases();
 
 struct Group {
   const char* name;
@@ -53,6 +54,7 @@ inline constexpr Group kGroups[] = {{"FillRules", fill_rules_cases},
                                     {"TextureMipmap", texture_mipmap_cases},
                                     {"Clears", clears_cases},
                                     {"Instanced", instanced_cases},
-                                    {"PrimitiveRestart", primitive_restart_cases}};
+                                    {"PrimitiveRestart", primitive_restart_cases},
+                                    {"GeometryShading", geometry_shading_cases}};
 
 }  // namespace halfspace::conformance

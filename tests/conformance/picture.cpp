@@ -31,6 +31,17 @@ SceneDraw draw_of(const S& shader, const char* name, const Drawing& d) {
   return make_draw(shader, name, input, d.state, VertexLayout::tight, layout);
 }
 
+bool same(const GeometryLayout& a, const GeometryLayout& b) {
+  return a.input == b.input && a.output == b.output && a.invocations == b.invocations;
+}
+
+template <std::size_t... I>
+SceneDraw geometry_draw_of(const Drawing& d, std::index_sequence<I...>) {
+  SceneDraw draw;
+  ((same(d.geometry, kGeometryLayouts[I]) ? void(draw = draw_of(GeometryShader<I>{d.mode, d.value}, "geometry", d)) : void()), ...);
+  return draw;
+}
+
 SceneDraw draw_of(const Drawing& d) {
   switch (d.kind) {
     case Kind::color: return draw_of(ColorShader{d.mode}, "color", d);
@@ -42,6 +53,7 @@ SceneDraw draw_of(const Drawing& d) {
     case Kind::texture: return draw_of(TextureShader{{}, d.texture, d.sampler, d.mode, d.value}, "texture", d);
     case Kind::instance: return draw_of(InstanceShader{d.value}, "instance", d);
     case Kind::two_colors: return draw_of(ColorsShader<2>{}, "two_colors", d);
+    case Kind::geometry: return geometry_draw_of(d, std::make_index_sequence<kGeometryLayouts.size()>());
     case Kind::four_colors: break;
   }
   return draw_of(ColorsShader<4>{}, "four_colors", d);

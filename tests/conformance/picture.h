@@ -15,12 +15,15 @@
 namespace halfspace::conformance {
 
 /// The shaders in shaders.h.
-enum class Kind : uint8_t { color, clip, cutout, depth, point, derivative, texture, instance, two_colors, four_colors };
+enum class Kind : uint8_t { color, clip, cutout, depth, point, derivative, texture, instance, two_colors, four_colors, geometry };
 
 /// Output of `color`: its varying with one of four interpolation qualifiers.
 enum ColorMode { kSmooth, kFlat, kLinear, kCentroid };
 /// Output of `derivative`, multiplied by its value: exact derivatives of the coordinates, or differences within the 2x2 quad.
 enum DerivativeMode { kDdx, kDdy, kFwidth, kQuadDdx, kQuadDdy, kQuadFwidth };
+/// What `geometry` emits: a strip of all vertices of a primitive; a small strip at each vertex, with `value` vertices and ends; or a strip
+/// that depends on the numbers of the primitive, the instance and the invocation.
+enum GeometryMode { kWhole, kAtVertices, kByNumber };
 /// How `texture` selects the mip level: from the derivatives of its coordinates, or from `value`.
 enum TextureMode { kByDerivatives, kByLevel };
 
@@ -42,6 +45,7 @@ struct Drawing {
   uint32_t divisor = 1;
   std::shared_ptr<const Texture2D> texture{};
   Sampler sampler{};
+  GeometryLayout geometry{};  ///< of `geometry`: one of kGeometryLayouts, with up to kGeometryVertices vertices
   DrawState state{};
 };
 

@@ -189,6 +189,74 @@ struct InstanceShader {
   }
 };
 
+inline constexpr int kGeometryVertices = 18;
+/// The layouts of the geometry functions: every input with every output, and several invocations.
+inline constexpr std::array kGeometryLayouts = [] {
+  using In = GeometryInputPrimitive;
+  using Out = GeometryOutputPrimitive;
+  std::array<GeometryLayout, 18> layouts{};
+  std::size_t n = 0;
+  for (const In in : {In::points, In::lines, In::lines_adjacency, In::triangles, In::triangles_adjacency}) {
+    for (const Out out : {Out::points, Out::line_strip, Out::triangle_strip}) layouts[n++] = {in, out, kGeometryVertices, 1};
+  }
+  for (const int invocations : {2, 8, 32}) layouts[n++] = {In::triangles, Out::triangle_strip, kGeometryVertices, invocations};
+  return layouts;
+}();
+
+/// A geometry function with one of these layouts. Positions are computed without rounding, so that other programs have the same.
+template <std::size_t kLayout>
+struct GeometryShader {
+  static constexpr GeometryLayout geometry_layout = kGeometryLayouts[kLayout];
+  int mode = kWhole;
+  float value = 0.0f;  ///< for kAtVertices: emitted vertices + 4 · ends
+  template <class R>
+  using Attributes = VertexAttributes<R>;
+  template <class R>
+  using VertexVaryings = ColorVaryings<R>;
+  template <class R>
+  struct Varyings {
+    Flat<vec4<R>> color;
+  };
+  template <class R>
+  vec4<R> vertex(const Attributes<R>& in, VertexVaryings<R>& out) const {
+    out.color = in.color;
+    return in.pos_clip;
+  }
+  template <class R, std::size_t N>
+  void geometry(const GeometryInput<R, VertexVaryings<R>, N>& in, Emitter<R, Varyings<R>>& out) const {
+    const auto emit_at = [&](std::size_t i, const vec4<R>& offset, const vec4<R>& color, MaskOf<R> emits) {
+      const vec4<R> p = in.position[i] * R(0.5f);
+      out.emit(vec4<R>(p.x + offset.x * p.w, p.y + offset.y * p.w, p.z, p.w), {{color}}, emits);
+    };
+    const vec4<R> none(R(0));
+    if (mode == kWhole) {
+      for (std::size_t i = 0; i < N; ++i) {
+        emit_at(i, none, in.varyings[i].color, MaskOf<R>(true));
+        if (N < 3) emit_at(i, vec4<R>(R(0.25f), R(-0.25f), R(0), R(0)), in.varyings[i].color, MaskOf<R>(true));
+        if (N < 3) emit_at(i, vec4<R>(R(0.25f), R(0.25f), R(0), R(0)), in.varyings[i].color, MaskOf<R>(true));
+      }
+    } else if (mode == kAtVertices) {
+      const int vertices = static_cast<int>(value) % 4, ends = static_cast<int>(value) / 4;
+      for (std::size_t i = 0; i < N; ++i) {
+        for (int k = 0; k < vertices; ++k) {
+          const float x = k == 0 ? 0.0f : 0.25f, y = k == 2 ? 0.25f : 0.0f;
+          emit_at(i, vec4<R>(R(x), R(y), R(0), R(0)), in.varyings[i].color, MaskOf<R>(true));
+        }
+        for (int k = 0; k < ends; ++k) out.end_primitive();
+      }
+    } else {
+      const R invocation(static_cast<float>(in.invocation) * (1.0f / 32.0f));
+      const vec4<R> color(to_real<R>(in.primitive) * R(0.0625f), to_real<R>(in.instance) * R(0.25f), invocation, R(1));
+      const MaskOf<R> emits = ((in.primitive + IntOf<R>(in.invocation)) & IntOf<R>(3)) != IntOf<R>(1);
+      for (std::size_t i = 0; i < N; ++i) emit_at(i, vec4<R>(invocation * R(0.5f), invocation * R(-0.5f), R(0), R(0)), color, emits);
+    }
+  }
+  template <class R>
+  Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>&) const {
+    return {in.color.value};
+  }
+};
+
 /// Computes N colors from two, for several attachments or for dual-source blending.
 template <std::size_t N>
 struct ColorsShader {

@@ -122,6 +122,45 @@ TEST(Examples, ReadDepthShowsDistances) {
   EXPECT_NEAR(p.at(128, 66).x, 255.0 * (4.0 - 3.33), 40.0);
 }
 
+TEST(Examples, NormalsLeaveTheBallAtItsCorners) {
+  const Picture p = run_example("normals");
+  // The lines start on the ball, whose silhouette is 0.30 of the picture from its center, and end 1.3 times as far away.
+  const auto drawn_between = [&](double low, double high) {
+    int n = 0;
+    for (int y = 0; y < 480; ++y) {
+      for (int x = 0; x < 480; ++x) {
+        const double r = std::hypot(x - 239.5, y - 239.5) / 480.0;
+        n += r >= low && r < high && p.at(x, y).w != 0 ? 1 : 0;
+      }
+    }
+    return n;
+  };
+  EXPECT_GT(drawn_between(0.0, 0.33), 5000);
+  EXPECT_GT(drawn_between(0.36, 0.40), 100);
+  EXPECT_EQ(drawn_between(0.48, 1.0), 0);
+}
+
+TEST(Examples, CurvedPatchIsRoundAndPassesThroughItsCorners) {
+  const Picture p = run_example("curved_patch");
+  EXPECT_GT(share(p, [](const glm::u8vec4& c) { return c.w == 255; }), 0.2);
+  // Blue and red are the coordinates in the patch. Both reach from 0 to 1.
+  EXPECT_GT(share(p, [](const glm::u8vec4& c) { return c.x > 240 && c.w == 255; }), 0.003);
+  EXPECT_GT(share(p, [](const glm::u8vec4& c) { return c.x < 100 && c.w == 255; }), 0.003);
+  EXPECT_GT(share(p, [](const glm::u8vec4& c) { return c.z > 240 && c.w == 255; }), 0.003);
+}
+
+TEST(Examples, SkinOnceDrawsTwelveEqualShapes) {
+  const Picture p = run_example("skin_once");
+  // The shapes are 0.5 of the view apart, which are 120 px, and 0.65 of it, which are 156 px.
+  for (int y = 0; y < 480; ++y) {
+    for (int x = 0; x + 120 < 470; ++x) ASSERT_EQ(p.at(x, y), p.at(x + 120, y)) << x << ' ' << y;
+  }
+  for (int y = 0; y + 156 < 480; ++y) {
+    for (int x = 0; x < 480; ++x) ASSERT_EQ(p.at(x, y), p.at(x, y + 156)) << x << ' ' << y;
+  }
+  EXPECT_GT(share(p, [](const glm::u8vec4& c) { return c.w == 255; }), 0.3);
+}
+
 // README.md and docs/reference/api.md promise this.
 TEST(Examples, HaveFewerThan60LinesEach) {
   int examples = 0;
@@ -130,7 +169,7 @@ TEST(Examples, HaveFewerThan60LinesEach) {
     EXPECT_LT(std::ranges::count(source, '\n'), 60) << entry.path();
     ++examples;
   }
-  EXPECT_EQ(examples, 8);  // README.md: triangle and seven more
+  EXPECT_EQ(examples, 11);  // README.md: triangle and ten more
 }
 
 TEST(Examples, ReportAnOutputFileThatCannotBeWritten) {

@@ -36,6 +36,7 @@ ROOMS = {
         ["draw_state", "target", "vertex_stream", "vertex_input", "statistics", "pass_tuning"],
         ["pipeline/"],
         ["primitives/"],
+        ["amplify/"],
         ["tile/"],
         ["trace/"],
         ["visibility/tests/"],
@@ -45,11 +46,11 @@ ROOMS = {
         ["visibility/full_tile"],
         ["shade/"],
         ["loop/", "detail/"],
-        ["pass", "naive", "blit"],
+        ["pass", "naive", "blit", "capture"],
         ["inspect/"],
     ],
     "shading": [
-        ["varyings", "pixel", "contract", "shader_traits"],
+        ["varyings", "pixel", "contract", "geometry_stage", "tessellation_types", "tessellation_stage", "vertex_traits", "shader_traits"],
         ["values/", "texture/"],
         ["shadow/"],
         ["light/"],
@@ -85,6 +86,7 @@ RASTER_PRIVATE_USERS = [
     "benchmarks/stages/",  # measures the stages one by one
     "benchmarks/workloads/multisample.cpp",  # gives the peers the same sample positions
     "tests/consumer/packet_positions.cpp",  # loads packet functions of two SIMD widths into one process
+    "tests/oracle/shader_call.h",  # divides patches in the same way; the tessellator has tests of its own
     "tests/raster/",
     "tests/explain/",
     "tests/render/display_test.cpp",  # counts allocations that are as large as tile memory

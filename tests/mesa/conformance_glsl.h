@@ -106,6 +106,53 @@ inline constexpr const char* kInstanceVertex = R"(
       precise float x = pos_clip.x + number * value + extra.x;
       gl_Position = vec4(x, pos_clip.y + extra.y, pos_clip.zw);
     })";
+// The geometry function of conformance::GeometryShader follows a line with its layout.
+inline constexpr const char* kGeometryVertex = R"(
+    layout(location = 0) in vec4 pos_clip;
+    layout(location = 1) in vec4 in_color;
+    out vec4 vertex_color;
+    flat out int instance;
+    void main() {
+      vertex_color = in_color;
+      instance = gl_InstanceID;
+      gl_Position = pos_clip;
+    })";
+inline constexpr const char* kGeometryBody = R"(
+    in vec4 vertex_color[];
+    flat in int instance[];
+    flat out vec4 f;
+    void emit_at(int i, vec2 offset, vec4 color) {
+      vec4 p = gl_in[i].gl_Position * 0.5;
+      precise vec2 xy = p.xy + offset * p.w;
+      gl_Position = vec4(xy, p.zw);
+      f = color;
+      EmitVertex();
+    }
+    void main() {
+      int n = gl_in.length();
+      if (mode == 0.0) {
+        for (int i = 0; i < n; ++i) {
+          emit_at(i, vec2(0.0), vertex_color[i]);
+          if (n < 3) emit_at(i, vec2(0.25, -0.25), vertex_color[i]);
+          if (n < 3) emit_at(i, vec2(0.25, 0.25), vertex_color[i]);
+        }
+      } else if (mode == 1.0) {
+        int vertices = int(value) % 4, ends = int(value) / 4;
+        for (int i = 0; i < n; ++i) {
+          for (int k = 0; k < vertices; ++k) emit_at(i, vec2(k == 0 ? 0.0 : 0.25, k == 2 ? 0.25 : 0.0), vertex_color[i]);
+          for (int k = 0; k < ends; ++k) EndPrimitive();
+        }
+      } else {
+        float invocation = float(gl_InvocationID) / 32.0;
+        vec4 color = vec4(float(gl_PrimitiveIDIn) / 16.0, float(instance[0]) / 4.0, invocation, 1.0);
+        if (((gl_PrimitiveIDIn + gl_InvocationID) & 3) == 1) return;
+        for (int i = 0; i < n; ++i) emit_at(i, vec2(0.5, -0.5) * invocation, color);
+      }
+    })";
+inline constexpr const char* kGeometryFragment = R"(
+    flat in vec4 f;
+    out vec4 fragment;
+    void main() { fragment = f; })";
 inline constexpr const char* kTwoFragment = R"(
     in vec4 color;
     in vec4 other;

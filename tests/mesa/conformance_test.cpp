@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <map>
 
 #include "conformance/groups.h"
 #include "conformance/random_state.h"
@@ -25,6 +26,20 @@ using namespace conformance_glsl;
 struct Glsl {
   const char *vertex, *fragment;
 };
+
+// Returns the geometry shader with one of the layouts.
+const char* geometry_glsl_of(const GeometryLayout& layout) {
+  static std::map<std::string, std::string> sources;  // by layout; the addresses stay the same
+  constexpr std::array kInputs{"points", "lines", "lines_adjacency", "triangles", "triangles_adjacency"};
+  constexpr std::array kOutputs{"points", "line_strip", "triangle_strip"};
+  const std::string line = std::string("layout(") + kInputs[static_cast<std::size_t>(layout.input)] +
+                           ", invocations = " + std::to_string(layout.invocations) + ") in; layout(" +
+                           kOutputs[static_cast<std::size_t>(layout.output)] + ", max_vertices = " + std::to_string(layout.max_vertices) +
+                           ") out;";
+  std::string& source = sources[line];
+  if (source.empty()) source = line + kGeometryBody;
+  return source.c_str();
+}
 Glsl glsl_of(Kind kind) {
   switch (kind) {
     case Kind::color: return {kColorVertex, kColorFragment};
@@ -35,6 +50,7 @@ Glsl glsl_of(Kind kind) {
     case Kind::derivative: return {kVertex, kDerivativeFragment};
     case Kind::texture: return {kVertex, kTextureFragment};
     case Kind::instance: return {kInstanceVertex, kPlainFragment};
+    case Kind::geometry: return {kGeometryVertex, kGeometryFragment};
     case Kind::two_colors:
     case Kind::four_colors: break;
   }
@@ -58,7 +74,8 @@ MesaDraw mesa_draw_of(const Drawing& d) {
              d.state,
              d.restart,
              d.kind == Kind::point || d.kind == Kind::clip,
-             d.kind == Kind::clip ? 4 : 0};
+             d.kind == Kind::clip ? 4 : 0,
+             d.kind == Kind::geometry ? geometry_glsl_of(d.geometry) : nullptr};
   for (uint32_t i = 0; d.indices.empty() && i < d.vertices.size(); ++i) m.indices.push_back(i);
   return m;
 }
@@ -87,7 +104,7 @@ const char* not_comparable(const conformance::Picture& p) {
     if (s.alpha_to_coverage) return "OpenGL does not specify which samples an alpha value covers";
     if (p.samples > 1 && (s.sample_shading || d.mode == conformance::kCentroid))
       return "OpenGL does not specify the position at which a sample or centroid is shaded";
-    if (lines && !(d.kind == Kind::color && d.mode == conformance::kFlat))
+    if (lines && d.kind != Kind::geometry && !(d.kind == Kind::color && d.mode == conformance::kFlat))
       return "llvmpipe interpolates only along the major axis of a line";
     if (d.kind == Kind::point && p.samples > 1) return "with multisampling, llvmpipe's point coordinate is off by half a pixel";
     const bool derives = d.kind == Kind::derivative || (d.kind == Kind::texture && d.mode == conformance::kByDerivatives);

@@ -213,10 +213,11 @@ MesaPrograms::~MesaPrograms() {
 }
 
 unsigned MesaPrograms::of(const MesaDraw& draw) {
-  unsigned& program = programs_[{draw.shared_glsl, draw.vertex_glsl, draw.fragment_glsl}];
+  unsigned& program = programs_[{draw.shared_glsl, draw.vertex_glsl, draw.geometry_glsl, draw.fragment_glsl}];
   if (program == 0) {
     program = glCreateProgram();
     compile(program, GL_VERTEX_SHADER, draw.shared_glsl, draw.vertex_glsl);
+    if (draw.geometry_glsl != nullptr) compile(program, GL_GEOMETRY_SHADER, draw.shared_glsl, draw.geometry_glsl);
     compile(program, GL_FRAGMENT_SHADER, draw.shared_glsl, draw.fragment_glsl);
     link(program);
   }

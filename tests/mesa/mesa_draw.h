@@ -57,7 +57,7 @@ class UniformSetter {
   mutable unsigned units_ = 1;  ///< unit 0 is that of a Texture2D
 };
 
-/// One draw call. shared_glsl is prepended to both sources. Stream i of the vertices is the attribute at location i.
+/// One draw call. shared_glsl is prepended to all sources. Stream i of the vertices is the attribute at location i.
 struct MesaDraw {
   const char* shared_glsl;
   const char* vertex_glsl;
@@ -69,6 +69,7 @@ struct MesaDraw {
   bool restart = false;         ///< the index 2^32 − 1 restarts a primitive
   bool own_point_size = false;  ///< the vertex shader writes gl_PointSize
   int clip_distances = 0;
+  const char* geometry_glsl = nullptr;  ///< null: no geometry shader
 };
 
 /// Cache of linked programs, kept between images. Must be destroyed before the context.
@@ -82,7 +83,7 @@ class MesaPrograms {
   unsigned of(const MesaDraw& draw);
 
  private:
-  std::map<std::array<const char*, 3>, unsigned> programs_;
+  std::map<std::array<const char*, 4>, unsigned> programs_;
 };
 
 /// Draws to the bound framebuffer, which has the size of the target.

@@ -34,6 +34,9 @@ namespace halfspace::oracle {
 /// Statistics. Contains the fields of PassStatistics that do not depend on how a pass organizes its work.
 struct Counts {
   uint64_t vertices_shaded = 0;
+  uint64_t patches_in = 0;
+  uint64_t vertices_evaluated = 0;
+  uint64_t geometry_invocations = 0;
   uint64_t primitives_in = 0;
   uint64_t culled_non_finite = 0;
   uint64_t culled_outside = 0;
@@ -74,6 +77,13 @@ std::vector<uint32_t> selected(const std::vector<uint32_t>& indices, const DrawS
 std::vector<std::array<uint32_t, 3>> assemble(const std::vector<uint32_t>& indices, std::optional<uint32_t> restart,
                                               const DrawState& state);
 
+/// The same with all vertices of a primitive: those of its neighbors, if the topology has them, are between its own.
+std::vector<std::vector<uint32_t>> assemble_with_neighbors(const std::vector<uint32_t>& indices, std::optional<uint32_t> restart,
+                                                           const DrawState& state);
+
+/// Returns the patches that the indices form.
+std::vector<std::vector<uint32_t>> patches_of(const std::vector<uint32_t>& indices, std::optional<uint32_t> restart, std::size_t size);
+
 class Renderer {
  public:
   /// Draws into the framebuffer, which must outlive the renderer.
@@ -87,6 +97,10 @@ class Renderer {
  private:
   template <class S>
   void draw_instance(const S& shader, const Input<S>& input, const DrawState& state, uint32_t instance);
+  template <class S>
+  void emit(const S& shader, const DrawState& state, const std::vector<const ShadedVertex*>& vertices, int32_t primitive, int32_t instance);
+  template <class S>
+  void draw_primitive(const S& shader, const DrawState& state, const std::array<const ShadedVertex*, 3>& v);
 
   // at: where the pixel is evaluated; centroid: where its centroid varyings are evaluated
   using FragmentFunction = std::function<FragmentResult(const WindowTriangle&, const Surface&, const Point& at, const Point& centroid)>;
@@ -140,9 +154,7 @@ void Renderer::draw(const S& shader, const Input<S>& input, const DrawState& sta
 
 template <class S>
 void Renderer::draw_instance(const S& shader, const Input<S>& input, const DrawState& state, uint32_t instance) {
-  using V = typename S::template Varyings<float>;
-  using P = PrimitiveOf<S, float>;
-  const ShaderFacts facts = detail::facts_of<S>();
+  using V = VertexVaryingsOf<S, float>;
   std::map<uint32_t, ShadedVertex> shaded;
   const std::vector<uint32_t> indices = selected(input.indices, state);
   for (const uint32_t i : indices) {
@@ -160,19 +172,75 @@ void Renderer::draw_instance(const S& shader, const Input<S>& input, const DrawS
     detail::take_vertex(vertex, shaded[i]);
     shaded[i].varyings = detail::components_of(out);
   }
-  for (const auto& [a, b, c] : assemble(indices, input.restart_at(), state)) {
-    const std::array<const ShadedVertex*, 3> v{&shaded[a], &shaded[b], &shaded[c]};
-    P face{};
-    if constexpr (HasPrimitive<S>) {
-      face = shader.primitive(detail::struct_of<V>(v[0]->varyings), detail::struct_of<V>(v[1]->varyings),
-                              detail::struct_of<V>(v[2]->varyings));
+  const auto number = [](std::size_t i) { return static_cast<int32_t>(i); };
+  if constexpr (HasTessellationLayout<S>) {
+    constexpr auto size = static_cast<std::size_t>(S::tessellation_layout.patch_vertices);
+    std::size_t patch = 0;
+    for (const std::vector<uint32_t>& p : patches_of(indices, input.restart_at(), size)) {
+      std::vector<const ShadedVertex*> corners;
+      for (const uint32_t i : p) corners.push_back(&shaded[i]);
+      const detail::DividedPatch divided = detail::divide_patch(shader, corners, number(patch), number(instance), state.point_size);
+      ++counts_.patches_in;
+      counts_.vertices_evaluated += divided.vertices.size();
+      for (const std::vector<uint32_t>& primitive : divided.primitives) {
+        std::vector<const ShadedVertex*> v;
+        for (const uint32_t i : primitive) v.push_back(&divided.vertices[i]);
+        emit(shader, state, v, number(patch), number(instance));
+      }
+      ++patch;
     }
-    const bool points = state.topology == Topology::points;
-    for (const WindowTriangle& t : points ? window_points(state, *v[0]) : window_triangles(state, facts, v)) {
-      rasterize(state, facts, t, [&](const WindowTriangle& triangle, const Surface& surface, const Point& at, const Point& centroid) {
-        return detail::call_shader(shader, face, triangle, surface, state.depth, at, centroid);
-      });
+  } else {
+    const auto primitives = assemble_with_neighbors(indices, input.restart_at(), state);
+    for (std::size_t p = 0; p < primitives.size(); ++p) {
+      std::vector<const ShadedVertex*> v;
+      for (const uint32_t i : primitives[p]) v.push_back(&shaded[i]);
+      emit(shader, state, v, number(p), number(instance));
     }
+  }
+}
+
+// Draws a primitive, or what the geometry function emits for it. vertices: without a geometry function, only those of the primitive count.
+template <class S>
+void Renderer::emit(const S& shader, const DrawState& state, const std::vector<const ShadedVertex*>& v, int32_t primitive,
+                    int32_t instance) {
+  if constexpr (HasGeometryLayout<S>) {
+    DrawState emitted_state = state;
+    emitted_state.topology = detail::topology_of(S::geometry_layout.output);
+    for (int32_t invocation = 0; invocation < S::geometry_layout.invocations; ++invocation) {
+      ++counts_.geometry_invocations;
+      for (const std::vector<ShadedVertex>& strip : detail::call_geometry(shader, v, primitive, instance, invocation, state.point_size)) {
+        std::vector<uint32_t> places;
+        for (uint32_t i = 0; i < strip.size(); ++i) places.push_back(i);
+        for (const auto& [a, b, c] : assemble(places, std::nullopt, emitted_state))
+          draw_primitive(shader, emitted_state, {&strip[a], &strip[b], &strip[c]});
+      }
+    }
+  } else {
+    DrawState list = state;
+    if (state.topology == Topology::patches)
+      list.topology = v.size() == 1 ? Topology::points : v.size() == 2 ? Topology::lines : Topology::triangles;
+    std::array<std::size_t, 3> corner{0, std::min<std::size_t>(1, v.size() - 1), v.size() - 1};
+    if (has_adjacency(state.topology))
+      corner = is_lines(state.topology) ? std::array<std::size_t, 3>{1, 2, 2} : std::array<std::size_t, 3>{0, 2, 4};
+    draw_primitive(shader, list, {v[corner[0]], v[corner[1]], v[corner[2]]});
+  }
+}
+
+template <class S>
+void Renderer::draw_primitive(const S& shader, const DrawState& state, const std::array<const ShadedVertex*, 3>& v) {
+  using V = typename S::template Varyings<float>;
+  using P = PrimitiveOf<S, float>;
+  const ShaderFacts facts = detail::facts_of<S>();
+  P face{};
+  if constexpr (HasPrimitive<S>) {
+    face =
+        shader.primitive(detail::struct_of<V>(v[0]->varyings), detail::struct_of<V>(v[1]->varyings), detail::struct_of<V>(v[2]->varyings));
+  }
+  const bool points = state.topology == Topology::points;
+  for (const WindowTriangle& t : points ? window_points(state, *v[0]) : window_triangles(state, facts, v)) {
+    rasterize(state, facts, t, [&](const WindowTriangle& triangle, const Surface& surface, const Point& at, const Point& centroid) {
+      return detail::call_shader(shader, face, triangle, surface, state.depth, at, centroid);
+    });
   }
 }
 

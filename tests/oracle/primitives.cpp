@@ -21,6 +21,80 @@ std::vector<uint32_t> selected(const std::vector<uint32_t>& indices, const DrawS
   return out;
 }
 
+namespace {
+
+// Returns the primitives of a run without restarts, with the vertices of their neighbors (OpenGL 4.6, sections 10.1.11 to 10.1.14).
+std::vector<std::vector<uint32_t>> with_neighbors(const std::vector<uint32_t>& run, const DrawState& state) {
+  std::vector<std::vector<uint32_t>> out;
+  const std::size_t size = is_lines(state.topology) ? 4 : 6;
+  if (state.topology != Topology::triangle_strip_adjacency) {
+    const std::size_t step = state.topology == Topology::line_strip_adjacency ? 1 : size;
+    for (std::size_t i = 0; i + size <= run.size(); i += step)
+      out.emplace_back(run.begin() + static_cast<int>(i), run.begin() + static_cast<int>(i + size));
+    return out;
+  }
+  if (run.size() < 6) return out;
+  const std::size_t n = run.size() / 2 - 2;
+  for (std::size_t i = 0; i < n; ++i) {
+    // Table 10.1, whose vertices count from 1.
+    const bool odd = i % 2 == 1, first = i == 0, last = i + 1 == n;
+    const std::size_t k = 2 * i;
+    std::array<std::size_t, 3> corner{k + 1, k + 3, k + 5}, neighbor{first ? 2 : k - 1, last ? k + 6 : k + 7, k + 4};
+    if (odd) {
+      corner = {k + 3, k + 1, k + 5};
+      neighbor = {k - 1, k + 4, last ? k + 6 : k + 7};
+      if (state.provoking == ProvokingVertex::first) {  // the same triangle from its second corner on
+        corner = {k + 1, k + 5, k + 3};
+        neighbor = {k + 4, last ? k + 6 : k + 7, k - 1};
+      }
+    }
+    out.emplace_back();
+    for (std::size_t c = 0; c < 3; ++c) {
+      out.back().push_back(run[corner[c] - 1]);
+      out.back().push_back(run[neighbor[c] - 1]);
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<std::vector<uint32_t>> assemble_with_neighbors(const std::vector<uint32_t>& indices, std::optional<uint32_t> restart,
+                                                           const DrawState& state) {
+  std::vector<std::vector<uint32_t>> out;
+  if (!has_adjacency(state.topology)) {
+    for (const std::array<uint32_t, 3>& p : assemble(indices, restart, state)) out.emplace_back(p.begin(), p.end());
+    return out;
+  }
+  std::vector<uint32_t> run;
+  const auto finish_run = [&] {
+    for (std::vector<uint32_t>& p : with_neighbors(run, state)) out.push_back(std::move(p));
+    run.clear();
+  };
+  for (const uint32_t i : indices) {
+    if (restart == i) finish_run();
+    if (restart != i) run.push_back(i);
+  }
+  finish_run();
+  return out;
+}
+
+std::vector<std::vector<uint32_t>> patches_of(const std::vector<uint32_t>& indices, std::optional<uint32_t> restart, std::size_t size) {
+  std::vector<std::vector<uint32_t>> out;
+  std::vector<uint32_t> patch;
+  for (const uint32_t i : indices) {
+    if (restart == i) {
+      patch.clear();
+      continue;
+    }
+    patch.push_back(i);
+    if (patch.size() < size) continue;
+    out.push_back(patch);
+    patch.clear();
+  }
+  return out;
+}
+
 std::vector<std::array<uint32_t, 3>> assemble(const std::vector<uint32_t>& indices, std::optional<uint32_t> restart,
                                               const DrawState& state) {
   std::vector<std::array<uint32_t, 3>> out;
@@ -28,6 +102,14 @@ std::vector<std::array<uint32_t, 3>> assemble(const std::vector<uint32_t>& indic
   const auto finish_run = [&] {
     if (state.topology == Topology::points) {
       for (const uint32_t i : run) out.push_back({i, i, i});
+      run.clear();
+      return;
+    }
+    if (has_adjacency(state.topology)) {
+      for (const std::vector<uint32_t>& p : with_neighbors(run, state)) {
+        if (is_lines(state.topology)) out.push_back({p[1], p[2], p[2]});
+        if (!is_lines(state.topology)) out.push_back({p[0], p[2], p[4]});
+      }
       run.clear();
       return;
     }

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "halfspace/raster/amplify/tessellator.h"
 #include "halfspace/raster/draw_state.h"
 #include "halfspace/shading/shader_traits.h"
 #include "oracle/interpolation.h"
@@ -40,6 +41,78 @@ T struct_of(const std::vector<float>& components) {
   std::array<float, kComponents<T>> a{};
   for (std::size_t i = 0; i < a.size(); ++i) a[i] = components[i];
   return from_components<T, float>(a);
+}
+
+inline Topology topology_of(GeometryOutputPrimitive output) {
+  if (output == GeometryOutputPrimitive::points) return Topology::points;
+  return output == GeometryOutputPrimitive::line_strip ? Topology::line_strip : Topology::triangle_strip;
+}
+
+// Returns the strips that the geometry function emits for a primitive.
+template <class S>
+std::vector<std::vector<ShadedVertex>> call_geometry(const S& shader, const std::vector<const ShadedVertex*>& vertices, int32_t primitive,
+                                                     int32_t instance, int32_t invocation, float point_size) {
+  using In = GeometryInputOf<S, float>;
+  using Out = EmitterOf<S, float>;
+  In in{};
+  for (std::size_t i = 0; i < in.position.size(); ++i) {
+    in.position[i] = vec4<float>(vertices[i]->pos_clip);
+    in.varyings[i] = struct_of<GeometryVaryingsOf<S, float>>(vertices[i]->varyings);
+  }
+  in.primitive = primitive;
+  in.instance = instance;
+  in.invocation = invocation;
+  Out out(S::geometry_layout.max_vertices);
+  shader.geometry(in, out);
+  constexpr std::size_t n = kComponents<typename S::template Varyings<float>>, extra = Out::kRow - 4 - n;
+  std::vector<std::vector<ShadedVertex>> strips;
+  bool begins = true;
+  for (int i = 0; i < out.count(0); ++i) {
+    if (begins) strips.emplace_back();
+    begins = out.ends_strip(0, i);
+    const float* row = out.row(0, i);
+    ShadedVertex v;
+    v.pos_clip = {row[0], row[1], row[2], row[3]};
+    v.point_size = extra == 0 ? point_size : row[4];
+    if (extra != 0) v.clip_distances.assign(row + 5, row + 4 + extra);
+    v.varyings.assign(row + 4 + extra, row + Out::kRow);
+    strips.back().push_back(v);
+  }
+  return strips;
+}
+
+// The vertices and primitives that a patch is divided into.
+struct DividedPatch {
+  std::vector<ShadedVertex> vertices;
+  std::vector<std::vector<uint32_t>> primitives;
+};
+
+template <class S>
+DividedPatch divide_patch(const S& shader, const std::vector<const ShadedVertex*>& corners, int32_t number, int32_t instance,
+                          float point_size) {
+  constexpr TessellationLayout layout = S::tessellation_layout;
+  PatchInputOf<S, float> in{};
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    in.position[i] = vec4<float>(corners[i]->pos_clip);
+    in.varyings[i] = struct_of<VertexVaryingsOf<S, float>>(corners[i]->varyings);
+  }
+  in.patch = number;
+  in.instance = instance;
+  PatchOf<S, float> patch{};
+  Tessellation divided;
+  tessellate({layout.domain, layout.spacing, layout.clockwise, layout.point_mode}, call_control<S, float>(shader, in, patch), divided);
+  DividedPatch out;
+  for (const glm::vec3& at : divided.coordinates) {
+    EvaluatedVaryingsOf<S, float> varyings{};
+    ShadedVertex& v = out.vertices.emplace_back();
+    v.point_size = point_size;
+    take_vertex(call_evaluate<S, float>(shader, in, patch, vec3<float>(at), varyings), v);
+    v.varyings = components_of(varyings);
+  }
+  const std::size_t size = layout.point_mode ? 1 : layout.domain == TessellationDomain::isolines ? 2 : 3;
+  for (std::size_t i = 0; i < divided.indices.size(); i += size)
+    out.primitives.emplace_back(divided.indices.begin() + static_cast<int>(i), divided.indices.begin() + static_cast<int>(i + size));
+  return out;
 }
 
 template <class S>

@@ -53,6 +53,9 @@ std::string statistics_difference(const PassStatistics& s, const oracle::Counts&
     if (pass != oracle) out += std::string(name) + ": " + std::to_string(oracle) + " expected, got " + std::to_string(pass) + "\n";
   };
   check("vertices_shaded", s.vertices_shaded, c.vertices_shaded);
+  check("patches_in", s.patches_in, c.patches_in);
+  check("vertices_evaluated", s.vertices_evaluated, c.vertices_evaluated);
+  check("geometry_invocations", s.geometry_invocations, c.geometry_invocations);
   check("primitives_in", s.primitives_in, c.primitives_in);
   check("culled_non_finite", s.culled_non_finite, c.culled_non_finite);
   check("culled_outside", s.culled_outside, c.culled_outside);

@@ -444,12 +444,14 @@ StreamFormat vary_vertex_data(Random random, oracle::Input<S>& input, DrawState&
 
 // Returns a draw with a random combination of topology, primitive restart, instances, base vertex and formats.
 template <class S>
-SceneDraw primitives_draw(const S& shader, const char* name, const Geometry& g, DrawState state, Random& random) {
+SceneDraw primitives_draw(const S& shader, const char* name, const Geometry& g, DrawState state, Random& random,
+                          std::initializer_list<Topology> topologies = {Topology::triangles, Topology::triangle_strip,
+                                                                        Topology::triangle_fan}) {
   using A = typename S::template Attributes<float>;
   oracle::Input<S> input;
   input.vertices = random_rows<A>(g.positions, random);
   input.indices = g.indices;
-  state.topology = random.pick({Topology::triangles, Topology::triangle_strip, Topology::triangle_fan});
+  state.topology = random.pick(topologies);
   input.restart = random.once_in(2);
   for (std::size_t i = 0; input.restart && i < input.indices.size(); ++i) {
     if (random.once_in(random.pick({2, 5, 20}))) input.indices[i] = oracle::kRestart;
@@ -506,6 +508,50 @@ SceneDraw random_primitives(bool depth_only, const Geometry& g, const DrawState&
     case 0: return primitives_draw(MixedShader{}, "MixedShader", g, state, random);
     case 1: return primitives_draw(FaceShader{}, "FaceShader", g, state, random);
     default: return primitives_draw(InstanceShader{}, "InstanceShader", g, state, random);
+  }
+}
+
+SceneDraw random_geometry(const Scene& scene, const Geometry& g, DrawState state, Random& random) {
+  using In = GeometryInputPrimitive;
+  using Out = GeometryOutputPrimitive;
+  state.line_width = random.pick({1.0f, 1.0f, 3.0f});
+  if (random.once_in(4)) state.polygon_mode = random.pick({PolygonMode::line, PolygonMode::point});
+  if (random.once_in(3)) state.point_size = random.pick({3.7f, 16.0f});
+  if (random.once_in(3)) add_operations(scene, false, random, state);
+  const auto triangles = {Topology::triangles, Topology::triangle_strip, Topology::triangle_fan};
+  const auto adjacent = {Topology::triangles_adjacency, Topology::triangle_strip_adjacency};
+  const auto lines = {Topology::lines, Topology::line_strip, Topology::line_loop};
+  const auto adjacent_lines = {Topology::lines_adjacency, Topology::line_strip_adjacency};
+  using Domain = TessellationDomain;
+  using Spacing = TessellationSpacing;
+  const auto patches = {Topology::patches};
+  switch (random.below(13)) {
+    case 8:
+      return primitives_draw(PatchShader<Domain::triangles, Spacing::equal, false, 3>{}, "triangle patches", g, state, random, patches);
+    case 9:
+      return primitives_draw(PatchShader<Domain::quads, Spacing::fractional_odd, false, 4>{}, "quad patches", g, state, random, patches);
+    case 10:
+      return primitives_draw(PatchShader<Domain::isolines, Spacing::fractional_even, false, 2>{}, "isolines", g, state, random, patches);
+    case 11:
+      return primitives_draw(PatchShader<Domain::quads, Spacing::fractional_even, true, 5>{}, "points of patches", g, state, random,
+                             patches);
+    case 12: return primitives_draw(PatchGeometryShader{}, "lines of patches", g, state, random, patches);
+    case 0:
+      return primitives_draw(GeometryShader<In::triangles, Out::triangle_strip>{}, "triangles to triangles", g, state, random, triangles);
+    case 1: return primitives_draw(GeometryShader<In::triangles, Out::line_strip>{}, "triangles to lines", g, state, random, triangles);
+    case 2: return primitives_draw(GeometryShader<In::triangles, Out::points>{}, "triangles to points", g, state, random, triangles);
+    case 3:
+      return primitives_draw(GeometryShader<In::points, Out::triangle_strip>{}, "points to triangles", g, state, random,
+                             {Topology::points});
+    case 4: return primitives_draw(GeometryShader<In::lines, Out::triangle_strip>{}, "lines to triangles", g, state, random, lines);
+    case 5:
+      return primitives_draw(GeometryShader<In::lines_adjacency, Out::line_strip>{}, "adjacent lines to lines", g, state, random,
+                             adjacent_lines);
+    case 6:
+      return primitives_draw(MixedShader{}, "MixedShader with adjacency", g, state, random, random.once_in(2) ? adjacent : adjacent_lines);
+    default:
+      return primitives_draw(GeometryShader<In::triangles_adjacency, Out::triangle_strip>{}, "adjacent triangles to triangles", g, state,
+                             random, adjacent);
   }
 }
 
@@ -591,6 +637,7 @@ SceneDraw random_draw(Theme theme, const Scene& scene, bool depth_only, const Ge
   if (theme == Theme::lines) return random_lines(scene, g, state, random);
   if (theme == Theme::points) return random_points(scene, g, state, random);
   if (theme == Theme::operations || theme == Theme::samples) return random_operations(scene, g, state, matrix, random);
+  if (theme == Theme::geometry && !depth_only) return random_geometry(scene, g, state, random);
   if (theme == Theme::primitives && !random.once_in(4)) return random_primitives(depth_only, g, state, matrix, random);
   if (depth_only) return shader_draw(DepthShader{matrix}, "DepthShader", g, state, random);
   const bool themed = !random.once_in(3);

@@ -9,12 +9,26 @@
 namespace halfspace {
 
 /// The main feature that a scene tests.
-enum class Theme { opaque, blended, discarding, depth_writing, faces, clipped, many_draws, primitives, operations, samples, points, lines };
-inline constexpr Theme kThemes[] = {Theme::opaque,     Theme::blended, Theme::discarding, Theme::depth_writing,
-                                    Theme::faces,      Theme::clipped, Theme::many_draws, Theme::primitives,
-                                    Theme::operations, Theme::samples, Theme::points,     Theme::lines};
-inline constexpr const char* kThemeNames[] = {"Opaque",    "Blended",    "Discarding", "DepthWriting", "Faces",  "Clipped",
-                                              "ManyDraws", "Primitives", "Operations", "Samples",      "Points", "Lines"};
+enum class Theme {
+  opaque,
+  blended,
+  discarding,
+  depth_writing,
+  faces,
+  clipped,
+  many_draws,
+  primitives,
+  operations,
+  samples,
+  points,
+  lines,
+  geometry
+};
+inline constexpr Theme kThemes[] = {Theme::opaque,  Theme::blended,    Theme::discarding, Theme::depth_writing, Theme::faces,
+                                    Theme::clipped, Theme::many_draws, Theme::primitives, Theme::operations,    Theme::samples,
+                                    Theme::points,  Theme::lines,      Theme::geometry};
+inline constexpr const char* kThemeNames[] = {"Opaque",     "Blended",    "Discarding", "DepthWriting", "Faces", "Clipped", "ManyDraws",
+                                              "Primitives", "Operations", "Samples",    "Points",       "Lines", "Geometry"};
 
 /// Returns the scene for a seed. It is identical on every machine and compiler.
 Scene random_scene(Theme theme, uint64_t seed);

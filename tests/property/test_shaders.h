@@ -336,6 +336,129 @@ struct IntegerShader {
   }
 };
 
+/// A geometry function that drops some primitives and emits strips of several, between its vertices and those of its neighbors.
+template <GeometryInputPrimitive kInput, GeometryOutputPrimitive kOutput>
+struct GeometryShader {
+  static constexpr GeometryLayout geometry_layout{.input = kInput, .output = kOutput, .max_vertices = 11, .invocations = 2};
+  template <class R>
+  using Attributes = PositionAndA<R>;
+  template <class R>
+  struct VertexVaryings {
+    vec4<R> a;
+    R twice;
+  };
+  template <class R>
+  struct Varyings {
+    vec3<R> color;
+    Flat<R> number;
+    NoPerspective<R> ramp;
+  };
+  template <class R>
+  using EmittedVertex = PerVertex<R, 2>;
+
+  template <class R>
+  vec4<R> vertex(const Attributes<R>& in, VertexVaryings<R>& out) const {
+    out = {in.a, in.a.x + in.a.x};
+    return in.position;
+  }
+  template <class R, std::size_t N>
+  void geometry(const GeometryInput<R, VertexVaryings<R>, N>& in, Emitter<R, Varyings<R>, PerVertex<R, 2>>& out) const {
+    const R t(0.125f * static_cast<float>(1 + in.invocation));
+    const IntOf<R> kind = (in.primitive + in.instance) & IntOf<R>(3);
+    for (std::size_t i = 0; i < 2 * N; ++i) {
+      const std::size_t a = i % N, b = (i + 1 + static_cast<std::size_t>(in.invocation)) % N;
+      const vec4<R> p = in.position[a] + (in.position[b] - in.position[a]) * t;
+      const vec4<R>& value = in.varyings[a].a;
+      Varyings<R> v;
+      v.color = vec3<R>(value.x, in.varyings[b].twice, value.z);
+      v.number.value = to_real<R>(in.primitive & IntOf<R>(15)) * R(0.0625f);
+      v.ramp.value = value.y;
+      const PerVertex<R, 2> vertex{p, value.w * R(9), {value.x + R(0.75f), value.y + R(1)}};
+      out.emit(vertex, v, kind != IntOf<R>(static_cast<int32_t>(i % 5)));
+      if (i % 4 == 3) out.end_primitive(kind < IntOf<R>(2));
+    }
+  }
+  template <class R>
+  Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>& px) const {
+    return {clamped(vec4<R>(in.color.x, in.color.y + in.ramp.value, in.number.value, select(px.front_facing, in.color.z, R(0.5f))), 8.0f)};
+  }
+};
+
+/// Divides patches of N vertices along two of their edges, by levels that depend on their values.
+template <TessellationDomain kDomain, TessellationSpacing kSpacing, bool kPoints, int N>
+struct PatchShader {
+  static constexpr TessellationLayout tessellation_layout{
+      .patch_vertices = N, .domain = kDomain, .spacing = kSpacing, .clockwise = N % 2 == 0, .point_mode = kPoints};
+  template <class R>
+  using Attributes = PositionAndA<R>;
+  template <class R>
+  struct VertexVaryings {
+    vec4<R> a;
+  };
+  template <class R>
+  struct Patch {
+    vec2<R> shift;
+  };
+  template <class R>
+  struct Varyings {
+    vec3<R> color;
+    Flat<R> number;
+  };
+
+  template <class R>
+  vec4<R> vertex(const Attributes<R>& in, VertexVaryings<R>& out) const {
+    out.a = in.a;
+    return in.position;
+  }
+  template <class R>
+  TessellationLevels<R> control(const PatchInput<R, VertexVaryings<R>, std::size_t{N}>& in, Patch<R>& patch) const {
+    patch.shift = vec2<R>(in.varyings[N - 1].a.x, to_real<R>(in.instance)) * R(0.0625f);
+    const vec4<R>& a = in.varyings[0].a;
+    TessellationLevels<R> levels;
+    levels.outer = {a.x * R(6), a.y * R(6), a.z * R(6), a.w * R(6)};
+    levels.inner = {a.x * R(5) + R(1), a.w * R(5)};
+    return levels;
+  }
+  template <class R>
+  PerVertex<R, 1> evaluate(const PatchInput<R, VertexVaryings<R>, std::size_t{N}>& in, const Patch<R>& patch, const vec3<R>& at,
+                           Varyings<R>& out) const {
+    const std::size_t b = 1 % N, c = 2 % N;
+    const vec4<R> p = in.position[0] + (in.position[b] - in.position[0]) * at.x + (in.position[c] - in.position[0]) * at.y;
+    out.color = vec3<R>(at.x, at.y, in.varyings[b].a.x);
+    out.number.value = to_real<R>(in.patch & IntOf<R>(15)) * R(0.0625f) + at.z;
+    return {vec4<R>(p.x + patch.shift.x, p.y, p.z, p.w), R(1) + at.x * R(8), {patch.shift.y + in.varyings[c].a.y + R(0.5f)}};
+  }
+  template <class R>
+  Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>& px) const {
+    return {clamped(vec4<R>(in.color.x, in.color.y, in.number.value, select(px.front_facing, in.color.z, R(0.5f))), 8.0f)};
+  }
+};
+
+/// Patches whose triangles a geometry function turns into lines.
+struct PatchGeometryShader : PatchShader<TessellationDomain::quads, TessellationSpacing::equal, false, 4> {
+  using Base = PatchShader<TessellationDomain::quads, TessellationSpacing::equal, false, 4>;
+  static constexpr GeometryLayout geometry_layout{.output = GeometryOutputPrimitive::line_strip, .max_vertices = 3};
+  template <class R>
+  struct EvaluatedVaryings {
+    vec4<R> value;
+  };
+  template <class R>
+  vec4<R> evaluate(const PatchInput<R, VertexVaryings<R>, 4>& in, const Patch<R>& patch, const vec3<R>& at,
+                   EvaluatedVaryings<R>& out) const {
+    Varyings<R> v;
+    const PerVertex<R, 1> vertex = Base::evaluate(in, patch, at, v);
+    out.value = vec4<R>(v.color, v.number.value);
+    return vertex.position;
+  }
+  template <class R>
+  void geometry(const GeometryInput<R, EvaluatedVaryings<R>, 3>& in, Emitter<R, Varyings<R>>& out) const {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const vec4<R>& v = in.varyings[i].value;
+      out.emit(in.position[i], {vec3<R>(v.x, v.y, v.z), {v.w}}, (in.primitive & IntOf<R>(3)) != IntOf<R>(static_cast<int32_t>(i)));
+    }
+  }
+};
+
 /// N colors, one of which can be the second source for blending; discards in stripes.
 template <std::size_t N>
 struct ManyColorsShader {

@@ -13,7 +13,17 @@
 namespace halfspace {
 
 inline GLenum gl(Topology t) {
-  constexpr std::array<GLenum, 7> k{GL_TRIANGLES, GL_TRIANGLE_STRIP, GL_TRIANGLE_FAN, GL_POINTS, GL_LINES, GL_LINE_STRIP, GL_LINE_LOOP};
+  constexpr std::array<GLenum, 11> k{GL_TRIANGLES,
+                                     GL_TRIANGLE_STRIP,
+                                     GL_TRIANGLE_FAN,
+                                     GL_POINTS,
+                                     GL_LINES,
+                                     GL_LINE_STRIP,
+                                     GL_LINE_LOOP,
+                                     GL_LINES_ADJACENCY,
+                                     GL_LINE_STRIP_ADJACENCY,
+                                     GL_TRIANGLES_ADJACENCY,
+                                     GL_TRIANGLE_STRIP_ADJACENCY};
   return k[static_cast<std::size_t>(t)];
 }
 

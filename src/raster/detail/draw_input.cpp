@@ -13,6 +13,19 @@ std::size_t count_of(const DrawState& state, std::size_t size) {
   return count;
 }
 
+VertexStreams keep_streams(const VertexView& view, uint32_t base_instance, std::pmr::memory_resource& memory) {
+  const auto count = static_cast<std::size_t>(view.stream_count);
+  auto* const kept = static_cast<VertexStream*>(memory.allocate(count * sizeof(VertexStream), alignof(VertexStream)));
+  std::uninitialized_copy_n(view.streams.begin(), count, kept);
+  for (std::size_t i = 0; base_instance != 0 && i < count; ++i) {
+    if (kept[i].divisor == 0) continue;
+    const std::size_t rows = std::min<std::size_t>(base_instance, kept[i].count);
+    kept[i].data += rows * static_cast<std::size_t>(kept[i].stride);
+    kept[i].count -= rows;
+  }
+  return {{kept, count}, view.has_instance_streams, view.needs_conversion};
+}
+
 void check_instances(const VertexView& view, const DrawState& state) {
   if (!view.has_instance_streams || state.instances == 0) return;
   for (const VertexStream& s : view.used_streams()) {

@@ -6,6 +6,7 @@
 
 #include <concepts>
 #include <memory>
+#include <memory_resource>
 #include <span>
 #include <type_traits>
 
@@ -49,6 +50,9 @@ std::shared_ptr<const Indices> view_indices(I& indices, std::size_t vertex_count
 inline std::shared_ptr<const Indices> sequential_indices(std::size_t vertex_count, const DrawState& state) {
   return std::make_shared<const Indices>(Indices::sequential(vertex_count).range(state.first, count_of(state, vertex_count)));
 }
+
+/// Copies the streams of a view. Row 0 of the per-instance streams becomes the row of the first instance.
+VertexStreams keep_streams(const VertexView& view, uint32_t base_instance, std::pmr::memory_resource& memory);
 
 /// Checks that the vertices of all indices exist.
 void check_vertices(const VertexView& view, const Indices& indices, const DrawState& state);

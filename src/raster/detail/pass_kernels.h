@@ -10,6 +10,8 @@
 #include <span>
 #include <tuple>
 
+#include "halfspace/raster/amplify/geometry_kernel.h"
+#include "halfspace/raster/amplify/tessellation_kernel.h"
 #include "halfspace/raster/detail/draw_input.h"
 #include "halfspace/raster/detail/stream_match.h"
 #include "halfspace/raster/primitives/primitive_stage.h"
@@ -31,6 +33,18 @@ enum class DrawKind : uint8_t {
 template <class S>
 inline constexpr bool kDecidesVisibility = kDiscards<S> || kWritesDepth<S>;
 
+/// Whether stages of the shader emit primitives.
+template <class S>
+inline constexpr bool kEmitsPrimitives = HasTessellationLayout<S> || HasGeometryLayout<S>;
+/// These stages.
+template <class S>
+inline constexpr EmittingStages kEmittingStages = [] {
+  EmittingStages stages{vertex_kernel<S, true, false>, static_cast<int>(kComponents<VertexVaryingsOf<S, float>>), nullptr, nullptr};
+  if constexpr (HasTessellationLayout<S>) stages.tessellation = &kTessellationStage<S>;
+  if constexpr (HasGeometryLayout<S>) stages.geometry = &kGeometryStage<S>;
+  return stages;
+}();
+
 /// Returns the kernels of a shader. Kernels for functions that do not exist, or that the draw ignores, are null.
 template <class S, DrawKind kind>
 constexpr ShaderKernels kernels_of() {
@@ -38,8 +52,14 @@ constexpr ShaderKernels kernels_of() {
   // Do not compute varyings that no function reads.
   constexpr bool has_varyings = kind == DrawKind::color || HasVisibilityFunction<S>;
   ShaderKernels k;
-  k.vertex = vertex_kernel<S, has_varyings, true>;
-  k.position = vertex_kernel<S, false, false>;
+  if constexpr (kEmitsPrimitives<S>) {
+    k.emitting = &kEmittingStages<S>;
+    k.vertex = k.position = copy_emitted_vertices;
+    if constexpr (HasTessellationLayout<S>) k.patch_vertices = S::tessellation_layout.patch_vertices;
+  } else {
+    k.vertex = vertex_kernel<S, has_varyings, true>;
+    k.position = vertex_kernel<S, false, false>;
+  }
   k.gives_point_size = kGivesPointSize<S>;
   k.gives_point_sprite = kGivesPointSprite<S>;
   static_assert(kClipDistances<S> <= kMaxClipDistances);

@@ -26,8 +26,10 @@ void PassPlan::add(const Draw& draw, std::size_t number) {
 
 void PassPlan::add_vertices(const Draw& draw, std::size_t number) {
   const std::size_t count = draw.vertex_count;
-  submitted.vertices_in += (draw.indices->size() - draw.indices->restarts().size()) * draw.state.instances;
-  submitted.vertices_shaded += count;
+  if (!draw.is_emitted) {
+    submitted.vertices_in += (draw.indices->size() - draw.indices->restarts().size()) * draw.state.instances;
+    submitted.vertices_shaded += count;
+  }
   if (count > kVerticesPerTask) {
     for (std::size_t b = 0; b < count; b += kVerticesPerTask)
       vertex_tasks.push_back({number, number + 1, b, std::min(count, b + kVerticesPerTask), true, b == 0 ? shaded_bytes(draw) : 0});

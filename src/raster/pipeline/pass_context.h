@@ -16,12 +16,16 @@
 
 namespace halfspace::HS_LANES {
 
+struct EmittingStages;
 struct PrimitiveBatch;
 struct FragmentBatch;
 struct VisibilityBatch;
 
 /// Functions that are compiled for each shader. The rest of the pipeline is shared by all shaders.
 struct ShaderKernels {
+  /// Stages that emit primitives, or null. They run before all others, and the vertex kernels copy the vertices that they have emitted.
+  const EmittingStages* emitting = nullptr;
+  int patch_vertices = 0;  ///< of Topology::patches
   void (*vertex)(const void* shader, const VertexBatch&) = nullptr;
   void (*position)(const void* shader, const VertexBatch&) = nullptr;        ///< same as vertex, without varyings
   void (*primitive)(const void* shader, const PrimitiveBatch&) = nullptr;    ///< null: no primitive stage
@@ -77,6 +81,7 @@ struct Draw : DrawPlacement {
   const DrawState& state;  ///< consecutive draws with equal states share one
 
   // These are set when the draw is added.
+  bool is_emitted = false;    ///< the vertices are those that the emitting stages have emitted
   bool deferred = false;      ///< shaded after visibility, once per visible pixel; otherwise shaded immediately, in order
   bool writes_color = false;  ///< writes any channel of any attachment
   /// Order-independent draws with the same number are sorted together: the number of preceding draws that write color in another way.

@@ -99,23 +99,33 @@ struct ShadedVertices {
   std::size_t bytes() const { return screen.bytes() + outcodes.bytes() + varyings.bytes() + sprites.bytes() + clip_distances.bytes(); }
 };
 
+// ---- vertex stage → geometry stage ------------------------------------------------------------------------------
+
+/// Outputs of the vertex function for a draw with a geometry stage, by slot (see ShadedVertices).
+struct ClipVertices {
+  uint32_t first = 0;
+  uint32_t count = 0;           ///< slots per instance
+  Buffer<glm::vec4> positions;  ///< clip space; uninitialized for slots that no index refers to
+  Buffer<float> varyings;
+};
+
 // ---- vertex stage → vertex kernels ------------------------------------------------------------------------------
 
 /// Maximum number of vertices per call of a vertex kernel.
 inline constexpr int kVertexBatch = 256;
 /// Vertices for a vertex kernel.
 struct VertexBatch {
-  std::span<const VertexStream> streams;  ///< streams of floats, read in place
-  const uint32_t* ids;                    ///< vertex indices, or null: first, first + 1, …
-  uint32_t first;
-  int count;
-  uint32_t slot_base;   ///< the varyings of vertex i are written to row i − slot_base (modulo 2^32)
-  int32_t base_vertex;  ///< index + base_vertex is the row in the streams
-  int32_t instance;     ///< the same for all vertices
-  float* varyings;      ///< null for the position kernel
-  float* clip;          ///< output: clip-space x, y, z and w in four rows of kVertexBatch floats
+  std::span<const VertexStream> streams{};  ///< streams of floats, read in place
+  const uint32_t* ids = nullptr;            ///< vertex indices, or null: first, first + 1, …
+  uint32_t first = 0;
+  int count = 0;
+  uint32_t slot_base = 0;     ///< the varyings of vertex i are written to row i − slot_base (modulo 2^32)
+  int32_t base_vertex = 0;    ///< index + base_vertex is the row in the streams
+  int32_t instance = 0;       ///< the same for all vertices
+  float* varyings = nullptr;  ///< null for the position kernel
+  float* clip = nullptr;      ///< output: clip-space x, y, z and w in four rows of kVertexBatch floats
   /// Output rows, or null: the point size and clip distances, or the min x, min y, max x and max y of a point sprite.
-  float* extra;
+  float* extra = nullptr;
   bool is_converted = false;  ///< row i of the streams belongs to vertex i of the batch, not to the vertex with that index
 };
 inline constexpr int kMaxClipDistances = 8;

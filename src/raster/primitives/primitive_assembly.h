@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "halfspace/raster/pipeline/pass_context.h"
+#include "halfspace/shading/tessellation_stage.h"
 
 namespace halfspace::HS_LANES {
 
@@ -35,6 +36,13 @@ class Assembly {
     return next_of_run();
   }
 
+  /// Returns the indices of the next primitive, with those of adjacent vertices if the topology has them: four for a line, six for a
+  /// triangle, in the order of OpenGL 4.6, section 10.1. Otherwise the same as next(), in the first elements.
+  std::array<uint32_t, 6> next_with_adjacency();
+
+  /// Returns the indices of the next patch, in the first elements.
+  std::array<uint32_t, kMaxPatchVertices> next_patch();
+
   /// Returns the 3·count indices of the next `count` triangles if they are contiguous in a list of 32-bit indices, and skips the triangles.
   /// Otherwise returns null and skips nothing.
   const uint32_t* next_list(uint32_t count) {
@@ -53,6 +61,9 @@ class Assembly {
  private:
   void begin_run(uint32_t primitive);
   std::array<uint32_t, 3> next_of_run();
+  /// Returns the indices of primitive i of the run and of its neighbors. The topology must have adjacency.
+  std::array<uint32_t, 6> adjacent(uint32_t i) const;
+  uint32_t index_at(uint32_t place) const { return (*draw_.indices)[std::size_t{first_index_} + place]; }
 
   const Draw& draw_;
   Topology topology_;

@@ -71,7 +71,7 @@ HS_INLINE void store_extra(const PointSpriteVertex<Real>& v, float* rows) {
 template <class S, bool with_varyings, bool with_extra>
 HS_FLATTEN void vertex_kernel(const void* shader, const VertexBatch& batch) {
   using Attributes = typename S::template Attributes<Real>;
-  using Varyings = typename S::template Varyings<Real>;
+  using Varyings = VertexVaryingsOf<S, Real>;
   constexpr std::size_t n = kComponents<Varyings>;
   const S& s = *static_cast<const S*>(shader);
   for (int begin = 0; begin < batch.count; begin += kLanes) {

@@ -59,8 +59,6 @@ Outcode store_clip_distances(const float* rows, int count, SlotOf slot_of, Shade
   return any;
 }
 
-using VertexKernel = void (*)(const void* shader, const VertexBatch&);
-
 /// Vertices that are converted at once, so that their attributes stay in the L1 cache and on a small stack.
 constexpr int kConvertedBatch = 64;
 static_assert(kConvertedBatch % kLanes == 0);
@@ -106,6 +104,41 @@ void run_kernel(VertexKernel kernel, const Draw& draw, const VertexBatch& batch)
   kernel(draw.shader.get(), batch);
 }
 
+// Runs a kernel for vertices [begin, end) of the list of vertices that the draw uses, and calls f(batch) after each batch. outputs: the
+// arrays that the kernel writes; slots: per instance.
+template <class F>
+void for_each_batch(VertexKernel kernel, const Draw& draw, std::size_t begin, std::size_t end, uint32_t slots, const VertexBatch& outputs,
+                    const F& f) {
+  const uint32_t first = draw.indices->first_vertex();
+  const std::span<const uint32_t> used = draw.indices->used();
+  const std::size_t per_instance = draw.indices->used_count();
+  StreamStorage storage;
+  for (std::size_t b = begin; b < end;) {
+    const auto instance = static_cast<uint32_t>(b / per_instance);
+    const std::size_t local = b % per_instance;
+    VertexBatch batch = outputs;
+    batch.streams = at_instance(draw.vertices, instance, storage);
+    batch.ids = used.empty() ? nullptr : used.data() + local;
+    batch.first = first + static_cast<uint32_t>(local);
+    batch.count = static_cast<int>(std::min<std::size_t>(kVertexBatch, std::min(end - b, per_instance - local)));
+    batch.slot_base = first - instance * slots;
+    batch.base_vertex = draw.state.base_vertex;
+    batch.instance = static_cast<int32_t>(instance);
+    b += static_cast<std::size_t>(batch.count);
+    run_kernel(kernel, draw, batch);
+    f(batch);
+  }
+}
+
+// Returns the slot of vertex i of a batch.
+std::size_t slot_of(const VertexBatch& batch, int i) {
+  return std::size_t{(batch.ids != nullptr ? batch.ids[i] : batch.first + static_cast<uint32_t>(i)) - batch.slot_base};
+}
+
+void check_vertex_count(std::size_t n) {
+  HS_CHECK_OP(n, <, std::size_t{1} << 32, "Pass::draw: too many vertices; expected fewer than 2^32 over all instances");
+}
+
 }  // namespace
 
 Viewport make_viewport(const Rect& r, const DepthState& depth) {
@@ -136,7 +169,7 @@ void allocate_vertices(const Draw& draw, ShadedVertices& out) {
   out.count = draw.indices->end_vertex() - out.first;
   out.varying_count = draw.kernels.varying_count;
   const std::size_t n = out.count * std::size_t{draw.state.instances};
-  HS_CHECK_OP(n, <, std::size_t{1} << 32, "Pass::draw: too many vertices; expected fewer than 2^32 over all instances");
+  check_vertex_count(n);
   out.screen.reset(n);
   out.outcodes.reset(n);
   out.any_outcode = 0;
@@ -153,14 +186,10 @@ std::array<glm::vec4, 3> clip_positions(const Draw& draw, uint32_t instance, con
   run_kernel(draw.kernels.position, draw,
              {.streams = at_instance(draw.vertices, instance, storage),
               .ids = index.data(),
-              .first = 0,
               .count = 3,
-              .slot_base = 0,
               .base_vertex = draw.state.base_vertex,
               .instance = static_cast<int32_t>(instance),
-              .varyings = nullptr,
-              .clip = rows.data(),
-              .extra = nullptr});
+              .clip = rows.data()});
   std::array<glm::vec4, 3> out;
   for (std::size_t i = 0; i < 3; ++i) out[i] = {rows[i], rows[kVertexBatch + i], rows[2 * kVertexBatch + i], rows[3 * kVertexBatch + i]};
   return out;
@@ -172,33 +201,12 @@ Outcode shade_vertices(const Draw& draw, std::size_t begin, std::size_t end, Sha
   std::array<Outcode, kVertexBatch> outcodes;
   alignas(64) std::array<float, kMaxExtraRows * kVertexBatch> extra;
   std::array<PointSpriteRect, kVertexBatch> sprites;
-  const std::span<const uint32_t> used = draw.indices->used();
-  const std::size_t per_instance = draw.indices->used_count();
-  StreamStorage storage;
   Outcode any = 0;
-  for (std::size_t b = begin; b < end;) {
-    const auto instance = static_cast<uint32_t>(b / per_instance);
-    const std::size_t local = b % per_instance;
-    const int count = static_cast<int>(std::min<std::size_t>(kVertexBatch, std::min(end - b, per_instance - local)));
-    b += static_cast<std::size_t>(count);
-    const uint32_t slot_base = out.first - instance * out.count;
-    const uint32_t* ids = used.empty() ? nullptr : used.data() + local;
-    run_kernel(draw.kernels.vertex, draw,
-               {.streams = at_instance(draw.vertices, instance, storage),
-                .ids = ids,
-                .first = out.first + static_cast<uint32_t>(local),
-                .count = count,
-                .slot_base = slot_base,
-                .base_vertex = draw.state.base_vertex,
-                .instance = static_cast<int32_t>(instance),
-                .varyings = out.varyings.get(),
-                .clip = clip.data(),
-                .extra = extra.data()});
-    const auto slot_of = [&](int i) {
-      return std::size_t{(ids != nullptr ? ids[i] : out.first + static_cast<uint32_t>(local) + static_cast<uint32_t>(i)) - slot_base};
-    };
-    if (ids == nullptr) {
-      const std::size_t slot = slot_of(0);
+  const VertexBatch outputs{.varyings = out.varyings.get(), .clip = clip.data(), .extra = extra.data()};
+  for_each_batch(draw.kernels.vertex, draw, begin, end, out.count, outputs, [&](const VertexBatch& batch) {
+    const int count = batch.count;
+    if (batch.ids == nullptr) {
+      const std::size_t slot = slot_of(batch, 0);
       ScreenVertex* to = out.screen.get() + slot;
       Outcode* codes = out.outcodes.get() + slot;
       any |= project(draw, clip.data(), count, to, codes);
@@ -207,14 +215,37 @@ Outcode shade_vertices(const Draw& draw, std::size_t begin, std::size_t end, Sha
       any |= project(draw, clip.data(), count, screen.data(), outcodes.data());
       if (out.has_sprites) make_point_sprites(draw, clip.data(), extra.data(), count, screen.data(), outcodes.data(), sprites.data());
       for (int i = 0; i < count; ++i) {
-        if (out.has_sprites) out.sprites[slot_of(i)] = sprites[static_cast<std::size_t>(i)];
-        out.screen[slot_of(i)] = screen[static_cast<std::size_t>(i)];
-        out.outcodes[slot_of(i)] = outcodes[static_cast<std::size_t>(i)];
+        const std::size_t slot = slot_of(batch, i);
+        if (out.has_sprites) out.sprites[slot] = sprites[static_cast<std::size_t>(i)];
+        out.screen[slot] = screen[static_cast<std::size_t>(i)];
+        out.outcodes[slot] = outcodes[static_cast<std::size_t>(i)];
       }
     }
-    if (out.clip_distance_count != 0) any |= store_clip_distances(extra.data() + kVertexBatch, count, slot_of, out);
-  }
+    if (out.clip_distance_count != 0)
+      any |= store_clip_distances(
+          extra.data() + kVertexBatch, count, [&](int i) { return slot_of(batch, i); }, out);
+  });
   return any;
+}
+
+void allocate_clip_vertices(const Draw& draw, int varying_count, ClipVertices& out) {
+  out.first = draw.indices->first_vertex();
+  out.count = draw.indices->end_vertex() - out.first;
+  const std::size_t n = out.count * std::size_t{draw.state.instances};
+  check_vertex_count(n);
+  out.positions.reset(n);
+  out.varyings.reset(n * static_cast<std::size_t>(varying_count) + kRowSlack);
+}
+
+void shade_clip_vertices(const Draw& draw, VertexKernel kernel, std::size_t begin, std::size_t end, ClipVertices& out) {
+  alignas(64) std::array<float, 4 * kVertexBatch> clip;
+  const VertexBatch outputs{.varyings = out.varyings.get(), .clip = clip.data(), .extra = nullptr};
+  for_each_batch(kernel, draw, begin, end, out.count, outputs, [&](const VertexBatch& batch) {
+    for (int i = 0; i < batch.count; ++i) {
+      const float* const p = clip.data() + i;
+      out.positions[slot_of(batch, i)] = {p[0], p[kVertexBatch], p[2 * kVertexBatch], p[3 * kVertexBatch]};
+    }
+  });
 }
 
 }  // namespace halfspace::HS_LANES

@@ -15,6 +15,14 @@ Viewport make_viewport(const Rect& viewport, const DepthState& depth);
 /// Returns the union of the outcodes.
 Outcode shade_vertices(const Draw& draw, std::size_t begin, std::size_t end, ShadedVertices& out);
 
+/// A kernel that runs a vertex function.
+using VertexKernel = void (*)(const void* shader, const VertexBatch&);
+
+/// Runs a vertex kernel for vertices [begin, end) of the same list, and keeps what the vertex function returns.
+void shade_clip_vertices(const Draw& draw, VertexKernel kernel, std::size_t begin, std::size_t end, ClipVertices& out);
+/// Allocates memory for all vertices that the draw uses, with varying_count values each.
+void allocate_clip_vertices(const Draw& draw, int varying_count, ClipVertices& out);
+
 /// Returns the memory that allocate_vertices() needs for a draw, in bytes.
 std::size_t shaded_bytes(const Draw& draw);
 

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "halfspace/raster/amplify/emit_primitives.h"
+
+#include <algorithm>
+
+#include "halfspace/raster/amplify/emitting_stages.h"
+#include "halfspace/raster/amplify/run_geometry.h"
+#include "halfspace/raster/amplify/run_tessellation.h"
+#include "halfspace/raster/primitives/primitive_assembly.h"
+#include "halfspace/raster/primitives/vertex_stage.h"
+
+namespace halfspace::HS_LANES {
+
+namespace {
+
+constexpr std::size_t kVerticesPerTask = 8 * kVertexBatch;
+constexpr std::size_t kPrimitivesPerTask = 512;
+constexpr std::size_t kPatchesPerTask = 16;  // a patch can be divided into 8192 triangles
+
+ClipVertices shade_all_vertices(const Draw& draw, VertexKernel kernel, int varying_count, const Workers& workers) {
+  ClipVertices vertices;
+  allocate_clip_vertices(draw, varying_count, vertices);
+  const std::size_t tasks = (draw.vertex_count + kVerticesPerTask - 1) / kVerticesPerTask;
+  workers.for_each(static_cast<int>(tasks), [&](int task) {
+    const std::size_t begin = static_cast<std::size_t>(task) * kVerticesPerTask;
+    shade_clip_vertices(draw, kernel, begin, std::min(begin + kVerticesPerTask, draw.vertex_count), vertices);
+  });
+  return vertices;
+}
+
+// Vertices, numbers and instances of some primitives.
+struct PrimitiveList {
+  std::vector<uint32_t> slots;
+  std::vector<int32_t> primitives, instances;
+
+  PrimitiveRows rows(const VertexRows& vertices) const {
+    return {vertices, slots.data(), primitives.data(), instances.data(), static_cast<int>(primitives.size())};
+  }
+};
+
+// Returns primitives [begin, end) of a draw, counted over all instances, with `corners` vertices each. next: returns the indices of the
+// next primitive.
+template <class Next>
+PrimitiveList primitives_of(const Draw& draw, const ClipVertices& vertices, std::size_t corners, std::size_t begin, std::size_t end,
+                            const Next& next) {
+  PrimitiveList out;
+  for (std::size_t p = begin; p < end;) {
+    const std::size_t instance = p / draw.primitive_count, first = p % draw.primitive_count;
+    const std::size_t count = std::min(end - p, draw.primitive_count - first);
+    const uint32_t slot_base = vertices.first - static_cast<uint32_t>(instance) * vertices.count;
+    Assembly assembly(draw, static_cast<uint32_t>(first));
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto indices = next(assembly);
+      for (std::size_t v = 0; v < corners; ++v) out.slots.push_back(indices[v] - slot_base);
+      out.primitives.push_back(static_cast<int32_t>(first + i));
+      out.instances.push_back(static_cast<int32_t>(instance));
+    }
+    p += count;
+  }
+  return out;
+}
+
+VertexRows rows_of(const ClipVertices& vertices, int varying_count) {
+  return {&vertices.positions.get()->x, 4, vertices.varyings.get(), static_cast<std::size_t>(varying_count)};
+}
+
+std::size_t primitives_in(const Draw& draw) { return std::size_t{draw.primitive_count} * draw.state.instances; }
+
+EmittedPrimitives tessellate_patches(const Draw& draw, const ClipVertices& vertices, const Workers& workers) {
+  const EmittingStages& stages = *draw.kernels.emitting;
+  const TessellationStage& stage = *stages.tessellation;
+  return emit_in_parts(workers, primitives_in(draw), kPatchesPerTask, static_cast<std::size_t>(stage.row), topology_of(stage.options),
+                       [&](std::size_t begin, std::size_t end) {
+                         const PrimitiveList patches = primitives_of(draw, vertices, static_cast<std::size_t>(stage.patch_vertices), begin,
+                                                                     end, [](Assembly& a) { return a.next_patch(); });
+                         return run_tessellation(stage, draw.shader.get(), patches.rows(rows_of(vertices, stages.varying_count)));
+                       });
+}
+
+EmittedPrimitives emit_from_primitives(const Draw& draw, const ClipVertices& vertices, const Workers& workers) {
+  const EmittingStages& stages = *draw.kernels.emitting;
+  const GeometryStage& stage = *stages.geometry;
+  const auto corners = static_cast<std::size_t>(vertices_of(stage.layout.input));
+  const bool first_provokes = draw.state.provoking == ProvokingVertex::first;
+  return emit_in_parts(workers, primitives_in(draw), kPrimitivesPerTask, static_cast<std::size_t>(stage.row),
+                       topology_of(stage.layout.output), [&](std::size_t begin, std::size_t end) {
+                         const PrimitiveList list =
+                             primitives_of(draw, vertices, corners, begin, end, [](Assembly& a) { return a.next_with_adjacency(); });
+                         return run_geometry(stage, draw.shader.get(), list.rows(rows_of(vertices, stages.varying_count)), first_provokes);
+                       });
+}
+
+// The same for the primitives of divided patches.
+EmittedPrimitives emit_from_patches(const Draw& draw, const EmittedPrimitives& divided, const Workers& workers) {
+  const EmittingStages& stages = *draw.kernels.emitting;
+  const GeometryStage& stage = *stages.geometry;
+  const auto varyings = static_cast<std::size_t>(stages.tessellation->varying_count);
+  const VertexRows vertices{divided.rows.data(), divided.row, divided.rows.data() + divided.row - varyings, divided.row};
+  const std::size_t corners = divided.vertices_per_primitive();
+  const bool first_provokes = draw.state.provoking == ProvokingVertex::first;
+  return emit_in_parts(workers, divided.primitive_count(), kPrimitivesPerTask, static_cast<std::size_t>(stage.row),
+                       topology_of(stage.layout.output), [&](std::size_t begin, std::size_t end) {
+                         return run_geometry(stage, draw.shader.get(),
+                                             {vertices, divided.indices.data() + begin * corners, divided.numbers.data() + begin,
+                                              divided.instances.data() + begin, static_cast<int>(end - begin)},
+                                             first_provokes);
+                       });
+}
+
+// Returns the kind of primitives that remains if strips, loops, fans and adjacent vertices are resolved.
+Topology list_topology(Topology t) {
+  if (t == Topology::points) return t;
+  return is_lines(t) ? Topology::lines : Topology::triangles;
+}
+
+}  // namespace
+
+void EmittedPrimitives::append(EmittedPrimitives&& o) {
+  const std::size_t first = vertex_count();
+  HS_CHECK_OP(first + o.vertex_count(), <, std::size_t{1} << 32,
+              "Pass::run: the stages of a draw emit too many vertices; expected fewer than 2^32");
+  rows.insert(rows.end(), o.rows.begin(), o.rows.end());
+  for (const uint32_t i : o.indices) indices.push_back(static_cast<uint32_t>(first) + i);
+  numbers.insert(numbers.end(), o.numbers.begin(), o.numbers.end());
+  instances.insert(instances.end(), o.instances.begin(), o.instances.end());
+  o = {};
+}
+
+EmittedPrimitives emit_primitives(const Draw& draw, const Workers& workers, PassStatistics& statistics) {
+  const EmittingStages& stages = *draw.kernels.emitting;
+  const ClipVertices vertices = shade_all_vertices(draw, stages.vertex, stages.varying_count, workers);
+  statistics.vertices_in += (draw.indices->size() - draw.indices->restarts().size()) * draw.state.instances;
+  statistics.vertices_shaded += draw.vertex_count;
+  const auto count_geometry = [&](std::size_t primitives) {
+    statistics.geometry_invocations += primitives * static_cast<std::size_t>(stages.geometry->layout.invocations);
+  };
+  if (stages.tessellation == nullptr) {
+    count_geometry(primitives_in(draw));
+    return emit_from_primitives(draw, vertices, workers);
+  }
+  EmittedPrimitives divided = tessellate_patches(draw, vertices, workers);
+  statistics.patches_in += primitives_in(draw);
+  statistics.vertices_evaluated += divided.vertex_count();
+  if (stages.geometry == nullptr) return divided;
+  count_geometry(divided.primitive_count());
+  return emit_from_patches(draw, divided, workers);
+}
+
+EmittedPrimitives assemble_primitives(const Draw& draw, const Workers& workers) {
+  const int varyings = draw.kernels.varying_count;
+  const ClipVertices vertices = shade_all_vertices(draw, draw.kernels.vertex, varyings, workers);
+  const VertexRows from = rows_of(vertices, varyings);
+  const Topology topology = list_topology(draw.state.topology);
+  return emit_in_parts(workers, primitives_in(draw), kPrimitivesPerTask, 4 + static_cast<std::size_t>(varyings), topology,
+                       [&](std::size_t begin, std::size_t end) {
+                         EmittedPrimitives out;
+                         out.row = 4 + static_cast<std::size_t>(varyings);
+                         out.topology = topology;
+                         const PrimitiveList list =
+                             primitives_of(draw, vertices, out.vertices_per_primitive(), begin, end, [](Assembly& a) { return a.next(); });
+                         for (const uint32_t slot : list.slots) {
+                           out.indices.push_back(static_cast<uint32_t>(out.indices.size()));
+                           out.rows.insert(out.rows.end(), from.position(slot), from.position(slot) + 4);
+                           out.rows.insert(out.rows.end(), from.varying(slot), from.varying(slot) + varyings);
+                         }
+                         return out;
+                       });
+}
+
+std::array<VertexStream, 3> streams_of(const EmittedPrimitives& primitives, int varying_count) {
+  const auto varyings = static_cast<std::size_t>(varying_count);
+  const auto stream_at = [&](std::size_t value, std::size_t components) {
+    return VertexStream{.data = reinterpret_cast<const std::byte*>(primitives.rows.data() + value),
+                        .stride = static_cast<int32_t>(primitives.row * sizeof(float)),
+                        .components = static_cast<int32_t>(components),
+                        .count = primitives.vertex_count()};
+  };
+  const std::size_t others = primitives.row - 4 - varyings;
+  return {stream_at(0, 4), stream_at(4, others), stream_at(4 + others, varyings)};
+}
+
+void copy_emitted_vertices(const void*, const VertexBatch& batch) {
+  const VertexStream &positions = batch.streams[0], &others = batch.streams[1], &varyings = batch.streams[2];
+  for (int i = 0; i < batch.count; ++i) {
+    const uint32_t id = batch.ids != nullptr ? batch.ids[i] : batch.first + static_cast<uint32_t>(i);
+    const auto values = [&](const VertexStream& s) {
+      return reinterpret_cast<const float*>(s.data + std::size_t{id} * static_cast<std::size_t>(s.stride));
+    };
+    for (int k = 0; k < 4; ++k) batch.clip[k * kVertexBatch + i] = values(positions)[k];
+    for (int k = 0; batch.extra != nullptr && k < others.components; ++k) batch.extra[k * kVertexBatch + i] = values(others)[k];
+    const auto n = static_cast<std::size_t>(varyings.components);
+    if (batch.varyings != nullptr) std::copy_n(values(varyings), n, batch.varyings + std::size_t{id - batch.slot_base} * n);
+  }
+}
+
+void check_topology(const ShaderKernels& kernels, const DrawState& state) {
+  const EmittingStages* const stages = kernels.emitting;
+  const bool draws_patches = stages != nullptr && stages->tessellation != nullptr;
+  HS_CHECK(draws_patches == (state.topology == Topology::patches),
+           "Pass::draw: patches need a shader with tessellation, and tessellation needs patches; expected both or neither");
+  if (stages == nullptr || stages->geometry == nullptr) return;
+  HS_CHECK(accepts(stages->geometry->layout.input, draws_patches ? topology_of(stages->tessellation->options) : state.topology),
+           "Pass::draw: the geometry function receives other primitives; expected a topology with those of GeometryLayout::input");
+}
+
+}  // namespace halfspace::HS_LANES

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "halfspace/raster/amplify/run_geometry.h"
+
+namespace halfspace::HS_LANES {
+
+namespace {
+
+// Appends the primitives of a strip of `size` vertices. The order of the vertices is that of Assembly.
+void append_strip(uint32_t first, uint32_t size, Topology topology, bool first_provokes, std::vector<uint32_t>& indices) {
+  const uint32_t corners = topology == Topology::points ? 1 : topology == Topology::lines ? 2 : 3;
+  for (uint32_t k = 0; k + corners <= size; ++k) {
+    const uint32_t i = first + k;
+    if (corners == 1) {
+      indices.push_back(i);
+    } else if (corners == 2) {
+      indices.insert(indices.end(), {i, i + 1});
+    } else if (k % 2 == 0) {
+      indices.insert(indices.end(), {i, i + 1, i + 2});
+    } else if (first_provokes) {
+      indices.insert(indices.end(), {i, i + 2, i + 1});
+    } else {
+      indices.insert(indices.end(), {i + 1, i, i + 2});
+    }
+  }
+}
+
+}  // namespace
+
+EmittedPrimitives run_geometry(const GeometryStage& stage, const void* shader, const PrimitiveRows& primitives, bool first_provokes) {
+  EmittedStrips strips;
+  stage.geometry(shader, primitives, strips);
+  EmittedPrimitives out;
+  out.topology = topology_of(stage.layout.output);
+  out.row = static_cast<std::size_t>(stage.row);
+  out.rows = std::move(strips.rows);
+  uint32_t first = 0;
+  for (const uint32_t size : strips.sizes) {
+    append_strip(first, size, out.topology, first_provokes, out.indices);
+    first += size;
+  }
+  return out;
+}
+
+Topology topology_of(GeometryOutputPrimitive output) {
+  switch (output) {
+    case GeometryOutputPrimitive::points: return Topology::points;
+    case GeometryOutputPrimitive::line_strip: return Topology::lines;
+    case GeometryOutputPrimitive::triangle_strip: return Topology::triangles;
+  }
+  return Topology::points;
+}
+
+bool accepts(GeometryInputPrimitive input, Topology topology) {
+  switch (input) {
+    case GeometryInputPrimitive::points: return topology == Topology::points;
+    case GeometryInputPrimitive::lines: return is_lines(topology) && !has_adjacency(topology);
+    case GeometryInputPrimitive::lines_adjacency: return is_lines(topology) && has_adjacency(topology);
+    case GeometryInputPrimitive::triangles: return is_triangles(topology) && !has_adjacency(topology);
+    case GeometryInputPrimitive::triangles_adjacency: return is_triangles(topology) && has_adjacency(topology);
+  }
+  return false;
+}
+
+}  // namespace halfspace::HS_LANES

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// A shader whose geometry function can emit more vertices than the limit must not compile, and
+// the error must contain: expected 1 to 256 vertices.
+#include "halfspace/raster/pass.h"
+
+using namespace halfspace;
+
+struct TooManyVertices {
+  static constexpr GeometryLayout geometry_layout{.max_vertices = 257};
+  template <class R>
+  struct Attributes {
+    vec4<R> position;
+  };
+  template <class R>
+  struct Varyings {};
+
+  template <class R>
+  vec4<R> vertex(const Attributes<R>& in, Varyings<R>&) const {
+    return in.position;
+  }
+  template <class R>
+  void geometry(const GeometryInput<R, Varyings<R>, 3>& in, Emitter<R, Varyings<R>>& out) const {
+    out.emit(in.position[0], in.varyings[0]);
+  }
+  template <class R>
+  Fragment<R> fragment(const Varyings<R>&, const Pixel<R>&) const {
+    return {vec4<R>(R(1))};
+  }
+};
+
+void draw(Pass& pass, const VertexView& view) { pass.draw(TooManyVertices{}, view); }
