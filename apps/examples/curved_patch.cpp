@@ -9,7 +9,6 @@
 #include "halfspace/raster/pass.h"
 
 using namespace halfspace;
-
 struct BezierPatch {
   glm::mat4 clip_from_world;
   static constexpr TessellationLayout tessellation_layout{.patch_vertices = 16, .domain = TessellationDomain::quads};
@@ -18,20 +17,21 @@ struct BezierPatch {
     vec3<R> position;
   };
   template <class R>
+  struct VertexVaryings {};  // control points have only a position
+  template <class R>
   struct Varyings {
     vec3<R> color;
   };
   template <class R>
-  vec4<R> vertex(const Attributes<R>& in, Varyings<R>&) const {
+  vec4<R> vertex(const Attributes<R>& in, VertexVaryings<R>&) const {
     return vec4<R>(in.position, R(1));
   }
-  // How finely the patch is divided: its four edges, and its inside in both directions. `evaluate` then places each vertex.
   template <class R>
-  TessellationLevels<R> control(const PatchInput<R, Varyings<R>, 16>&) const {
-    return {.outer = {R(16), R(16), R(16), R(16)}, .inner = {R(16), R(16)}};
+  TessellationLevels<R> control(const PatchInput<R, VertexVaryings<R>, 16>&) const {
+    return {.outer = {R(16), R(16), R(16), R(16)}, .inner = {R(16), R(16)}};  // segments of the four edges, and inside
   }
   template <class R>
-  vec4<R> evaluate(const PatchInput<R, Varyings<R>, 16>& in, const vec3<R>& at, Varyings<R>& out) const {
+  vec4<R> evaluate(const PatchInput<R, VertexVaryings<R>, 16>& in, const vec3<R>& at, Varyings<R>& out) const {
     const auto bernstein = [](const R& t, const R& s) { return std::array{s * s * s, R(3) * s * s * t, R(3) * s * t * t, t * t * t}; };
     const std::array<R, 4> u = bernstein(at.x, R(1) - at.x), v = bernstein(at.y, R(1) - at.y);
     vec4<R> p(R(0));

@@ -20,7 +20,9 @@ void bind_enum(py::module_& m, const char* type, std::initializer_list<const cha
 }
 
 void bind_enums(py::module_& m) {
-  bind_enum<Topology>(m, "DrawTopology", {"triangles", "triangle_strip", "triangle_fan", "points", "lines", "line_strip", "line_loop"});
+  bind_enum<Topology>(m, "DrawTopology",
+                      {"triangles", "triangle_strip", "triangle_fan", "points", "lines", "line_strip", "line_loop", "lines_adjacency",
+                       "line_strip_adjacency", "triangles_adjacency", "triangle_strip_adjacency", "patches"});
   bind_enum<PolygonMode>(m, "PolygonMode", {"fill", "line", "point"});
   bind_enum<CompareOp>(m, "CompareOp", {"never", "less", "equal", "less_equal", "greater", "not_equal", "greater_equal", "always"});
   bind_enum<CullMode>(m, "CullMode", {"none", "front", "back", "front_and_back"});

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include <glm/glm.hpp>
 
@@ -88,16 +89,25 @@ struct DepthState {
   friend bool operator==(const DepthState&, const DepthState&) = default;
 };
 
-/// Polygon offset for filled triangles (OpenGL 4.6, section 14.6.5). It has no effect on points, lines, and triangles drawn as outlines or
-/// corners (PolygonMode). The offset slope·m + constant·r is clamped and then added to the window depth. Here m = max(|dz/dx|, |dz/dy|),
-/// and r is the smallest resolvable difference of the depth format. For 32-bit float depth, r = 2^(e−23), where e is the exponent of the
-/// largest |z| of the triangle. A positive offset moves the triangle away from the eye, or towards it with reversed Z.
+/// Polygon offset (OpenGL 4.6, section 14.6.5). It has no effect on points and lines. The offset slope·m + constant·r is clamped and then
+/// added to the window depth. Here m = max(|dz/dx|, |dz/dy|), and r is the smallest resolvable difference of the depth format. For 32-bit
+/// float depth, r = 2^(e−23), where e is the exponent of the largest |z| of the triangle. A positive offset moves the triangle away from
+/// the eye, or towards it with reversed Z.
 struct DepthOffset {
   float slope = 0.0f;
   float constant = 0.0f;
-  float clamp = 0.0f;  ///< > 0: upper limit of the offset; < 0: lower limit; 0: no limit
+  float clamp = 0.0f;     ///< > 0: upper limit of the offset; < 0: lower limit; 0: no limit
+  bool fill = true;       ///< of filled triangles (GL_POLYGON_OFFSET_FILL)
+  bool outlines = false;  ///< of triangles drawn as outlines (GL_POLYGON_OFFSET_LINE)
+  bool corners = false;   ///< of triangles drawn as points (GL_POLYGON_OFFSET_POINT)
   friend bool operator==(const DepthOffset&, const DepthOffset&) = default;
 };
+
+/// Returns true if triangles drawn in this mode have a polygon offset.
+constexpr bool has_offset(const DepthOffset& o, PolygonMode mode) {
+  const bool applies = mode == PolygonMode::fill ? o.fill : mode == PolygonMode::line ? o.outlines : o.corners;
+  return applies && (o.slope != 0.0f || o.constant != 0.0f);
+}
 
 enum class BlendFactor : uint8_t {
   zero,
@@ -205,6 +215,16 @@ struct StencilState {
   friend bool operator==(const StencilState&, const StencilState&) = default;
 };
 
+/// One of several viewports (glViewportIndexed, glScissorIndexed, glDepthRangeIndexed).
+struct IndexedViewport {
+  Rect viewport{};
+  std::optional<Rect> scissor{};  ///< default: no scissor test
+  float range_near = 0.0f, range_far = 1.0f;
+};
+/// The viewports of a draw; at most kMaxViewports are used.
+using ViewportArray = std::vector<IndexedViewport>;
+inline constexpr std::size_t kMaxViewports = 16;
+
 /// Complete state of a draw call, apart from the shader, vertices and indices. As in OpenGL, state for multisampling has no effect in
 /// passes with one sample per pixel, the depth test always passes without a depth buffer, and the size of points, the width of lines and
 /// the provoking vertex are for draws that have such. The same state can therefore be used with different passes and topologies.
@@ -220,7 +240,10 @@ struct DrawState {
   float line_width = 1.0f;  ///< in pixels, 0 to kMaxLineWidth; rounded to an integer if there is one sample per pixel
   PolygonMode polygon_mode = PolygonMode::fill;
   std::optional<Rect> viewport{};  ///< default: the whole target
-  std::optional<Rect> scissor{};   ///< of any size, at least 0 x 0; default: no scissor test
+  /// Viewports for shaders that return a LayeredVertex, or null. They replace `viewport`, `scissor` and the depth range. Not owned; must
+  /// stay valid and unchanged until Pass::run() returns.
+  const ViewportArray* viewports = nullptr;
+  std::optional<Rect> scissor{};  ///< of any size, at least 0 x 0; default: no scissor test
   CullMode cull = CullMode::none;
   Winding front = Winding::counter_clockwise;
   ProvokingVertex provoking = ProvokingVertex::last;

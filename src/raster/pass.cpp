@@ -8,6 +8,8 @@
 
 #include "halfspace/core/float_mode.h"
 #include "halfspace/raster/amplify/emit_primitives.h"
+#include "halfspace/raster/detail/draw_placement.h"
+#include "halfspace/raster/detail/emitted_draws.h"
 #include "halfspace/raster/detail/state_checks.h"
 #include "halfspace/raster/detail/target_checks.h"
 #include "halfspace/raster/loop/pass_rounds.h"
@@ -30,17 +32,6 @@ const DrawState& keep_state(const DrawState& state, std::pmr::memory_resource& m
   return *::new (memory.allocate(sizeof(DrawState), alignof(DrawState))) DrawState(state);
 }
 
-// Returns the samples that may be drawn, as bits.
-uint32_t coverage_mask(const std::optional<SampleCoverage>& coverage, int samples) {
-  const uint32_t all = (1u << samples) - 1;
-  if (!coverage) return all;
-  const auto count = static_cast<uint32_t>(coverage->value * static_cast<float>(samples) + 0.5f);
-  const uint32_t covered = (1u << count) - 1;
-  return coverage->invert ? all & ~covered : covered;
-}
-
-PixelBounds to_bounds(const Rect& r) { return {r.x, r.y, r.x + r.width, r.y + r.height}; }
-
 }  // namespace
 
 namespace detail {
@@ -54,17 +45,15 @@ class PassState {
   void add_draw(const ShaderKernels& kernels, KeptShader shader, const VertexView& vertices, std::shared_ptr<const Indices> indices,
                 const DrawState& state);
   void set_post_step(PostStep post);
+  // The last draw applies to all layers.
+  void mark_clear() { context_.draws.back().is_clear = true; }
   const Attachments& attachments() const { return attachments_; }
   PassStatistics run(TileRunner& tiles, const Workers& workers);
 
  private:
   int tile_size() const;
   void check_color_types(const ShaderKernels& kernels) const;
-  DrawPlacement place(const DrawState& state) const;
-  // Runs the emitting stages, replaces their draws by draws of what they emitted, and plans the pass. The primitives must outlive the
-  // draws.
-  void plan_emitted(std::vector<std::unique_ptr<const EmittedPrimitives>>& emitted, const Workers& workers);
-  Draw emitted_draw(Draw from, const EmittedPrimitives& primitives);
+  PassStatistics run_layers(TileRunner& tiles, const Workers& workers);
   // Sets d.writes_color. Returns true if the draw replaces all colors of a pixel.
   bool set_color_writes(Draw& d) const;
 
@@ -89,12 +78,14 @@ PassState::PassState(int width, int height, std::span<const ColorTarget> colors,
            "PassTuning: the number of triangles per chunk is outside of its range; expected 1 to 8192");
   HS_CHECK(options.samples == 1 || options.samples == 2 || options.samples == 4 || options.samples == 8,
            "PassOptions: the number of samples is not supported; expected 1, 2, 4 or 8");
+  HS_CHECK(options.layers >= 1 && options.layers <= kMaxLayers,
+           "PassOptions: the number of layers is outside of its range; expected 1 to 2048");
   HS_CHECK_OP(colors.size(), <=, std::size_t{kMaxColorTargets}, "Pass: too many color targets; expected at most 12");
   for (const ColorTarget& c : colors) {
     if (c.format == ColorFormat::none) continue;
     HS_CHECK(can_be_drawn(c.format),
              "Pass: the format of a color target cannot be drawn to; expected one that is neither a depth format nor rgb9_e5");
-    check_target(c, width, height, options.samples);
+    check_target(c, width, height, options.samples, options.layers);
     for (const ColorTarget* other = colors.data(); other != &c; ++other) {
       if (other->format != ColorFormat::none) check_overlap(*other, c);
     }
@@ -102,7 +93,7 @@ PassState::PassState(int width, int height, std::span<const ColorTarget> colors,
   }
   if (depth.format != DepthFormat::none) {
     HS_CHECK(is_depth(depth.format), "Pass: the format of the depth target has no depth; expected d16, d24, d32f, d24s8 or d32fs8");
-    check_target(depth, width, height, options.samples);
+    check_target(depth, width, height, options.samples, options.layers);
     for (const ColorTarget& c : colors) {
       if (c.format != ColorFormat::none) check_overlap(c, depth);
     }
@@ -146,12 +137,15 @@ void PassState::add_draw(const ShaderKernels& kernels, KeptShader shader, const 
       "Pass::draw: the shader computes rectangles of points, but no points are drawn; expected Topology::points or PolygonMode::point");
   check_color_types(kernels);
   check_topology(kernels, state);
+  HS_CHECK(state.viewports == nullptr || kernels.gives_layer,
+           "DrawState::viewports: the shader does not choose among them; expected null, or a shader that returns a LayeredVertex");
   for (std::size_t i = 0; i < attachments_.colors.size(); ++i) {
     const std::optional<BlendState>& blend = blend_of(state, i);
     HS_CHECK(!blend || !uses_second_source(*blend) || (kernels.color_count > 1 && attachments_.colors.size() == 1),
              "DrawState: blend factors use a second source; expected a shader with two colors and one color target");
   }
-  const DrawPlacement placement = equal != nullptr ? static_cast<const DrawPlacement&>(*equal) : place(state);
+  const DrawPlacement placement =
+      equal != nullptr ? static_cast<const DrawPlacement&>(*equal) : place_draw(state, context_, attachments_, options_.supersample);
   const DrawState& kept = equal != nullptr ? equal->state : keep_state(state, memory());
   Draw& d = context_.draws.emplace_back(kernels, std::move(shader), std::move(indices),
                                         keep_streams(vertices, state.base_instance, memory()), kept, placement);
@@ -180,23 +174,6 @@ void PassState::check_color_types(const ShaderKernels& kernels) const {
   }
 }
 
-DrawPlacement PassState::place(const DrawState& state) const {
-  const FloatMode float_mode;
-  const Rect whole{0, 0, context_.width, context_.height};
-  const Rect viewport = state.viewport.value_or(whole);
-  Rect bounds = intersect(whole, viewport);
-  if (state.scissor) bounds = intersect(bounds, *state.scissor);
-  const bool has_integers = !attachments_.colors.empty() && is_integer(attachments_.colors[0].format);
-  return {.viewport = make_viewport(viewport, state.depth),
-          .bounds = to_bounds(bounds),
-          .depth_low = std::min(state.depth.range_near, state.depth.range_far),
-          .depth_high = std::max(state.depth.range_near, state.depth.range_far),
-          .sample_mask = context_.samples == 1 ? 1u : state.sample_mask & coverage_mask(state.sample_coverage, context_.samples),
-          .shades_samples = context_.samples > 1 && (state.sample_shading || options_.supersample),
-          .covers_by_alpha = state.alpha_to_coverage && context_.samples > 1 && !has_integers,
-          .sets_alpha_to_one = state.alpha_to_one && context_.samples > 1};
-}
-
 bool PassState::set_color_writes(Draw& d) const {
   bool replaces = true;
   for (std::size_t i = 0; i < attachments_.colors.size(); ++i) {
@@ -210,48 +187,28 @@ bool PassState::set_color_writes(Draw& d) const {
   return replaces;
 }
 
-Draw PassState::emitted_draw(Draw from, const EmittedPrimitives& primitives) {
-  DrawState state = from.state;
-  state.topology = primitives.topology;
-  state.base_vertex = 0;
-  state.instances = 1;
-  const std::array<VertexStream, 3> streams = streams_of(primitives, from.kernels.varying_count);
-  auto* const kept = static_cast<VertexStream*>(memory().allocate(sizeof streams, alignof(VertexStream)));
-  std::uninitialized_copy(streams.begin(), streams.end(), kept);
-  const std::size_t vertices = primitives.vertex_count();
-  Draw d(from.kernels, std::move(from.shader), std::make_shared<const Indices>(std::span(primitives.indices), vertices),
-         {{kept, streams.size()}, false, false}, keep_state(state, memory()), from);
-  d.is_emitted = true;
-  d.deferred = from.deferred;
-  d.writes_color = from.writes_color;
-  d.layer_group = from.layer_group;
-  d.vertex_count = d.indices->used_count();
-  count_primitives(d);
-  return d;
-}
-
-void PassState::plan_emitted(std::vector<std::unique_ptr<const EmittedPrimitives>>& emitted, const Workers& workers) {
-  plan_ = PassPlan(context_.samples, options_.tuning.chunk_triangles);
-  std::vector<Draw> draws;
-  draws.reserve(context_.draws.size());
-  for (Draw& d : context_.draws) {
-    if (d.kernels.emitting == nullptr) {
-      draws.push_back(std::move(d));
-    } else {
-      emitted.push_back(std::make_unique<const EmittedPrimitives>(emit_primitives(d, workers, plan_.submitted)));
-      draws.push_back(emitted_draw(std::move(d), *emitted.back()));
-    }
-    plan_.add(draws.back(), draws.size() - 1);
+PassStatistics PassState::run_layers(TileRunner& tiles, const Workers& workers) {
+  PassStatistics statistics;
+  EmittedDraws draws(context_, attachments_, options_.layers, options_.supersample, workers, statistics);
+  for (int layer = 0; layer < options_.layers; ++layer) {
+    draws.set_layer(layer);
+    PassPlan plan(context_.samples, options_.tuning.chunk_triangles);
+    for (std::size_t i = 0; i < context_.draws.size(); ++i) plan.add(context_.draws[i], i);
+    Attachments attachments = attachments_;
+    for (ColorTarget& c : attachments.colors) c = layer_of(c, layer);
+    attachments.depth = layer_of(attachments.depth, layer);
+    statistics += run_rounds(context_, attachments, std::move(plan), options_.tuning.bin_budget, tiles, workers);
   }
-  context_.draws = std::move(draws);
+  context_.draws.clear();
+  return statistics;
 }
 
 PassStatistics PassState::run(TileRunner& tiles, const Workers& workers) {
   const FloatMode float_mode;
-  std::vector<std::unique_ptr<const EmittedPrimitives>> emitted;
-  if (std::exchange(has_emitting_, false)) plan_emitted(emitted, workers);
   PassPlan plan = std::exchange(plan_, PassPlan(context_.samples, options_.tuning.chunk_triangles));
-  PassStatistics statistics = run_rounds(context_, attachments_, std::move(plan), options_.tuning.bin_budget, tiles, workers);
+  PassStatistics statistics = std::exchange(has_emitting_, false) || options_.layers > 1
+                                  ? run_layers(tiles, workers)
+                                  : run_rounds(context_, attachments_, std::move(plan), options_.tuning.bin_budget, tiles, workers);
   if (context_.arena != nullptr) return_draw_list({std::exchange(context_.arena, {}), std::exchange(context_.draws, {})});
   return statistics;
 }
@@ -259,11 +216,12 @@ PassStatistics PassState::run(TileRunner& tiles, const Workers& workers) {
 void PassState::set_post_step(PostStep post) {
   HS_CHECK(!attachments_.colors.empty() && attachments_.colors[0].format != ColorFormat::none,
            "Pass::post: the pass has no color target; expected one");
+  HS_CHECK(options_.layers == 1, "Pass::post: the pass has several layers; expected one");
   HS_CHECK(post.target.format != ColorFormat::none, "Pass::post: the target has no format; expected an image");
   HS_CHECK(!is_integer(attachments_.colors[0].format), "Pass::post: the first color target has integers; expected another format");
   HS_CHECK(can_be_drawn(post.target.format) && !is_integer(post.target.format),
            "Pass::post: the target cannot store colors; expected a format that is neither integers, a depth format nor rgb9_e5");
-  check_target(post.target, context_.width, context_.height, 1);
+  check_target(post.target, context_.width, context_.height, 1, 1);
   for (const ColorTarget& c : attachments_.colors) {
     if (c.format != ColorFormat::none && c.store == StoreOp::store) check_overlap(c, post.target);
   }
@@ -380,6 +338,7 @@ void Pass::clear(const ClearValues& values) {
                    detail::keep_shader(shader, detail::memory_of(*state_)), corners,
                    std::make_shared<const Indices>(Indices::sequential(corners.vertex_count)),
                    state_of(values, state_->attachments().colors.size()));
+  state_->mark_clear();
 }
 
 PassStatistics Pass::run(const Workers& workers) {

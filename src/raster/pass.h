@@ -36,6 +36,10 @@ struct PassOptions {
   int samples = 1;
   /// Run all fragment functions once per sample, as if every draw had DrawState::sample_shading. With one sample, there is no difference.
   bool supersample = false;
+  /// Layers of the targets, 1 to 2048 (layered framebuffers, OpenGL 4.6, section 9.8). All targets must have that many. A primitive is
+  /// drawn into the layer that LayeredVertex states, and into layer 0 if the shader has none. A layer of the result is the same as that of
+  /// a pass of its own; layers are drawn one after the other. Clears apply to all layers. There is no post step.
+  int layers = 1;
   PassTuning tuning{};
 };
 

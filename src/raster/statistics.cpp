@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "halfspace/raster/statistics.h"
 
+#include <algorithm>
+
 namespace halfspace::HS_LANES {
 
 PassStatistics& PassStatistics::operator+=(const PassStatistics& o) {
@@ -25,6 +27,8 @@ PassStatistics& PassStatistics::operator+=(const PassStatistics& o) {
   tiles_touched += o.tiles_touched;
   flushes += o.flushes;
   for (std::size_t i = 0; i < o.queries.size(); ++i) add_to_query(i, o.queries[i]);
+  query_primitives.resize(std::max(query_primitives.size(), o.query_primitives.size()));
+  for (std::size_t i = 0; i < o.query_primitives.size(); ++i) query_primitives[i] += o.query_primitives[i];
   return *this;
 }
 

@@ -37,6 +37,8 @@ struct PassStatistics {
 
   /// Results of occlusion queries: queries[i] is the number of samples that passed all tests in draws with DrawState::query = i.
   std::vector<uint64_t> queries;
+  /// Primitives of these draws (GL_PRIMITIVES_GENERATED), counted as in primitives_in.
+  std::vector<uint64_t> query_primitives;
   /// Returns true if any sample of the query passed. query must be less than queries.size().
   bool any_passed(std::size_t query) const { return queries[query] != 0; }
   /// Adds to the result of a query; resizes queries if needed.

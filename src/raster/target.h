@@ -56,14 +56,16 @@ struct ColorTarget {
   /// when they are stored, and all samples are loaded with the same value.
   int samples = 1;
   std::ptrdiff_t sample_pitch = 0;  ///< bytes from the image of a sample to that of the next one; 0: tightly packed
+  int layers = 1;                   ///< images that a pass with PassOptions::layers draws into
+  std::ptrdiff_t layer_pitch = 0;   ///< bytes from a layer to the next one, if there are several
   LoadOp load = LoadOp::clear;
   StoreOp store = StoreOp::store;
   glm::vec4 clear_value = glm::vec4(0.0f);  ///< linear, straight alpha; for integer formats, integers stored with std::bit_cast
 };
 
 /// Depth attachment with values in [0, 1]. Pixels are uint16_t for d16, uint32_t for d24 (0 to 2^24 − 1), float for d32f, uint32_t for
-/// d24s8 (depth · 2^8 + stencil) and DepthStencil for d32fs8. data, size, pitches and samples are the same as in ColorTarget. Depth and
-/// stencil are stored together.
+/// d24s8 (depth · 2^8 + stencil) and DepthStencil for d32fs8. data, size, pitches, samples and layers are the same as in ColorTarget. Depth
+/// and stencil are stored together.
 struct DepthTarget {
   DepthFormat format = DepthFormat::none;
   std::byte* data = nullptr;
@@ -71,6 +73,8 @@ struct DepthTarget {
   std::ptrdiff_t row_pitch = 0;
   int samples = 1;
   std::ptrdiff_t sample_pitch = 0;
+  int layers = 1;
+  std::ptrdiff_t layer_pitch = 0;
   LoadOp load = LoadOp::clear;
   StoreOp store = StoreOp::dont_care;
   float clear_value = 1.0f;
@@ -110,12 +114,37 @@ Target target_of(const TexelView& view) {
 }
 
 template <class Target>
+Target layered_target_of(const TexelView& view) {
+  Target target = target_of<Target>(view);
+  target.samples = 1;
+  target.sample_pitch = 0;
+  target.layers = view.layers;
+  target.layer_pitch = view.layer_pitch;
+  return target;
+}
+
+template <class Target>
+Target layer_of(Target target, int layer) {
+  if (target.data != nullptr) target.data += layer * target.layer_pitch;
+  target.layers = 1;
+  return target;
+}
+
+template <class Target>
 TexelView texels_of(const Target& target) {
   const std::ptrdiff_t tight = std::ptrdiff_t{target.width} * bytes_per_pixel(target.format);
   const std::ptrdiff_t row_pitch = target.row_pitch != 0 ? target.row_pitch : tight;
   const std::ptrdiff_t sample_pitch =
       target.sample_pitch != 0 ? target.sample_pitch : target.height * (row_pitch < 0 ? -row_pitch : row_pitch);
-  return TexelView{target.format, target.data, target.width, target.height, target.samples, row_pitch, sample_pitch}.flipped();
+  const bool has_layers = target.layers > 1;
+  return TexelView{target.format,
+                   target.data,
+                   target.width,
+                   target.height,
+                   has_layers ? target.layers : target.samples,
+                   row_pitch,
+                   has_layers ? target.layer_pitch : sample_pitch}
+      .flipped();
 }
 
 }  // namespace detail
@@ -126,7 +155,11 @@ TexelView texels_of(const Target& target) {
 inline ColorTarget color_target(const TexelView& view) { return detail::target_of<ColorTarget>(view); }
 inline DepthTarget depth_target(const TexelView& view) { return detail::target_of<DepthTarget>(view); }
 
-/// The inverse: returns a view of the texels of a target with an image. Layer k has sample k.
+/// The same for a pass with several layers (PassOptions::layers): those of the view, such as the faces of a cube map.
+inline ColorTarget layered_color_target(const TexelView& view) { return detail::layered_target_of<ColorTarget>(view); }
+inline DepthTarget layered_depth_target(const TexelView& view) { return detail::layered_target_of<DepthTarget>(view); }
+
+/// The inverse: returns a view of the texels of a target with an image. Layer k is layer k of the target, or has sample k.
 inline TexelView target_texels(const ColorTarget& target) { return detail::texels_of(target); }
 inline TexelView target_texels(const DepthTarget& target) { return detail::texels_of(target); }
 

@@ -22,8 +22,8 @@
 //   template <class R> Fragment<R> fragment(const Varyings<R>& in, const PrimitiveId<R>& id, const Pixel<R>& px) const;
 //     A fragment function that also receives the indices of the primitive and the instance, and the barycentric coordinates. It
 //     cannot be combined with a Primitive struct.
-//   Functions that emit primitives: geometry_stage.h has the geometry function, tessellation_stage.h the control and the evaluation function.
-//   PerVertex<R> or PerVertex<R, N> as the return type of vertex: adds a point size and N clip distances to the position.
+//   Functions that emit primitives: geometry_stage.h has the geometry function, tessellation_stage.h the control and the evaluation
+//   function. PerVertex<R> or PerVertex<R, N> as the return type of vertex: adds a point size and N clip distances to the position.
 //   PointSpriteVertex<R> as the return type of vertex: the rectangle that a point covers, for shaders that know the bounds of
 //     what they draw in it.
 //   template <class R> Visibility<R> visibility(const Varyings<R>& in, const Pixel<R>& px) const;
@@ -68,6 +68,18 @@ struct PerVertex {
   vec4<R> position;
   R point_size{1.0f};                             ///< pixels; used when points are drawn
   std::array<R, clip_distances> clip_distance{};  ///< at most 8; parts where a distance is negative are clipped
+};
+
+/// The same with a layer and a viewport, for vertices of a geometry function (EmittedVertex) and results of an evaluation function. A
+/// primitive has those of its provoking vertex. Primitives with a layer outside of those of the pass are not drawn, and neither are those
+/// with a viewport that the draw does not have.
+template <class R, std::size_t clip_distances = 0>
+struct LayeredVertex {
+  vec4<R> position;
+  IntOf<R> layer{0};     ///< gl_Layer
+  IntOf<R> viewport{0};  ///< gl_ViewportIndex; see DrawState::viewports
+  R point_size{1.0f};
+  std::array<R, clip_distances> clip_distance{};
 };
 
 /// Return type of vertex functions that compute the bounds of a point. Pixels with a sample inside the rectangle are drawn. The draw

@@ -16,7 +16,8 @@
 //     function. GeometryInput then has VertexVaryings<R>, and Emitter has Varyings<R>.
 //   template <class R> using EmittedVertex = PerVertex<R, N>;
 //     The type of emitted vertices, to emit point sizes and N clip distances. The emitter is then an Emitter<R, Varyings<R>,
-//     PerVertex<R, N>>. Point sizes and clip distances that the vertex function returns are not passed on.
+//     PerVertex<R, N>>. Point sizes and clip distances that the vertex function returns are not passed on. A LayeredVertex<R, N> also has
+//     a layer and a viewport.
 #pragma once
 
 #include <array>
@@ -69,11 +70,13 @@ struct GeometryInput {
 };
 
 namespace detail {
-/// Values of an emitted vertex beside its position and its varyings: the point size and the clip distances.
+/// Values of an emitted vertex beside its position and its varyings: the point size, the clip distances, the layer and the viewport.
 template <class P>
 inline constexpr std::size_t kExtraValues = 0;
 template <class R, std::size_t N>
 inline constexpr std::size_t kExtraValues<PerVertex<R, N>> = 1 + N;
+template <class R, std::size_t N>
+inline constexpr std::size_t kExtraValues<LayeredVertex<R, N>> = 3 + N;
 
 template <class R, class Row>
 HS_INLINE void put_vertex(const vec4<R>& v, Row& row) {
@@ -85,10 +88,17 @@ HS_INLINE void put_vertex(const PerVertex<R, N>& v, Row& row) {
   row[4] = v.point_size;
   for (std::size_t k = 0; k < N; ++k) row[5 + k] = v.clip_distance[k];
 }
+// Layer and viewport are the bits of floats.
+template <class R, std::size_t N, class Row>
+HS_INLINE void put_vertex(const LayeredVertex<R, N>& v, Row& row) {
+  put_vertex(PerVertex<R, N>{v.position, v.point_size, v.clip_distance}, row);
+  row[5 + N] = as_real(v.layer);
+  row[6 + N] = as_real(v.viewport);
+}
 }  // namespace detail
 
 /// Collects the vertices that a geometry function emits. R: number type; V: varyings of the fragment function; P: vec4<R>, a clip-space
-/// position, or PerVertex<R, N>.
+/// position, PerVertex<R, N> or LayeredVertex<R, N>.
 template <class R, class V, class P = vec4<R>>
 class Emitter {
  public:

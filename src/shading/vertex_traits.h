@@ -110,6 +110,12 @@ template <class T>
 inline constexpr std::size_t kClipDistancesIn = 0;
 template <class R, std::size_t N>
 inline constexpr std::size_t kClipDistancesIn<PerVertex<R, N>> = N;
+template <class R, std::size_t N>
+inline constexpr std::size_t kClipDistancesIn<LayeredVertex<R, N>> = N;
+template <class T>
+inline constexpr bool kIsLayeredVertex = false;
+template <class R, std::size_t N>
+inline constexpr bool kIsLayeredVertex<LayeredVertex<R, N>> = true;
 template <class T>
 inline constexpr bool kIsPerVertex = false;
 template <class R, std::size_t N>
@@ -119,7 +125,7 @@ inline constexpr bool kIsPointSpriteVertex = std::is_same_v<T, PointSpriteVertex
 }  // namespace detail
 /// The types that an evaluation function may return.
 template <class T>
-concept EvaluationResult = std::same_as<T, vec4<float>> || detail::kIsPerVertex<T>;
+concept EvaluationResult = std::same_as<T, vec4<float>> || detail::kIsPerVertex<T> || detail::kIsLayeredVertex<T>;
 /// The types that a vertex function may return.
 template <class T>
 concept VertexResult = std::same_as<T, vec4<float>> || detail::kIsPerVertex<T> || detail::kIsPointSpriteVertex<T>;
@@ -228,7 +234,10 @@ template <class S>
 inline constexpr std::size_t kClipDistances = detail::kClipDistancesIn<LastVertexOf<S>>;
 /// Whether vertices have a point size.
 template <class S>
-inline constexpr bool kGivesPointSize = detail::kIsPerVertex<LastVertexOf<S>>;
+inline constexpr bool kGivesPointSize = detail::kIsPerVertex<LastVertexOf<S>> || detail::kIsLayeredVertex<LastVertexOf<S>>;
+/// Whether vertices have a layer and a viewport.
+template <class S>
+inline constexpr bool kGivesLayer = detail::kIsLayeredVertex<LastVertexOf<S>>;
 /// Whether vertices have the bounds of a point sprite.
 template <class S>
 inline constexpr bool kGivesPointSprite = detail::kIsPointSpriteVertex<LastVertexOf<S>>;

@@ -28,17 +28,17 @@ struct NamedTopology {
   Topology topology;
   In input;
 };
-constexpr NamedTopology kTopologies[] = {{"points", Topology::points, In::points},
-                                         {"lines", Topology::lines, In::lines},
-                                         {"line_loop", Topology::line_loop, In::lines},
-                                         {"line_strip", Topology::line_strip, In::lines},
-                                         {"triangles", Topology::triangles, In::triangles},
-                                         {"triangle_strip", Topology::triangle_strip, In::triangles},
-                                         {"triangle_fan", Topology::triangle_fan, In::triangles},
-                                         {"lines_adjacency", Topology::lines_adjacency, In::lines_adjacency},
-                                         {"line_strip_adjacency", Topology::line_strip_adjacency, In::lines_adjacency},
-                                         {"triangles_adjacency", Topology::triangles_adjacency, In::triangles_adjacency},
-                                         {"triangle_strip_adjacency", Topology::triangle_strip_adjacency, In::triangles_adjacency}};
+constexpr NamedTopology kInputTopologies[] = {{"points", Topology::points, In::points},
+                                              {"lines", Topology::lines, In::lines},
+                                              {"line_loop", Topology::line_loop, In::lines},
+                                              {"line_strip", Topology::line_strip, In::lines},
+                                              {"triangles", Topology::triangles, In::triangles},
+                                              {"triangle_strip", Topology::triangle_strip, In::triangles},
+                                              {"triangle_fan", Topology::triangle_fan, In::triangles},
+                                              {"lines_adjacency", Topology::lines_adjacency, In::lines_adjacency},
+                                              {"line_strip_adjacency", Topology::line_strip_adjacency, In::lines_adjacency},
+                                              {"triangles_adjacency", Topology::triangles_adjacency, In::triangles_adjacency},
+                                              {"triangle_strip_adjacency", Topology::triangle_strip_adjacency, In::triangles_adjacency}};
 
 Topology list_topology(In input) {
   switch (input) {
@@ -139,7 +139,7 @@ std::string as_list(const Picture& p, const Seen& seen) {
 }
 
 void add_inputs(Cases& cases) {
-  for (const NamedTopology& t : kTopologies) {
+  for (const NamedTopology& t : kInputTopologies) {
     const GeometryLayout layout{t.input, Out::triangle_strip, kGeometryVertices, 1};
     const Topology topology = t.topology;
     cases.push_back({std::string("input_") + t.name, [=] { return emitted(topology, layout, kWhole, 0.0f, 13); }, as_list});

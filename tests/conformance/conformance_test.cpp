@@ -120,4 +120,8 @@ class GeometryShading : public ConformanceOf {};
 TEST_P(GeometryShading, MatchesTheEmittedPrimitives) { expect_no_error(); }
 INSTANTIATE_TEST_SUITE_P(Conformance, GeometryShading, testing::ValuesIn(geometry_shading_cases()), case_name);
 
+class Tessellation : public ConformanceOf {};
+TEST_P(Tessellation, CoversThePatches) { expect_no_error(); }
+INSTANTIATE_TEST_SUITE_P(Conformance, Tessellation, testing::ValuesIn(tessellation_cases()), case_name);
+
 }  // namespace halfspace::conformance

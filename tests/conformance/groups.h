@@ -29,6 +29,7 @@ Cases clears_cases();
 Cases instanced_cases();
 Cases primitive_restart_cases();
 Cases geometry_shading_cases();
+Cases tessellation_cases();
 
 struct Group {
   const char* name;
@@ -55,6 +56,7 @@ inline constexpr Group kGroups[] = {{"FillRules", fill_rules_cases},
                                     {"Clears", clears_cases},
                                     {"Instanced", instanced_cases},
                                     {"PrimitiveRestart", primitive_restart_cases},
-                                    {"GeometryShading", geometry_shading_cases}};
+                                    {"GeometryShading", geometry_shading_cases},
+                                    {"Tessellation", tessellation_cases}};
 
 }  // namespace halfspace::conformance

@@ -42,6 +42,19 @@ SceneDraw geometry_draw_of(const Drawing& d, std::index_sequence<I...>) {
   return draw;
 }
 
+bool same(const TessellationLayout& a, const TessellationLayout& b) {
+  return a.domain == b.domain && a.spacing == b.spacing && a.clockwise == b.clockwise && a.point_mode == b.point_mode;
+}
+
+template <std::size_t... I>
+SceneDraw tessellation_draw_of(const Drawing& d, std::index_sequence<I...>) {
+  SceneDraw draw;
+  ((same(d.tessellation, kTessellationLayouts[I]) ? void(draw = draw_of(TessellationShader<I>{d.mode, d.value}, "tessellation", d))
+                                                  : void()),
+   ...);
+  return draw;
+}
+
 SceneDraw draw_of(const Drawing& d) {
   switch (d.kind) {
     case Kind::color: return draw_of(ColorShader{d.mode}, "color", d);
@@ -53,6 +66,7 @@ SceneDraw draw_of(const Drawing& d) {
     case Kind::texture: return draw_of(TextureShader{{}, d.texture, d.sampler, d.mode, d.value}, "texture", d);
     case Kind::instance: return draw_of(InstanceShader{d.value}, "instance", d);
     case Kind::two_colors: return draw_of(ColorsShader<2>{}, "two_colors", d);
+    case Kind::tessellation: return tessellation_draw_of(d, std::make_index_sequence<kTessellationLayouts.size()>());
     case Kind::geometry: return geometry_draw_of(d, std::make_index_sequence<kGeometryLayouts.size()>());
     case Kind::four_colors: break;
   }

@@ -15,7 +15,20 @@
 namespace halfspace::conformance {
 
 /// The shaders in shaders.h.
-enum class Kind : uint8_t { color, clip, cutout, depth, point, derivative, texture, instance, two_colors, four_colors, geometry };
+enum class Kind : uint8_t {
+  color,
+  clip,
+  cutout,
+  depth,
+  point,
+  derivative,
+  texture,
+  instance,
+  two_colors,
+  four_colors,
+  geometry,
+  tessellation
+};
 
 /// Output of `color`: its varying with one of four interpolation qualifiers.
 enum ColorMode { kSmooth, kFlat, kLinear, kCentroid };
@@ -24,6 +37,8 @@ enum DerivativeMode { kDdx, kDdy, kFwidth, kQuadDdx, kQuadDdy, kQuadFwidth };
 /// What `geometry` emits: a strip of all vertices of a primitive; a small strip at each vertex, with `value` vertices and ends; or a strip
 /// that depends on the numbers of the primitive, the instance and the invocation.
 enum GeometryMode { kWhole, kAtVertices, kByNumber };
+/// The levels of `tessellation`: `value` everywhere; different ones at each edge; the same, but odd patches are discarded.
+enum TessellationMode { kUniform, kPerEdge, kDiscardOdd };
 /// How `texture` selects the mip level: from the derivatives of its coordinates, or from `value`.
 enum TextureMode { kByDerivatives, kByLevel };
 
@@ -45,7 +60,8 @@ struct Drawing {
   uint32_t divisor = 1;
   std::shared_ptr<const Texture2D> texture{};
   Sampler sampler{};
-  GeometryLayout geometry{};  ///< of `geometry`: one of kGeometryLayouts, with up to kGeometryVertices vertices
+  TessellationLayout tessellation{};  ///< of `tessellation`: one of kTessellationLayouts
+  GeometryLayout geometry{};          ///< of `geometry`: one of kGeometryLayouts, with up to kGeometryVertices vertices
   DrawState state{};
 };
 

@@ -257,6 +257,73 @@ struct GeometryShader {
   }
 };
 
+/// The layouts of the tessellation functions: every domain with every spacing, as points, and clockwise.
+inline constexpr std::array kTessellationLayouts = [] {
+  using Domain = TessellationDomain;
+  using Spacing = TessellationSpacing;
+  std::array<TessellationLayout, 14> layouts{};
+  std::size_t n = 0;
+  for (const Domain domain : {Domain::triangles, Domain::quads, Domain::isolines}) {
+    const int vertices = domain == Domain::triangles ? 3 : 4;
+    for (const Spacing spacing : {Spacing::equal, Spacing::fractional_even, Spacing::fractional_odd})
+      layouts[n++] = {vertices, domain, spacing, false, false};
+    layouts[n++] = {vertices, domain, Spacing::equal, false, true};
+    if (domain != Domain::isolines) layouts[n++] = {vertices, domain, Spacing::equal, true, false};
+  }
+  return layouts;
+}();
+
+/// Divides flat triangles and quads. Each patch has the color of its first vertex.
+template <std::size_t kLayout>
+struct TessellationShader {
+  static constexpr TessellationLayout tessellation_layout = kTessellationLayouts[kLayout];
+  static constexpr auto kVertices = static_cast<std::size_t>(tessellation_layout.patch_vertices);
+  int mode = kUniform;
+  float value = 1.0f;
+  template <class R>
+  using Attributes = VertexAttributes<R>;
+  template <class R>
+  using VertexVaryings = ColorVaryings<R>;
+  template <class R>
+  struct Patch {
+    vec4<R> color;
+  };
+  template <class R>
+  struct Varyings {
+    Flat<vec4<R>> color;
+  };
+  template <class R>
+  vec4<R> vertex(const Attributes<R>& in, VertexVaryings<R>& out) const {
+    out.color = in.color;
+    return in.pos_clip;
+  }
+  template <class R>
+  TessellationLevels<R> control(const PatchInput<R, VertexVaryings<R>, kVertices>& in, Patch<R>& patch) const {
+    patch.color = in.varyings[0].color;
+    TessellationLevels<R> levels;
+    for (std::size_t i = 0; i < 4; ++i) levels.outer[i] = R(mode == kUniform ? value : value * (0.5f + 0.25f * static_cast<float>(i)));
+    levels.inner = {R(value), R(mode == kUniform ? value : value * 0.5f)};
+    if (mode == kDiscardOdd) levels.outer[1] = select((in.patch & IntOf<R>(1)) == IntOf<R>(1), R(0), levels.outer[1]);
+    return levels;
+  }
+  template <class R>
+  vec4<R> evaluate(const PatchInput<R, VertexVaryings<R>, kVertices>& in, const Patch<R>& patch, const vec3<R>& at,
+                   Varyings<R>& out) const {
+    out.color.value = patch.color;
+    const auto& p = in.position;
+    if constexpr (kVertices == 3) {
+      return p[0] * at.x + p[1] * at.y + p[2] * at.z;
+    } else {
+      const R u = R(1) - at.x, v = R(1) - at.y;
+      return (p[0] * u + p[1] * at.x) * v + (p[3] * u + p[2] * at.x) * at.y;
+    }
+  }
+  template <class R>
+  Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>&) const {
+    return {in.color.value};
+  }
+};
+
 /// Computes N colors from two, for several attachments or for dual-source blending.
 template <std::size_t N>
 struct ColorsShader {

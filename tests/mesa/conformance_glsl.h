@@ -153,6 +153,41 @@ inline constexpr const char* kGeometryFragment = R"(
     flat in vec4 f;
     out vec4 fragment;
     void main() { fragment = f; })";
+// The tessellation functions of conformance::TessellationShader follow a line with their layout.
+inline constexpr const char* kTessellationVertex = R"(
+    layout(location = 0) in vec4 pos_clip;
+    layout(location = 1) in vec4 in_color;
+    out vec4 vertex_color;
+    void main() {
+      vertex_color = in_color;
+      gl_Position = pos_clip;
+    })";
+inline constexpr const char* kControlBody = R"(
+    in vec4 vertex_color[];
+    patch out vec4 patch_color;
+    void main() {
+      gl_out[gl_InvocationID].gl_Position = gl_in[gl_InvocationID].gl_Position;
+      patch_color = vertex_color[0];
+      for (int i = 0; i < 4; ++i) gl_TessLevelOuter[i] = mode == 0.0 ? value : value * (0.5 + 0.25 * float(i));
+      gl_TessLevelInner[0] = value;
+      gl_TessLevelInner[1] = mode == 0.0 ? value : value * 0.5;
+      if (mode == 2.0 && (gl_PrimitiveID & 1) == 1) gl_TessLevelOuter[1] = 0.0;
+    })";
+inline constexpr const char* kEvaluationBody = R"(
+    patch in vec4 patch_color;
+    flat out vec4 f;
+    void main() {
+      f = patch_color;
+      vec3 at = gl_TessCoord;
+      precise vec4 p;
+      if (gl_PatchVerticesIn == 3) {
+        p = gl_in[0].gl_Position * at.x + gl_in[1].gl_Position * at.y + gl_in[2].gl_Position * at.z;
+      } else {
+        float u = 1.0 - at.x, v = 1.0 - at.y;
+        p = (gl_in[0].gl_Position * u + gl_in[1].gl_Position * at.x) * v + (gl_in[3].gl_Position * u + gl_in[2].gl_Position * at.x) * at.y;
+      }
+      gl_Position = p;
+    })";
 inline constexpr const char* kTwoFragment = R"(
     in vec4 color;
     in vec4 other;

@@ -51,10 +51,30 @@ Glsl glsl_of(Kind kind) {
     case Kind::texture: return {kVertex, kTextureFragment};
     case Kind::instance: return {kInstanceVertex, kPlainFragment};
     case Kind::geometry: return {kGeometryVertex, kGeometryFragment};
+    case Kind::tessellation: return {kTessellationVertex, kGeometryFragment};
     case Kind::two_colors:
     case Kind::four_colors: break;
   }
   return {kVertex, kTwoFragment};
+}
+
+// Return the control and the evaluation shader with one of the layouts.
+const char* control_glsl_of(const TessellationLayout& layout) {
+  static std::map<int, std::string> sources;  // by number of vertices; the addresses stay the same
+  std::string& source = sources[layout.patch_vertices];
+  if (source.empty()) source = "layout(vertices = " + std::to_string(layout.patch_vertices) + ") out;" + kControlBody;
+  return source.c_str();
+}
+const char* evaluation_glsl_of(const TessellationLayout& layout) {
+  static std::map<std::string, std::string> sources;
+  constexpr std::array kDomains{"triangles", "quads", "isolines"};
+  constexpr std::array kSpacings{"equal_spacing", "fractional_even_spacing", "fractional_odd_spacing"};
+  const std::string line = std::string("layout(") + kDomains[static_cast<std::size_t>(layout.domain)] + ", " +
+                           kSpacings[static_cast<std::size_t>(layout.spacing)] + (layout.clockwise ? ", cw" : ", ccw") +
+                           (layout.point_mode ? ", point_mode" : "") + ") in;";
+  std::string& source = sources[line];
+  if (source.empty()) source = line + kEvaluationBody;
+  return source.c_str();
 }
 
 MesaDraw mesa_draw_of(const Drawing& d) {
@@ -75,7 +95,10 @@ MesaDraw mesa_draw_of(const Drawing& d) {
              d.restart,
              d.kind == Kind::point || d.kind == Kind::clip,
              d.kind == Kind::clip ? 4 : 0,
-             d.kind == Kind::geometry ? geometry_glsl_of(d.geometry) : nullptr};
+             d.kind == Kind::geometry ? geometry_glsl_of(d.geometry) : nullptr,
+             d.kind == Kind::tessellation ? control_glsl_of(d.tessellation) : nullptr,
+             d.kind == Kind::tessellation ? evaluation_glsl_of(d.tessellation) : nullptr,
+             d.tessellation.patch_vertices};
   for (uint32_t i = 0; d.indices.empty() && i < d.vertices.size(); ++i) m.indices.push_back(i);
   return m;
 }

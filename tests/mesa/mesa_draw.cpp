@@ -106,6 +106,7 @@ void run(const MesaDraw& draw, const TargetSpec& target, MesaPrograms& programs)
   glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(draw.indices.size() * sizeof(uint32_t)), draw.indices.data(),
                GL_STATIC_DRAW);
   set_state(draw, target);
+  glPatchParameteri(GL_PATCH_VERTICES, draw.patch_vertices);
   glDrawElementsInstancedBaseVertex(gl(draw.state.topology), static_cast<GLsizei>(draw.indices.size()), GL_UNSIGNED_INT, nullptr,
                                     static_cast<GLsizei>(draw.state.instances), draw.state.base_vertex);
 }
@@ -213,10 +214,15 @@ MesaPrograms::~MesaPrograms() {
 }
 
 unsigned MesaPrograms::of(const MesaDraw& draw) {
-  unsigned& program = programs_[{draw.shared_glsl, draw.vertex_glsl, draw.geometry_glsl, draw.fragment_glsl}];
+  unsigned& program =
+      programs_[{draw.shared_glsl, draw.vertex_glsl, draw.control_glsl, draw.evaluation_glsl, draw.geometry_glsl, draw.fragment_glsl}];
   if (program == 0) {
     program = glCreateProgram();
     compile(program, GL_VERTEX_SHADER, draw.shared_glsl, draw.vertex_glsl);
+    if (draw.control_glsl != nullptr) {
+      compile(program, GL_TESS_CONTROL_SHADER, draw.shared_glsl, draw.control_glsl);
+      compile(program, GL_TESS_EVALUATION_SHADER, draw.shared_glsl, draw.evaluation_glsl);
+    }
     if (draw.geometry_glsl != nullptr) compile(program, GL_GEOMETRY_SHADER, draw.shared_glsl, draw.geometry_glsl);
     compile(program, GL_FRAGMENT_SHADER, draw.shared_glsl, draw.fragment_glsl);
     link(program);

@@ -70,6 +70,9 @@ struct MesaDraw {
   bool own_point_size = false;  ///< the vertex shader writes gl_PointSize
   int clip_distances = 0;
   const char* geometry_glsl = nullptr;  ///< null: no geometry shader
+  const char* control_glsl = nullptr;   ///< null: no tessellation
+  const char* evaluation_glsl = nullptr;
+  int patch_vertices = 3;
 };
 
 /// Cache of linked programs, kept between images. Must be destroyed before the context.
@@ -83,7 +86,7 @@ class MesaPrograms {
   unsigned of(const MesaDraw& draw);
 
  private:
-  std::map<std::array<const char*, 4>, unsigned> programs_;
+  std::map<std::array<const char*, 6>, unsigned> programs_;
 };
 
 /// Draws to the bound framebuffer, which has the size of the target.

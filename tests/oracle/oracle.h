@@ -115,7 +115,7 @@ class Renderer {
                                                const std::array<const ShadedVertex*, 3>& v);
   std::vector<WindowTriangle> window_line(const DrawState& state, const Corner& a, const Corner& b, const std::vector<float>& flat,
                                           bool front);
-  std::vector<WindowTriangle> window_outline(const DrawState& state, const std::vector<Corner>& corners, const std::vector<int>& vertex,
+  std::vector<WindowTriangle> window_outline(const DrawState& state, std::vector<Corner> corners, const std::vector<int>& vertex,
                                              const std::array<const ShadedVertex*, 3>& v, const std::vector<float>& flat);
 
   // Pixels and samples (oracle.cpp).

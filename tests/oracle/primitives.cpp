@@ -246,15 +246,25 @@ std::vector<WindowTriangle> Renderer::window_line(const DrawState& state, const 
 }
 
 // Returns the lines or points that are drawn instead of a polygon.
-std::vector<WindowTriangle> Renderer::window_outline(const DrawState& state, const std::vector<Corner>& corners,
-                                                     const std::vector<int>& vertex, const std::array<const ShadedVertex*, 3>& v,
-                                                     const std::vector<float>& flat) {
+std::vector<WindowTriangle> Renderer::window_outline(const DrawState& state, std::vector<Corner> corners, const std::vector<int>& vertex,
+                                                     const std::array<const ShadedVertex*, 3>& v, const std::vector<float>& flat) {
   int64_t area = 0;
   for (std::size_t i = 2; i < corners.size(); ++i) area += orient2d(corners[0], corners[i - 1], corners[i]);
   const bool front = (area > 0) == (state.front == Winding::counter_clockwise);
   if (area == 0) ++counts_.culled_degenerate;
   if (area != 0 && culls_face(state.cull, front)) ++counts_.culled_face;
   if (area == 0 || culls_face(state.cull, front)) return {};
+  const bool has_offset = state.polygon_mode == PolygonMode::line ? state.offset.outlines : state.offset.corners;
+  if (has_offset && (state.offset.slope != 0.0f || state.offset.constant != 0.0f)) {
+    // The largest triangle of the fan from the first corner.
+    std::size_t largest = 2;
+    for (std::size_t i = 3; i < corners.size(); ++i) {
+      const auto size = [&](std::size_t k) { return std::abs(orient2d(corners[0], corners[k - 1], corners[k])); };
+      if (size(i) > size(largest)) largest = i;
+    }
+    const float offset = outline_offset(state.offset, target_.depth_format(), {corners[0], corners[largest - 1], corners[largest]});
+    for (Corner& c : corners) c.z += offset;
+  }
   std::vector<WindowTriangle> out;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     if (state.polygon_mode == PolygonMode::line) {
@@ -267,6 +277,7 @@ std::vector<WindowTriangle> Renderer::window_outline(const DrawState& state, con
       counts_ = before;
       for (WindowTriangle& t : one) {
         t.front = front;
+        t.corner[0].z = t.z0 = t.z_max = corners[i].z;
         t.corner[0].varyings = corners[i].varyings;
         out.push_back(std::move(t));
       }

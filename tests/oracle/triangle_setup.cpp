@@ -64,6 +64,16 @@ float polygon_offset(const DepthOffset& o, DepthFormat format, const WindowTrian
 
 }  // namespace
 
+float outline_offset(const DepthOffset& o, DepthFormat format, const std::array<Corner, 3>& corners) {
+  WindowTriangle t;
+  t.corner = corners;
+  const auto& c = corners;
+  t.area = cross(c[1].x - c[0].x, c[1].y - c[0].y, c[2].x - c[0].x, c[2].y - c[0].y);
+  if (t.area == 0) return 0.0f;
+  return polygon_offset(o, format, t, static_cast<double>(c[1].z) - static_cast<double>(c[0].z),
+                        static_cast<double>(c[2].z) - static_cast<double>(c[0].z));
+}
+
 std::pair<Fate, WindowTriangle> make_window_triangle(const DrawState& state, const Box& allowed, DepthFormat format, int samples,
                                                      const std::array<Corner, 3>& submitted, std::size_t provoking,
                                                      std::optional<bool> faces_front) {
@@ -89,7 +99,7 @@ std::pair<Fate, WindowTriangle> make_window_triangle(const DrawState& state, con
   if (samples == 1 && covers_none_of_few(t, intersect(covered_box(t, samples), allowed))) return {Fate::no_sample, t};
   const double dz1 = static_cast<double>(c[1].z) - static_cast<double>(c[0].z);
   const double dz2 = static_cast<double>(c[2].z) - static_cast<double>(c[0].z);
-  const float offset = faces_front ? 0.0f : polygon_offset(state.offset, format, t, dz1, dz2);
+  const float offset = faces_front || !state.offset.fill ? 0.0f : polygon_offset(state.offset, format, t, dz1, dz2);
   t.z0 = c[0].z + offset;
   t.z_max = std::max({c[0].z, c[1].z, c[2].z}) + offset;
   t.z_step1 = static_cast<float>(dz1 / static_cast<double>(t.area));

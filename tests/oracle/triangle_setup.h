@@ -33,4 +33,7 @@ std::pair<Fate, WindowTriangle> make_window_triangle(const DrawState& state, con
                                                      const std::array<Corner, 3>& submitted, std::size_t provoking,
                                                      std::optional<bool> faces_front = {});
 
+/// Returns the polygon offset of a triangle of a polygon that is drawn as an outline or as corners.
+float outline_offset(const DepthOffset& offset, DepthFormat format, const std::array<Corner, 3>& corners);
+
 }  // namespace halfspace::oracle

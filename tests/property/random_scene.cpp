@@ -615,6 +615,13 @@ SceneDraw lines_draw(const S& shader, const char* name, const Scene& scene, cons
   }
   state.line_width = random.pick({1.0f, 1.0f, 1.0f, 1.6f, 3.0f, 4.0f, 11.3f});
   state.point_size = random.pick({1.0f, 5.0f, 20.0f});
+  if (Random copy(random); state.polygon_mode != PolygonMode::fill && copy.once_in(2)) {  // leaves the other random numbers as they are
+    state.offset.slope = copy.pick({0.0f, 1.0f, -2.5f});
+    state.offset.constant = copy.pick({0.0f, 4.0f, -1000.0f});
+    state.offset.outlines = copy.once_in(2);
+    state.offset.corners = copy.once_in(2);
+    state.offset.fill = copy.once_in(2);
+  }
   if (random.once_in(4)) add_operations(scene, false, random, state);
   return shader_draw(shader, name, g, state, random);
 }

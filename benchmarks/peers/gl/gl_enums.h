@@ -13,7 +13,7 @@
 namespace halfspace {
 
 inline GLenum gl(Topology t) {
-  constexpr std::array<GLenum, 11> k{GL_TRIANGLES,
+  constexpr std::array<GLenum, 12> k{GL_TRIANGLES,
                                      GL_TRIANGLE_STRIP,
                                      GL_TRIANGLE_FAN,
                                      GL_POINTS,
@@ -23,7 +23,8 @@ inline GLenum gl(Topology t) {
                                      GL_LINES_ADJACENCY,
                                      GL_LINE_STRIP_ADJACENCY,
                                      GL_TRIANGLES_ADJACENCY,
-                                     GL_TRIANGLE_STRIP_ADJACENCY};
+                                     GL_TRIANGLE_STRIP_ADJACENCY,
+                                     GL_PATCHES};
   return k[static_cast<std::size_t>(t)];
 }
 

@@ -167,16 +167,16 @@ EmittedPrimitives assemble_primitives(const Draw& draw, const Workers& workers) 
                        });
 }
 
-std::array<VertexStream, 3> streams_of(const EmittedPrimitives& primitives, int varying_count) {
-  const auto varyings = static_cast<std::size_t>(varying_count);
+std::array<VertexStream, 3> streams_of(const EmittedPrimitives& primitives, const ShaderKernels& kernels) {
+  const auto varyings = static_cast<std::size_t>(kernels.varying_count);
   const auto stream_at = [&](std::size_t value, std::size_t components) {
     return VertexStream{.data = reinterpret_cast<const std::byte*>(primitives.rows.data() + value),
                         .stride = static_cast<int32_t>(primitives.row * sizeof(float)),
                         .components = static_cast<int32_t>(components),
                         .count = primitives.vertex_count()};
   };
-  const std::size_t others = primitives.row - 4 - varyings;
-  return {stream_at(0, 4), stream_at(4, others), stream_at(4 + others, varyings)};
+  const std::size_t others = kernels.gives_point_size ? 1 + static_cast<std::size_t>(kernels.clip_distance_count) : 0;
+  return {stream_at(0, 4), stream_at(4, others), stream_at(primitives.row - varyings, varyings)};
 }
 
 void copy_emitted_vertices(const void*, const VertexBatch& batch) {

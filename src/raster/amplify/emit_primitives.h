@@ -20,8 +20,9 @@ EmittedPrimitives emit_primitives(const Draw& draw, const Workers& workers, Pass
 /// Runs the vertex function of a draw without emitting stages, and assembles its primitives. A row has a position and the varyings.
 EmittedPrimitives assemble_primitives(const Draw& draw, const Workers& workers);
 
-/// Returns the streams of emitted vertices for copy_emitted_vertices() (emitting_stages.h): positions, other values and varyings. The rows must stay valid.
-std::array<VertexStream, 3> streams_of(const EmittedPrimitives& primitives, int varying_count);
+/// Returns the streams of emitted vertices for copy_emitted_vertices() (emitting_stages.h): positions, other values and varyings. The rows
+/// must stay valid.
+std::array<VertexStream, 3> streams_of(const EmittedPrimitives& primitives, const ShaderKernels& kernels);
 
 /// Checks that the topology of a draw is what the first emitting stage receives, and that patches are only drawn with tessellation.
 void check_topology(const ShaderKernels& kernels, const DrawState& state);

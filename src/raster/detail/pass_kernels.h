@@ -61,6 +61,7 @@ constexpr ShaderKernels kernels_of() {
     k.position = vertex_kernel<S, false, false>;
   }
   k.gives_point_size = kGivesPointSize<S>;
+  k.gives_layer = kGivesLayer<S>;
   k.gives_point_sprite = kGivesPointSprite<S>;
   static_assert(kClipDistances<S> <= kMaxClipDistances);
   k.clip_distance_count = static_cast<int>(kClipDistances<S>);

@@ -25,6 +25,17 @@ void check_scissor(const Rect& r) {
            "Pass: the size of a scissor or a cleared rectangle is negative; expected a width and a height of at least 0");
 }
 
+void check_viewports(const ViewportArray& viewports) {
+  HS_CHECK(!viewports.empty() && viewports.size() <= kMaxViewports,
+           "DrawState::viewports: the number of viewports is outside of its range; expected 1 to 16");
+  for (const IndexedViewport& v : viewports) {
+    check_viewport(v.viewport);
+    if (v.scissor) check_scissor(*v.scissor);
+    HS_CHECK(v.range_near >= 0.0f && v.range_near <= 1.0f && v.range_far >= 0.0f && v.range_far <= 1.0f,
+             "DrawState::viewports: a depth range is outside of its range; expected 0 to 1");
+  }
+}
+
 // Comparisons are written so that NaN fails.
 void check_numbers(const DrawState& state) {
   HS_CHECK_OP(state.line_width, >=, 0.0f, "line_width: is negative or NaN; expected 0 to 4096");
@@ -42,6 +53,7 @@ void check_numbers(const DrawState& state) {
   if (state.query) HS_CHECK_OP(*state.query, <, kMaxQueries, "query: is too large; expected less than 65536");
   if (state.viewport) check_viewport(*state.viewport);
   if (state.scissor) check_scissor(*state.scissor);
+  if (state.viewports != nullptr) check_viewports(*state.viewports);
 }
 
 }  // namespace

@@ -22,9 +22,13 @@ inline bool loads(const DepthTarget& target) { return target.load == LoadOp::loa
 /// Returns whether a pass can draw to a format.
 inline bool can_be_drawn(ColorFormat format) { return !is_depth(format) && format != ColorFormat::rgb9_e5; }
 
-/// Checks that the image of a target has the size of the pass, width x height pixels with 1 or `samples` values, or is not needed.
+/// Largest number of layers of a pass.
+inline constexpr int kMaxLayers = 2048;
+
+/// Checks that the image of a target has the size of the pass, width x height pixels with 1 or `samples` values, and its layers, or is not
+/// needed.
 template <class Target>
-void check_target(const Target& target, int width, int height, int samples) {
+void check_target(const Target& target, int width, int height, int samples, int layers) {
   HS_CHECK(target.data != nullptr || (!loads(target) && target.store == StoreOp::dont_care),
            "target: it has no image, but is loaded or stored; expected an image, or clear and dont_care");
   if (target.data == nullptr) return;
@@ -34,11 +38,12 @@ void check_target(const Target& target, int width, int height, int samples) {
   HS_CHECK_OP(target.height, ==, height, "target: its image has another height than the pass; expected an image of the size of the pass");
   HS_CHECK(target.samples == 1 || target.samples == samples,
            "target: its image has another number of samples than the pass; expected 1 or the samples of the pass");
+  HS_CHECK_OP(target.layers, ==, layers, "target: it has another number of layers than the pass; expected those of PassOptions::layers");
+  HS_CHECK(target.layers == 1 || target.samples == 1, "target: its image has layers and stored samples; expected one of the two");
   const TexelView texels = target_texels(target);
   HS_CHECK_OP(std::abs(texels.row_pitch), >=, std::ptrdiff_t{width} * bytes_per_pixel(target.format),
               "target: the row pitch is smaller than a row; expected at least the width times the bytes of a pixel, or 0");
-  HS_CHECK(!has_overlapping_layers(texels),
-           "target: the images of its samples overlap; expected a sample pitch of at least an image, or 0");
+  HS_CHECK(!has_overlapping_layers(texels), "target: the images of its samples or layers overlap; expected a pitch of at least an image");
 }
 
 /// Checks that no target is stored to memory of another one that is loaded or stored.

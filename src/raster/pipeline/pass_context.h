@@ -38,6 +38,7 @@ struct ShaderKernels {
   bool uses_centroid = false;                                         ///< some varying has centroid interpolation
   bool uses_id = false;                    ///< the fragment function has a PrimitiveId parameter; primitive_count is kIdRow
   bool gives_point_size = false;           ///< the vertex function sets the point size
+  bool gives_layer = false;                ///< vertices have a layer and a viewport (LayeredVertex)
   bool gives_point_sprite = false;         ///< the vertex function sets the bounds of points
   int clip_distance_count = 0;             ///< clip distances set by the vertex function
   int color_count = 1;                     ///< colors returned by the fragment function
@@ -81,6 +82,7 @@ struct Draw : DrawPlacement {
   const DrawState& state;  ///< consecutive draws with equal states share one
 
   // These are set when the draw is added.
+  bool is_clear = false;      ///< applies to all layers
   bool is_emitted = false;    ///< the vertices are those that the emitting stages have emitted
   bool deferred = false;      ///< shaded after visibility, once per visible pixel; otherwise shaded immediately, in order
   bool writes_color = false;  ///< writes any channel of any attachment

@@ -55,12 +55,12 @@ Cull append_line(SetupRange& r, const std::array<const ScreenVertex*, 2>& v, con
 }
 
 bool can_append_outlines(const SetupRange& r) {
-  // Flat varyings have the values of the provoking vertex, which may not belong to the edge, and the primitive id refers to clip vertices.
-  // Such draws are excluded.
+  // Flat varyings have the values of the provoking vertex, which may not belong to the edge, and the primitive id and polygon offsets need
+  // clip vertices. Such draws are excluded.
   const ShaderKernels& kernels = r.draw.kernels;
   const std::span modes(kernels.interpolations, static_cast<std::size_t>(kernels.varying_count));
-  return r.draw.state.polygon_mode == PolygonMode::line && r.context.samples == 1 && !kernels.uses_id &&
-         std::ranges::find(modes, Interpolation::flat) == modes.end();
+  return r.draw.state.polygon_mode == PolygonMode::line && !has_offset(r.draw.state.offset, PolygonMode::line) && r.context.samples == 1 &&
+         !kernels.uses_id && std::ranges::find(modes, Interpolation::flat) == modes.end();
 }
 
 void append_outline(SetupRange& r, const PrimitiveSlots& id) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "halfspace/raster/primitives/setup_clipped.h"
 
+#include <cstdlib>
+
 #include "halfspace/raster/primitives/append_lines.h"
 #include "halfspace/raster/primitives/setup_points.h"
 #include "halfspace/raster/primitives/vertex_stage.h"
@@ -45,6 +47,19 @@ Cull append_fan(SetupRange& r, uint32_t first, uint32_t corners) {
   return why;
 }
 
+// Adds the polygon offset to the depths of the corners. It is that of the largest triangle of the fan from the first corner.
+void offset_corners(SetupRange& r, uint32_t first, uint32_t corners) {
+  std::array<const ScreenVertex*, 3> largest{};
+  int64_t largest_area = -1;
+  for (uint32_t i = 2; i < corners; ++i) {
+    const std::array<const ScreenVertex*, 3> triangle{&r.clip_vertex(first), &r.clip_vertex(first + i - 1), &r.clip_vertex(first + i)};
+    const int64_t area = std::abs(orient2d(*triangle[0], *triangle[1], *triangle[2]));
+    if (area > largest_area) largest_area = area, largest = triangle;
+  }
+  const float offset = outline_offset(r.draw.state.offset, r.context.depth_format, largest);
+  for (uint32_t i = 0; i < corners; ++i) r.chunk.clip_vertices[first + i].screen.z += offset;
+}
+
 Cull append_pieces(SetupRange& r, const ClipPolygon& polygon, uint32_t first, const PrimitiveSlots& slots) {
   const auto corners = static_cast<uint32_t>(polygon.count);
   const DrawState& state = r.draw.state;
@@ -56,6 +71,7 @@ Cull append_pieces(SetupRange& r, const ClipPolygon& polygon, uint32_t first, co
   const bool front = (area > 0) == (state.front == Winding::counter_clockwise);
   if (is_culled(state.cull, front)) return Cull::face;
   const Facing facing = front ? Facing::front : Facing::back;
+  if (has_offset(state.offset, state.polygon_mode)) offset_corners(r, first, corners);
   Cull why = Cull::none;
   for (uint32_t i = 0; i < corners; ++i) {
     if (state.polygon_mode == PolygonMode::line) {

@@ -26,8 +26,8 @@ void prefetch_indices(const uint32_t* list) {
 
 bool TriangleBatch::serves(const Draw& draw) {
   const DrawState& s = draw.state;
-  return kLanes > 1 && s.polygon_mode == PolygonMode::fill && draw.kernels.clip_distance_count == 0 && s.offset.slope == 0.0f &&
-         s.offset.constant == 0.0f;
+  return kLanes > 1 && s.polygon_mode == PolygonMode::fill && draw.kernels.clip_distance_count == 0 &&
+         !has_offset(s.offset, s.polygon_mode);
 }
 
 void TriangleBatch::put_list(const uint32_t* indices, int count, uint32_t base) {

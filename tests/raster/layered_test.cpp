@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Tests layered targets and arrays of viewports. A layer must be the picture of a pass of its own, and a viewport that of a draw of its
+// own.
+#include "halfspace/shading/texture/texture_memory.h"
+#include "raster/raster_test.h"
+
+namespace halfspace::raster_test::layered_test {
+namespace {
+
+constexpr int kWidth = 40, kHeight = 24;
+
+// Draws each triangle into each of kLayers layers, moved and in other colors, or into viewports.
+template <bool kViewports>
+struct EveryLayer : SmoothColorShader {
+  static constexpr GeometryLayout geometry_layout{.max_vertices = 3, .invocations = 6};
+  template <class R>
+  using EmittedVertex = LayeredVertex<R>;
+
+  template <class R>
+  static vec4<R> moved(const vec4<R>& p, int layer) {
+    const R shift(0.0625f * static_cast<float>(layer));
+    return vec4<R>(p.x + shift * p.w, p.y - shift * p.w, p.z, p.w);
+  }
+  template <class R>
+  void geometry(const GeometryInput<R, Varyings<R>, 3>& in, Emitter<R, Varyings<R>, LayeredVertex<R>>& out) const {
+    const int32_t number = in.invocation - 1;  // −1 and those from the number of layers on are not drawn
+    for (std::size_t i = 0; i < 3; ++i) {
+      // Only the provoking vertex, the last one, determines the layer.
+      const IntOf<R> chosen(i == 2 ? number : 3 - number);
+      LayeredVertex<R> v{.position = moved(in.position[i], number)};
+      (kViewports ? v.viewport : v.layer) = chosen;
+      out.emit(v, in.varyings[i]);
+    }
+  }
+};
+
+struct Moved : SmoothColorShader {
+  int layer = 0;
+  template <class R>
+  vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
+    out.color = in.color;
+    return EveryLayer<false>::moved(in.position, layer);
+  }
+};
+
+struct Vertices {
+  std::vector<glm::vec4> positions, colors;
+  auto view() const { return make_vertex_view(stream(positions), stream(colors)); }
+};
+
+Vertices random_vertices(uint64_t seed, int count) {
+  Random random(seed);
+  Vertices v;
+  for (int i = 0; i < count; ++i) {
+    const auto number = [&](double low, double high) { return static_cast<float>(random.real(low, high)); };
+    v.positions.push_back({number(-1.5, 1.5), number(-1.5, 1.5), number(-0.9, 0.9), number(0.5, 2)});
+    v.colors.push_back({number(0, 1), number(0, 1), number(0, 1), 1.0f});
+  }
+  return v;
+}
+
+TEST(Layers, EachIsThePictureOfAPassOfItsOwn) {
+  constexpr int kLayers = 4;
+  for (const int samples : {1, 4}) {
+    const Vertices v = random_vertices(31, 60), flat = random_vertices(32, 9);
+    std::vector<glm::vec4> colors(std::size_t{kWidth} * kHeight * kLayers);
+    std::vector<float> depths(colors.size());
+    const auto view_of = [&](auto& values, TexelFormat format) {
+      const auto pixel = static_cast<std::ptrdiff_t>(sizeof(values[0]));
+      return TexelView{
+          format, reinterpret_cast<std::byte*>(values.data()), kWidth, kHeight, kLayers, pixel * kWidth, pixel * kWidth * kHeight};
+    };
+    const TexelView color_view = view_of(colors, TexelFormat::rgba32f), depth_view = view_of(depths, TexelFormat::d32f);
+    ColorTarget target = layered_color_target(color_view);
+    target.clear_value = glm::vec4(0.25f);
+    Pass pass(kWidth, kHeight, target, layered_depth_target(depth_view), {.samples = samples, .layers = kLayers});
+    pass.draw(FlatColorShader{}, flat.view());                                              // without a layer: drawn into layer 0
+    pass.clear({.rect = Rect{3, 4, 10, 12}, .colors = {glm::vec4(0.75f)}, .depth = 0.5f});  // in all layers
+    pass.draw(EveryLayer<false>{}, v.view(), {.query = 2});
+    const PassStatistics s = pass.run(two_workers());
+    EXPECT_EQ(s.geometry_invocations, 20u * 6u);
+    EXPECT_EQ(s.query_primitives, (std::vector<uint64_t>{0, 0, 20 * kLayers}));
+    for (int layer = 0; layer < kLayers; ++layer) {
+      std::vector<glm::vec4> color(std::size_t{kWidth} * kHeight);
+      std::vector<float> depth(color.size());
+      ColorTarget own = color_target(TexelView{TexelFormat::rgba32f, reinterpret_cast<std::byte*>(color.data()), kWidth, kHeight, 1,
+                                               kWidth * static_cast<std::ptrdiff_t>(sizeof(glm::vec4)), 0});
+      own.clear_value = target.clear_value;
+      Pass single(kWidth, kHeight, own,
+                  depth_target(TexelView{TexelFormat::d32f, reinterpret_cast<std::byte*>(depth.data()), kWidth, kHeight, 1,
+                                         kWidth * static_cast<std::ptrdiff_t>(sizeof(float)), 0}),
+                  {.samples = samples});
+      if (layer == 0) single.draw(FlatColorShader{}, flat.view());
+      single.clear({.rect = Rect{3, 4, 10, 12}, .colors = {glm::vec4(0.75f)}, .depth = 0.5f});
+      single.draw(Moved{{}, layer}, v.view());
+      single.run(one_worker());
+      const auto begin = static_cast<std::ptrdiff_t>(color.size()) * layer;
+      EXPECT_TRUE(std::equal(color.begin(), color.end(), colors.begin() + begin)) << layer;
+      EXPECT_TRUE(std::equal(depth.begin(), depth.end(), depths.begin() + begin)) << layer;
+    }
+  }
+}
+
+// Two viewports that overlap, one with a scissor and another depth range, and one that is not drawn to.
+TEST(Layers, ViewportsAreThoseOfDrawsOfTheirOwn) {
+  const Vertices v = random_vertices(33, 30);
+  for (const bool overlap : {false, true}) {
+    const ViewportArray viewports{
+        {.viewport = {0, 0, 20, 24}},
+        {.viewport = {overlap ? 10 : 20, 2, 20, 20}, .scissor = Rect{12, 5, 25, 9}, .range_near = 0.5f, .range_far = 1.0f},
+        {.viewport = {0, 0, 1, 1}, .scissor = Rect{0, 0, 0, 0}}};
+    Image<glm::vec4> color(kWidth, kHeight), expected(kWidth, kHeight);
+    Image<float> depth(kWidth, kHeight), expected_depth(kWidth, kHeight);
+    // Without a depth test, the order of triangles in overlapping viewports is visible.
+    for (const bool tested : {false, true}) {
+      Pass pass(kWidth, kHeight, rgba32f_target(color), d32f_target(depth));
+      DrawState state{.viewports = &viewports, .depth = {.test = tested}};
+      pass.draw(EveryLayer<true>{}, v.view(), state);
+      pass.run(one_worker());
+      Pass single(kWidth, kHeight, rgba32f_target(expected), d32f_target(expected_depth));
+      for (uint32_t triangle = 0; triangle < 10; ++triangle) {
+        for (int i = 0; i < 2; ++i) {
+          const IndexedViewport& of = viewports[static_cast<std::size_t>(i)];
+          single.draw(Moved{{}, i}, v.view(),
+                      {.first = 3 * triangle,
+                       .count = 3,
+                       .viewport = of.viewport,
+                       .scissor = of.scissor,
+                       .depth = {.test = tested, .range_near = of.range_near, .range_far = of.range_far}});
+        }
+      }
+      single.run(one_worker());
+      EXPECT_EQ(color, expected);
+      EXPECT_EQ(depth, expected_depth);
+    }
+  }
+}
+
+// The six faces of a cube map in one pass: a triangle that covers only face 4 is seen only there.
+TEST(Layers, FacesOfACubeMapAreLayers) {
+  TextureMemory memory(TextureKind::cube, TexelFormat::r32f, {16, 16, 6});
+  Pass pass(16, 16, layered_color_target(memory.level()), {}, {.layers = 6});
+  const std::vector<glm::vec4> positions = full_screen(), colors(3, glm::vec4(0.5f));
+  pass.draw(EveryLayer<false>{}, make_vertex_view(stream(positions), stream(colors)));
+  pass.run(one_worker());
+  for (int face = 0; face < 6; ++face) {
+    const auto* const texel = reinterpret_cast<const float*>(memory.level().at(8, 8, face));
+    EXPECT_EQ(*texel, face < 5 ? 0.5f : 0.0f) << face;  // six invocations draw into layers −1 to 4
+  }
+}
+
+TEST(LayersDeathTest, ViewportsNeedAShaderThatChoosesThem) {
+  const ViewportArray viewports{{.viewport = {0, 0, 8, 8}}}, none, empty{{.viewport = {0, 0, 0, 8}}};
+  const Vertices v = random_vertices(34, 3);
+  Image<glm::vec4> image(kWidth, kHeight);
+  Pass pass(kWidth, kHeight, rgba32f_target(image), {});
+  EXPECT_DEATH(pass.draw(SmoothColorShader{}, v.view(), {.viewports = &viewports}), "does not choose among them");
+  EXPECT_DEATH(pass.draw(EveryLayer<true>{}, v.view(), {.viewports = &none}), "number of viewports is outside of its range");
+  EXPECT_DEATH(pass.draw(EveryLayer<true>{}, v.view(), {.viewports = &empty}), "size of the viewport is outside of its range");
+}
+
+TEST(LayersDeathTest, TargetsNeedTheLayersOfThePass) {
+  std::vector<float> values(4 * 4 * 3);
+  const TexelView view{TexelFormat::r32f, reinterpret_cast<std::byte*>(values.data()), 4, 4, 3, 16, 64};
+  EXPECT_DEATH(Pass(4, 4, layered_color_target(view), {}), "another number of layers than the pass");
+  EXPECT_DEATH(Pass(4, 4, layered_color_target(view), {}, {.layers = 2}), "another number of layers than the pass");
+  EXPECT_DEATH(Pass(4, 4, layered_color_target(view), {}, {.layers = 0}), "number of layers is outside of its range");
+  ColorTarget overlapping = layered_color_target(view);
+  overlapping.layer_pitch = 32;
+  EXPECT_DEATH(Pass(4, 4, overlapping, {}, {.layers = 3}), "samples or layers overlap");
+}
+
+}  // namespace
+}  // namespace halfspace::raster_test::layered_test
