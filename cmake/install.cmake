@@ -12,7 +12,8 @@ set(halfspace_public_headers
   core/glsl_packing.h core/glsl_relational.h core/glsl_trigonometric.h core/half.h core/image.h core/lane_hyperbolic.h core/lane_math.h
   core/lane_uint.h core/lanes.h core/parallel.h core/srgb.h core/swizzle.h core/texel_codec.h core/texel_format.h core/texel_view.h
   core/tool_folder.h core/units.h core/vec.h
-  shading/contract.h shading/geometry_stage.h shading/tessellation_stage.h shading/environment/environment.h shading/environment/environment_sky.h shading/environment/star_sky.h
+  shading/contract.h shading/geometry_stage.h shading/tessellation_stage.h
+  shading/environment/environment.h shading/environment/environment_sky.h shading/environment/star_sky.h
   shading/values/light_types.h shading/light/lighting.h shading/shadow/shadow.h shading/shadow/shadow_map.h shading/sphere/sphere_depth.h
   shading/sphere/sphere_impostor.h shading/surface/colored_primitives.h shading/surface/depth_only.h shading/surface/lit_surface.h
   shading/surface/masked_depth.h shading/surface/metallic_surface.h shading/surface/shadow_catcher.h shading/surface/surface_shader.h

@@ -36,7 +36,7 @@ struct BezierPatch {
     const std::array<R, 4> u = bernstein(at.x, R(1) - at.x), v = bernstein(at.y, R(1) - at.y);
     vec4<R> p(R(0));
     for (std::size_t i = 0; i < 16; ++i) p = p + in.position[i] * (u[i % 4] * v[i / 4]);
-    out.color = vec3<R>(at.x, p.y + R(0.5f), at.y);
+    out.color = vec3<R>(at.x, p.y * R(0.5f) + R(0.5f), at.y);
     return clip_from_world * p;
   }
   template <class R>
@@ -47,7 +47,7 @@ struct BezierPatch {
 
 int main(int, char** argv) try {
   std::vector<glm::vec3> points;
-  for (int i = 0; i < 16; ++i) points.emplace_back(i % 4 - 1.5, i == 5 || i == 10 ? 2.5 : i == 6 || i == 9 ? -2.5 : 0.0, i / 4 - 1.5);
+  for (int i = 0; i < 16; ++i) points.emplace_back(i % 4 - 1.5, 0.6 * ((i % 4) * (i % 4 - 3) - i / 4 * (i / 4 - 3)), i / 4 - 1.5);
   const glm::mat4 camera(perspective_reversed(0.8, 1.0, 0.1, 100.0) * look_at({2, 3, 4}, {0, 0, 0}, {0, 1, 0}));
   Image<glm::u8vec4> image(480, 480);
   Pass pass(480, 480, srgb8a8_target(image), {.format = DepthFormat::d32f, .clear_value = 0.0f});

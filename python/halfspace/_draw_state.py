@@ -62,7 +62,7 @@ class State:
     cull: none, front, back, front_and_back.   front: counter_clockwise, clockwise.   provoking: last, first.
     depth_compare: never, less, equal, less_equal, greater, not_equal, greater_equal, always.   depth_range: window depths of the clip planes.
     depth_clip: negative_one_to_one (OpenGL) or zero_to_one (reversed Z: with depth_compare="greater" and depth cleared to 0).
-    offset: (slope factor, constant units, clamp) of glPolygonOffset.
+    offset: (slope factor, constant units, clamp) of glPolygonOffset.   offset_modes: the polygon modes in which triangles have it.
     viewport, scissor: (x, y, width, height) in pixels, from the lower left corner. The default is the whole image.
     blend: a Blend, "alpha", "additive" or None.   color_mask: which of r, g, b and a are written.
     stencil: a Stencil for both faces, or a pair for front and back faces.
@@ -77,7 +77,7 @@ class State:
     def __init__(self, *, topology: str = "triangles", polygon_mode: str = "fill", cull: str = "none", front: str = "counter_clockwise",
                  provoking: str = "last", depth_test: bool = True, depth_write: bool = True, depth_compare: str = "less",
                  depth_clip: str = "negative_one_to_one", depth_clamp: bool = False, depth_range: Tuple[float, float] = (0.0, 1.0),
-                 offset: Tuple[float, float, float] = (0.0, 0.0, 0.0), viewport: Optional[Sequence[int]] = None,
+                 offset: Tuple[float, float, float] = (0.0, 0.0, 0.0), offset_modes: Sequence[str] = ("fill",), viewport: Optional[Sequence[int]] = None,
                  scissor: Optional[Sequence[int]] = None, blend: Any = None, color_mask: Sequence[bool] = (True, True, True, True),
                  stencil: Any = None, order_independent: bool = False, point_size: float = 1.0, point_origin: str = "upper_left",
                  line_width: float = 1.0, sample_mask: int = 0xFFFFFFFF, alpha_to_coverage: bool = False, sample_shading: bool = False,
@@ -90,7 +90,8 @@ class State:
         near, far = (_check.number("depth_range", d, 0.0, 1.0) for d in _check.pair("depth_range", depth_range, "a pair of depths"))
         s.set_depth(bool(depth_test), bool(depth_write), word("CompareOp", "depth_compare", depth_compare),
                     word("ClipDepth", "depth_clip", depth_clip), bool(depth_clamp), near, far)
-        s.set_offset(*_check.vector("offset", offset))
+        modes = [_check.choice("offset_modes", mode, ("fill", "line", "point")) for mode in offset_modes]
+        s.set_offset(*_check.vector("offset", offset), *(mode in modes for mode in ("fill", "line", "point")))
         s.viewport, s.scissor = _rect("viewport", viewport, 1, _check.MAX_SIDE), _rect("scissor", scissor, 0, 2**31 - 1)
         if isinstance(blend, str):
             blend = {"alpha": Blend(), "additive": Blend(destination="one", destination_alpha="one")}[

@@ -20,9 +20,7 @@ void bind_enum(py::module_& m, const char* type, std::initializer_list<const cha
 }
 
 void bind_enums(py::module_& m) {
-  bind_enum<Topology>(m, "DrawTopology",
-                      {"triangles", "triangle_strip", "triangle_fan", "points", "lines", "line_strip", "line_loop", "lines_adjacency",
-                       "line_strip_adjacency", "triangles_adjacency", "triangle_strip_adjacency", "patches"});
+  bind_enum<Topology>(m, "DrawTopology", {"triangles", "triangle_strip", "triangle_fan", "points", "lines", "line_strip", "line_loop"});
   bind_enum<PolygonMode>(m, "PolygonMode", {"fill", "line", "point"});
   bind_enum<CompareOp>(m, "CompareOp", {"never", "less", "equal", "less_equal", "greater", "not_equal", "greater_equal", "always"});
   bind_enum<CullMode>(m, "CullMode", {"none", "front", "back", "front_and_back"});
@@ -72,10 +70,8 @@ void bind_depth(py::class_<DrawState>& state) {
   state
       .def("set_depth", [](DrawState& self, bool test, bool write, CompareOp compare, ClipDepth clip, bool clamp, float range_near,
                            float range_far) { self.depth = {test, write, compare, clip, clamp, range_near, range_far}; })
-      .def("set_offset",
-           [](DrawState& self, float slope, float constant, float clamp) {
-             self.offset = {slope, constant, clamp};
-           })
+      .def("set_offset", [](DrawState& self, float slope, float constant, float clamp, bool fill, bool outlines,
+                            bool corners) { self.offset = {slope, constant, clamp, fill, outlines, corners}; })
       .def("set_stencil",
            [](DrawState& self, const StencilFace& front, const StencilFace& back) {
              self.stencil = StencilState{front, back};

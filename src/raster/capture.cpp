@@ -4,6 +4,7 @@
 #include <memory_resource>
 
 #include "halfspace/core/float_mode.h"
+#include "halfspace/raster/amplify/emit_primitives.h"
 #include "halfspace/raster/primitives/primitive_assembly.h"
 
 namespace halfspace::HS_LANES::detail {

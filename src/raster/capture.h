@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Transform feedback (OpenGL 4.6, section 13.3) as a function: runs the vertex, tessellation and geometry functions of a draw, and
-// returns the vertices of its primitives. A draw of them costs no vertex function, so what many passes draw can be computed once:
+// returns the vertices of its primitives. What many passes draw can so be computed once, and drawn with a vertex function that only hands
+// it on. Primitives do not share vertices, so those of a mesh are repeated:
 //
 //   const auto skinned = capture(SkinShader{...}, view, indices, workers);
 //   pass.draw(PlainShader{...}, make_vertex_view(stream(skinned.positions), stream(skinned.varyings,
@@ -13,7 +14,7 @@
 #include <vector>
 
 #include "halfspace/core/parallel.h"
-#include "halfspace/raster/amplify/emit_primitives.h"
+#include "halfspace/raster/amplify/emitted_primitives.h"
 #include "halfspace/raster/detail/pass_kernels.h"
 #include "halfspace/raster/draw_state.h"
 #include "halfspace/raster/vertex_input.h"

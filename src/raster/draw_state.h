@@ -217,11 +217,12 @@ struct StencilState {
 
 /// One of several viewports (glViewportIndexed, glScissorIndexed, glDepthRangeIndexed).
 struct IndexedViewport {
-  Rect viewport{};
-  std::optional<Rect> scissor{};  ///< default: no scissor test
+  std::optional<Rect> viewport{};  ///< default: the whole target
+  std::optional<Rect> scissor{};   ///< default: no scissor test
   float range_near = 0.0f, range_far = 1.0f;
 };
-/// The viewports of a draw; at most kMaxViewports are used.
+/// The viewports of a draw: 1 to kMaxViewports. If the pixels that two of them can change overlap, each change of the viewport from one
+/// primitive to the next costs as much as a draw.
 using ViewportArray = std::vector<IndexedViewport>;
 inline constexpr std::size_t kMaxViewports = 16;
 
@@ -235,7 +236,7 @@ struct DrawState {
   int32_t base_vertex = 0;          ///< added to every index
   uint32_t instances = 1;           ///< number of instances; see VertexId and per_instance()
   uint32_t base_instance = 0;  ///< row of the per-instance streams at which instance 0 starts; VertexId::instance starts at 0 all the same
-  float point_size = 1.0f;     ///< side length of a point in pixels, at least 0; ignored if the vertex function returns a PerVertex
+  float point_size = 1.0f;     ///< side length of a point in pixels, at least 0; ignored if vertices are a PerVertex or a LayeredVertex
   PointOrigin point_origin = PointOrigin::upper_left;
   float line_width = 1.0f;  ///< in pixels, 0 to kMaxLineWidth; rounded to an integer if there is one sample per pixel
   PolygonMode polygon_mode = PolygonMode::fill;

@@ -175,11 +175,13 @@ void rasterize(NaiveTarget<R>& target, const S& shader, const std::array<const V
 /// Draws an indexed triangle list. The vertex function must return a vec4<R>, and the fragment function must return a single color.
 ///
 /// Only these parts of the state are used: first, count, base_vertex, viewport, scissor, cull, front, provoking and depth; in double,
-/// depth.clamp is ignored. There is no blending, no stencil test, no polygon offset, no instancing and no primitive restart.
+/// depth.clamp is ignored. There is no tessellation, no geometry function, no blending, no stencil test, no polygon offset, no instancing
+/// and no primitive restart.
 template <class R, Shader S>
 void draw_naive(NaiveTarget<R>& target, const S& shader, const VertexView& vertices, const Indices& indices, const DrawState& state = {}) {
   const FloatMode float_mode;
   static_assert(!kUsesPrimitiveId<S>, "draw_naive() does not support primitive ids");
+  static_assert(!HasGeometryLayout<S> && !HasTessellationLayout<S>, "draw_naive() supports neither geometry functions nor tessellation");
   using V = typename S::template Varyings<R>;
   const std::shared_ptr<const Indices> list = detail::view_indices(indices, vertices.vertex_count, state);
   HS_CHECK(!vertices.has_instance_streams, "draw_naive: a stream has one row per instance; expected one row per vertex in all streams");

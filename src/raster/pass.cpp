@@ -2,7 +2,6 @@
 #include "halfspace/raster/pass.h"
 
 #include <algorithm>
-#include <new>
 #include <type_traits>
 #include <utility>
 
@@ -27,11 +26,6 @@ namespace {
 // Memory limit of a tile in bytes, chosen so that it stays in the L2 cache.
 constexpr int kTileBudget = 160 << 10;
 
-const DrawState& keep_state(const DrawState& state, std::pmr::memory_resource& memory) {
-  static_assert(std::is_trivially_destructible_v<DrawState>);
-  return *::new (memory.allocate(sizeof(DrawState), alignof(DrawState))) DrawState(state);
-}
-
 }  // namespace
 
 namespace detail {
@@ -48,11 +42,14 @@ class PassState {
   // The last draw applies to all layers.
   void mark_clear() { context_.draws.back().is_clear = true; }
   const Attachments& attachments() const { return attachments_; }
+  int layers() const { return options_.layers; }
   PassStatistics run(TileRunner& tiles, const Workers& workers);
 
  private:
   int tile_size() const;
   void check_color_types(const ShaderKernels& kernels) const;
+  // Such passes are planned layer by layer, when they run.
+  bool runs_layers() const { return has_emitting_ || options_.layers > 1; }
   PassStatistics run_layers(TileRunner& tiles, const Workers& workers);
   // Sets d.writes_color. Returns true if the draw replaces all colors of a pixel.
   bool set_color_writes(Draw& d) const;
@@ -62,7 +59,7 @@ class PassState {
   PassOptions options_;
   PassPlan plan_;
   uint32_t layer_group_ = 0;   // of the last draw
-  bool has_emitting_ = false;  // some draw has emitting stages; the pass is planned when it runs
+  bool has_emitting_ = false;  // some draw has emitting stages
 };
 
 PassState::PassState(int width, int height, std::span<const ColorTarget> colors, const DepthTarget& depth, const PassOptions& options)
@@ -146,7 +143,7 @@ void PassState::add_draw(const ShaderKernels& kernels, KeptShader shader, const 
   }
   const DrawPlacement placement =
       equal != nullptr ? static_cast<const DrawPlacement&>(*equal) : place_draw(state, context_, attachments_, options_.supersample);
-  const DrawState& kept = equal != nullptr ? equal->state : keep_state(state, memory());
+  const DrawState& kept = equal != nullptr ? equal->state : keep(state, memory());
   Draw& d = context_.draws.emplace_back(kernels, std::move(shader), std::move(indices),
                                         keep_streams(vertices, state.base_instance, memory()), kept, placement);
   d.vertex_count = d.indices->used_count() * state.instances;
@@ -160,7 +157,7 @@ void PassState::add_draw(const ShaderKernels& kernels, KeptShader shader, const 
   if (d.writes_color && !state.order_independent) ++layer_group_;
   d.layer_group = layer_group_;
   has_emitting_ |= kernels.emitting != nullptr;
-  plan_.add(d, context_.draws.size() - 1);
+  if (!runs_layers()) plan_.add(d, context_.draws.size() - 1);
 }
 
 void PassState::check_color_types(const ShaderKernels& kernels) const {
@@ -206,9 +203,10 @@ PassStatistics PassState::run_layers(TileRunner& tiles, const Workers& workers) 
 PassStatistics PassState::run(TileRunner& tiles, const Workers& workers) {
   const FloatMode float_mode;
   PassPlan plan = std::exchange(plan_, PassPlan(context_.samples, options_.tuning.chunk_triangles));
-  PassStatistics statistics = std::exchange(has_emitting_, false) || options_.layers > 1
+  PassStatistics statistics = runs_layers()
                                   ? run_layers(tiles, workers)
                                   : run_rounds(context_, attachments_, std::move(plan), options_.tuning.bin_budget, tiles, workers);
+  has_emitting_ = false;
   if (context_.arena != nullptr) return_draw_list({std::exchange(context_.arena, {}), std::exchange(context_.draws, {})});
   return statistics;
 }
@@ -347,6 +345,8 @@ PassStatistics Pass::run(const Workers& workers) {
 }
 
 PassStatistics run_with(Pass& pass, TileRunner& tiles, const Workers& workers) {
+  HS_CHECK(detail::PassAccess::state_of(pass).layers() == 1,
+           "Pass: the stages of a pass with several layers cannot be inspected; expected one");
   return detail::PassAccess::state_of(pass).run(tiles, workers);
 }
 

@@ -36,7 +36,8 @@ struct PassOptions {
   int samples = 1;
   /// Run all fragment functions once per sample, as if every draw had DrawState::sample_shading. With one sample, there is no difference.
   bool supersample = false;
-  /// Layers of the targets, 1 to 2048 (layered framebuffers, OpenGL 4.6, section 9.8). All targets must have that many. A primitive is
+  /// Layers of the targets, 1 to 2048 (layered framebuffers, OpenGL 4.6, section 9.8). All targets must have that many, and if there are
+  /// several, none can store samples. A primitive is
   /// drawn into the layer that LayeredVertex states, and into layer 0 if the shader has none. A layer of the result is the same as that of
   /// a pass of its own; layers are drawn one after the other. Clears apply to all layers. There is no post step.
   int layers = 1;
@@ -55,7 +56,8 @@ struct ClearValues {
 };
 
 /// A list of draws that render to the same attachments. draw() and draw_depth() record draws, and run() executes them. A Pass must only be
-/// used by one thread at a time.
+/// used by one thread at a time. All that tessellation and geometry functions emit is in memory while run() executes: 16 bytes and the
+/// varyings of each vertex.
 class Pass {
  public:
   /// Creates a pass for images of width x height pixels, each 1 to 16384. The images of all targets must have this size and must not

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "halfspace/raster/statistics.h"
 
-#include <algorithm>
-
 namespace halfspace::HS_LANES {
 
 PassStatistics& PassStatistics::operator+=(const PassStatistics& o) {
@@ -26,15 +24,17 @@ PassStatistics& PassStatistics::operator+=(const PassStatistics& o) {
   layers_merged += o.layers_merged;
   tiles_touched += o.tiles_touched;
   flushes += o.flushes;
-  for (std::size_t i = 0; i < o.queries.size(); ++i) add_to_query(i, o.queries[i]);
-  query_primitives.resize(std::max(query_primitives.size(), o.query_primitives.size()));
-  for (std::size_t i = 0; i < o.query_primitives.size(); ++i) query_primitives[i] += o.query_primitives[i];
+  for (std::size_t i = 0; i < o.queries.size(); ++i) add_to_query(i, o.queries[i], o.query_primitives[i]);
   return *this;
 }
 
-void PassStatistics::add_to_query(std::size_t query, uint64_t samples) {
-  if (queries.size() <= query) queries.resize(query + 1);
+void PassStatistics::add_to_query(std::size_t query, uint64_t samples, uint64_t primitives) {
+  if (queries.size() <= query) {
+    queries.resize(query + 1);
+    query_primitives.resize(query + 1);
+  }
   queries[query] += samples;
+  query_primitives[query] += primitives;
 }
 
 }  // namespace halfspace::HS_LANES

@@ -14,14 +14,15 @@ namespace halfspace::HS_LANES {
 struct PassStatistics {
   uint64_t vertices_in = 0;           ///< submitted indices, for all instances, without restarts
   uint64_t vertices_shaded = 0;       ///< distinct vertices used by each draw, for all instances
-  uint64_t patches_in = 0;            ///< patches that were divided
+  uint64_t patches_in = 0;            ///< submitted patches
   uint64_t vertices_evaluated = 0;    ///< calls of evaluation functions
   uint64_t geometry_invocations = 0;  ///< calls of geometry functions
-  uint64_t primitives_in = 0;         ///< submitted primitives; of draws with tessellation or a geometry function, those that these emit
-  uint64_t culled_non_finite = 0;     ///< a position or a clip distance is NaN or Inf
-  uint64_t culled_outside = 0;        ///< completely outside one plane of the view volume, or nothing left after clipping
-  uint64_t culled_face = 0;           ///< by CullMode
-  uint64_t culled_degenerate = 0;     ///< zero area or length after snapping
+  uint64_t primitives_in = 0;      ///< submitted primitives; of draws with tessellation or a geometry function, those that these emit into
+                                   ///< layers and viewports that exist
+  uint64_t culled_non_finite = 0;  ///< a position or a clip distance is NaN or Inf
+  uint64_t culled_outside = 0;     ///< completely outside one plane of the view volume, or nothing left after clipping
+  uint64_t culled_face = 0;        ///< by CullMode
+  uint64_t culled_degenerate = 0;  ///< zero area or length after snapping
   /// No sample inside the bounding box, viewport and scissor. With one sample per pixel, triangles of at most 4 x 4 pixels are also counted
   /// here if they cover no sample.
   uint64_t culled_no_sample = 0;
@@ -41,8 +42,8 @@ struct PassStatistics {
   std::vector<uint64_t> query_primitives;
   /// Returns true if any sample of the query passed. query must be less than queries.size().
   bool any_passed(std::size_t query) const { return queries[query] != 0; }
-  /// Adds to the result of a query; resizes queries if needed.
-  void add_to_query(std::size_t query, uint64_t samples);
+  /// Adds to the result of a query; resizes queries and query_primitives if needed.
+  void add_to_query(std::size_t query, uint64_t samples, uint64_t primitives = 0);
 
   PassStatistics& operator+=(const PassStatistics& o);
   friend bool operator==(const PassStatistics&, const PassStatistics&) = default;

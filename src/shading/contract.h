@@ -22,8 +22,8 @@
 //   template <class R> Fragment<R> fragment(const Varyings<R>& in, const PrimitiveId<R>& id, const Pixel<R>& px) const;
 //     A fragment function that also receives the indices of the primitive and the instance, and the barycentric coordinates. It
 //     cannot be combined with a Primitive struct.
-//   Functions that emit primitives: geometry_stage.h has the geometry function, tessellation_stage.h the control and the evaluation
-//   function. PerVertex<R> or PerVertex<R, N> as the return type of vertex: adds a point size and N clip distances to the position.
+//   control, evaluate and geometry: functions that divide patches and emit primitives. See tessellation_stage.h and geometry_stage.h.
+//   PerVertex<R> or PerVertex<R, N> as the return type of vertex: adds a point size and N clip distances to the position.
 //   PointSpriteVertex<R> as the return type of vertex: the rectangle that a point covers, for shaders that know the bounds of
 //     what they draw in it.
 //   template <class R> Visibility<R> visibility(const Varyings<R>& in, const Pixel<R>& px) const;
@@ -42,139 +42,141 @@
 #include "halfspace/core/discrete_vec.h"
 #include "halfspace/shading/pixel.h"
 
-namespace halfspace::HS_LANES {
+                                                                                     namespace halfspace::HS_LANES {
 
-/// Identifies the vertex that a vertex function computes.
-template <class R>
-struct VertexId {
-  IntOf<R> vertex;   ///< row in the vertex streams: the index plus DrawState::base_vertex
-  int32_t instance;  ///< 0 … DrawState::instances − 1
-};
+  /// Identifies the vertex that a vertex function computes.
+  template <class R>
+  struct VertexId {
+    IntOf<R> vertex;   ///< row in the vertex streams: the index plus DrawState::base_vertex
+    int32_t instance;  ///< 0 … DrawState::instances − 1
+  };
 
-/// Identifies the primitive of a fragment, and the position of the fragment in it.
-template <class R>
-struct PrimitiveId {
-  IntOf<R> primitive;  ///< 0, 1, … in submission order, including culled primitives; starts again in each instance
-  IntOf<R> instance;   ///< 0 … DrawState::instances − 1
-  /// Perspective-correct weights of the vertices of the submitted primitive, even if it was clipped. The vertices are in the order of
-  /// OpenGL 4.6, table 13.2, which is the index order for lists. Points have the weights (1, 0, 0), lines (1 − t, t, 0).
-  vec3<R> barycentrics;
-};
+  /// Identifies the primitive of a fragment, and the position of the fragment in it.
+  template <class R>
+  struct PrimitiveId {
+    /// 0, 1, … in submission order, including culled primitives; starts again in each instance. With tessellation or a geometry function,
+    /// the number of the submitted patch or primitive.
+    IntOf<R> primitive;
+    IntOf<R> instance;  ///< 0 … DrawState::instances − 1
+    /// Perspective-correct weights of the vertices of the submitted primitive, even if it was clipped. The vertices are in the order of
+    /// OpenGL 4.6, table 13.2, which is the index order for lists. Points have the weights (1, 0, 0), lines (1 − t, t, 0).
+    vec3<R> barycentrics;
+  };
 
-/// Return type of vertex functions that output more than the clip-space position. Its point size replaces DrawState::point_size, also if
-/// the function only sets clip distances.
-template <class R, std::size_t clip_distances = 0>
-struct PerVertex {
-  vec4<R> position;
-  R point_size{1.0f};                             ///< pixels; used when points are drawn
-  std::array<R, clip_distances> clip_distance{};  ///< at most 8; parts where a distance is negative are clipped
-};
+  /// Return type of vertex functions that output more than the clip-space position. Its point size replaces DrawState::point_size, also if
+  /// the function only sets clip distances.
+  template <class R, std::size_t clip_distances = 0>
+  struct PerVertex {
+    vec4<R> position;
+    R point_size{1.0f};                             ///< pixels; used when points are drawn
+    std::array<R, clip_distances> clip_distance{};  ///< at most 8; parts where a distance is negative are clipped
+  };
 
-/// The same with a layer and a viewport, for vertices of a geometry function (EmittedVertex) and results of an evaluation function. A
-/// primitive has those of its provoking vertex. Primitives with a layer outside of those of the pass are not drawn, and neither are those
-/// with a viewport that the draw does not have.
-template <class R, std::size_t clip_distances = 0>
-struct LayeredVertex {
-  vec4<R> position;
-  IntOf<R> layer{0};     ///< gl_Layer
-  IntOf<R> viewport{0};  ///< gl_ViewportIndex; see DrawState::viewports
-  R point_size{1.0f};
-  std::array<R, clip_distances> clip_distance{};
-};
+  /// The same with a layer and a viewport, for vertices of a geometry function (EmittedVertex) and results of an evaluation function. A
+  /// primitive has those of its provoking vertex. Primitives with a layer outside of those of the pass are not drawn, and neither are those
+  /// with a viewport that the draw does not have. In a pass with one layer, the layer has no effect.
+  template <class R, std::size_t clip_distances = 0>
+  struct LayeredVertex {
+    vec4<R> position;
+    IntOf<R> layer{0};     ///< gl_Layer
+    IntOf<R> viewport{0};  ///< gl_ViewportIndex; see DrawState::viewports
+    R point_size{1.0f};
+    std::array<R, clip_distances> clip_distance{};
+  };
 
-/// Return type of vertex functions that compute the bounds of a point. Pixels with a sample inside the rectangle are drawn. The draw
-/// must draw points (Topology::points or PolygonMode::point), which is checked.
-template <class R>
-struct PointSpriteVertex {
-  vec2<R> low, high;  ///< corners of the rectangle in NDC (x/w, y/w)
-  R depth;            ///< z/w for the depth test, unless the shader writes depth; clipped at near and far
-  MaskOf<R> drawn;    ///< false: the point is not drawn
-};
+  /// Return type of vertex functions that compute the bounds of a point. Pixels with a sample inside the rectangle are drawn. The draw
+  /// must draw points (Topology::points or PolygonMode::point), which is checked.
+  template <class R>
+  struct PointSpriteVertex {
+    vec2<R> low, high;  ///< corners of the rectangle in NDC (x/w, y/w)
+    R depth;            ///< z/w for the depth test, unless the shader writes depth; clipped at near and far
+    MaskOf<R> drawn;    ///< false: the point is not drawn
+  };
 
-/// A color: linear, with straight alpha.
-template <class R>
-struct Fragment {
-  vec4<R> color;
-};
+  /// A color: linear, with straight alpha.
+  template <class R>
+  struct Fragment {
+    vec4<R> color;
+  };
 
-/// A color and the keep mask. Fragments with keep == false are discarded.
-template <class R>
-struct DiscardingFragment {
-  vec4<R> color;
-  MaskOf<R> keep;
-};
+  /// A color and the keep mask. Fragments with keep == false are discarded.
+  template <class R>
+  struct DiscardingFragment {
+    vec4<R> color;
+    MaskOf<R> keep;
+  };
 
-/// A color, the keep mask, and a window depth in [0, 1] that replaces the depth of the triangle.
-template <class R>
-struct DepthFragment {
-  vec4<R> color;
-  MaskOf<R> keep;
-  R depth;
-};
+  /// A color, the keep mask, and a window depth in [0, 1] that replaces the depth of the triangle.
+  template <class R>
+  struct DepthFragment {
+    vec4<R> color;
+    MaskOf<R> keep;
+    R depth;
+  };
 
-/// A fragment with N colors: one per attachment, or the two sources of dual-source blending.
-template <class R, std::size_t N>
-struct FragmentMRT {
-  std::array<vec4<R>, N> color;
-};
-template <class R, std::size_t N>
-struct DiscardingFragmentMRT {
-  std::array<vec4<R>, N> color;
-  MaskOf<R> keep;
-};
-template <class R, std::size_t N>
-struct DepthFragmentMRT {
-  std::array<vec4<R>, N> color;
-  MaskOf<R> keep;
-  R depth;
-};
+  /// A fragment with N colors: one per attachment, or the two sources of dual-source blending.
+  template <class R, std::size_t N>
+  struct FragmentMRT {
+    std::array<vec4<R>, N> color;
+  };
+  template <class R, std::size_t N>
+  struct DiscardingFragmentMRT {
+    std::array<vec4<R>, N> color;
+    MaskOf<R> keep;
+  };
+  template <class R, std::size_t N>
+  struct DepthFragmentMRT {
+    std::array<vec4<R>, N> color;
+    MaskOf<R> keep;
+    R depth;
+  };
 
-namespace detail {
-template <class R>
-HS_INLINE const vec4<R>& color_bits(const vec4<R>& color) {
-  return color;
-}
-template <class R>
-HS_INLINE vec4<R> color_bits(const ivec4<R>& color) {
-  return {as_real(color.x), as_real(color.y), as_real(color.z), as_real(color.w)};
-}
-template <class R>
-HS_INLINE vec4<R> color_bits(const uvec4<R>& color) {
-  return color_bits<R>(ivec4<R>(IntOf<R>(color.x), IntOf<R>(color.y), IntOf<R>(color.z), IntOf<R>(color.w)));
-}
-}  // namespace detail
+  namespace detail {
+  template <class R>
+  HS_INLINE const vec4<R>& color_bits(const vec4<R>& color) {
+    return color;
+  }
+  template <class R>
+  HS_INLINE vec4<R> color_bits(const ivec4<R>& color) {
+    return {as_real(color.x), as_real(color.y), as_real(color.z), as_real(color.w)};
+  }
+  template <class R>
+  HS_INLINE vec4<R> color_bits(const uvec4<R>& color) {
+    return color_bits<R>(ivec4<R>(IntOf<R>(color.x), IntOf<R>(color.y), IntOf<R>(color.z), IntOf<R>(color.w)));
+  }
+  }  // namespace detail
 
-/// Colors for attachments of different types, one each: ivec4<R> for signed integers, uvec4<R> for unsigned ones, and vec4<R> for all
-/// others.
-template <class R, class... Colors>
-struct TypedColors {
-  std::array<vec4<R>, sizeof...(Colors)> bits;  ///< integers are stored as the bits of floats
+  /// Colors for attachments of different types, one each: ivec4<R> for signed integers, uvec4<R> for unsigned ones, and vec4<R> for all
+  /// others.
+  template <class R, class... Colors>
+  struct TypedColors {
+    std::array<vec4<R>, sizeof...(Colors)> bits;  ///< integers are stored as the bits of floats
 
-  TypedColors() = default;
-  HS_INLINE TypedColors(const Colors&... colors) : bits{detail::color_bits<R>(colors)...} {}
-};
-/// A fragment for attachments of different types. TypedFragment<R, vec4<R>, uvec4<R>> has a color and four unsigned integers.
-template <class R, class... Colors>
-struct TypedFragment {
-  TypedColors<R, Colors...> color;
-};
-template <class R, class... Colors>
-struct DiscardingTypedFragment {
-  TypedColors<R, Colors...> color;
-  MaskOf<R> keep;
-};
-template <class R, class... Colors>
-struct DepthTypedFragment {
-  TypedColors<R, Colors...> color;
-  MaskOf<R> keep;
-  R depth;
-};
+    TypedColors() = default;
+    HS_INLINE TypedColors(const Colors&... colors) : bits{detail::color_bits<R>(colors)...} {}
+  };
+  /// A fragment for attachments of different types. TypedFragment<R, vec4<R>, uvec4<R>> has a color and four unsigned integers.
+  template <class R, class... Colors>
+  struct TypedFragment {
+    TypedColors<R, Colors...> color;
+  };
+  template <class R, class... Colors>
+  struct DiscardingTypedFragment {
+    TypedColors<R, Colors...> color;
+    MaskOf<R> keep;
+  };
+  template <class R, class... Colors>
+  struct DepthTypedFragment {
+    TypedColors<R, Colors...> color;
+    MaskOf<R> keep;
+    R depth;
+  };
 
-/// Return type of visibility functions: the part of a DepthFragment that determines visibility.
-template <class R>
-struct Visibility {
-  MaskOf<R> keep;
-  R depth;
-};
+  /// Return type of visibility functions: the part of a DepthFragment that determines visibility.
+  template <class R>
+  struct Visibility {
+    MaskOf<R> keep;
+    R depth;
+  };
 
 }  // namespace halfspace::HS_LANES

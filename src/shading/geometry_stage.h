@@ -7,7 +7,8 @@
 //       .input = GeometryInputPrimitive::triangles, .output = GeometryOutputPrimitive::line_strip, .max_vertices = 6};
 //   template <class R> void geometry(const GeometryInput<R, Varyings<R>, 3>& in, Emitter<R, Varyings<R>>& out) const;
 //
-// Each lane of R is a primitive. A function that emits vertices for some primitives only passes a mask.
+// Each lane of R is a primitive. To emit a vertex for some primitives only, pass a mask. The last lanes can repeat a primitive; what they
+// emit is dropped.
 //
 // The following are optional:
 //
@@ -16,15 +17,15 @@
 //     function. GeometryInput then has VertexVaryings<R>, and Emitter has Varyings<R>.
 //   template <class R> using EmittedVertex = PerVertex<R, N>;
 //     The type of emitted vertices, to emit point sizes and N clip distances. The emitter is then an Emitter<R, Varyings<R>,
-//     PerVertex<R, N>>. Point sizes and clip distances that the vertex function returns are not passed on. A LayeredVertex<R, N> also has
-//     a layer and a viewport.
+//     PerVertex<R, N>>. Point sizes, clip distances and layers that the vertex or the evaluation function returns are not passed on. A
+//     LayeredVertex<R, N> also has a layer and a viewport.
 #pragma once
 
 #include <array>
 #include <bitset>
 #include <cstdint>
+#include <memory>
 #include <type_traits>
-#include <vector>
 
 #include "halfspace/shading/contract.h"
 #include "halfspace/shading/varyings.h"
@@ -107,7 +108,8 @@ class Emitter {
   using Value = std::conditional_t<std::is_same_v<R, double>, double, float>;
 
   /// max_vertices: GeometryLayout::max_vertices.
-  explicit Emitter(int max_vertices) : max_vertices_(max_vertices), rows_(kWidthOf<R> * static_cast<std::size_t>(max_vertices) * kRow) {}
+  explicit Emitter(int max_vertices)
+      : max_vertices_(max_vertices), rows_(new Value[kWidthOf<R> * static_cast<std::size_t>(max_vertices) * kRow]) {}
 
   /// Adds a vertex to the current strip of each primitive for which `emits` is true (EmitVertex).
   void emit(const P& vertex, const V& varyings, const MaskOf<R>& emits = MaskOf<R>(true)) {
@@ -119,7 +121,7 @@ class Emitter {
       Primitive& p = primitives_[static_cast<std::size_t>(i)];
       if (!lane(emits, i) || p.count == max_vertices_) continue;
       p.ends[static_cast<std::size_t>(p.count)] = false;
-      Value* const to = rows_.data() + index(i, p.count++);
+      Value* const to = rows_.get() + index(i, p.count++);
       for (std::size_t c = 0; c < kRow; ++c) to[c] = lane(row[c], i);
     }
   }
@@ -140,7 +142,7 @@ class Emitter {
   /// Returns the number of vertices emitted for the primitive in lane i.
   int count(int i) const { return primitives_[static_cast<std::size_t>(i)].count; }
   /// Returns the kRow values of a vertex.
-  const Value* row(int i, int vertex) const { return rows_.data() + index(i, vertex); }
+  const Value* row(int i, int vertex) const { return rows_.get() + index(i, vertex); }
   /// Returns true if a vertex is the last one of its strip.
   bool ends_strip(int i, int vertex) const {
     return vertex + 1 == count(i) || primitives_[static_cast<std::size_t>(i)].ends[static_cast<std::size_t>(vertex)];
@@ -155,7 +157,7 @@ class Emitter {
   std::size_t index(int i, int vertex) const { return static_cast<std::size_t>(i * max_vertices_ + vertex) * kRow; }
 
   int max_vertices_;
-  std::vector<Value> rows_;
+  std::unique_ptr<Value[]> rows_;  // not initialized
   std::array<Primitive, kWidthOf<R>> primitives_{};
 };
 

@@ -180,6 +180,10 @@ concept HasEvaluateMember = requires {
   &S::template evaluate<float>;
 };
 template <class S>
+concept HasEvaluatedVaryings = requires {
+  typename S::template EvaluatedVaryings<float>;
+};
+template <class S>
 concept HasVertexVaryings = requires {
   typename S::template VertexVaryings<float>;
 };
@@ -236,7 +240,9 @@ consteval bool require_vertex_shader() {
     static_assert(detail::kComplete<S>,
                   "the shader has a tessellation layout but is missing: template <class R> TessellationLevels<R> control(const "
                   "PatchInput<R, Varyings<R>, N>& in) const; or: template <class R> vec4<R> evaluate(const PatchInput<R, Varyings<R>, N>& "
-                  "in, const vec3<R>& at, Varyings<R>& out) const; N is layout.patch_vertices (shading/tessellation_stage.h)");
+                  "in, const vec3<R>& at, Varyings<R>& out) const; N is tessellation_layout.patch_vertices. With a Patch, it follows `in` "
+                  "as a parameter; "
+                  "VertexVaryings and EvaluatedVaryings replace Varyings (shading/tessellation_stage.h)");
   } else if constexpr (!HasGeometryLayout<S> && detail::HasGeometryMember<S>) {
     static_assert(detail::kComplete<S>,
                   "the shader has a geometry function but is missing: static constexpr GeometryLayout geometry_layout{…};");
@@ -244,7 +250,12 @@ consteval bool require_vertex_shader() {
     static_assert(
         detail::kComplete<S>,
         "the shader has a geometry layout but is missing: template <class R> void geometry(const GeometryInput<R, Varyings<R>, N>& "
-        "in, Emitter<R, Varyings<R>>& out) const; N is the number of vertices of layout.input (shading/geometry_stage.h)");
+        "in, Emitter<R, Varyings<R>>& out) const; N is the number of vertices of geometry_layout.input. Other types if the shader has "
+        "them: VertexVaryings or EvaluatedVaryings in GeometryInput, EmittedVertex in Emitter (shading/geometry_stage.h)");
+  } else if constexpr (detail::HasEvaluatedVaryings<S> && !(HasTessellationLayout<S> && HasGeometryLayout<S>)) {
+    static_assert(
+        detail::kComplete<S>,
+        "the shader has EvaluatedVaryings, but not both an evaluation function that writes and a geometry function that reads them");
   } else if constexpr (detail::HasVertexVaryings<S> && !HasTessellationLayout<S> && !HasGeometryLayout<S>) {
     static_assert(detail::kComplete<S>, "the shader has VertexVaryings but neither an evaluation nor a geometry function, which read them");
   } else {
@@ -259,6 +270,11 @@ consteval bool require_vertex_shader() {
     if constexpr (HasGeometryLayout<S>) {
       static_assert(detail::has_valid_geometry_layout<S>(),
                     "the geometry layout of the shader is outside of its range: expected 1 to 256 vertices and 1 to 32 invocations");
+    }
+    if constexpr (HasTessellationLayout<S> || HasGeometryLayout<S>) {
+      static_assert(
+          !std::is_same_v<VertexOf<S>, PointSpriteVertex<float>>,
+          "the vertex function of the shader returns a PointSpriteVertex, which tessellation and geometry functions cannot receive");
     }
     static_assert(kComponents<VertexVaryingsOf<S, float>> <= kMaxComponents,
                   "the VertexVaryings of the shader have more than 64 components");

@@ -17,7 +17,8 @@
 //     What the vertex function passes to these functions, if it differs from Varyings. PatchInput then has VertexVaryings<R>.
 //   template <class R> struct Patch { … };
 //     Values of a patch, up to 64 components. The functions are then `control(in, Patch<R>& patch)` and `evaluate(in, patch, at, out)`.
-//   PerVertex<R, N> as the return type of evaluate: adds a point size and clip distances.
+//   PerVertex<R, N> or LayeredVertex<R, N> as the return type of evaluate: adds a point size and clip distances, and a layer and a
+//     viewport. They have no effect if there is a geometry function.
 //   A geometry function (shading/geometry_stage.h), which receives the divided patches as triangles, lines or points:
 //     template <class R> struct EvaluatedVaryings { … };   what `evaluate` passes to it, if it differs from Varyings
 //

@@ -203,7 +203,8 @@ concept HasEvaluate = requires(const S& s, const PatchInputOf<S, float>& in, con
 template <class S>
 concept HasTessellationFunctions = HasTessellationLayout<S> && detail::HasControl<S> && detail::HasEvaluate<S>;
 template <class S>
-concept HasGeometryFunction = HasGeometryLayout<S> && requires(const S& s, const GeometryInputOf<S, float>& in, EmitterOf<S, float>& out) {
+concept HasGeometryFunction = HasGeometryLayout<S> && EvaluationResult<typename detail::EmittedVertexOfT<S, float>::type> &&
+    requires(const S& s, const GeometryInputOf<S, float>& in, EmitterOf<S, float>& out) {
   s.geometry(in, out);
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A shader whose geometry function receives other primitives than its layout states must not compile, and
-// the error must contain: N is the number of vertices of layout.input.
+// the error must contain: N is the number of vertices of geometry_layout.input.
 #include "halfspace/raster/pass.h"
 
 using namespace halfspace;

@@ -34,6 +34,16 @@ struct Stripes {
   }
 };
 
+// The same with a geometry function, whose kernel needs private headers and functions of the library.
+struct EmittedStripes : Stripes {
+  static constexpr halfspace::GeometryLayout geometry_layout{};
+
+  template <class R>
+  void geometry(const halfspace::GeometryInput<R, Varyings<R>, 3>& in, halfspace::Emitter<R, Varyings<R>>& out) const {
+    for (std::size_t i = 0; i < 3; ++i) out.emit(in.position[i], in.varyings[i]);
+  }
+};
+
 bool check(const halfspace::Image<glm::u8vec4>& image, int x, int y, glm::u8vec4 expected) {
   const glm::u8vec4 pixel = image.at(x, y);
   if (pixel == expected) return true;
@@ -52,8 +62,14 @@ int main() {
   Pass pass(64, 64, target, {});
   pass.draw(consumer::Stripes{8.0f, {1, 0, 0, 1}, {0, 1, 0, 1}}, make_vertex_view(stream(lower_left)));
   pass.run(Workers(2));
+  Image<glm::u8vec4> emitted(64, 64);
+  target.data = reinterpret_cast<std::byte*>(emitted.data());
+  Pass emitting(64, 64, target, {});
+  emitting.draw(consumer::EmittedStripes{{8.0f, {1, 0, 0, 1}, {0, 1, 0, 1}}}, make_vertex_view(stream(lower_left)));
+  emitting.run(Workers(2));
 
-  bool ok = true;
+  bool ok = emitted == image;
+  if (!ok) std::printf("a geometry function that emits its input changes the picture\n");
   for (const int y : {8, 32, 60}) {  // row 0 is the top row
     for (int x = 0; x < 64; ++x) {
       const glm::u8vec4 stripe = x / 8 % 2 == 0 ? glm::u8vec4(255, 0, 0, 255) : glm::u8vec4(0, 255, 0, 255);

@@ -411,22 +411,24 @@ TEST(GeometryStage, TakesItsPlaceInTheOrderOfDrawsAndPassesCanRunAgain) {
   }
 }
 
-struct EmittedNumbers : SomeTriangles {
+struct SubmittedNumbers : SomeTriangles {
   template <class R>
   Fragment<R> fragment(const Varyings<R>&, const PrimitiveId<R>& id, const Pixel<R>&) const {
     return {vec4<R>(to_real<R>(id.primitive), to_real<R>(id.instance), R(0), R(1))};
   }
 };
 
-TEST(GeometryStage, PrimitiveNumbersAreThoseOfEmittedPrimitives) {
+TEST(GeometryStage, PrimitiveNumbersAreThoseOfSubmittedPrimitives) {
   // Four triangles: none, one, two and two are emitted. The draw is blended, so that all are visible.
   Soup soup;
   for (int t = 0; t < 4; ++t) {
     for (const glm::vec4& corner : full_screen(0.5f)) soup.positions.push_back(corner);
     soup.colors.insert(soup.colors.end(), 3, glm::vec4(1.0f));
   }
-  const Picture p = draw(EmittedNumbers{}, soup.view(), Indices::sequential(12), {.depth = {.test = false}, .blend = kAdd});
-  EXPECT_EQ(pixel(p.color, kWidth / 2, kHeight / 2), glm::vec4(0 + 1 + 2 + 3 + 4, 0, 0, 5));
+  const DrawState state{.instances = 3, .depth = {.test = false}, .blend = kAdd};
+  const Picture p = draw(SubmittedNumbers{}, soup.view(), Indices::sequential(12), state);
+  constexpr int kNumbers = 1 + 2 + 2 + 3 + 3;
+  EXPECT_EQ(pixel(p.color, kWidth / 2, kHeight / 2), glm::vec4(3 * kNumbers, 5 * (0 + 1 + 2), 0, 3 * 5));
 }
 
 TEST(GeometryStageDeathTest, OtherTopologiesAreRefused) {

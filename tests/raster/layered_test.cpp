@@ -62,7 +62,9 @@ Vertices random_vertices(uint64_t seed, int count) {
 
 TEST(Layers, EachIsThePictureOfAPassOfItsOwn) {
   constexpr int kLayers = 4;
-  for (const int samples : {1, 4}) {
+  constexpr PassTuning kManyFlushes{.tile_size = 8, .chunk_triangles = 1, .bin_budget = 1}, kImmediate{.defer = false};
+  for (const auto& [samples, tuning] :
+       {std::pair(1, PassTuning{}), {4, PassTuning{}}, {1, kManyFlushes}, {4, kManyFlushes}, {1, kImmediate}}) {
     const Vertices v = random_vertices(31, 60), flat = random_vertices(32, 9);
     std::vector<glm::vec4> colors(std::size_t{kWidth} * kHeight * kLayers);
     std::vector<float> depths(colors.size());
@@ -74,7 +76,7 @@ TEST(Layers, EachIsThePictureOfAPassOfItsOwn) {
     const TexelView color_view = view_of(colors, TexelFormat::rgba32f), depth_view = view_of(depths, TexelFormat::d32f);
     ColorTarget target = layered_color_target(color_view);
     target.clear_value = glm::vec4(0.25f);
-    Pass pass(kWidth, kHeight, target, layered_depth_target(depth_view), {.samples = samples, .layers = kLayers});
+    Pass pass(kWidth, kHeight, target, layered_depth_target(depth_view), {.samples = samples, .layers = kLayers, .tuning = tuning});
     pass.draw(FlatColorShader{}, flat.view());                                              // without a layer: drawn into layer 0
     pass.clear({.rect = Rect{3, 4, 10, 12}, .colors = {glm::vec4(0.75f)}, .depth = 0.5f});  // in all layers
     pass.draw(EveryLayer<false>{}, v.view(), {.query = 2});
@@ -102,20 +104,49 @@ TEST(Layers, EachIsThePictureOfAPassOfItsOwn) {
   }
 }
 
+// As in OpenGL, the layer has no effect if the targets have none.
+TEST(Layers, HaveNoEffectInAPassWithOneLayer) {
+  const Vertices v = random_vertices(35, 9);
+  Image<glm::vec4> color(kWidth, kHeight), expected(kWidth, kHeight);
+  Pass pass(kWidth, kHeight, rgba32f_target(color), {}), plain(kWidth, kHeight, rgba32f_target(expected), {});
+  pass.draw(EveryLayer<false>{}, v.view());
+  pass.run(one_worker());
+  for (uint32_t triangle = 0; triangle < 3; ++triangle) {
+    for (int layer = -1; layer < 5; ++layer) plain.draw(Moved{{}, layer}, v.view(), {.first = 3 * triangle, .count = 3});
+  }
+  plain.run(one_worker());
+  EXPECT_EQ(color, expected);
+}
+
+// A draw that emits nothing, or only into viewports that do not exist, has a query like any other.
+TEST(Layers, QueriesOfDrawsWithoutPrimitivesAreZero) {
+  const Vertices v = random_vertices(36, 3);
+  Image<glm::vec4> color(kWidth, kHeight);
+  const ViewportArray one{{}};
+  Pass pass(kWidth, kHeight, rgba32f_target(color), {});
+  pass.draw(EveryLayer<true>{}, v.view(), {.count = 0u, .viewports = &one, .query = 3});
+  const PassStatistics s = pass.run(one_worker());
+  EXPECT_EQ(s.queries, (std::vector<uint64_t>(4, 0)));
+  EXPECT_EQ(s.query_primitives, (std::vector<uint64_t>(4, 0)));
+  pass.draw(EveryLayer<true>{}, v.view(), {.viewports = &one, .query = 1});
+  const PassStatistics t = pass.run(one_worker());
+  EXPECT_EQ(t.query_primitives, (std::vector<uint64_t>{0, 1}));  // one of six invocations chooses viewport 0
+}
+
 // Two viewports that overlap, one with a scissor and another depth range, and one that is not drawn to.
 TEST(Layers, ViewportsAreThoseOfDrawsOfTheirOwn) {
   const Vertices v = random_vertices(33, 30);
   for (const bool overlap : {false, true}) {
     const ViewportArray viewports{
-        {.viewport = {0, 0, 20, 24}},
-        {.viewport = {overlap ? 10 : 20, 2, 20, 20}, .scissor = Rect{12, 5, 25, 9}, .range_near = 0.5f, .range_far = 1.0f},
-        {.viewport = {0, 0, 1, 1}, .scissor = Rect{0, 0, 0, 0}}};
+        {.viewport = Rect{0, 0, 20, 24}},
+        {.viewport = Rect{overlap ? 10 : 20, 2, 20, 20}, .scissor = Rect{12, 5, 25, 9}, .range_near = 0.5f, .range_far = 1.0f},
+        {.viewport = Rect{0, 0, 1, 1}, .scissor = Rect{0, 0, 0, 0}}};
     Image<glm::vec4> color(kWidth, kHeight), expected(kWidth, kHeight);
     Image<float> depth(kWidth, kHeight), expected_depth(kWidth, kHeight);
     // Without a depth test, the order of triangles in overlapping viewports is visible.
     for (const bool tested : {false, true}) {
       Pass pass(kWidth, kHeight, rgba32f_target(color), d32f_target(depth));
-      DrawState state{.viewports = &viewports, .depth = {.test = tested}};
+      const DrawState state{.viewports = &viewports, .depth = {.test = tested}};
       pass.draw(EveryLayer<true>{}, v.view(), state);
       pass.run(one_worker());
       Pass single(kWidth, kHeight, rgba32f_target(expected), d32f_target(expected_depth));
@@ -137,7 +168,7 @@ TEST(Layers, ViewportsAreThoseOfDrawsOfTheirOwn) {
   }
 }
 
-// The six faces of a cube map in one pass: a triangle that covers only face 4 is seen only there.
+// The faces of a cube map in one pass. Six invocations draw into layers −1 to 4.
 TEST(Layers, FacesOfACubeMapAreLayers) {
   TextureMemory memory(TextureKind::cube, TexelFormat::r32f, {16, 16, 6});
   Pass pass(16, 16, layered_color_target(memory.level()), {}, {.layers = 6});
@@ -146,18 +177,19 @@ TEST(Layers, FacesOfACubeMapAreLayers) {
   pass.run(one_worker());
   for (int face = 0; face < 6; ++face) {
     const auto* const texel = reinterpret_cast<const float*>(memory.level().at(8, 8, face));
-    EXPECT_EQ(*texel, face < 5 ? 0.5f : 0.0f) << face;  // six invocations draw into layers −1 to 4
+    EXPECT_EQ(*texel, face < 5 ? 0.5f : 0.0f) << face;
   }
 }
 
 TEST(LayersDeathTest, ViewportsNeedAShaderThatChoosesThem) {
-  const ViewportArray viewports{{.viewport = {0, 0, 8, 8}}}, none, empty{{.viewport = {0, 0, 0, 8}}};
+  const ViewportArray viewports{{.viewport = Rect{0, 0, 8, 8}}}, none, empty{{.viewport = Rect{0, 0, 0, 8}}}, far{{.range_far = 1.5f}};
   const Vertices v = random_vertices(34, 3);
   Image<glm::vec4> image(kWidth, kHeight);
   Pass pass(kWidth, kHeight, rgba32f_target(image), {});
   EXPECT_DEATH(pass.draw(SmoothColorShader{}, v.view(), {.viewports = &viewports}), "does not choose among them");
   EXPECT_DEATH(pass.draw(EveryLayer<true>{}, v.view(), {.viewports = &none}), "number of viewports is outside of its range");
   EXPECT_DEATH(pass.draw(EveryLayer<true>{}, v.view(), {.viewports = &empty}), "size of the viewport is outside of its range");
+  EXPECT_DEATH(pass.draw(EveryLayer<true>{}, v.view(), {.viewports = &far}), "depth range is outside of its range");
 }
 
 TEST(LayersDeathTest, TargetsNeedTheLayersOfThePass) {
@@ -169,6 +201,12 @@ TEST(LayersDeathTest, TargetsNeedTheLayersOfThePass) {
   ColorTarget overlapping = layered_color_target(view);
   overlapping.layer_pitch = 32;
   EXPECT_DEATH(Pass(4, 4, overlapping, {}, {.layers = 3}), "samples or layers overlap");
+  ColorTarget stored = layered_color_target(view);
+  stored.samples = 4;
+  EXPECT_DEATH(Pass(4, 4, stored, {}, {.samples = 4, .layers = 3}), "layers and stored samples");
+  Pass pass(4, 4, layered_color_target(view), {}, {.layers = 3});
+  Image<float> after(4, 4);
+  EXPECT_DEATH(pass.post([]<class R>(const vec4<R>& c) { return c; }, r32f_target(after)), "the pass has several layers");
 }
 
 }  // namespace

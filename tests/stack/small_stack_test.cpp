@@ -168,6 +168,52 @@ TEST_P(SmallStack, PassesRunOnSmallStacks) {
   });
 }
 
+// ---- emitting stages -------------------------------------------------------------------------------------------
+
+/// Patches and primitives of the largest size.
+struct LargePatches {
+  static constexpr TessellationLayout tessellation_layout{.patch_vertices = 32, .domain = TessellationDomain::quads};
+  static constexpr GeometryLayout geometry_layout{.max_vertices = 3};
+  template <class R>
+  using Attributes = ColoredAttributes<R>;
+  template <class R>
+  struct Varyings {
+    std::array<vec4<R>, 16> values;
+  };
+  template <class R>
+  vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
+    out.values.fill(in.color);
+    return in.position;
+  }
+  template <class R>
+  TessellationLevels<R> control(const PatchInput<R, Varyings<R>, 32>&) const {
+    return {{R(3), R(3), R(3), R(3)}, {R(3), R(3)}};
+  }
+  template <class R>
+  vec4<R> evaluate(const PatchInput<R, Varyings<R>, 32>& in, const vec3<R>& at, Varyings<R>& out) const {
+    out = in.varyings[31];
+    return in.position[0] * at.x + in.position[16] * at.y;
+  }
+  template <class R>
+  void geometry(const GeometryInput<R, Varyings<R>, 3>& in, Emitter<R, Varyings<R>>& out) const {
+    for (std::size_t i = 0; i < 3; ++i) out.emit(in.position[i], in.varyings[i]);
+  }
+  template <class R>
+  Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>&) const {
+    return {in.values[15]};
+  }
+};
+
+TEST_P(SmallStack, LargePatchesAreDivided) {
+  const Vertices v = random_vertices(320);
+  on_small_stack([&] {
+    Image<glm::vec4> image(64, 64);
+    Pass pass(64, 64, rgba32f_target(image), {});
+    pass.draw(LargePatches{}, make_vertex_view(stream(v.positions), stream(v.colors)), {.topology = Topology::patches});
+    EXPECT_EQ(pass.run(Workers(GetParam())).primitives_in, 30u * 18u);
+  });
+}
+
 // ---- scenes ----------------------------------------------------------------------------------------------------
 
 void render_scene(const std::string& name, const std::vector<std::string>& settings, int threads) {

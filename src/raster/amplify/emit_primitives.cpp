@@ -60,8 +60,16 @@ PrimitiveList primitives_of(const Draw& draw, const ClipVertices& vertices, std:
   return out;
 }
 
+// There must be a vertex.
 VertexRows rows_of(const ClipVertices& vertices, int varying_count) {
   return {&vertices.positions.get()->x, 4, vertices.varyings.get(), static_cast<std::size_t>(varying_count)};
+}
+
+EmittedPrimitives no_primitives(std::size_t row, Topology topology) {
+  EmittedPrimitives none;
+  none.row = row;
+  none.topology = topology;
+  return none;
 }
 
 std::size_t primitives_in(const Draw& draw) { return std::size_t{draw.primitive_count} * draw.state.instances; }
@@ -94,6 +102,7 @@ EmittedPrimitives emit_from_primitives(const Draw& draw, const ClipVertices& ver
 EmittedPrimitives emit_from_patches(const Draw& draw, const EmittedPrimitives& divided, const Workers& workers) {
   const EmittingStages& stages = *draw.kernels.emitting;
   const GeometryStage& stage = *stages.geometry;
+  if (divided.rows.empty()) return no_primitives(static_cast<std::size_t>(stage.row), topology_of(stage.layout.output));
   const auto varyings = static_cast<std::size_t>(stages.tessellation->varying_count);
   const VertexRows vertices{divided.rows.data(), divided.row, divided.rows.data() + divided.row - varyings, divided.row};
   const std::size_t corners = divided.vertices_per_primitive();
@@ -149,8 +158,9 @@ EmittedPrimitives emit_primitives(const Draw& draw, const Workers& workers, Pass
 EmittedPrimitives assemble_primitives(const Draw& draw, const Workers& workers) {
   const int varyings = draw.kernels.varying_count;
   const ClipVertices vertices = shade_all_vertices(draw, draw.kernels.vertex, varyings, workers);
-  const VertexRows from = rows_of(vertices, varyings);
   const Topology topology = list_topology(draw.state.topology);
+  if (primitives_in(draw) == 0) return no_primitives(4 + static_cast<std::size_t>(varyings), topology);
+  const VertexRows from = rows_of(vertices, varyings);
   return emit_in_parts(workers, primitives_in(draw), kPrimitivesPerTask, 4 + static_cast<std::size_t>(varyings), topology,
                        [&](std::size_t begin, std::size_t end) {
                          EmittedPrimitives out;
@@ -177,20 +187,6 @@ std::array<VertexStream, 3> streams_of(const EmittedPrimitives& primitives, cons
   };
   const std::size_t others = kernels.gives_point_size ? 1 + static_cast<std::size_t>(kernels.clip_distance_count) : 0;
   return {stream_at(0, 4), stream_at(4, others), stream_at(primitives.row - varyings, varyings)};
-}
-
-void copy_emitted_vertices(const void*, const VertexBatch& batch) {
-  const VertexStream &positions = batch.streams[0], &others = batch.streams[1], &varyings = batch.streams[2];
-  for (int i = 0; i < batch.count; ++i) {
-    const uint32_t id = batch.ids != nullptr ? batch.ids[i] : batch.first + static_cast<uint32_t>(i);
-    const auto values = [&](const VertexStream& s) {
-      return reinterpret_cast<const float*>(s.data + std::size_t{id} * static_cast<std::size_t>(s.stride));
-    };
-    for (int k = 0; k < 4; ++k) batch.clip[k * kVertexBatch + i] = values(positions)[k];
-    for (int k = 0; batch.extra != nullptr && k < others.components; ++k) batch.extra[k * kVertexBatch + i] = values(others)[k];
-    const auto n = static_cast<std::size_t>(varyings.components);
-    if (batch.varyings != nullptr) std::copy_n(values(varyings), n, batch.varyings + std::size_t{id - batch.slot_base} * n);
-  }
 }
 
 void check_topology(const ShaderKernels& kernels, const DrawState& state) {

@@ -15,7 +15,7 @@ struct EmittedPrimitives {
   std::size_t row = 0;                      ///< values per row
   Topology topology = Topology::points;     ///< points, lines or triangles
   std::vector<uint32_t> indices;            ///< one, two or three per primitive
-  std::vector<int32_t> numbers, instances;  ///< of the patch of each primitive; only what a geometry stage reads has them
+  std::vector<int32_t> numbers, instances;  ///< of the submitted primitive or patch that each primitive comes from
 
   std::size_t vertex_count() const { return rows.size() / row; }
   std::size_t vertices_per_primitive() const { return topology == Topology::points ? 1 : topology == Topology::lines ? 2 : 3; }

@@ -37,6 +37,7 @@ struct PrimitiveRows {
 struct EmittedStrips {
   std::vector<float> rows;
   std::vector<uint32_t> sizes;  ///< number of vertices of each strip
+  std::vector<int> sources;     ///< number in PrimitiveRows of the primitive of each strip
 };
 
 /// What a control function returns for each of some patches.

@@ -4,20 +4,23 @@
 // each, of the invocations.
 #pragma once
 
+#include <memory>
+
 #include "halfspace/raster/amplify/load_primitives.h"
 #include "halfspace/shading/vertex_traits.h"
 
 namespace halfspace::HS_LANES::detail {
 
-/// Appends the vertices that were emitted in lane i.
+/// Appends the vertices that were emitted in lane i for a primitive.
 template <class E>
-void append_strips(const E& emitted, int i, EmittedStrips& out) {
+void append_strips(const E& emitted, int i, int primitive, EmittedStrips& out) {
   uint32_t size = 0;
   for (int v = 0; v < emitted.count(i); ++v) {
     out.rows.insert(out.rows.end(), emitted.row(i, v), emitted.row(i, v) + E::kRow);
     ++size;
     if (!emitted.ends_strip(i, v)) continue;
     out.sizes.push_back(size);
+    out.sources.push_back(primitive);
     size = 0;
   }
 }
@@ -26,10 +29,12 @@ template <class S>
 HS_FLATTEN void geometry_kernel(const void* shader, const PrimitiveRows& primitives, EmittedStrips& strips) {
   constexpr GeometryLayout layout = S::geometry_layout;
   const S& s = *static_cast<const S*>(shader);
-  std::vector<EmitterOf<S, Real>> emitters(static_cast<std::size_t>(layout.invocations), EmitterOf<S, Real>(layout.max_vertices));
+  std::vector<EmitterOf<S, Real>> emitters;
+  for (int i = 0; i < layout.invocations; ++i) emitters.emplace_back(layout.max_vertices);
+  const auto input = std::make_unique<GeometryInputOf<S, Real>>();  // it can be too large for the stack of a thread
+  GeometryInputOf<S, Real>& in = *input;
   for (int begin = 0; begin < primitives.count; begin += kLanes) {
     const auto number = [&](int i) { return std::min(begin + i, primitives.count - 1); };  // the last lanes repeat a primitive
-    GeometryInputOf<S, Real> in;
     load_vertices<static_cast<std::size_t>(vertices_of(layout.input))>(primitives, number, in);
     in.primitive = load_numbers(primitives.primitives, number);
     in.instance = load_numbers(primitives.instances, number);
@@ -40,7 +45,7 @@ HS_FLATTEN void geometry_kernel(const void* shader, const PrimitiveRows& primiti
       ++in.invocation;
     }
     for (int i = 0; i < std::min(kLanes, primitives.count - begin); ++i) {
-      for (const EmitterOf<S, Real>& out : emitters) append_strips(out, i, strips);
+      for (const EmitterOf<S, Real>& out : emitters) append_strips(out, i, begin + i, strips);
     }
   }
 }

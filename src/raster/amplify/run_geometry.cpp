@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "halfspace/raster/amplify/run_geometry.h"
 
+#include "halfspace/raster/primitives/primitive_assembly.h"
+
 namespace halfspace::HS_LANES {
 
 namespace {
 
-// Appends the primitives of a strip of `size` vertices. The order of the vertices is that of Assembly.
+// Appends the primitives of a strip of `size` vertices.
 void append_strip(uint32_t first, uint32_t size, Topology topology, bool first_provokes, std::vector<uint32_t>& indices) {
   const uint32_t corners = topology == Topology::points ? 1 : topology == Topology::lines ? 2 : 3;
   for (uint32_t k = 0; k + corners <= size; ++k) {
@@ -14,12 +16,8 @@ void append_strip(uint32_t first, uint32_t size, Topology topology, bool first_p
       indices.push_back(i);
     } else if (corners == 2) {
       indices.insert(indices.end(), {i, i + 1});
-    } else if (k % 2 == 0) {
-      indices.insert(indices.end(), {i, i + 1, i + 2});
-    } else if (first_provokes) {
-      indices.insert(indices.end(), {i, i + 2, i + 1});
     } else {
-      indices.insert(indices.end(), {i + 1, i, i + 2});
+      for (const uint32_t place : strip_triangle(k, first_provokes)) indices.push_back(first + place);
     }
   }
 }
@@ -34,9 +32,11 @@ EmittedPrimitives run_geometry(const GeometryStage& stage, const void* shader, c
   out.row = static_cast<std::size_t>(stage.row);
   out.rows = std::move(strips.rows);
   uint32_t first = 0;
-  for (const uint32_t size : strips.sizes) {
-    append_strip(first, size, out.topology, first_provokes, out.indices);
-    first += size;
+  for (std::size_t i = 0; i < strips.sizes.size(); ++i) {
+    append_strip(first, strips.sizes[i], out.topology, first_provokes, out.indices);
+    first += strips.sizes[i];
+    out.numbers.resize(out.primitive_count(), primitives.primitives[strips.sources[i]]);
+    out.instances.resize(out.primitive_count(), primitives.instances[strips.sources[i]]);
   }
   return out;
 }

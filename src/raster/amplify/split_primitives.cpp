@@ -15,18 +15,21 @@ std::vector<PrimitivePart> split_primitives(const EmittedPrimitives& primitives,
   const std::size_t provoking = options.first_provokes ? 0 : corners - 1;
   for (std::size_t i = 0; i < primitives.indices.size(); i += corners) {
     const float* const row = primitives.rows.data() + primitives.row * primitives.indices[i + provoking];
-    const auto layer = std::bit_cast<int32_t>(row[options.place]), viewport = std::bit_cast<int32_t>(row[options.place + 1]);
+    const int32_t layer = options.layers == 1 ? 0 : std::bit_cast<int32_t>(row[options.place]);
+    const auto viewport = std::bit_cast<int32_t>(row[options.place + 1]);
     if (layer < 0 || layer >= options.layers || viewport < 0 || viewport >= options.viewports) continue;
     const bool changes = options.viewports_overlap && last_viewport.contains(layer) && last_viewport[layer] != viewport;
     last_viewport[layer] = viewport;
     const auto [at, is_new] = open.try_emplace({layer, viewport}, parts.size());
     if (is_new || changes) {
       at->second = parts.size();
-      parts.push_back({layer, viewport, {}});
+      parts.push_back({layer, viewport, {}, {}, {}});
     }
-    std::vector<uint32_t>& to = parts[at->second].indices;
-    to.insert(to.end(), primitives.indices.begin() + static_cast<std::ptrdiff_t>(i),
-              primitives.indices.begin() + static_cast<std::ptrdiff_t>(i + corners));
+    PrimitivePart& to = parts[at->second];
+    to.numbers.push_back(primitives.numbers[i / corners]);
+    to.instances.push_back(primitives.instances[i / corners]);
+    to.indices.insert(to.indices.end(), primitives.indices.begin() + static_cast<std::ptrdiff_t>(i),
+                      primitives.indices.begin() + static_cast<std::ptrdiff_t>(i + corners));
   }
   return parts;
 }

@@ -9,17 +9,18 @@
 
 namespace halfspace::HS_LANES {
 
-/// Consecutive primitives of one layer and one viewport.
+/// Primitives of one layer and one viewport, in order.
 struct PrimitivePart {
   int32_t layer = 0, viewport = 0;
   std::vector<uint32_t> indices;
+  std::vector<int32_t> numbers, instances;  ///< as in EmittedPrimitives
 };
 
 /// What split_primitives() needs to know about a draw and its pass.
 struct SplitOptions {
   std::size_t place;       ///< of the layer in a row; the viewport follows
   bool first_provokes;     ///< the first vertex of a primitive determines its layer and viewport; otherwise the last one
-  int32_t layers;          ///< of the pass
+  int32_t layers;          ///< of the pass; if there is only one, all primitives are drawn into it
   int32_t viewports;       ///< of the draw
   bool viewports_overlap;  ///< the order of primitives in different viewports matters
 };

@@ -3,6 +3,8 @@
 // Runs the control function of a shader for W patches at a time, and its evaluation function for W vertices at a time.
 #pragma once
 
+#include <memory>
+
 #include "halfspace/raster/amplify/load_primitives.h"
 #include "halfspace/shading/vertex_traits.h"
 
@@ -13,9 +15,10 @@ HS_FLATTEN void control_kernel(const void* shader, const PrimitiveRows& patches,
   constexpr auto n = static_cast<std::size_t>(S::tessellation_layout.patch_vertices);
   constexpr std::size_t values = kComponents<PatchOf<S, float>>;
   const S& s = *static_cast<const S*>(shader);
+  const auto input = std::make_unique<PatchInputOf<S, Real>>();  // it can be too large for the stack of a thread
+  PatchInputOf<S, Real>& in = *input;
   for (int begin = 0; begin < patches.count; begin += kLanes) {
     const auto number = [&](int i) { return std::min(begin + i, patches.count - 1); };  // the last lanes repeat a patch
-    PatchInputOf<S, Real> in;
     load_vertices<n>(patches, number, in);
     in.patch = load_numbers(patches.primitives, number);
     in.instance = load_numbers(patches.instances, number);
@@ -40,10 +43,11 @@ HS_FLATTEN void evaluation_kernel(const void* shader, const PrimitiveRows& patch
   constexpr std::size_t values = kComponents<PatchOf<S, float>>, row_size = kEvaluatedRow<S>;
   using V = EvaluatedVaryingsOf<S, Real>;
   const S& s = *static_cast<const S*>(shader);
+  const auto input = std::make_unique<PatchInputOf<S, Real>>();
+  PatchInputOf<S, Real>& in = *input;
   for (int begin = 0; begin < vertices.count; begin += kLanes) {
     const auto vertex = [&](int i) { return std::min(begin + i, vertices.count - 1); };  // the last lanes repeat a vertex
     const auto patch_number = [&](int i) { return static_cast<int>(vertices.patches[vertex(i)]); };
-    PatchInputOf<S, Real> in;
     load_vertices<n>(patches, patch_number, in);
     in.patch = load_numbers(patches.primitives, patch_number);
     in.instance = load_numbers(patches.instances, patch_number);

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "halfspace/raster/detail/emitted_draws.h"
 
-#include <algorithm>
-#include <new>
 #include <utility>
 
 #include "halfspace/raster/amplify/emit_primitives.h"
@@ -12,12 +10,6 @@
 namespace halfspace::HS_LANES::detail {
 
 namespace {
-
-template <class T>
-T& keep(const T& value, std::pmr::memory_resource& memory) {
-  static_assert(std::is_trivially_destructible_v<T>);
-  return *::new (memory.allocate(sizeof(T), alignof(T))) T(value);
-}
 
 // Returns a draw that refers to the shader of another one.
 Draw draw_like(const Draw& source, std::shared_ptr<const Indices> indices, const VertexStreams& vertices, const DrawState& state,
@@ -34,7 +26,7 @@ Draw draw_like(const Draw& source, std::shared_ptr<const Indices> indices, const
 bool viewports_overlap(const ViewportArray& viewports, int width, int height) {
   std::vector<Rect> rects;
   for (const IndexedViewport& v : viewports) {
-    const Rect r = drawable_rect(v.viewport, v.scissor, width, height);
+    const Rect r = drawable_rect(v.viewport.value_or(Rect{0, 0, width, height}), v.scissor, width, height);
     for (const Rect& other : rects) {
       const Rect both = intersect(r, other);
       if (both.width > 0 && both.height > 0) return true;
@@ -51,7 +43,9 @@ EmittedDraws::EmittedDraws(PassContext& context, const Attachments& attachments,
     : context_(context), attachments_(attachments), supersample_(supersample), sources_(std::exchange(context.draws, {})) {
   emitted_.resize(sources_.size());
   for (std::size_t i = 0; i < sources_.size(); ++i) {
-    if (sources_[i].kernels.emitting != nullptr) emitted_[i] = emit(sources_[i], layers, workers, statistics);
+    if (sources_[i].kernels.emitting == nullptr) continue;
+    if (sources_[i].state.query) statistics.add_to_query(*sources_[i].state.query, 0);  // also if nothing is emitted
+    emitted_[i] = emit(sources_[i], layers, workers, statistics);
   }
 }
 
@@ -60,13 +54,14 @@ EmittedDraws::Emitted EmittedDraws::emit(const Draw& draw, int layers, const Wor
   const ShaderKernels& kernels = draw.kernels;
   const ViewportArray* const viewports = draw.state.viewports;
   if (!kernels.gives_layer) {
-    out.parts.push_back({0, 0, std::exchange(out.primitives.indices, {})});
+    EmittedPrimitives& all = out.primitives;
+    out.parts.push_back({0, 0, std::exchange(all.indices, {}), std::exchange(all.numbers, {}), std::exchange(all.instances, {})});
   } else {
     // After the position, the point size and the clip distances.
     const SplitOptions options{.place = 5 + static_cast<std::size_t>(kernels.clip_distance_count),
                                .first_provokes = draw.state.provoking == ProvokingVertex::first,
                                .layers = layers,
-                               .viewports = viewports != nullptr ? static_cast<int32_t>(std::min(viewports->size(), kMaxViewports)) : 1,
+                               .viewports = viewports != nullptr ? static_cast<int32_t>(viewports->size()) : 1,
                                .viewports_overlap = viewports != nullptr && viewports_overlap(*viewports, context_.width, context_.height)};
     out.parts = split_primitives(out.primitives, options);
   }
@@ -79,7 +74,7 @@ void EmittedDraws::set_layer(int layer) {
     const Draw& source = sources_[i];
     if (source.kernels.emitting != nullptr) {
       for (const PrimitivePart& part : emitted_[i].parts) {
-        if (part.layer == layer) add_part(source, emitted_[i].primitives, part);
+        if (part.layer == layer && !part.indices.empty()) add_part(source, emitted_[i].primitives, part);
       }
     } else if (layer == 0 || source.is_clear) {
       context_.draws.push_back(draw_like(source, source.indices, source.vertices, source.state, source));
@@ -92,7 +87,7 @@ void EmittedDraws::add_part(const Draw& source, const EmittedPrimitives& primiti
   state.topology = primitives.topology;
   state.base_vertex = 0;
   state.instances = 1;
-  if (state.viewports != nullptr && !state.viewports->empty()) {
+  if (state.viewports != nullptr) {
     const IndexedViewport& v = (*state.viewports)[static_cast<std::size_t>(part.viewport)];
     state.viewport = v.viewport;
     state.scissor = v.scissor;
@@ -104,7 +99,10 @@ void EmittedDraws::add_part(const Draw& source, const EmittedPrimitives& primiti
   context_.draws.push_back(draw_like(source, std::make_shared<const Indices>(std::span(part.indices), primitives.vertex_count()),
                                      {streams, false, false}, keep(state, memory),
                                      place_draw(state, context_, attachments_, supersample_)));
-  context_.draws.back().is_emitted = true;
+  Draw& d = context_.draws.back();
+  d.is_emitted = true;
+  d.primitive_numbers = part.numbers.data();
+  d.primitive_instances = part.instances.data();
 }
 
 }  // namespace halfspace::HS_LANES::detail

@@ -29,7 +29,7 @@ void check_viewports(const ViewportArray& viewports) {
   HS_CHECK(!viewports.empty() && viewports.size() <= kMaxViewports,
            "DrawState::viewports: the number of viewports is outside of its range; expected 1 to 16");
   for (const IndexedViewport& v : viewports) {
-    check_viewport(v.viewport);
+    if (v.viewport) check_viewport(*v.viewport);
     if (v.scissor) check_scissor(*v.scissor);
     HS_CHECK(v.range_near >= 0.0f && v.range_near <= 1.0f && v.range_far >= 0.0f && v.range_far <= 1.0f,
              "DrawState::viewports: a depth range is outside of its range; expected 0 to 1");

@@ -19,11 +19,7 @@ constexpr uint64_t kChunkShare = 8;
 }  // namespace
 
 void PassPlan::add(const Draw& draw, std::size_t number) {
-  if (draw.state.query) {
-    submitted.add_to_query(*draw.state.query, 0);
-    submitted.query_primitives.resize(submitted.queries.size());
-    submitted.query_primitives[*draw.state.query] += std::size_t{draw.primitive_count} * draw.state.instances;
-  }
+  if (draw.state.query) submitted.add_to_query(*draw.state.query, 0, std::size_t{draw.primitive_count} * draw.state.instances);
   add_vertices(draw, number);
   add_primitives(draw, number);
 }

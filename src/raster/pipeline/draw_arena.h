@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <memory>
 #include <memory_resource>
+#include <new>
+#include <type_traits>
 #include <vector>
 
 #include "halfspace/core/namespace.h"
@@ -52,5 +54,12 @@ class DrawArena final : public std::pmr::memory_resource {
   std::size_t block_ = 0;  // the block from which memory is taken
   std::size_t used_ = 0;   // bytes of this block
 };
+
+/// Returns a copy of a value that lasts as long as the memory.
+template <class T>
+const T& keep(const T& value, std::pmr::memory_resource& memory) {
+  static_assert(std::is_trivially_destructible_v<T>);
+  return *::new (memory.allocate(sizeof(T), alignof(T))) T(value);
+}
 
 }  // namespace halfspace::HS_LANES

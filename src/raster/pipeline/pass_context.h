@@ -37,10 +37,10 @@ struct ShaderKernels {
   const Interpolation* interpolations = nullptr;                      ///< varying_count entries
   bool uses_centroid = false;                                         ///< some varying has centroid interpolation
   bool uses_id = false;                    ///< the fragment function has a PrimitiveId parameter; primitive_count is kIdRow
-  bool gives_point_size = false;           ///< the vertex function sets the point size
+  bool gives_point_size = false;           ///< vertices have a point size
   bool gives_layer = false;                ///< vertices have a layer and a viewport (LayeredVertex)
   bool gives_point_sprite = false;         ///< the vertex function sets the bounds of points
-  int clip_distance_count = 0;             ///< clip distances set by the vertex function
+  int clip_distance_count = 0;             ///< clip distances of a vertex
   int color_count = 1;                     ///< colors returned by the fragment function
   const ColorType* color_types = nullptr;  ///< color_count entries; null: not checked
   bool discards = false;
@@ -92,6 +92,10 @@ struct Draw : DrawPlacement {
   std::size_t vertex_count = 0;  ///< vertices used by the indices, for all instances
   uint32_t primitive_count = 0;  ///< per instance
   std::vector<IndexRun> runs{};  ///< runs with at least one primitive; empty if there are no restarts
+
+  /// If is_emitted: the number and the instance of the submitted primitive that each primitive comes from.
+  const int32_t* primitive_numbers = nullptr;
+  const int32_t* primitive_instances = nullptr;
 
   Draw(const ShaderKernels& kernels_, KeptShader shader_, std::shared_ptr<const Indices> indices_, const VertexStreams& vertices_,
        const DrawState& state_, const DrawPlacement& placement)

@@ -99,9 +99,9 @@ struct ShadedVertices {
   std::size_t bytes() const { return screen.bytes() + outcodes.bytes() + varyings.bytes() + sprites.bytes() + clip_distances.bytes(); }
 };
 
-// ---- vertex stage → geometry stage ------------------------------------------------------------------------------
+// ---- vertex stage → emitting stages -----------------------------------------------------------------------------
 
-/// Outputs of the vertex function for a draw with a geometry stage, by slot (see ShadedVertices).
+/// Outputs of the vertex function for emitting stages and for capture(), by slot (see ShadedVertices).
 struct ClipVertices {
   uint32_t first = 0;
   uint32_t count = 0;           ///< slots per instance

@@ -69,10 +69,10 @@ std::array<uint32_t, 3> Assembly::next_of_run() {
       return {at(i), at(next), at(next)};
     }
     case Topology::triangles: return {at(3 * i), at(3 * i + 1), at(3 * i + 2)};
-    case Topology::triangle_strip:
-      if (i % 2 == 0) return {at(i), at(i + 1), at(i + 2)};
-      if (first_provokes) return {at(i), at(i + 2), at(i + 1)};
-      return {at(i + 1), at(i), at(i + 2)};
+    case Topology::triangle_strip: {
+      const std::array<uint32_t, 3> places = strip_triangle(i, first_provokes);
+      return {at(places[0]), at(places[1]), at(places[2])};
+    }
     case Topology::triangle_fan:
       if (first_provokes) return {at(i + 1), at(i + 2), at(0)};
       return {at(0), at(i + 1), at(i + 2)};

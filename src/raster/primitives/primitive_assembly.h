@@ -17,6 +17,13 @@ namespace halfspace::HS_LANES {
 /// Sets d.primitive_count and d.runs.
 void count_primitives(Draw& d);
 
+/// Returns the places of the vertices of triangle i in a strip (OpenGL 4.6, table 13.2).
+constexpr std::array<uint32_t, 3> strip_triangle(uint32_t i, bool first_provokes) {
+  if (i % 2 == 0) return {i, i + 1, i + 2};
+  if (first_provokes) return {i, i + 2, i + 1};
+  return {i + 1, i, i + 2};
+}
+
 /// Iterates over the primitives of a draw.
 class Assembly {
  public:

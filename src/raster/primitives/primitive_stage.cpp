@@ -31,11 +31,12 @@ void for_each_triangle(const PassContext& context, const Chunk& chunk, const Dra
 
 // Writes the ids of the triangles [range.first_triangle, end).
 void write_ids(const PassContext& context, const Chunk& chunk, const DrawRange& range, uint32_t end, float* row) {
-  const DrawState& state = context.draws[range.draw].state;
+  const Draw& draw = context.draws[range.draw];
+  const DrawState& state = draw.state;
   const bool has_second = !draws_points(state), has_third = has_second && !is_lines(state.topology);
   for_each_triangle(context, chunk, range, end, [&](uint32_t primitive, const std::array<uint32_t, 3>& vertex) {
-    row[kIdPrimitive] = std::bit_cast<float>(primitive);
-    row[kIdInstance] = std::bit_cast<float>(range.instance);
+    row[kIdPrimitive] = draw.is_emitted ? std::bit_cast<float>(draw.primitive_numbers[primitive]) : std::bit_cast<float>(primitive);
+    row[kIdInstance] = draw.is_emitted ? std::bit_cast<float>(draw.primitive_instances[primitive]) : std::bit_cast<float>(range.instance);
     row[kIdSecond] = std::bit_cast<float>(has_second ? vertex[1] : kNoSlot);
     row[kIdThird] = std::bit_cast<float>(has_third ? vertex[2] : kNoSlot);
     row += kIdRow;

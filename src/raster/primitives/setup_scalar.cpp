@@ -77,9 +77,9 @@ Cull set_up_triangle(const Draw& draw, const PassContext& context, const std::ar
   const DepthDifferences plane{static_cast<double>(v[order[1]]->z) - static_cast<double>(z_min),
                                static_cast<double>(v[order[2]]->z) - static_cast<double>(z_min), std::fabs(static_cast<double>(area))};
   const float z_max = std::max({v[0]->z, v[1]->z, v[2]->z});
-  const bool has_offset = facing == Facing::by_winding && draw.state.offset.fill;
+  const bool is_moved = facing == Facing::by_winding && has_offset(draw.state.offset, PolygonMode::fill);
   const float offset =
-      !has_offset ? 0.0f : depth_offset(draw.state.offset, context.depth_format, out, plane, std::max(std::fabs(z_min), std::fabs(z_max)));
+      !is_moved ? 0.0f : depth_offset(draw.state.offset, context.depth_format, out, plane, std::max(std::fabs(z_min), std::fabs(z_max)));
   out.z0 = z_min + offset;
   out.z_max = z_max + offset;
   out.z_edge1 = static_cast<float>(plane.dz1 / plane.area);
@@ -95,7 +95,6 @@ float outline_offset(const DepthOffset& offset, DepthFormat format, const std::a
   Triangle t;
   for (std::size_t i = 0; i < 3; ++i) t.x[i] = v[i]->x, t.y[i] = v[i]->y;
   const int64_t area = int64_t{t.x[1] - t.x[0]} * (t.y[2] - t.y[0]) - int64_t{t.y[1] - t.y[0]} * (t.x[2] - t.x[0]);
-  if (area == 0) return 0.0f;
   const auto z = [&](std::size_t i) { return static_cast<double>(v[i]->z); };
   const float largest_z = std::max({std::fabs(v[0]->z), std::fabs(v[1]->z), std::fabs(v[2]->z)});
   return depth_offset(offset, format, t, {z(1) - z(0), z(2) - z(0), static_cast<double>(area)}, largest_z);

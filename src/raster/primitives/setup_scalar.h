@@ -19,8 +19,8 @@ enum class Facing : uint8_t { by_winding, front, back };
 Cull set_up_triangle(const Draw& draw, const PassContext& context, const std::array<const ScreenVertex*, 3>& v,
                      const std::array<uint32_t, 3>& index, uint32_t provoking, Facing facing, Triangle& out);
 
-/// Returns the polygon offset of a polygon that is drawn as an outline or as corners: that of one of its triangles, in window coordinates.
-/// It is 0 if the triangle has no area.
+/// Returns the polygon offset of a polygon that is drawn as an outline or as corners: that of one of its triangles, in window coordinates,
+/// whose area must not be 0.
 float outline_offset(const DepthOffset& offset, DepthFormat format, const std::array<const ScreenVertex*, 3>& triangle);
 
 }  // namespace halfspace::HS_LANES
