@@ -20,7 +20,7 @@ class Lessons(unittest.TestCase):
 
     def test_pictures_are_small(self):
         images = list((lesson_pictures.PAGES / "images").glob("*.png"))
-        self.assertEqual(len(images), 36)
+        self.assertEqual(len(images), 42)
         self.assertLessEqual(sum(path.stat().st_size for path in images), 1_000_000)
 
     def test_a_change_of_absent_or_repeated_lines_is_rejected(self):

@@ -18,7 +18,7 @@
 namespace halfspace {
 namespace {
 
-constexpr int kLessons = 12;
+constexpr int kLessons = 14;
 
 struct Lesson {
   std::string name;    // "01_triangle"

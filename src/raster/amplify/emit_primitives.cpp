@@ -14,8 +14,8 @@ namespace halfspace::HS_LANES {
 namespace {
 
 constexpr std::size_t kVerticesPerTask = 8 * kVertexBatch;
-constexpr std::size_t kPrimitivesPerTask = 512;
-constexpr std::size_t kPatchesPerTask = 16;  // a patch can be divided into 8192 triangles
+constexpr std::size_t kPrimitivesPerTask = 128;  // so that what a task emits is usually smaller than what malloc maps anew
+constexpr std::size_t kPatchesPerTask = 16;      // a patch can be divided into 8192 triangles
 
 ClipVertices shade_all_vertices(const Draw& draw, VertexKernel kernel, int varying_count, const Workers& workers) {
   ClipVertices vertices;
