@@ -135,7 +135,7 @@ TEST(Examples, NormalsLeaveTheBallAtItsCorners) {
     }
     return n;
   };
-  EXPECT_GT(drawn_between(0.0, 0.33), 5000);
+  EXPECT_GT(drawn_between(0.0, 0.33), 1500);
   EXPECT_GT(drawn_between(0.36, 0.40), 100);
   EXPECT_EQ(drawn_between(0.48, 1.0), 0);
 }
