@@ -7,10 +7,13 @@
 #include "cli/render_comment.h"
 #include "command_line/errors.h"
 #include "command_line/scene_arguments.h"
+#include "halfspace/image/image_text.h"
 
 namespace halfspace {
 
 namespace {
+
+constexpr const char* kSoftwareName = "Halfspace ";  // begins the name of the program in the files that it writes
 
 // Throws UsageError if the background is transparent and the format cannot store transparency.
 void check_alpha(const SceneFile& scene, const RenderOptions& options) {
@@ -35,6 +38,15 @@ void protect_from_others(const RenderOptions& options, const std::string& scene,
     if (options.outputs.contains(std::filesystem::absolute(input).lexically_normal()))
       throw OutputError(scene + ": reads " + input.string() + ", which this command writes; expected another output file");
   }
+}
+
+// Throws OutputError if a picture of a list would replace a file that this program did not write. It could be a texture of a later scene,
+// whose files are not known yet.
+void protect_other_files(const RenderOptions& options, const std::filesystem::path& picture) {
+  std::error_code error;
+  if (!options.is_list() || !options.has_fingerprints() || !std::filesystem::is_regular_file(picture, error)) return;
+  if (!read_image_text(picture).software.starts_with(kSoftwareName))
+    throw OutputError(picture.string() + ": exists, and this program did not write it; expected another output file");
 }
 
 }  // namespace
@@ -72,12 +84,17 @@ PictureFiles files_of(const RenderJob& job, int i) {
           job.options.format,
           job.options.output,
           picture_size(job.options),
-          {.software = "Halfspace " HALFSPACE_VERSION, .comment = render_comment(job.options.arguments, job.name, time_of(job, i))}};
+          {.software = std::string(kSoftwareName) + HALFSPACE_VERSION,
+           .comment = render_comment(job.options.arguments, job.name, time_of(job, i))}};
 }
 
 void protect_inputs(const RenderJob& job, const std::filesystem::path& picture) {
-  reject_overwriting(picture, job.inputs);
-  for (const std::filesystem::path& file : value_files(job.options.output, picture)) reject_overwriting(file, job.inputs);
+  std::vector<std::filesystem::path> files = value_files(job.options.output, picture);
+  files.push_back(picture);
+  for (const std::filesystem::path& file : files) {
+    reject_overwriting(file, job.inputs);
+    protect_other_files(job.options, file);
+  }
 }
 
 void protect_inputs(const RenderJob& job) {

@@ -110,8 +110,8 @@ TEST_F(Lists, ResumeKeepsPictures) {
   EXPECT_TRUE(o.err.starts_with("halfspace: kept 1 picture, rendered 2: 1 missing, 1 of another scene")) << o.err;
 }
 
-// Memory of a scene is free for the next one, whether it was rendered or kept. One scene needs about 66 MB, and each further one that stayed
-// in memory 15 MB.
+// Memory of a scene is free for the next one, whether it was rendered or kept. One scene needs about 66 MB, and each further one that
+// stayed in memory 15 MB.
 TEST_F(Lists, AScenesMemoryIsFreedForTheNext) {
   std::string grid;
   constexpr int kEdge = 300;
@@ -146,6 +146,31 @@ TEST_F(Lists, AnOutputIsNotAnInput) {
   EXPECT_NE(o.err.find("c.png, which this command writes"), std::string::npos) << o.err;
   EXPECT_EQ(render({"b.obj", "c.obj", "-o", "{name}.png", "--report", "b.obj"}).exit_code, 4);
   EXPECT_EQ(render({"b.obj", "c.obj", "-o", "{name}.png", "--report", "b.png"}).exit_code, 2);
+}
+
+// A picture of a list does not replace a file of another program, because a later scene may read it.
+TEST_F(Lists, TexturesOfLaterScenesAreNotReplaced) {
+  write_image(directory / "c.png", Image<glm::u8vec4>(4, 4));
+  write_bytes(directory / "m.mtl", "newmtl m\nmap_Kd c.png\n");
+  write_bytes(directory / "a.obj", "mtllib m.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const std::string texture = read_bytes(directory / "c.png");
+  const Outcome o = render({"c.obj", "a.obj", "b.obj", "-o", "{name}.png"});
+  EXPECT_EQ(o.exit_code, 3);
+  EXPECT_NE(o.err.find("c.png: exists, and this program did not write it"), std::string::npos) << o.err;
+  EXPECT_EQ(read_bytes(directory / "c.png"), texture);
+  EXPECT_TRUE(fs::exists(directory / "b.png"));
+}
+
+TEST_F(Lists, PicturesOfAnEarlierRunAreReplaced) {
+  for (const char* out : {"{name}.png", "{name}.jpg", "{name}.tif", "{name}.exr", "{name}.hdr", "{name}-{frame}.png"}) {
+    for (const char* size : {"8x8", "16x8"}) {
+      std::vector<std::string> words = {"render", "a.obj", "b.obj", "--size", size, "--aov", "depth", "-o", out};
+      if (std::string(out).find("{frame}") != std::string::npos) words.insert(words.end(), {"--frames", "0..1"});
+      const Outcome o = run(words);
+      EXPECT_EQ(o.exit_code, 0) << out << " " << size << " " << o.err;
+    }
+  }
+  EXPECT_EQ(picture("b.png").width(), 16);
 }
 
 TEST_F(Lists, FailedScenesReportTheirPictures) {
