@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "halfspace/core/check.h"
+#include "halfspace/core/resource_limits.h"
 #include "halfspace/core/text.h"
 #include "halfspace/core/tool_folder.h"
 #include "halfspace/image/image_errors.h"
@@ -34,6 +35,7 @@ enum class Exchange { answered, answered_last, tool_ended };
 struct ToolFailure {
   std::string text;
   bool started = true;
+  bool killed = false;  // by SIGKILL, which a decoder does not send to itself: most likely the system is out of memory
 };
 
 // Lends a tool of the pool to exchange(tool), which sends a request and receives the answer. If a tool that has served earlier requests
@@ -51,7 +53,7 @@ std::optional<ToolFailure> exchange_with_tool(ToolPool& pool, const std::filesys
     if (result != Exchange::tool_ended) return std::nullopt;
     const int signal = lease.tool().wait();
     if (!used || signal == SIGXCPU || signal == SIGALRM)
-      return ToolFailure{signal == 0 ? "ended early" : std::string("died: ") + ::strsignal(signal)};
+      return ToolFailure{.text = signal == 0 ? "ended early" : std::string("died: ") + ::strsignal(signal), .killed = signal == SIGKILL};
   }
 }
 
@@ -145,6 +147,8 @@ Picture read_by_tool(ImageSource& source, ToolTask task) {
   if (failure && !failure->started) {
     fail_reading(source.name(), "cannot be read: " + program.path.string() + " does not start (" + failure->text + ")");
   }
+  // Not the fault of the file, so no picture should be drawn without it.
+  if (failure && failure->killed) throw LimitError(source.name() + ": the decoder was killed; expected enough free memory for it");
   if (failure)
     message = "cannot be read as " + std::string(source.tool_format()->name) + " (the decoder " + failure->text +
               "); expected a complete image file";

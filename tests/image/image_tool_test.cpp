@@ -16,6 +16,7 @@
 #include <string>
 #include <utility>
 
+#include "halfspace/core/resource_limits.h"
 #include "halfspace/image/image_io.h"
 #include "halfspace/image/image_tool.h"
 #include "image/image_fixture.h"
@@ -24,6 +25,18 @@ namespace halfspace {
 namespace {
 
 namespace fs = std::filesystem;
+
+// Returns the message of the error with which a file cannot be read, and whether it is one of a limit.
+std::string reading_error(const char* file) {
+  try {
+    read_image(file);
+  } catch (const LimitError& e) {
+    return std::string(e.what()) + " (limit)";
+  } catch (const InputError& e) {
+    return e.what();
+  }
+  return {};
+}
 
 // The copy runs only this test. It writes the error messages to the file "lines" in the working directory.
 TEST(ImageToolCopy, DISABLED_WritesAndReads) {
@@ -34,8 +47,8 @@ TEST(ImageToolCopy, DISABLED_WritesAndReads) {
   std::ofstream lines("lines");
   lines << output_error([&] { write_image("a.tif", codes); }) << '\n'
         << output_error([&] { write_image("a.hdr", light); }) << '\n'
-        << input_error([&] { read_image("a.ppm"); }) << '\n'
-        << input_error([&] { read_image("b.jpg"); }) << '\n'
+        << reading_error("a.ppm") << '\n'
+        << reading_error("b.jpg") << '\n'
         << (fs::exists("a.tif") || fs::exists("a.hdr") ? "something was written" : "nothing was written") << '\n';
 }
 
@@ -81,6 +94,11 @@ void expect_failures(const std::string& message, const std::string& of_writing, 
 TEST_F(ImageTool, ReportsAMissingTool) { expect_failures(lines_beside(""), "not installed", "not installed"); }
 
 TEST_F(ImageTool, ReportsACrash) { expect_failures(lines_beside("kill -SEGV $$"), "died: Segmentation fault", "died: Segmentation fault"); }
+
+// The system may kill a decoder when memory runs out. That is not the fault of the file, which must not be left out of a picture.
+TEST_F(ImageTool, AKilledDecoderIsAnErrorOfALimit) {
+  expect_failures(lines_beside("kill -KILL $$"), "died: Killed", "the decoder was killed; expected enough free memory for it (limit)");
+}
 
 TEST_F(ImageTool, ReportsATruncatedAnswer) {
   // The script reads a request and sends the beginning of a valid 100-byte answer.
