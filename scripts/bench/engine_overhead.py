@@ -41,10 +41,10 @@ def engines(program, folder):
     if shutil.which("mpirun") and (Path(program).parent / "halfspace-mpi.so").exists():
         mpirun = ["mpirun", "--allow-run-as-root", "--oversubscribe", "--bind-to", "none", "-n", "2"]
         yield "MPI, one rank per core", 2, lambda n: run([*mpirun, *render("--frames", f"0..{n - 1}", "--mpi")])
-    if shutil.which("sbatch") and subprocess.run(["sinfo"], capture_output=True).returncode == 0:
-        yield "Slurm, array of two shards", 2, lambda n: run(
-            ["sbatch", "--wait", "--array=0-1", "--output=/dev/null", "--cpus-per-task=1", "--wrap",
-             " ".join(render("--frames", f"0..{n - 1}")) + " --shard $SLURM_ARRAY_TASK_ID/2"])
+    if shutil.which("srun") and subprocess.run(["sinfo"], capture_output=True).returncode == 0:
+        # Not sbatch --wait, which looks for the end of a job only every few seconds.
+        yield "Slurm, one task per shard", 2, lambda n: run(
+            ["srun", "-n", "2", "sh", "-c", " ".join(render("--frames", f"0..{n - 1}")) + " --shard $SLURM_PROCID/2"])
     import halfspace
 
     scene = halfspace.Scene.load("shapes", threads=1)
