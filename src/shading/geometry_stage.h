@@ -71,7 +71,7 @@ struct GeometryInput {
 };
 
 namespace detail {
-/// Values of an emitted vertex beside its position and its varyings: the point size, the clip distances, the layer and the viewport.
+/// Number of values of an emitted vertex between its position and its varyings: point size, clip distances, layer and viewport.
 template <class P>
 inline constexpr std::size_t kExtraValues = 0;
 template <class R, std::size_t N>
@@ -103,7 +103,7 @@ HS_INLINE void put_vertex(const LayeredVertex<R, N>& v, Row& row) {
 template <class R, class V, class P = vec4<R>>
 class Emitter {
  public:
-  /// Values of a vertex: clip-space position, point size and clip distances if P has them, and varyings.
+  /// Values of a vertex: clip-space position, the extra values of P, and varyings.
   static constexpr std::size_t kRow = 4 + detail::kExtraValues<P> + kComponents<V>;
   using Value = std::conditional_t<std::is_same_v<R, double>, double, float>;
 
@@ -141,7 +141,7 @@ class Emitter {
   void clear() { primitives_ = {}; }
   /// Returns the number of vertices emitted for the primitive in lane i.
   int count(int i) const { return primitives_[static_cast<std::size_t>(i)].count; }
-  /// Returns the kRow values of a vertex.
+  /// Returns the kRow values of a vertex. The vertices of a lane are consecutive.
   const Value* row(int i, int vertex) const { return rows_.get() + index(i, vertex); }
   /// Returns true if a vertex is the last one of its strip.
   bool ends_strip(int i, int vertex) const {

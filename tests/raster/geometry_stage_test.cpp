@@ -257,7 +257,7 @@ TEST(GeometryStage, ARestartBeginsANewStripWithAdjacency) {
   EXPECT_EQ(received<GeometryInputPrimitive::lines_adjacency>(Topology::line_strip_adjacency, list), (Rows{{3, 4, 5, 6}, {4, 5, 6, 7}}));
 }
 
-// The provoking vertex comes first or last, and neighbors stay beside their edges.
+// The provoking vertex comes first or last, and each edge keeps its neighbor.
 TEST(GeometryStage, TheProvokingVertexOfAStripIsFirstOrLast) {
   constexpr auto kTriangles = GeometryInputPrimitive::triangles;
   EXPECT_EQ(received<kTriangles>(Topology::triangle_strip, numbers(5)), (Rows{{0, 1, 2}, {2, 1, 3}, {2, 3, 4}}));
@@ -346,7 +346,7 @@ TEST(GeometryStage, EmitsPointSizesAndClipDistancesOfAllInstances) {
   EXPECT_EQ(pixels, (std::array{0, 16, 36, 64}));  // instance 0 has a negative distance; the sides are 2, 4, 6 and 8 px
 }
 
-// Lines from the corners of each triangle along a direction, with a depth-only draw beside it.
+// Lines from the corners of each triangle along a direction.
 struct Normals : SmoothColorShader {
   static constexpr GeometryLayout geometry_layout{.output = GeometryOutputPrimitive::line_strip, .max_vertices = 6};
 

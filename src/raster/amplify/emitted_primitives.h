@@ -11,7 +11,7 @@
 namespace halfspace::HS_LANES {
 
 struct EmittedPrimitives {
-  std::vector<float> rows;                  ///< one row per vertex: clip-space position, point size and clip distances if any, varyings
+  std::vector<float> rows;                  ///< one row per vertex, as in EmittedStrips
   std::size_t row = 0;                      ///< values per row
   Topology topology = Topology::points;     ///< points, lines or triangles
   std::vector<uint32_t> indices;            ///< one, two or three per primitive

@@ -32,8 +32,8 @@ struct PrimitiveRows {
   int count;
 };
 
-/// Strips of vertices that a geometry function has emitted. A vertex is a row of values: clip-space position, point size and clip distances
-/// if there are any, varyings.
+/// Strips of vertices that a geometry function has emitted. A vertex is a row of values: clip-space position, extra values if there are any
+/// (kExtraValues in geometry_stage.h), varyings.
 struct EmittedStrips {
   std::vector<float> rows;
   std::vector<uint32_t> sizes;  ///< number of vertices of each strip

@@ -14,9 +14,9 @@ namespace halfspace::HS_LANES::detail {
 /// Appends the vertices that were emitted in lane i for a primitive.
 template <class E>
 void append_strips(const E& emitted, int i, int primitive, EmittedStrips& out) {
+  out.rows.insert(out.rows.end(), emitted.row(i, 0), emitted.row(i, emitted.count(i)));
   uint32_t size = 0;
   for (int v = 0; v < emitted.count(i); ++v) {
-    out.rows.insert(out.rows.end(), emitted.row(i, v), emitted.row(i, v) + E::kRow);
     ++size;
     if (!emitted.ends_strip(i, v)) continue;
     out.sizes.push_back(size);

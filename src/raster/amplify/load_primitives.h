@@ -11,7 +11,7 @@
 
 namespace halfspace::HS_LANES::detail {
 
-/// Loads N lanes-wide values of which those of lane i start at from(i).
+/// Loads N values per lane. Those of lane i start at from(i).
 template <std::size_t N, class From>
 HS_INLINE std::array<Real, N> load_lanes(const From& from) {
   constexpr auto lanes = static_cast<std::size_t>(kLanes);
@@ -27,7 +27,7 @@ HS_INLINE std::array<Real, N> load_lanes(const From& from) {
   }
 }
 
-/// Sets the positions and varyings of the primitives with the given numbers, and returns their numbers and instances. number(i): of lane i.
+/// Sets the positions and varyings of W primitives with N vertices each. number(i): number of the primitive of lane i.
 template <std::size_t N, class In, class Number>
 HS_INLINE void load_vertices(const PrimitiveRows& from, const Number& number, In& in) {
   using V = typename decltype(in.varyings)::value_type;
