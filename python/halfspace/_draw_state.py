@@ -63,7 +63,9 @@ class State:
     depth_compare: never, less, equal, less_equal, greater, not_equal, greater_equal, always.   depth_range: window depths of the clip planes.
     depth_clip: negative_one_to_one (OpenGL) or zero_to_one (reversed Z: with depth_compare="greater" and depth cleared to 0).
     offset: (slope factor, constant units, clamp) of glPolygonOffset.   offset_modes: the polygon modes in which triangles have it.
-    viewport, scissor: (x, y, width, height) in pixels, from the lower left corner. The default is the whole image.
+    viewport, scissor: (x, y, width, height) in pixels, from the lower left corner. The default is the whole image. The viewport may
+        have fractions of a pixel, and a negative height turns the picture upside down.
+    clip_origin: lower_left, or upper_left for clip spaces in which y points down.
     blend: a Blend, "alpha", "additive" or None.   color_mask: which of r, g, b and a are written.
     stencil: a Stencil for both faces, or a pair for front and back faces.
     query: number of an occlusion query, 0 to 1023, that counts the samples that pass all tests of the draw (Pass.samples_passed).
@@ -77,11 +79,11 @@ class State:
     def __init__(self, *, topology: str = "triangles", polygon_mode: str = "fill", cull: str = "none", front: str = "counter_clockwise",
                  provoking: str = "last", depth_test: bool = True, depth_write: bool = True, depth_compare: str = "less",
                  depth_clip: str = "negative_one_to_one", depth_clamp: bool = False, depth_range: Tuple[float, float] = (0.0, 1.0),
-                 offset: Tuple[float, float, float] = (0.0, 0.0, 0.0), offset_modes: Sequence[str] = ("fill",), viewport: Optional[Sequence[int]] = None,
+                 offset: Tuple[float, float, float] = (0.0, 0.0, 0.0), offset_modes: Sequence[str] = ("fill",), viewport: Optional[Sequence[float]] = None,
                  scissor: Optional[Sequence[int]] = None, blend: Any = None, color_mask: Sequence[bool] = (True, True, True, True),
                  stencil: Any = None, order_independent: bool = False, point_size: float = 1.0, point_origin: str = "upper_left",
                  line_width: float = 1.0, sample_mask: int = 0xFFFFFFFF, alpha_to_coverage: bool = False, sample_shading: bool = False,
-                 base_vertex: int = 0, query: Optional[int] = None) -> None:
+                 base_vertex: int = 0, query: Optional[int] = None, clip_origin: str = "lower_left") -> None:
         s = _core.DrawState()
         self._topology, self._order_independent = topology, bool(order_independent)
         s.topology, s.polygon_mode = word("DrawTopology", "topology", topology), word("PolygonMode", "polygon_mode", polygon_mode)
@@ -92,7 +94,8 @@ class State:
                     word("ClipDepth", "depth_clip", depth_clip), bool(depth_clamp), near, far)
         modes = [_check.choice("offset_modes", mode, ("fill", "line", "point")) for mode in offset_modes]
         s.set_offset(*_check.vector("offset", offset), *(mode in modes for mode in ("fill", "line", "point")))
-        s.viewport, s.scissor = _rect("viewport", viewport, 1, _check.MAX_SIDE), _rect("scissor", scissor, 0, 2**31 - 1)
+        s.viewport, s.scissor = _viewport(viewport), _rect("scissor", scissor, 0, 2**31 - 1)
+        s.clip_origin = word("ClipOrigin", "clip_origin", clip_origin)
         if isinstance(blend, str):
             blend = {"alpha": Blend(), "additive": Blend(destination="one", destination_alpha="one")}[
                 _check.choice("blend", blend, ("alpha", "additive"))]
@@ -125,6 +128,17 @@ class State:
         if query is not None:
             s.query = _check.integer("query", query, 0, _MAX_QUERIES - 1)
         self._core = s
+
+
+def _viewport(value: Any) -> Any:
+    if value is None:
+        return None
+    largest = float(_check.MAX_SIDE)
+    sides = _check.pair("viewport", value, "(x, y, width, height)", 4)
+    x, y, width, height = (_check.number("viewport", n) for n in sides)
+    if not (1 / 256 <= width <= largest and 1 / 256 <= abs(height) <= largest and abs(x) <= largest and abs(y) <= largest):
+        raise fail("viewport", f"is {tuple(value)}", f"a width and a height from 1/256 to {_check.MAX_SIDE}, where the height may be negative")
+    return _core.ViewportRect(x, y, width, height)
 
 
 def _rect(name: str, value: Any, smallest: int, largest: int) -> Any:

@@ -27,6 +27,7 @@ void bind_enums(py::module_& m) {
   bind_enum<Winding>(m, "Winding", {"counter_clockwise", "clockwise"});
   bind_enum<ProvokingVertex>(m, "ProvokingVertex", {"last", "first"});
   bind_enum<ClipDepth>(m, "ClipDepth", {"negative_one_to_one", "zero_to_one"});
+  bind_enum<ClipOrigin>(m, "ClipOrigin", {"lower_left", "upper_left"});
   bind_enum<PointOrigin>(m, "PointOrigin", {"upper_left", "lower_left"});
   bind_enum<BlendFactor>(m, "BlendFactor",
                          {"zero", "one", "src_color", "one_minus_src_color", "dst_color", "one_minus_dst_color", "src_alpha",
@@ -44,6 +45,7 @@ void bind_enums(py::module_& m) {
 
 void bind_structs(py::module_& m) {
   py::class_<Rect>(m, "Rect").def(py::init([](int x, int y, int width, int height) { return Rect{x, y, width, height}; }));
+  py::class_<ViewportRect>(m, "ViewportRect").def(py::init<float, float, float, float>());
   py::class_<BlendState>(m, "BlendState")
       .def(py::init<>())
       .def_readwrite("color_equation", &BlendState::color_equation)
@@ -95,6 +97,7 @@ void bind_draw_state(py::module_& m) {
       .def_readwrite("line_width", &DrawState::line_width)
       .def_readwrite("polygon_mode", &DrawState::polygon_mode)
       .def_readwrite("viewport", &DrawState::viewport)
+      .def_readwrite("clip_origin", &DrawState::clip_origin)
       .def_readwrite("scissor", &DrawState::scissor)
       .def_readwrite("cull", &DrawState::cull)
       .def_readwrite("front", &DrawState::front)

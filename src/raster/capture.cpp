@@ -20,7 +20,8 @@ EmittedPrimitives capture_primitives(const ShaderKernels& kernels, KeptShader sh
   draw.vertex_count = draw.indices->used_count() * state.instances;
   count_primitives(draw);
   PassStatistics statistics;
-  return kernels.emitting != nullptr ? emit_primitives(draw, workers, statistics) : assemble_primitives(draw, workers);
+  return kernels.emitting != nullptr ? emit_primitives(draw, workers, statistics)
+                                     : assemble_primitives(draw, kernels.vertex, kernels.varying_count, workers);
 }
 
 }  // namespace halfspace::HS_LANES::detail

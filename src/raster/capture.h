@@ -40,7 +40,7 @@ inline constexpr ShaderKernels kCaptureKernels = [] {
     k.emitting = &kEmittingStages<S>;
     if constexpr (HasTessellationLayout<S>) k.patch_vertices = S::tessellation_layout.patch_vertices;
   } else {
-    k.vertex = vertex_kernel<S, true, false>;
+    k.vertex = vertex_kernel<S, VertexOutput::varyings>;
   }
   k.varying_count = static_cast<int>(kComponents<typename S::template Varyings<float>>);
   return k;

@@ -32,6 +32,18 @@ constexpr Rect intersect(const Rect& a, const Rect& b) {
   return {x, y, static_cast<int>(std::max<int64_t>(right - x, 0)), static_cast<int>(std::max<int64_t>(top - y, 0))};
 }
 
+/// The bounds of a viewport in window coordinates. Fractions are rounded to 1/256 px. A negative height turns the picture upside down, as
+/// in Vulkan: y is then the upper side, and the winding of triangles in the window changes with the picture.
+struct ViewportRect {
+  float x = 0.0f, y = 0.0f, width = 0.0f, height = 0.0f;
+
+  constexpr ViewportRect() = default;
+  constexpr ViewportRect(float x_, float y_, float width_, float height_) : x(x_), y(y_), width(width_), height(height_) {}
+  constexpr ViewportRect(const Rect& r)
+      : x(static_cast<float>(r.x)), y(static_cast<float>(r.y)), width(static_cast<float>(r.width)), height(static_cast<float>(r.height)) {}
+  friend bool operator==(const ViewportRect&, const ViewportRect&) = default;
+};
+
 /// Primitive topology (OpenGL 4.6, section 10.1). In a strip, every other triangle has two of its vertices swapped so that all triangles
 /// have the same winding. The topologies with adjacency have the vertices of neighbors, which only geometry functions read; other draws
 /// ignore them.
@@ -69,6 +81,10 @@ constexpr bool is_culled(CullMode mode, bool front_facing) {
 }
 enum class Winding : uint8_t { counter_clockwise, clockwise };
 enum class ProvokingVertex : uint8_t { last, first };
+
+/// Where y = −1 in clip space is in the viewport (glClipControl). With upper_left, the picture is upside down, but triangles keep their
+/// sides: the sign of their area in the window is negated (OpenGL 4.6, section 14.6.1).
+enum class ClipOrigin : uint8_t { lower_left, upper_left };
 
 /// Depth range of the view volume in clip space.
 enum class ClipDepth : uint8_t {
@@ -156,7 +172,7 @@ struct ColorMask {
 
 /// Maximum number of color attachments of a pass.
 inline constexpr int kMaxColorTargets = 12;
-/// Number of occlusion queries of a pass, and the largest width of a line in pixels.
+/// Number of occlusion queries and of timers of a pass, and the largest width of a line in pixels.
 inline constexpr uint32_t kMaxQueries = 1 << 16;
 inline constexpr float kMaxLineWidth = 4096.0f;
 
@@ -217,14 +233,29 @@ struct StencilState {
 
 /// One of several viewports (glViewportIndexed, glScissorIndexed, glDepthRangeIndexed).
 struct IndexedViewport {
-  std::optional<Rect> viewport{};  ///< default: the whole target
-  std::optional<Rect> scissor{};   ///< default: no scissor test
+  std::optional<ViewportRect> viewport{};  ///< default: the whole target
+  std::optional<Rect> scissor{};           ///< default: no scissor test
   float range_near = 0.0f, range_far = 1.0f;
 };
 /// The viewports of a draw: 1 to kMaxViewports. If the pixels that two of them can change overlap, each change of the viewport from one
 /// primitive to the next costs as much as a draw.
 using ViewportArray = std::vector<IndexedViewport>;
 inline constexpr std::size_t kMaxViewports = 16;
+
+/// Draws only if a sample has passed in the draws of this pass with DrawState::query = `query` that were added before
+/// (glBeginConditionalRender with GL_QUERY_WAIT); inverted: only if none has.
+struct DrawCondition {
+  uint32_t query = 0;
+  bool inverted = false;
+  friend bool operator==(const DrawCondition&, const DrawCondition&) = default;
+};
+
+/// Bounds of the stored depth (glDepthBoundsEXT): a sample is drawn only if its depth before the draw, or before the fragment that follows
+/// another one of the same draw, is in [low, high]. It has no effect without a depth buffer.
+struct StoredDepthRange {
+  float low = 0.0f, high = 1.0f;  ///< both in [0, 1], low ≤ high
+  friend bool operator==(const StoredDepthRange&, const StoredDepthRange&) = default;
+};
 
 /// Complete state of a draw call, apart from the shader, vertices and indices. As in OpenGL, state for multisampling has no effect in
 /// passes with one sample per pixel, the depth test always passes without a depth buffer, and the size of points, the width of lines and
@@ -240,7 +271,12 @@ struct DrawState {
   PointOrigin point_origin = PointOrigin::upper_left;
   float line_width = 1.0f;  ///< in pixels, 0 to kMaxLineWidth; rounded to an integer if there is one sample per pixel
   PolygonMode polygon_mode = PolygonMode::fill;
-  std::optional<Rect> viewport{};  ///< default: the whole target
+  /// One sample per pixel only: lines (and outlines), or filled triangles, cover all pixels that they overlap, and the alpha of their colors is
+  /// multiplied by the area of the overlap (GL_LINE_SMOOTH, GL_POLYGON_SMOOTH). Meant for blending. The area is exact; the width of a smooth
+  /// line is not rounded.
+  bool line_smooth = false, polygon_smooth = false;
+  std::optional<ViewportRect> viewport{};  ///< default: the whole target
+  ClipOrigin clip_origin = ClipOrigin::lower_left;
   /// Viewports for shaders that return a LayeredVertex, or null. They replace `viewport`, `scissor` and the depth range. Not owned; must
   /// stay valid and unchanged until Pass::run() returns.
   const ViewportArray* viewports = nullptr;
@@ -250,8 +286,12 @@ struct DrawState {
   ProvokingVertex provoking = ProvokingVertex::last;
   DepthState depth{};
   DepthOffset offset{};
-  std::optional<StencilState> stencil{};  ///< default: no stencil test; without a stencil buffer, the test always passes
-  bool sample_shading = false;            ///< multisampling only: run the fragment function once per sample, at the sample position
+  std::optional<StoredDepthRange> depth_bounds{};  ///< default: no test
+  std::optional<StencilState> stencil{};           ///< default: no stencil test; without a stencil buffer, the test always passes
+  bool sample_shading = false;  ///< multisampling only: run the fragment function once per sample, at the sample position
+  /// With sample_shading: the fraction of the samples that need values of their own, 0 to 1 (glMinSampleShading). All samples are shaded
+  /// unless one value per pixel is enough.
+  float min_sample_shading = 1.0f;
   /// Multisampling only: the alpha of the first color determines how many samples are drawn. Has no effect if the first color attachment
   /// contains integers.
   bool alpha_to_coverage = false;
@@ -273,8 +313,31 @@ struct DrawState {
   /// have such formats, except sRGB, and no blending.
   std::optional<LogicOp> logic_op{};
   std::optional<uint32_t> query{};  ///< occlusion query: passing samples are added to PassStatistics::queries[query]; below kMaxQueries
+  /// Default: the draw is always drawn. If draws with this query have not been executed, they are, which costs as much as a flush of the
+  /// pass (PassTuning::bin_budget). A draw that is not drawn is in no counter, except those of tessellation and geometry functions, which
+  /// run in any case. Requires a pass with one layer, and another query than that of the draw itself.
+  std::optional<DrawCondition> condition{};
+  std::optional<uint32_t> timer{};  ///< the time that the draw takes is added to PassStatistics::times[timer]; below kMaxQueries
   friend bool operator==(const DrawState&, const DrawState&) = default;
 };
+
+/// One of several draws with the same shader, vertices and indices. The layout in memory is that of OpenGL's DrawElementsIndirectCommand.
+struct DrawRecord {
+  uint32_t count = 0;
+  uint32_t instances = 1;
+  uint32_t first = 0;
+  int32_t base_vertex = 0;
+  uint32_t base_instance = 0;
+};
+/// Returns the state of the draw of a record.
+inline DrawState with_record(DrawState s, const DrawRecord& r) {
+  s.count = r.count;
+  s.instances = r.instances;
+  s.first = r.first;
+  s.base_vertex = r.base_vertex;
+  s.base_instance = r.base_instance;
+  return s;
+}
 
 /// Common blend states, for DrawState::blend.
 inline constexpr BlendState kAlphaBlend{};  ///< straight alpha, drawn back to front: src·a + dst·(1 − a)
@@ -300,6 +363,18 @@ constexpr const std::optional<BlendState>& blend_of(const DrawState& s, std::siz
 /// Returns the color mask of color attachment i.
 constexpr const ColorMask& color_mask_of(const DrawState& s, std::size_t i) {
   return s.attachments[i] ? s.attachments[i]->mask : s.color_mask;
+}
+
+/// Returns true if triangles of a draw with this winding in the window are front-facing.
+constexpr bool is_front(const DrawState& s, bool counter_clockwise) {
+  return counter_clockwise == ((s.front == Winding::counter_clockwise) == (s.clip_origin == ClipOrigin::lower_left));
+}
+
+/// Returns true if primitives of the draw are smooth in a pass with one sample per pixel.
+constexpr bool is_smooth(const DrawState& s) {
+  if (is_lines(s.topology)) return s.line_smooth;
+  if (!is_triangles(s.topology)) return false;
+  return s.polygon_mode == PolygonMode::line ? s.line_smooth : s.polygon_mode == PolygonMode::fill && s.polygon_smooth;
 }
 
 /// Returns true if the draw produces points.

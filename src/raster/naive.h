@@ -17,6 +17,7 @@
 #include "halfspace/core/float_mode.h"
 #include "halfspace/core/image.h"
 #include "halfspace/raster/detail/draw_input.h"
+#include "halfspace/raster/detail/draw_placement.h"
 #include "halfspace/raster/detail/naive_steps.h"
 #include "halfspace/raster/detail/stream_match.h"
 #include "halfspace/raster/draw_state.h"
@@ -112,7 +113,7 @@ void rasterize(NaiveTarget<R>& target, const S& shader, const std::array<const V
                const std::array<ScreenPoint<R>, 3>& p, const Rect& bounds, const DrawState& state, const V& provoking) {
   const int64_t area = (p[1].x - p[0].x) * (p[2].y - p[0].y) - (p[1].y - p[0].y) * (p[2].x - p[0].x);
   if (area == 0) return;
-  const bool front = (area > 0) == (state.front == Winding::counter_clockwise);
+  const bool front = is_front(state, area > 0);
   if (is_culled(state.cull, front)) return;
   std::array<std::size_t, 3> o{0, 1, 2};  // counter-clockwise, smallest depth first
   if (area < 0) std::swap(o[1], o[2]);
@@ -174,9 +175,9 @@ void rasterize(NaiveTarget<R>& target, const S& shader, const std::array<const V
 
 /// Draws an indexed triangle list. The vertex function must return a vec4<R>, and the fragment function must return a single color.
 ///
-/// Only these parts of the state are used: first, count, base_vertex, viewport, scissor, cull, front, provoking and depth; in double,
-/// depth.clamp is ignored. There is no tessellation, no geometry function, no blending, no stencil test, no polygon offset, no instancing
-/// and no primitive restart.
+/// Only these parts of the state are used: first, count, base_vertex, viewport, clip_origin, scissor, cull, front, provoking and depth; in
+/// double, depth.clamp is ignored. There is no tessellation, no geometry function, no blending, no stencil test, no polygon offset, no
+/// instancing and no primitive restart.
 template <class R, Shader S>
 void draw_naive(NaiveTarget<R>& target, const S& shader, const VertexView& vertices, const Indices& indices, const DrawState& state = {}) {
   const FloatMode float_mode;
@@ -192,10 +193,9 @@ void draw_naive(NaiveTarget<R>& target, const S& shader, const VertexView& verti
               "draw_naive: the depths have another width than the colors; expected images of one size");
   HS_CHECK_OP(target.depth.height(), ==, target.color.height(),
               "draw_naive: the depths have another height than the colors; expected images of one size");
-  const Rect rect = state.viewport.value_or(Rect{0, 0, target.color.width(), target.color.height()});
-  const Viewport viewport = make_viewport(rect, state.depth);
-  Rect bounds = intersect({0, 0, target.color.width(), target.color.height()}, rect);
-  if (state.scissor) bounds = intersect(bounds, *state.scissor);
+  const ViewportRect rect = detail::rounded_viewport(state.viewport, target.color.width(), target.color.height());
+  const Viewport viewport = make_viewport(rect, state.depth, state.clip_origin);
+  const Rect bounds = detail::drawable_rect(rect, state.scissor, target.color.width(), target.color.height(), SampleSpan{});
   const std::size_t provoking = state.provoking == ProvokingVertex::first ? 0 : 2;
   const auto vertex_at = [&](std::size_t i) { return static_cast<std::size_t>(int64_t{(*list)[i]} + state.base_vertex); };
   for (std::size_t i = 0; i + 2 < list->size(); i += 3) {

@@ -132,6 +132,7 @@ void PassState::add_draw(const ShaderKernels& kernels, KeptShader shader, const 
   HS_CHECK(
       !kernels.gives_point_sprite || draws_points(state),
       "Pass::draw: the shader computes rectangles of points, but no points are drawn; expected Topology::points or PolygonMode::point");
+  HS_CHECK(!state.condition || options_.layers == 1, "DrawState::condition: the pass has several layers; expected one");
   check_color_types(kernels);
   check_topology(kernels, state);
   HS_CHECK(state.viewports == nullptr || kernels.gives_layer,
@@ -149,10 +150,12 @@ void PassState::add_draw(const ShaderKernels& kernels, KeptShader shader, const 
   d.vertex_count = d.indices->used_count() * state.instances;
   count_primitives(d);
   const bool replaces = set_color_writes(d);
-  const bool decides_visibility = kernels.discards || kernels.writes_depth;
+  const bool decides_visibility = (kernels.discards && !kernels.tests_early) || kernels.writes_depth;
   // Without color attachments, there is nothing to blend.
   const bool may_defer = !attachments_.has_color || (options_.tuning.defer && replaces && !state.order_independent);
-  const bool changes_colors = d.covers_by_alpha || d.sets_alpha_to_one || (state.logic_op && attachments_.has_color);
+  // After the tests, some fragments are not written, or not with their own color.
+  const bool changes_colors = d.is_smooth || d.covers_by_alpha || d.covers_by_shader || d.sets_alpha_to_one ||
+                              (attachments_.has_color && (state.logic_op || (kernels.discards && kernels.tests_early)));
   d.deferred = may_defer && !changes_colors && (!decides_visibility || kernels.visibility != nullptr);
   if (d.writes_color && !state.order_independent) ++layer_group_;
   d.layer_group = layer_group_;

@@ -99,6 +99,18 @@ class Pass {
       detail::draw<detail::DrawKind::color>(*state_, shader, vertices, detail::sequential_indices(vertices.vertex_count, state), state);
   }
 
+  /// Adds a draw for each record, in order (glMultiDrawElementsIndirect). The fields of a record replace those of the state.
+  template <class S, class V, detail::IndexList I>
+  void draw_records(const S& shader, const V& vertices, I&& indices, std::span<const DrawRecord> records, const DrawState& state = {}) {
+    check_lifetime<I>();
+    for (const DrawRecord& r : records) draw(shader, vertices, indices, with_record(state, r));
+  }
+  /// The same without indices (glMultiDrawArraysIndirect): `first` is a vertex.
+  template <class S, class V>
+  void draw_records(const S& shader, const V& vertices, std::span<const DrawRecord> records, const DrawState& state = {}) {
+    for (const DrawRecord& r : records) draw(shader, vertices, with_record(state, r));
+  }
+
   /// Adds a draw that only writes depth and stencil. The shader's fragment function, if any, is not called. Its visibility function, if
   /// any, determines coverage, and the depth if the fragment function returns one. A shader whose fragment function discards or returns a
   /// depth must have a visibility function; otherwise compilation fails.

@@ -25,7 +25,20 @@ PassStatistics& PassStatistics::operator+=(const PassStatistics& o) {
   tiles_touched += o.tiles_touched;
   flushes += o.flushes;
   for (std::size_t i = 0; i < o.queries.size(); ++i) add_to_query(i, o.queries[i], o.query_primitives[i]);
+  for (std::size_t i = 0; i < o.times.size(); ++i) add_time(i, o.times[i]);
   return *this;
+}
+
+DrawTime& DrawTime::operator+=(const DrawTime& o) {
+  setup += o.setup;
+  visibility += o.visibility;
+  shading += o.shading;
+  return *this;
+}
+
+void PassStatistics::add_time(std::size_t timer, const DrawTime& time) {
+  if (times.size() <= timer) times.resize(timer + 1);
+  times[timer] += time;
 }
 
 void PassStatistics::add_to_query(std::size_t query, uint64_t samples, uint64_t primitives) {

@@ -8,6 +8,15 @@
 
 namespace halfspace::HS_LANES {
 
+/// Time that draws take, in seconds, summed over all threads.
+struct DrawTime {
+  double setup = 0.0;       ///< vertex, control, evaluation and geometry functions; clipping, triangle setup and binning
+  double visibility = 0.0;  ///< coverage, tests and visibility functions
+  double shading = 0.0;     ///< fragment functions, blending and other writes of colors
+  DrawTime& operator+=(const DrawTime& o);
+  friend bool operator==(const DrawTime&, const DrawTime&) = default;
+};
+
 /// Counters of a pass. They do not depend on the number of threads. samples_tested can vary with the SIMD width, because it depends on
 /// which blocks are rejected by hierarchical Z. So can fragments_shaded, for draws that test depth again after the shader: it depends on
 /// how many packets are queued before they are shaded.
@@ -19,8 +28,8 @@ struct PassStatistics {
   uint64_t geometry_invocations = 0;  ///< calls of geometry functions
   uint64_t primitives_in = 0;      ///< submitted primitives; of draws with tessellation or a geometry function, those that these emit into
                                    ///< layers and viewports that exist
-  uint64_t culled_non_finite = 0;  ///< a position or a clip distance is NaN or Inf
-  uint64_t culled_outside = 0;     ///< completely outside one plane of the view volume, or nothing left after clipping
+  uint64_t culled_non_finite = 0;  ///< a position, a clip distance or a cull distance is NaN or Inf
+  uint64_t culled_outside = 0;     ///< completely outside one plane of the view volume, by a cull distance, or nothing left after clipping
   uint64_t culled_face = 0;        ///< by CullMode
   uint64_t culled_degenerate = 0;  ///< zero area or length after snapping
   /// No sample inside the bounding box, viewport and scissor. With one sample per pixel, triangles of at most 4 x 4 pixels are also counted
@@ -44,6 +53,12 @@ struct PassStatistics {
   bool any_passed(std::size_t query) const { return queries[query] != 0; }
   /// Adds to the result of a query; resizes queries and query_primitives if needed.
   void add_to_query(std::size_t query, uint64_t samples, uint64_t primitives = 0);
+
+  /// times[i] is the time of the draws with DrawState::timer = i. A draw that shares work with others has its share by the number of
+  /// primitives. Reading the clock costs each of these draws about 50 ns per tile and primitive.
+  std::vector<DrawTime> times;
+  /// Adds to the time of a timer; resizes times if needed.
+  void add_time(std::size_t timer, const DrawTime& time);
 
   PassStatistics& operator+=(const PassStatistics& o);
   friend bool operator==(const PassStatistics&, const PassStatistics&) = default;

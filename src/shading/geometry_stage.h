@@ -16,9 +16,9 @@
 //     What the vertex function passes to the geometry function, if it differs from what the geometry function passes to the fragment
 //     function. GeometryInput then has VertexVaryings<R>, and Emitter has Varyings<R>.
 //   template <class R> using EmittedVertex = PerVertex<R, N>;
-//     The type of emitted vertices, to emit point sizes and N clip distances. The emitter is then an Emitter<R, Varyings<R>,
-//     PerVertex<R, N>>. Point sizes, clip distances and layers that the vertex or the evaluation function returns are not passed on. A
-//     LayeredVertex<R, N> also has a layer and a viewport.
+//     The type of emitted vertices, to emit point sizes and N clip distances (and, as PerVertex<R, N, M>, M cull distances). The emitter is
+//     then an Emitter<R, Varyings<R>, PerVertex<R, N>>. Point sizes, clip distances and layers that the vertex or the evaluation function
+//     returns are not passed on. A LayeredVertex<R, N> also has a layer and a viewport.
 #pragma once
 
 #include <array>
@@ -71,30 +71,31 @@ struct GeometryInput {
 };
 
 namespace detail {
-/// Number of values of an emitted vertex between its position and its varyings: point size, clip distances, layer and viewport.
+/// Number of values of an emitted vertex between its position and its varyings: point size, clip and cull distances, layer and viewport.
 template <class P>
 inline constexpr std::size_t kExtraValues = 0;
-template <class R, std::size_t N>
-inline constexpr std::size_t kExtraValues<PerVertex<R, N>> = 1 + N;
-template <class R, std::size_t N>
-inline constexpr std::size_t kExtraValues<LayeredVertex<R, N>> = 3 + N;
+template <class R, std::size_t N, std::size_t M>
+inline constexpr std::size_t kExtraValues<PerVertex<R, N, M>> = 1 + N + M;
+template <class R, std::size_t N, std::size_t M>
+inline constexpr std::size_t kExtraValues<LayeredVertex<R, N, M>> = 3 + N + M;
 
 template <class R, class Row>
 HS_INLINE void put_vertex(const vec4<R>& v, Row& row) {
   for (int k = 0; k < 4; ++k) row[static_cast<std::size_t>(k)] = v[k];
 }
-template <class R, std::size_t N, class Row>
-HS_INLINE void put_vertex(const PerVertex<R, N>& v, Row& row) {
+template <class R, std::size_t N, std::size_t M, class Row>
+HS_INLINE void put_vertex(const PerVertex<R, N, M>& v, Row& row) {
   put_vertex(v.position, row);
   row[4] = v.point_size;
   for (std::size_t k = 0; k < N; ++k) row[5 + k] = v.clip_distance[k];
+  for (std::size_t k = 0; k < M; ++k) row[5 + N + k] = v.cull_distance[k];
 }
 // Layer and viewport are the bits of floats.
-template <class R, std::size_t N, class Row>
-HS_INLINE void put_vertex(const LayeredVertex<R, N>& v, Row& row) {
-  put_vertex(PerVertex<R, N>{v.position, v.point_size, v.clip_distance}, row);
-  row[5 + N] = as_real(v.layer);
-  row[6 + N] = as_real(v.viewport);
+template <class R, std::size_t N, std::size_t M, class Row>
+HS_INLINE void put_vertex(const LayeredVertex<R, N, M>& v, Row& row) {
+  put_vertex(PerVertex<R, N, M>{v.position, v.point_size, v.clip_distance, v.cull_distance}, row);
+  row[5 + N + M] = as_real(v.layer);
+  row[6 + N + M] = as_real(v.viewport);
 }
 }  // namespace detail
 

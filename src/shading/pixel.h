@@ -23,6 +23,7 @@
 #include <array>
 #include <type_traits>
 
+#include "halfspace/shading/sample_positions.h"
 #include "halfspace/shading/varyings.h"
 
 namespace halfspace::HS_LANES {
@@ -157,9 +158,18 @@ template <class R>
 struct Pixel {
   R x, y;                  ///< window coordinates (origin lower left) of the pixel center, or of the sample with per-sample shading
   MaskOf<R> front_facing;  ///< the winding matches DrawState::front; always true for point and line primitives
+  /// The number of the sample if the fragment function runs once per sample, otherwise 0 (gl_SampleID). It runs so with
+  /// DrawState::sample_shading, with a PerSample varying, or for shaders with `static constexpr bool per_sample = true`.
+  int32_t sample = 0;
+  int32_t samples = 1;  ///< number of samples of a pixel (gl_NumSamples)
 
   /// Returns the window depth of the fragment, in [0, 1]. It is computed on demand, because few shaders need it.
   HS_INLINE R z() const { return find_z(*this); }
+  /// Returns the position of (x, y) in its pixel, in [0, 1) (gl_SamplePosition).
+  HS_INLINE vec2<R> sample_position() const { return {x - floor(x), y - floor(y)}; }
+  /// Returns the samples of the pixel that the primitive covers and DrawState::sample_mask enables (gl_SampleMaskIn): bit s is sample s. If
+  /// the fragment function runs once per sample, it is at most the bit of this sample. Computed on demand.
+  HS_INLINE IntOf<R> sample_mask() const { return find_sample_mask(*this); }
   /// Returns 1/w_clip at the pixel.
   HS_INLINE R inv_w() const { return weights.denominator / triangle->area * triangle->q_unscale; }
 
@@ -190,6 +200,23 @@ struct Pixel {
     return interpolate_all<V>(w, components<V>(), std::make_index_sequence<kComponents<V>>());
   }
 
+  /// Returns the varyings V at an offset from the pixel center, in pixels with y up (interpolateAtOffset). They are extrapolated if the
+  /// triangle does not cover that point.
+  template <class V>
+  HS_INLINE V at_offset(const vec2<R>& offset) const {
+    const vec2<R> from_center = sample_position() - vec2<R>(R(0.5f), R(0.5f));
+    const Weights<R> w =
+        weights_at<kUsesNoPerspective<V>>(*triangle, dx + (offset.x - from_center.x) * R(256), dy + (offset.y - from_center.y) * R(256));
+    return interpolate_all<V>(w, components<V>(), std::make_index_sequence<kComponents<V>>());
+  }
+  /// Returns the varyings V at a sample, from 0 to samples − 1 (interpolateAtSample).
+  template <class V>
+  HS_INLINE V at_sample(int number) const {
+    const SamplePosition p = HS_LANES::sample_position(samples, number);
+    const auto from_center = [](int at) { return R(static_cast<float>(at - kPixelCenter.x) / 256.0f); };
+    return at_offset<V>({from_center(p.x), from_center(p.y)});
+  }
+
   /// Return the change of a value to the next pixel to the right and up, within the 2x2 quad, like dFdxCoarse and dFdyCoarse in GLSL:
   /// px.template quad_ddx<Varyings<R>>([&](const auto& v) { return v.uv * scale; }). f computes the value from varyings.
   template <class V, class F>
@@ -208,7 +235,8 @@ struct Pixel {
   R dx, dy;          ///< pixel position − v0 or the anchor, in 1/256 px
   R quad_x, quad_y;  ///< 0 or 1: position of the pixel within its quad
   R (*find_z)(const Pixel&);
-  const void* z_source;  ///< data for find_z
+  IntOf<R> (*find_sample_mask)(const Pixel&) = [](const Pixel&) { return IntOf<R>(1); };
+  const void* z_source;  ///< data for find_z and find_sample_mask
 
  private:
   template <class V>

@@ -39,6 +39,8 @@ template <class R, class... C>
 inline constexpr bool kIsFragment<DiscardingTypedFragment<R, C...>> = true;
 template <class R, class... C>
 inline constexpr bool kIsFragment<DepthTypedFragment<R, C...>> = true;
+template <class R, class F>
+inline constexpr bool kIsFragment<SampleMasked<R, F>> = kIsFragment<F>;
 }  // namespace detail
 /// The types that a fragment function may return.
 template <class T>
@@ -120,6 +122,8 @@ template <class R, class... C>
 inline constexpr bool kIsDiscarding<DiscardingTypedFragment<R, C...>> = true;
 template <class R, class... C>
 inline constexpr bool kIsDiscarding<DepthTypedFragment<R, C...>> = true;
+template <class R, class F>
+inline constexpr bool kIsDiscarding<SampleMasked<R, F>> = kIsDiscarding<F>;
 template <class F>
 inline constexpr bool kHasDepth = false;
 template <class R>
@@ -128,6 +132,12 @@ template <class R, std::size_t N>
 inline constexpr bool kHasDepth<DepthFragmentMRT<R, N>> = true;
 template <class R, class... C>
 inline constexpr bool kHasDepth<DepthTypedFragment<R, C...>> = true;
+template <class R, class F>
+inline constexpr bool kHasDepth<SampleMasked<R, F>> = kHasDepth<F>;
+template <class F>
+inline constexpr bool kHasSampleMask = false;
+template <class R, class F>
+inline constexpr bool kHasSampleMask<SampleMasked<R, F>> = true;
 template <class C>
 inline constexpr std::size_t kColorsIn = 1;
 template <class C, std::size_t N>
@@ -164,6 +174,13 @@ using PrimitiveOf = typename detail::PrimitiveOfT<S, R>::type;
 template <class S>
 using FragmentOf = decltype(call_fragment<S, float>(std::declval<const S&>(), std::declval<const typename S::template Varyings<float>&>(),
                                                     std::declval<const PrimitiveOf<S, float>&>(), std::declval<const Pixel<float>&>()));
+
+/// Whether depth and stencil are tested and written before the fragment function runs.
+template <class S>
+inline constexpr bool kTestsEarly = [] {
+  if constexpr (requires { S::early_tests; }) return S::early_tests;
+  return false;
+}();
 
 namespace detail {
 // S has a member template of this name, of any signature.
@@ -260,10 +277,11 @@ consteval bool require_vertex_shader() {
     static_assert(detail::kComplete<S>, "the shader has VertexVaryings but neither an evaluation nor a geometry function, which read them");
   } else {
     using V = typename S::template Varyings<float>;
+    static_assert(kClipDistances<S> + kCullDistances<S> <= 8, "the vertices of the shader have more than 8 clip and cull distances");
     if constexpr (HasTessellationLayout<S>) {
       static_assert(detail::has_valid_tessellation_layout<S>(),
                     "the number of vertices in the patches of the shader is outside of its range: expected 1 to 32");
-      static_assert(kComponents<PatchOf<S, float>> <= kMaxComponents, "the Patch of the shader has more than 64 components");
+      static_assert(kComponents<PatchOf<S, float>> <= kMaxPatchComponents, "the Patch of the shader has more than 256 components");
       static_assert(kComponents<EvaluatedVaryingsOf<S, float>> <= kMaxComponents,
                     "the EvaluatedVaryings of the shader have more than 64 components");
     }
@@ -291,7 +309,7 @@ consteval bool require_depth_shader() {
     return false;
   } else if constexpr (HasFragmentFunction<S>) {
     using F = FragmentOf<S>;
-    static_assert(HasVisibilityFunction<S> || (!detail::kIsDiscarding<F> && !detail::kHasDepth<F>),
+    static_assert(HasVisibilityFunction<S> || kTestsEarly<S> || (!detail::kIsDiscarding<F> && !detail::kHasDepth<F>),
                   "draw_depth() does not call the fragment function, but that of this shader discards or returns a depth; the shader is "
                   "missing: template <class R> Visibility<R> visibility(const Varyings<R>& in, const Pixel<R>& px) const;");
   }
@@ -335,12 +353,28 @@ inline constexpr auto kColorTypes = detail::kColorTypesIn<decltype(FragmentOf<S>
 /// Whether the shader may discard fragments.
 template <class S>
 inline constexpr bool kDiscards = detail::kIsDiscarding<FragmentOf<S>>;
+/// The promise of the shader about the depth that it returns.
+template <class S>
+inline constexpr DepthBound kDepthBound = [] {
+  if constexpr (requires { S::depth_bound; }) return S::depth_bound;
+  return DepthBound::any;
+}();
 /// Whether the shader replaces the depth of the triangle.
 template <class S>
-inline constexpr bool kWritesDepth = detail::kHasDepth<FragmentOf<S>>;
+inline constexpr bool kWritesDepth = detail::kHasDepth<FragmentOf<S>> && !kTestsEarly<S> && kDepthBound<S> != DepthBound::unchanged;
+/// Whether the shader returns a sample mask.
+template <class S>
+inline constexpr bool kWritesSampleMask = detail::kHasSampleMask<FragmentOf<S>>;
+/// Whether the fragment function runs once per sample, for any state.
+template <class S>
+inline constexpr bool kRunsPerSample = [] {
+  bool per_sample = kUsesPerSample<typename S::template Varyings<float>>;
+  if constexpr (requires { S::per_sample; }) per_sample |= S::per_sample;
+  return per_sample;
+}();
 /// Whether the shader has a single color for the whole draw call.
 template <class S>
-inline constexpr bool kIsConstant =
-    !HasPrimitive<S> && HasFragmentFunctionOfVaryings<S> && kComponents<typename S::template Varyings<float>> == 0 && !kDiscards<S>;
+inline constexpr bool kIsConstant = !HasPrimitive<S> && HasFragmentFunctionOfVaryings<S> &&
+                                    kComponents<typename S::template Varyings<float>> == 0 && !kDiscards<S> && !kWritesSampleMask<S>;
 
 }  // namespace halfspace::HS_LANES

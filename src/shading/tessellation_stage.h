@@ -16,7 +16,7 @@
 //   template <class R> struct VertexVaryings { … };
 //     What the vertex function passes to these functions, if it differs from Varyings. PatchInput then has VertexVaryings<R>.
 //   template <class R> struct Patch { … };
-//     Values of a patch, up to 64 components. The functions are then `control(in, Patch<R>& patch)` and `evaluate(in, patch, at, out)`.
+//     Values of a patch, up to 256 components: numbers for the whole patch, or a std::array of control points. The functions are then `control(in, Patch<R>& patch)` and `evaluate(in, patch, at, out)`.
 //   PerVertex<R, N> or LayeredVertex<R, N> as the return type of evaluate: adds a point size and clip distances, and a layer and a
 //     viewport. They have no effect if there is a geometry function.
 //   A geometry function (shading/geometry_stage.h), which receives the divided patches as triangles, lines or points:
@@ -43,6 +43,7 @@ struct TessellationLayout {
   bool point_mode = false;  ///< a point per vertex instead of triangles or lines
 };
 inline constexpr int kMaxPatchVertices = 32;
+inline constexpr std::size_t kMaxPatchComponents = 256;
 
 /// A patch with N vertices.
 template <class R, class V, std::size_t N>

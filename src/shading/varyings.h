@@ -46,7 +46,14 @@ struct Centroid {
   T value;
 };
 
-enum class Interpolation : uint8_t { smooth, flat, linear, centroid };
+/// A smooth varying that is evaluated at each sample (sample in GLSL). The fragment function then runs once per sample, as with
+/// DrawState::sample_shading.
+template <class T>
+struct PerSample {
+  T value;
+};
+
+enum class Interpolation : uint8_t { smooth, flat, linear, centroid, sample };
 
 namespace detail {
 
@@ -93,6 +100,11 @@ struct FieldTraits<Centroid<T>> : FieldTraits<T> {
   static constexpr Interpolation interpolation = Interpolation::centroid;
 };
 
+template <class T>
+struct FieldTraits<PerSample<T>> : FieldTraits<T> {
+  static constexpr Interpolation interpolation = Interpolation::sample;
+};
+
 template <class T, std::size_t N>
 struct FieldTraits<std::array<T, N>> : FieldTraits<T> {
   static constexpr std::size_t components = N * FieldTraits<T>::components;
@@ -107,6 +119,8 @@ template <class T>
 inline constexpr bool kIntegerField<NoPerspective<T>> = kIntegerField<T>;
 template <class T>
 inline constexpr bool kIntegerField<Centroid<T>> = kIntegerField<T>;
+template <class T>
+inline constexpr bool kIntegerField<PerSample<T>> = kIntegerField<T>;
 template <class T, std::size_t N>
 inline constexpr bool kIntegerField<std::array<T, N>> = kIntegerField<T>;
 
@@ -202,6 +216,9 @@ HS_INLINE void copy_components(const R* from, R* to, std::index_sequence<I...>) 
 /// Whether any component is evaluated at the centroid.
 template <class V>
 inline constexpr bool kUsesCentroid = detail::kAny<V, Interpolation::centroid>;
+/// Whether any component is evaluated at each sample.
+template <class V>
+inline constexpr bool kUsesPerSample = detail::kAny<V, Interpolation::sample>;
 /// Whether any component is linear in window space.
 template <class V>
 inline constexpr bool kUsesNoPerspective = detail::kAny<V, Interpolation::linear>;
@@ -240,7 +257,7 @@ HS_INLINE std::array<R, kComponents<T>> to_components(const T& t) {
     static_assert(
         sizeof(T) == sizeof(a),
         "the members of attributes and varyings must be R, vec2<R>, vec3<R>, vec4<R>, mat2<R> … mat4<R>, IntOf<R>, a std::array of "
-        "these, or Flat, NoPerspective or Centroid of these");
+        "these, or Flat, NoPerspective, Centroid or PerSample of these");
     detail::copy_components(reinterpret_cast<const R*>(&t), a.data(), std::make_index_sequence<kComponents<T>>());
   }
   return a;

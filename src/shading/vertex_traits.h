@@ -108,18 +108,24 @@ using EmitterOf = Emitter<R, typename S::template Varyings<R>, typename detail::
 namespace detail {
 template <class T>
 inline constexpr std::size_t kClipDistancesIn = 0;
-template <class R, std::size_t N>
-inline constexpr std::size_t kClipDistancesIn<PerVertex<R, N>> = N;
-template <class R, std::size_t N>
-inline constexpr std::size_t kClipDistancesIn<LayeredVertex<R, N>> = N;
+template <class R, std::size_t N, std::size_t M>
+inline constexpr std::size_t kClipDistancesIn<PerVertex<R, N, M>> = N;
+template <class R, std::size_t N, std::size_t M>
+inline constexpr std::size_t kClipDistancesIn<LayeredVertex<R, N, M>> = N;
+template <class T>
+inline constexpr std::size_t kCullDistancesIn = 0;
+template <class R, std::size_t N, std::size_t M>
+inline constexpr std::size_t kCullDistancesIn<PerVertex<R, N, M>> = M;
+template <class R, std::size_t N, std::size_t M>
+inline constexpr std::size_t kCullDistancesIn<LayeredVertex<R, N, M>> = M;
 template <class T>
 inline constexpr bool kIsLayeredVertex = false;
-template <class R, std::size_t N>
-inline constexpr bool kIsLayeredVertex<LayeredVertex<R, N>> = true;
+template <class R, std::size_t N, std::size_t M>
+inline constexpr bool kIsLayeredVertex<LayeredVertex<R, N, M>> = true;
 template <class T>
 inline constexpr bool kIsPerVertex = false;
-template <class R, std::size_t N>
-inline constexpr bool kIsPerVertex<PerVertex<R, N>> = true;
+template <class R, std::size_t N, std::size_t M>
+inline constexpr bool kIsPerVertex<PerVertex<R, N, M>> = true;
 template <class T>
 inline constexpr bool kIsPointSpriteVertex = std::is_same_v<T, PointSpriteVertex<float>>;
 }  // namespace detail
@@ -128,7 +134,7 @@ template <class T>
 concept EvaluationResult = std::same_as<T, vec4<float>> || detail::kIsPerVertex<T> || detail::kIsLayeredVertex<T>;
 /// The types that a vertex function may return.
 template <class T>
-concept VertexResult = std::same_as<T, vec4<float>> || detail::kIsPerVertex<T> || detail::kIsPointSpriteVertex<T>;
+concept VertexResult = EvaluationResult<T> || detail::kIsPointSpriteVertex<T>;
 
 // ---- functions -------------------------------------------------------------------------------------------------
 
@@ -233,6 +239,9 @@ using LastVertexOf = typename detail::LastVertexOfT<S>::type;
 /// Number of clip distances of a vertex.
 template <class S>
 inline constexpr std::size_t kClipDistances = detail::kClipDistancesIn<LastVertexOf<S>>;
+/// Number of cull distances of a vertex.
+template <class S>
+inline constexpr std::size_t kCullDistances = detail::kCullDistancesIn<LastVertexOf<S>>;
 /// Whether vertices have a point size.
 template <class S>
 inline constexpr bool kGivesPointSize = detail::kIsPerVertex<LastVertexOf<S>> || detail::kIsLayeredVertex<LastVertexOf<S>>;
@@ -249,8 +258,12 @@ template <class R>
 HS_INLINE vec4<R> position_of(const vec4<R>& v) {
   return v;
 }
-template <class R, std::size_t N>
-HS_INLINE vec4<R> position_of(const PerVertex<R, N>& v) {
+template <class R, std::size_t N, std::size_t M>
+HS_INLINE vec4<R> position_of(const PerVertex<R, N, M>& v) {
+  return v.position;
+}
+template <class R, std::size_t N, std::size_t M>
+HS_INLINE vec4<R> position_of(const LayeredVertex<R, N, M>& v) {
   return v.position;
 }
 template <class R>

@@ -98,14 +98,15 @@ void set_depth_state(const DepthState& d) {
   enable(GL_DEPTH_TEST, d.test);
   glDepthFunc(gl(d.compare));
   glDepthMask(d.write);
-  glClipControl(GL_LOWER_LEFT, d.clip == ClipDepth::zero_to_one ? GL_ZERO_TO_ONE : GL_NEGATIVE_ONE_TO_ONE);
   enable(GL_DEPTH_CLAMP, d.clamp);
   glDepthRangef(d.range_near, d.range_far);
 }
 
 void set_state(const DrawState& s, const TargetSpec& target) {
-  const Rect v = s.viewport.value_or(Rect{0, 0, target.width, target.height});
-  glViewport(v.x, v.y, v.width, v.height);
+  const ViewportRect v = s.viewport ? *s.viewport : Rect{0, 0, target.width, target.height};
+  glViewportIndexedf(0, v.x, v.y, v.width, v.height);
+  glClipControl(s.clip_origin == ClipOrigin::upper_left ? GL_UPPER_LEFT : GL_LOWER_LEFT,
+                s.depth.clip == ClipDepth::zero_to_one ? GL_ZERO_TO_ONE : GL_NEGATIVE_ONE_TO_ONE);
   enable(GL_SCISSOR_TEST, s.scissor.has_value());
   if (s.scissor) glScissor(s.scissor->x, s.scissor->y, s.scissor->width, s.scissor->height);
   enable(GL_CULL_FACE, s.cull != CullMode::none);

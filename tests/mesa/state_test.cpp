@@ -25,13 +25,14 @@ struct StateCase {
 DrawState with_depth(const DepthState& depth) {
   return state_with([&](DrawState& s) { s.depth = depth; });
 }
-DrawState with_cull(CullMode cull, Winding front = Winding::counter_clockwise) {
+DrawState with_cull(CullMode cull, Winding front = Winding::counter_clockwise, ClipOrigin origin = ClipOrigin::lower_left) {
   return state_with([&](DrawState& s) {
     s.cull = cull;
     s.front = front;
+    s.clip_origin = origin;
   });
 }
-DrawState with_window(std::optional<Rect> viewport, std::optional<Rect> scissor) {
+DrawState with_window(std::optional<ViewportRect> viewport, std::optional<Rect> scissor) {
   return state_with([&](DrawState& s) {
     s.viewport = viewport;
     s.scissor = scissor;
@@ -39,9 +40,15 @@ DrawState with_window(std::optional<Rect> viewport, std::optional<Rect> scissor)
 }
 
 std::vector<StateCase> cull_cases() {
-  return {{"cull_none_ccw", with_cull(CullMode::none)},   {"cull_none_cw", with_cull(CullMode::none, Winding::clockwise)},
-          {"cull_front_ccw", with_cull(CullMode::front)}, {"cull_front_cw", with_cull(CullMode::front, Winding::clockwise)},
-          {"cull_back_ccw", with_cull(CullMode::back)},   {"cull_back_cw", with_cull(CullMode::back, Winding::clockwise)}};
+  return {{"cull_none_ccw", with_cull(CullMode::none)},
+          {"cull_none_cw", with_cull(CullMode::none, Winding::clockwise)},
+          {"cull_front_ccw", with_cull(CullMode::front)},
+          {"cull_front_cw", with_cull(CullMode::front, Winding::clockwise)},
+          {"cull_back_ccw", with_cull(CullMode::back)},
+          {"cull_back_cw", with_cull(CullMode::back, Winding::clockwise)},
+          {"upper_left_cull_none", with_cull(CullMode::none, Winding::counter_clockwise, ClipOrigin::upper_left)},
+          {"upper_left_cull_back_ccw", with_cull(CullMode::back, Winding::counter_clockwise, ClipOrigin::upper_left)},
+          {"upper_left_cull_back_cw", with_cull(CullMode::back, Winding::clockwise, ClipOrigin::upper_left)}};
 }
 
 // `never` and `equal` have separate tests. With a clear depth of 0.5, every other operator passes some fragments and rejects some.
@@ -67,6 +74,8 @@ std::vector<StateCase> window_cases() {
           {"viewport_offset", with_window(Rect{61, 43, 128, 64}, {})},
           {"viewport_beyond_the_target", with_window(Rect{-100, -50, 512, 1024}, {})},
           {"viewport_of_odd_size", with_window(Rect{13, 7, 211, 173}, {})},
+          {"viewport_with_fractions", with_window(ViewportRect{13.375f, 7.8125f, 128.0f, 64.0f}, {})},
+          {"viewport_of_a_fractional_size", with_window(ViewportRect{20.0f, 30.0f, 100.25f, 150.75f}, {})},
           {"viewport_and_scissor", with_window(Rect{61, 43, 128, 128}, Rect{100, 20, 60, 300})},
           {"depth_range", with_depth({.range_near = 0.25f, .range_far = 0.75f})},
           {"depth_range_reversed", with_depth({.range_near = 0.9f, .range_far = 0.1f})},

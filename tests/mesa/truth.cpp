@@ -77,15 +77,18 @@ glm::u8vec4 truth_blend(const glm::dvec4& source, const glm::u8vec4& stored, con
   return truth_codes(out, format);
 }
 
-TruthTriangle truth_triangle(const std::array<glm::vec4, 3>& pos_clip, const Rect& viewport, const DepthState& depth, Positions positions) {
+TruthTriangle truth_triangle(const std::array<glm::vec4, 3>& pos_clip, const ViewportRect& viewport, const DrawState& state,
+                             Positions positions) {
+  const DepthState& depth = state.depth;
+  const double up = state.clip_origin == ClipOrigin::upper_left ? -1.0 : 1.0;
   TruthTriangle t;
   const double near = static_cast<double>(depth.range_near), far = static_cast<double>(depth.range_far);
   const bool in_front = std::all_of(pos_clip.begin(), pos_clip.end(), [](const glm::vec4& p) { return p.w > 0.0f; });
   for (std::size_t i = 0; i < 3; ++i) {
     const glm::dvec4 p(pos_clip[i]);
     t.q[i] = 1.0 / p.w;
-    t.x[i] = (viewport.x + (p.x / p.w + 1.0) * 0.5 * viewport.width) * 256.0;
-    t.y[i] = (viewport.y + (p.y / p.w + 1.0) * 0.5 * viewport.height) * 256.0;
+    t.x[i] = (static_cast<double>(viewport.x) + (p.x / p.w + 1.0) * 0.5 * static_cast<double>(viewport.width)) * 256.0;
+    t.y[i] = (static_cast<double>(viewport.y) + (up * p.y / p.w + 1.0) * 0.5 * static_cast<double>(viewport.height)) * 256.0;
     t.z[i] = near + (far - near) * (depth.clip == ClipDepth::zero_to_one ? p.z / p.w : 0.5 * p.z / p.w + 0.5);
     if (positions == Positions::snapped && in_front) {
       t.x[i] = std::nearbyint(t.x[i]);
@@ -122,7 +125,8 @@ bool TruthTriangle::covers(const std::array<double, 3>& b, bool fill_rule) const
 
 bool truth_culled(const TruthTriangle& t, const DrawState& state) {
   const bool counter_clockwise = t.area * t.q[0] * t.q[1] * t.q[2] > 0.0;
-  const bool front = counter_clockwise == (state.front == Winding::counter_clockwise);
+  const bool is_reversed = (state.front == Winding::clockwise) != (state.clip_origin == ClipOrigin::upper_left);
+  const bool front = counter_clockwise != is_reversed;
   return state.cull == CullMode::front_and_back || (state.cull == CullMode::front && front) || (state.cull == CullMode::back && !front);
 }
 

@@ -41,7 +41,8 @@ struct TruthTriangle {
   /// otherwise they all belong to it.
   bool covers(const std::array<double, 3>& b, bool fill_rule) const;
 };
-TruthTriangle truth_triangle(const std::array<glm::vec4, 3>& pos_clip, const Rect& viewport, const DepthState& depth, Positions positions);
+TruthTriangle truth_triangle(const std::array<glm::vec4, 3>& pos_clip, const ViewportRect& viewport, const DrawState& state,
+                             Positions positions);
 bool truth_culled(const TruthTriangle& t, const DrawState& state);
 
 /// A draw call that can be evaluated at a single pixel.
@@ -64,18 +65,19 @@ class TruthDrawOf final : public TruthDraw {
         indices_(std::move(indices)),
         state_(state),
         format_(target.format),
-        viewport_(state.viewport.value_or(Rect{0, 0, target.width, target.height})) {
+        viewport_(state.viewport ? *state.viewport : Rect{0, 0, target.width, target.height}) {
     for (std::size_t i = 0; i < view.vertex_count; ++i) shade_vertex(view, i);
     for (std::size_t i = 0; i + 2 < indices_.size(); i += 3) {
       const std::array<glm::vec4, 3> p{pos_clip_[indices_[i]], pos_clip_[indices_[i + 1]], pos_clip_[indices_[i + 2]]};
-      exact_.push_back(truth_triangle(p, viewport_, state.depth, Positions::exact));
-      snapped_.push_back(truth_triangle(p, viewport_, state.depth, Positions::snapped));
+      exact_.push_back(truth_triangle(p, viewport_, state, Positions::exact));
+      snapped_.push_back(truth_triangle(p, viewport_, state, Positions::snapped));
     }
   }
 
   void draw(const glm::dvec2& center, Positions positions, TruthPixel& pixel) const override {
-    const auto inside = [&center](const Rect& r) {
-      return center.x >= r.x && center.x < r.x + r.width && center.y >= r.y && center.y < r.y + r.height;
+    const auto inside = [&center](const ViewportRect& v) {
+      const glm::dvec2 a(v.x, v.y), size(v.width, v.height), low = min(a, a + size), high = max(a, a + size);
+      return center.x >= low.x && center.x < high.x && center.y >= low.y && center.y < high.y;
     };
     if (!inside(viewport_) || (state_.scissor && !inside(*state_.scissor))) return;
     for (std::size_t i = 0; i < exact_.size(); ++i) draw_triangle(i, center, positions, pixel);
@@ -148,7 +150,7 @@ class TruthDrawOf final : public TruthDraw {
   std::vector<uint32_t> indices_;
   DrawState state_;
   ColorFormat format_;
-  Rect viewport_;
+  ViewportRect viewport_;
   std::vector<glm::vec4> pos_clip_;
   std::vector<std::array<float, kN>> varyings_;
   std::vector<TruthTriangle> exact_, snapped_;

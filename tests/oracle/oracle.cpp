@@ -30,20 +30,25 @@ void Renderer::draw_pixel(const DrawState& state, const ShaderFacts& facts, cons
   std::optional<FragmentResult> of_pixel;
   Point centroid = center_of(x, y);  // if only some samples are covered, replaced by the first of them
   std::vector<Point> covered;
+  uint32_t mask = target_.samples() == 1 ? 1 : 0;
   for (int i = 0; i < target_.samples(); ++i) {
     const Point p = position_of({x, y, i}, target_.samples());
-    if (covers(t, p)) covered.push_back(p);
+    if (!covers(t, p)) continue;
+    covered.push_back(p);
+    if (target_.samples() > 1 && allows_sample(state, i)) mask |= 1u << i;
   }
+  const auto samples = static_cast<float>(target_.samples());
+  const bool per_sample = supersample_ || facts.runs_per_sample || (state.sample_shading && state.min_sample_shading * samples > 1.0f);
   if (!covered.empty() && covered.size() < static_cast<std::size_t>(target_.samples())) centroid = covered[0];
   for (int i = 0; i < target_.samples(); ++i) {
     const Sample s{x, y, i};
     if (!covers(t, position_of(s, target_.samples()))) continue;
     if (target_.samples() > 1 && !allows_sample(state, i)) continue;
-    if (state.sample_shading || supersample_) {
+    if (per_sample) {
       const Point at = position_of(s, target_.samples());
-      draw_sample(state, facts, t, s, shade(t, surface, at, at));
+      draw_sample(state, facts, t, s, shade(t, surface, {at, at, i, target_.samples(), mask & 1u << i}));
     } else {
-      if (!of_pixel) of_pixel = shade(t, surface, center_of(x, y), centroid);
+      if (!of_pixel) of_pixel = shade(t, surface, {center_of(x, y), centroid, 0, target_.samples(), mask});
       draw_sample(state, facts, t, s, *of_pixel);
     }
   }
@@ -58,22 +63,28 @@ bool Renderer::allows_sample(const DrawState& state, int number) const {
 
 void Renderer::draw_sample(const DrawState& state, const ShaderFacts& facts, const WindowTriangle& t, const Sample& s,
                            const FragmentResult& result) {
-  if (!result.keep) return;
   const auto samples = static_cast<float>(target_.samples());
-  if (state.alpha_to_coverage && facts.has_fragment && samples > 1.0f &&
-      !(result.colors[0].w * samples >= static_cast<float>(s.number) + 0.5f))
-    return;
-  double z = target_.depth_value(tested_depth(t, state.depth, position_of(s, target_.samples())));
+  bool is_drawn = result.keep;
+  if (facts.has_fragment && samples > 1.0f) {
+    if (state.alpha_to_coverage) is_drawn &= result.colors[0].w * samples >= static_cast<float>(s.number) + 0.5f;
+    is_drawn &= (result.sample_mask >> s.number) % 2 != 0;
+  }
+  if (!is_drawn && !facts.tests_early) return;
+  const double of_triangle = target_.depth_value(tested_depth(t, state.depth, position_of(s, target_.samples())));
+  double z = of_triangle;
   if (facts.writes_depth) {
     const float low = std::min(state.depth.range_near, state.depth.range_far),
                 high = std::max(state.depth.range_near, state.depth.range_far);
     z = target_.depth_value(clamped(result.depth, low, high));
+    const bool has_one_depth = samples == 1.0f || supersample_ || facts.runs_per_sample || state.sample_shading;
+    if (has_one_depth && facts.depth_bound == DepthBound::greater) z = std::fmax(z, of_triangle);
+    if (has_one_depth && facts.depth_bound == DepthBound::less) z = std::fmin(z, of_triangle);
   }
   if (!tests_pass(state, t.front, s, z)) return;
   ++counts_.samples_passed;
   if (state.query) counts_.queries[*state.query] += 1;
   if (state.depth.test && state.depth.write) target_.set_depth(s, z);
-  if (facts.has_fragment) write_colors(state, s, result.colors);
+  if (facts.has_fragment && is_drawn) write_colors(state, s, result.colors);
 }
 
 bool Renderer::depth_passes(const DrawState& state, const Sample& s, double z) const {
@@ -82,6 +93,10 @@ bool Renderer::depth_passes(const DrawState& state, const Sample& s, double z) c
 
 // Performs the stencil test and then the depth test. The stencil operation depends on the results of both.
 bool Renderer::tests_pass(const DrawState& state, bool front, const Sample& s, double z) {
+  if (state.depth_bounds && target_.depth_format() != DepthFormat::none) {
+    const auto& [low, high] = *state.depth_bounds;
+    if (target_.depth(s) < static_cast<double>(low) || target_.depth(s) > static_cast<double>(high)) return false;
+  }
   if (!state.stencil || !has_stencil(target_.depth_format())) return depth_passes(state, s, z);
   const StencilFace& f = front ? state.stencil->front : state.stencil->back;
   const uint8_t stored = target_.stencil(s);

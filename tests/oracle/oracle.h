@@ -102,8 +102,7 @@ class Renderer {
   template <class S>
   void draw_primitive(const S& shader, const DrawState& state, const std::array<const ShadedVertex*, 3>& v);
 
-  // at: where the pixel is evaluated; centroid: where its centroid varyings are evaluated
-  using FragmentFunction = std::function<FragmentResult(const WindowTriangle&, const Surface&, const Point& at, const Point& centroid)>;
+  using FragmentFunction = std::function<FragmentResult(const WindowTriangle&, const Surface&, const Place&)>;
 
   // Primitives (primitives.cpp).
 
@@ -238,8 +237,8 @@ void Renderer::draw_primitive(const S& shader, const DrawState& state, const std
   }
   const bool points = state.topology == Topology::points;
   for (const WindowTriangle& t : points ? window_points(state, *v[0]) : window_triangles(state, facts, v)) {
-    rasterize(state, facts, t, [&](const WindowTriangle& triangle, const Surface& surface, const Point& at, const Point& centroid) {
-      return detail::call_shader(shader, face, triangle, surface, state.depth, at, centroid);
+    rasterize(state, facts, t, [&](const WindowTriangle& triangle, const Surface& surface, const Place& place) {
+      return detail::call_shader(shader, face, triangle, surface, state.depth, place);
     });
   }
 }

@@ -154,12 +154,13 @@ std::vector<WindowTriangle> Renderer::window_points(const DrawState& state, cons
     return {};
   }
   const float inv_w = 1.0f / p.w;
-  const bool beyond = std::any_of(v.clip_distances.begin(), v.clip_distances.end(), [](float d) { return !(d >= 0.0f); });
+  const auto is_negative = [](float d) { return d < 0.0f; };
+  const bool beyond = std::ranges::any_of(v.clip_distances, is_negative) || std::ranges::any_of(v.cull_distances, is_negative);
   if (beyond || !(inv_w > 0.0f && inv_w <= 1.0f / kMinW) || (!state.depth.clamp && (beyond_near(state.depth, p) || beyond_far(p)))) {
     ++counts_.culled_outside;
     return {};
   }
-  const Transform f = make_transform(state.viewport.value_or(Rect{0, 0, target_.width(), target_.height()}), state.depth);
+  const Transform f = make_transform(state, target_.width(), target_.height(), target_.samples());
   const auto place = [](double ndc, float half, float center) {
     return std::llrint(std::fmin(std::fmax((ndc * static_cast<double>(half) + static_cast<double>(center)) * 256.0, -0x1p28), 0x1p28));
   };
@@ -175,6 +176,7 @@ std::vector<WindowTriangle> Renderer::window_points(const DrawState& state, cons
     const auto number = [](float x) { return static_cast<double>(x); };
     t.low = {place(number(v.low.x), f.half_width, f.center_x), place(number(v.low.y), f.half_height, f.center_y)};
     t.high = {place(number(v.high.x), f.half_width, f.center_x), place(number(v.high.y), f.half_height, f.center_y)};
+    if (f.half_height < 0.0f) std::swap(t.low.y, t.high.y);
   } else {
     const bool near_by = !needs_clip(f, {.clamp = true}, p);
     const auto x = static_cast<double>(p.x) / static_cast<double>(p.w), y = static_cast<double>(p.y) / static_cast<double>(p.w);
@@ -250,7 +252,7 @@ std::vector<WindowTriangle> Renderer::window_outline(const DrawState& state, std
                                                      const std::array<const ShadedVertex*, 3>& v, const std::vector<float>& flat) {
   int64_t area = 0;
   for (std::size_t i = 2; i < corners.size(); ++i) area += orient2d(corners[0], corners[i - 1], corners[i]);
-  const bool front = (area > 0) == (state.front == Winding::counter_clockwise);
+  const bool front = is_front_facing(state, area > 0);
   if (area == 0) ++counts_.culled_degenerate;
   if (area != 0 && culls_face(state.cull, front)) ++counts_.culled_face;
   if (area == 0 || culls_face(state.cull, front)) return {};
@@ -272,6 +274,7 @@ std::vector<WindowTriangle> Renderer::window_outline(const DrawState& state, std
     } else if (vertex[i] >= 0) {
       ShadedVertex point = *v[static_cast<std::size_t>(vertex[i])];
       point.clip_distances.clear();
+      point.cull_distances.clear();
       const Counts before = counts_;
       std::vector<WindowTriangle> one = window_points(state, point);
       counts_ = before;
@@ -301,11 +304,13 @@ std::vector<WindowTriangle> Renderer::window_triangles(const DrawState& state, c
     beyond_all |= std::all_of(v.begin(), v.end(), beyond);
     beyond_any |= std::any_of(v.begin(), v.end(), beyond);
   }
+  for (std::size_t k = 0; k < v[0]->cull_distances.size(); ++k)
+    beyond_all |= std::all_of(v.begin(), v.end(), [k](const ShadedVertex* s) { return s->cull_distances[k] < 0.0f; });
   if (all_outside(state.depth, v) || beyond_all) {
     ++counts_.culled_outside;
     return {};
   }
-  const Transform transform = make_transform(state.viewport.value_or(Rect{0, 0, target_.width(), target_.height()}), state.depth);
+  const Transform transform = make_transform(state, target_.width(), target_.height(), target_.samples());
   const std::size_t provoking = state.provoking == ProvokingVertex::first ? 0 : 2;
   std::vector<Corner> corners;
   std::vector<int> vertices{0, 1, 2};

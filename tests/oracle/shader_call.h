@@ -17,11 +17,12 @@
 namespace halfspace::oracle::detail {
 
 inline void take_vertex(const glm::vec4& v, ShadedVertex& out) { out.pos_clip = v; }
-template <std::size_t N>
-void take_vertex(const PerVertex<float, N>& v, ShadedVertex& out) {
+template <std::size_t N, std::size_t M>
+void take_vertex(const PerVertex<float, N, M>& v, ShadedVertex& out) {
   out.pos_clip = v.position;
   out.point_size = v.point_size;
   out.clip_distances.assign(v.clip_distance.begin(), v.clip_distance.end());
+  out.cull_distances.assign(v.cull_distance.begin(), v.cull_distance.end());
 }
 inline void take_vertex(const PointSpriteVertex<float>& v, ShadedVertex& out) {
   out.pos_clip = {0.0f, 0.0f, v.depth, v.drawn ? 1.0f : -1.0f};
@@ -74,7 +75,11 @@ std::vector<std::vector<ShadedVertex>> call_geometry(const S& shader, const std:
     ShadedVertex v;
     v.pos_clip = {row[0], row[1], row[2], row[3]};
     v.point_size = extra == 0 ? point_size : row[4];
-    if (extra != 0) v.clip_distances.assign(row + 5, row + 4 + extra);
+    if (extra != 0) {
+      const float* const culls = row + 5 + kClipDistances<S>;
+      v.clip_distances.assign(row + 5, culls);
+      v.cull_distances.assign(culls, culls + kCullDistances<S>);
+    }
     v.varyings.assign(row + 4 + extra, row + Out::kRow);
     strips.back().push_back(v);
   }
@@ -117,7 +122,8 @@ DividedPatch divide_patch(const S& shader, const std::vector<const ShadedVertex*
 
 template <class S>
 FragmentResult call_shader(const S& shader, const PrimitiveOf<S, float>& face, const WindowTriangle& t, const Surface& s,
-                           const DepthState& state, const Point& at, const Point& centroid) {
+                           const DepthState& state, const Place& place) {
+  const Point &at = place.at, &centroid = place.centroid;
   using V = typename S::template Varyings<float>;
   constexpr std::size_t n = kComponents<V>;
   const SurfacePoint p = surface_point(s, t, state, at), inside = surface_point(s, t, state, centroid);
@@ -133,8 +139,15 @@ FragmentResult call_shader(const S& shader, const PrimitiveOf<S, float>& face, c
   Pixel<float> px;
   px.x = static_cast<float>(at.x) / 256.0f;
   px.y = static_cast<float>(at.y) / 256.0f;
-  px.find_z = [](const Pixel<float>& pixel) { return *static_cast<const float*>(pixel.z_source); };
-  px.z_source = &p.z;
+  struct Source {
+    float z;
+    int32_t mask;
+  } const source{p.z, static_cast<int32_t>(place.mask)};
+  px.find_z = [](const Pixel<float>& pixel) { return static_cast<const Source*>(pixel.z_source)->z; };
+  px.find_sample_mask = [](const Pixel<float>& pixel) { return static_cast<const Source*>(pixel.z_source)->mask; };
+  px.z_source = &source;
+  px.sample = place.sample;
+  px.samples = place.samples;
   px.front_facing = t.front;
   px.triangle = &s.lanes;
   px.component_lanes = &components;
@@ -149,6 +162,7 @@ FragmentResult call_shader(const S& shader, const PrimitiveOf<S, float>& face, c
     for (std::size_t i = 0; i < kColors<S>; ++i) result.colors.push_back(halfspace::detail::nth_color(fragment.color, i));
     if constexpr (kDiscards<S>) result.keep = fragment.keep;
     if constexpr (kWritesDepth<S>) result.depth = fragment.depth;
+    if constexpr (kWritesSampleMask<S>) result.sample_mask = static_cast<uint32_t>(fragment.sample_mask);
   }
   return result;
 }
@@ -158,7 +172,12 @@ ShaderFacts facts_of() {
   ShaderFacts facts;
   facts.interpolations = kInterpolations<typename S::template Varyings<float>>;
   facts.has_fragment = HasFragmentFunction<S>;
-  if constexpr (HasFragmentFunction<S>) facts.writes_depth = kWritesDepth<S>;
+  if constexpr (HasFragmentFunction<S>) {
+    facts.writes_depth = kWritesDepth<S>;
+    facts.tests_early = kTestsEarly<S>;
+    facts.depth_bound = kDepthBound<S>;
+    facts.runs_per_sample = kRunsPerSample<S>;
+  }
   return facts;
 }
 

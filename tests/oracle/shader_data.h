@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "halfspace/shading/shader_traits.h"
+#include "oracle/window.h"
 
 namespace halfspace::oracle {
 
@@ -14,6 +15,8 @@ namespace halfspace::oracle {
 struct ShaderFacts {
   bool has_fragment = true;
   bool writes_depth = false;
+  bool tests_early = false, runs_per_sample = false;
+  DepthBound depth_bound = DepthBound::any;
   std::span<const Interpolation> interpolations;
 };
 
@@ -21,10 +24,18 @@ struct ShaderFacts {
 struct ShadedVertex {
   glm::vec4 pos_clip{};
   float point_size = 1.0f;
-  std::vector<float> clip_distances;
+  std::vector<float> clip_distances, cull_distances;
   bool has_bounds = false;  ///< if set, low and high (NDC) are used instead of the size
   glm::vec2 low{}, high{};
   std::vector<float> varyings;
+};
+
+/// Where a fragment function is evaluated.
+struct Place {
+  Point at, centroid;  ///< of smooth and of centroid varyings
+  int sample = 0;      ///< if it runs per sample
+  int samples = 1;     ///< of a pixel
+  uint32_t mask = 1;   ///< the samples that it is for
 };
 
 /// The output of the fragment function.
@@ -32,6 +43,7 @@ struct FragmentResult {
   std::vector<glm::vec4> colors;
   bool keep = true;
   float depth = 0.0f;
+  uint32_t sample_mask = ~0u;
 };
 
 }  // namespace halfspace::oracle

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "oracle/arithmetic.h"
 
@@ -14,12 +15,15 @@ constexpr float kGuard = 16384.0f;  // px
 
 }  // namespace
 
-Transform make_transform(const Rect& r, const DepthState& d) {
+Transform make_transform(const DrawState& s, int width, int height, int samples) {
+  const ViewportRect r = s.viewport ? *s.viewport : ViewportRect(Rect{0, 0, width, height});
+  const DepthState& d = s.depth;
   Transform t{};
-  t.half_width = static_cast<float>(r.width) / 2.0f;
-  t.half_height = static_cast<float>(r.height) / 2.0f;
-  t.center_x = static_cast<float>(r.x) + t.half_width;
-  t.center_y = static_cast<float>(r.y) + t.half_height;
+  t.half_width = r.width / 2.0f;
+  t.half_height = r.height / 2.0f;
+  t.center_x = r.x + t.half_width;
+  t.center_y = r.y + t.half_height;
+  if (s.clip_origin == ClipOrigin::upper_left) t.half_height *= -1.0f;
   if (d.clip == ClipDepth::zero_to_one) {
     t.z_scale = d.range_far - d.range_near;
     t.z_bias = d.range_near;
@@ -31,6 +35,10 @@ Transform make_transform(const Rect& r, const DepthState& d) {
   t.right = (kGuard - t.center_x) / t.half_width;
   t.bottom = (-kGuard - t.center_y) / t.half_height;
   t.top = (kGuard - t.center_y) / t.half_height;
+  if (t.bottom > t.top) std::swap(t.bottom, t.top);
+  const bool has_fractions =
+      std::fmod(r.x, 1.0f) != 0 || std::fmod(r.y, 1.0f) != 0 || std::fmod(r.width, 1.0f) != 0 || std::fmod(r.height, 1.0f) != 0;
+  if (samples > 1 && has_fractions && s.polygon_mode != PolygonMode::line) t.left = t.bottom = -1.0f, t.right = t.top = 1.0f;
   return t;
 }
 
@@ -69,7 +77,8 @@ Corner project(const Transform& t, const ShadedVertex& v) {
 bool is_finite(const ShadedVertex& v) {
   const glm::vec4& p = v.pos_clip;
   const auto finite = [](float x) { return std::isfinite(x); };
-  return finite(p.x) && finite(p.y) && finite(p.z) && finite(p.w) && std::ranges::all_of(v.clip_distances, finite);
+  return finite(p.x) && finite(p.y) && finite(p.z) && finite(p.w) && std::ranges::all_of(v.clip_distances, finite) &&
+         std::ranges::all_of(v.cull_distances, finite);
 }
 
 bool beyond_near(const DepthState& d, const glm::vec4& p) { return d.clip == ClipDepth::zero_to_one ? p.z < 0.0f : p.z < -p.w; }

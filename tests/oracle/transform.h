@@ -22,7 +22,9 @@ struct Transform {
   float left, right, bottom, top;  ///< the guard band in units of w
 };
 
-Transform make_transform(const Rect& r, const DepthState& d);
+/// The transform of a draw to a target of this size. Viewports with fractions of a pixel are clipped at their sides if there are several
+/// samples, unless outlines are drawn.
+Transform make_transform(const DrawState& s, int width, int height, int samples);
 
 /// Rounds x/w·half + center to the nearest multiple of 1/256 px.
 int64_t snap(float x, float w, float half, float center);

@@ -84,7 +84,7 @@ std::pair<Fate, WindowTriangle> make_window_triangle(const DrawState& state, con
   t.area = cross(c[1].x - c[0].x, c[1].y - c[0].y, c[2].x - c[0].x, c[2].y - c[0].y);
   if (t.area == 0) return {Fate::degenerate, t};
   const bool counter_clockwise = t.area > 0;
-  t.front = counter_clockwise == (state.front == Winding::counter_clockwise);
+  t.front = is_front_facing(state, counter_clockwise);
   if (faces_front) t.front = *faces_front;
   if (!faces_front && culls_face(state.cull, t.front)) return {Fate::wrong_face, t};
   if (intersect(covered_box(t, samples), allowed).empty()) return {Fate::no_sample, t};

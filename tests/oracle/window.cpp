@@ -22,15 +22,40 @@ namespace {
 
 Box box_of(const Rect& r) { return {r.x, r.y, int64_t{r.x} + r.width, int64_t{r.y} + r.height}; }
 
+// The smallest and largest coordinates of samples in their pixel, in 1/256 px.
+std::pair<double, double> sample_range(int samples) {
+  double low = 256.0, high = 0.0;
+  for (int s = 0; s < samples; ++s) {
+    const Point p = position_of({0, 0, s}, samples);
+    low = std::fmin(low, static_cast<double>(std::min(p.x, p.y)));
+    high = std::fmax(high, static_cast<double>(std::max(p.x, p.y)));
+  }
+  return {low, high};
+}
+
+// The pixels that may have a sample in a viewport, based on the bounding box of the sample positions.
+Box box_of(const ViewportRect& r, int samples) {
+  const auto [low, high] = sample_range(samples);
+  const auto first = [](double x, double place) { return static_cast<int64_t>(std::ceil(x - place / 256.0)); };
+  const double left = static_cast<double>(r.x), right = left + static_cast<double>(r.width);
+  const double a = static_cast<double>(r.y), b = a + static_cast<double>(r.height);
+  return {first(left, high), first(std::fmin(a, b), high), first(right, low), first(std::fmax(a, b), low)};
+}
+
 }  // namespace
 
 Box intersect(const Box& a, const Box& b) {
   return {std::max(a.x0, b.x0), std::max(a.y0, b.y0), std::min(a.x1, b.x1), std::min(a.y1, b.y1)};
 }
 
+bool is_front_facing(const DrawState& state, bool counter_clockwise) {
+  const bool expects_counter_clockwise = state.front == Winding::counter_clockwise;
+  return (counter_clockwise == expects_counter_clockwise) != (state.clip_origin == ClipOrigin::upper_left);
+}
+
 Box allowed_pixels(const Framebuffer& target, const DrawState& state) {
   Box b{0, 0, target.width(), target.height()};
-  if (state.viewport) b = intersect(b, box_of(*state.viewport));
+  if (state.viewport) b = intersect(b, box_of(*state.viewport, target.samples()));
   if (state.scissor) b = intersect(b, box_of(*state.scissor));
   return b;
 }
@@ -43,12 +68,8 @@ Box covered_box(const WindowTriangle& t, int samples) {
     return {xl / 256 - margin, yl / 256 - margin, xh / 256 + margin, yh / 256 + margin};
   }
   if (t.is_point) return {t.low.x / 256 - 2, t.low.y / 256 - 2, t.high.x / 256 + 2, t.high.y / 256 + 2};
-  double low = 256.0, high = 0.0;
-  for (int s = 0; s < samples; ++s) {
-    const Point p = position_of({0, 0, s}, samples);
-    low = std::fmin(low, static_cast<double>(std::min(p.x, p.y)));
-    high = std::fmax(high, static_cast<double>(std::max(p.x, p.y)));
-  }
+  const auto [low_place, high_place] = sample_range(samples);
+  const double low = low_place, high = high_place;  // lambdas cannot capture structured bindings
   const auto [xl, xh] = std::minmax({t.corner[0].x, t.corner[1].x, t.corner[2].x});
   const auto [yl, yh] = std::minmax({t.corner[0].y, t.corner[1].y, t.corner[2].y});
   const auto first = [&](int64_t v) { return static_cast<int64_t>(std::ceil((static_cast<double>(v) - high) / 256.0)); };

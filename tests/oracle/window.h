@@ -54,6 +54,9 @@ struct Box {
 
 Box intersect(const Box& a, const Box& b);
 
+/// Returns whether a triangle with this winding in the window is front-facing.
+bool is_front_facing(const DrawState& state, bool counter_clockwise);
+
 /// Returns the pixels of the target that are in the viewport and the scissor rectangle.
 Box allowed_pixels(const Framebuffer& target, const DrawState& state);
 

@@ -304,6 +304,23 @@ DepthState random_depth(float clear_value, Random& random) {
   return d;
 }
 
+// State that was added later. It leaves the other random numbers as they are.
+void add_later_state(const Random& random, DrawState& s) {
+  Random copy(random);
+  if (s.viewport && copy.once_in(3)) {
+    const auto fraction = [&] { return static_cast<float>(copy.below(256)) / 256.0f; };
+    s.viewport = ViewportRect{s.viewport->x + fraction(), s.viewport->y + fraction(), s.viewport->width + fraction(),
+                              s.viewport->height + fraction()};
+  }
+  if (s.viewport && copy.once_in(6))
+    s.viewport = ViewportRect{s.viewport->x, s.viewport->y + s.viewport->height, s.viewport->width, -s.viewport->height};
+  if (copy.once_in(8)) s.clip_origin = ClipOrigin::upper_left;
+  if (copy.once_in(6)) {
+    const float a = copy.real(0.0f, 1.0f), b = copy.real(0.0f, 1.0f);
+    s.depth_bounds = StoredDepthRange{std::min(a, b), copy.once_in(2) ? 1.0f : std::max(a, b)};
+  }
+}
+
 DrawState random_state(const Scene& scene, Theme theme, Random& random) {
   DrawState s;
   if (random.once_in(4)) s.viewport = random_rect(scene.width, scene.height, random);
@@ -319,6 +336,7 @@ DrawState random_state(const Scene& scene, Theme theme, Random& random) {
     s.offset.clamp = random.pick({0.0f, 0.0f, 0.01f, -0.01f});
   }
   if (theme == Theme::blended ? !random.once_in(4) : random.once_in(8)) s.blend = random_blend(random);
+  add_later_state(random, s);
   return s;
 }
 
@@ -567,6 +585,14 @@ SceneDraw random_operations(const Scene& scene, const Geometry& g, const DrawSta
   const float value = random.real(0.05f, 0.4f);
   if (random.once_in(scene.color.format == ColorFormat::none ? 2 : 12))
     return operations_draw(DepthShader{matrix}, "DepthShader", scene, g, state, random);
+  if (Random copy(random); copy.once_in(4)) {
+    switch (copy.below(4)) {
+      case 0: return operations_draw(SampleShader<false, DepthBound::any>{value}, "SampleShader", scene, g, state, random);
+      case 1: return operations_draw(SampleShader<true, DepthBound::any>{value}, "SampleShader with early tests", scene, g, state, random);
+      case 2: return operations_draw(SampleShader<false, DepthBound::greater>{value}, "SampleShader, greater", scene, g, state, random);
+      default: return operations_draw(SampleShader<false, DepthBound::less>{value}, "SampleShader, less", scene, g, state, random);
+    }
+  }
   switch (random.below(10)) {
     case 0: return operations_draw(ColorShader{matrix, 1.0f}, "ColorShader", scene, g, state, random);
     case 1: return operations_draw(CutoutShader<false>{value}, "CutoutShader", scene, g, state, random);
@@ -735,6 +761,7 @@ Scene random_scene(Theme theme, uint64_t seed) {
     } else if (random.once_in(2)) {
       state.depth = s.draws.back().state.depth;
       state.viewport = s.draws.back().state.viewport;
+      state.clip_origin = s.draws.back().state.clip_origin;
       state.offset = {};
       state.depth.compare = random.pick({CompareOp::equal, CompareOp::equal, CompareOp::not_equal, CompareOp::greater_equal});
     }

@@ -199,7 +199,11 @@ void lay_out_indices(const std::vector<uint32_t>& list, std::size_t vertex_count
 
 }  // namespace draw_memory
 
-Rect viewport_of(const Scene& scene, const DrawState& state) { return state.viewport.value_or(Rect{0, 0, scene.width, scene.height}); }
+Rect viewport_of(const Scene& scene, const DrawState& state) {
+  const ViewportRect v = state.viewport.value_or(Rect{0, 0, scene.width, scene.height});
+  return {static_cast<int>(std::floor(v.x)), static_cast<int>(std::floor(std::min(v.y, v.y + v.height))),
+          static_cast<int>(std::ceil(v.width)), static_cast<int>(std::ceil(std::fabs(v.height)))};
+}
 
 PassResult run_pass(const Scene& scene, const PassOptions& options, int threads) {
   PassResult r;
@@ -335,9 +339,12 @@ std::string describe(const Scene& s) {
         << (d.state.stencil ? ", stencil" : "") << (d.state.color_mask.all() ? "" : ", mask")
         << (d.state.sample_shading ? ", sample shading" : "") << (d.state.alpha_to_coverage ? ", alpha to coverage" : "");
     if (d.state.offset.slope != 0 || d.state.offset.constant != 0) out << ", offset";
-    for (const auto& r : {d.state.viewport, d.state.scissor}) {
+    const auto print = [&](const auto& r) {
       if (r) out << " [" << r->x << ' ' << r->y << ' ' << r->width << 'x' << r->height << ']';
-    }
+    };
+    print(d.state.viewport);
+    print(d.state.scissor);
+    if (d.state.clip_origin == ClipOrigin::upper_left) out << ", upper left";
     out << '\n';
   }
   return out.str();

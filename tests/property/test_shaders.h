@@ -593,6 +593,39 @@ struct ClipShader {
   }
 };
 
+/// Runs per sample, has clip and cull distances, and returns a sample mask, a depth and whether fragments are kept.
+template <bool early, DepthBound bound>
+struct SampleShader {
+  static constexpr bool per_sample = true;
+  static constexpr bool early_tests = early;
+  static constexpr DepthBound depth_bound = bound;
+  float value = 0.0f;
+  template <class R>
+  using Attributes = PositionAndA<R>;
+  template <class R>
+  struct Varyings {
+    PerSample<vec4<R>> a;
+  };
+  template <class R>
+  PerVertex<R, 1, 2> vertex(const Attributes<R>& in, Varyings<R>& out) const {
+    out.a.value = in.a;
+    return {in.position, R(3.0f), {in.a.x + R(0.6f)}, {in.a.y - R(0.2f), in.a.z + R(value)}};
+  }
+  template <class R>
+  SampleMasked<R, DepthFragment<R>> fragment(const Varyings<R>& in, const Pixel<R>& px) const {
+    const vec4<R>& a = in.a.value;
+    const IntOf<R> covered = px.sample_mask();
+    const vec4<R> elsewhere = px.template at_sample<Varyings<R>>(px.samples - 1).a.value;
+    SampleMasked<R, DepthFragment<R>> out;
+    out.color = clamped(vec4<R>(a.x, R(0.1f * static_cast<float>(px.sample)), to_real<R>(covered) * R(0.01f), elsewhere.w), 8.0f);
+    out.keep = a.y > R(value);
+    const R shift = abs(a.x) * R(0.1f);
+    out.depth = px.z() + (bound == DepthBound::greater ? shift : bound == DepthBound::less ? -shift : a.x * R(0.1f));
+    out.sample_mask = covered ^ (truncate_to_int(px.x) & IntOf<R>(3));
+    return out;
+  }
+};
+
 /// Draws only depth. Computes the same positions as ColorShader.
 using DepthShader = MatrixShader;
 

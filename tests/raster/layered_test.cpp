@@ -35,6 +35,22 @@ struct EveryLayer : SmoothColorShader {
   }
 };
 
+// The same with an instance per layer: the vertex function chooses the layer or the viewport.
+template <bool kViewports>
+struct EveryInstance : SmoothColorShader {
+  template <class R>
+  LayeredVertex<R, 1, 1> vertex(const Attributes<R>& in, const VertexId<R>& id, Varyings<R>& out) const {
+    out.color = in.color;
+    const int32_t number = id.instance - 1;
+    LayeredVertex<R, 1, 1> v{.position = EveryLayer<false>::moved(in.position, number),
+                             .clip_distance = {R(1)},
+                             .cull_distance = {select(id.vertex < IntOf<R>(57), R(1), R(-1))}};  // not the last triangle
+    const auto corner = id.vertex - ((id.vertex * IntOf<R>(21846)) >> 16) * IntOf<R>(3);
+    (kViewports ? v.viewport : v.layer) = select(corner == IntOf<R>(2), IntOf<R>(number), IntOf<R>(3 - number));
+    return v;
+  }
+};
+
 struct Moved : SmoothColorShader {
   int layer = 0;
   template <class R>
@@ -63,8 +79,14 @@ Vertices random_vertices(uint64_t seed, int count) {
 TEST(Layers, EachIsThePictureOfAPassOfItsOwn) {
   constexpr int kLayers = 4;
   constexpr PassTuning kManyFlushes{.tile_size = 8, .chunk_triangles = 1, .bin_budget = 1}, kImmediate{.defer = false};
-  for (const auto& [samples, tuning] :
-       {std::pair(1, PassTuning{}), {4, PassTuning{}}, {1, kManyFlushes}, {4, kManyFlushes}, {1, kImmediate}}) {
+  using Options = std::tuple<int, PassTuning, bool>;
+  for (const auto& [samples, tuning, by_vertex] : {Options(1, {}, false),
+                                                   {4, {}, false},
+                                                   {1, kManyFlushes, false},
+                                                   {4, kManyFlushes, true},
+                                                   {1, kImmediate, false},
+                                                   {1, {}, true},
+                                                   {4, kImmediate, true}}) {
     const Vertices v = random_vertices(31, 60), flat = random_vertices(32, 9);
     std::vector<glm::vec4> colors(std::size_t{kWidth} * kHeight * kLayers);
     std::vector<float> depths(colors.size());
@@ -79,9 +101,13 @@ TEST(Layers, EachIsThePictureOfAPassOfItsOwn) {
     Pass pass(kWidth, kHeight, target, layered_depth_target(depth_view), {.samples = samples, .layers = kLayers, .tuning = tuning});
     pass.draw(FlatColorShader{}, flat.view());                                              // without a layer: drawn into layer 0
     pass.clear({.rect = Rect{3, 4, 10, 12}, .colors = {glm::vec4(0.75f)}, .depth = 0.5f});  // in all layers
-    pass.draw(EveryLayer<false>{}, v.view(), {.query = 2});
+    if (by_vertex) {
+      pass.draw(EveryInstance<false>{}, v.view(), {.instances = 6, .query = 2});
+    } else {
+      pass.draw(EveryLayer<false>{}, v.view(), {.query = 2});
+    }
     const PassStatistics s = pass.run(two_workers());
-    EXPECT_EQ(s.geometry_invocations, 20u * 6u);
+    EXPECT_EQ(s.geometry_invocations, by_vertex ? 0u : 20u * 6u);
     EXPECT_EQ(s.query_primitives, (std::vector<uint64_t>{0, 0, 20 * kLayers}));
     for (int layer = 0; layer < kLayers; ++layer) {
       std::vector<glm::vec4> color(std::size_t{kWidth} * kHeight);
@@ -95,7 +121,7 @@ TEST(Layers, EachIsThePictureOfAPassOfItsOwn) {
                   {.samples = samples});
       if (layer == 0) single.draw(FlatColorShader{}, flat.view());
       single.clear({.rect = Rect{3, 4, 10, 12}, .colors = {glm::vec4(0.75f)}, .depth = 0.5f});
-      single.draw(Moved{{}, layer}, v.view());
+      single.draw(Moved{{}, layer}, v.view(), {.count = by_vertex ? 57u : 60u});  // a cull distance removes the last triangle
       single.run(one_worker());
       const auto begin = static_cast<std::ptrdiff_t>(color.size()) * layer;
       EXPECT_TRUE(std::equal(color.begin(), color.end(), colors.begin() + begin)) << layer;

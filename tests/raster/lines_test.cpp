@@ -160,6 +160,60 @@ TEST(Lines, ClipDistancesCutTrianglesLinesAndPoints) {
   EXPECT_EQ(point_pass.run(one_worker()).samples_passed, 1u);
 }
 
+// The second and third values of a vertex are cull distances.
+struct Culled : ConstantShader {
+  template <class R>
+  struct Attributes {
+    vec4<R> position;
+    vec2<R> distances;
+  };
+  template <class R>
+  PerVertex<R, 1, 2> vertex(const Attributes<R>& in, Varyings<R>&) const {
+    return {in.position, R(3.0f), {in.position.x + R(0.5f)}, {in.distances.x, in.distances.y}};
+  }
+};
+
+// A primitive is culled if and only if one of the distances is negative at all its vertices.
+TEST(Lines, CullDistancesRemoveWholePrimitives) {
+  Random random(5);
+  std::vector<glm::vec4> positions;
+  std::vector<glm::vec2> distances, inside;
+  const auto value = [&](double low, double high) { return static_cast<float>(random.real(low, high)); };
+  for (int i = 0; i < 60; ++i) {
+    positions.push_back({value(-1, 1), value(-1, 1), value(-0.9, 0.9), 1});
+    distances.push_back({value(-0.6, 0.4), random.below(4) == 0 ? 0.0f : value(-0.4, 0.6)});
+    inside.push_back({1, 1});
+  }
+  for (const int samples : {1, 4}) {
+    for (const PolygonMode mode : {PolygonMode::fill, PolygonMode::line, PolygonMode::point}) {
+      for (const auto& [topology, corners] : {std::pair(Topology::triangles, 3u), {Topology::lines, 2u}, {Topology::points, 1u}}) {
+        std::vector<uint32_t> all, kept;
+        for (uint32_t first = 0; first < 60; first += corners) {
+          bool x_culls = true, y_culls = true;
+          for (uint32_t i = first; i < first + corners; ++i) {
+            x_culls &= distances[i].x < 0.0f;
+            y_culls &= distances[i].y < 0.0f;
+            all.push_back(i);
+          }
+          for (uint32_t i = first; i < first + corners && !x_culls && !y_culls; ++i) kept.push_back(i);
+        }
+        ASSERT_GT(kept.size(), 0u);
+        ASSERT_LT(kept.size(), all.size());
+        const DrawState state{.topology = topology, .polygon_mode = mode, .blend = kAdd};
+        Image<glm::vec4> image(40, 30), expected(40, 30);
+        Pass pass(40, 30, rgba32f_target(image), {}, {.samples = samples}),
+            other(40, 30, rgba32f_target(expected), {}, {.samples = samples});
+        pass.draw(Culled{}, make_vertex_view(stream(positions), stream(distances)), all, state);
+        other.draw(Culled{}, make_vertex_view(stream(positions), stream(inside)), kept, state);
+        const PassStatistics s = pass.run(one_worker()), t = other.run(one_worker());
+        EXPECT_EQ(image, expected);
+        EXPECT_EQ(s.samples_passed, t.samples_passed);
+        EXPECT_EQ(s.culled_outside - t.culled_outside, (all.size() - kept.size()) / corners);
+      }
+    }
+  }
+}
+
 // The x coordinate is the clip distance; the position itself is always in view.
 struct DistanceFromX : ConstantShader {
   template <class R>

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 
+#include "halfspace/raster/sample_location.h"
 #include "raster/raster_test.h"
 
 namespace halfspace::raster_test {
@@ -193,6 +194,55 @@ TEST(Viewport, TransformsPositions) {
   state.viewport = Rect{16, 8, 32, 16};
   draw(image, ConstantShader{}, {{-1, 0, 0, 1}, {0, 0, 0, 1}, {-1, 1, 0, 1}, {0, 0, 0, 1}, {0, 1, 0, 1}, {-1, 1, 0, 1}}, state);
   expect_drawn_rect(image, 16, 16, 32, 24);
+}
+
+// A sample belongs to the viewport if it is in it: with one sample per pixel, the pixel's center.
+TEST(Viewport, MayHaveFractionsOfAPixel) {
+  for (const float x : {9.5f, 9.51f, 10.25f, 10.5f, 10.504f}) {
+    for (const int samples : {1, 2, 4, 8}) {
+      for (const float height : {7.75f, -7.75f}) {
+        Image<glm::vec4> image(70, 40);
+        const float y = height > 0 ? 20.375f : 28.125f;
+        const DrawState state{.viewport = ViewportRect{x, y, 30.125f, height}};
+        draw(image, ConstantShader{}, {{-5, -5, 0, 1}, {15, -5, 0, 1}, {-5, 15, 0, 1}}, state, {.samples = samples});
+        const double left = std::round(static_cast<double>(x) * 256) / 256;
+        for (int row = 0; row < 40; ++row) {
+          for (int column = 0; column < 70; ++column) {
+            float covered = 0;
+            for (int s = 0; s < samples; ++s) {
+              const glm::dvec2 p = glm::dvec2(column, row) + glm::dvec2(sample_location(samples, s));
+              if (p.x >= left && p.x < left + 30.125 && p.y >= 20.375 && p.y < 28.125) covered += 1.0f / static_cast<float>(samples);
+            }
+            ASSERT_EQ(image.at(column, 39 - row).x, covered) << column << ' ' << row << ' ' << samples << " samples, x " << x;
+          }
+        }
+      }
+    }
+  }
+}
+
+// The upper left origin and a negative height both turn the picture upside down. Only the negative height turns front into back faces.
+TEST(Viewport, CanBeUpsideDown) {
+  const std::vector<glm::vec4> triangle{{-0.9f, -0.7f, 0.2f, 1}, {0.8f, -0.3f, 0.4f, 1}, {-0.1f, 0.9f, 0.6f, 1}};
+  const auto picture = [&](const DrawState& state) {
+    Image<glm::vec4> image(64, 32);
+    draw(image, FacingShader{}, triangle, state);
+    return image;
+  };
+  const Image<glm::vec4> upright = picture({}), upper_left = picture({.clip_origin = ClipOrigin::upper_left}),
+                         negative = picture({.viewport = ViewportRect{0, 32, 64, -32}}),
+                         clockwise = picture({.viewport = ViewportRect{0, 32, 64, -32}, .front = Winding::clockwise}),
+                         both = picture({.viewport = ViewportRect{0, 32, 64, -32}, .clip_origin = ClipOrigin::upper_left});
+  ASSERT_GT(drawn_pixels(upright), 400);
+  for (int y = 0; y < 32; ++y) {
+    for (int x = 0; x < 64; ++x) {
+      const glm::vec4 front = upright.at(x, 31 - y);
+      EXPECT_EQ(upper_left.at(x, y), front);
+      EXPECT_EQ(clockwise.at(x, y), front);
+      EXPECT_EQ(negative.at(x, y), front == glm::vec4(0) ? front : glm::vec4(0, 1, 0, 1));
+      EXPECT_EQ(both.at(x, y), negative.at(x, 31 - y));
+    }
+  }
 }
 
 TEST(Scissor, ClipsToPixels) {
@@ -846,6 +896,9 @@ TEST(StateDeathTest, ChecksDraws) {
   EXPECT_DEATH(draw_with([](DrawState& s) { s.viewport = Rect{0, 0, 0, 16}; }), "check failed");
   EXPECT_DEATH(draw_with([](DrawState& s) { s.viewport = Rect{0, 0, 16385, 16}; }), "check failed");
   EXPECT_DEATH(draw_with([](DrawState& s) { s.viewport = Rect{20000, 0, 16, 16}; }), "check failed");
+  EXPECT_DEATH(draw_with([](DrawState& s) { s.viewport = ViewportRect{0, 0, -16, 16}; }), "check failed");
+  EXPECT_DEATH(draw_with([](DrawState& s) { s.viewport = ViewportRect{0, std::nanf(""), 16, 16}; }), "check failed");
+  EXPECT_DEATH(draw_with([](DrawState& s) { s.viewport = ViewportRect{0, 0, 16, 0.001f}; }), "check failed");
   EXPECT_DEATH(draw_with([](DrawState& s) { s.scissor = Rect{0, 0, -1, 16}; }), "check failed");
   EXPECT_DEATH(draw_with([](DrawState& s) { s.depth.range_near = -0.1f; }), "check failed");
   EXPECT_DEATH(draw_with([](DrawState& s) { s.depth.range_far = 1.1f; }), "check failed");

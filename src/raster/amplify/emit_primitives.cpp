@@ -122,6 +122,26 @@ Topology list_topology(Topology t) {
   return is_lines(t) ? Topology::lines : Topology::triangles;
 }
 
+// Emits the primitives of a draw as they are, with vertices of their own.
+EmittedPrimitives assemble_from(const Draw& draw, const ClipVertices& vertices, int values, const Workers& workers) {
+  const Topology topology = list_topology(draw.state.topology);
+  const std::size_t row = 4 + static_cast<std::size_t>(values);
+  if (primitives_in(draw) == 0) return no_primitives(row, topology);
+  const VertexRows from = rows_of(vertices, values);
+  return emit_in_parts(workers, primitives_in(draw), kPrimitivesPerTask, row, topology, [&](std::size_t begin, std::size_t end) {
+    EmittedPrimitives out = no_primitives(row, topology);
+    PrimitiveList list = primitives_of(draw, vertices, out.vertices_per_primitive(), begin, end, [](Assembly& a) { return a.next(); });
+    for (const uint32_t slot : list.slots) {
+      out.indices.push_back(static_cast<uint32_t>(out.indices.size()));
+      out.rows.insert(out.rows.end(), from.position(slot), from.position(slot) + 4);
+      out.rows.insert(out.rows.end(), from.varying(slot), from.varying(slot) + values);
+    }
+    out.numbers = std::move(list.primitives);
+    out.instances = std::move(list.instances);
+    return out;
+  });
+}
+
 }  // namespace
 
 void EmittedPrimitives::append(EmittedPrimitives&& o) {
@@ -143,6 +163,7 @@ EmittedPrimitives emit_primitives(const Draw& draw, const Workers& workers, Pass
   const auto count_geometry = [&](std::size_t primitives) {
     statistics.geometry_invocations += primitives * static_cast<std::size_t>(stages.geometry->layout.invocations);
   };
+  if (stages.tessellation == nullptr && stages.geometry == nullptr) return assemble_from(draw, vertices, stages.varying_count, workers);
   if (stages.tessellation == nullptr) {
     count_geometry(primitives_in(draw));
     return emit_from_primitives(draw, vertices, workers);
@@ -155,26 +176,8 @@ EmittedPrimitives emit_primitives(const Draw& draw, const Workers& workers, Pass
   return emit_from_patches(draw, divided, workers);
 }
 
-EmittedPrimitives assemble_primitives(const Draw& draw, const Workers& workers) {
-  const int varyings = draw.kernels.varying_count;
-  const ClipVertices vertices = shade_all_vertices(draw, draw.kernels.vertex, varyings, workers);
-  const Topology topology = list_topology(draw.state.topology);
-  if (primitives_in(draw) == 0) return no_primitives(4 + static_cast<std::size_t>(varyings), topology);
-  const VertexRows from = rows_of(vertices, varyings);
-  return emit_in_parts(workers, primitives_in(draw), kPrimitivesPerTask, 4 + static_cast<std::size_t>(varyings), topology,
-                       [&](std::size_t begin, std::size_t end) {
-                         EmittedPrimitives out;
-                         out.row = 4 + static_cast<std::size_t>(varyings);
-                         out.topology = topology;
-                         const PrimitiveList list =
-                             primitives_of(draw, vertices, out.vertices_per_primitive(), begin, end, [](Assembly& a) { return a.next(); });
-                         for (const uint32_t slot : list.slots) {
-                           out.indices.push_back(static_cast<uint32_t>(out.indices.size()));
-                           out.rows.insert(out.rows.end(), from.position(slot), from.position(slot) + 4);
-                           out.rows.insert(out.rows.end(), from.varying(slot), from.varying(slot) + varyings);
-                         }
-                         return out;
-                       });
+EmittedPrimitives assemble_primitives(const Draw& draw, VertexKernel kernel, int values, const Workers& workers) {
+  return assemble_from(draw, shade_all_vertices(draw, kernel, values, workers), values, workers);
 }
 
 std::array<VertexStream, 3> streams_of(const EmittedPrimitives& primitives, const ShaderKernels& kernels) {
@@ -185,7 +188,8 @@ std::array<VertexStream, 3> streams_of(const EmittedPrimitives& primitives, cons
                         .components = static_cast<int32_t>(components),
                         .count = primitives.vertex_count()};
   };
-  const std::size_t others = kernels.gives_point_size ? 1 + static_cast<std::size_t>(kernels.clip_distance_count) : 0;
+  const std::size_t others =
+      kernels.gives_point_size ? 1 + static_cast<std::size_t>(kernels.clip_distance_count + kernels.cull_distance_count) : 0;
   return {stream_at(0, 4), stream_at(4, others), stream_at(primitives.row - varyings, varyings)};
 }
 

@@ -11,14 +11,15 @@
 
 #include "halfspace/raster/amplify/emitted_primitives.h"
 #include "halfspace/raster/pipeline/pass_context.h"
+#include "halfspace/raster/primitives/vertex_stage.h"
 
 namespace halfspace::HS_LANES {
 
 /// Runs the vertex function and the emitting stages of a draw for all its primitives. Adds to the counters of these functions.
 EmittedPrimitives emit_primitives(const Draw& draw, const Workers& workers, PassStatistics& statistics);
 
-/// Runs the vertex function of a draw without emitting stages, and assembles its primitives. A row has a position and the varyings.
-EmittedPrimitives assemble_primitives(const Draw& draw, const Workers& workers);
+/// Runs a vertex kernel for a draw, and assembles its primitives. A row has a position and the values of the kernel.
+EmittedPrimitives assemble_primitives(const Draw& draw, VertexKernel kernel, int values, const Workers& workers);
 
 /// Returns the streams of emitted vertices for copy_emitted_vertices() (emitting_stages.h): positions, other values and varyings. The rows
 /// must stay valid.

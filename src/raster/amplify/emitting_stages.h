@@ -70,10 +70,11 @@ struct GeometryStage {
   int row;  ///< values of an emitted vertex
 };
 
-/// The stages of a shader before those that its draw would have without them. At least one of the two last ones is not null.
+/// The stages of a shader before those that its draw would have without them. If the two last ones are null, primitives are emitted as they
+/// are, and their vertices have the values of EmittedStrips.
 struct EmittingStages {
   void (*vertex)(const void* shader, const VertexBatch&);  ///< the vertex function, with the outputs that the next stage reads
-  int varying_count;                                       ///< values of these outputs per vertex
+  int varying_count;                                       ///< values of these outputs per vertex, without the position
   const TessellationStage* tessellation;
   const GeometryStage* geometry;
 };

@@ -5,6 +5,7 @@
 
 #include "halfspace/raster/amplify/emit_primitives.h"
 #include "halfspace/raster/detail/draw_placement.h"
+#include "halfspace/raster/pipeline/draw_stopwatch.h"
 #include "halfspace/raster/primitives/primitive_assembly.h"
 
 namespace halfspace::HS_LANES::detail {
@@ -23,10 +24,11 @@ Draw draw_like(const Draw& source, std::shared_ptr<const Indices> indices, const
   return d;
 }
 
-bool viewports_overlap(const ViewportArray& viewports, int width, int height) {
+bool viewports_overlap(const ViewportArray& viewports, const PassContext& context) {
   std::vector<Rect> rects;
   for (const IndexedViewport& v : viewports) {
-    const Rect r = drawable_rect(v.viewport.value_or(Rect{0, 0, width, height}), v.scissor, width, height);
+    const ViewportRect viewport = rounded_viewport(v.viewport, context.width, context.height);
+    const Rect r = drawable_rect(viewport, v.scissor, context.width, context.height, context.samples_at);
     for (const Rect& other : rects) {
       const Rect both = intersect(r, other);
       if (both.width > 0 && both.height > 0) return true;
@@ -45,6 +47,7 @@ EmittedDraws::EmittedDraws(PassContext& context, const Attachments& attachments,
   for (std::size_t i = 0; i < sources_.size(); ++i) {
     if (sources_[i].kernels.emitting == nullptr) continue;
     if (sources_[i].state.query) statistics.add_to_query(*sources_[i].state.query, 0);  // also if nothing is emitted
+    const DrawStopwatch stopwatch(sources_[i], &DrawTime::setup, statistics);
     emitted_[i] = emit(sources_[i], layers, workers, statistics);
   }
 }
@@ -57,12 +60,12 @@ EmittedDraws::Emitted EmittedDraws::emit(const Draw& draw, int layers, const Wor
     EmittedPrimitives& all = out.primitives;
     out.parts.push_back({0, 0, std::exchange(all.indices, {}), std::exchange(all.numbers, {}), std::exchange(all.instances, {})});
   } else {
-    // After the position, the point size and the clip distances.
-    const SplitOptions options{.place = 5 + static_cast<std::size_t>(kernels.clip_distance_count),
+    // After the position, the point size and the distances.
+    const SplitOptions options{.place = 5 + static_cast<std::size_t>(kernels.clip_distance_count + kernels.cull_distance_count),
                                .first_provokes = draw.state.provoking == ProvokingVertex::first,
                                .layers = layers,
                                .viewports = viewports != nullptr ? static_cast<int32_t>(viewports->size()) : 1,
-                               .viewports_overlap = viewports != nullptr && viewports_overlap(*viewports, context_.width, context_.height)};
+                               .viewports_overlap = viewports != nullptr && viewports_overlap(*viewports, context_)};
     out.parts = split_primitives(out.primitives, options);
   }
   return out;

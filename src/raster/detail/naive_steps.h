@@ -115,7 +115,7 @@ std::vector<Vertex<R, V>> clipped_polygon(const Piece<R, V>& t, const Viewport& 
   polygon = clip(polygon, [&](const vec4<R>& p) { return p.z + near_w * p.w; });
   polygon = clip(polygon, [](const vec4<R>& p) { return p.w - p.z; });
   // Keeps window coordinates in the range of snap(), and products of their differences in the range of int64.
-  const R reach_x = R(kReach) / R(viewport.half_width), reach_y = R(kReach) / R(viewport.half_height);
+  const R reach_x = R(kReach) / R(viewport.half_width), reach_y = R(kReach) / R(std::fabs(viewport.half_height));
   polygon = clip(polygon, [&](const vec4<R>& p) { return reach_x * p.w - p.x; });
   polygon = clip(polygon, [&](const vec4<R>& p) { return reach_x * p.w + p.x; });
   polygon = clip(polygon, [&](const vec4<R>& p) { return reach_y * p.w - p.y; });

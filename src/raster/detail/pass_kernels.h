@@ -33,13 +33,17 @@ enum class DrawKind : uint8_t {
 template <class S>
 inline constexpr bool kDecidesVisibility = kDiscards<S> || kWritesDepth<S>;
 
-/// Whether stages of the shader emit primitives.
+/// Whether stages of the shader emit primitives. If only the vertex function chooses a layer, its primitives are emitted as they are, so
+/// that those of a layer become a draw.
 template <class S>
-inline constexpr bool kEmitsPrimitives = HasTessellationLayout<S> || HasGeometryLayout<S>;
+inline constexpr bool kEmitsPrimitives = HasTessellationLayout<S> || HasGeometryLayout<S> || kGivesLayer<S>;
 /// These stages.
 template <class S>
 inline constexpr EmittingStages kEmittingStages = [] {
-  EmittingStages stages{vertex_kernel<S, true, false>, static_cast<int>(kComponents<VertexVaryingsOf<S, float>>), nullptr, nullptr};
+  constexpr bool only_layers = !HasTessellationLayout<S> && !HasGeometryLayout<S>;
+  constexpr VertexOutput output = only_layers ? VertexOutput::whole_row : VertexOutput::varyings;
+  constexpr std::size_t extra = only_layers ? kExtraValues<VertexOf<S>> : 0;
+  EmittingStages stages{vertex_kernel<S, output>, static_cast<int>(extra + kComponents<VertexVaryingsOf<S, float>>), nullptr, nullptr};
   if constexpr (HasTessellationLayout<S>) stages.tessellation = &kTessellationStage<S>;
   if constexpr (HasGeometryLayout<S>) stages.geometry = &kGeometryStage<S>;
   return stages;
@@ -57,14 +61,14 @@ constexpr ShaderKernels kernels_of() {
     k.vertex = k.position = copy_emitted_vertices;
     if constexpr (HasTessellationLayout<S>) k.patch_vertices = S::tessellation_layout.patch_vertices;
   } else {
-    k.vertex = vertex_kernel<S, has_varyings, true>;
-    k.position = vertex_kernel<S, false, false>;
+    k.vertex = vertex_kernel < S, has_varyings ? VertexOutput::all : VertexOutput::all_but_varyings > ;
+    k.position = vertex_kernel<S, VertexOutput::position>;
   }
   k.gives_point_size = kGivesPointSize<S>;
   k.gives_layer = kGivesLayer<S>;
   k.gives_point_sprite = kGivesPointSprite<S>;
-  static_assert(kClipDistances<S> <= kMaxClipDistances);
   k.clip_distance_count = static_cast<int>(kClipDistances<S>);
+  k.cull_distance_count = static_cast<int>(kCullDistances<S>);
   if constexpr (has_varyings) {
     k.uses_centroid = kUsesCentroid<V>;
     k.varying_count = static_cast<int>(kComponents<V>);
@@ -85,14 +89,20 @@ constexpr ShaderKernels kernels_of() {
     k.color_count = static_cast<int>(kColors<S>);
     k.color_types = kColorTypes<S>.data();
     k.discards = kDiscards<S>;
+    k.tests_early = kTestsEarly<S>;
+    k.runs_per_sample = kRunsPerSample<S>;
+    k.writes_sample_mask = kWritesSampleMask<S>;
     k.is_constant = kIsConstant<S>;
     // Without a visibility function, the fragment function is compiled a second time, to compute only the keep mask and the depth. This is
     // faster if the shader replaces the depth, because no fragment can be rejected before it is shaded. A shader that only discards usually
     // decides by a texture lookup, which is most of its work, so it is faster to shade it once.
     if constexpr (kWritesDepth<S> && !HasPrimitive<S> && !kUsesPrimitiveId<S>) k.visibility = visibility_kernel<S>;
   }
-  if constexpr (HasFragmentFunction<S>) k.writes_depth = kWritesDepth<S>;
-  if constexpr (HasVisibilityFunction<S>) k.visibility = visibility_kernel<S>;
+  if constexpr (HasFragmentFunction<S>) {
+    k.writes_depth = kWritesDepth<S>;
+    k.depth_bound = kDepthBound<S>;
+  }
+  if constexpr (HasVisibilityFunction<S> && !kTestsEarly<S>) k.visibility = visibility_kernel<S>;
   return k;
 }
 template <class S, DrawKind kind>

@@ -13,10 +13,15 @@ namespace halfspace::HS_LANES::detail {
 
 namespace {
 
-void check_viewport(const Rect& r) {
-  HS_CHECK(r.width >= 1 && r.width <= kMaxTargetSize && r.height >= 1 && r.height <= kMaxTargetSize,
-           "DrawState: the size of the viewport is outside of its range; expected a width and a height from 1 to 16384");
-  HS_CHECK(r.x >= -kMaxTargetSize && r.x <= kMaxTargetSize && r.y >= -kMaxTargetSize && r.y <= kMaxTargetSize,
+constexpr float kMinViewportSize = 1.0f / 256.0f;
+
+// Comparisons are written so that NaN fails.
+void check_viewport(const ViewportRect& r) {
+  constexpr auto limit = static_cast<float>(kMaxTargetSize);
+  HS_CHECK(r.width >= kMinViewportSize && r.width <= limit && std::fabs(r.height) >= kMinViewportSize && std::fabs(r.height) <= limit,
+           "DrawState: the size of the viewport is outside of its range; expected a width from 1/256 to 16384, and a height from 1/256 to "
+           "16384 or negative");
+  HS_CHECK(std::fabs(r.x) <= limit && std::fabs(r.y) <= limit,
            "DrawState: the origin of the viewport is too far away; expected at most 16384 from 0");
 }
 
@@ -36,7 +41,6 @@ void check_viewports(const ViewportArray& viewports) {
   }
 }
 
-// Comparisons are written so that NaN fails.
 void check_numbers(const DrawState& state) {
   HS_CHECK_OP(state.line_width, >=, 0.0f, "line_width: is negative or NaN; expected 0 to 4096");
   HS_CHECK_OP(state.line_width, <=, kMaxLineWidth, "line_width: is too large; expected 0 to 4096");
@@ -50,7 +54,17 @@ void check_numbers(const DrawState& state) {
     HS_CHECK(state.sample_coverage->value >= 0.0f && state.sample_coverage->value <= 1.0f,
              "sample_coverage: the value is outside of its range; expected 0 to 1");
   }
+  HS_CHECK(state.min_sample_shading >= 0.0f && state.min_sample_shading <= 1.0f,
+           "min_sample_shading: is outside of its range; expected 0 to 1");
+  if (state.depth_bounds) {
+    const auto& [low, high] = *state.depth_bounds;
+    HS_CHECK(low >= 0.0f && low <= high && high <= 1.0f,
+             "depth_bounds: the range is empty or outside of its limits; expected two depths from 0 to 1, the smaller one first");
+  }
   if (state.query) HS_CHECK_OP(*state.query, <, kMaxQueries, "query: is too large; expected less than 65536");
+  if (state.timer) HS_CHECK_OP(*state.timer, <, kMaxQueries, "timer: is too large; expected less than 65536");
+  HS_CHECK(!state.condition || state.query != state.condition->query,
+           "DrawState::condition: depends on the query of the draw itself; expected another query");
   if (state.viewport) check_viewport(*state.viewport);
   if (state.scissor) check_scissor(*state.scissor);
   if (state.viewports != nullptr) check_viewports(*state.viewports);

@@ -2,6 +2,7 @@
 #include "halfspace/raster/loop/pass_plan.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "halfspace/raster/primitives/setup.h"
 #include "halfspace/raster/primitives/vertex_stage.h"
@@ -19,23 +20,45 @@ constexpr uint64_t kChunkShare = 8;
 }  // namespace
 
 void PassPlan::add(const Draw& draw, std::size_t number) {
-  if (draw.state.query) submitted.add_to_query(*draw.state.query, 0, std::size_t{draw.primitive_count} * draw.state.instances);
-  add_vertices(draw, number);
+  const bool is_conditional = draw.state.condition.has_value();
+  if (is_conditional) begin_conditional(*draw.state.condition, number);
+  PassStatistics& counters = is_conditional ? conditional_draws.back().submitted : submitted;
+  if (draw.state.query) {
+    submitted.add_to_query(*draw.state.query, 0);  // also if it is not drawn
+    counters.add_to_query(*draw.state.query, 0, std::size_t{draw.primitive_count} * draw.state.instances);
+    open_queries_.push_back(*draw.state.query);
+  }
+  add_vertices(draw, number, counters);
   add_primitives(draw, number);
+  if (!is_conditional) return;
+  conditional_draws.back().end_chunk = chunks.size();
+  end_chunk();
 }
 
-void PassPlan::add_vertices(const Draw& draw, std::size_t number) {
+void PassPlan::begin_conditional(const DrawCondition& condition, std::size_t number) {
+  const bool waits = std::ranges::find(open_queries_, condition.query) != open_queries_.end();
+  if (waits) open_queries_.clear();
+  conditional_draws.push_back({condition, number, chunks.size(), chunks.size(), waits, {}});
+  end_chunk();
+}
+
+void PassPlan::end_chunk() {
+  capacity_ = 0;
+  starts_task_ = true;
+}
+
+void PassPlan::add_vertices(const Draw& draw, std::size_t number, PassStatistics& counters) {
   const std::size_t count = draw.vertex_count;
   if (!draw.is_emitted) {
-    submitted.vertices_in += (draw.indices->size() - draw.indices->restarts().size()) * draw.state.instances;
-    submitted.vertices_shaded += count;
+    counters.vertices_in += (draw.indices->size() - draw.indices->restarts().size()) * draw.state.instances;
+    counters.vertices_shaded += count;
   }
   if (count > kVerticesPerTask) {
     for (std::size_t b = 0; b < count; b += kVerticesPerTask)
       vertex_tasks.push_back({number, number + 1, b, std::min(count, b + kVerticesPerTask), true, b == 0 ? shaded_bytes(draw) : 0});
     return;
   }
-  if (!vertex_tasks.empty()) {
+  if (!vertex_tasks.empty() && !std::exchange(starts_task_, false)) {
     VertexTask& last = vertex_tasks.back();
     if (!last.is_part && last.end + count <= kVerticesPerTask) {
       last.end_draw = number + 1;

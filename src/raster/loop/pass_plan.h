@@ -16,6 +16,15 @@ struct VertexTask {
   std::size_t bytes;  ///< that the shaded vertices of its draws need; 0 for all parts of a draw but the first
 };
 
+/// A draw with a condition. Its vertices and primitives share no task and no chunk with other draws.
+struct ConditionalDraw {
+  DrawCondition condition;
+  std::size_t draw;
+  std::size_t begin_chunk, end_chunk;
+  bool waits;                ///< draws with its query may be in the chunks before, after the last draw that waits
+  PassStatistics submitted;  ///< what PassPlan::submitted has for other draws
+};
+
 /// A plan. It does not depend on the number of threads.
 class PassPlan {
  public:
@@ -27,17 +36,23 @@ class PassPlan {
 
   std::vector<VertexTask> vertex_tasks;
   std::vector<std::vector<DrawRange>> chunks;
+  std::vector<ConditionalDraw> conditional_draws;
   PassStatistics submitted;  ///< what is known before the pass runs
 
  private:
-  void add_vertices(const Draw& draw, std::size_t number);
+  void begin_conditional(const DrawCondition& condition, std::size_t number);
+  // The next draw starts a chunk and a task.
+  void end_chunk();
+  void add_vertices(const Draw& draw, std::size_t number, PassStatistics& counters);
   void add_primitives(const Draw& draw, std::size_t number);
 
   int samples_;
   uint32_t chunk_triangles_;
-  uint64_t primitives_ = 0;  // in all chunks
-  uint32_t capacity_ = 0;    // primitives that still fit in the last chunk
-  uint32_t records_ = 0;     // triangles that still fit in the last chunk
+  uint64_t primitives_ = 0;             // in all chunks
+  uint32_t capacity_ = 0;               // primitives that still fit in the last chunk
+  uint32_t records_ = 0;                // triangles that still fit in the last chunk
+  bool starts_task_ = false;            // the vertices of the next draw share no task with those before
+  std::vector<uint32_t> open_queries_;  // of the draws since the last conditional draw that waits
 };
 
 }  // namespace halfspace::HS_LANES

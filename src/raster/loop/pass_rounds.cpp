@@ -2,8 +2,11 @@
 #include "halfspace/raster/loop/pass_rounds.h"
 
 #include <algorithm>
+#include <chrono>
+#include <optional>
 #include <utility>
 
+#include "halfspace/raster/pipeline/draw_stopwatch.h"
 #include "halfspace/raster/pipeline/pass_memory.h"
 #include "halfspace/raster/primitives/bin.h"
 #include "halfspace/raster/primitives/primitive_stage.h"
@@ -39,13 +42,16 @@ class PassRounds {
       : context_(context), plan_(plan), budget_(budget), workers_(workers), memory_(take_pass_memory()) {
     context_.shaded = std::move(memory_.shaded);
     context_.shaded.resize(context_.draws.size());
+    has_timers_ = std::ranges::any_of(context_.draws, [](const Draw& d) { return d.state.timer.has_value(); });
   }
 
-  // Sets up the chunks of the next round. Returns true if it is the last one.
+  // Sets up the chunks of the next round. statistics: with the queries of all rounds before. Returns true if it is the last one.
   bool set_up(PassStatistics& statistics) {
+    decide_conditional_draws(statistics);
+    skip_chunks();
     recycle_chunks(context_.chunks, memory_.chunks);
     context_.triangle_ids.assign(context_.draws.size(), {});
-    shade_more_vertices();
+    shade_more_vertices(statistics);
     set_up_chunks(statistics);
     return next_chunk_ == plan_.chunks.size();
   }
@@ -58,9 +64,44 @@ class PassRounds {
   }
 
  private:
+  // Decides about the next conditional draws, up to one that waits for chunks of the next round.
+  void decide_conditional_draws(PassStatistics& statistics) {
+    std::size_t executed = next_chunk_;  // the chunks before are executed or not drawn
+    for (; decided_ < plan_.conditional_draws.size(); ++decided_) {
+      const ConditionalDraw& d = plan_.conditional_draws[decided_];
+      if (d.waits && d.begin_chunk != executed) return;
+      const bool passed = d.condition.query < statistics.queries.size() && statistics.any_passed(d.condition.query);
+      if (passed != d.condition.inverted) {
+        statistics += d.submitted;
+      } else {
+        skipped_.push_back(d.draw);
+        if (d.begin_chunk == executed) executed = d.end_chunk;
+      }
+    }
+  }
+  bool is_skipped(std::size_t draw) const { return std::ranges::binary_search(skipped_, draw); }
+  // Passes the conditional draws that start at the next chunk and are decided. Returns false if the next chunk is not decided.
+  bool skip_chunks() {
+    for (; next_conditional_ < plan_.conditional_draws.size(); ++next_conditional_) {
+      const ConditionalDraw& d = plan_.conditional_draws[next_conditional_];
+      if (d.begin_chunk != next_chunk_) return true;
+      if (next_conditional_ == decided_) return false;
+      if (is_skipped(d.draw)) next_chunk_ = d.end_chunk;
+    }
+    return true;
+  }
+  // The chunk at which the next conditional draw starts, and the first draw that is not decided.
+  std::size_t next_conditional_chunk() const {
+    return next_conditional_ < plan_.conditional_draws.size() ? plan_.conditional_draws[next_conditional_].begin_chunk
+                                                              : plan_.chunks.size();
+  }
+  std::size_t end_decided_draw() const {
+    return decided_ < plan_.conditional_draws.size() ? plan_.conditional_draws[decided_].draw : context_.draws.size();
+  }
+
   // Shades the vertices of the draws of the next chunk and, up to the budget, of the draws after it. The vertices of draws before the next
   // chunk are discarded.
-  void shade_more_vertices() {
+  void shade_more_vertices(PassStatistics& statistics) {
     if (next_chunk_ == plan_.chunks.size()) return;
     const std::size_t first = plan_.chunks[next_chunk_].front().draw, last = plan_.chunks[next_chunk_].back().draw;
     if (last < end_shaded_) return;
@@ -71,29 +112,35 @@ class PassRounds {
       if (to < context_.shaded.size()) context_.shaded[to++] = std::move(finished);
     }
     const std::vector<VertexTask>& tasks = plan_.vertex_tasks;
-    const std::size_t begin = next_task_;
-    for (std::size_t bytes = 0; next_task_ < tasks.size() && (tasks[next_task_].draw <= last || bytes < budget_);) {
+    const std::size_t begin = next_task_, end_draw = end_decided_draw();
+    for (std::size_t bytes = 0;
+         next_task_ < tasks.size() && (tasks[next_task_].draw <= last || (bytes < budget_ && tasks[next_task_].draw < end_draw));) {
       const VertexTask& task = tasks[next_task_];
       bytes += task.bytes;
       end_shaded_ = task.end_draw;
       while (next_task_ < tasks.size() && tasks[next_task_].draw < end_shaded_) ++next_task_;
     }
-    run_vertex_stage(std::span(tasks).subspan(begin, next_task_ - begin));
+    run_vertex_stage(std::span(tasks).subspan(begin, next_task_ - begin), statistics);
   }
 
-  void run_vertex_stage(std::span<const VertexTask> tasks) {
+  void run_vertex_stage(std::span<const VertexTask> tasks, PassStatistics& statistics) {
     for (const VertexTask& t : tasks) {
-      if (t.is_part && t.begin == 0) allocate_vertices(context_.draws[t.draw], context_.shaded[t.draw]);
+      if (t.is_part && t.begin == 0 && !is_skipped(t.draw)) allocate_vertices(context_.draws[t.draw], context_.shaded[t.draw]);
     }
     std::vector<Outcode> any(tasks.size());  // union of the outcodes, for parts of large draws
+    std::vector<PassStatistics> times(has_timers_ ? tasks.size() : 1);
     workers_.for_each(static_cast<int>(tasks.size()), [&](int i) {
       const VertexTask& t = tasks[static_cast<std::size_t>(i)];
+      if (is_skipped(t.draw)) return;
+      PassStatistics& time = times[has_timers_ ? static_cast<std::size_t>(i) : 0];  // unused without timers
       if (t.is_part) {
+        const DrawStopwatch stopwatch(context_.draws[t.draw], &DrawTime::setup, time);
         any[static_cast<std::size_t>(i)] = shade_vertices(context_.draws[t.draw], t.begin, t.end, context_.shaded[t.draw]);
         return;
       }
       for (std::size_t d = t.draw; d < t.end_draw; ++d) {
         ShadedVertices& shaded = context_.shaded[d];
+        const DrawStopwatch stopwatch(context_.draws[d], &DrawTime::setup, time);
         allocate_vertices(context_.draws[d], shaded);
         shaded.any_outcode = shade_vertices(context_.draws[d], 0, context_.draws[d].vertex_count, shaded);
       }
@@ -101,6 +148,7 @@ class PassRounds {
     for (std::size_t i = 0; i < tasks.size(); ++i) {
       if (tasks[i].is_part) context_.shaded[tasks[i].draw].any_outcode |= any[i];
     }
+    for (const PassStatistics& time : times) statistics += time;
   }
 
   bool is_shaded(std::size_t chunk) const { return chunk < plan_.chunks.size() && plan_.chunks[chunk].back().draw < end_shaded_; }
@@ -108,17 +156,20 @@ class PassRounds {
   // Sets up the next chunks of the plan, until the budget is reached, all chunk ids are in use or no chunks with shaded vertices are left.
   void set_up_chunks(PassStatistics& statistics) {
     std::size_t bytes = 0;
-    while (is_shaded(next_chunk_) && (context_.chunks.empty() || bytes < budget_) && context_.chunks.size() + kChunksPerSet <= kMaxChunks) {
-      const std::size_t begin = context_.chunks.size();
+    while (skip_chunks() && is_shaded(next_chunk_) && (context_.chunks.empty() || bytes < budget_) &&
+           context_.chunks.size() + kChunksPerSet <= kMaxChunks) {
+      const std::size_t begin = context_.chunks.size(), end = next_conditional_chunk();
       std::size_t count = 1;
-      while (count < kChunksPerSet && is_shaded(next_chunk_ + count)) ++count;
+      while (count < kChunksPerSet && next_chunk_ + count < end && is_shaded(next_chunk_ + count)) ++count;
       for (std::size_t i = 0; i < count; ++i) context_.chunks.push_back(take_or_make(memory_.chunks));
       workers_.for_each(static_cast<int>(count), [&](int i) {
         Chunk& chunk = context_.chunks[begin + static_cast<std::size_t>(i)];
         chunk.ranges = std::move(plan_.chunks[next_chunk_ + static_cast<std::size_t>(i)]);
+        const auto start = has_timers_ ? std::chrono::steady_clock::now() : std::chrono::steady_clock::time_point{};
         set_up_chunk(context_, chunk);
         run_primitive_stage(context_, chunk);
         bin_chunk(context_, chunk);
+        if (has_timers_) add_times(chunk, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
       });
       next_chunk_ += count;
       for (std::size_t c = begin; c < context_.chunks.size(); ++c) {
@@ -126,6 +177,15 @@ class PassRounds {
         statistics += context_.chunks[c].statistics;
         add_triangle_ids(static_cast<uint32_t>(c));
       }
+    }
+  }
+
+  // Divides the seconds that a chunk has taken among its draws.
+  void add_times(Chunk& chunk, double seconds) const {
+    const auto primitives = static_cast<double>(chunk.statistics.primitives_in);
+    for (const DrawRange& r : chunk.ranges) {
+      const std::optional<uint32_t>& timer = context_.draws[r.draw].state.timer;
+      if (timer) chunk.statistics.add_time(*timer, {.setup = seconds * r.count / primitives});
     }
   }
 
@@ -148,6 +208,10 @@ class PassRounds {
   std::size_t first_kept_ = 0;  // the vertices of draws [first_kept_, end_shaded_) are in memory
   std::size_t end_shaded_ = 0;
   std::size_t next_chunk_ = 0;
+  std::size_t next_conditional_ = 0;  // the first conditional draw at or after the next chunk
+  std::size_t decided_ = 0;           // number of conditional draws of which it is known whether they are drawn
+  std::vector<std::size_t> skipped_;  // conditional draws that are not drawn
+  bool has_timers_;
 };
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "halfspace/raster/pipeline/draw_stopwatch.h"
 #include "halfspace/raster/primitives/bin.h"
 #include "halfspace/raster/shade/decide_queued.h"
 #include "halfspace/raster/shade/shade_deferred.h"
@@ -76,7 +77,7 @@ class TileDraws {
           i += draw_narrow(*here, c, bin.subspan(i, narrow));
         } else {
           const bool was_visible = occluder.is_visible();
-          const bool is_done = occluder.draw(*here, c, t, statistics_);
+          const bool is_done = draw_with_occluder(occluder, *here, c, t);
           pending_ |= was_visible && !occluder.is_visible();
           if (!is_done) {
             begin_triangle(*here);
@@ -121,6 +122,7 @@ class TileDraws {
 
   // Runs the shader for the packets in the queue, which belong to the draw.
   void finish_queue(const DrawInTile& d) {
+    const DrawStopwatch stopwatch(d.draw, shades_later(d.mode) ? &DrawTime::visibility : &DrawTime::shading, statistics_);
     if (shades_later(d.mode)) {
       decide_queued(d, memory_.queue, statistics_);
     } else {
@@ -138,7 +140,10 @@ class TileDraws {
 
   // Draws narrow triangles of one draw, 1 to W. Returns how many were drawn, at least 1.
   std::size_t draw_narrow(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices) {
-    const std::size_t count = rasterize_narrow_(d, chunk, indices, memory_.queue, statistics_);
+    const std::size_t count = [&] {
+      const DrawStopwatch stopwatch(d.draw, &DrawTime::visibility, statistics_);
+      return rasterize_narrow_(d, chunk, indices, memory_.queue, statistics_);
+    }();
     if (memory_.queue.is_full()) finish_queue(d);
     return count;
   }
@@ -149,8 +154,16 @@ class TileDraws {
       draw_narrow(d, chunk, {&index, 1});
       return;
     }
-    rasterize_(d, t, triangle_id(chunk, index), memory_.queue, statistics_);
+    {
+      const DrawStopwatch stopwatch(d.draw, &DrawTime::visibility, statistics_);
+      rasterize_(d, t, triangle_id(chunk, index), memory_.queue, statistics_);
+    }
     if (memory_.queue.is_full()) finish_queue(d);
+  }
+
+  bool draw_with_occluder(FullTileOccluder& occluder, const DrawInTile& d, uint32_t chunk, uint16_t index) {
+    const DrawStopwatch stopwatch(d.draw, &DrawTime::visibility, statistics_);
+    return occluder.draw(d, chunk, index, statistics_);
   }
 
   // Blends the transparent layers over the colors of the tile. Pixels that are visible behind them have been shaded.

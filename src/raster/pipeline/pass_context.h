@@ -12,7 +12,7 @@
 #include "halfspace/raster/pipeline/draw_arena.h"
 #include "halfspace/raster/pipeline/pipeline_data.h"
 #include "halfspace/raster/target.h"
-#include "halfspace/shading/varyings.h"
+#include "halfspace/shading/contract.h"
 
 namespace halfspace::HS_LANES {
 
@@ -41,10 +41,15 @@ struct ShaderKernels {
   bool gives_layer = false;                ///< vertices have a layer and a viewport (LayeredVertex)
   bool gives_point_sprite = false;         ///< the vertex function sets the bounds of points
   int clip_distance_count = 0;             ///< clip distances of a vertex
+  int cull_distance_count = 0;             ///< cull distances of a vertex
   int color_count = 1;                     ///< colors returned by the fragment function
   const ColorType* color_types = nullptr;  ///< color_count entries; null: not checked
   bool discards = false;
   bool writes_depth = false;
+  DepthBound depth_bound = DepthBound::any;  ///< of the depth that the shader writes
+  bool tests_early = false;                  ///< all tests and writes of depth and stencil precede the shader
+  bool runs_per_sample = false;              ///< the shader runs per sample, for any state
+  bool writes_sample_mask = false;
   bool is_constant = false;  ///< the whole draw has one color: the fragment kernel only uses the count and the output of its batch
 };
 
@@ -64,8 +69,9 @@ struct DrawPlacement {
   PixelBounds bounds{};    ///< viewport ∩ scissor ∩ target
   float depth_low = 0.0f;  ///< bounds of the depth range
   float depth_high = 1.0f;
-  uint32_t sample_mask = 1;     ///< bit s: sample s can be drawn
-  bool shades_samples = false;  ///< the fragment function runs per sample instead of per pixel
+  uint32_t sample_mask = 1;           ///< bit s: sample s can be drawn
+  bool is_multisampled = false;       ///< there are several samples per pixel
+  bool state_shades_samples = false;  ///< by its state, the fragment function runs per sample instead of per pixel
   /// Alpha to coverage applies: there are several samples, and the first color attachment does not contain integers (OpenGL 4.6, section
   /// 17.3.1).
   bool covers_by_alpha = false;
@@ -80,6 +86,10 @@ struct Draw : DrawPlacement {
   std::shared_ptr<const Indices> indices;
   VertexStreams vertices;
   const DrawState& state;  ///< consecutive draws with equal states share one
+
+  bool shades_samples;    ///< the fragment function runs per sample instead of per pixel
+  bool covers_by_shader;  ///< the shader determines which samples are drawn
+  bool is_smooth;         ///< pixels are covered by their area; see visibility/coverage/smooth.h
 
   // These are set when the draw is added.
   bool is_clear = false;      ///< applies to all layers
@@ -104,7 +114,10 @@ struct Draw : DrawPlacement {
         shader(std::move(shader_)),
         indices(std::move(indices_)),
         vertices(vertices_),
-        state(state_) {}
+        state(state_),
+        shades_samples(state_shades_samples || (is_multisampled && kernels.runs_per_sample)),
+        covers_by_shader(is_multisampled && kernels.writes_sample_mask),
+        is_smooth(!is_multisampled && HS_LANES::is_smooth(state)) {}
 };
 
 /// Returns true if all offsets into the draw's vertex arrays fit in the 32-bit indices of a gather.

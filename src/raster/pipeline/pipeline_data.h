@@ -59,7 +59,7 @@ struct PointSpriteRect {
 using Outcode = uint8_t;
 inline constexpr Outcode kOutLeft = 1, kOutRight = 2, kOutBottom = 4, kOutTop = 8, kOutNear = 16, kOutFar = 32;
 inline constexpr Outcode kOutGuard = 64;       ///< outside the guard band, or w too small: no window position
-inline constexpr Outcode kOutNonFinite = 128;  ///< x, y, z, w or a clip distance is NaN or Inf
+inline constexpr Outcode kOutNonFinite = 128;  ///< x, y, z, w or a distance is NaN or Inf
 inline constexpr Outcode kOutNeedsClip = kOutNear | kOutFar | kOutGuard;
 inline constexpr Outcode kOutView = 63;  ///< the six planes of the view volume
 
@@ -93,10 +93,11 @@ struct ShadedVertices {
   Buffer<float> varyings;   ///< followed by kRowSlack floats of padding (core/transpose.h)
   bool has_sprites = false;
   Buffer<PointSpriteRect> sprites;  ///< only for points
-  int clip_distance_count = 0;      ///< floats per vertex in clip_distances
-  Buffer<float> clip_distances;
+  int clip_distance_count = 0, cull_distance_count = 0;
+  Buffer<float> distances;  ///< of each vertex: clip distances, cull distances
 
-  std::size_t bytes() const { return screen.bytes() + outcodes.bytes() + varyings.bytes() + sprites.bytes() + clip_distances.bytes(); }
+  int distance_count() const { return clip_distance_count + cull_distance_count; }
+  std::size_t bytes() const { return screen.bytes() + outcodes.bytes() + varyings.bytes() + sprites.bytes() + distances.bytes(); }
 };
 
 // ---- vertex stage → emitting stages -----------------------------------------------------------------------------
@@ -124,18 +125,18 @@ struct VertexBatch {
   int32_t instance = 0;       ///< the same for all vertices
   float* varyings = nullptr;  ///< null for the position kernel
   float* clip = nullptr;      ///< output: clip-space x, y, z and w in four rows of kVertexBatch floats
-  /// Output rows, or null: the point size and clip distances, or the min x, min y, max x and max y of a point sprite.
+  /// Output rows, or null: the point size and distances, or the min x, min y, max x and max y of a point sprite.
   float* extra = nullptr;
   bool is_converted = false;  ///< row i of the streams belongs to vertex i of the batch, not to the vertex with that index
 };
-inline constexpr int kMaxClipDistances = 8;
-inline constexpr int kMaxExtraRows = 1 + kMaxClipDistances;
+inline constexpr int kMaxDistances = 8;  ///< clip and cull distances (GL_MAX_COMBINED_CLIP_AND_CULL_DISTANCES)
+inline constexpr int kMaxExtraRows = 1 + kMaxDistances;
 
 // ---- the viewport transform ------------------------------------------------------------------------------------
 
 /// Transform from clip space to window coordinates: x_px = x/w · half_width + center_x, and the same for y.
 struct Viewport {
-  float half_width, half_height;                           ///< px
+  float half_width, half_height;                           ///< px; half_height is negative if the picture is upside down
   float center_x, center_y;                                ///< px
   float depth_scale, depth_bias;                           ///< window depth = z/w · scale + bias
   float guard_left, guard_right, guard_bottom, guard_top;  ///< x ≥ guard_left·w, x ≤ guard_right·w, and the same for y

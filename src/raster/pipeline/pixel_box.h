@@ -38,7 +38,8 @@ HS_INLINE PixelBox<I> intersect(const PixelBox<I>& box, const PixelBounds& b) {
   return {max(box.x0, I(b.x0)), max(box.y0, I(b.y0)), min(box.x1, I(b.x1)), min(box.y1, I(b.y1))};
 }
 
-/// Returns the pixels that may have a sample in the bounding box of a primitive, clipped to bounds.
+/// Returns the pixels that may have a sample in the bounding box of a primitive or, for smooth primitives, that may overlap it, clipped to
+/// bounds.
 PixelBounds pixel_bounds(const Draw& draw, const Triangle& t, const PixelBounds& bounds, const SampleSpan& span);
 /// Returns the pixels whose sample at position `at` is in the bounding box of a primitive, clipped to bounds.
 PixelBounds pixel_bounds(const Draw& draw, const Triangle& t, const PixelBounds& bounds, const SamplePosition& at);

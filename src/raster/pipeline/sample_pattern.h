@@ -1,45 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Sample positions within a pixel, and the storage of samples in a tile.
+// The range of sample positions within a pixel, and the storage of samples in a tile.
 #pragma once
 
-#include <array>
-#include <cstdint>
-
 #include "halfspace/raster/pipeline/pipeline_data.h"
+#include "halfspace/shading/sample_positions.h"
 
 namespace halfspace::HS_LANES {
 
-inline constexpr int kMaxSamples = 8;
-
-/// Position of a sample relative to the lower left corner of its pixel, in 1/256 px.
-struct SamplePosition {
-  int x, y;
-};
-inline constexpr SamplePosition kPixelCenter{kSubPixels / 2, kSubPixels / 2};
-
-/// Standard sample positions for 1, 2, 4 and 8 samples, as in Vulkan 1.3 ("Multisampling", in units of 1/16 px) and Mesa, but with y up.
-inline constexpr std::array<SamplePosition, 15> kSamplePositions{{
-    {128, 128},  // 1 sample
-    {192, 192},  // 2 samples
-    {64, 64},
-    {96, 32},  // 4 samples
-    {224, 96},
-    {32, 160},
-    {160, 224},
-    {144, 80},  // 8 samples
-    {112, 176},
-    {208, 144},
-    {80, 48},
-    {48, 208},
-    {16, 112},
-    {176, 240},
-    {240, 16},
-}};
-/// Returns the position of a sample. samples must be 1, 2, 4 or 8.
-constexpr SamplePosition sample_position(int samples, int sample) {
-  return kSamplePositions[static_cast<std::size_t>(samples - 1 + sample)];
-}
+static_assert(kPixelCenter.x == kSubPixels / 2);
 
 /// Returns the range of sample positions for 1, 2, 4 or 8 samples.
 constexpr SampleSpan sample_span(int samples) {

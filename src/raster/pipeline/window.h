@@ -16,7 +16,8 @@ inline constexpr float kMinW = 0x1p-96f;
 
 /// Returns x/w·half + center in 1/256 px, rounded to the nearest integer. Near the guard band, a float quotient can have an error of half a
 /// sub-pixel. The remainder of the division and the rounding errors are therefore included, and the result is the same as with exact
-/// arithmetic, except for ties within 2^-20 of a sub-pixel. half and center must be multiples of 1/2 px.
+/// arithmetic, except for ties within 2^-20 of a sub-pixel. half and center must be multiples of 1/512 px
+/// below 2^15 px.
 template <class R>
 HS_INLINE IntOf<R> snap(R x, R w, R inv_w, float half, float center) {
   const R half_sub(half * static_cast<float>(kSubPixels));

@@ -67,7 +67,7 @@ void append_outline(SetupRange& r, const PrimitiveSlots& id) {
   const auto vertex = [&](std::size_t i) -> const ScreenVertex& { return r.shaded.screen[id[i % 3]]; };
   const int64_t area = orient2d(vertex(0), vertex(1), vertex(2));
   if (area == 0) return r.count(Cull::degenerate);
-  const bool front = (area > 0) == (r.draw.state.front == Winding::counter_clockwise);
+  const bool front = is_front(r.draw.state, area > 0);
   if (is_culled(r.draw.state.cull, front)) return r.count(Cull::face);
   const std::size_t before = r.chunk.triangles.size();
   Cull why = Cull::none;

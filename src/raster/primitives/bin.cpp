@@ -79,7 +79,8 @@ struct TileRows {
   alignas(64) std::array<int32_t, kLanes> x0, y0, x1, y1;
 };
 
-// Returns the tile ranges of `count` triangles of one draw, starting with `first`. The results are invalid for lines.
+// Returns the tile ranges of `count` triangles of one draw, starting with `first`. The results are invalid for lines and
+// smooth triangles.
 TileRows tile_rows(const PassContext& context, const Draw& draw, const Triangle* first, std::size_t count) {
   const auto [x, y] = load_corners([&](int k) { return first + std::min(static_cast<std::size_t>(k), count - 1); });
   const PixelBox<Int> tiles = tiles_of(context, intersect(pixel_box(x, y, context.samples_at, context.samples_at), draw.bounds));
@@ -164,8 +165,10 @@ void bin_chunk(const PassContext& context, Chunk& chunk) {
         const Triangle& t = chunk.triangles[first + i];
         const auto index = static_cast<uint16_t>(first + i);
         PixelBounds tiles{rows.x0[i], rows.y0[i], rows.x1[i], rows.y1[i]};
-        if (t.is_line()) {
-          tiles = tiles_of(context, pixel_bounds(draw, t, draw.bounds, context.samples_at));
+        if (t.is_line() || draw.is_smooth) tiles = tiles_of(context, pixel_bounds(draw, t, draw.bounds, context.samples_at));
+        if (draw.is_smooth) {
+          for (int y = tiles.y0; y < tiles.y1; ++y) runs.put_row(tiles.x0, tiles.x1, y, index);
+        } else if (t.is_line()) {
           list_line_tiles(context, t, line_pixels(draw.state.line_width), tiles, index, runs);
         } else if (tiles.x1 - tiles.x0 == 1 && tiles.y1 - tiles.y0 == 1) {
           runs.put(tiles.x0, tiles.y0, index);

@@ -97,7 +97,7 @@ class TriangleSetup {
       ++chunk_.statistics.culled_non_finite;
     } else if (all) {
       ++chunk_.statistics.culled_outside;
-    } else if ((any & kOutNeedsClip) != 0 || shaded_.clip_distance_count != 0 || draw_.state.polygon_mode != PolygonMode::fill) {
+    } else if ((any & kOutNeedsClip) != 0 || shaded_.distance_count() != 0 || draw_.state.polygon_mode != PolygonMode::fill) {
       submit_triangle_slowly(id, any);
     } else {
       append_whole(id);
@@ -106,7 +106,7 @@ class TriangleSetup {
 
   void submit_triangle_slowly(const PrimitiveSlots& id, Outcode any) {
     const uint32_t a = range_.beyond_distances(id[0]), b = range_.beyond_distances(id[1]), c = range_.beyond_distances(id[2]);
-    const bool is_cut = (any & kOutNeedsClip) != 0 || (a | b | c) != 0;
+    const bool is_cut = (any & kOutNeedsClip) != 0 || range_.is_clipped_by(a | b | c);
     if ((a & b & c) != 0) {
       ++chunk_.statistics.culled_outside;
     } else if (!is_cut && appends_outlines_) {

@@ -68,7 +68,7 @@ Cull append_pieces(SetupRange& r, const ClipPolygon& polygon, uint32_t first, co
   int64_t area = 0;
   for (uint32_t i = 2; i < corners; ++i) area += orient2d(r.clip_vertex(first), r.clip_vertex(first + i - 1), r.clip_vertex(first + i));
   if (area == 0) return Cull::degenerate;
-  const bool front = (area > 0) == (state.front == Winding::counter_clockwise);
+  const bool front = is_front(state, area > 0);
   if (is_culled(state.cull, front)) return Cull::face;
   const Facing facing = front ? Facing::front : Facing::back;
   if (has_offset(state.offset, state.polygon_mode)) offset_corners(r, first, corners);
@@ -90,7 +90,7 @@ void set_up_clipped(SetupRange& r, const PrimitiveSlots& slots, ClipFunction cli
   const std::array<glm::vec4, 3> pos_clip =
       clip_positions(r.draw, r.instance, {slots[0] + r.slot_base, slots[1] + r.slot_base, slots[2] + r.slot_base});
   ClipDistances distances{{}, r.shaded.clip_distance_count};
-  for (std::size_t i = 0; i < 3 && distances.count != 0; ++i) distances.vertex[i] = r.clip_distances_of(slots[i]);
+  for (std::size_t i = 0; i < 3 && distances.count != 0; ++i) distances.vertex[i] = r.distances_of(slots[i]);
   const ClipPolygon polygon = clip(r.draw.viewport, r.draw.state.depth, pos_clip, distances);
   if (polygon.count == 0) {
     ++r.chunk.statistics.culled_outside;

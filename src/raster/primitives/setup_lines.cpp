@@ -18,7 +18,7 @@ void submit_line(SetupRange& r) {
     ++r.chunk.statistics.culled_non_finite;
   } else if (all || (beyond_0 & beyond_1) != 0) {
     ++r.chunk.statistics.culled_outside;
-  } else if (const bool is_cut = (any & kOutNeedsClip) != 0 || (beyond_0 | beyond_1) != 0; is_cut || r.context.samples > 1) {
+  } else if (const bool is_cut = (any & kOutNeedsClip) != 0 || r.is_clipped_by(beyond_0 | beyond_1); is_cut || r.context.samples > 1) {
     set_up_clipped(r, id, clip_line, is_cut);
   } else {
     const uint32_t provoking = r.draw.state.provoking == ProvokingVertex::first ? 0 : 1;

@@ -45,17 +45,19 @@ struct SetupRange {
   /// Returns the position of the provoking vertex among the three indices of a primitive.
   uint32_t provoking() const { return draw.state.provoking == ProvokingVertex::first ? 0 : 2; }
 
-  const float* clip_distances_of(uint32_t slot) const {
-    return shaded.clip_distances.get() + std::size_t{slot} * static_cast<std::size_t>(shaded.clip_distance_count);
+  const float* distances_of(uint32_t slot) const {
+    return shaded.distances.get() + std::size_t{slot} * static_cast<std::size_t>(shaded.distance_count());
   }
-  /// Returns a bit mask of the clip distances for which a vertex is outside.
+  /// Returns a bit mask of the distances that are negative at a vertex. A primitive is culled if one of them is at all its vertices.
   uint32_t beyond_distances(uint32_t slot) const {
     uint32_t beyond = 0;
-    for (int k = 0; k < shaded.clip_distance_count; ++k) {
-      if (!(clip_distances_of(slot)[k] >= 0.0f)) beyond |= 1u << k;
+    for (int k = 0; k < shaded.distance_count(); ++k) {
+      if (!(distances_of(slot)[k] >= 0.0f)) beyond |= 1u << k;
     }
     return beyond;
   }
+  /// Returns true if a distance for which a vertex is outside is a clip distance.
+  bool is_clipped_by(uint32_t beyond) const { return (beyond & ((1u << shaded.clip_distance_count) - 1)) != 0; }
 
   const ScreenVertex& clip_vertex(uint32_t index) const { return chunk.clip_vertices[index].screen; }
 

@@ -52,7 +52,7 @@ Cull set_up_triangle(const Draw& draw, const PassContext& context, const std::ar
   if (area == 0) return Cull::degenerate;
   bool front = facing != Facing::back;
   if (facing == Facing::by_winding) {
-    front = (area > 0) == (draw.state.front == Winding::counter_clockwise);
+    front = is_front(draw.state, area > 0);
     if (is_culled(draw.state.cull, front)) return Cull::face;
   }
 
@@ -68,9 +68,10 @@ Cull set_up_triangle(const Draw& draw, const PassContext& context, const std::ar
     out.vertex[i] = index[order[i]];
     if (order[i] == provoking) out.flags = static_cast<uint32_t>(i) << kProvokingShift;
   }
-  const PixelBounds box = intersect(pixel_box(out.x, out.y, context.samples_at, context.samples_at), draw.bounds);
+  const PixelBounds box = pixel_bounds(draw, out, draw.bounds, context.samples_at);
   if (box.empty()) return Cull::no_sample;
-  const bool few = context.samples == 1 && is_narrow(out) && box.fits_in(kTinySide, kTinySide);
+  const bool may_be_narrow = !draw.is_smooth && is_narrow(out);  // loops over narrow triangles test samples
+  const bool few = context.samples == 1 && may_be_narrow && box.fits_in(kTinySide, kTinySide);
   const int32_t covered = few ? covered_centers<float>(out.x, out.y, box) : 0;
   if (few && covered == 0) return Cull::no_sample;
 
@@ -85,7 +86,7 @@ Cull set_up_triangle(const Draw& draw, const PassContext& context, const std::ar
   out.z_edge1 = static_cast<float>(plane.dz1 / plane.area);
   out.z_edge2 = static_cast<float>(plane.dz2 / plane.area);
 
-  if (is_narrow(out)) out.flags |= kNarrow;
+  if (may_be_narrow) out.flags |= kNarrow;
   out.flags |= static_cast<uint32_t>(covered_flags(box, covered));
   if (front) out.flags |= kFrontFacing;
   return Cull::none;

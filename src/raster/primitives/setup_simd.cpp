@@ -26,8 +26,8 @@ void prefetch_indices(const uint32_t* list) {
 
 bool TriangleBatch::serves(const Draw& draw) {
   const DrawState& s = draw.state;
-  return kLanes > 1 && s.polygon_mode == PolygonMode::fill && draw.kernels.clip_distance_count == 0 &&
-         !has_offset(s.offset, s.polygon_mode);
+  return kLanes > 1 && !draw.is_smooth && s.polygon_mode == PolygonMode::fill && draw.kernels.clip_distance_count == 0 &&
+         draw.kernels.cull_distance_count == 0 && !has_offset(s.offset, s.polygon_mode);
 }
 
 void TriangleBatch::put_list(const uint32_t* indices, int count, uint32_t base) {
@@ -67,7 +67,7 @@ void TriangleBatch::set_up(const PassContext& context, const Draw& draw, const S
   const Int area = (x[1] - x[0]) * (y[2] - y[0]) - (y[1] - y[0]) * (x[2] - x[0]);
   const Mask counter_clockwise = area > Int(0);
   const Mask clockwise = !counter_clockwise;
-  const Mask front = draw.state.front == Winding::counter_clockwise ? counter_clockwise : clockwise;
+  const Mask front = is_front(draw.state, true) ? counter_clockwise : clockwise;
   const bool culls_front = is_culled(draw.state.cull, true), culls_back = is_culled(draw.state.cull, false);
   const PixelBox<Int> box = intersect(pixel_box(x, y, context.samples_at, context.samples_at), draw.bounds);
   const auto take = [&](uint32_t which, uint64_t& counter) {

@@ -55,10 +55,11 @@ HS_INLINE void store_varyings(const std::array<Real, N>& components, float* cons
   }
 }
 
-template <std::size_t N>
-HS_INLINE void store_extra(const PerVertex<Real, N>& v, float* rows) {
+template <std::size_t N, std::size_t M>
+HS_INLINE void store_extra(const PerVertex<Real, N, M>& v, float* rows) {
   store(rows, v.point_size);
-  for (std::size_t i = 0; i < N; ++i) store(rows + (i + 1) * kVertexBatch, v.clip_distance[i]);
+  for (std::size_t i = 0; i < N; ++i) store(rows + (1 + i) * kVertexBatch, v.clip_distance[i]);
+  for (std::size_t i = 0; i < M; ++i) store(rows + (1 + N + i) * kVertexBatch, v.cull_distance[i]);
 }
 HS_INLINE void store_extra(const PointSpriteVertex<Real>& v, float* rows) {
   store(rows, v.low.x);
@@ -67,12 +68,37 @@ HS_INLINE void store_extra(const PointSpriteVertex<Real>& v, float* rows) {
   store(rows + 3 * kVertexBatch, v.high.y);
 }
 
-/// with_extra: also store the point size, clip distances or point sprite that the vertex function returns.
-template <class S, bool with_varyings, bool with_extra>
+/// Outputs of a vertex kernel. The others are the point size, distances or point sprite that the vertex function returns.
+enum class VertexOutput : uint8_t {
+  position,
+  varyings,          ///< position and varyings
+  all_but_varyings,  ///< position and others
+  all,
+  whole_row  ///< the position, and a row of the other values of an EmittedStrips instead of the varyings
+};
+
+/// Returns the values of a vertex that VertexBatch::varyings receives.
+template <VertexOutput output, class Vertex, class V>
+HS_INLINE auto vertex_values(const Vertex& vertex, const V& varyings) {
+  const std::array<Real, kComponents<V>> components = to_components<Real>(varyings);
+  if constexpr (output != VertexOutput::whole_row) {
+    return components;
+  } else {
+    constexpr std::size_t extra = kExtraValues<Vertex>;
+    std::array<Real, 4 + extra> row;
+    put_vertex(vertex, row);
+    std::array<Real, extra + kComponents<V>> values;
+    std::copy(components.begin(), components.end(), std::copy(row.begin() + 4, row.end(), values.begin()));
+    return values;
+  }
+}
+
+template <class S, VertexOutput output>
 HS_FLATTEN void vertex_kernel(const void* shader, const VertexBatch& batch) {
+  constexpr bool with_extra = output == VertexOutput::all || output == VertexOutput::all_but_varyings;
+  constexpr bool with_varyings = output != VertexOutput::position && output != VertexOutput::all_but_varyings;
   using Attributes = typename S::template Attributes<Real>;
   using Varyings = VertexVaryingsOf<S, Real>;
-  constexpr std::size_t n = kComponents<Varyings>;
   const S& s = *static_cast<const S*>(shader);
   for (int begin = 0; begin < batch.count; begin += kLanes) {
     const int count = std::min(kLanes, batch.count - begin);
@@ -88,11 +114,15 @@ HS_FLATTEN void vertex_kernel(const void* shader, const VertexBatch& batch) {
     if constexpr (with_extra && !std::is_same_v<std::remove_const_t<decltype(vertex)>, vec4<Real>>) {
       if (batch.extra != nullptr) store_extra(vertex, batch.extra + begin);
     }
-    if constexpr (with_varyings && n != 0) {
-      float* row[kLanes];
-      for (int k = 0; k < kLanes; ++k)
-        row[k] = batch.varyings + static_cast<std::size_t>(static_cast<uint32_t>(lane(ids, k)) - batch.slot_base) * n;
-      store_varyings(to_components<Real>(out), row, count);
+    if constexpr (with_varyings) {
+      const auto values = vertex_values<output>(vertex, out);
+      constexpr std::size_t n = std::tuple_size_v<std::remove_const_t<decltype(values)>>;
+      if constexpr (n != 0) {
+        float* row[kLanes];
+        for (int k = 0; k < kLanes; ++k)
+          row[k] = batch.varyings + static_cast<std::size_t>(static_cast<uint32_t>(lane(ids, k)) - batch.slot_base) * n;
+        store_varyings(values, row, count);
+      }
     }
   }
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include "halfspace/core/transpose.h"
 #include "halfspace/raster/pipeline/window.h"
@@ -41,18 +42,19 @@ Outcode project(const Draw& draw, const float* clip, int count, ScreenVertex* sc
   return all;
 }
 
-// Stores clip distances, which are given in rows, and marks vertices with a distance that is NaN or infinite. slot_of(i): slot of vertex i.
+// Stores clip and cull distances, which are given in rows, and marks vertices with a distance that is NaN or infinite. slot_of(i): slot of
+// vertex i.
 template <class SlotOf>
-Outcode store_clip_distances(const float* rows, int count, SlotOf slot_of, ShadedVertices& out) {
+Outcode store_distances(const float* rows, int count, SlotOf slot_of, ShadedVertices& out) {
   Outcode any = 0;
-  const auto distances = static_cast<std::size_t>(out.clip_distance_count);
+  const auto distances = static_cast<std::size_t>(out.distance_count());
   for (int i = 0; i < count; ++i) {
     const std::size_t slot = slot_of(i);
     bool is_finite = true;
     for (std::size_t k = 0; k < distances; ++k) {
       const float distance = rows[k * kVertexBatch + static_cast<std::size_t>(i)];
       is_finite &= std::isfinite(distance);
-      out.clip_distances[slot * distances + k] = distance;
+      out.distances[slot * distances + k] = distance;
     }
     if (!is_finite) any |= out.outcodes[slot] |= kOutNonFinite;
   }
@@ -141,12 +143,13 @@ void check_vertex_count(std::size_t n) {
 
 }  // namespace
 
-Viewport make_viewport(const Rect& r, const DepthState& depth) {
+Viewport make_viewport(const ViewportRect& r, const DepthState& depth, ClipOrigin origin, bool clips_sides) {
   Viewport v{};
-  v.half_width = 0.5f * static_cast<float>(r.width);
-  v.half_height = 0.5f * static_cast<float>(r.height);
-  v.center_x = static_cast<float>(r.x) + v.half_width;
-  v.center_y = static_cast<float>(r.y) + v.half_height;
+  v.half_width = 0.5f * r.width;
+  v.half_height = 0.5f * r.height;
+  v.center_x = r.x + v.half_width;
+  v.center_y = r.y + v.half_height;
+  if (origin == ClipOrigin::upper_left) v.half_height = -v.half_height;
   const float range = depth.range_far - depth.range_near;
   const bool gl = depth.clip == ClipDepth::negative_one_to_one;
   v.depth_scale = gl ? 0.5f * range : range;
@@ -155,12 +158,18 @@ Viewport make_viewport(const Rect& r, const DepthState& depth) {
   v.guard_right = (kGuardBand - v.center_x) / v.half_width;
   v.guard_bottom = (-kGuardBand - v.center_y) / v.half_height;
   v.guard_top = (kGuardBand - v.center_y) / v.half_height;
+  if (v.half_height < 0.0f) std::swap(v.guard_bottom, v.guard_top);
+  if (clips_sides) {
+    v.guard_left = v.guard_bottom = -1.0f;
+    v.guard_right = v.guard_top = 1.0f;
+  }
   return v;
 }
 
 std::size_t shaded_bytes(const Draw& draw) {
   const std::size_t n = (draw.indices->end_vertex() - draw.indices->first_vertex()) * std::size_t{draw.state.instances};
-  const auto floats = static_cast<std::size_t>(draw.kernels.varying_count + draw.kernels.clip_distance_count);
+  const auto floats =
+      static_cast<std::size_t>(draw.kernels.varying_count + draw.kernels.clip_distance_count + draw.kernels.cull_distance_count);
   return n * (sizeof(ScreenVertex) + sizeof(Outcode) + floats * sizeof(float) + (draws_points(draw.state) ? sizeof(PointSpriteRect) : 0));
 }
 
@@ -175,7 +184,8 @@ void allocate_vertices(const Draw& draw, ShadedVertices& out) {
   out.any_outcode = 0;
   out.varyings.reset(n * static_cast<std::size_t>(out.varying_count) + kRowSlack);
   out.clip_distance_count = draw.kernels.clip_distance_count;
-  out.clip_distances.reset(n * static_cast<std::size_t>(out.clip_distance_count));
+  out.cull_distance_count = draw.kernels.cull_distance_count;
+  out.distances.reset(n * static_cast<std::size_t>(out.distance_count()));
   out.has_sprites = draws_points(draw.state);
   if (out.has_sprites) out.sprites.reset(n);
 }
@@ -221,8 +231,8 @@ Outcode shade_vertices(const Draw& draw, std::size_t begin, std::size_t end, Sha
         out.outcodes[slot] = outcodes[static_cast<std::size_t>(i)];
       }
     }
-    if (out.clip_distance_count != 0)
-      any |= store_clip_distances(
+    if (out.distance_count() != 0)
+      any |= store_distances(
           extra.data() + kVertexBatch, count, [&](int i) { return slot_of(batch, i); }, out);
   });
   return any;

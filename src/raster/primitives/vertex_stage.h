@@ -8,8 +8,10 @@
 
 namespace halfspace::HS_LANES {
 
-/// Returns the transform from clip space to window coordinates. The viewport is in pixels.
-Viewport make_viewport(const Rect& viewport, const DepthState& depth);
+/// Returns the transform from clip space to window coordinates. The fractions of the viewport must be multiples of 1/256 px. clips_sides:
+/// the guard band is the viewport.
+Viewport make_viewport(const ViewportRect& viewport, const DepthState& depth, ClipOrigin origin = ClipOrigin::lower_left,
+                       bool clips_sides = false);
 
 /// Shades vertices [begin, end) of the list of vertices that the draw's indices use; the list contains the instances one after the other.
 /// Returns the union of the outcodes.

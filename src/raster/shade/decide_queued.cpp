@@ -53,7 +53,7 @@ class DecidedPackets {
     const Draw& draw = d_.draw;
     const DepthFormat format = d_.tile.depth_format;
     const bool replaces = draw.kernels.writes_depth;
-    if (replaces) z = depth_value(format, clamp(depth, Real(draw.depth_low), Real(draw.depth_high)));
+    if (replaces) z = replaced_depth(draw, format, depth, z, mask_from_bits<Mask>(kept));
     if constexpr (Writer::kTestsStencil) writer_.begin(triangle_of(d_.context, id));
     if (!writer_.write_decided(id, sample, kept, z) || !writer_.writes_depth()) return;
     const int block = sample.packet / kPacketsPerBlock;
@@ -137,7 +137,8 @@ void decide_queued(const DrawInTile& d, PacketQueue& queue, PassStatistics& stat
     if (d.trace != nullptr) return decide_with(d, queue, TracedWriter<path, false>(d, nullptr, statistics));
     decide_with(d, queue, Writer<path, false>(d, nullptr, statistics));
   };
-  d.postpones_stencil ? decide.template operator()<TilePath::stencil>() : decide.template operator()<TilePath::opaque>();
+  d.postpones_stencil || tests_stored_depth(d.draw.state, d.tile) ? decide.template operator()<TilePath::stencil>()
+                                                                  : decide.template operator()<TilePath::opaque>();
 }
 
 }  // namespace halfspace::HS_LANES

@@ -22,6 +22,7 @@ struct FragmentOutput {
   alignas(64) std::array<PacketColor, kPacketBatch * kMaxColorTargets + 1> color;  ///< see packet_color()
   alignas(64) std::array<Real, kPacketBatch + 1> depth;                            ///< if the shader writes depth
   std::array<uint16_t, kPacketBatch + 1> keep;                                     ///< one bit per lane; if the shader discards
+  alignas(64) std::array<Int, kPacketBatch + 1> sample_mask;                       ///< if the shader returns it; not of packed pixels
 
   /// Returns color n of packet i.
   PacketColor& packet_color(std::size_t n, std::size_t i) { return color[n * kPacketBatch + i]; }

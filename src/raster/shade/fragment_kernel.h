@@ -39,15 +39,16 @@ HS_INLINE PacketTriangleIds triangle_ids_of(const PacketBatch& batch, int n) {
   return {batch.context, batch.ids + static_cast<std::size_t>(packet.packet) * kLanes, kNoTriangle, packet.lanes};
 }
 
-/// Sets up the Pixel of two packets and interpolates their varyings. at: position within the pixels; ids: triangles for Pixel::z().
+/// Sets up the Pixel of two packets of a batch and interpolates their varyings. ids: triangles for Pixel::z() and Pixel::sample_mask().
 template <class S, std::size_t N, std::size_t P, bool with_id>
-HS_INLINE typename S::template Varyings<FragmentReal> begin_packets(const PacketPixels& pixels, const SamplePosition& at,
+HS_INLINE typename S::template Varyings<FragmentReal> begin_packets(const PacketBatch& batch, const PacketPixels& pixels,
                                                                     const PacketTriangles<N, P, with_id>& t,
                                                                     const std::array<PacketTriangleIds, 2>& ids, Pixel<FragmentReal>& px) {
   using R = FragmentReal;
   using I = IntOf<R>;
   using V = typename S::template Varyings<R>;
   const I ix = pixels.x, iy = pixels.y;
+  const SamplePosition& at = batch.position;
   const R x_sub = to_real<R>(ix * kSubPixels + at.x);
   const R y_sub = to_real<R>(iy * kSubPixels + at.y);
   px.dx = x_sub - t.lanes.x0;
@@ -63,7 +64,13 @@ HS_INLINE typename S::template Varyings<FragmentReal> begin_packets(const Packet
     const auto& of = *static_cast<const std::array<PacketTriangleIds, 2>*>(pixel.z_source);
     return R(packet_depth(pixel.x.low, pixel.y.low, of[0]), packet_depth(pixel.x.high, pixel.y.high, of[1]));
   };
+  px.find_sample_mask = [](const Pixel<R>& pixel) {
+    const auto& of = *static_cast<const std::array<PacketTriangleIds, 2>*>(pixel.z_source);
+    return I(packet_sample_mask(pixel.x.low, pixel.y.low, of[0]), packet_sample_mask(pixel.x.high, pixel.y.high, of[1]));
+  };
   px.z_source = &ids;
+  px.sample = batch.sample;
+  px.samples = batch.context->samples;
   px.front_facing = t.front;
   if constexpr (kUsesCentroid<typename S::template Varyings<float>>) {
     if (pixels.centroids[0] != nullptr) {
@@ -149,7 +156,7 @@ HS_FLATTEN void fragment_kernel(const void* shader, const FragmentBatch& batch) 
     find_triangles<1>(batch, second, recent, triangles);
     const std::array<PacketTriangleIds, 2> ids{triangle_ids_of(batch, first), triangle_ids_of(batch, second)};
     Pixel<R> px;
-    const V in = begin_packets<S>(pixels_of(batch, first, second), batch.position, triangles, ids, px);
+    const V in = begin_packets<S>(batch, pixels_of(batch, first, second), triangles, ids, px);
     P face{};
     if constexpr (kUsesPrimitiveId<S>) {
       face = primitive_id(triangles, px.weights);
@@ -183,6 +190,10 @@ HS_FLATTEN void fragment_kernel(const void* shader, const FragmentBatch& batch) 
       batch.out->depth[i] = fragment.depth.low;
       batch.out->depth[i + 1] = fragment.depth.high;
     }
+    if constexpr (decides && kWritesSampleMask<S>) {
+      batch.out->sample_mask[i] = fragment.sample_mask.low;
+      batch.out->sample_mask[i + 1] = fragment.sample_mask.high;
+    }
   }
 }
 
@@ -213,7 +224,7 @@ HS_INLINE void decide_pair(const S& s, const VisibilityBatch& batch, int a, int 
   using R = FragmentReal;
   const std::array<PacketTriangleIds, 2> ids{triangle_ids_of(batch, a), triangle_ids_of(batch, b)};
   Pixel<R> px;
-  const auto in = begin_packets<S>(pixels_of(batch, a, b), batch.position, triangles, ids, px);
+  const auto in = begin_packets<S>(batch, pixels_of(batch, a, b), triangles, ids, px);
   const Visibility<R> v = call_visibility<S, R>(s, in, px);
   if constexpr (kDecidesDepth<S>) {
     batch.depth[a] = v.depth.low;

@@ -40,10 +40,11 @@ inline Mask alpha_covers(Real alpha, int samples, int sample) {
   return alpha * Real(static_cast<float>(samples)) >= Real(static_cast<float>(sample) + 0.5f);
 }
 
-// Returns the depth of the fragments of packet i of a batch, as represented in the tile. z: depth of the triangle.
-inline Real late_depth(const QueuedShading& c, const FragmentOutput& out, std::size_t i, Real z) {
+// Returns the depth of the fragments `mask` of packet i of a batch, as represented in the tile. z: depth of the triangle.
+inline Real late_depth(const QueuedShading& c, const FragmentOutput& out, std::size_t i, Real z, Mask mask) {
   if (c.d.mode != VisibilityMode::cover_only) return z;
-  return depth_value(c.d.tile.depth_format, clamp(out.depth[i], Real(c.d.draw.depth_low), Real(c.d.draw.depth_high)));
+  if (c.d.draw.kernels.discards) mask = mask & mask_from_bits<Mask>(out.keep[i]);
+  return replaced_depth(c.d.draw, c.d.tile.depth_format, out.depth[i], z, mask);
 }
 
 // Runs the tests that come after the shader on packet i of a batch, with depth z. Returns the lanes to draw; writes depth and stencil.
@@ -54,6 +55,7 @@ inline Mask late_tests(const QueuedShading& c, const FragmentOutput& out, std::s
     c.d.trace->set_depth(id, packet, bits(mask), z, load<Real>(&c.d.tile.depth[static_cast<std::size_t>(packet) * kLanes]));
     c.d.trace->set_outcome(id, packet, bits(mask), FragmentOutcome::depth_failed);  // unless something else follows
   }
+  if (tests_stored_depth(c.d.draw.state, c.d.tile)) mask = stored_depth_test(*c.d.draw.state.depth_bounds, c.d.tile, packet, mask);
   if (c.d.postpones_stencil) {
     const StencilFace& face = *stencil_face(c.d.draw.state, c.d.tile, triangle_of(c.d.context, id).is(kFrontFacing));
     if (c.d.trace != nullptr)

@@ -5,6 +5,7 @@
 #include <bit>
 
 #include "halfspace/core/lane_packing.h"
+#include "halfspace/raster/pipeline/draw_stopwatch.h"
 #include "halfspace/raster/tile/tile_rect.h"
 #include "halfspace/raster/trace/tile_trace.h"
 #include "halfspace/raster/visibility/sink/centroid.h"
@@ -18,6 +19,7 @@ struct VisiblePixels {
   const TriangleId* ids;  // indexed like the pixels of the tile's storage
   SamplePlane plane;
   SamplePosition position;
+  int sample = 0;                  // number of the sample at this position
   bool copies_to_samples = false;  // a color is written to all samples that show the triangle; ids: DeferredShading::distinct
 };
 
@@ -94,6 +96,7 @@ class DrawShading {
                          .tile_x0 = tile_.x0 - plane.x,
                          .tile_y0 = tile_.y0 - plane.y,
                          .position = pixels_.position,
+                         .sample = pixels_.sample,
                          .ids = pixels_.ids},
                         &memory_.output};
     batch.codes = codes_ != nullptr && pixels_.copies_to_samples ? memory_.codes.data() : codes_;
@@ -210,6 +213,7 @@ void shade_pixels(const PassContext& context, Tile& tile, const VisiblePixels& p
     const std::size_t count = is_sorted ? take_sorted_draw(work, memory.packets) : take_draw(work, memory.packets);
     const std::span<const PacketMask> packets = std::span(memory.packets).first(count);
     statistics.fragments_shaded += pixel_count(packets);
+    const DrawStopwatch stopwatch(draw, &DrawTime::shading, statistics);
     DrawShading(context, tile, pixels, draw, memory, trace).shade(packets);
   }
 }
@@ -217,11 +221,11 @@ void shade_pixels(const PassContext& context, Tile& tile, const VisiblePixels& p
 void shade_deferred_samples(const PassContext& context, Tile& tile, DeferredShading& memory, PassStatistics& statistics, TileTrace* trace) {
   const bool per_sample = may_shade_samples(context);
   for (int s = 0; s < tile.samples && per_sample; ++s) {
-    const VisiblePixels pixels{tile.visibility.data(), sample_plane(tile.samples, s, tile.size), sample_position(tile.samples, s)};
+    const VisiblePixels pixels{tile.visibility.data(), sample_plane(tile.samples, s, tile.size), sample_position(tile.samples, s), s};
     shade_pixels(context, tile, pixels, list_work(context, tile, pixels.ids, pixels.plane, ShadingFrequency::per_sample, memory.work),
                  memory, statistics, trace);
   }
-  shade_pixels(context, tile, {memory.distinct.data(), {0, 0}, kPixelCenter, true},
+  shade_pixels(context, tile, {memory.distinct.data(), {0, 0}, kPixelCenter, 0, true},
                list_distinct(context, tile, memory.distinct, memory.work), memory, statistics, trace);
 }
 
@@ -230,6 +234,7 @@ void shade_deferred_samples(const PassContext& context, Tile& tile, DeferredShad
 void shade_full_tile(const PassContext& context, TriangleId id, Tile& tile, DeferredShading& memory, PassStatistics& statistics,
                      TileTrace* trace) {
   const Draw& draw = draw_of(context, id);
+  const DrawStopwatch stopwatch(draw, &DrawTime::shading, statistics);
   statistics.fragments_shaded += kMaxTilePixels;
   std::fill_n(memory.distinct.begin(), kPackets, id);
   for (std::size_t p = 0; p < kPackets; ++p) memory.packets[p] = {static_cast<uint16_t>(p), static_cast<uint16_t>(kAllBits<Mask>)};

@@ -5,6 +5,7 @@
 #include <bit>
 
 #include "halfspace/raster/shade/late_tests.h"
+#include "halfspace/raster/visibility/coverage/smooth.h"
 #include "halfspace/raster/visibility/sink/centroid.h"
 
 namespace halfspace::HS_LANES {
@@ -14,8 +15,9 @@ namespace {
 // Runs the tests of a packet whose colors are packet i of the output. z: depth of the triangle. Returns the lanes whose color must be
 // written.
 uint16_t finish_queued(const QueuedShading& c, const PacketMask& packet, std::size_t i, Real z, TriangleId id) {
-  z = late_depth(c, c.output, i, z);
-  const Mask mask = late_tests(c, c.output, i, packet.packet, mask_from_bits<Mask>(packet.lanes), z, id);
+  const Mask lanes = mask_from_bits<Mask>(packet.lanes);
+  z = late_depth(c, c.output, i, z, lanes);
+  const Mask mask = late_tests(c, c.output, i, packet.packet, lanes, z, id);
   if (!c.d.draw.state.order_independent) return static_cast<uint16_t>(bits(mask));
   add_to_layers(c, c.output, i, packet.packet, mask, z, id);
   return 0;
@@ -46,8 +48,14 @@ void finish_sample(const QueuedShading& c, PacketQueue& queue, std::span<PacketM
     PacketMask& p = packets[i];
     if (p.lanes != 0 && c.d.draw.covers_by_alpha)
       p.lanes = static_cast<uint16_t>(p.lanes & bits(alpha_covers(c.output.packet_color(0, i)[3], c.d.tile.samples, s)));
-    if (p.lanes != 0 && c.d.mode != VisibilityMode::early)
+    if (p.lanes != 0 && c.d.draw.covers_by_shader)
+      p.lanes = static_cast<uint16_t>(p.lanes & bits(((c.output.sample_mask[i] >> s) & Int(1)) == Int(1)));
+    if (p.lanes == 0) continue;
+    if (c.d.mode == VisibilityMode::early) {
+      if (c.d.draw.kernels.discards) p.lanes &= c.output.keep[i];
+    } else {
       p.lanes = finish_queued(c, p, i, queue.sample_depth(c.d.tile, index(i), s), ids[i]);
+    }
   }
   if (!c.d.draw.state.order_independent) write_queued(c, std::span<const PacketMask>(packets), ids);
 }
@@ -62,7 +70,10 @@ void finish_sample_of_pixels(const QueuedShading& c, PacketQueue& queue, std::si
 // Returns the buffer to which the colors of the queue can be written directly, if no test follows the shader.
 WriteTarget queue_target(const QueuedShading& c) {
   const bool is_single = c.d.tile.color_count == 1 && c.d.draw.kernels.color_count == 1;
-  if (c.d.draw.state.logic_op || c.d.draw.sets_alpha_to_one) return {};
+  const Draw& draw = c.d.draw;
+  if (draw.state.logic_op || draw.sets_alpha_to_one || draw.covers_by_alpha || draw.covers_by_shader || draw.kernels.discards ||
+      draw.is_smooth)
+    return {};
   const bool is_supported = c.d.trace == nullptr && c.d.mode == VisibilityMode::early && !c.d.draw.kernels.is_constant;
   if (!is_single || !is_supported) return {};
   const AttachmentState state{blend_of(c.d.draw.state, 0), color_mask_of(c.d.draw.state, 0)};
@@ -84,6 +95,18 @@ void write_samples(const Tile& tile, const FragmentOutput& output, const PacketQ
   }
 }
 
+// Multiplies the alpha of n packets of the queue, which were shaded as packets 0, 1, ... of the output, by the area that they cover.
+void apply_areas(const QueuedShading& c, const PacketQueue& queue, std::size_t begin, std::size_t n) {
+  const ShaderKernels& kernels = c.d.draw.kernels;
+  for (std::size_t i = 0; i < n; ++i) {
+    const SmoothArea area(c.d.draw, triangle_of(c.d.context, queue.ids[begin + i]));
+    const Real covered = areas_in_packet(area, c.d.tile, queue.packets[begin + i]);
+    for (std::size_t k = 0; k < static_cast<std::size_t>(kernels.color_count); ++k) {
+      if (kernels.color_types[k] == ColorType::real) c.output.packet_color(k, i)[3] = c.output.packet_color(k, i)[3] * covered;
+    }
+  }
+}
+
 // Runs the late tests of packets that were shaded as packets 0, 1, ... of the output, and writes them. begin: position of the first packet
 // in the queue; target: see queue_target().
 void finish_batch(const QueuedShading& c, PacketQueue& queue, std::size_t begin, std::size_t n, const WriteTarget& target) {
@@ -93,8 +116,12 @@ void finish_batch(const QueuedShading& c, PacketQueue& queue, std::size_t begin,
     return;
   }
   PacketMask* packets = &queue.packets[begin];
-  for (std::size_t i = 0; c.d.mode != VisibilityMode::early && i < n; ++i)
-    packets[i].lanes = finish_queued(c, packets[i], i, queue.depth[begin + i], queue.ids[begin + i]);
+  if (c.d.draw.is_smooth) apply_areas(c, queue, begin, n);
+  if (c.d.mode != VisibilityMode::early) {
+    for (std::size_t i = 0; i < n; ++i) packets[i].lanes = finish_queued(c, packets[i], i, queue.depth[begin + i], queue.ids[begin + i]);
+  } else if (c.d.draw.kernels.discards) {
+    for (std::size_t i = 0; i < n; ++i) packets[i].lanes &= c.output.keep[i];
+  }
   if (!c.d.draw.state.order_independent) write_queued(c, {packets, n}, &queue.ids[begin]);
 }
 

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 
 #include "halfspace/raster/pipeline/pass_context.h"
 #include "halfspace/raster/pipeline/triangle_lanes.h"
+#include "halfspace/raster/visibility/sink/centroid.h"
 
 namespace halfspace::HS_LANES {
 
@@ -117,6 +119,37 @@ Real packet_depth(Real x, Real y, const PacketTriangleIds& packet) noexcept {
     z = select(shows, clamp(fma(e1, Real(t.z_edge1), fma(e2, Real(t.z_edge2), Real(t.z0))), Real(z_low), Real(z_high)), z);
   }
   return z;
+}
+
+namespace {
+
+// Returns the samples of the pixel of a position that a triangle covers. The position is that of a sample if the draw shades each sample.
+int32_t sample_mask(const PassContext& context, TriangleId id, float x, float y) {
+  const Triangle& t = triangle_of(context, id);
+  const Draw& draw = draw_of(context, id);
+  const float pixel_x = std::floor(x), pixel_y = std::floor(y);
+  const SamplePosition at{static_cast<int>((x - pixel_x) * kSubPixels), static_cast<int>((y - pixel_y) * kSubPixels)};
+  uint32_t mask = 0;
+  for (int s = 0; s < context.samples; ++s) {
+    const SamplePosition p = sample_position(context.samples, s);
+    if (draw.shades_samples && (p.x != at.x || p.y != at.y)) continue;
+    const bool covers =
+        covers_sample(t, static_cast<int64_t>(pixel_x) * kSubPixels + p.x, static_cast<int64_t>(pixel_y) * kSubPixels + p.y);
+    mask |= (covers ? 1u : 0u) << s;
+  }
+  return static_cast<int32_t>(mask & draw.sample_mask);
+}
+
+}  // namespace
+
+Int packet_sample_mask(Real x, Real y, const PacketTriangleIds& packet) noexcept {
+  Int mask(1);
+  if (packet.context->samples == 1) return mask;
+  for (uint32_t rest = packet.lanes; rest != 0; rest &= rest - 1) {
+    const int i = std::countr_zero(rest);
+    set_lane(mask, i, sample_mask(*packet.context, packet.ids == nullptr ? packet.uniform_id : packet.ids[i], lane(x, i), lane(y, i)));
+  }
+  return mask;
 }
 
 namespace {

@@ -52,6 +52,8 @@ struct PacketTriangleIds {
 /// Returns the depth of a packet's pixels. x and y are window coordinates in pixels. The depth differs from the value used in the depth
 /// test by at most one ulp. The attribute allows the compiler to drop calls whose result a shader does not use.
 __attribute__((pure)) Real packet_depth(Real x, Real y, const PacketTriangleIds& ids) noexcept;
+/// Returns the samples of a packet's pixels that its triangles cover and whose draw may draw; see Pixel::sample_mask().
+__attribute__((pure)) Int packet_sample_mask(Real x, Real y, const PacketTriangleIds& ids) noexcept;
 
 namespace detail {
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "halfspace/core/check.h"
+#include "halfspace/raster/tile/tile_format.h"
 #include "halfspace/raster/visibility/tests/depth_stencil_test.h"
 
 namespace halfspace::HS_LANES {
@@ -11,11 +13,12 @@ namespace halfspace::HS_LANES {
 VisibilityMode visibility_mode(const Draw& draw) {
   if (draw.deferred) return VisibilityMode::deferred;
   if (draw.kernels.fragment == nullptr) return VisibilityMode::depth_only;
-  const bool needs_fragments = draw.covers_by_alpha || draw.state.order_independent;
-  const bool is_undecided = (draw.kernels.discards || draw.kernels.writes_depth) && draw.kernels.visibility == nullptr;
+  const bool is_early = draw.kernels.tests_early, discards = draw.kernels.discards && !is_early;
+  const bool needs_fragments = (!is_early && (draw.covers_by_alpha || draw.covers_by_shader)) || draw.state.order_independent;
+  const bool is_undecided = (discards || draw.kernels.writes_depth) && draw.kernels.visibility == nullptr;
   if (!draw.writes_color && !needs_fragments && !is_undecided) return VisibilityMode::depth_only;
   if (draw.kernels.writes_depth) return VisibilityMode::cover_only;
-  if (draw.kernels.discards || needs_fragments) return VisibilityMode::test_only;
+  if (discards || needs_fragments) return VisibilityMode::test_only;
   return VisibilityMode::early;
 }
 
@@ -54,7 +57,9 @@ std::span<const PathRow> path_rows() {
 TilePath choose_path(const Draw& draw, VisibilityMode mode, const Tile& tile) {
   const DepthState& depth = draw.state.depth;
   const bool tests = tests_depth(depth, tile), is_less = tests && depth.compare == CompareOp::less;
-  const bool has_stencil = tests_stencil(draw.state, tile);
+  // The paths with a stencil test also test the bounds of the stored depth.
+  const bool has_stencil =
+      tests_stencil(draw.state, tile) || (tests_stored_depth(draw.state, tile) && (shades_later(mode) || mode == VisibilityMode::early));
   const bool shader_decides = !shades_later(mode) || draw.kernels.visibility != nullptr;
   if (!shader_decides) {
     if (has_stencil) return TilePath::stencil;
@@ -79,6 +84,16 @@ DrawInTile::DrawInTile(const PassContext& f, const Draw& d, VisibilityMode m, Ti
       postpones_stencil(HS_LANES::postpones_stencil(d, m, t)),
       fetches_vertices(fetches_vertices_ahead(d, m)),
       trace(tile_trace) {}
+
+Real replaced_depth(const Draw& draw, DepthFormat format, Real own, Real z, [[maybe_unused]] Mask mask) {
+  const Real depth = depth_value(format, clamp(own, Real(draw.depth_low), Real(draw.depth_high)));
+  if (!has_depth_bound(draw)) return depth;
+  const bool is_greater = draw.kernels.depth_bound == DepthBound::greater;
+  // Pixel::z() can differ from z by the rounding of both.
+  const Real limit = is_greater ? z - Real(0x1p-22f) : z + Real(0x1p-22f);
+  HS_DCHECK(!any(mask & (is_greater ? own < limit : own > limit)));
+  return is_greater ? max(depth, z) : min(depth, z);
+}
 
 Mask depth_test(const DepthState& state, const Tile& tile, int packet, Real z, Mask mask) {
   if (!tests_depth(state, tile)) return mask;

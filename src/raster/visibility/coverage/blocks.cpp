@@ -7,6 +7,7 @@
 #include "halfspace/raster/pipeline/triangle_sizes.h"
 #include "halfspace/raster/tile/tile_rect.h"
 #include "halfspace/raster/visibility/coverage/depth_plane.h"
+#include "halfspace/raster/visibility/coverage/smooth.h"
 #include "halfspace/raster/visibility/coverage/thin_line.h"
 #include "halfspace/raster/visibility/coverage/traced_writer.h"
 
@@ -225,6 +226,13 @@ void rasterize_point(const DrawInTile& d, const SampleSet<Writer::kMultisampled>
 
 template <class Writer>
 void rasterize(const DrawInTile& d, const Triangle& t, TriangleId id, PacketQueue& queue, PassStatistics& statistics) {
+  if constexpr (!Writer::kMultisampled) {
+    if (d.draw.is_smooth) {
+      Writer writer(d, &queue, statistics);
+      writer.begin(t);
+      return rasterize_smooth(d, t, id, writer);
+    }
+  }
   const SampleSet<Writer::kMultisampled> samples(d);
   const PixelBounds b = pixel_bounds(d.draw, t, d.bounds, d.context.samples_at);
   if (samples.count == 0 || b.empty()) return;

@@ -58,7 +58,12 @@ class TracedWriter : public Writer<path, multisampled> {
   // when the queue is shaded.
   void set_outcomes(TriangleId id, int packet, uint32_t covered, Real z) {
     Mask passed = mask_from_bits<Mask>(covered);
-    if constexpr (Base::kTestsStencil) passed = stencil_test(*this->stencil(), d_.tile, packet, passed);
+    if constexpr (Base::kTestsStencil) {
+      if (this->stored_range() != nullptr) passed = stored_depth_test(*this->stored_range(), d_.tile, packet, passed);
+      set(id, packet, covered & ~bits(passed), FragmentOutcome::depth_failed);
+      covered = bits(passed);
+      if (this->stencil() != nullptr) passed = stencil_test(*this->stencil(), d_.tile, packet, passed);
+    }
     set(id, packet, covered & ~bits(passed), FragmentOutcome::stencil_failed);
     set(id, packet, bits(passed), FragmentOutcome::depth_failed);
     if (this->rejects_by_depth()) passed = passed & compare(this->compare_op(), z, stored_depth(packet));

@@ -5,8 +5,6 @@
 
 namespace halfspace::HS_LANES {
 
-namespace {
-
 bool covers_sample(const Triangle& t, int64_t x, int64_t y) {
   if (t.is_point()) {
     const PointSpriteRect r = t.sprite();
@@ -18,6 +16,8 @@ bool covers_sample(const Triangle& t, int64_t x, int64_t y) {
   }
   return true;
 }
+
+namespace {
 
 SamplePosition centroid(const Triangle& t, int samples, int x, int y) {
   int covered = 0;

@@ -11,6 +11,9 @@
 
 namespace halfspace::HS_LANES {
 
+/// Returns true if a triangle or a point of a multisampled pass covers a position, in 1/256 px.
+bool covers_sample(const Triangle& t, int64_t x, int64_t y);
+
 /// Returns true if a draw has centroid varyings whose positions must be computed: if its shader runs once for several samples.
 inline bool needs_centroids(const Draw& draw, int samples) { return draw.kernels.uses_centroid && samples > 1 && !draw.shades_samples; }
 

@@ -25,7 +25,7 @@ std::size_t packets_that_fit(std::span<const PacketMask> packets, std::size_t& p
 }  // namespace
 
 bool can_pack(const Draw& draw, const Tile& tile) {
-  return !draw.kernels.is_constant && (tile.samples == 1 || !draw.kernels.uses_centroid);
+  return !draw.kernels.is_constant && (tile.samples == 1 || (!draw.kernels.uses_centroid && !draw.covers_by_shader));
 }
 
 bool pays_to_pack(std::span<const PacketMask> packets) { return pixel_count(packets) * 4 <= packets.size() * kLanes * 3; }

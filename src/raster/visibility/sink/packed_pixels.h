@@ -37,7 +37,7 @@ inline std::size_t pixel_count(std::span<const PacketMask> packets) {
 }
 
 /// Returns true if the pixels of a draw can be packed. Returns false for draws with a constant shader, and if the kernels need the
-/// positions of centroid varyings.
+/// positions of centroid varyings or return sample masks.
 bool can_pack(const Draw& draw, const Tile& tile);
 
 /// Returns true if packing saves at least a quarter of the packets.

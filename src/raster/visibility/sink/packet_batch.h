@@ -17,6 +17,7 @@ struct PacketBatch {
   const PassContext* context = nullptr;
   int tile_x0 = 0, tile_y0 = 0;            ///< window coordinates of pixel (0, 0) of the tile's storage
   SamplePosition position = kPixelCenter;  ///< position within the pixel at which the shader is evaluated
+  int sample = 0;                          ///< number of the sample at this position, if the shader runs per sample
   const TriangleId* ids = nullptr;         ///< triangle of each pixel of the tile; null if each packet shows only one, see packet_ids
   const TriangleId* packet_ids = nullptr;  ///< triangle of each packet; only used if ids is null
   const PacketMask* packets = nullptr;

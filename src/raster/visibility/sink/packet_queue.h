@@ -45,7 +45,8 @@ struct PacketQueue {
   std::array<TriangleId, kCapacity> ids;
   /// Lanes of each sample; only valid in a multisampled tile.
   std::array<SampleLanes, kCapacity> sample_lanes;
-  /// Depth of the triangle, represented as in Tile::depth; see sample_depth(). Not valid for VisibilityMode::early and cover_only.
+  /// Depth of the triangle, represented as in Tile::depth; see sample_depth(). Not valid for VisibilityMode::early, nor
+  /// for cover_only without a depth bound.
   alignas(64) std::array<Real, kDepthCapacity> depth;
 };
 
@@ -57,7 +58,8 @@ class QueuedSample {
       : context_(context),
         tile_(tile),
         plane_(sample_plane(tile.samples, sample, tile.size)),
-        position_(sample_position(tile.samples, sample)) {
+        position_(sample_position(tile.samples, sample)),
+        sample_(sample) {
     for (int k = 0; k < queue.count; ++k) {
       const auto i = static_cast<std::size_t>(k);
       const PacketMask packet = queue.sample(tile, i, sample);
@@ -79,6 +81,7 @@ class QueuedSample {
             .tile_x0 = tile_.x0 - plane_.x,
             .tile_y0 = tile_.y0 - plane_.y,
             .position = position_,
+            .sample = sample_,
             .packet_ids = &ids_[begin],
             .packets = &packets_[begin],
             .count = static_cast<int>(n)};
@@ -89,6 +92,7 @@ class QueuedSample {
   const Tile& tile_;
   SamplePlane plane_;
   SamplePosition position_;
+  int sample_;
   std::size_t count_ = 0;
   std::array<PacketMask, PacketQueue::kCapacity> packets_;
   std::array<TriangleId, PacketQueue::kCapacity> ids_;

@@ -34,11 +34,13 @@ class Writer {
         compare_(d.draw.state.depth.compare),
         is_final_(!kQueues || d.mode == VisibilityMode::early),
         tests_depth_(d.tests),
-        may_reject_(d.tests && (is_final_ || (!d.draw.kernels.writes_depth && !d.postpones_stencil && fails_for_good(compare_)))),
+        may_reject_(d.tests && (is_final_ || ((!d.draw.kernels.writes_depth || rejects_by_bound(d.draw)) && !d.postpones_stencil &&
+                                              fails_for_good(compare_)))),
         writes_depth_(is_final_ && d.tests && d.draw.state.depth.write),
-        queues_depth_(!is_final_ && d.mode != VisibilityMode::cover_only),
+        queues_depth_(!is_final_ && (d.mode != VisibilityMode::cover_only || has_depth_bound(d.draw))),
         writes_id_(d.mode == VisibilityMode::deferred),
-        updates_stencil_(kTestsStencil && updates_stencil(d.draw.state)) {}
+        updates_stencil_(kTestsStencil && tests_stencil(d.draw.state, d.tile) && updates_stencil(d.draw.state)),
+        stored_range_(is_final_ && tests_stored_depth(d.draw.state, d.tile) ? &*d.draw.state.depth_bounds : nullptr) {}
 
   /// Returns true if fragments that fail the depth test have no effect.
   bool tests() const {
@@ -140,8 +142,10 @@ class Writer {
   }
 
  protected:
-  /// The stencil state of the current primitive.
+  /// The stencil state of the current primitive, or null.
   const StencilFace* stencil() const { return face_; }
+  /// The range of stored depths that pass, or null.
+  const StoredDepthRange* stored_range() const { return stored_range_; }
   /// Returns true if fragments that fail the depth test are not drawn, even if they update stencil values.
   bool rejects_by_depth() const { return kIsLess || may_reject_; }
 
@@ -173,13 +177,14 @@ class Writer {
     Real z(0.0f);
     uint32_t lanes = covered;
     if constexpr (kTestsStencil) {
+      if (stored_range_ != nullptr) lanes = bits(stored_depth_test(*stored_range_, tile_, packet, mask_from_bits<Mask>(lanes)));
       if (updates_stencil_) {
         if (tests_depth_) z = z_at();
-        const Mask passed = test_and_update_stencil(*face_, tile_, packet, mask_from_bits<Mask>(covered), tests_depth_, compare_op(), z);
+        const Mask passed = test_and_update_stencil(*face_, tile_, packet, mask_from_bits<Mask>(lanes), tests_depth_, compare_op(), z);
         if (writes_depth()) store(depth, select(passed, z, load<Real>(depth)));
         return {bits(passed), z};
       }
-      lanes = bits(stencil_test(*face_, tile_, packet, mask_from_bits<Mask>(covered)));
+      if (face_ != nullptr) lanes = bits(stencil_test(*face_, tile_, packet, mask_from_bits<Mask>(lanes)));
       if (lanes == 0) return {0, z};
     }
     const bool rejects = tests() && (!passes || writes_depth());
@@ -260,7 +265,8 @@ class Writer {
   const StencilFace* face_ = nullptr;
   CompareOp compare_;
   bool is_final_, tests_depth_, may_reject_, writes_depth_, queues_depth_, writes_id_, updates_stencil_;
-  std::size_t sample_ = 0;  // current sample of a multisampled tile
+  const StoredDepthRange* stored_range_;  // only tested on paths with a stencil test; null if it is not tested before the shader
+  std::size_t sample_ = 0;                // current sample of a multisampled tile
 };
 
 }  // namespace halfspace::HS_LANES

@@ -43,6 +43,11 @@ Mask stencil_test(const StencilFace& face, const Tile& tile, int packet, Mask ma
   return mask & compare(face.compare, reference, to_real<Real>(load_values(tile, packet) & read));
 }
 
+Mask stored_depth_test(const StoredDepthRange& range, const Tile& tile, int packet, Mask mask) {
+  const Real stored = load<Real>(&tile.depth[static_cast<std::size_t>(packet) * kLanes]);
+  return mask & (stored >= Real(range.low)) & (stored <= Real(range.high));
+}
+
 Mask test_and_update_stencil(const StencilFace& face, Tile& tile, int packet, Mask mask, bool with_depth, CompareOp op, Real z) {
   const Mask stencil_passed = stencil_test(face, tile, packet, mask);
   Mask passed = stencil_passed;

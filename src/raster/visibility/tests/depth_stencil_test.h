@@ -22,6 +22,13 @@ inline bool tests_depth(const DepthState& state, const Tile& tile) { return stat
 /// Returns true if a draw has a stencil test in this tile.
 inline bool tests_stencil(const DrawState& state, const Tile& tile) { return state.stencil && tile.has_stencil; }
 
+/// Returns true if a draw tests the stored depth in this tile (DrawState::depth_bounds).
+inline bool tests_stored_depth(const DrawState& state, const Tile& tile) {
+  return state.depth_bounds && tile.depth_format != DepthFormat::none;
+}
+/// Returns the lanes of mask that pass this test.
+Mask stored_depth_test(const StoredDepthRange& range, const Tile& tile, int packet, Mask mask);
+
 /// Returns true if the stencil test of a draw may change stencil values. The state must have a stencil test.
 bool updates_stencil(const DrawState& state);
 
