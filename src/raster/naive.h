@@ -161,13 +161,19 @@ void rasterize(NaiveTarget<R>& target, const S& shader, const std::array<const V
     px.front_facing = front;
     const auto fragment = call_fragment<S, R>(
         shader, interpolate_all<V>(px.weights, surface.components, std::make_index_sequence<kComponents<V>>()), face, px);
-    if constexpr (kDiscards<S>)
-      if (!fragment.keep) return;
-    if constexpr (kWritesDepth<S>) z = fragment.depth;
+    bool keep = true;
+    if constexpr (kDiscards<S>) keep = fragment.keep;
+    if (!keep && !kTestsEarly<S>) return;
+    if constexpr (kWritesDepth<S>) {
+      const R of_triangle = z;
+      z = fragment.depth;
+      if (kDepthBound<S> == DepthBound::greater) z = std::max(z, of_triangle);
+      if (kDepthBound<S> == DepthBound::less) z = std::min(z, of_triangle);
+    }
     const int row = target.depth.height() - 1 - y;
     if (state.depth.test && !compare(state.depth.compare, z, target.depth.at(x, row))) return;
     if (state.depth.test && state.depth.write) target.depth.at(x, row) = z;
-    target.color.at(x, row) = fragment.color;
+    if (keep) target.color.at(x, row) = fragment.color;
   });
 }
 

@@ -161,6 +161,42 @@ TEST(Examples, SkinOnceDrawsTwelveEqualShapes) {
   EXPECT_GT(share(p, [](const glm::u8vec4& c) { return c.w == 255; }), 0.3);
 }
 
+// The light is at (1.2, 1.6, 0.8), so the shadow of the cube lies on the other side, where both x and z are negative.
+TEST(Examples, ShadowCubeShadesTheFloorBehindTheCube) {
+  const Picture p = run_example("shadow_cube");
+  const auto project = [](const glm::dvec3& at) {
+    const glm::dvec4 clip = perspective_reversed(0.8, 1.0, 0.1, 100.0) * look_at({-4, 4, 5}, {0, 0, 0}, {0, 1, 0}) * glm::dvec4(at, 1);
+    return glm::ivec2(static_cast<int>((clip.x / clip.w + 1) * 240), static_cast<int>((1 - clip.y / clip.w) * 240));
+  };
+  const auto brightness = [&](const glm::dvec3& at) {
+    const glm::ivec2 i = project(at);
+    return static_cast<int>(p.at(i.x, i.y).x);
+  };
+  const int ambient = brightness({-1.3, 0, -0.6});  // the line from there to the light passes the cube at (-0.4, 0.57, 0)
+  EXPECT_GT(ambient, 20);
+  EXPECT_GT(brightness({-0.4, 0, 1.6}), ambient + 40);
+  EXPECT_GT(brightness({2.0, 0, 0.8}), ambient + 40);
+}
+
+TEST(Examples, CustomResolveAveragesToneMappedSamples) {
+  const Picture p = run_example("custom_resolve");
+  // A fully covered sample has the tone 40 / 41. The mean of k of 4 such samples is 10 k / (10 k + 1) if it is tone-mapped last, which is
+  // at least 0.909, and k / 4 of 40 / 41 if it is tone-mapped first.
+  const auto code = [](double linear) { return static_cast<int>(std::lround(255 * (1.055 * std::pow(linear, 1 / 2.4) - 0.055))); };
+  for (int y = 0; y < 256; ++y) {
+    for (int x = 0; x < 256; ++x) {
+      bool is_known = p.at(x, y).x == 0;
+      for (int k = 1; k <= 4; ++k) {
+        const double tone = x < 128 ? 10.0 * k / (10.0 * k + 1) : k / 4.0 * 40 / 41;
+        is_known |= std::abs(static_cast<int>(p.at(x, y).x) - code(tone)) <= 1;  // half floats, and rounding to codes
+      }
+      ASSERT_TRUE(is_known) << x << ' ' << y << ' ' << static_cast<int>(p.at(x, y).x);
+    }
+  }
+  const auto partly = [&](const glm::u8vec4& c) { return c.x > 100 && c.x < 230; };
+  EXPECT_GT(share(p, partly), 0.003);
+}
+
 // README.md and docs/reference/api.md promise this.
 TEST(Examples, HaveFewerThan60LinesEach) {
   int examples = 0;
@@ -169,7 +205,7 @@ TEST(Examples, HaveFewerThan60LinesEach) {
     EXPECT_LT(std::ranges::count(source, '\n'), 60) << entry.path();
     ++examples;
   }
-  EXPECT_EQ(examples, 11);  // README.md: triangle and ten more
+  EXPECT_EQ(examples, 13);  // README.md: triangle and twelve more
 }
 
 TEST(Examples, ReportAnOutputFileThatCannotBeWritten) {

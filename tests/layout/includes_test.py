@@ -50,7 +50,8 @@ ROOMS = {
         ["inspect/"],
     ],
     "shading": [
-        ["varyings", "pixel", "contract", "geometry_stage", "tessellation_types", "tessellation_stage", "vertex_traits", "shader_traits"],
+        ["sample_positions", "varyings", "pixel", "contract", "geometry_stage", "tessellation_types", "tessellation_stage", "vertex_traits",
+         "shader_traits"],
         ["values/", "texture/"],
         ["shadow/"],
         ["light/"],

@@ -345,6 +345,7 @@ std::string describe(const Scene& s) {
     print(d.state.viewport);
     print(d.state.scissor);
     if (d.state.clip_origin == ClipOrigin::upper_left) out << ", upper left";
+    if (d.state.depth_bounds) out << ", depth bounds " << d.state.depth_bounds->low << ' ' << d.state.depth_bounds->high;
     out << '\n';
   }
   return out.str();

@@ -160,6 +160,40 @@ TEST(Lines, ClipDistancesCutTrianglesLinesAndPoints) {
   EXPECT_EQ(point_pass.run(one_worker()).samples_passed, 1u);
 }
 
+// Writes its clip distance to a varying, too.
+struct DistanceVarying : ConstantShader {
+  template <class R>
+  struct Varyings {
+    R distance;
+  };
+  template <class R>
+  PerVertex<R, 1> vertex(const Attributes<R>& in, Varyings<R>& out) const {
+    out.distance = in.position.x * R(0.5f) + in.position.y;
+    return {in.position, R(1.0f), {out.distance}};
+  }
+  template <class R>
+  Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>&) const {
+    return {vec4<R>(in.distance, R(0), R(0), R(1))};
+  }
+};
+
+TEST(Lines, ClipDistancesReachTheFragmentFunction) {
+  const std::vector<glm::vec4> whole = full_screen();
+  Image<glm::vec4> image(16, 16);
+  Pass pass(16, 16, rgba32f_target(image), {});
+  pass.draw(DistanceVarying{}, make_vertex_view(stream(whole)));
+  pass.run(one_worker());
+  for (int y = 0; y < 16; ++y) {
+    for (int x = 0; x < 16; ++x) {
+      const float distance = 0.5f * ((static_cast<float>(x) + 0.5f) / 8 - 1) + (static_cast<float>(y) + 0.5f) / 8 - 1;
+      const glm::vec4 c = pixel(image, x, y);
+      if (std::fabs(distance) < 0.01f) continue;  // the edge is snapped to 1/256 px
+      EXPECT_EQ(c.w, distance > 0.0f ? 1.0f : 0.0f);
+      EXPECT_NEAR(c.x, c.w * distance, 1.4e-6f);  // 3e-7 of the largest value, which is 4.5
+    }
+  }
+}
+
 // The second and third values of a vertex are cull distances.
 struct Culled : ConstantShader {
   template <class R>

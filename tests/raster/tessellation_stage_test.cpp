@@ -352,6 +352,76 @@ TEST(TessellationStage, DividedPatchesReachTheGeometryStage) {
   }
 }
 
+// Sixteen control points of a bicubic patch, moved by an amount that depends on the patch.
+template <class R>
+std::array<vec4<R>, 32> control_points_of(const auto& in) {
+  std::array<vec4<R>, 32> points;  // positions, then colors
+  for (std::size_t k = 0; k < 16; ++k) {
+    const R u(static_cast<float>(k % 4) / 3.0f), v(static_cast<float>(k / 4) / 3.0f);
+    const auto bilinear = [&](const auto& value) {
+      const vec4<R> low = value(0) * (R(1) - u) + value(1) * u, high = value(3) * (R(1) - u) + value(2) * u;
+      return low * (R(1) - v) + high * v;
+    };
+    points[k] = bilinear([&](std::size_t i) { return in.position[i]; });
+    points[16 + k] = bilinear([&](std::size_t i) { return in.varyings[i].color; });
+    points[k].z = points[k].z + in.varyings[0].color.x * R(k % 3 == 0 ? 0.25f : -0.25f);
+  }
+  return points;
+}
+
+template <class R>
+vec4<R> bicubic(const vec4<R>* points, const vec3<R>& at) {
+  const auto weights = [](const R& t) {
+    const R s = R(1) - t;
+    return std::array<R, 4>{s * s * s, R(3) * s * s * t, R(3) * s * t * t, t * t * t};
+  };
+  const std::array<R, 4> u = weights(at.x), v = weights(at.y);
+  vec4<R> sum(R(0));
+  for (std::size_t k = 0; k < 16; ++k) sum += points[k] * (u[k % 4] * v[k / 4]);
+  return sum;
+}
+
+// The control function computes the control points once per patch, or the evaluation function computes them for each vertex.
+struct CubicPatch : BilinearPatch<TessellationSpacing::equal> {
+  template <class R>
+  struct Patch {
+    std::array<vec4<R>, 32> points;
+  };
+  template <class R>
+  TessellationLevels<R> control(const PatchInput<R, Varyings<R>, 4>& in, Patch<R>& patch) const {
+    patch.points = control_points_of<R>(in);
+    return BilinearPatch::control(in);
+  }
+  template <class R>
+  vec4<R> evaluate(const PatchInput<R, Varyings<R>, 4>&, const Patch<R>& patch, const vec3<R>& at, Varyings<R>& out) const {
+    out.color = bicubic(&patch.points[16], at);
+    return bicubic(patch.points.data(), at);
+  }
+};
+struct CubicVertices : BilinearPatch<TessellationSpacing::equal> {
+  template <class R>
+  vec4<R> evaluate(const PatchInput<R, Varyings<R>, 4>& in, const vec3<R>& at, Varyings<R>& out) const {
+    const std::array<vec4<R>, 32> points = control_points_of<R>(in);
+    out.color = bicubic(&points[16], at);
+    return bicubic(points.data(), at);
+  }
+};
+
+TEST(TessellationStage, ControlFunctionsReturnControlPoints) {
+  Random random(21);
+  const Vertices patches = random_patches(random, 37);
+  const std::vector<uint32_t> list = numbers(patches.positions.size());
+  const TessellationLevels<float> levels{{5, 6, 7, 3}, {4, 6}};
+  CubicPatch once{};
+  CubicVertices often{};
+  once.levels = often.levels = levels;
+  const DrawState state{.topology = Topology::patches};
+  const Picture a = draw(once, patches.view(), list, state, 2), b = draw(often, patches.view(), list, state);
+  EXPECT_EQ(a.color, b.color);
+  EXPECT_EQ(a.statistics, b.statistics);
+  EXPECT_GT(a.statistics.samples_passed, 1000u);
+}
+
 TEST(TessellationStage, RestartsDropIncompletePatches) {
   Random random(26);
   const Vertices patches = random_patches(random, 3);

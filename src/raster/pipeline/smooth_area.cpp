@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "halfspace/raster/pipeline/pixel_box.h"
-
 namespace halfspace::HS_LANES {
 
 namespace {
@@ -79,8 +77,8 @@ PixelBounds SmoothArea::pixels(const PixelBounds& bounds) const {
   }
   // The corners of a line of the largest width are within 2^15 pixels.
   const auto pixel = [](double x) { return static_cast<int>(x); };
-  return intersect(PixelBounds{pixel(std::floor(low.x)), pixel(std::floor(low.y)), pixel(std::ceil(high.x)), pixel(std::ceil(high.y))},
-                   bounds);
+  return {std::max(pixel(std::floor(low.x)), bounds.x0), std::max(pixel(std::floor(low.y)), bounds.y0),
+          std::min(pixel(std::ceil(high.x)), bounds.x1), std::min(pixel(std::ceil(high.y)), bounds.y1)};
 }
 
 }  // namespace halfspace::HS_LANES

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "halfspace/raster/primitives/point_sprite.h"
 
-#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "halfspace/raster/pipeline/window.h"
 
@@ -14,9 +14,9 @@ void make_point_sprites(const Draw& draw, const float* clip, const float* extra,
   const auto row = [](const float* rows, int k, int i) { return static_cast<double>(rows[k * kVertexBatch + i]); };
   for (int i = 0; i < count; ++i) {
     if (draw.kernels.gives_point_sprite) {
-      const int32_t low = snap(row(extra, 1, i), v.half_height, v.center_y), high = snap(row(extra, 3, i), v.half_height, v.center_y);
-      out[i] = {snap(row(extra, 0, i), v.half_width, v.center_x), std::min(low, high), snap(row(extra, 2, i), v.half_width, v.center_x),
-                std::max(low, high)};
+      out[i] = {snap(row(extra, 0, i), v.half_width, v.center_x), snap(row(extra, 1, i), v.half_height, v.center_y),
+                snap(row(extra, 2, i), v.half_width, v.center_x), snap(row(extra, 3, i), v.half_height, v.center_y)};
+      if (v.half_height < 0.0f) std::swap(out[i].y0, out[i].y1);
       continue;
     }
     const double size = draw.kernels.gives_point_size ? row(extra, 0, i) : static_cast<double>(draw.state.point_size);
