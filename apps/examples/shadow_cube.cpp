@@ -28,7 +28,7 @@ struct PointLight {
   template <class R>
   DepthFragment<R> fragment(const Varyings<R>& in, const Pixel<R>& px) const {
     const R far = length(in.position - kLight), depth = far * R(1.0f / 8.0f);
-    const R lit = distances ? distances->sample_compare_level(Sampler{}, in.position - kLight, depth - R(0.003f), R(0)) : R(0);
+    const R lit = distances ? distances->sample_compare_level(Sampler{}, in.position - kLight, depth - R(0.01f), R(0)) : R(0);
     return {vec4<R>(vec3<R>(lit * R(2) / (far * far) + R(0.02f)), R(1)), MaskOf<R>(true), distances ? px.z() : depth};
   }
 };

@@ -21,6 +21,7 @@ constexpr uint64_t kChunkShare = 8;
 
 void PassPlan::add(const Draw& draw, std::size_t number) {
   const bool is_conditional = draw.state.condition.has_value();
+  has_timers |= draw.state.timer.has_value();
   if (is_conditional) begin_conditional(*draw.state.condition, number);
   PassStatistics& counters = is_conditional ? conditional_draws.back().submitted : submitted;
   if (draw.state.query) {

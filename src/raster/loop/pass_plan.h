@@ -38,6 +38,7 @@ class PassPlan {
   std::vector<std::vector<DrawRange>> chunks;
   std::vector<ConditionalDraw> conditional_draws;
   PassStatistics submitted;  ///< what is known before the pass runs
+  bool has_timers = false;   ///< a draw has DrawState::timer
 
  private:
   void begin_conditional(const DrawCondition& condition, std::size_t number);

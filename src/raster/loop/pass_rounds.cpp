@@ -42,7 +42,6 @@ class PassRounds {
       : context_(context), plan_(plan), budget_(budget), workers_(workers), memory_(take_pass_memory()) {
     context_.shaded = std::move(memory_.shaded);
     context_.shaded.resize(context_.draws.size());
-    has_timers_ = std::ranges::any_of(context_.draws, [](const Draw& d) { return d.state.timer.has_value(); });
   }
 
   // Sets up the chunks of the next round. statistics: with the queries of all rounds before. Returns true if it is the last one.
@@ -128,11 +127,11 @@ class PassRounds {
       if (t.is_part && t.begin == 0 && !is_skipped(t.draw)) allocate_vertices(context_.draws[t.draw], context_.shaded[t.draw]);
     }
     std::vector<Outcode> any(tasks.size());  // union of the outcodes, for parts of large draws
-    std::vector<PassStatistics> times(has_timers_ ? tasks.size() : 1);
+    std::vector<PassStatistics> times(plan_.has_timers ? tasks.size() : 1);
     workers_.for_each(static_cast<int>(tasks.size()), [&](int i) {
       const VertexTask& t = tasks[static_cast<std::size_t>(i)];
       if (is_skipped(t.draw)) return;
-      PassStatistics& time = times[has_timers_ ? static_cast<std::size_t>(i) : 0];  // unused without timers
+      PassStatistics& time = times[plan_.has_timers ? static_cast<std::size_t>(i) : 0];  // unused without timers
       if (t.is_part) {
         const DrawStopwatch stopwatch(context_.draws[t.draw], &DrawTime::setup, time);
         any[static_cast<std::size_t>(i)] = shade_vertices(context_.draws[t.draw], t.begin, t.end, context_.shaded[t.draw]);
@@ -165,11 +164,11 @@ class PassRounds {
       workers_.for_each(static_cast<int>(count), [&](int i) {
         Chunk& chunk = context_.chunks[begin + static_cast<std::size_t>(i)];
         chunk.ranges = std::move(plan_.chunks[next_chunk_ + static_cast<std::size_t>(i)]);
-        const auto start = has_timers_ ? std::chrono::steady_clock::now() : std::chrono::steady_clock::time_point{};
+        const auto start = plan_.has_timers ? std::chrono::steady_clock::now() : std::chrono::steady_clock::time_point{};
         set_up_chunk(context_, chunk);
         run_primitive_stage(context_, chunk);
         bin_chunk(context_, chunk);
-        if (has_timers_) add_times(chunk, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+        if (plan_.has_timers) add_times(chunk, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
       });
       next_chunk_ += count;
       for (std::size_t c = begin; c < context_.chunks.size(); ++c) {
@@ -211,7 +210,6 @@ class PassRounds {
   std::size_t next_conditional_ = 0;  // the first conditional draw at or after the next chunk
   std::size_t decided_ = 0;           // number of conditional draws of which it is known whether they are drawn
   std::vector<std::size_t> skipped_;  // conditional draws that are not drawn
-  bool has_timers_;
 };
 
 }  // namespace

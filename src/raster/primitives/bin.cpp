@@ -157,6 +157,7 @@ void bin_chunk(const PassContext& context, Chunk& chunk) {
   int x0 = context.tiles_x, y0 = context.tiles_y, x1 = 0, y1 = 0;
   for (std::size_t s = 0; s < chunk.ranges.size(); ++s) {
     const Draw& draw = context.draws[chunk.ranges[s].draw];
+    const bool is_smooth = draw.is_smooth;
     const std::size_t end = chunk.end_triangle(s);
     for (std::size_t first = chunk.ranges[s].first_triangle; first < end; first += kLanes) {
       const std::size_t count = std::min<std::size_t>(kLanes, end - first);
@@ -165,8 +166,8 @@ void bin_chunk(const PassContext& context, Chunk& chunk) {
         const Triangle& t = chunk.triangles[first + i];
         const auto index = static_cast<uint16_t>(first + i);
         PixelBounds tiles{rows.x0[i], rows.y0[i], rows.x1[i], rows.y1[i]};
-        if (t.is_line() || draw.is_smooth) tiles = tiles_of(context, pixel_bounds(draw, t, draw.bounds, context.samples_at));
-        if (draw.is_smooth) {
+        if (t.is_line() || is_smooth) tiles = tiles_of(context, pixel_bounds(draw, t, draw.bounds, context.samples_at));
+        if (is_smooth) {
           for (int y = tiles.y0; y < tiles.y1; ++y) runs.put_row(tiles.x0, tiles.x1, y, index);
         } else if (t.is_line()) {
           list_line_tiles(context, t, line_pixels(draw.state.line_width), tiles, index, runs);

@@ -68,7 +68,8 @@ Cull set_up_triangle(const Draw& draw, const PassContext& context, const std::ar
     out.vertex[i] = index[order[i]];
     if (order[i] == provoking) out.flags = static_cast<uint32_t>(i) << kProvokingShift;
   }
-  const PixelBounds box = pixel_bounds(draw, out, draw.bounds, context.samples_at);
+  const PixelBounds box = draw.is_smooth ? pixel_bounds(draw, out, draw.bounds, context.samples_at)
+                                         : intersect(pixel_box(out.x, out.y, context.samples_at, context.samples_at), draw.bounds);
   if (box.empty()) return Cull::no_sample;
   const bool may_be_narrow = !draw.is_smooth && is_narrow(out);  // loops over narrow triangles test samples
   const bool few = context.samples == 1 && may_be_narrow && box.fits_in(kTinySide, kTinySide);

@@ -40,7 +40,7 @@ class Writer {
         queues_depth_(!is_final_ && (d.mode != VisibilityMode::cover_only || has_depth_bound(d.draw))),
         writes_id_(d.mode == VisibilityMode::deferred),
         updates_stencil_(kTestsStencil && tests_stencil(d.draw.state, d.tile) && updates_stencil(d.draw.state)),
-        stored_range_(is_final_ && tests_stored_depth(d.draw.state, d.tile) ? &*d.draw.state.depth_bounds : nullptr) {}
+        stored_range_(kTestsStencil && is_final_ && tests_stored_depth(d.draw.state, d.tile) ? &*d.draw.state.depth_bounds : nullptr) {}
 
   /// Returns true if fragments that fail the depth test have no effect.
   bool tests() const {
