@@ -137,7 +137,7 @@ def _viewport(value: Any) -> Any:
     sides = _check.pair("viewport", value, "(x, y, width, height)", 4)
     x, y, width, height = (_check.number("viewport", n) for n in sides)
     if not (1 / 256 <= width <= largest and 1 / 256 <= abs(height) <= largest and abs(x) <= largest and abs(y) <= largest):
-        raise fail("viewport", f"is {tuple(value)}", f"a width and a height from 1/256 to {_check.MAX_SIDE}, where the height may be negative")
+        raise fail("viewport", f"is {tuple(value)}", f"a width and a height from 1/256 to {_check.MAX_SIDE}, where the height may be negative, within {_check.MAX_SIDE} of (0, 0)")
     return _core.ViewportRect(x, y, width, height)
 
 

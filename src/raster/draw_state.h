@@ -250,8 +250,8 @@ struct DrawCondition {
   friend bool operator==(const DrawCondition&, const DrawCondition&) = default;
 };
 
-/// Bounds of the stored depth (glDepthBoundsEXT): a sample is drawn only if its depth before the draw, or before the fragment that follows
-/// another one of the same draw, is in [low, high]. It has no effect without a depth buffer.
+/// Bounds of the stored depth (glDepthBoundsEXT): a fragment passes for a sample only if the depth that is stored for it at this time,
+/// before the fragment, is in [low, high]. They have no effect without a depth buffer.
 struct StoredDepthRange {
   float low = 0.0f, high = 1.0f;  ///< both in [0, 1], low ≤ high
   friend bool operator==(const StoredDepthRange&, const StoredDepthRange&) = default;
@@ -271,9 +271,10 @@ struct DrawState {
   PointOrigin point_origin = PointOrigin::upper_left;
   float line_width = 1.0f;  ///< in pixels, 0 to kMaxLineWidth; rounded to an integer if there is one sample per pixel
   PolygonMode polygon_mode = PolygonMode::fill;
-  /// One sample per pixel only: lines (and outlines), or filled triangles, cover all pixels that they overlap, and the alpha of their colors is
-  /// multiplied by the area of the overlap (GL_LINE_SMOOTH, GL_POLYGON_SMOOTH). Meant for blending. The area is exact; the width of a smooth
-  /// line is not rounded.
+  /// One sample per pixel only: lines (and outlines), or filled triangles, cover all pixels that they overlap, and the alpha of their
+  /// colors is multiplied by the area of the overlap (GL_LINE_SMOOTH, GL_POLYGON_SMOOTH). Meant for blending. The area is exact; the width
+  /// of a smooth line is not rounded. Varyings are evaluated at pixel centers, also where these are outside of the primitive. A triangle
+  /// that is cut by a clip plane is drawn as several triangles, each of which is smooth at all its sides.
   bool line_smooth = false, polygon_smooth = false;
   std::optional<ViewportRect> viewport{};  ///< default: the whole target
   ClipOrigin clip_origin = ClipOrigin::lower_left;
@@ -302,8 +303,8 @@ struct DrawState {
   /// draw that writes color in another way, or the end of the pass, and then blended from the farthest to the nearest. The result is exact
   /// for up to 8 layers per sample; further layers are merged into the farthest. Opaque draws must come first. Colors have straight alpha.
   /// Requires one color attachment without integers, no `blend`, no color mask, and a depth state that does not write and whose `compare`
-  /// (less, less_equal, greater or greater_equal) tells which fragments are nearer. If a pass is flushed (PassTuning::bin_budget),
-  /// fragments are sorted within each flush only.
+  /// (less, less_equal, greater or greater_equal) tells which fragments are nearer. If a pass is flushed (PassTuning::bin_budget,
+  /// DrawState::condition), fragments are sorted within each flush only. The shader must not have early_fragment_tests.
   bool order_independent = false;
   std::optional<BlendState> blend{};  ///< default: no blending, the color is replaced
   ColorMask color_mask{};
@@ -313,9 +314,10 @@ struct DrawState {
   /// have such formats, except sRGB, and no blending.
   std::optional<LogicOp> logic_op{};
   std::optional<uint32_t> query{};  ///< occlusion query: passing samples are added to PassStatistics::queries[query]; below kMaxQueries
-  /// Default: the draw is always drawn. If draws with this query have not been executed, they are, which costs as much as a flush of the
-  /// pass (PassTuning::bin_budget). A draw that is not drawn is in no counter, except those of tessellation and geometry functions, which
-  /// run in any case. Requires a pass with one layer, and another query than that of the draw itself.
+  /// Default: the draw is always drawn. If draws with this query have been added since the last draw that waited for a query, the pass is
+  /// flushed (PassStatistics::flushes) to know the result. A draw that is not drawn is in no counter, except those of vertex, control,
+  /// evaluation and geometry functions if it has one of the last three or chooses layers: these run in any case. Requires a pass with one
+  /// layer, and another query than that of the draw itself.
   std::optional<DrawCondition> condition{};
   std::optional<uint32_t> timer{};  ///< the time that the draw takes is added to PassStatistics::times[timer]; below kMaxQueries
   friend bool operator==(const DrawState&, const DrawState&) = default;

@@ -167,8 +167,8 @@ void rasterize(NaiveTarget<R>& target, const S& shader, const std::array<const V
     if constexpr (kWritesDepth<S>) {
       const R of_triangle = z;
       z = fragment.depth;
-      if (kDepthBound<S> == DepthBound::greater) z = std::max(z, of_triangle);
-      if (kDepthBound<S> == DepthBound::less) z = std::min(z, of_triangle);
+      if (kConservativeDepth<S> == ConservativeDepth::greater) z = std::max(z, of_triangle);
+      if (kConservativeDepth<S> == ConservativeDepth::less) z = std::min(z, of_triangle);
     }
     const int row = target.depth.height() - 1 - y;
     if (state.depth.test && !compare(state.depth.compare, z, target.depth.at(x, row))) return;

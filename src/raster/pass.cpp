@@ -133,6 +133,8 @@ void PassState::add_draw(const ShaderKernels& kernels, KeptShader shader, const 
       !kernels.gives_point_sprite || draws_points(state),
       "Pass::draw: the shader computes rectangles of points, but no points are drawn; expected Topology::points or PolygonMode::point");
   HS_CHECK(!state.condition || options_.layers == 1, "DrawState::condition: the pass has several layers; expected one");
+  HS_CHECK(!kernels.tests_early || !state.order_independent,
+           "DrawState: order_independent is combined with a shader that has early_fragment_tests; expected one of them");
   check_color_types(kernels);
   check_topology(kernels, state);
   HS_CHECK(state.viewports == nullptr || kernels.gives_layer,
@@ -154,7 +156,8 @@ void PassState::add_draw(const ShaderKernels& kernels, KeptShader shader, const 
   // Without color attachments, there is nothing to blend.
   const bool may_defer = !attachments_.has_color || (options_.tuning.defer && replaces && !state.order_independent);
   // After the tests, some fragments are not written, or not with their own color.
-  const bool changes_colors = d.is_smooth || d.covers_by_alpha || d.covers_by_shader || d.sets_alpha_to_one ||
+  const bool may_emit_smooth = kernels.emitting != nullptr && (state.line_smooth || state.polygon_smooth);
+  const bool changes_colors = d.is_smooth || may_emit_smooth || d.covers_by_alpha || d.covers_by_shader || d.sets_alpha_to_one ||
                               (attachments_.has_color && (state.logic_op || (kernels.discards && kernels.tests_early)));
   d.deferred = may_defer && !changes_colors && (!decides_visibility || kernels.visibility != nullptr);
   if (d.writes_color && !state.order_independent) ++layer_group_;
@@ -314,6 +317,7 @@ DrawState state_of(const ClearValues& values, std::size_t attachment_count) {
                  .compare = CompareOp::always,
                  .range_near = values.depth.value_or(0.0f),
                  .range_far = values.depth.value_or(0.0f)};
+  state.condition = values.condition;
   if (values.stencil) {
     const StencilFace face{.pass = StencilOp::replace, .reference = *values.stencil, .write_mask = values.stencil_mask};
     state.stencil = StencilState{face, face};

@@ -52,7 +52,8 @@ struct ClearValues {
   ColorMask mask{};
   std::optional<float> depth{};  ///< in [0, 1]
   std::optional<uint8_t> stencil{};
-  uint8_t stencil_mask = 0xff;  ///< bits of the stencil that are written
+  uint8_t stencil_mask = 0xff;               ///< bits of the stencil that are written
+  std::optional<DrawCondition> condition{};  ///< as DrawState::condition
 };
 
 /// A list of draws that render to the same attachments. draw() and draw_depth() record draws, and run() executes them. A Pass must only be
@@ -99,13 +100,14 @@ class Pass {
       detail::draw<detail::DrawKind::color>(*state_, shader, vertices, detail::sequential_indices(vertices.vertex_count, state), state);
   }
 
-  /// Adds a draw for each record, in order (glMultiDrawElementsIndirect). The fields of a record replace those of the state.
+  /// Adds a draw for each record, in order (glMultiDrawElementsIndirect). The fields of a record replace those of the state. All draws have
+  /// the same shader; a value for each draw can come from a per-instance stream, from the row DrawRecord::base_instance.
   template <class S, class V, detail::IndexList I>
   void draw_records(const S& shader, const V& vertices, I&& indices, std::span<const DrawRecord> records, const DrawState& state = {}) {
     check_lifetime<I>();
     for (const DrawRecord& r : records) draw(shader, vertices, indices, with_record(state, r));
   }
-  /// The same without indices (glMultiDrawArraysIndirect): `first` is a vertex.
+  /// The same without indices (glMultiDrawArraysIndirect, whose records have no base_vertex): `first` is a vertex.
   template <class S, class V>
   void draw_records(const S& shader, const V& vertices, std::span<const DrawRecord> records, const DrawState& state = {}) {
     for (const DrawRecord& r : records) draw(shader, vertices, with_record(state, r));

@@ -8,18 +8,19 @@
 
 namespace halfspace::HS_LANES {
 
-/// Time that draws take, in seconds, summed over all threads.
+/// Time that draws take, in seconds, summed over all threads. It lacks the blending of order-independent layers and tiles that a draw fills
+/// with one color.
 struct DrawTime {
-  double setup = 0.0;       ///< vertex, control, evaluation and geometry functions; clipping, triangle setup and binning
+  double setup = 0.0;       ///< vertex functions, clipping, setup and binning; control, evaluation and geometry functions by the clock
   double visibility = 0.0;  ///< coverage, tests and visibility functions
   double shading = 0.0;     ///< fragment functions, blending and other writes of colors
   DrawTime& operator+=(const DrawTime& o);
   friend bool operator==(const DrawTime&, const DrawTime&) = default;
 };
 
-/// Counters of a pass. They do not depend on the number of threads. samples_tested can vary with the SIMD width, because it depends on
-/// which blocks are rejected by hierarchical Z. So can fragments_shaded, for draws that test depth again after the shader: it depends on
-/// how many packets are queued before they are shaded.
+/// Counters of a pass, and times. The counters do not depend on the number of threads. samples_tested can vary with the SIMD width, because
+/// it depends on which blocks are rejected by hierarchical Z. So can fragments_shaded, for draws that test depth again after the shader: it
+/// depends on how many packets are queued before they are shaded.
 struct PassStatistics {
   uint64_t vertices_in = 0;           ///< submitted indices, for all instances, without restarts
   uint64_t vertices_shaded = 0;       ///< distinct vertices used by each draw, for all instances
@@ -39,11 +40,12 @@ struct PassStatistics {
   uint64_t triangles_binned = 0;  ///< primitives added to bins; a clipped triangle may count several times
   uint64_t bin_entries = 0;       ///< primitive-tile pairs
   uint64_t samples_tested = 0;    ///< covered samples that were tested individually, not as part of a rejected 8x8 block
-  uint64_t samples_passed = 0;    ///< samples that passed all tests and were not discarded
+  uint64_t samples_passed = 0;    ///< samples that passed all tests and were not discarded before them
   uint64_t fragments_shaded = 0;  ///< fragment function invocations, excluding masked lanes
   uint64_t layers_merged = 0;     ///< fragments of order-independent draws that were merged, because their sample already had 8 layers
   uint64_t tiles_touched = 0;     ///< tiles with at least one primitive, counted again after each flush
-  uint64_t flushes = 0;           ///< number of times the tiles were rendered before the end of the pass (PassTuning::bin_budget)
+  uint64_t flushes = 0;           ///< number of times the tiles were rendered before the end of the pass (PassTuning::bin_budget,
+                                  ///< DrawState::condition)
 
   /// Results of occlusion queries: queries[i] is the number of samples that passed all tests in draws with DrawState::query = i.
   std::vector<uint64_t> queries;

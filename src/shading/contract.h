@@ -40,9 +40,9 @@
 // Constants of a shader change how its fragment function runs:
 //
 //   static constexpr bool per_sample = true;     once per sample, as with DrawState::sample_shading
-//   static constexpr bool early_tests = true;    after the depth and stencil tests and their writes, which it then cannot change
+//   static constexpr bool early_fragment_tests = true;    after the depth and stencil tests and their writes, which it then cannot change
 //     (early_fragment_tests in GLSL). A discarded fragment only has no color, and a returned depth is ignored.
-//   static constexpr DepthBound depth_bound = DepthBound::greater;
+//   static constexpr ConservativeDepth conservative_depth = ConservativeDepth::greater;
 //     Promises where the depth that it returns is, so that more fragments can be rejected before they are shaded.
 #pragma once
 
@@ -191,8 +191,9 @@ struct DepthTypedFragment {
 };
 
 /// The depth that a shader returns, compared with that of the primitive (conservative depth, GLSL 4.60, section 4.4.2.1). Returned depths
-/// are clamped accordingly, unless one depth is returned for several samples. With assertions (HALFSPACE_ASSERTS), a depth on the wrong side fails a check.
-enum class DepthBound : uint8_t {
+/// are clamped accordingly, unless one depth is returned for several samples. With assertions (HALFSPACE_ASSERTS), a depth on the wrong
+/// side fails a check.
+enum class ConservativeDepth : uint8_t {
   any,
   greater,   ///< the same or greater (depth_greater)
   less,      ///< the same or less (depth_less)

@@ -209,10 +209,10 @@ struct Pixel {
         weights_at<kUsesNoPerspective<V>>(*triangle, dx + (offset.x - from_center.x) * R(256), dy + (offset.y - from_center.y) * R(256));
     return interpolate_all<V>(w, components<V>(), std::make_index_sequence<kComponents<V>>());
   }
-  /// Returns the varyings V at a sample, from 0 to samples − 1 (interpolateAtSample).
+  /// Returns the varyings V at a sample, from 0 to samples − 1 (interpolateAtSample); with one sample, always at the pixel center.
   template <class V>
   HS_INLINE V at_sample(int number) const {
-    const SamplePosition p = HS_LANES::sample_position(samples, number);
+    const SamplePosition p = HS_LANES::sample_position(samples, samples == 1 ? 0 : number);
     const auto from_center = [](int at) { return R(static_cast<float>(at - kPixelCenter.x) / 256.0f); };
     return at_offset<V>({from_center(p.x), from_center(p.y)});
   }

@@ -178,7 +178,7 @@ using FragmentOf = decltype(call_fragment<S, float>(std::declval<const S&>(), st
 /// Whether depth and stencil are tested and written before the fragment function runs.
 template <class S>
 inline constexpr bool kTestsEarly = [] {
-  if constexpr (requires { S::early_tests; }) return S::early_tests;
+  if constexpr (requires { S::early_fragment_tests; }) return S::early_fragment_tests;
   return false;
 }();
 
@@ -312,6 +312,8 @@ consteval bool require_depth_shader() {
     static_assert(HasVisibilityFunction<S> || kTestsEarly<S> || (!detail::kIsDiscarding<F> && !detail::kHasDepth<F>),
                   "draw_depth() does not call the fragment function, but that of this shader discards or returns a depth; the shader is "
                   "missing: template <class R> Visibility<R> visibility(const Varyings<R>& in, const Pixel<R>& px) const;");
+    static_assert(kTestsEarly<S> || !detail::kHasSampleMask<F>,
+                  "draw_depth() does not call the fragment function, but that of this shader returns a sample mask: use draw()");
   }
   return true;
 }
@@ -355,13 +357,14 @@ template <class S>
 inline constexpr bool kDiscards = detail::kIsDiscarding<FragmentOf<S>>;
 /// The promise of the shader about the depth that it returns.
 template <class S>
-inline constexpr DepthBound kDepthBound = [] {
-  if constexpr (requires { S::depth_bound; }) return S::depth_bound;
-  return DepthBound::any;
+inline constexpr ConservativeDepth kConservativeDepth = [] {
+  if constexpr (requires { S::conservative_depth; }) return S::conservative_depth;
+  return ConservativeDepth::any;
 }();
 /// Whether the shader replaces the depth of the triangle.
 template <class S>
-inline constexpr bool kWritesDepth = detail::kHasDepth<FragmentOf<S>> && !kTestsEarly<S> && kDepthBound<S> != DepthBound::unchanged;
+inline constexpr bool kWritesDepth =
+    detail::kHasDepth<FragmentOf<S>> && !kTestsEarly<S> && kConservativeDepth<S> != ConservativeDepth::unchanged;
 /// Whether the shader returns a sample mask.
 template <class S>
 inline constexpr bool kWritesSampleMask = detail::kHasSampleMask<FragmentOf<S>>;

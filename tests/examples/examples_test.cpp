@@ -161,7 +161,7 @@ TEST(Examples, SkinOnceDrawsTwelveEqualShapes) {
   EXPECT_GT(share(p, [](const glm::u8vec4& c) { return c.w == 255; }), 0.3);
 }
 
-// In the shadow, and on the sides that face away from the light, there is only the ambient light of 0.02.
+// In the shadow, and on the sides that face away from the light, there is only the ambient light of 0.02, which has the code 39.
 TEST(Examples, ShadowCubeShadesTheFloorBehindTheCube) {
   const Picture p = run_example("shadow_cube");
   const auto is_ambient = [](const glm::u8vec4& c) { return c == glm::u8vec4(39, 39, 39, 255); };
@@ -169,7 +169,6 @@ TEST(Examples, ShadowCubeShadesTheFloorBehindTheCube) {
   EXPECT_TRUE(is_ambient(p.at(190, 270)));
   EXPECT_GT(p.at(390, 250).x, 170);  // the floor next to the light
   EXPECT_GT(p.at(250, 200).x, 120);  // the top of the cube
-  EXPECT_NEAR(share(p, is_ambient), 0.035, 0.01);
 }
 
 TEST(Examples, CustomResolveAveragesToneMappedSamples) {

@@ -37,8 +37,7 @@ void Renderer::draw_pixel(const DrawState& state, const ShaderFacts& facts, cons
     covered.push_back(p);
     if (target_.samples() > 1 && allows_sample(state, i)) mask |= 1u << i;
   }
-  const auto samples = static_cast<float>(target_.samples());
-  const bool per_sample = supersample_ || facts.runs_per_sample || (state.sample_shading && state.min_sample_shading * samples > 1.0f);
+  const bool per_sample = shades_samples(state, facts);
   if (!covered.empty() && covered.size() < static_cast<std::size_t>(target_.samples())) centroid = covered[0];
   for (int i = 0; i < target_.samples(); ++i) {
     const Sample s{x, y, i};
@@ -52,6 +51,11 @@ void Renderer::draw_pixel(const DrawState& state, const ShaderFacts& facts, cons
       draw_sample(state, facts, t, s, *of_pixel);
     }
   }
+}
+
+bool Renderer::shades_samples(const DrawState& state, const ShaderFacts& facts) const {
+  const auto samples = static_cast<float>(target_.samples());
+  return supersample_ || facts.runs_per_sample || (state.sample_shading && state.min_sample_shading * samples > 1.0f);
 }
 
 bool Renderer::allows_sample(const DrawState& state, int number) const {
@@ -76,9 +80,9 @@ void Renderer::draw_sample(const DrawState& state, const ShaderFacts& facts, con
     const float low = std::min(state.depth.range_near, state.depth.range_far),
                 high = std::max(state.depth.range_near, state.depth.range_far);
     z = target_.depth_value(clamped(result.depth, low, high));
-    const bool has_one_depth = samples == 1.0f || supersample_ || facts.runs_per_sample || state.sample_shading;
-    if (has_one_depth && facts.depth_bound == DepthBound::greater) z = std::fmax(z, of_triangle);
-    if (has_one_depth && facts.depth_bound == DepthBound::less) z = std::fmin(z, of_triangle);
+    const bool has_one_depth = samples == 1.0f || shades_samples(state, facts);
+    if (has_one_depth && facts.conservative_depth == ConservativeDepth::greater) z = std::fmax(z, of_triangle);
+    if (has_one_depth && facts.conservative_depth == ConservativeDepth::less) z = std::fmin(z, of_triangle);
   }
   if (!tests_pass(state, t.front, s, z)) return;
   ++counts_.samples_passed;
@@ -95,7 +99,10 @@ bool Renderer::depth_passes(const DrawState& state, const Sample& s, double z) c
 bool Renderer::tests_pass(const DrawState& state, bool front, const Sample& s, double z) {
   if (state.depth_bounds && target_.depth_format() != DepthFormat::none) {
     const auto& [low, high] = *state.depth_bounds;
-    if (target_.depth(s) < static_cast<double>(low) || target_.depth(s) > static_cast<double>(high)) return false;
+    const double one = target_.depth_format() == DepthFormat::d16    ? 65535.0
+                       : target_.depth_format() == DepthFormat::d32f ? 1.0
+                                                                     : 16777215.0;
+    if (target_.depth(s) < static_cast<double>(low) * one || target_.depth(s) > static_cast<double>(high) * one) return false;
   }
   if (!state.stencil || !has_stencil(target_.depth_format())) return depth_passes(state, s, z);
   const StencilFace& f = front ? state.stencil->front : state.stencil->back;

@@ -124,6 +124,7 @@ class Renderer {
                   const FragmentFunction& shade);
   void draw_sample(const DrawState& state, const ShaderFacts& facts, const WindowTriangle& t, const Sample& s,
                    const FragmentResult& result);
+  bool shades_samples(const DrawState& state, const ShaderFacts& facts) const;
   bool allows_sample(const DrawState& state, int number) const;
   bool depth_passes(const DrawState& state, const Sample& s, double z) const;
   bool tests_pass(const DrawState& state, bool front, const Sample& s, double z);

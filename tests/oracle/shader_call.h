@@ -175,7 +175,7 @@ ShaderFacts facts_of() {
   if constexpr (HasFragmentFunction<S>) {
     facts.writes_depth = kWritesDepth<S>;
     facts.tests_early = kTestsEarly<S>;
-    facts.depth_bound = kDepthBound<S>;
+    facts.conservative_depth = kConservativeDepth<S>;
     facts.runs_per_sample = kRunsPerSample<S>;
   }
   return facts;

@@ -16,7 +16,7 @@ struct ShaderFacts {
   bool has_fragment = true;
   bool writes_depth = false;
   bool tests_early = false, runs_per_sample = false;
-  DepthBound depth_bound = DepthBound::any;
+  ConservativeDepth conservative_depth = ConservativeDepth::any;
   std::span<const Interpolation> interpolations;
 };
 

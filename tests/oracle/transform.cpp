@@ -38,7 +38,8 @@ Transform make_transform(const DrawState& s, int width, int height, int samples)
   if (t.bottom > t.top) std::swap(t.bottom, t.top);
   const bool has_fractions =
       std::fmod(r.x, 1.0f) != 0 || std::fmod(r.y, 1.0f) != 0 || std::fmod(r.width, 1.0f) != 0 || std::fmod(r.height, 1.0f) != 0;
-  if (samples > 1 && has_fractions && s.polygon_mode != PolygonMode::line) t.left = t.bottom = -1.0f, t.right = t.top = 1.0f;
+  if (samples > 1 && has_fractions && is_triangles(s.topology) && s.polygon_mode == PolygonMode::fill)
+    t.left = t.bottom = -1.0f, t.right = t.top = 1.0f;
   return t;
 }
 

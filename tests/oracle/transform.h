@@ -23,7 +23,7 @@ struct Transform {
 };
 
 /// The transform of a draw to a target of this size. Viewports with fractions of a pixel are clipped at their sides if there are several
-/// samples, unless outlines are drawn.
+/// samples, if they are filled triangles.
 Transform make_transform(const DrawState& s, int width, int height, int samples);
 
 /// Rounds x/w·half + center to the nearest multiple of 1/256 px.

@@ -304,9 +304,15 @@ DepthState random_depth(float clear_value, Random& random) {
   return d;
 }
 
+// Returns numbers that neither change the following ones of `random` nor depend on them in a simple way.
+Random other_numbers(const Random& random) {
+  Random copy(random);
+  return Random(uint64_t{copy.bits()} * 0x9e3779b97f4a7c15u);
+}
+
 // State that was added later. It leaves the other random numbers as they are.
 void add_later_state(const Random& random, DrawState& s) {
-  Random copy(random);
+  Random copy = other_numbers(random);
   if (s.viewport && copy.once_in(3)) {
     const auto fraction = [&] { return static_cast<float>(copy.below(256)) / 256.0f; };
     s.viewport = ViewportRect{s.viewport->x + fraction(), s.viewport->y + fraction(), s.viewport->width + fraction(),
@@ -585,12 +591,14 @@ SceneDraw random_operations(const Scene& scene, const Geometry& g, const DrawSta
   const float value = random.real(0.05f, 0.4f);
   if (random.once_in(scene.color.format == ColorFormat::none ? 2 : 12))
     return operations_draw(DepthShader{matrix}, "DepthShader", scene, g, state, random);
-  if (Random copy(random); copy.once_in(4)) {
+  if (Random copy = other_numbers(random); copy.once_in(4)) {
     switch (copy.below(4)) {
-      case 0: return operations_draw(SampleShader<false, DepthBound::any>{value}, "SampleShader", scene, g, state, random);
-      case 1: return operations_draw(SampleShader<true, DepthBound::any>{value}, "SampleShader with early tests", scene, g, state, random);
-      case 2: return operations_draw(SampleShader<false, DepthBound::greater>{value}, "SampleShader, greater", scene, g, state, random);
-      default: return operations_draw(SampleShader<false, DepthBound::less>{value}, "SampleShader, less", scene, g, state, random);
+      case 0: return operations_draw(SampleShader<false, ConservativeDepth::any>{value}, "SampleShader", scene, g, state, random);
+      case 1:
+        return operations_draw(SampleShader<true, ConservativeDepth::any>{value}, "SampleShader with early tests", scene, g, state, random);
+      case 2:
+        return operations_draw(SampleShader<false, ConservativeDepth::greater>{value}, "SampleShader, greater", scene, g, state, random);
+      default: return operations_draw(SampleShader<false, ConservativeDepth::less>{value}, "SampleShader, less", scene, g, state, random);
     }
   }
   switch (random.below(10)) {

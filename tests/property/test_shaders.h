@@ -594,11 +594,11 @@ struct ClipShader {
 };
 
 /// Runs per sample, has clip and cull distances, and returns a sample mask, a depth and whether fragments are kept.
-template <bool early, DepthBound bound>
+template <bool early, ConservativeDepth bound>
 struct SampleShader {
   static constexpr bool per_sample = true;
-  static constexpr bool early_tests = early;
-  static constexpr DepthBound depth_bound = bound;
+  static constexpr bool early_fragment_tests = early;
+  static constexpr ConservativeDepth conservative_depth = bound;
   float value = 0.0f;
   template <class R>
   using Attributes = PositionAndA<R>;
@@ -620,7 +620,7 @@ struct SampleShader {
     out.color = clamped(vec4<R>(a.x, R(0.1f * static_cast<float>(px.sample)), to_real<R>(covered) * R(0.01f), elsewhere.w), 8.0f);
     out.keep = a.y > R(value);
     const R shift = abs(a.x) * R(0.1f);
-    out.depth = px.z() + (bound == DepthBound::greater ? shift : bound == DepthBound::less ? -shift : a.x * R(0.1f));
+    out.depth = px.z() + (bound == ConservativeDepth::greater ? shift : bound == ConservativeDepth::less ? -shift : a.x * R(0.1f));
     out.sample_mask = covered ^ (truncate_to_int(px.x) & IntOf<R>(3));
     return out;
   }

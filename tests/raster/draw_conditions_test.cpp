@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Tests what decides about whole draws or about stored depths: conditional draws, depth bounds, records of draws and timers.
+#include <algorithm>
+
 #include "raster/raster_test.h"
 
 namespace halfspace::raster_test::draw_conditions_test {
@@ -173,6 +175,20 @@ TEST(Conditions, FlushOnlyIfTheQueryHasNotBeenExecuted) {
   EXPECT_EQ(s.primitives_in, 4u * 5u);
 }
 
+TEST(Conditions, ApplyToClears) {
+  Random random(10);
+  const Mesh mesh = heap(random, 5, 0.3);
+  for (const bool inverted : {false, true}) {
+    Image<glm::vec4> image(kWidth, kHeight);
+    Pass pass(kWidth, kHeight, rgba32f_target(image), {});
+    pass.draw(SmoothColorShader{}, mesh.view(), {.query = 1});
+    pass.clear({.colors = {glm::vec4(0.5f)}, .condition = DrawCondition{1, inverted}});
+    pass.run(one_worker());
+    EXPECT_EQ(std::ranges::all_of(std::span(image.data(), kWidth * kHeight), [](const glm::vec4& c) { return c == glm::vec4(0.5f); }),
+              !inverted);
+  }
+}
+
 TEST(Conditions, ImpossibleOnesAreRefused) {
   Random random(9);
   const Mesh mesh = heap(random, 1, 0.3);
@@ -189,6 +205,19 @@ struct Keeping : SmoothColorShader {
     return {in.color, MaskOf<R>(true)};
   }
 };
+
+TEST(DepthBounds, AreDepthsInAllFormats) {
+  for (const DepthFormat format : {DepthFormat::d16, DepthFormat::d24, DepthFormat::d32f, DepthFormat::d24s8, DepthFormat::d32fs8}) {
+    for (const auto& [low, high, passes] :
+         {std::tuple(0.2f, 0.6f, true), {0.5001f, 1.0f, false}, {0.0f, 0.4999f, false}, {0.49998f, 0.50002f, true}}) {
+      Image<glm::vec4> image(kWidth, kHeight);
+      Pass pass(kWidth, kHeight, rgba32f_target(image), {.format = format, .clear_value = 0.5f});
+      const std::vector<glm::vec4> p = full_screen(-0.5f);
+      pass.draw(ConstantShader{}, make_vertex_view(stream(p)), {.depth_bounds = StoredDepthRange{low, high}});
+      EXPECT_EQ(pass.run(one_worker()).samples_passed, passes ? static_cast<uint64_t>(kWidth * kHeight) : 0u) << low << ' ' << high;
+    }
+  }
+}
 
 // The triangles of a draw do not overlap, so each fragment meets the depth from before the draw.
 TEST(DepthBounds, PassFragmentsByTheStoredDepth) {

@@ -11,7 +11,7 @@ constexpr int kSize = 48;
 // Discards the left half, and returns a depth.
 template <bool early>
 struct HalfShader : PositionShader {
-  static constexpr bool early_tests = early;
+  static constexpr bool early_fragment_tests = early;
   glm::vec4 color{1.0f};
   template <class R>
   DepthFragment<R> fragment(const Varyings<R>&, const Pixel<R>& px) const {
@@ -106,9 +106,9 @@ TEST(EarlyTests, DepthOnlyDrawsIgnoreTheShader) {
 }
 
 // Returns a depth that is `shift` behind that of the primitive, which is 0, positive or negative in some pixels, as promised.
-template <DepthBound bound>
+template <ConservativeDepth bound>
 struct ShiftedShader : PositionShader {
-  static constexpr DepthBound depth_bound = bound;
+  static constexpr ConservativeDepth conservative_depth = bound;
   float shift = 0.0f;
   template <class R>
   DepthFragment<R> fragment(const Varyings<R>&, const Pixel<R>& px) const {
@@ -117,7 +117,7 @@ struct ShiftedShader : PositionShader {
   }
 };
 
-template <DepthBound bound>
+template <ConservativeDepth bound>
 void expect_like_without_promise(float shift) {
   const std::vector<glm::vec4> p = heap(12, 60);
   for (const CompareOp op : {CompareOp::less, CompareOp::less_equal, CompareOp::greater, CompareOp::greater_equal, CompareOp::not_equal,
@@ -128,9 +128,9 @@ void expect_like_without_promise(float shift) {
           DrawState state{.depth = {.compare = op}, .sample_shading = each_sample};
           if (blends) state.blend = kAdd;
           const Result promised = draw(ShiftedShader<bound>{{}, shift}, p, state, samples),
-                       any = draw(ShiftedShader<DepthBound::any>{{}, shift}, p, state, samples);
-          // Where the shader returns the depth of the primitive, the promise limits it to exactly that. Pixel::z() can differ from it by
-          // one rounding, so depths agree to 2^-23, and as such differences can decide a test, nearly all pixels have the same color.
+                       any = draw(ShiftedShader<ConservativeDepth::any>{{}, shift}, p, state, samples);
+          // Where the shader returns Pixel::z(), the promise replaces it by the depth of the primitive, from which it can differ by the
+          // rounding of both, 2^-23. Such a difference can decide a test between two fragments of nearly equal depth; 4 pixels may be such.
           int differing = 0;
           for (int i = 0; i < kSize * kSize; ++i) differing += std::fabs(promised.depth.data()[i] - any.depth.data()[i]) > 0x1p-23f ? 1 : 0;
           EXPECT_LE(differing, 4) << static_cast<int>(op) << ' ' << samples << ' ' << blends;
@@ -143,14 +143,14 @@ void expect_like_without_promise(float shift) {
   }
 }
 
-TEST(DepthBound, PromisesDoNotChangeThePicture) {
-  expect_like_without_promise<DepthBound::greater>(0.0625f);
-  expect_like_without_promise<DepthBound::less>(-0.0625f);
+TEST(ConservativeDepth, PromisesDoNotChangeThePicture) {
+  expect_like_without_promise<ConservativeDepth::greater>(0.0625f);
+  expect_like_without_promise<ConservativeDepth::less>(-0.0625f);
 }
 
-TEST(DepthBound, RejectsFragmentsBeforeTheyAreShaded) {
+TEST(ConservativeDepth, RejectsFragmentsBeforeTheyAreShaded) {
   const std::vector<glm::vec4> p = heap(13, 60);
-  const auto shaded = [&]<DepthBound bound>() {
+  const auto shaded = [&]<ConservativeDepth bound>() {
     Result r;
     Pass pass(kSize, kSize, rgba32f_target(r.color), d32f_target(r.depth));
     const std::vector<glm::vec4> front = full_screen(-0.95f);
@@ -158,8 +158,8 @@ TEST(DepthBound, RejectsFragmentsBeforeTheyAreShaded) {
     pass.draw(ShiftedShader<bound>{{}, 0.0f}, make_vertex_view(stream(p)), {.blend = kAdd});
     return pass.run(one_worker()).fragments_shaded - static_cast<uint64_t>(kSize * kSize);
   };
-  EXPECT_EQ(shaded.template operator()<DepthBound::greater>(), 0u);
-  EXPECT_GT(shaded.template operator()<DepthBound::any>(), 1000u);
+  EXPECT_EQ(shaded.template operator()<ConservativeDepth::greater>(), 0u);
+  EXPECT_GT(shaded.template operator()<ConservativeDepth::any>(), 1000u);
 }
 
 struct Kept : PositionShader {
@@ -169,22 +169,22 @@ struct Kept : PositionShader {
   }
 };
 
-TEST(DepthBound, UnchangedDepthsAreThoseOfThePrimitive) {
+TEST(ConservativeDepth, UnchangedDepthsAreThoseOfThePrimitive) {
   const std::vector<glm::vec4> p = heap(14, 40);
-  const Result r = draw(ShiftedShader<DepthBound::unchanged>{{}, 0.5f}, p, {}, 1), expected = draw(Kept{}, p, {}, 1);
+  const Result r = draw(ShiftedShader<ConservativeDepth::unchanged>{{}, 0.5f}, p, {}, 1), expected = draw(Kept{}, p, {}, 1);
   EXPECT_EQ(r.depth, expected.depth);
   EXPECT_EQ(r.statistics.samples_passed, expected.statistics.samples_passed);
 }
 
 #ifdef HALFSPACE_ASSERTS
-TEST(DepthBound, ADepthOnTheWrongSideFailsACheck) {
+TEST(ConservativeDepth, ADepthOnTheWrongSideFailsACheck) {
   const std::vector<glm::vec4> p = full_screen();
-  EXPECT_DEATH(draw(ShiftedShader<DepthBound::greater>{{}, -0.25f}, p, {}, 1), "check failed");
+  EXPECT_DEATH(draw(ShiftedShader<ConservativeDepth::greater>{{}, -0.25f}, p, {}, 1), "check failed");
 }
 #else
-TEST(DepthBound, DepthsOnTheWrongSideAreLimited) {
+TEST(ConservativeDepth, DepthsOnTheWrongSideAreLimited) {
   const std::vector<glm::vec4> p = full_screen();
-  const Result r = draw(ShiftedShader<DepthBound::greater>{{}, -0.25f}, p, {}, 1);
+  const Result r = draw(ShiftedShader<ConservativeDepth::greater>{{}, -0.25f}, p, {}, 1);
   for (int x = 0; x < kSize; ++x) EXPECT_EQ(pixel(r.depth, x, 5), 0.5f);
 }
 #endif

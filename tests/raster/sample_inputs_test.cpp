@@ -169,6 +169,35 @@ TEST(SampleInputs, ValuesAtSamplesAndOffsetsAreThoseOfThePlane) {
   }
 }
 
+// Keeps samples in stripes that are narrower than a pixel.
+struct Stripes : PositionShader {
+  static constexpr bool per_sample = true;
+  template <class R>
+  DiscardingFragment<R> fragment(const Varyings<R>& in, const Pixel<R>& px) const {
+    return {vec4<R>(R(1), R(1), R(1), R(1)), visibility(in, px).keep};
+  }
+  template <class R>
+  Visibility<R> visibility(const Varyings<R>&, const Pixel<R>& px) const {
+    const R phase = px.x * R(1.7f);
+    return {phase - floor(phase) < R(0.4f), R(0)};
+  }
+};
+
+TEST(SampleInputs, DepthOnlyDrawsRunPerSampleToo) {
+  const std::vector<glm::vec4> p = random_triangles(21, 3);
+  for (const int samples : {2, 4, 8}) {
+    Image<glm::vec4> image(kSize, kSize), expected(kSize, kSize);
+    Pass pass(kSize, kSize, rgba32f_target(image), {.format = DepthFormat::d32f}, {.samples = samples}),
+        plain(kSize, kSize, rgba32f_target(expected), {.format = DepthFormat::d32f}, {.samples = samples});
+    pass.draw_depth(Stripes{}, make_vertex_view(stream(p)));
+    pass.draw(ConstantShader{}, make_vertex_view(stream(p)), {.depth = {.compare = CompareOp::equal}});
+    plain.draw(Stripes{}, make_vertex_view(stream(p)));
+    pass.run(one_worker());
+    plain.run(one_worker());
+    EXPECT_EQ(image, expected);
+  }
+}
+
 template <bool each_sample>
 struct MaskShader : PositionShader {
   static constexpr bool per_sample = each_sample;

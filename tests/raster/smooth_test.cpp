@@ -12,11 +12,12 @@ constexpr int kSize = 64;
 // Adds the alpha of each fragment, which starts as 1.
 constexpr DrawState kSumOfAreas{.polygon_smooth = true, .blend = kAdd};
 
-Image<glm::vec4> draw(const std::vector<glm::vec4>& p, const DrawState& state, const PassOptions& options = {}) {
+Image<glm::vec4> draw(const std::vector<glm::vec4>& p, const DrawState& state, const PassOptions& options = {},
+                      const Workers& workers = two_workers()) {
   Image<glm::vec4> image(kSize, kSize);
   Pass pass(kSize, kSize, rgba32f_target(image), {}, options);
   pass.draw(ConstantShader{}, make_vertex_view(stream(p)), state);
-  pass.run(two_workers());
+  pass.run(workers);
   return image;
 }
 
@@ -121,6 +122,57 @@ TEST(SmoothPolygons, TilesAndThreadsDoNotMatter) {
   const Image<glm::vec4> expected = draw(p, kSumOfAreas);
   for (const int tile_size : {8, 16, 32}) EXPECT_EQ(draw(p, kSumOfAreas, {.tuning = {.tile_size = tile_size}}), expected);
   EXPECT_EQ(draw(p, kSumOfAreas, {.tuning = {.chunk_triangles = 2, .bin_budget = 1}}), expected);
+  EXPECT_EQ(draw(p, kSumOfAreas, {}, one_worker()), expected);
+}
+
+// Emits a triangle for each line.
+struct Emitting : ConstantShader {
+  static constexpr GeometryLayout geometry_layout{.input = GeometryInputPrimitive::lines,
+                                                  .output = GeometryOutputPrimitive::triangle_strip};
+  template <class R>
+  void geometry(const GeometryInput<R, Varyings<R>, 2>& in, Emitter<R, Varyings<R>>& out) const {
+    out.emit(in.position[0], in.varyings[0]);
+    out.emit(in.position[1], in.varyings[0]);
+    out.emit(vec4<R>(in.position[0].x, in.position[1].y, in.position[0].z, in.position[0].w), in.varyings[0]);
+  }
+};
+
+TEST(SmoothPolygons, EmittedTrianglesAreSmooth) {
+  Image<glm::vec4> image(kSize, kSize);
+  Pass pass(kSize, kSize, rgba32f_target(image), {});
+  const std::vector<glm::vec4> ends{at(40, 8), at(8, 40)};
+  pass.draw(Emitting{}, make_vertex_view(stream(ends)), {.topology = Topology::lines, .polygon_smooth = true});
+  pass.run(one_worker());
+  const std::vector<glm::vec4> p{at(40, 8), at(8, 40), at(40, 40)};
+  EXPECT_EQ(image, draw(p, {.polygon_smooth = true}));
+  EXPECT_EQ(pixel(image, 30, 17).w, 0.5f);
+}
+
+// The early test of a promise uses the depth that Pixel::z() has.
+struct BehindShader : PositionShader {
+  static constexpr ConservativeDepth conservative_depth = ConservativeDepth::greater;
+  template <class R>
+  DepthFragment<R> fragment(const Varyings<R>&, const Pixel<R>& px) const {
+    return {vec4<R>(R(1)), MaskOf<R>(true), px.z()};
+  }
+};
+
+TEST(SmoothPolygons, DepthOfTheShaderIsThatOfTheTest) {
+  Image<float> own(kSize, kSize), expected(kSize, kSize);
+  Image<glm::vec4> image(kSize, kSize);
+  std::vector<glm::vec4> p{at(8.25, 8.25), at(40, 9), at(9, 40)};
+  p[0].z = -0.5f, p[1].z = 0.0f, p[2].z = 0.5f;
+  for (Image<float>* const depth : {&own, &expected}) {
+    Pass pass(kSize, kSize, rgba32f_target(image), d32f_target(*depth));
+    const DrawState state{.polygon_smooth = true};
+    if (depth == &own) {
+      pass.draw(BehindShader{}, make_vertex_view(stream(p)), state);
+    } else {
+      pass.draw(ConstantShader{}, make_vertex_view(stream(p)), state);
+    }
+    pass.run(one_worker());
+  }
+  for (int i = 0; i < kSize * kSize; ++i) EXPECT_NEAR(own.data()[i], expected.data()[i], 0x1p-23f);  // the rounding of both
 }
 
 TEST(SmoothPolygons, BlendWithTheAreaAsAlpha) {

@@ -50,9 +50,10 @@ Rect drawable_rect(const ViewportRect& viewport, const std::optional<Rect>& scis
 DrawPlacement place_draw(const DrawState& state, const PassContext& context, const Attachments& attachments, bool supersample) {
   const FloatMode float_mode;
   const ViewportRect viewport = rounded_viewport(state.viewport, context.width, context.height);
-  // A side of a viewport can separate the samples of a pixel. Outlines are not clipped there, which would draw the side, too.
+  // A side of a viewport can separate the samples of a pixel. Only filled triangles are cut there: others end at the sides of pixels,
+  // because a clipped outline would follow the side, and lines and points would lose parts inside of the viewport.
   const auto is_whole = [](float x) { return x == std::floor(x); };
-  const bool clips_sides = context.samples > 1 && state.polygon_mode != PolygonMode::line &&
+  const bool clips_sides = context.samples > 1 && is_triangles(state.topology) && state.polygon_mode == PolygonMode::fill &&
                            !(is_whole(viewport.x) && is_whole(viewport.y) && is_whole(viewport.width) && is_whole(viewport.height));
   const bool has_integers = !attachments.colors.empty() && is_integer(attachments.colors[0].format);
   return {.viewport = make_viewport(viewport, state.depth, state.clip_origin, clips_sides),

@@ -90,7 +90,6 @@ constexpr ShaderKernels kernels_of() {
     k.color_types = kColorTypes<S>.data();
     k.discards = kDiscards<S>;
     k.tests_early = kTestsEarly<S>;
-    k.runs_per_sample = kRunsPerSample<S>;
     k.writes_sample_mask = kWritesSampleMask<S>;
     k.is_constant = kIsConstant<S>;
     // Without a visibility function, the fragment function is compiled a second time, to compute only the keep mask and the depth. This is
@@ -100,7 +99,8 @@ constexpr ShaderKernels kernels_of() {
   }
   if constexpr (HasFragmentFunction<S>) {
     k.writes_depth = kWritesDepth<S>;
-    k.depth_bound = kDepthBound<S>;
+    k.runs_per_sample = kRunsPerSample<S>;
+    k.conservative_depth = kConservativeDepth<S>;
   }
   if constexpr (HasVisibilityFunction<S> && !kTestsEarly<S>) k.visibility = visibility_kernel<S>;
   return k;

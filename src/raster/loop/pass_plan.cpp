@@ -33,6 +33,7 @@ void PassPlan::add(const Draw& draw, std::size_t number) {
   add_primitives(draw, number);
   if (!is_conditional) return;
   conditional_draws.back().end_chunk = chunks.size();
+  if (conditional_draws.back().begin_chunk == chunks.size()) conditional_draws.pop_back();  // it has no primitives
   end_chunk();
 }
 

@@ -46,9 +46,9 @@ struct ShaderKernels {
   const ColorType* color_types = nullptr;  ///< color_count entries; null: not checked
   bool discards = false;
   bool writes_depth = false;
-  DepthBound depth_bound = DepthBound::any;  ///< of the depth that the shader writes
-  bool tests_early = false;                  ///< all tests and writes of depth and stencil precede the shader
-  bool runs_per_sample = false;              ///< the shader runs per sample, for any state
+  ConservativeDepth conservative_depth = ConservativeDepth::any;  ///< of the depth that the shader writes
+  bool tests_early = false;                                       ///< all tests and writes of depth and stencil precede the shader
+  bool runs_per_sample = false;                                   ///< the shader runs per sample, for any state
   bool writes_sample_mask = false;
   bool is_constant = false;  ///< the whole draw has one color: the fragment kernel only uses the count and the output of its batch
 };

@@ -114,7 +114,7 @@ Real packet_depth(Real x, Real y, const PacketTriangleIds& packet) noexcept {
     const Real dx = x_sub - Real(static_cast<float>(t.x[0])), dy = y_sub - Real(static_cast<float>(t.y[0]));
     const Real e1 = difference_of_products(dx, edge(t.y[2], t.y[0]), dy, edge(t.x[2], t.x[0]));
     const Real e2 = difference_of_products(edge(t.x[1], t.x[0]), dy, edge(t.y[1], t.y[0]), dx);
-    const float z_low = t.is_line() ? clamp(t.z0, draw.depth_low, draw.depth_high) : draw.depth_low;
+    const float z_low = t.is_line() || draw.is_smooth ? clamp(t.z0, draw.depth_low, draw.depth_high) : draw.depth_low;
     const float z_high = clamp(t.z_max, draw.depth_low, draw.depth_high);
     z = select(shows, clamp(fma(e1, Real(t.z_edge1), fma(e2, Real(t.z_edge2), Real(t.z0))), Real(z_low), Real(z_high)), z);
   }

@@ -44,11 +44,12 @@ std::span<const PathRow> path_rows() {
   static constexpr PathRow rows[] = {
       {TilePath::nearest, "nearest", "coverage, depth", "less, with writes", "depth, triangle ids of deferred draws"},
       {TilePath::opaque, "opaque", "coverage, depth", "any", "depth, triangle ids of deferred draws"},
-      {TilePath::stencil, "stencil", "coverage, depth, stencil test", "any", "depth, stencil values, triangle ids of deferred draws"},
+      {TilePath::stencil, "stencil", "coverage, depth, stencil test, bounds of the stored depth", "any",
+       "depth, stencil values, triangle ids of deferred draws"},
       {TilePath::queued, "queued", "the shader, the order of execution, or a stencil test after the shader", "any",
        "queue of packets; depth if no test follows the shader"},
       {TilePath::queued_less, "queued_less", "the shader", "less, tested before and after the shader", "queue of packets"},
-      {TilePath::queued_stencil, "queued_stencil", "a stencil test before the shader, then as above", "any",
+      {TilePath::queued_stencil, "queued_stencil", "a stencil test or bounds of the stored depth before the shader, then as above", "any",
        "queue of packets; depth and stencil values if no test follows the shader"},
   };
   return rows;
@@ -88,10 +89,10 @@ DrawInTile::DrawInTile(const PassContext& f, const Draw& d, VisibilityMode m, Ti
 Real replaced_depth(const Draw& draw, DepthFormat format, Real own, Real z, [[maybe_unused]] Mask mask) {
   const Real depth = depth_value(format, clamp(own, Real(draw.depth_low), Real(draw.depth_high)));
   if (!has_depth_bound(draw)) return depth;
-  const bool is_greater = draw.kernels.depth_bound == DepthBound::greater;
-  // Pixel::z() can differ from z by the rounding of both.
-  const Real limit = is_greater ? z - Real(0x1p-22f) : z + Real(0x1p-22f);
-  HS_DCHECK(!any(mask & (is_greater ? own < limit : own > limit)));
+  const bool is_greater = draw.kernels.conservative_depth == ConservativeDepth::greater;
+  // Pixel::z() can differ from z by the rounding of both. Other formats than d32f are codes.
+  [[maybe_unused]] const Real rounding(format == DepthFormat::d32f ? 0x1p-22f : 1.0f);
+  HS_DCHECK(!any(mask & (is_greater ? depth < z - rounding : depth > z + rounding)));
   return is_greater ? max(depth, z) : min(depth, z);
 }
 

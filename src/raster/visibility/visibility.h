@@ -25,7 +25,8 @@ enum class VisibilityMode : uint8_t {
   depth_only,  ///< test, write depth; there is no color to shade
   early,       ///< test, write depth, queue samples that pass
   test_only,   ///< test, queue samples that pass and their depth; depth is written after shading
-  cover_only   ///< queue covered samples; depth is tested after shading, because the shader replaces it
+  cover_only   ///< queue covered samples, except those that a promise of the shader rejects; depth is tested after shading, because the
+              ///< shader replaces it
 };
 
 /// Returns true if visibility is complete without the fragment function, which runs later or never.
@@ -54,13 +55,13 @@ std::span<const PathRow> path_rows();
 /// Returns true if the depth of the shader is bounded by that of the primitive; and true if a fragment fails the depth test if the depth of
 /// the primitive does. A depth that is returned once for several samples is not bounded, because the primitive has another one at each.
 inline bool has_depth_bound(const Draw& draw) {
-  const DepthBound bound = draw.kernels.depth_bound;
+  const ConservativeDepth bound = draw.kernels.conservative_depth;
   const bool has_one_depth = !draw.is_multisampled || draw.shades_samples;
-  return draw.kernels.writes_depth && has_one_depth && (bound == DepthBound::greater || bound == DepthBound::less);
+  return draw.kernels.writes_depth && has_one_depth && (bound == ConservativeDepth::greater || bound == ConservativeDepth::less);
 }
 inline bool rejects_by_bound(const Draw& draw) {
   const CompareOp op = draw.state.depth.compare;
-  const bool is_greater = draw.kernels.depth_bound == DepthBound::greater;
+  const bool is_greater = draw.kernels.conservative_depth == ConservativeDepth::greater;
   const bool matches =
       is_greater ? op == CompareOp::less || op == CompareOp::less_equal : op == CompareOp::greater || op == CompareOp::greater_equal;
   return has_depth_bound(draw) && matches;

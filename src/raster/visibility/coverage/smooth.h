@@ -30,18 +30,19 @@ void rasterize_smooth(const DrawInTile& d, const Triangle& t, TriangleId id, Wri
   const PixelBounds bounds = area.pixels(d.bounds);
   const LargeDepthPlane plane(t, d.draw, d.tile, kPixelCenter);
   const DepthBounds range = depth_bounds(t, d.draw, d.tile.depth_format);
-  for (int packet = 0; packet < kPackets; ++packet) {
-    const int x = packet_x(packet), y = packet_y(packet);
-    const Int px = lane_x() + x, py = lane_y() + y;
-    const Mask in_x = (px >= Int(bounds.x0 - d.tile.x0)) & (px < Int(bounds.x1 - d.tile.x0));
-    const Mask in_y = (py >= Int(bounds.y0 - d.tile.y0)) & (py < Int(bounds.y1 - d.tile.y0));
-    const uint32_t inside = bits(in_x & in_y);
-    if (inside == 0) continue;
-    const uint32_t lanes = bits(areas_in_packet(area, d.tile, {static_cast<uint16_t>(packet), static_cast<uint16_t>(inside)}) > Real(0.0f));
-    if (lanes == 0) continue;
-    const auto z_at = [&] { return clamp(plane.at(px, py), Real(range.low), Real(range.high)); };
-    if (writer.write(id, packet, lanes, z_at) && writer.writes_depth())
-      widen_hiz(writer.compare_op(), d.tile, packet / kPacketsPerBlock, range);
+  const int x0 = bounds.x0 - d.tile.x0, y0 = bounds.y0 - d.tile.y0, x1 = bounds.x1 - d.tile.x0, y1 = bounds.y1 - d.tile.y0;
+  for (int y = y0 / kPacketHeight * kPacketHeight; y < y1; y += kPacketHeight) {
+    for (int x = x0 / kPacketWidth * kPacketWidth; x < x1; x += kPacketWidth) {
+      const int packet = packet_at(x, y);
+      const Int px = lane_x() + x, py = lane_y() + y;
+      const uint32_t inside = bits((px >= Int(x0)) & (px < Int(x1)) & (py >= Int(y0)) & (py < Int(y1)));
+      const PacketMask all{static_cast<uint16_t>(packet), static_cast<uint16_t>(inside)};
+      const uint32_t lanes = bits(areas_in_packet(area, d.tile, all) > Real(0.0f));
+      if (lanes == 0) continue;
+      const auto z_at = [&] { return clamp(plane.at(px, py), Real(range.low), Real(range.high)); };
+      if (writer.write(id, packet, lanes, z_at) && writer.writes_depth())
+        widen_hiz(writer.compare_op(), d.tile, packet / kPacketsPerBlock, range);
+    }
   }
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "halfspace/raster/visibility/tests/depth_stencil_test.h"
 
+#include <cmath>
+
 #include "halfspace/core/lane_bytes.h"
 
 namespace halfspace::HS_LANES {
@@ -45,7 +47,12 @@ Mask stencil_test(const StencilFace& face, const Tile& tile, int packet, Mask ma
 
 Mask stored_depth_test(const StoredDepthRange& range, const Tile& tile, int packet, Mask mask) {
   const Real stored = load<Real>(&tile.depth[static_cast<std::size_t>(packet) * kLanes]);
-  return mask & (stored >= Real(range.low)) & (stored <= Real(range.high));
+  if (tile.depth_format == DepthFormat::d32f) return mask & (stored >= Real(range.low)) & (stored <= Real(range.high));
+  // Codes from 0 to `one`. The products are exact in double, and the limits are integers that a float holds.
+  const double one = tile.depth_format == DepthFormat::d16 ? 65535.0 : 16777215.0;
+  const auto low = static_cast<float>(std::ceil(static_cast<double>(range.low) * one));
+  const auto high = static_cast<float>(std::floor(static_cast<double>(range.high) * one));
+  return mask & (stored >= Real(low)) & (stored <= Real(high));
 }
 
 Mask test_and_update_stencil(const StencilFace& face, Tile& tile, int packet, Mask mask, bool with_depth, CompareOp op, Real z) {
