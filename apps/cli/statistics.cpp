@@ -34,7 +34,7 @@ constexpr Count kCounts[] = {{"vertices_in", &PassStatistics::vertices_in},
                              {"layers_merged", &PassStatistics::layers_merged},
                              {"tiles_touched", &PassStatistics::tiles_touched},
                              {"flushes", &PassStatistics::flushes}};
-static_assert(sizeof(PassStatistics) == sizeof(uint64_t) * std::size(kCounts) + 2 * sizeof(PassStatistics::queries),
+static_assert(sizeof(PassStatistics) == sizeof(uint64_t) * std::size(kCounts) + 3 * sizeof(PassStatistics::queries),
               "kCounts does not list every count of PassStatistics");
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <bit>
 
 #include "halfspace/raster/pipeline/smooth_area.h"
+#include "halfspace/raster/tile/tile_rect.h"
 #include "halfspace/raster/visibility/coverage/depth_plane.h"
 #include "halfspace/raster/visibility/sink/writer.h"
 
