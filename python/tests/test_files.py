@@ -10,6 +10,8 @@ import pytest
 import halfspace
 from conftest import QUAD
 
+# Keys that make the meshes of shipped scenes small.
+SMALL = {"moon": {"objects.moon.latitudes": 32, "objects.moon.longitudes": 64}, "day-night": {"objects.ground.segments": 8}}
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 5 5 5\nf 1 2 3\n"
 
 
@@ -21,6 +23,10 @@ def run(program):
         return done.returncode, done.stdout, done.stderr.removeprefix("halfspace: ").removeprefix("error: ").strip()
 
     return run_program
+
+
+def set_options(keys):
+    return [option for key, value in keys.items() for option in ("--set", f"{key}={value}")]
 
 
 def fails_like(run, arguments, call):
@@ -40,11 +46,12 @@ def test_export_writes_the_files_of_the_command_line(run, tmp_path, scene, end):
         scene = halfspace.scenes()[0]
     for folder in ("own", "program"):
         (tmp_path / folder).mkdir()
-    code, _, line = run("export", scene, "-o", tmp_path / "program" / f"out.{end}")
+    keys = SMALL.get(scene, {})
+    code, _, line = run("export", scene, "-o", tmp_path / "program" / f"out.{end}", *set_options(keys))
     assert code == 0, line
     with np.testing.suppress_warnings() as quiet:
         quiet.filter(halfspace.RenderWarning)
-        halfspace.export(scene, tmp_path / "own" / f"out.{end}")
+        halfspace.export(scene, tmp_path / "own" / f"out.{end}", set=keys)
     names = sorted(path.name for path in (tmp_path / "program").iterdir())
     assert names == sorted(path.name for path in (tmp_path / "own").iterdir())
     for name in names:
@@ -54,9 +61,10 @@ def test_export_writes_the_files_of_the_command_line(run, tmp_path, scene, end):
 def test_export_warns_and_fails_like_the_command_line(run, tmp_path):
     (tmp_path / "triangle.obj").write_text(TRIANGLE)
     source, none = tmp_path / "triangle.obj", tmp_path / "none.obj"
-    _, _, printed = run("export", "day-night", "-o", tmp_path / "a.obj")
+    keys = SMALL["day-night"]
+    _, _, printed = run("export", "day-night", "-o", tmp_path / "a.obj", *set_options(keys))
     with pytest.warns(halfspace.RenderWarning) as warnings:
-        halfspace.export("day-night", tmp_path / "b.obj")
+        halfspace.export("day-night", tmp_path / "b.obj", set=keys)
     assert printed and all(str(warning.message).split(": ")[-1] in printed for warning in warnings)
     fails_like(run, ("export", none, "-o", tmp_path / "c.glb"), lambda: halfspace.export(none, tmp_path / "c.glb"))
     fails_like(run, ("export", source, "-o", source), lambda: halfspace.export(source, source))

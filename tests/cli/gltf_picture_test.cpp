@@ -417,6 +417,7 @@ TEST_F(ExportOfConversions, AreLimitedByMemory) {
   for (int i = 1; i < 110; ++i) file.mesh_node(square(file, i));
   ::setenv("MALLOC_MMAP_THRESHOLD_", "131072", 1);  // without fragmentation, the resident memory stays small
   const Outcome o = export_to("b.glb", {"--max-memory", "200M"});
+  ::unsetenv("MALLOC_MMAP_THRESHOLD_");
   EXPECT_EQ(o.exit_code, 3);
   EXPECT_EQ(lines_of(o.err), 1) << o.err;
   EXPECT_NE(o.err.find("200 MiB (--max-memory)"), std::string::npos) << o.err;
