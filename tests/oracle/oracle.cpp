@@ -99,9 +99,9 @@ bool Renderer::depth_passes(const DrawState& state, const Sample& s, double z) c
 bool Renderer::tests_pass(const DrawState& state, bool front, const Sample& s, double z) {
   if (state.depth_bounds && target_.depth_format() != DepthFormat::none) {
     const auto& [low, high] = *state.depth_bounds;
-    const double one = target_.depth_format() == DepthFormat::d16    ? 65535.0
-                       : target_.depth_format() == DepthFormat::d32f ? 1.0
-                                                                     : 16777215.0;
+    const DepthFormat format = target_.depth_format();
+    const bool is_float = format == DepthFormat::d32f || format == DepthFormat::d32fs8;
+    const double one = is_float ? 1.0 : format == DepthFormat::d16 ? 65535.0 : 16777215.0;
     if (target_.depth(s) < static_cast<double>(low) * one || target_.depth(s) > static_cast<double>(high) * one) return false;
   }
   if (!state.stencil || !has_stencil(target_.depth_format())) return depth_passes(state, s, z);

@@ -21,6 +21,10 @@ constexpr uint64_t kChunkShare = 8;
 
 void PassPlan::add(const Draw& draw, std::size_t number) {
   const bool is_conditional = draw.state.condition.has_value();
+  if (is_conditional && (draw.primitive_count == 0 || draw.state.instances == 0)) {
+    if (draw.state.query) submitted.add_to_query(*draw.state.query, 0);
+    return;
+  }
   has_timers |= draw.state.timer.has_value();
   if (is_conditional) begin_conditional(*draw.state.condition, number);
   PassStatistics& counters = is_conditional ? conditional_draws.back().submitted : submitted;
@@ -33,7 +37,6 @@ void PassPlan::add(const Draw& draw, std::size_t number) {
   add_primitives(draw, number);
   if (!is_conditional) return;
   conditional_draws.back().end_chunk = chunks.size();
-  if (conditional_draws.back().begin_chunk == chunks.size()) conditional_draws.pop_back();  // it has no primitives
   end_chunk();
 }
 
