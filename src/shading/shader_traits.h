@@ -313,7 +313,7 @@ consteval bool require_depth_shader() {
                   "draw_depth() does not call the fragment function, but that of this shader discards or returns a depth; the shader is "
                   "missing: template <class R> Visibility<R> visibility(const Varyings<R>& in, const Pixel<R>& px) const;");
     static_assert(kTestsEarly<S> || !detail::kHasSampleMask<F>,
-                  "draw_depth() does not call the fragment function, but that of this shader returns a sample mask: use draw()");
+                  "draw_depth() does not call the fragment function, but that of the shader returns a sample mask: use draw()");
   }
   return true;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A shader whose fragment function returns a sample mask must not compile with draw_depth(), which does not call that function, and
-// the error must contain: that of this shader returns a sample mask.
+// the error must contain: that of the shader returns a sample mask.
 #include "halfspace/raster/pass.h"
 
 using namespace halfspace;
