@@ -102,6 +102,7 @@ class TileDraws {
   void begin_draw(const Draw& draw, std::optional<DrawInTile>& here) {
     finish_draw(here);
     here.emplace(context_, draw, visibility_mode(draw), memory_.tile, trace_);
+    timer_ = timer_of(draw);
     rasterize_ = rasterize_function(*here);
     rasterize_narrow_ = rasterize_narrow_function(*here);
     if (draw.layer_group != layer_group_) write_layers();
@@ -122,7 +123,7 @@ class TileDraws {
 
   // Runs the shader for the packets in the queue, which belong to the draw.
   void finish_queue(const DrawInTile& d) {
-    const DrawStopwatch stopwatch(d.draw, shades_later(d.mode) ? &DrawTime::visibility : &DrawTime::shading, statistics_);
+    const DrawStopwatch stopwatch(timer_, shades_later(d.mode) ? &DrawTime::visibility : &DrawTime::shading, statistics_);
     if (shades_later(d.mode)) {
       decide_queued(d, memory_.queue, statistics_);
     } else {
@@ -141,7 +142,7 @@ class TileDraws {
   // Draws narrow triangles of one draw, 1 to W. Returns how many were drawn, at least 1.
   std::size_t draw_narrow(const DrawInTile& d, uint32_t chunk, std::span<const uint16_t> indices) {
     const std::size_t count = [&] {
-      const DrawStopwatch stopwatch(d.draw, &DrawTime::visibility, statistics_);
+      const DrawStopwatch stopwatch(timer_, &DrawTime::visibility, statistics_);
       return rasterize_narrow_(d, chunk, indices, memory_.queue, statistics_);
     }();
     if (memory_.queue.is_full()) finish_queue(d);
@@ -155,14 +156,14 @@ class TileDraws {
       return;
     }
     {
-      const DrawStopwatch stopwatch(d.draw, &DrawTime::visibility, statistics_);
+      const DrawStopwatch stopwatch(timer_, &DrawTime::visibility, statistics_);
       rasterize_(d, t, triangle_id(chunk, index), memory_.queue, statistics_);
     }
     if (memory_.queue.is_full()) finish_queue(d);
   }
 
   bool draw_with_occluder(FullTileOccluder& occluder, const DrawInTile& d, uint32_t chunk, uint16_t index) {
-    const DrawStopwatch stopwatch(d.draw, &DrawTime::visibility, statistics_);
+    const DrawStopwatch stopwatch(timer_, &DrawTime::visibility, statistics_);
     return occluder.draw(d, chunk, index, statistics_);
   }
 
@@ -177,6 +178,7 @@ class TileDraws {
   TileMemory& memory_;
   PassStatistics& statistics_;
   TileTrace* trace_;
+  const uint32_t* timer_ = nullptr;        // of the current draw
   RasterizeFunction rasterize_ = nullptr;  // of the current draw
   RasterizeNarrowFunction rasterize_narrow_ = nullptr;
   bool pending_ = false;      // Tile::visibility is in use: pixels may have been drawn that are not shaded yet

@@ -11,6 +11,7 @@
 #include "halfspace/raster/tile/tile_format.h"
 #include "halfspace/raster/trace/tile_trace.h"
 #include "halfspace/raster/visibility/tests/depth_stencil_test.h"
+#include "halfspace/raster/visibility/tests/replaced_depth.h"
 #include "halfspace/raster/visibility/visibility.h"
 
 namespace halfspace::HS_LANES {

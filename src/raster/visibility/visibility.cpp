@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "halfspace/core/check.h"
-#include "halfspace/raster/tile/tile_format.h"
 #include "halfspace/raster/visibility/tests/depth_stencil_test.h"
 
 namespace halfspace::HS_LANES {
@@ -85,16 +83,6 @@ DrawInTile::DrawInTile(const PassContext& f, const Draw& d, VisibilityMode m, Ti
       postpones_stencil(HS_LANES::postpones_stencil(d, m, t)),
       fetches_vertices(fetches_vertices_ahead(d, m)),
       trace(tile_trace) {}
-
-Real replaced_depth(const Draw& draw, DepthFormat format, Real own, Real z, [[maybe_unused]] Mask mask) {
-  const Real depth = depth_value(format, clamp(own, Real(draw.depth_low), Real(draw.depth_high)));
-  if (!has_depth_bound(draw)) return depth;
-  const bool is_greater = draw.kernels.conservative_depth == ConservativeDepth::greater;
-  // Pixel::z() can differ from z by the rounding of both. Other formats than d32f are codes.
-  [[maybe_unused]] const Real rounding(format == DepthFormat::d32f ? 0x1p-22f : 1.0f);
-  HS_DCHECK(!any(mask & (is_greater ? depth < z - rounding : depth > z + rounding)));
-  return is_greater ? max(depth, z) : min(depth, z);
-}
 
 Mask depth_test(const DepthState& state, const Tile& tile, int packet, Real z, Mask mask) {
   if (!tests_depth(state, tile)) return mask;

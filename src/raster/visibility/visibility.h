@@ -52,25 +52,6 @@ struct PathRow {
 /// Returns the rows of all paths, in the order of TilePath. docs/explanation/architecture.md shows this table.
 std::span<const PathRow> path_rows();
 
-/// Returns true if the depth of the shader is bounded by that of the primitive; and true if a fragment fails the depth test if the depth of
-/// the primitive does. A depth that is returned once for several samples is not bounded, because the primitive has another one at each.
-inline bool has_depth_bound(const Draw& draw) {
-  const ConservativeDepth bound = draw.kernels.conservative_depth;
-  const bool has_one_depth = !draw.is_multisampled || draw.shades_samples;
-  return draw.kernels.writes_depth && has_one_depth && (bound == ConservativeDepth::greater || bound == ConservativeDepth::less);
-}
-inline bool rejects_by_bound(const Draw& draw) {
-  const CompareOp op = draw.state.depth.compare;
-  const bool is_greater = draw.kernels.conservative_depth == ConservativeDepth::greater;
-  const bool matches =
-      is_greater ? op == CompareOp::less || op == CompareOp::less_equal : op == CompareOp::greater || op == CompareOp::greater_equal;
-  return has_depth_bound(draw) && matches;
-}
-
-/// Returns the depth of fragments of a shader that writes depth, represented as in Tile::depth. own: what the shader returned; z: depth of
-/// the primitive, which is only used if it is a bound; mask: the fragments that are drawn.
-Real replaced_depth(const Draw& draw, DepthFormat format, Real own, Real z, Mask mask);
-
 /// Returns the path of a draw with the given mode.
 TilePath choose_path(const Draw& draw, VisibilityMode mode, const Tile& tile);
 

@@ -226,13 +226,6 @@ void rasterize_point(const DrawInTile& d, const SampleSet<Writer::kMultisampled>
 
 template <class Writer>
 void rasterize(const DrawInTile& d, const Triangle& t, TriangleId id, PacketQueue& queue, PassStatistics& statistics) {
-  if constexpr (!Writer::kMultisampled) {
-    if (d.draw.is_smooth) {
-      Writer writer(d, &queue, statistics);
-      writer.begin(t);
-      return rasterize_smooth(d, t, id, writer);
-    }
-  }
   const SampleSet<Writer::kMultisampled> samples(d);
   const PixelBounds b = pixel_bounds(d.draw, t, d.bounds, d.context.samples_at);
   if (samples.count == 0 || b.empty()) return;
@@ -268,6 +261,7 @@ void write_full_tile(const DrawInTile& d, const Triangle& t, TriangleId id) {
 }
 
 RasterizeFunction rasterize_function(const DrawInTile& d) {
+  if (d.draw.is_smooth) return with_writer<false>(d, []<class Writer>() -> RasterizeFunction { return rasterize_smooth<Writer>; });
   const auto function = []<class Writer>() -> RasterizeFunction { return rasterize<Writer>; };
   return d.tile.samples > 1 ? with_writer<true>(d, function) : with_writer<false>(d, function);
 }

@@ -26,7 +26,9 @@ inline Real areas_in_packet(const SmoothArea& area, const Tile& tile, const Pack
 
 /// Tests and writes the pixels of a smooth primitive in a tile with one sample per pixel.
 template <class Writer>
-void rasterize_smooth(const DrawInTile& d, const Triangle& t, TriangleId id, Writer& writer) {
+void rasterize_smooth(const DrawInTile& d, const Triangle& t, TriangleId id, PacketQueue& queue, PassStatistics& statistics) {
+  Writer writer(d, &queue, statistics);
+  writer.begin(t);
   const SmoothArea area(d.draw, t);
   const PixelBounds bounds = area.pixels(d.bounds);
   const LargeDepthPlane plane(t, d.draw, d.tile, kPixelCenter);

@@ -10,6 +10,7 @@
 #include "halfspace/raster/visibility/sink/packet_queue.h"
 #include "halfspace/raster/visibility/tests/depth_bounds.h"
 #include "halfspace/raster/visibility/tests/depth_stencil_test.h"
+#include "halfspace/raster/visibility/tests/replaced_depth.h"
 #include "halfspace/raster/visibility/visibility.h"
 
 namespace halfspace::HS_LANES {
