@@ -37,13 +37,16 @@
 // what it can do: Fragment (color only), DiscardingFragment or DepthFragment, or their variants FragmentMRT<R, N>,
 // DiscardingFragmentMRT<R, N> and DepthFragmentMRT<R, N> with one color for each of N attachments. SampleMasked adds a sample mask.
 //
-// Constants of a shader change how its fragment function runs:
+// A shader can have these constants, which change how its fragment function runs:
 //
-//   static constexpr bool per_sample = true;     once per sample, as with DrawState::sample_shading
-//   static constexpr bool early_fragment_tests = true;    after the depth and stencil tests and their writes, which it then cannot change
-//     (early_fragment_tests in GLSL). A discarded fragment only has no color, and a returned depth is ignored.
+//   static constexpr bool per_sample = true;
+//     It runs once per sample, as with DrawState::sample_shading.
+//   static constexpr bool early_fragment_tests = true;
+//     It runs after the depth and stencil tests and their writes, and cannot change them (GLSL 4.60, section 4.4.1.3). A discarded
+//     fragment has no color, and a returned depth is ignored.
 //   static constexpr ConservativeDepth conservative_depth = ConservativeDepth::greater;
-//     Promises where the depth that it returns is, so that more fragments can be rejected before they are shaded.
+//     States on which side of the depth of the primitive the returned depth is. More fragments can then be rejected before they are
+//     shaded.
 #pragma once
 
 #include <array>
