@@ -80,6 +80,23 @@ def test_viewport_and_scissor_count_from_the_lower_left():
     assert ["".join(names[tuple(c[:3])] for c in row) for row in image] == ["bbbg", "bbbb", "rrbb", "rrbb"]
 
 
+def red_pixels(**state):
+    image = np.zeros((2, 4, 4), np.float32)
+    p = draw.Pass(image)
+    paint(p, RED, state=draw.State(**state))
+    p.run()
+    return ["".join("r" if c[0] else "." for c in row) for row in image]
+
+
+def test_viewports_may_have_fractions_and_be_upside_down():
+    assert red_pixels(viewport=(0.5, 0, 2, 2)) == ["rr..", "rr.."]  # the centers of pixels are at 0.5, 1.5, ...
+    assert red_pixels(viewport=(0.75, 1.5, 2, 0.5)) == [".rr.", "...."]
+    assert red_pixels(viewport=(0, 2, 1, -1)) == ["r...", "...."]
+    # A negative height shows the back faces, the upper left origin does not.
+    assert red_pixels(viewport=(0, 2, 4, -2), cull="back") == ["....", "...."]
+    assert red_pixels(clip_origin="upper_left", cull="back") == ["rrrr", "rrrr"]
+
+
 def test_topologies():
     image = np.zeros((3, 3, 4), np.float32)
     p = draw.Pass(image)
