@@ -22,7 +22,7 @@ uint32_t coverage_mask(const std::optional<SampleCoverage>& coverage, int sample
 
 PixelBounds to_bounds(const Rect& r) { return {r.x, r.y, r.x + r.width, r.y + r.height}; }
 
-// OpenGL 4.6, section 14.3.1.1, allows to shade more samples than the fraction asks for. All are shaded if one is not enough.
+// OpenGL 4.6, section 14.3.1.1, allows shading more samples than the fraction asks for. All are shaded if one is not enough.
 bool shades_samples(const DrawState& state, int samples) {
   return state.sample_shading && state.min_sample_shading * static_cast<float>(samples) > 1.0f;
 }

@@ -61,7 +61,8 @@ constexpr ShaderKernels kernels_of() {
     k.vertex = k.position = copy_emitted_vertices;
     if constexpr (HasTessellationLayout<S>) k.patch_vertices = S::tessellation_layout.patch_vertices;
   } else {
-    k.vertex = vertex_kernel < S, has_varyings ? VertexOutput::all : VertexOutput::all_but_varyings > ;
+    constexpr VertexOutput output = has_varyings ? VertexOutput::all : VertexOutput::all_but_varyings;
+    k.vertex = vertex_kernel<S, output>;
     k.position = vertex_kernel<S, VertexOutput::position>;
   }
   k.gives_point_size = kGivesPointSize<S>;
