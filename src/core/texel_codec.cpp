@@ -9,6 +9,8 @@ namespace halfspace::HS_LANES {
 
 namespace {
 
+constexpr bool is_packed_unorm(const TexelInfo& info) { return info.kind == TexelKind::unorm && info.bits == 0; }
+
 // Bits of the mantissa of a channel of r11f_g11f_b10f.
 constexpr int small_mantissa(int k) { return channel_bits(TexelFormat::r11f_g11f_b10f, k) - 5; }
 
@@ -54,9 +56,9 @@ void write_code(const TexelInfo& info, std::byte* texel, int k, int32_t code) {
   const std::size_t bytes = info.bits / 8u;
   std::memcpy(texel + static_cast<std::size_t>(k) * bytes, &code, bytes);
 }
-uint32_t read_word(const std::byte* texel) {
-  uint32_t word;
-  std::memcpy(&word, texel, sizeof word);
+uint32_t read_word(const std::byte* texel, std::size_t bytes = 4) {
+  uint32_t word = 0;
+  std::memcpy(&word, texel, bytes);
   return word;
 }
 template <class T>
@@ -91,10 +93,11 @@ vec4<R> nearest_texel(TexelFormat format, const vec4<R>& color) {
   const TexelInfo& info = texel_info(format);
   const R x[] = {color.x, color.y, color.z, color.w};
   R y[] = {R(0.0f), R(0.0f), R(0.0f), R(1.0f)};
+  if (is_packed_unorm(info)) {
+    for (int k = 0; k < info.channels; ++k) y[k] = decode_unorm<R>(encode_unorm(x[k], channel_bits(format, k)), channel_bits(format, k));
+    return {y[0], y[1], y[2], y[3]};
+  }
   switch (format) {
-    case TexelFormat::rgb10_a2:
-      for (int k = 0; k < 4; ++k) y[k] = decode_unorm<R>(encode_unorm(x[k], channel_bits(format, k)), channel_bits(format, k));
-      break;
     case TexelFormat::r11f_g11f_b10f:
       for (int k = 0; k < 3; ++k) {
         const R finite = min(R(std::numeric_limits<float>::max()), x[k]);  // the order of the arguments keeps NaN
@@ -155,22 +158,17 @@ glm::vec4 decode_texel(TexelFormat format, const std::byte* texel) {
     for (int k = 0; k < info.channels; ++k) color[k] = decode_channel<float>(info, read_code(info, texel, k), k == 3);
     return color;
   }
-  const auto word = static_cast<int32_t>(read_word(texel));
-  const vec3<float> shared = decode_rgb9_e5<float>(word);
-  const auto bits_of = [&](int shift, int bits) { return static_cast<int32_t>(static_cast<uint32_t>(word) >> shift) & ((1 << bits) - 1); };
-  switch (format) {
-    case TexelFormat::rgb10_a2:
-      for (int k = 0; k < 4; ++k) {
-        const int bits = channel_bits(format, k);
-        color[k] = decode_unorm<float>(bits_of(10 * k, bits), bits);
-      }
-      return color;
-    case TexelFormat::r11f_g11f_b10f:
-      for (int k = 0; k < 3; ++k) color[k] = decode_small_float<float>(bits_of(11 * k, channel_bits(format, k)), small_mantissa(k));
-      return color;
-    case TexelFormat::rgb9_e5: return {shared.x, shared.y, shared.z, 1.0f};
-    default: return color;
+  const uint32_t word = read_word(texel, info.bytes);
+  if (format == TexelFormat::rgb9_e5) {
+    const vec3<float> shared = decode_rgb9_e5<float>(static_cast<int32_t>(word));
+    return {shared.x, shared.y, shared.z, 1.0f};
   }
+  for (int k = 0; k < info.channels; ++k) {
+    const int bits = channel_bits(format, k);
+    const int32_t code = static_cast<int32_t>(word >> channel_shift(format, k)) & ((1 << bits) - 1);
+    color[k] = is_packed_unorm(info) ? decode_unorm<float>(code, bits) : decode_small_float<float>(code, small_mantissa(k));
+  }
+  return color;
 }
 
 void encode_texel(TexelFormat format, const glm::vec4& color, std::byte* texel) {
@@ -180,18 +178,14 @@ void encode_texel(TexelFormat format, const glm::vec4& color, std::byte* texel) 
     for (int k = 0; k < info.channels; ++k) write_code(info, texel, k, encode_channel(info, color[k], k == 3));
     return;
   }
+  if (format == TexelFormat::rgb9_e5) return write(texel, encode_rgb9_e5(vec3<float>(color.x, color.y, color.z)));
   uint32_t word = 0;
-  switch (format) {
-    case TexelFormat::rgb10_a2:
-      for (int k = 0; k < 4; ++k) word |= static_cast<uint32_t>(encode_unorm(color[k], channel_bits(format, k))) << (10 * k);
-      break;
-    case TexelFormat::r11f_g11f_b10f:
-      for (int k = 0; k < 3; ++k) word |= static_cast<uint32_t>(encode_small_float(color[k], small_mantissa(k))) << (11 * k);
-      break;
-    case TexelFormat::rgb9_e5: word = static_cast<uint32_t>(encode_rgb9_e5(vec3<float>(color.x, color.y, color.z))); break;
-    default: return;
+  for (int k = 0; k < info.channels; ++k) {
+    const int32_t code =
+        is_packed_unorm(info) ? encode_unorm(color[k], channel_bits(format, k)) : encode_small_float(color[k], small_mantissa(k));
+    word |= static_cast<uint32_t>(code) << channel_shift(format, k);
   }
-  write(texel, word);
+  std::memcpy(texel, &word, info.bytes);
 }
 
 glm::ivec4 decode_integers(TexelFormat format, const std::byte* texel) {

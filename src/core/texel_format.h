@@ -14,7 +14,8 @@
 namespace halfspace::HS_LANES {
 
 /// In memory, the first channel comes first, and channels of 16 and 32 bits are in the byte order of the machine. Packed formats are one
-/// word, with the first channel in the lowest bits. Channels that a format does not have are read as 0, and alpha as 1.
+/// word: of 32 bits with the first channel in the lowest bits, or of 16 bits with the first channel in the highest bits. Channels that a
+/// format does not have are read as 0, and alpha as 1.
 enum class TexelFormat : uint8_t {
   none,
   r8,  ///< [0, 1] as code/255
@@ -67,6 +68,9 @@ enum class TexelFormat : uint8_t {
   rg32ui,
   rgb32ui,
   rgba32ui,
+  rgb565,          ///< 5, 6 and 5 bits, unsigned normalized (GL_UNSIGNED_SHORT_5_6_5)
+  rgb5_a1,         ///< 5, 5, 5 and 1 bits (GL_UNSIGNED_SHORT_5_5_5_1)
+  rgba4,           ///< 4 bits each (GL_UNSIGNED_SHORT_4_4_4_4)
   rgb10_a2,        ///< 10, 10, 10 and 2 bits, unsigned normalized
   rgb10_a2ui,      ///< the same, integers
   r11f_g11f_b10f,  ///< unsigned floats of 11, 11 and 10 bits with 5 bits of exponent; of colors that are drawn, negative ones are stored as
@@ -122,6 +126,9 @@ constexpr std::array<TexelInfo, kTexelFormats> make_texel_infos() {
   set_four(TexelFormat::r16ui, {"r16ui", "rg16ui", "rgb16ui", "rgba16ui"}, uints, 16);
   set_four(TexelFormat::r32i, {"r32i", "rg32i", "rgb32i", "rgba32i"}, sints, 32);
   set_four(TexelFormat::r32ui, {"r32ui", "rg32ui", "rgb32ui", "rgba32ui"}, uints, 32);
+  set(TexelFormat::rgb565, "rgb565", unorm, 3, 0, 2);
+  set(TexelFormat::rgb5_a1, "rgb5_a1", unorm, 4, 0, 2);
+  set(TexelFormat::rgba4, "rgba4", unorm, 4, 0, 2);
   set(TexelFormat::rgb10_a2, "rgb10_a2", unorm, 4, 0, 4);
   set(TexelFormat::rgb10_a2ui, "rgb10_a2ui", uints, 4, 0, 4);
   set(TexelFormat::r11f_g11f_b10f, "r11f_g11f_b10f", floats, 3, 0, 4);
@@ -141,9 +148,19 @@ constexpr const TexelInfo& texel_info(TexelFormat f) { return detail::kTexelInfo
 
 /// Returns the bits of channel k of a format that is neither a depth format nor rgb9_e5.
 constexpr int channel_bits(TexelFormat f, int k) {
+  if (f == TexelFormat::rgb565) return k == 1 ? 6 : 5;
+  if (f == TexelFormat::rgb5_a1) return k == 3 ? 1 : 5;
+  if (f == TexelFormat::rgba4) return 4;
   if (f == TexelFormat::rgb10_a2 || f == TexelFormat::rgb10_a2ui) return k == 3 ? 2 : 10;
   if (f == TexelFormat::r11f_g11f_b10f) return k == 2 ? 10 : 11;
   return texel_info(f).bits;
+}
+
+/// Returns the lowest bit of channel k in the word of a packed format, for which channel_bits() is defined.
+constexpr int channel_shift(TexelFormat f, int k) {
+  int before = 0;
+  for (int i = 0; i < k; ++i) before += channel_bits(f, i);
+  return texel_info(f).bytes == 2 ? 16 - before - channel_bits(f, k) : before;
 }
 
 /// The type of a color of a fragment, which must be that of its attachment.

@@ -28,6 +28,11 @@ void check_stream(const VertexStream& s) {
   HS_CHECK(can_read_as(s.type, s.read_as),
            "make_vertex_view: the type of a stream cannot be read in this way; expected floats, integers for normalized and integers, or "
            "float16 for halves");
+  HS_CHECK(s.missing == 0 || (s.missing > 0 && s.missing < s.components && s.components <= 4 && !is_packed(s.type)),
+           "make_vertex_view: the number of missing components of a stream is wrong; expected 0, or fewer than its 2 to 4 components");
+  HS_CHECK(!s.bgra || (s.components == 4 && s.missing == 0 && s.read_as == ReadAs::normalized &&
+                       (s.type == ComponentType::uint8 || is_packed(s.type))),
+           "make_vertex_view: a stream of another kind is read as BGRA; expected four normalized bytes, or packed numbers");
   // gather uses 32-bit indices. The division avoids an overflow of the product.
   HS_CHECK_OP(s.count, <=, ((std::size_t{1} << 31) - 1) / std::max<std::size_t>(static_cast<std::size_t>(s.stride) / sizeof(float), 1),
               "make_vertex_view: a stream is too long; expected fewer than 2^31 rows and 2^33 bytes");

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cstring>
 #include <limits>
+#include <utility>
 
 #include "halfspace/core/half.h"
 
@@ -48,11 +49,23 @@ void unpack_2_10_10_10(uint32_t word, bool normalized, float* out) {
   }
 }
 
+// Components of a row in memory.
+int32_t stored_components(const VertexStream& s) { return s.components - s.missing; }
+
+void append_missing(const VertexStream& s, float* row) {
+  for (int32_t k = stored_components(s); k < s.components; ++k) {
+    const int32_t value = k == 3 ? 1 : 0;
+    row[k] = s.read_as == ReadAs::integers ? std::bit_cast<float>(value) : static_cast<float>(value);
+  }
+}
+
 // Calls convert(bytes of a row, out) for each row.
 template <class F>
 void for_each_row(const VertexStream& s, std::span<const uint32_t> rows, float* out, F convert) {
   for (const uint32_t row : rows) {
     convert(s.data + std::size_t{row} * static_cast<std::size_t>(s.stride), out);
+    append_missing(s, out);
+    if (s.bgra) std::swap(out[0], out[2]);
     out += s.components;
   }
 }
@@ -60,7 +73,7 @@ void for_each_row(const VertexStream& s, std::span<const uint32_t> rows, float* 
 template <class T, class F>
 void convert_numbers(const VertexStream& s, std::span<const uint32_t> rows, float* out, F convert) {
   for_each_row(s, rows, out, [&](const std::byte* from, float* to) {
-    for (int32_t k = 0; k < s.components; ++k) to[k] = convert(load_number<T>(from + static_cast<std::size_t>(k) * sizeof(T)));
+    for (int32_t k = 0; k < stored_components(s); ++k) to[k] = convert(load_number<T>(from + static_cast<std::size_t>(k) * sizeof(T)));
   });
 }
 
@@ -124,10 +137,12 @@ void read_row(const VertexStream& s, std::size_t row, float* out) {
   read_rows(at, {&first, 1}, out);
 }
 
-std::size_t row_bytes(const VertexStream& s) { return bytes_of(s.type) * (is_packed(s.type) ? 1 : static_cast<std::size_t>(s.components)); }
+std::size_t row_bytes(const VertexStream& s) {
+  return bytes_of(s.type) * (is_packed(s.type) ? 1 : static_cast<std::size_t>(stored_components(s)));
+}
 
 bool is_read_in_place(const VertexStream& s) {
-  return s.type == ComponentType::float32 && reinterpret_cast<std::uintptr_t>(s.data) % alignof(float) == 0 &&
+  return s.type == ComponentType::float32 && s.missing == 0 && reinterpret_cast<std::uintptr_t>(s.data) % alignof(float) == 0 &&
          static_cast<std::size_t>(s.stride) % sizeof(float) == 0;
 }
 

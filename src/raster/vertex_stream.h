@@ -65,11 +65,13 @@ struct Int2_10_10_10 {
 struct VertexStream {
   const std::byte* data = nullptr;
   int32_t stride = 0;      ///< distance between rows, in bytes
-  int32_t components = 0;  ///< numbers read per row; 4 if they are packed
+  int32_t components = 0;  ///< numbers that the shader receives per row; 4 if they are packed
   std::size_t count = 0;   ///< number of rows
   uint32_t divisor = 0;    ///< 0: one row per vertex; n: one row per n instances (glVertexAttribDivisor)
   ComponentType type = ComponentType::float32;
   ReadAs read_as = ReadAs::floats;
+  int32_t missing = 0;  ///< the last components, which a row does not contain; see with_components()
+  bool bgra = false;    ///< see bgra()
 };
 
 /// Writes the components of the given rows of the stream to `out`, one row after the other, as the shader receives them. Integers are
@@ -263,6 +265,27 @@ template <std::derived_from<VertexStream> S>
 S per_instance(S stream, uint32_t divisor = 1) {
   HS_CHECK_OP(divisor, >=, 1u, "per_instance: the divisor is 0; expected at least 1");
   stream.divisor = divisor;
+  return stream;
+}
+
+/// Returns the stream as one of vectors with N components (2 to 4), of which its rows contain fewer. As in OpenGL (4.6, section 10.3), the
+/// missing second and third component are 0, and the fourth is 1: with_components<4>(stream(positions)).
+template <int N, class T>
+auto with_components(const StreamOf<T>& stream) {
+  using Number = typename detail::NumberIn<T>::type;
+  static_assert(
+      std::is_same_v<T, typename detail::Received<Number, sizeof(T) / sizeof(Number)>::type> && sizeof(T) / sizeof(Number) < N && N <= 4,
+      "with_components: expected a stream of numbers or of vectors with fewer components than the result, which has at most 4");
+  StreamOf<glm::vec<N, Number>> out{stream};
+  out.components = N;
+  out.missing = N - stream.components;
+  return out;
+}
+
+/// Returns the stream of normalized bytes or packed numbers with the first and third component of each row exchanged (GL_BGRA):
+/// bgra(stream<ReadAs::normalized>(colors)).
+inline StreamOf<glm::vec4> bgra(StreamOf<glm::vec4> stream) {
+  stream.bgra = true;
   return stream;
 }
 

@@ -65,12 +65,16 @@ glm::dvec4 decoded(TexelFormat format, const std::byte* texel) {
   if (info.kind == TexelKind::depth) return {depth_of(format, texel), 0.0, 0.0, 1.0};
   std::array<int, 4> bits{info.bits, info.bits, info.bits, info.bits};
   if (format == TexelFormat::rgb10_a2 || format == TexelFormat::rgb10_a2ui) bits = {10, 10, 10, 2};
+  if (format == TexelFormat::rgb565) bits = {5, 6, 5, 0};
+  if (format == TexelFormat::rgb5_a1) bits = {5, 5, 5, 1};
+  if (format == TexelFormat::rgba4) bits = {4, 4, 4, 4};
+  const bool is_highest_first = info.bits == 0 && info.bytes == 2;
   if (format == TexelFormat::r11f_g11f_b10f) bits = {11, 11, 10, 0};
   if (format == TexelFormat::rgb9_e5) bits = {9, 9, 9, 5};
   int first = 0;
   for (int k = 0; k < info.channels; ++k) {
     const int count = bits[static_cast<std::size_t>(k)];
-    const uint32_t code = field(texel, first, count);
+    const uint32_t code = field(texel, is_highest_first ? 16 - first - count : first, count);
     v[k] = format == TexelFormat::rgb9_e5 ? std::ldexp(static_cast<double>(code), static_cast<int>(field(texel, 27, 5)) - 15 - 9)
                                           : channel(info, code, count, k);
     first += count;

@@ -128,9 +128,9 @@ class MesaAttachments : public MesaTest {};
 TEST_F(MesaAttachments, EightOfAllFormatsAgree) {
   using enum TexelFormat;
   // Without the sRGB formats, which tests/mesa/shading_test.cpp draws.
-  constexpr TexelFormat reals[] = {r8,    rg8,     rgb8,   rgba8,     r8_snorm,   rg8_snorm,    rgba8_snorm,
-                                   r16,   rg16,    rgba16, r16_snorm, rg16_snorm, rgba16_snorm, r16f,
-                                   rg16f, rgba16f, r32f,   rg32f,     rgba32f,    rgb10_a2,     r11f_g11f_b10f};
+  constexpr TexelFormat reals[] = {r8,   rg8,    rgb8,      rgba8,      r8_snorm,       rg8_snorm, rgba8_snorm, r16,
+                                   rg16, rgba16, r16_snorm, rg16_snorm, rgba16_snorm,   r16f,      rg16f,       rgba16f,
+                                   r32f, rg32f,  rgba32f,   rgb10_a2,   r11f_g11f_b10f, rgb565,    rgb5_a1,     rgba4};
   constexpr TexelFormat sints[] = {r8i, rg8i, rgba8i, r16i, rg16i, rgba16i, r32i, rg32i, rgba32i};
   constexpr TexelFormat uints[] = {r8ui, rg8ui, rgba8ui, r16ui, rg16ui, rgba16ui, r32ui, rg32ui, rgba32ui, rgb10_a2ui};
   struct Row {

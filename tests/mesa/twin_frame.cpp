@@ -37,6 +37,9 @@ struct Layout {
 };
 Layout layout_of(TexelFormat f) {
   switch (f) {
+    case TexelFormat::rgb565: return {GL_RGB, GL_UNSIGNED_SHORT_5_6_5};
+    case TexelFormat::rgb5_a1: return {GL_RGBA, GL_UNSIGNED_SHORT_5_5_5_1};
+    case TexelFormat::rgba4: return {GL_RGBA, GL_UNSIGNED_SHORT_4_4_4_4};
     case TexelFormat::rgb10_a2: return {GL_RGBA, GL_UNSIGNED_INT_2_10_10_10_REV};
     case TexelFormat::rgb10_a2ui: return {GL_RGBA_INTEGER, GL_UNSIGNED_INT_2_10_10_10_REV};
     case TexelFormat::r11f_g11f_b10f: return {GL_RGB, GL_UNSIGNED_INT_10F_11F_11F_REV};

@@ -21,6 +21,9 @@ struct Channel {
 
 Channel channel_of(TexelFormat format, int k) {
   const TexelInfo& info = texel_info(format);
+  if (format == TexelFormat::rgb565) return {TexelKind::unorm, k == 0 ? 11 : k == 1 ? 5 : 0, k == 1 ? 6 : 5};
+  if (format == TexelFormat::rgb5_a1) return {TexelKind::unorm, k == 3 ? 0 : 11 - 5 * k, k == 3 ? 1 : 5};
+  if (format == TexelFormat::rgba4) return {TexelKind::unorm, 12 - 4 * k, 4};
   if (format == TexelFormat::rgb10_a2) return {TexelKind::unorm, 10 * k, k == 3 ? 2 : 10};
   if (format == TexelFormat::r11f_g11f_b10f) return {TexelKind::floats, 11 * k, k == 2 ? 10 : 11};
   return {info.kind == TexelKind::srgb && k == 3 ? TexelKind::unorm : info.kind, info.bits * k, info.bits};

@@ -135,6 +135,31 @@ TEST(Primitives, InstancesHaveTheirNumberAndReadTheirData) {
   }
 }
 
+// A triangle that covers the viewport, made of the vertex number alone.
+struct NoAttributesShader {
+  template <class R>
+  struct Attributes {};
+  template <class R>
+  struct Varyings {};
+  template <class R>
+  vec4<R> vertex(const Attributes<R>&, const VertexId<R>& id, Varyings<R>&) const {
+    return {select(id.vertex == IntOf<R>(1), R(3.0f), R(-1.0f)), select(id.vertex == IntOf<R>(2), R(3.0f), R(-1.0f)), R(0.0f), R(1.0f)};
+  }
+  template <class R>
+  Fragment<R> fragment(const Varyings<R>&, const Pixel<R>&) const {
+    return {vec4<R>(R(0.25f), R(0.5f), R(0.75f), R(1.0f))};
+  }
+};
+
+TEST(Primitives, DrawsNeedNoStreams) {
+  Image<glm::vec4> image(20, 10);
+  Pass pass(20, 10, rgba32f_target(image), {});
+  const Indices indices = Indices::sequential(3);
+  pass.draw(NoAttributesShader{}, make_vertex_view(3), indices);
+  EXPECT_EQ(pass.run(one_worker()).vertices_shaded, 3u);
+  for (const glm::vec4& color : image.texels()) ASSERT_EQ(color, glm::vec4(0.25f, 0.5f, 0.75f, 1.0f));
+}
+
 }  // namespace
 
 }  // namespace halfspace

@@ -863,6 +863,10 @@ TEST(StateDeathTest, ChecksVerticesAndIndices) {
   // The stream is longer than 32-bit gather indices can address. Only a view is created; nothing is read.
   const VertexStream huge{std::as_bytes(std::span(four)).data(), 16, 4, std::size_t{1} << 29};
   EXPECT_DEATH(make_vertex_view(huge), "check failed");
+  VertexStream of_one = stream(four);
+  of_one.missing = 4;
+  EXPECT_DEATH(make_vertex_view(of_one), "number of missing components");
+  EXPECT_DEATH(make_vertex_view(bgra(stream(four))), "expected four normalized bytes");
 }
 
 TEST(StateDeathTest, ChecksPasses) {

@@ -249,6 +249,41 @@ TEST(VertexFormats, NothingNeedsToBeAligned) {
   }
 }
 
+TEST(VertexFormats, MissingComponentsAreZeroAndTheFourthIsOne) {
+  const std::vector<float> scalars{3.0f, 4.0f};
+  const std::vector<glm::vec2> pairs{{3.0f, 5.0f}, {4.0f, 6.0f}};
+  const std::vector<glm::u8vec3> bytes{{255, 0, 51}};
+  const std::vector<glm::i16vec2> integers{{-7, 8}};
+  EXPECT_EQ(numbers_of(with_components<2>(stream(scalars))), (std::vector<float>{3, 0, 4, 0}));
+  EXPECT_EQ(numbers_of(with_components<4>(stream(scalars))), (std::vector<float>{3, 0, 0, 1, 4, 0, 0, 1}));
+  EXPECT_EQ(numbers_of(with_components<3>(stream(pairs))), (std::vector<float>{3, 5, 0, 4, 6, 0}));
+  EXPECT_EQ(numbers_of(with_components<4>(stream<ReadAs::normalized>(bytes))), (std::vector<float>{1, 0, 0.2f, 1}));
+  const std::vector<float> bits = numbers_of(with_components<4>(stream<ReadAs::integers>(integers)));
+  for (std::size_t k = 0; k < 4; ++k) EXPECT_EQ(std::bit_cast<int32_t>(bits[k]), (std::array{-7, 8, 0, 1})[k]) << k;
+  EXPECT_EQ(row_bytes(with_components<4>(stream(pairs))), 8u);  // nothing is read behind the row
+}
+
+TEST(VertexFormats, MissingComponentsGiveTheVerticesOfWholeRows) {
+  const Vertices v;
+  std::vector<glm::vec2> short_positions;
+  std::vector<glm::vec4> positions;
+  for (const glm::vec4& p : v.positions) {
+    short_positions.emplace_back(p);
+    positions.push_back({p.x, p.y, 0.0f, 1.0f});
+  }
+  const auto view = [&](const auto& position) {
+    return make_vertex_view(position, stream(v.a_floats), stream(v.b_floats), stream(v.c_floats));
+  };
+  expect_same_vertices(view(stream(positions)), view(with_components<4>(stream(short_positions))));
+}
+
+TEST(VertexFormats, BgraExchangesTheFirstAndTheThirdComponent) {
+  const std::vector<glm::u8vec4> bytes{{51, 102, 255, 0}};
+  EXPECT_EQ(numbers_of(bgra(stream<ReadAs::normalized>(bytes))), (std::vector<float>{1.0f, 0.4f, 0.2f, 0.0f}));
+  const std::vector<Uint2_10_10_10> packed{{1023u | 3u << 30}};
+  EXPECT_EQ(numbers_of(bgra(stream<ReadAs::normalized>(packed))), (std::vector<float>{0.0f, 0.0f, 1.0f, 1.0f}));
+}
+
 TEST(VertexFormats, AStrideOfZeroIsAConstantAttribute) {
   Vertices v;
   const glm::u8vec3 one{1, 128, 255};

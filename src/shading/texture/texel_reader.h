@@ -62,13 +62,9 @@ struct TexelReader {
     const TexelInfo& info = texel_info(format);
     std::array<I, 4> out{I(0), I(0), I(0), I(1)};
     if (info.bits == 0) {  // packed in a word
-      const I packed = word(i);
-      int shift = 0;
-      for (int k = 0; k < info.channels; ++k) {
-        const int bits = channel_bits(format, k);
-        out[static_cast<std::size_t>(k)] = (packed >> shift) & I((1 << bits) - 1);
-        shift += bits;
-      }
+      const I packed = load(i);
+      for (int k = 0; k < info.channels; ++k)
+        out[static_cast<std::size_t>(k)] = (packed >> channel_shift(format, k)) & I((1 << channel_bits(format, k)) - 1);
       return out;
     }
     const bool is_signed = info.kind == TexelKind::snorm || info.kind == TexelKind::sints;

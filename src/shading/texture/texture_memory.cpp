@@ -72,11 +72,14 @@ void encode_units(TexelFormat format, const glm::dvec4& v, std::byte* texel) {
   const auto integers = [&](TexelFormat with_one_channel) {
     return static_cast<TexelFormat>(static_cast<int>(with_one_channel) + info.channels - 1);
   };
-  if (format == TexelFormat::rgb10_a2) return encode_integers(TexelFormat::rgb10_a2ui, codes, texel);
+  glm::vec4 color(v);
+  if (info.kind == TexelKind::unorm && info.bits == 0) {  // packed
+    for (int k = 0; k < info.channels; ++k) color[k] = decode_unorm<float>(codes[k], channel_bits(format, k));
+    return encode_texel(format, color, texel);
+  }
   if (info.kind == TexelKind::unorm)
     return encode_integers(integers(info.bits == 8 ? TexelFormat::r8ui : TexelFormat::r16ui), codes, texel);
   if (info.kind == TexelKind::snorm) return encode_integers(integers(info.bits == 8 ? TexelFormat::r8i : TexelFormat::r16i), codes, texel);
-  glm::vec4 color(v);
   if (info.kind == TexelKind::srgb) color.w = unorm8_to_linear(static_cast<float>(codes.w));
   encode_texel(format, color, texel);
 }
