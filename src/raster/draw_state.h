@@ -250,6 +250,17 @@ struct DrawCondition {
   friend bool operator==(const DrawCondition&, const DrawCondition&) = default;
 };
 
+class Clusters;
+
+/// Skips triangles of a draw that cannot cover a sample before their vertices are shaded (Clusters). The picture stays the same, bit for
+/// bit. Requires one instance of a triangle list without stages that emit primitives, and a shader whose clip-space position is
+/// clip_from_object · (position, 1) in float, up to 2^-20 of the sum of the absolute values of the products.
+struct ClusterCulling {
+  const Clusters* clusters = nullptr;  ///< of the index list and the positions of the draw; must stay valid until Pass::run() returns
+  glm::mat4 clip_from_object{1.0f};
+  friend bool operator==(const ClusterCulling&, const ClusterCulling&) = default;
+};
+
 /// Bounds of the stored depth (glDepthBoundsEXT): a fragment passes for a sample only if the depth that is stored for it at this time,
 /// before the fragment, is in [low, high]. They have no effect without a depth buffer.
 struct StoredDepthRange {
@@ -319,7 +330,8 @@ struct DrawState {
   /// evaluation and geometry functions if it has one of the last three or chooses layers: these run in any case. Requires a pass with one
   /// layer, and another query than that of the draw itself.
   std::optional<DrawCondition> condition{};
-  std::optional<uint32_t> timer{};  ///< the time that the draw takes is added to PassStatistics::times[timer]; below kMaxQueries
+  std::optional<ClusterCulling> clusters{};  ///< default: all vertices are shaded
+  std::optional<uint32_t> timer{};           ///< the time that the draw takes is added to PassStatistics::times[timer]; below kMaxQueries
   friend bool operator==(const DrawState&, const DrawState&) = default;
 };
 

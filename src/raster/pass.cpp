@@ -13,6 +13,7 @@
 #include "halfspace/raster/detail/target_checks.h"
 #include "halfspace/raster/loop/pass_rounds.h"
 #include "halfspace/raster/pipeline/pass_memory.h"
+#include "halfspace/raster/primitives/cull_clusters.h"
 #include "halfspace/raster/primitives/primitive_assembly.h"
 #include "halfspace/raster/primitives/vertex_stage.h"
 #include "halfspace/raster/tile/blend.h"
@@ -151,6 +152,7 @@ void PassState::add_draw(const ShaderKernels& kernels, KeptShader shader, const 
                                         keep_streams(vertices, state.base_instance, memory()), kept, placement);
   d.vertex_count = d.indices->used_count() * state.instances;
   count_primitives(d);
+  if (state.clusters) check_clusters(d);
   const bool replaces = set_color_writes(d);
   const bool decides_visibility = (kernels.discards && !kernels.tests_early) || kernels.writes_depth;
   // Without color attachments, there is nothing to blend.

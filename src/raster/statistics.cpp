@@ -10,6 +10,7 @@ PassStatistics& PassStatistics::operator+=(const PassStatistics& o) {
   vertices_evaluated += o.vertices_evaluated;
   geometry_invocations += o.geometry_invocations;
   primitives_in += o.primitives_in;
+  culled_cluster += o.culled_cluster;
   culled_non_finite += o.culled_non_finite;
   culled_outside += o.culled_outside;
   culled_face += o.culled_face;

@@ -23,7 +23,7 @@ struct DrawTime {
 /// depends on how many packets are queued before they are shaded.
 struct PassStatistics {
   uint64_t vertices_in = 0;           ///< submitted indices, for all instances, without restarts
-  uint64_t vertices_shaded = 0;       ///< distinct vertices used by each draw, for all instances
+  uint64_t vertices_shaded = 0;       ///< distinct vertices used by each draw, for all instances, but for those of culled clusters
   uint64_t patches_in = 0;            ///< submitted patches
   uint64_t vertices_evaluated = 0;    ///< calls of evaluation functions
   uint64_t geometry_invocations = 0;  ///< calls of geometry functions
@@ -33,6 +33,7 @@ struct PassStatistics {
   uint64_t culled_outside = 0;     ///< completely outside one plane of the view volume, by a cull distance, or nothing left after clipping
   uint64_t culled_face = 0;        ///< by CullMode
   uint64_t culled_degenerate = 0;  ///< zero area or length after snapping
+  uint64_t culled_cluster = 0;     ///< as part of a cluster (DrawState::clusters)
   /// No sample inside the bounding box, viewport and scissor. With one sample per pixel, triangles of at most 4 x 4 pixels are also counted
   /// here if they cover no sample.
   uint64_t culled_no_sample = 0;

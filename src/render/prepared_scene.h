@@ -14,6 +14,7 @@
 #include "halfspace/core/image.h"
 #include "halfspace/core/parallel.h"
 #include "halfspace/geometry/mesh.h"
+#include "halfspace/raster/clusters.h"
 #include "halfspace/raster/pass.h"
 #include "halfspace/render/mesh_streams.h"
 #include "halfspace/render/particles.h"
@@ -83,6 +84,7 @@ struct PlacedMesh {
   std::optional<OpacityTest> opacity{};
   std::span<const glm::vec2> uvs{};     ///< for `opacity`; empty: (0, 0); not owned
   std::span<const glm::vec4> colors{};  ///< for `opacity`: alpha multiplies it; empty: alpha 1; not owned
+  const Clusters* clusters = nullptr;   ///< of `indices`, or null; not owned
 
   bool mirrored() const { return glm::determinant(glm::dmat3(world_from_object)) < 0.0; }
 };

@@ -30,6 +30,8 @@ Cases instanced_cases();
 Cases primitive_restart_cases();
 Cases geometry_shading_cases();
 Cases tessellation_cases();
+Cases cull_distance_cases();
+Cases sample_variables_cases();
 
 struct Group {
   const char* name;
@@ -57,6 +59,8 @@ inline constexpr Group kGroups[] = {{"FillRules", fill_rules_cases},
                                     {"Instanced", instanced_cases},
                                     {"PrimitiveRestart", primitive_restart_cases},
                                     {"GeometryShading", geometry_shading_cases},
-                                    {"Tessellation", tessellation_cases}};
+                                    {"Tessellation", tessellation_cases},
+                                    {"CullDistance", cull_distance_cases},
+                                    {"SampleVariables", sample_variables_cases}};
 
 }  // namespace halfspace::conformance

@@ -67,6 +67,10 @@ SceneDraw draw_of(const Drawing& d) {
     case Kind::instance: return draw_of(InstanceShader{d.value}, "instance", d);
     case Kind::two_colors: return draw_of(ColorsShader<2>{}, "two_colors", d);
     case Kind::tessellation: return tessellation_draw_of(d, std::make_index_sequence<kTessellationLayouts.size()>());
+    case Kind::cull: return draw_of(CullShader{}, "cull", d);
+    case Kind::sample_inputs: return draw_of(SampleInputsShader{{}, d.mode}, "sample_inputs", d);
+    case Kind::sample_mask_in: return draw_of(SampleMaskInShader{}, "sample_mask_in", d);
+    case Kind::sample_mask: return draw_of(SampleMaskShader{{}, static_cast<int32_t>(d.value)}, "sample_mask", d);
     case Kind::geometry: return geometry_draw_of(d, std::make_index_sequence<kGeometryLayouts.size()>());
     case Kind::four_colors: break;
   }

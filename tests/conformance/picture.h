@@ -27,7 +27,11 @@ enum class Kind : uint8_t {
   two_colors,
   four_colors,
   geometry,
-  tessellation
+  tessellation,
+  cull,
+  sample_inputs,
+  sample_mask_in,
+  sample_mask
 };
 
 /// Output of `color`: its varying with one of four interpolation qualifiers.
@@ -39,13 +43,15 @@ enum DerivativeMode { kDdx, kDdy, kFwidth, kQuadDdx, kQuadDdy, kQuadFwidth };
 enum GeometryMode { kWhole, kAtVertices, kByNumber };
 /// The levels of `tessellation`: `value` everywhere; different ones at each edge; the same, but odd patches are discarded.
 enum TessellationMode { kUniform, kPerEdge, kDiscardOdd };
+/// Output of `sample_inputs`: the number of the sample, divided by 8, or its position in the pixel.
+enum SampleMode { kSampleId, kSamplePosition };
 /// How `texture` selects the mip level: from the derivatives of its coordinates, or from `value`.
 enum TextureMode { kByDerivatives, kByLevel };
 
 struct Vertex {
   glm::vec4 pos_clip;
   glm::vec4 color{1.0f};
-  glm::vec4 extra{0.0f};  ///< clip distances, point size, texture coordinates or an offset, depending on the shader
+  glm::vec4 extra{0.0f};  ///< clip and cull distances, point size, texture coordinates or an offset, depending on the shader
 };
 
 struct Drawing {

@@ -78,6 +78,52 @@ struct ClipShader {
   }
 };
 
+/// Two clip distances and two cull distances, from `extra`.
+struct CullShader {
+  template <class R>
+  using Attributes = VertexAttributes<R>;
+  template <class R>
+  using Varyings = ColorVaryings<R>;
+  template <class R>
+  PerVertex<R, 2, 2> vertex(const Attributes<R>& in, Varyings<R>& out) const {
+    out.color = in.color;
+    return {in.pos_clip, R(4.0f), {in.extra.x, in.extra.y}, {in.extra.z, in.extra.w}};
+  }
+  template <class R>
+  Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>&) const {
+    return {in.color};
+  }
+};
+
+/// The number or the position of the sample.
+struct SampleInputsShader : VertexColor {
+  static constexpr bool per_sample = true;
+  int mode = kSampleId;
+  template <class R>
+  Fragment<R> fragment(const Varyings<R>&, const Pixel<R>& px) const {
+    if (mode == kSampleId) return {vec4<R>(R(static_cast<float>(px.sample) / 8.0f), R(0.0f), R(0.0f), R(1.0f))};
+    const vec2<R> at = px.sample_position();
+    return {vec4<R>(at.x, at.y, R(0.0f), R(1.0f))};
+  }
+};
+
+/// The covered samples as the bits of an integer, divided by 255.
+struct SampleMaskInShader : VertexColor {
+  template <class R>
+  Fragment<R> fragment(const Varyings<R>&, const Pixel<R>& px) const {
+    return {vec4<R>(to_real<R>(px.sample_mask()) / R(255.0f), R(0.0f), R(0.0f), R(1.0f))};
+  }
+};
+
+/// Draws white into some of the samples.
+struct SampleMaskShader : VertexColor {
+  int32_t mask = 0;
+  template <class R>
+  SampleMasked<R, Fragment<R>> fragment(const Varyings<R>&, const Pixel<R>&) const {
+    return {{vec4<R>(R(1.0f))}, IntOf<R>(mask)};
+  }
+};
+
 /// Discards fragments with a red value below `value`.
 struct CutoutShader : VertexColor {
   float value = 0.5f;

@@ -50,6 +50,35 @@ inline constexpr const char* kClipVertex = R"(
       gl_PointSize = 4.0;
       for (int i = 0; i < 4; ++i) gl_ClipDistance[i] = extra[i];
     })";
+inline constexpr const char* kCullVertex = R"(
+    layout(location = 0) in vec4 pos_clip;
+    layout(location = 1) in vec4 in_color;
+    layout(location = 2) in vec4 extra;
+    out vec4 color;
+    out gl_PerVertex { vec4 gl_Position; float gl_PointSize; float gl_ClipDistance[2]; float gl_CullDistance[2]; };
+    void main() {
+      color = in_color;
+      gl_Position = pos_clip;
+      gl_PointSize = 4.0;
+      for (int i = 0; i < 2; ++i) {
+        gl_ClipDistance[i] = extra[i];
+        gl_CullDistance[i] = extra[i + 2];
+      }
+    })";
+inline constexpr const char* kSampleInputsFragment = R"(
+    out vec4 fragment;
+    void main() {
+      fragment = mode == 0.0 ? vec4(float(gl_SampleID) / 8.0, 0.0, 0.0, 1.0) : vec4(gl_SamplePosition, 0.0, 1.0);
+    })";
+inline constexpr const char* kSampleMaskInFragment = R"(
+    out vec4 fragment;
+    void main() { fragment = vec4(float(gl_SampleMaskIn[0]) / 255.0, 0.0, 0.0, 1.0); })";
+inline constexpr const char* kSampleMaskFragment = R"(
+    out vec4 fragment;
+    void main() {
+      gl_SampleMask[0] = int(value);
+      fragment = vec4(1.0);
+    })";
 inline constexpr const char* kPlainFragment = R"(
     in vec4 color;
     out vec4 fragment;

@@ -50,6 +50,10 @@ Glsl glsl_of(Kind kind) {
     case Kind::derivative: return {kVertex, kDerivativeFragment};
     case Kind::texture: return {kVertex, kTextureFragment};
     case Kind::instance: return {kInstanceVertex, kPlainFragment};
+    case Kind::cull: return {kCullVertex, kPlainFragment};
+    case Kind::sample_inputs: return {kVertex, kSampleInputsFragment};
+    case Kind::sample_mask_in: return {kVertex, kSampleMaskInFragment};
+    case Kind::sample_mask: return {kVertex, kSampleMaskFragment};
     case Kind::geometry: return {kGeometryVertex, kGeometryFragment};
     case Kind::tessellation: return {kTessellationVertex, kGeometryFragment};
     case Kind::two_colors:
@@ -93,8 +97,10 @@ MesaDraw mesa_draw_of(const Drawing& d) {
              d.indices,
              d.state,
              d.restart,
-             d.kind == Kind::point || d.kind == Kind::clip,
-             d.kind == Kind::clip ? 4 : 0,
+             d.kind == Kind::point || d.kind == Kind::clip || d.kind == Kind::cull,
+             d.kind == Kind::clip   ? 4
+             : d.kind == Kind::cull ? 2
+                                    : 0,
              d.kind == Kind::geometry ? geometry_glsl_of(d.geometry) : nullptr,
              d.kind == Kind::tessellation ? control_glsl_of(d.tessellation) : nullptr,
              d.kind == Kind::tessellation ? evaluation_glsl_of(d.tessellation) : nullptr,
@@ -138,7 +144,7 @@ const char* not_comparable(const conformance::Picture& p) {
     if (s.stencil && s.polygon_mode != PolygonMode::fill) return "llvmpipe applies the front-face stencil state to outlines of back faces";
     if (d.texture && d.texture->format() != TexelFormat::rgba8 && d.texture->format() != TexelFormat::srgb8a8)
       return "only 8-bit RGBA textures can be uploaded";
-    if (draws_points(s) && (d.kind == Kind::clip || !std::all_of(d.vertices.begin(), d.vertices.end(), is_inside)))
+    if (draws_points(s) && (d.kind == Kind::clip || d.kind == Kind::cull || !std::all_of(d.vertices.begin(), d.vertices.end(), is_inside)))
       return "Mesa clips points by their center";
     if (p.samples > 1 && s.scissor) return "llvmpipe's scissor passes samples of pixels next to the rectangle";
   }

@@ -179,7 +179,7 @@ template <class A, class... T>
 constexpr bool streams_match() {
   constexpr auto vectors = VectorsOf<FieldsOf<A>>::value;
   StreamMatcher matcher(vectors);
-  const auto take = [&]<class E>(std::type_identity<E>) {
+  [[maybe_unused]] const auto take = [&]<class E>(std::type_identity<E>) {
     constexpr auto parts = parts_of<E>();
     return matcher.take(parts, kIntegerElement<E>);
   };

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "halfspace/raster/primitives/cull_clusters.h"
 #include "halfspace/raster/primitives/setup.h"
 #include "halfspace/raster/primitives/vertex_stage.h"
 
@@ -33,8 +34,14 @@ void PassPlan::add(const Draw& draw, std::size_t number) {
     counters.add_to_query(*draw.state.query, 0, std::size_t{draw.primitive_count} * draw.state.instances);
     open_queries_.push_back(*draw.state.query);
   }
-  add_vertices(draw, number, counters);
-  add_primitives(draw, number);
+  if (!draw.is_emitted) counters.vertices_in += (draw.indices->size() - draw.indices->restarts().size()) * draw.state.instances;
+  if (draw.state.clusters) {
+    add_clusters(draw, number, counters);
+  } else {
+    add_vertices(draw, number, counters);
+    for (uint32_t instance = 0; instance < draw.state.instances; ++instance)
+      add_primitives(draw, number, instance, 0, draw.primitive_count);
+  }
   if (!is_conditional) return;
   conditional_draws.back().end_chunk = chunks.size();
   end_chunk();
@@ -52,17 +59,28 @@ void PassPlan::end_chunk() {
   starts_task_ = true;
 }
 
+void PassPlan::add_clusters(const Draw& draw, std::size_t number, PassStatistics& counters) {
+  const VisibleClusters visible = visible_clusters(draw);
+  counters.vertices_shaded += visible.vertex_count;
+  const uint64_t culled = draw.primitive_count - visible.triangle_count;
+  counters.primitives_in += culled;
+  counters.culled_cluster += culled;
+  for (const IndexRange& r : visible.vertices) add_parts(draw, number, r.begin, r.end, &r == visible.vertices.data());
+  for (const IndexRange& r : visible.triangles)
+    add_primitives(draw, number, 0, static_cast<uint32_t>(r.begin), static_cast<uint32_t>(r.end));
+  starts_task_ = true;  // a task of small draws would shade the vertices of this one, too
+}
+
+void PassPlan::add_parts(const Draw& draw, std::size_t number, std::size_t begin, std::size_t end, bool is_first) {
+  for (std::size_t b = begin; b < end; b += kVerticesPerTask)
+    vertex_tasks.push_back(
+        {number, number + 1, b, std::min(end, b + kVerticesPerTask), true, is_first && b == begin ? shaded_bytes(draw) : 0});
+}
+
 void PassPlan::add_vertices(const Draw& draw, std::size_t number, PassStatistics& counters) {
   const std::size_t count = draw.vertex_count;
-  if (!draw.is_emitted) {
-    counters.vertices_in += (draw.indices->size() - draw.indices->restarts().size()) * draw.state.instances;
-    counters.vertices_shaded += count;
-  }
-  if (count > kVerticesPerTask) {
-    for (std::size_t b = 0; b < count; b += kVerticesPerTask)
-      vertex_tasks.push_back({number, number + 1, b, std::min(count, b + kVerticesPerTask), true, b == 0 ? shaded_bytes(draw) : 0});
-    return;
-  }
+  if (!draw.is_emitted) counters.vertices_shaded += count;
+  if (count > kVerticesPerTask) return add_parts(draw, number, 0, count, true);
   if (!vertex_tasks.empty() && !std::exchange(starts_task_, false)) {
     VertexTask& last = vertex_tasks.back();
     if (!last.is_part && last.end + count <= kVerticesPerTask) {
@@ -75,22 +93,20 @@ void PassPlan::add_vertices(const Draw& draw, std::size_t number, PassStatistics
   vertex_tasks.push_back({number, number + 1, 0, count, false, shaded_bytes(draw)});
 }
 
-void PassPlan::add_primitives(const Draw& draw, std::size_t number) {
+void PassPlan::add_primitives(const Draw& draw, std::size_t number, uint32_t instance, uint32_t begin, uint32_t end) {
   const uint32_t each = max_triangles_per_primitive(draw, samples_);
-  for (uint32_t instance = 0; instance < draw.state.instances; ++instance) {
-    for (uint32_t first = 0; first < draw.primitive_count;) {
-      if (capacity_ == 0 || records_ < each) {
-        chunks.emplace_back();
-        capacity_ = static_cast<uint32_t>(std::min<uint64_t>(chunk_triangles_, std::max(kSmallestChunk, primitives_ / kChunkShare)));
-        records_ = kMaxTrianglesPerChunk;
-      }
-      const uint32_t n = std::min({capacity_, records_ / each, draw.primitive_count - first});
-      chunks.back().push_back({static_cast<uint32_t>(number), instance, first, n});
-      first += n;
-      primitives_ += n;
-      capacity_ -= n;
-      records_ -= n * each;
+  for (uint32_t first = begin; first < end;) {
+    if (capacity_ == 0 || records_ < each) {
+      chunks.emplace_back();
+      capacity_ = static_cast<uint32_t>(std::min<uint64_t>(chunk_triangles_, std::max(kSmallestChunk, primitives_ / kChunkShare)));
+      records_ = kMaxTrianglesPerChunk;
     }
+    const uint32_t n = std::min({capacity_, records_ / each, end - first});
+    chunks.back().push_back({static_cast<uint32_t>(number), instance, first, n});
+    first += n;
+    primitives_ += n;
+    capacity_ -= n;
+    records_ -= n * each;
   }
 }
 

@@ -14,6 +14,8 @@ struct VertexTask {
   std::size_t begin, end;  ///< range of the vertices used by the draw; for small draws, end is the total number of vertices
   bool is_part;
   std::size_t bytes;  ///< that the shaded vertices of its draws need; 0 for all parts of a draw but the first
+
+  bool is_first_part() const { return is_part && bytes != 0; }
 };
 
 /// A draw with a condition. Its vertices and primitives share no task and no chunk with other draws.
@@ -44,8 +46,13 @@ class PassPlan {
   void begin_conditional(const DrawCondition& condition, std::size_t number);
   // The next draw starts a chunk and a task.
   void end_chunk();
+  // Adds the clusters of a draw that are left.
+  void add_clusters(const Draw& draw, std::size_t number, PassStatistics& counters);
   void add_vertices(const Draw& draw, std::size_t number, PassStatistics& counters);
-  void add_primitives(const Draw& draw, std::size_t number);
+  // Adds tasks for the vertices [begin, end) of a large draw.
+  void add_parts(const Draw& draw, std::size_t number, std::size_t begin, std::size_t end, bool is_first);
+  // Adds the primitives [begin, end) of an instance.
+  void add_primitives(const Draw& draw, std::size_t number, uint32_t instance, uint32_t begin, uint32_t end);
 
   int samples_;
   uint32_t chunk_triangles_;

@@ -124,7 +124,7 @@ class PassRounds {
 
   void run_vertex_stage(std::span<const VertexTask> tasks, PassStatistics& statistics) {
     for (const VertexTask& t : tasks) {
-      if (t.is_part && t.begin == 0 && !is_skipped(t.draw)) allocate_vertices(context_.draws[t.draw], context_.shaded[t.draw]);
+      if (t.is_first_part() && !is_skipped(t.draw)) allocate_vertices(context_.draws[t.draw], context_.shaded[t.draw]);
     }
     std::vector<Outcode> any(tasks.size());  // union of the outcodes, for parts of large draws
     std::vector<PassStatistics> times(plan_.has_timers ? tasks.size() : 1);

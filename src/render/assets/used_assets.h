@@ -67,6 +67,12 @@ class UsedAssets {
     if (!cache_.contains(recipe)) cache_.add(recipe, SharedAssets::of_process().get<T>(recipe, make, bytes));
     return existing<T>(recipe);
   }
+  // Adds an asset, instead of the one with this recipe if there is one.
+  template <class T>
+  std::shared_ptr<const T> replaced(const std::string& recipe, T asset) {
+    cache_.add(recipe, std::make_shared<const T>(std::move(asset)));
+    return existing<T>(recipe);
+  }
   // Adds an asset that is not in the cache.
   void keep(std::shared_ptr<const void> asset) { used_.push_back(std::move(asset)); }
   // Returns everything that was used, and forgets it.

@@ -169,12 +169,13 @@ void ModelPreparation::add_part(int object, const ObjectDescription& o, const st
     draws_.opaque.back().source = {object, 0, streams, world};
     return;
   }
+  const Clusters* const clusters = part.deformed == nullptr ? clusters_.of(indices, streams.positions) : nullptr;
   if (const SurfaceDescription* replacement = override_of(scene_, o, material.name); replacement != nullptr) {
     ObjectDescription replaced = o;
     replaced.surface = *replacement;
     // Surface shaders have no vertex colors, so the values of the frame must not contain them either.
     const MeshStreams without_colors{streams.positions, streams.normals, streams.tangents, {}, streams.uvs, {}};
-    return add_replaced_part(object, replaced, path, without_colors, indices, world);
+    return add_replaced_part(object, replaced, path, without_colors, indices, clusters, world);
   }
   MetallicMaterial surface = materials_.surface_of(o, model->model, part.mesh, material, !streams.uvs.empty());
   place_surface(surface, view_, world);
@@ -184,6 +185,7 @@ void ModelPreparation::add_part(int object, const ObjectDescription& o, const st
   if (masked && !(variant >= MetallicStreams::mapped)) variant = MetallicStreams::full;
   if (variant == MetallicStreams::detailed && streams.tangents.empty()) variant = MetallicStreams::full;
   DrawState state = opaque_state(material.double_sided ? CullMode::none : CullMode::back, surface.handedness < 0.0f);
+  if (clusters != nullptr) state.clusters = ClusterCulling{clusters, surface.clip_from_object};
   if (surface.blends) {
     state.order_independent = true;
     state.depth.write = false;
@@ -194,6 +196,7 @@ void ModelPreparation::add_part(int object, const ObjectDescription& o, const st
     draws_.opaque.back().source = {object, 0, streams, world};
   }
   PlacedMesh placed{streams.positions, streams.normals, indices, world, material.double_sided, o.casts_shadow, o.receives_shadow, object};
+  placed.clusters = clusters;
   if (masked || surface.blends) {
     MaterialMap alpha = surface.maps[kBaseColorMap];
     alpha.channel = {0, 0, 0, 1};
@@ -207,7 +210,7 @@ void ModelPreparation::add_part(int object, const ObjectDescription& o, const st
 
 // Draws a part of a model with the surface of a material of the scene.
 void ModelPreparation::add_replaced_part(int object, const ObjectDescription& o, const std::string& path, const MeshStreams& streams,
-                                         const std::shared_ptr<const Indices>& indices, const glm::dmat4& world) {
+                                         const std::shared_ptr<const Indices>& indices, const Clusters* clusters, const glm::dmat4& world) {
   draws_.needs_light = draws_.needs_light || (o.surface.shading != ShadingRate::none && o.surface.emissive.linear == glm::dvec3(0.0));
   LitSurface surface = surfaces_.surface_of(o, path);
   NormalDetail detail = details_.add_detail(surface, o, {}, path);
@@ -220,6 +223,9 @@ void ModelPreparation::add_replaced_part(int object, const ObjectDescription& o,
   draws_.opaque.back().source = {object, 0, streams, world};
   draws_.meshes.push_back(
       {streams.positions, streams.normals, indices, world, surface.two_sided, o.casts_shadow, o.receives_shadow, object});
+  if (clusters == nullptr) return;
+  draws_.opaque.back().state.clusters = ClusterCulling{clusters, surface.clip_from_object};
+  draws_.meshes.back().clusters = clusters;
 }
 
 }  // namespace halfspace::HS_LANES

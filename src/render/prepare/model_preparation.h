@@ -13,6 +13,7 @@
 #include "halfspace/render/assets/warnings.h"
 #include "halfspace/render/prepare/detail_maps.h"
 #include "halfspace/render/prepare/model_materials.h"
+#include "halfspace/render/prepare/scene_clusters.h"
 #include "halfspace/render/prepare/scene_draws.h"
 #include "halfspace/render/prepare/scene_surfaces.h"
 #include "halfspace/render/prepare/surface_draw.h"
@@ -30,12 +31,13 @@ class ModelPreparation {
  public:
   // Keeps references to all arguments.
   ModelPreparation(const SceneDescription& scene, const View& view, ModelMaterials& materials, SceneSurfaces& surfaces, DetailMaps& details,
-                   UsedAssets& used, Warnings& warnings, SceneDraws& draws)
+                   SceneClusters& clusters, UsedAssets& used, Warnings& warnings, SceneDraws& draws)
       : scene_(scene),
         view_(view),
         materials_(materials),
         surfaces_(surfaces),
         details_(details),
+        clusters_(clusters),
         used_(used),
         warnings_(warnings),
         draws_(draws) {}
@@ -48,13 +50,14 @@ class ModelPreparation {
   void add_part(int object, const ObjectDescription& o, const std::string& path, const std::shared_ptr<const ModelAsset>& model,
                 const PosedMesh& part, const glm::dmat4& world);
   void add_replaced_part(int object, const ObjectDescription& o, const std::string& path, const MeshStreams& streams,
-                         const std::shared_ptr<const Indices>& indices, const glm::dmat4& world);
+                         const std::shared_ptr<const Indices>& indices, const Clusters* clusters, const glm::dmat4& world);
 
   const SceneDescription& scene_;
   const View& view_;
   ModelMaterials& materials_;
   SceneSurfaces& surfaces_;
   DetailMaps& details_;
+  SceneClusters& clusters_;
   UsedAssets& used_;
   Warnings& warnings_;
   SceneDraws& draws_;

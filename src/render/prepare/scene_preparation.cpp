@@ -17,14 +17,15 @@ ScenePreparation::ScenePreparation(const SceneDescription& scene, int width, int
       workers_(workers),
       view_(make_view(camera_of(scene), width, height)),
       used_(cache),
+      clusters_(used_),
       lights_(scene, view_, used_),
       maps_(scene, view_, minimum.map_widths, used_, workers),
       environments_(scene, view_, minimum.environments, maps_, used_, workers),
       surfaces_(scene, view_, lights_, maps_, environments_, warnings),
       details_(maps_, used_, workers),
       materials_(view_, lights_, environments_, used_, warnings, workers),
-      shapes_(scene, view_, lights_, SceneMeshes(maps_, used_, workers), surfaces_, details_, draws_),
-      models_(scene, view_, materials_, surfaces_, details_, used_, warnings, draws_),
+      shapes_(scene, view_, lights_, SceneMeshes(maps_, used_, workers), surfaces_, details_, clusters_, draws_),
+      models_(scene, view_, materials_, surfaces_, details_, clusters_, used_, warnings, draws_),
       spheres_(scene, view_, lights_, surfaces_, used_, draws_) {}
 
 namespace {

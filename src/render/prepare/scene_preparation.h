@@ -9,6 +9,7 @@
 #include "halfspace/render/prepare/detail_maps.h"
 #include "halfspace/render/prepare/model_materials.h"
 #include "halfspace/render/prepare/model_preparation.h"
+#include "halfspace/render/prepare/scene_clusters.h"
 #include "halfspace/render/prepare/scene_draws.h"
 #include "halfspace/render/prepare/scene_environments.h"
 #include "halfspace/render/prepare/scene_lights.h"
@@ -42,6 +43,7 @@ class ScenePreparation {
   View view_;
   UsedAssets used_;
   SceneDraws draws_;
+  SceneClusters clusters_;
   // These refer to the members above them.
   SceneLights lights_;
   SceneMaps maps_;

@@ -14,6 +14,7 @@ void ShapePreparation::add(int object, const std::string& path, const ObjectDesc
   LitSurface surface = surfaces_.surface_of(o, path);
   const NormalDetail detail = details_.add_detail(surface, o, relief, path);
   const MeshStreams streams{mesh->mesh.positions, mesh->mesh.normals, mesh->mesh.tangents, {}, mesh->mesh.uvs, {}};
+  const Clusters* const clusters = clusters_.of(indices, mesh->mesh.positions);
   int copy = 0;
   for (const glm::dmat4& world : places_of(scene_, o)) {
     place_surface(surface, view_, world);
@@ -21,6 +22,9 @@ void ShapePreparation::add(int object, const std::string& path, const ObjectDesc
     draws_.opaque.back().source = {object, copy++, streams, world};
     draws_.meshes.push_back(
         {mesh->mesh.positions, mesh->mesh.normals, indices, world, surface.two_sided, o.casts_shadow, o.receives_shadow, object});
+    if (clusters == nullptr) continue;
+    draws_.opaque.back().state.clusters = ClusterCulling{clusters, surface.clip_from_object};
+    draws_.meshes.back().clusters = clusters;
   }
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "halfspace/render/prepare/detail_maps.h"
+#include "halfspace/render/prepare/scene_clusters.h"
 #include "halfspace/render/prepare/scene_draws.h"
 #include "halfspace/render/prepare/scene_lights.h"
 #include "halfspace/render/prepare/scene_meshes.h"
@@ -19,8 +20,15 @@ class ShapePreparation {
  public:
   // Keeps references to all arguments except the meshes.
   ShapePreparation(const SceneDescription& scene, const View& view, const SceneLights& lights, const SceneMeshes& meshes,
-                   SceneSurfaces& surfaces, DetailMaps& details, SceneDraws& draws)
-      : scene_(scene), view_(view), lights_(lights), meshes_(meshes), surfaces_(surfaces), details_(details), draws_(draws) {}
+                   SceneSurfaces& surfaces, DetailMaps& details, SceneClusters& clusters, SceneDraws& draws)
+      : scene_(scene),
+        view_(view),
+        lights_(lights),
+        meshes_(meshes),
+        surfaces_(surfaces),
+        details_(details),
+        clusters_(clusters),
+        draws_(draws) {}
 
   // object: index in the scene's objects. path: the path of the object, for error messages.
   void add(int object, const std::string& path, const ObjectDescription& o);
@@ -34,6 +42,7 @@ class ShapePreparation {
   SceneMeshes meshes_;
   SceneSurfaces& surfaces_;
   DetailMaps& details_;
+  SceneClusters& clusters_;
   SceneDraws& draws_;
 };
 

@@ -98,7 +98,8 @@ PassStatistics draw_depth(const glm::dmat4& clip_from_world, double near, double
                           : faces == ShadowFaces::front             ? CullMode::back
                                                                     : CullMode::front;
     const glm::mat4 clip_from_object(clip_from_world * m.world_from_object);
-    const DrawState state = opaque_state(cull, m.mirrored());
+    DrawState state = opaque_state(cull, m.mirrored());
+    if (m.clusters != nullptr) state.clusters = ClusterCulling{m.clusters, clip_from_object};
     const StreamOf<glm::vec2> uvs = uv_stream(m.uvs, m.positions.size());
     if (m.opacity && !m.colors.empty()) {
       pass.draw_depth(MaskedDepth<true>{clip_from_object, *m.opacity}, make_vertex_view(stream(m.positions), uvs, stream(m.colors)),

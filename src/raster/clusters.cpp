@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "halfspace/raster/clusters.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "halfspace/core/check.h"
+#include "halfspace/core/lanes.h"
+
+namespace halfspace::HS_LANES {
+
+namespace {
+
+// Triangles with a smaller ratio of height and length are too thin for a reliable normal, and cones with a larger angle cull too little.
+constexpr double kMinRatio = 1e-5, kMinCos = 0.05;
+
+struct Bounds {
+  glm::vec3 low{std::numeric_limits<float>::infinity()}, high{-std::numeric_limits<float>::infinity()};
+  glm::dvec3 axis{0.0};
+  double min_cos = 1.0, min_height = std::numeric_limits<double>::infinity();
+};
+
+struct Shape {
+  glm::dvec3 normal;  // unit length
+  double height;      // on the longest side
+  double longest;
+};
+
+// Double precision is exact enough: differences of floats are exact, and the products have an error of 2^-53.
+Shape shape_of(const std::array<glm::vec3, 3>& p) {
+  const glm::dvec3 a(p[0]), b(p[1]), c(p[2]), n = glm::cross(b - a, c - a);
+  const double twice_area = glm::length(n), longest = std::max({glm::length(b - a), glm::length(c - b), glm::length(a - c)});
+  return {n / twice_area, twice_area / longest, longest};
+}
+
+// A triangle with two equal corners is never drawn.
+bool is_drawn(const std::array<glm::vec3, 3>& p) { return p[0] != p[1] && p[1] != p[2] && p[2] != p[0]; }
+
+Bounds bounds_of(std::span<const std::array<glm::vec3, 3>> triangles) {
+  Bounds out;
+  std::vector<Shape> shapes;
+  for (const std::array<glm::vec3, 3>& t : triangles) {
+    for (const glm::vec3& p : t) {
+      // A NaN stays in the bounds and prevents culling.
+      for (int k = 0; k < 3; ++k) {
+        if (!(p[k] >= out.low[k])) out.low[k] = p[k];
+        if (!(p[k] <= out.high[k])) out.high[k] = p[k];
+      }
+    }
+    if (!is_drawn(t)) continue;
+    shapes.push_back(shape_of(t));
+    out.axis += shapes.back().normal;
+  }
+  const double length = glm::length(out.axis);
+  out.axis /= length;
+  for (const Shape& s : shapes) {
+    out.min_cos = std::min(out.min_cos, glm::dot(s.normal, out.axis));
+    out.min_height = std::min(out.min_height, s.height >= kMinRatio * s.longest ? s.height : 0.0);
+  }
+  // The comparisons are written so that NaN means no cone.
+  if (!(length > 0.0 && out.min_cos >= kMinCos && out.min_height < std::numeric_limits<double>::infinity())) {
+    out.axis = {0.0, 0.0, 1.0};
+    out.min_cos = 1.0;
+    out.min_height = 0.0;
+  }
+  return out;
+}
+
+// Returns the number of an index among the distinct indices of the list.
+uint32_t number_of(const Indices& indices, uint32_t index) {
+  const std::span<const uint32_t> used = indices.used();
+  if (used.empty()) return index - indices.first_vertex();
+  return static_cast<uint32_t>(std::ranges::lower_bound(used, index) - used.begin());
+}
+
+}  // namespace
+
+Clusters::Clusters(const VertexStream& positions, const Indices& indices)
+    : count_((indices.size() / 3 + kClusterTriangles - 1) / kClusterTriangles), index_count_(indices.size()) {
+  HS_CHECK_OP(positions.components, ==, 3, "Clusters: the stream has another number of components; expected positions of three");
+  HS_CHECK(positions.read_as != ReadAs::integers, "Clusters: the stream contains integers; expected positions that are read as floats");
+  HS_CHECK(indices.restarts().empty(), "Clusters: the index list has restarts; expected a list of triangles");
+  HS_CHECK_OP(indices.end_vertex(), <=, positions.count, "Clusters: an index is too large; expected less than the number of positions");
+  const std::size_t padded = (count_ + kLanes - 1) / kLanes * kLanes;
+  for (std::vector<float>& v : values_) v.resize(padded);
+  first_block_.reserve(count_ + 1);
+  first_block_.push_back(0);
+  std::vector<std::array<glm::vec3, 3>> triangles;
+  std::vector<uint32_t> blocks;
+  for (std::size_t i = 0; i < count_; ++i) {
+    triangles.clear();
+    blocks.clear();
+    const std::size_t end = std::min<std::size_t>(indices.size() / 3, (i + 1) * kClusterTriangles);
+    for (std::size_t t = i * kClusterTriangles; t < end; ++t) {
+      std::array<glm::vec3, 3>& corners = triangles.emplace_back();
+      for (std::size_t k = 0; k < 3; ++k) {
+        const uint32_t index = indices[3 * t + k];
+        read_row(positions, index, &corners[k].x);
+        blocks.push_back(number_of(indices, index) / kClusterVertexBlock);
+      }
+    }
+    const Bounds b = bounds_of(triangles);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const int axis = static_cast<int>(k);
+      values_[kLowX + k][i] = b.low[axis];
+      values_[kHighX + k][i] = b.high[axis];
+      values_[kAxisX + k][i] = static_cast<float>(b.axis[axis]);
+    }
+    // The cone is enlarged by more than the rounding of its values to floats.
+    const double cosine = std::max(b.min_cos - 1e-6, 0.0);
+    values_[kCos][i] = static_cast<float>(cosine);
+    values_[kSin][i] = static_cast<float>(std::sqrt(1.0 - cosine * cosine));
+    values_[kMinHeight][i] = static_cast<float>(b.min_height * (1.0 - 1e-6));
+    std::ranges::sort(blocks);
+    blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
+    blocks_.insert(blocks_.end(), blocks.begin(), blocks.end());
+    first_block_.push_back(static_cast<uint32_t>(blocks_.size()));
+  }
+}
+
+}  // namespace halfspace::HS_LANES
