@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "halfspace/core/check.h"
+#include "halfspace/core/float_mode.h"
 #include "halfspace/core/lanes.h"
 
 namespace halfspace::HS_LANES {
@@ -27,28 +28,29 @@ struct Shape {
   double longest;
 };
 
-// Double precision is exact enough: differences of floats are exact, and the products have an error of 2^-53.
+// Each difference and product has an error of 2^-53, which is far below the margins of the cone.
 Shape shape_of(const std::array<glm::vec3, 3>& p) {
   const glm::dvec3 a(p[0]), b(p[1]), c(p[2]), n = glm::cross(b - a, c - a);
   const double twice_area = glm::length(n), longest = std::max({glm::length(b - a), glm::length(c - b), glm::length(a - c)});
   return {n / twice_area, twice_area / longest, longest};
 }
 
-// A triangle with two equal corners is never drawn.
-bool is_drawn(const std::array<glm::vec3, 3>& p) { return p[0] != p[1] && p[1] != p[2] && p[2] != p[0]; }
+bool is_finite(const glm::vec3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
+
+// A triangle with two equal corners, or with one that is not finite, is never drawn.
+bool is_drawn(const std::array<glm::vec3, 3>& p) {
+  return is_finite(p[0]) && is_finite(p[1]) && is_finite(p[2]) && p[0] != p[1] && p[1] != p[2] && p[2] != p[0];
+}
 
 Bounds bounds_of(std::span<const std::array<glm::vec3, 3>> triangles) {
   Bounds out;
   std::vector<Shape> shapes;
   for (const std::array<glm::vec3, 3>& t : triangles) {
-    for (const glm::vec3& p : t) {
-      // A NaN stays in the bounds and prevents culling.
-      for (int k = 0; k < 3; ++k) {
-        if (!(p[k] >= out.low[k])) out.low[k] = p[k];
-        if (!(p[k] <= out.high[k])) out.high[k] = p[k];
-      }
-    }
     if (!is_drawn(t)) continue;
+    for (const glm::vec3& p : t) {
+      out.low = glm::min(out.low, p);
+      out.high = glm::max(out.high, p);
+    }
     shapes.push_back(shape_of(t));
     out.axis += shapes.back().normal;
   }
@@ -77,8 +79,14 @@ uint32_t number_of(const Indices& indices, uint32_t index) {
 }  // namespace
 
 Clusters::Clusters(const VertexStream& positions, const Indices& indices)
-    : count_((indices.size() / 3 + kClusterTriangles - 1) / kClusterTriangles), index_count_(indices.size()) {
+    : count_((indices.size() / 3 + kClusterTriangles - 1) / kClusterTriangles),
+      index_count_(indices.size()),
+      vertex_count_(indices.used_count()),
+      first_vertex_(indices.first_vertex()),
+      end_vertex_(indices.end_vertex()) {
+  const FloatMode mode;
   HS_CHECK_OP(positions.components, ==, 3, "Clusters: the stream has another number of components; expected positions of three");
+  HS_CHECK_OP(positions.divisor, ==, 0u, "Clusters: the stream has rows per instance; expected one row per vertex");
   HS_CHECK(positions.read_as != ReadAs::integers, "Clusters: the stream contains integers; expected positions that are read as floats");
   HS_CHECK(indices.restarts().empty(), "Clusters: the index list has restarts; expected a list of triangles");
   HS_CHECK_OP(indices.end_vertex(), <=, positions.count, "Clusters: an index is too large; expected less than the number of positions");

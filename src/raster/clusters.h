@@ -26,8 +26,8 @@ inline constexpr uint32_t kClusterTriangles = 64;
 /// Vertices are skipped in blocks of this number.
 inline constexpr uint32_t kClusterVertexBlock = 64;
 
-/// The bounds of the clusters of a triangle list. The tighter the triangles of a cluster lie together, the more are skipped, so the list
-/// should be in an order for which neighbors in the list are neighbors on the surface. Meshes of modeling programs usually are.
+/// The bounds of the clusters of a triangle list. The tighter the triangles of a cluster lie together, the more are skipped, so neighbors
+/// in the list should be neighbors on the surface.
 class Clusters {
  public:
   /// positions: a stream of three components, in object space. indices: a list of triangles without restarts. Neither is kept. Computes in
@@ -35,8 +35,11 @@ class Clusters {
   Clusters(const VertexStream& positions, const Indices& indices);
 
   std::size_t size() const { return count_; }
-  /// Returns the number of indices of the list.
-  std::size_t index_count() const { return index_count_; }
+  /// Returns true if the clusters can be those of a list: it has the same number of indices and uses the same vertices.
+  bool fits(const Indices& indices) const {
+    return indices.size() == index_count_ && indices.used_count() == vertex_count_ && indices.first_vertex() == first_vertex_ &&
+           indices.end_vertex() == end_vertex_;
+  }
 
   /// The bounds of all clusters, one array per value. The arrays are padded to a multiple of the SIMD width.
   enum Value : std::size_t {
@@ -63,7 +66,8 @@ class Clusters {
   }
 
  private:
-  std::size_t count_ = 0, index_count_ = 0;
+  std::size_t count_ = 0, index_count_ = 0, vertex_count_ = 0;
+  uint32_t first_vertex_ = 0, end_vertex_ = 0;
   std::array<std::vector<float>, kValues> values_;
   std::vector<uint32_t> blocks_, first_block_;
 };

@@ -253,8 +253,9 @@ struct DrawCondition {
 class Clusters;
 
 /// Skips triangles of a draw that cannot cover a sample before their vertices are shaded (Clusters). The picture stays the same, bit for
-/// bit. Requires one instance of a triangle list without stages that emit primitives, and a shader whose clip-space position is
-/// clip_from_object · (position, 1) in float, up to 2^-20 of the sum of the absolute values of the products.
+/// bit; in PassStatistics, these triangles count as culled_cluster. Requires one instance of a triangle list without base_vertex and
+/// without stages that emit primitives, and a shader whose clip-space position is clip_from_object · (position, 1) in float, up to 2^-20 of
+/// the sum of the absolute values of the products.
 struct ClusterCulling {
   const Clusters* clusters = nullptr;  ///< of the index list and the positions of the draw; must stay valid until Pass::run() returns
   glm::mat4 clip_from_object{1.0f};

@@ -81,7 +81,7 @@ void read_rows(const VertexStream& stream, std::span<const uint32_t> rows, float
 void read_row(const VertexStream& stream, std::size_t row, float* out);
 /// Returns the bytes of a row: all of them are read.
 std::size_t row_bytes(const VertexStream& stream);
-/// Returns true if the stream consists of floats that the vertex stage reads in place: aligned, and read as floats.
+/// Returns true if the stream consists of floats that the vertex stage reads in place: aligned, read as floats, and none missing.
 bool is_read_in_place(const VertexStream& stream);
 
 /// A VertexStream with elements that the shader receives as type T: of floats, or of int32_t. Pass::draw compares T with the shader's
@@ -278,12 +278,12 @@ auto with_components(const StreamOf<T>& stream) {
       "with_components: expected a stream of numbers or of vectors with fewer components than the result, which has at most 4");
   StreamOf<glm::vec<N, Number>> out{stream};
   out.components = N;
-  out.missing = N - stream.components;
+  out.missing = stream.missing + N - stream.components;
   return out;
 }
 
 /// Returns the stream of normalized bytes or packed numbers with the first and third component of each row exchanged (GL_BGRA):
-/// bgra(stream<ReadAs::normalized>(colors)).
+/// bgra(stream<ReadAs::normalized>(colors)). make_vertex_view() refuses other numbers.
 inline StreamOf<glm::vec4> bgra(StreamOf<glm::vec4> stream) {
   stream.bgra = true;
   return stream;

@@ -12,7 +12,7 @@ namespace halfspace::conformance {
 
 namespace {
 
-// Which distances are negative. A primitive is culled only in the first, second and last case.
+// Which distances are negative. Lines and triangles are culled only in the first, second and last case.
 enum class Negative : uint8_t { all_of_first, all_of_second, one_vertex, different_ones, never, all_and_clipped };
 constexpr std::pair<const char*, Negative> kNegatives[] = {{"all_of_first", Negative::all_of_first},
                                                            {"all_of_second", Negative::all_of_second},

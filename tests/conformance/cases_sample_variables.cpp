@@ -38,6 +38,7 @@ glm::dvec4 mean_of(const Picture& p) {
   const Drawing& d = p.draws[0];
   const auto all = static_cast<uint32_t>((1 << p.samples) - 1);
   if (d.kind == Kind::sample_mask_in) return {all / 255.0, 0.0, 0.0, 1.0};
+  if (d.kind == Kind::sample_mask && p.samples == 1) return glm::dvec4(1.0);  // the mask has no effect
   if (d.kind == Kind::sample_mask)
     return glm::dvec4(1.0) * (static_cast<double>(std::popcount(static_cast<uint32_t>(d.value) & all)) / p.samples);
   glm::dvec4 sum(0.0);
@@ -74,7 +75,7 @@ Cases sample_variables_cases() {
       cases.push_back({"sample_mask_in" + name, [=] { return sampled(Kind::sample_mask_in, samples, 0, 0, angle); }, means});
     }
     for (const uint32_t mask : {0u, 1u, 2u, 5u, 0x0fu, 0xaau, 0xffu}) {
-      const bool is_empty = (mask & ((1u << samples) - 1)) == 0;
+      const bool is_empty = samples > 1 && (mask & ((1u << samples) - 1)) == 0;
       cases.push_back({"sample_mask_" + std::to_string(mask) + suffix, [=] { return sampled(Kind::sample_mask, samples, 0, mask, 0); },
                        means, is_empty});
     }

@@ -124,4 +124,12 @@ class Tessellation : public ConformanceOf {};
 TEST_P(Tessellation, CoversThePatches) { expect_no_error(); }
 INSTANTIATE_TEST_SUITE_P(Conformance, Tessellation, testing::ValuesIn(tessellation_cases()), case_name);
 
+class CullDistance : public ConformanceOf {};
+TEST_P(CullDistance, DropsPrimitivesOutsideAtAllVertices) { expect_no_error(); }
+INSTANTIATE_TEST_SUITE_P(Conformance, CullDistance, testing::ValuesIn(cull_distance_cases()), case_name);
+
+class SampleVariables : public ConformanceOf {};
+TEST_P(SampleVariables, AreThoseOfTheSample) { expect_no_error(); }
+INSTANTIATE_TEST_SUITE_P(Conformance, SampleVariables, testing::ValuesIn(sample_variables_cases()), case_name);
+
 }  // namespace halfspace::conformance

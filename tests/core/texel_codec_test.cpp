@@ -289,6 +289,28 @@ TEST(TexelCodec, DepthUsesAllCodes) {
   EXPECT_EQ(std::memcmp(bytes.data(), expected.data(), 8), 0);
 }
 
+// Words of GL_UNSIGNED_SHORT_5_6_5, 5_5_5_1 and 4_4_4_4 (OpenGL 4.6, table 8.7): the first channel is in the highest bits.
+TEST(TexelFormats, SmallPackedWordsAreThoseOfOpenGl) {
+  const auto color = [](TexelFormat format, uint16_t word) { return decode_texel(format, reinterpret_cast<const std::byte*>(&word)); };
+  const auto word = [](TexelFormat format, const glm::vec4& c) {
+    uint16_t bits = 0;
+    encode_texel(format, c, reinterpret_cast<std::byte*>(&bits));
+    return bits;
+  };
+  using enum TexelFormat;
+  EXPECT_EQ(color(rgb565, 0xf800), glm::vec4(1, 0, 0, 1));
+  EXPECT_EQ(color(rgb565, 0x07e0), glm::vec4(0, 1, 0, 1));
+  EXPECT_EQ(color(rgb565, 0x001f), glm::vec4(0, 0, 1, 1));
+  EXPECT_EQ(color(rgb5_a1, 0xf800), glm::vec4(1, 0, 0, 0));
+  EXPECT_EQ(color(rgb5_a1, 0x003f), glm::vec4(0, 0, 1, 1));
+  EXPECT_EQ(color(rgba4, 0xf00f), glm::vec4(1, 0, 0, 1));
+  EXPECT_EQ(color(rgba4, 0x0f30), glm::vec4(0.0f, 1.0f, 0.2f, 0.0f));
+  EXPECT_EQ(word(rgb565, {1, 0, 0, 0}), 0xf800);
+  EXPECT_EQ(word(rgb565, {0, 1, 0, 0}), 0x07e0);
+  EXPECT_EQ(word(rgb5_a1, {0, 0, 1, 1}), 0x003f);
+  EXPECT_EQ(word(rgba4, {0, 1, 0.2f, 0}), 0x0f30);
+}
+
 TEST(TexelFormats, HaveDistinctNamesAndTheSizesOfOpenGl) {
   std::set<std::string_view> names;
   for_each_format([&](TexelFormat format) {

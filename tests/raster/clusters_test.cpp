@@ -4,6 +4,7 @@
 // the triangles that face away or are outside.
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <numbers>
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -161,6 +162,7 @@ TEST(Clusters, RandomViewsHaveTheSamePicture) {
     glm::dmat4 projection = perspective(0.05 * std::exp(real(-3.0, 1.0)), 20.0);
     if (is_reversed) projection = perspective_reversed(real(0.05, 2.0), 4.0 / 3.0, 0.05, 20.0);
     if (is_orthographic) projection = orthographic_gl(size, 4.0 / 3.0, -2.0, distance * 2.0);
+    if (r.below(4) == 0) projection *= std::array{1e-9, 1e-4, 1e5, 1e9}[choose(4)];  // the same picture
     if (r.below(4) == 0) projection = glm::scale(glm::dmat4(1.0), glm::dvec3(-1.0, 1.0, 1.0)) * projection;
     DrawState state{.cull = std::array{CullMode::back, CullMode::back, CullMode::front, CullMode::none}[choose(4)],
                     .front = r.below(2) == 0 ? Winding::counter_clockwise : Winding::clockwise};
@@ -172,6 +174,70 @@ TEST(Clusters, RandomViewsHaveTheSamePicture) {
     skipped += expect_same_picture(meshes[number], clusters[number], glm::mat4(projection * view), state, r.below(3) == 0 ? 4 : 1);
   }
   EXPECT_GT(skipped / kViews, 0.2);  // otherwise, the views would show nothing
+}
+
+// Triangles with a corner that is not finite are culled one by one, and do not hide the bounds of others.
+TEST(Clusters, NonFiniteCornersHideNoOtherTriangle) {
+  for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+    Mesh mesh;
+    mesh.positions = {{-0.5f, -0.5f, 0}, {0.5f, -0.5f, 0}, {0, 0.5f, 0}, {bad, 0, 0}, {5, 5, 0}, {6, 5, 0}, {6, 6, 0}};
+    mesh.indices = {0, 1, 2, 3, 4, 5, 4, 5, 6};
+    const Clusters clusters(stream(mesh.positions), Indices(mesh.indices, mesh.positions.size()));
+    EXPECT_EQ(expect_same_picture(mesh, clusters, glm::mat4(1.0f), {}), 0.0) << bad;
+  }
+}
+
+// With a small budget, the pass runs in rounds; with two threads, parts of the clusters that are left are shaded at the same time.
+TEST(Clusters, RoundsAndThreadsDoNotMatter) {
+  const Mesh mesh = uv_sphere(60, 90, 1.0f);
+  const Indices indices(mesh.indices, mesh.positions.size());
+  const Clusters clusters(stream(mesh.positions), indices);
+  const glm::mat4 clip(perspective() * look_at({0.0, 1.0, 2.0}, {0.3, 0.0, 0.0}, {0.0, 1.0, 0.0}));
+  const auto picture = [&](bool with_clusters, std::size_t budget, const Workers& workers) {
+    Image<glm::vec4> image(160, 120);
+    Image<float> depth(160, 120);
+    Pass pass(160, 120, rgba32f_target(image), d32f_target(depth), {.tuning = {.chunk_triangles = 100, .bin_budget = budget}});
+    for (const float size : {1.0f, 0.9f, 1.1f}) {
+      DrawState state{.cull = CullMode::back};
+      const glm::mat4 scaled = glm::scale(clip, glm::vec3(size));
+      if (with_clusters) state.clusters = ClusterCulling{&clusters, scaled};
+      pass.draw(PlacedShader{scaled}, make_vertex_view(stream(mesh.positions)), indices, state);
+    }
+    const PassStatistics s = pass.run(workers);
+    EXPECT_EQ(s.flushes > 0, budget < 1000000);
+    EXPECT_EQ(s.culled_cluster > 0, with_clusters);
+    return std::vector<glm::vec4>(image.texels().begin(), image.texels().end());
+  };
+  const auto expected = picture(false, 100000000, one_worker());
+  for (const std::size_t budget : {std::size_t{1000}, std::size_t{100000000}}) {
+    EXPECT_TRUE(picture(true, budget, one_worker()) == expected) << budget;
+    EXPECT_TRUE(picture(true, budget, two_workers()) == expected) << budget;
+  }
+}
+
+// A conditional draw that waits for a query and of which nothing is left still counts what was submitted.
+TEST(Clusters, AConditionalDrawWithoutVisibleClustersIsCounted) {
+  const Mesh mesh = uv_sphere(8, 12, 1.0f);
+  const Indices indices(mesh.indices, mesh.positions.size());
+  const Clusters clusters(stream(mesh.positions), indices);
+  const glm::mat4 seen(perspective() * glm::translate(glm::dmat4(1.0), glm::dvec3(0, 0, -4)));
+  const glm::mat4 hidden(perspective() * glm::translate(glm::dmat4(1.0), glm::dvec3(0, 0, 4)));
+  const VertexView view = make_vertex_view(stream(mesh.positions));
+  const auto statistics = [&](bool with_clusters) {
+    Image<glm::vec4> image(64, 48);
+    Pass pass(64, 48, rgba32f_target(image), {});
+    pass.draw(PlacedShader{seen}, view, indices, {.query = 0});
+    DrawState state{.query = 1, .condition = DrawCondition{0}};
+    if (with_clusters) state.clusters = ClusterCulling{&clusters, hidden};
+    pass.draw(PlacedShader{hidden}, view, indices, state);
+    return pass.run(one_worker());
+  };
+  const PassStatistics whole = statistics(false), left = statistics(true);
+  EXPECT_EQ(left.primitives_in, whole.primitives_in);
+  EXPECT_EQ(left.vertices_in, whole.vertices_in);
+  EXPECT_EQ(left.query_primitives, whole.query_primitives);
+  EXPECT_EQ(left.queries, whole.queries);
+  EXPECT_EQ(left.culled_cluster, mesh.indices.size() / 3);
 }
 
 TEST(Clusters, VertexBlocksContainTheVerticesOfTheirTriangles) {
@@ -204,7 +270,11 @@ TEST(ClustersDeathTest, ChecksTheDraw) {
   EXPECT_DEATH(draw(wrong, {.clusters = ClusterCulling{&clusters}}), "another index list");
   EXPECT_DEATH(draw(indices, {.instances = 2, .clusters = ClusterCulling{&clusters}}), "single instance of a triangle list");
   EXPECT_DEATH(draw(indices, {.topology = Topology::lines, .clusters = ClusterCulling{&clusters}}), "single instance of a triangle list");
+  EXPECT_DEATH(draw(indices, {.base_vertex = 1, .clusters = ClusterCulling{&clusters}}), "a base_vertex");
   EXPECT_DEATH(draw(indices, {.clusters = ClusterCulling{}}), "there are no clusters");
+  std::vector<uint32_t> fewer_vertices = mesh.indices;
+  for (uint32_t& i : fewer_vertices) i /= 2;
+  EXPECT_DEATH(draw(Indices(fewer_vertices, other.positions.size()), {.clusters = ClusterCulling{&clusters}}), "another index list");
   const std::vector<glm::vec4> four(mesh.positions.size());
   EXPECT_DEATH(Clusters(stream(four), indices), "expected positions of three");
 #ifdef HALFSPACE_ASSERTS

@@ -260,6 +260,7 @@ TEST(VertexFormats, MissingComponentsAreZeroAndTheFourthIsOne) {
   EXPECT_EQ(numbers_of(with_components<4>(stream<ReadAs::normalized>(bytes))), (std::vector<float>{1, 0, 0.2f, 1}));
   const std::vector<float> bits = numbers_of(with_components<4>(stream<ReadAs::integers>(integers)));
   for (std::size_t k = 0; k < 4; ++k) EXPECT_EQ(std::bit_cast<int32_t>(bits[k]), (std::array{-7, 8, 0, 1})[k]) << k;
+  EXPECT_EQ(numbers_of(with_components<4>(with_components<3>(stream(pairs)))), (std::vector<float>{3, 5, 0, 1, 4, 6, 0, 1}));
   EXPECT_EQ(row_bytes(with_components<4>(stream(pairs))), 8u);  // nothing is read behind the row
 }
 

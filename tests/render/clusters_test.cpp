@@ -41,7 +41,7 @@ TEST(SceneClusters, MeshesThatAreDrawnAgainSkipTriangles) {
     const Frame again = frame_of(assets, {position}, workers);
     SceneAssets others(workers);
     const Frame alone = frame_of(others, {position}, workers);
-    EXPECT_GT(again.color.culled_cluster, 1000u) << position;  // of 6320; about half of a globe faces away
+    EXPECT_GT(again.color.culled_cluster, 1000u) << position;  // of 6240; about half of a globe faces away
     EXPECT_GT(again.shadow.culled_cluster, 1000u) << position;
     EXPECT_LT(again.color.vertices_shaded, alone.color.vertices_shaded) << position;
     EXPECT_EQ(again.color.triangles_binned, alone.color.triangles_binned) << position;

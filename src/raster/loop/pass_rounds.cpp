@@ -55,8 +55,10 @@ class PassRounds {
     return next_chunk_ == plan_.chunks.size();
   }
 
-  // Returns the memory of the pass to the pool, after the last round.
-  void finish() {
+  // Decides about conditional draws after the last chunk, of which nothing is drawn, and returns the memory of the pass to the pool. Must
+  // be called after the last round.
+  void finish(PassStatistics& statistics) {
+    decide_conditional_draws(statistics);
     recycle_chunks(context_.chunks, memory_.chunks);
     memory_.shaded = std::exchange(context_.shaded, {});
     return_pass_memory(std::move(memory_));
@@ -229,7 +231,7 @@ PassStatistics run_rounds(PassContext& context, Attachments& attachments, PassPl
     tiles.run(context, attachments, round, workers, statistics);
     round.first = false;
   } while (!round.last);
-  rounds.finish();
+  rounds.finish(statistics);
   return statistics;
 }
 

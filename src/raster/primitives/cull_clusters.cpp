@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 
+#include "halfspace/core/float_mode.h"
 #include "halfspace/core/lanes.h"
 #include "halfspace/raster/clusters.h"
 #include "halfspace/raster/pipeline/window.h"
@@ -16,9 +17,11 @@ namespace halfspace::HS_LANES {
 
 namespace {
 
-// Bound of the rounding errors of a clip-space coordinate, as a part of the sum of the absolute values of its terms. A shader that
-// multiplies a matrix and a position makes at most four roundings of 2^-24. The computations of this file make at most eight more.
+// Bound of the rounding errors of a clip-space coordinate, as a part of the sum of the absolute values of its terms: 32 roundings of 2^-24.
+// The shader may make 16 (ClusterCulling), and the computations of this file make fewer than 16.
 constexpr float kError = 0x1p-19f;
+// Smaller values have lost precision or may soon.
+constexpr float kTiny = 0x1p-100f;
 
 // A linear function a·x + b·y + c·z + d of the position.
 struct Plane {
@@ -40,8 +43,8 @@ Boxes load_boxes(const Clusters& clusters, std::size_t first) {
   for (std::size_t k = 0; k < 3; ++k) {
     const Real low = load<Real>(clusters.values(static_cast<Clusters::Value>(Clusters::kLowX + k)) + first);
     const Real high = load<Real>(clusters.values(static_cast<Clusters::Value>(Clusters::kHighX + k)) + first);
-    out.center[k] = Real(0.5f) * (low + high);
-    out.half[k] = Real(0.5f) * (high - low);
+    out.center[k] = Real(0.5f) * low + Real(0.5f) * high;
+    out.half[k] = Real(0.5f) * high - Real(0.5f) * low;
     out.largest[k] = max(abs(low), abs(high));
   }
   return out;
@@ -87,8 +90,9 @@ class Culling {
   bool culls_faces_ = false;
   Plane x_, y_, w_;
   // The eye in homogeneous object space: the point that has no image. Its sign is such that the triangles to be culled are those with
-  // dot(normal, eye.xyz − eye.w · corner) < 0.
+  // dot(normal, eye.xyz − eye.w · corner) < 0. It is divided by eye_scale_, so that its largest component is 1.
   glm::vec4 eye_{0.0f};
+  double eye_scale_ = 1.0;
 };
 
 // Returns the vector e with dot(e, v) = det(a, b, c, v).
@@ -124,7 +128,9 @@ Culling::Culling(const Draw& draw) : viewport_(draw.viewport) {
   // cross product of two edges and e = cross4(x, y, w).
   const double culled_area = is_culled(state.cull, is_front(state, true)) ? 1.0 : -1.0;
   const double mirrored = (viewport_.half_width < 0.0f) == (viewport_.half_height < 0.0f) ? 1.0 : -1.0;
-  eye_ = glm::vec4(cross4(x, y, w) * (culled_area * mirrored));
+  const glm::dvec4 eye = cross4(x, y, w) * (culled_area * mirrored);
+  eye_scale_ = std::max({std::fabs(eye.x), std::fabs(eye.y), std::fabs(eye.z), std::fabs(eye.w)});
+  eye_ = glm::vec4(eye / eye_scale_);
 }
 
 // A triangle is culled if its doubled area after snapping has the sign of a culled one. Snapping moves a corner by up to D px, so the
@@ -161,7 +167,9 @@ Mask Culling::faces_away(const Clusters& clusters, std::size_t first, const Boxe
 
   const float half_width = std::fabs(viewport_.half_width), half_height = std::fabs(viewport_.half_height);
   const Real w_high = w.high();
-  const Real area = Real(half_width * half_height) * -facing / (w_high * w_high * w_high);  // K
+  const Real cubed = w_high * w_high * w_high;
+  const Real area = Real(static_cast<float>(static_cast<double>(half_width * half_height) * eye_scale_)) * -facing / cubed;  // K
+  whole = whole & (cubed > Real(kTiny)) & (square > Real(kTiny)) & (area < Real(1.0f / kTiny));  // no underflow and no overflow
   const float slope_x = glm::length(x_.normal), slope_y = glm::length(y_.normal), slope_w = glm::length(w_.normal);
   const Real scale =
       (Real(half_width) * (Real(slope_x) + ndc_x * Real(slope_w)) + Real(half_height) * (Real(slope_y) + ndc_y * Real(slope_w))) *
@@ -214,14 +222,17 @@ bool are_culled(const Draw& draw, std::size_t begin, std::size_t end) {
 void check_clusters(const Draw& draw) {
   const DrawState& state = draw.state;
   HS_CHECK(state.clusters->clusters != nullptr, "DrawState::clusters: there are no clusters; expected a pointer to them");
-  HS_CHECK(state.topology == Topology::triangles && state.instances == 1 && draw.kernels.emitting == nullptr && !draw.kernels.gives_layer,
-           "DrawState::clusters: the draw has another topology, several instances or a stage that emits primitives or chooses layers; "
-           "expected a single instance of a triangle list");
-  HS_CHECK_OP(state.clusters->clusters->index_count(), ==, draw.indices->size(),
-              "DrawState::clusters: the draw has another index list; expected the one of the clusters");
+  HS_CHECK(
+      state.topology == Topology::triangles && state.instances == 1 && state.base_vertex == 0 && draw.kernels.emitting == nullptr &&
+          !draw.kernels.gives_layer,
+      "DrawState::clusters: the draw has another topology, several instances, a base_vertex, or a stage that emits primitives or chooses "
+      "layers; expected a single instance of a triangle list");
+  HS_CHECK(state.clusters->clusters->fits(*draw.indices),
+           "DrawState::clusters: the draw has another index list; expected the one of the clusters");
 }
 
 VisibleClusters visible_clusters(const Draw& draw) {
+  const FloatMode mode;
   const Clusters& clusters = *draw.state.clusters->clusters;
   const std::size_t triangles = draw.primitive_count, vertices = draw.vertex_count;
   VisibleClusters out;

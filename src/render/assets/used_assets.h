@@ -67,11 +67,11 @@ class UsedAssets {
     if (!cache_.contains(recipe)) cache_.add(recipe, SharedAssets::of_process().get<T>(recipe, make, bytes));
     return existing<T>(recipe);
   }
-  // Adds an asset, instead of the one with this recipe if there is one.
+  // Adds an asset that does not exist yet.
   template <class T>
-  std::shared_ptr<const T> replaced(const std::string& recipe, T asset) {
-    cache_.add(recipe, std::make_shared<const T>(std::move(asset)));
-    return existing<T>(recipe);
+  void add(const std::string& recipe, std::shared_ptr<const T> asset) {
+    used_.push_back(asset);
+    cache_.add(recipe, std::move(asset));
   }
   // Adds an asset that is not in the cache.
   void keep(std::shared_ptr<const void> asset) { used_.push_back(std::move(asset)); }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "halfspace/render/prepare/scene_clusters.h"
 
+#include <mutex>
 #include <optional>
 
 namespace halfspace::HS_LANES {
@@ -10,22 +11,34 @@ namespace {
 // With fewer triangles, the vertex stage takes too little time to matter.
 constexpr std::size_t kMinTriangles = 2048;
 
-struct ClusteredMesh {
-  std::shared_ptr<const Indices> indices;  // keeps its address from being used again
-  std::optional<Clusters> clusters{};      // none in the first frame
+// A mesh that has been drawn. Threads that share it build its clusters once.
+class DrawnMesh {
+ public:
+  // indices: kept, so that no other mesh gets their address.
+  explicit DrawnMesh(std::shared_ptr<const Indices> indices) : indices_(std::move(indices)) {}
+
+  const Clusters* clusters(std::span<const glm::vec3> positions) const {
+    std::call_once(once_, [&] { clusters_.emplace(stream(positions), *indices_); });
+    return &*clusters_;
+  }
+
+ private:
+  std::shared_ptr<const Indices> indices_;
+  mutable std::once_flag once_;
+  mutable std::optional<Clusters> clusters_{};
 };
 
 }  // namespace
 
 const Clusters* SceneClusters::of(const std::shared_ptr<const Indices>& indices, std::span<const glm::vec3> positions) {
   if (indices->size() < 3 * kMinTriangles) return nullptr;
-  const std::string words = recipe("clusters", std::to_string(reinterpret_cast<std::uintptr_t>(indices.get())));
-  std::shared_ptr<const ClusteredMesh> mesh = used_.existing<ClusteredMesh>(words);
-  if (mesh == nullptr) new_.insert(words);
-  const bool is_new = new_.contains(words);
-  if (mesh == nullptr || (!is_new && !mesh->clusters))
-    mesh = used_.replaced(words, ClusteredMesh{indices, is_new ? std::nullopt : std::optional<Clusters>({stream(positions), *indices})});
-  return mesh->clusters ? &*mesh->clusters : nullptr;
+  const auto address = [](const void* p) { return std::to_string(reinterpret_cast<std::uintptr_t>(p)); };
+  const std::string words = recipe("drawn mesh", address(indices.get()), address(positions.data()));
+  if (const std::shared_ptr<const DrawnMesh> mesh = used_.existing<DrawnMesh>(words))
+    return new_.contains(words) ? nullptr : mesh->clusters(positions);
+  used_.add(words, std::make_shared<const DrawnMesh>(indices));
+  new_.insert(words);
+  return nullptr;
 }
 
 }  // namespace halfspace::HS_LANES
