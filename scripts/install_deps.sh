@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
 # Installs the packages that halfspace needs to build (Debian 12 and 13, Ubuntu 24.04). Does nothing if all are installed.
 #
-#   scripts/install_deps.sh [--tests | --benchmarks] [--view] [--dask] [--mpi] [--package=NAME]...
+#   scripts/install_deps.sh [--tests | --benchmarks] [--view] [--gui-tests] [--dask] [--mpi] [--package=NAME]...
 #     --tests         also installs the packages that the tests need, including matplotlib for charts
 #     --benchmarks    also installs the packages that scripts/bench/bench.sh needs
-#     --view          also installs the packages that halfspace-view and the tests of its window and of web pages need
+#     --view          also installs the packages that halfspace-view needs, and the font of its text
+#     --gui-tests     also installs a browser and a virtual X server, for the tests of web pages and of the window
 #     --dask          also installs Dask, which halfspace.render_frames() can use
 #     --mpi           also installs OpenMPI, which `halfspace render --mpi` needs
 #     --package=NAME  also installs this package
@@ -18,17 +19,19 @@ mpi_packages=(libopenmpi-dev openmpi-bin)
 test_packages=("${dask_packages[@]}" "${mpi_packages[@]}" patch python3-jsonschema python3-matplotlib python3-pytest python3-pip python3-setuptools python3-wheel libgtest-dev
   libbenchmark-dev libegl-dev libepoxy-dev libgl1-mesa-dri qemu-user universal-ctags)
 document_packages=(doxygen man-db)
-view_packages=(libsdl2-dev libimgui-dev libx11-dev chromium chromium-driver python3-selenium xvfb openbox wmctrl xdotool imagemagick)
+view_packages=(libsdl2-dev libimgui-dev libx11-dev fonts-dejavu-core)
+gui_test_packages=(chromium chromium-driver python3-selenium xvfb openbox wmctrl xdotool imagemagick)
 
 for argument in "$@"; do
   case "$argument" in
     --tests) packages+=("${test_packages[@]}" "${document_packages[@]}") ;;
     --benchmarks) packages+=("${test_packages[@]}" "${document_packages[@]}" "${benchmark_packages[@]}") ;;
     --view) packages+=("${view_packages[@]}") ;;
+    --gui-tests) packages+=("${gui_test_packages[@]}") ;;
     --dask) packages+=("${dask_packages[@]}") ;;
     --mpi) packages+=("${mpi_packages[@]}") ;;
     --package=?*) packages+=("${argument#--package=}") ;;
-    *) echo "install_deps.sh: unknown argument '$argument'; expected --tests, --benchmarks, --view, --dask, --mpi, --package=NAME or nothing" >&2; exit 2 ;;
+    *) echo "install_deps.sh: unknown argument '$argument'; expected --tests, --benchmarks, --view, --gui-tests, --dask, --mpi, --package=NAME or nothing" >&2; exit 2 ;;
   esac
 done
 

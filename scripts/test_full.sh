@@ -6,7 +6,7 @@
 #     --resume    skips the steps that have passed for exactly these sources
 set -euo pipefail
 cd "$(dirname "$0")/.."
-scripts/install_deps.sh --tests --view --package=clang --package=libclang-rt-dev
+scripts/install_deps.sh --tests --view --gui-tests --package=clang --package=libclang-rt-dev
 # needs PACKAGE...    installs what only some steps need
 needs() { scripts/install_deps.sh "${@/#/--package=}"; }
 

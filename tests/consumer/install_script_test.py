@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Tests which files and folders scripts/install.sh adds and removes. A stand-in for CMake installs a list of empty files instead of a real
-build."""
+"""Tests which files and folders scripts/install.sh adds and removes, and which packages scripts/install_deps.sh installs. Stand-ins replace
+CMake, which installs a list of empty files instead of a real build, and apt."""
 import os
+import re
 import shutil
 import subprocess
 import tempfile
@@ -84,6 +85,40 @@ class InstallScript(unittest.TestCase):
     def test_a_prefix_without_an_installation_is_reported(self):
         out = self.run_script("--uninstall", self.prefix, code=1)
         self.assertRegex(out, r"^install\.sh: .* does not exist; expected a prefix that .*\n$")
+
+
+class InstallDependencies(unittest.TestCase):
+    """Runs scripts/install_deps.sh on a system without packages."""
+
+    def setUp(self):
+        self.folder = Path(tempfile.mkdtemp(prefix="halfspace packages "))
+        self.addCleanup(shutil.rmtree, self.folder)
+        log = self.folder / "log"
+        for name, text in (("dpkg-query", "exit 1"), ("apt-get", f"echo \"$@\" > '{log}'"), ("id", "echo 0")):
+            path = self.folder / name
+            path.write_text(f"#!/bin/sh\n{text}\n")
+            path.chmod(0o755)
+
+    def packages(self, *arguments):
+        environment = {**os.environ, "PATH": f"{self.folder}:{os.environ['PATH']}"}
+        done = subprocess.run([ROOT / "scripts/install_deps.sh", *arguments], env=environment, capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return set((self.folder / "log").read_text().split())
+
+    def test_the_window_needs_no_browser(self):
+        added = self.packages("--view") - self.packages()
+        self.assertEqual(added, {"libsdl2-dev", "libimgui-dev", "libx11-dev", "fonts-dejavu-core"})
+
+    def test_the_browser_and_the_x_server_are_for_tests(self):
+        added = self.packages("--gui-tests") - self.packages()
+        self.assertLessEqual({"chromium", "chromium-driver", "python3-selenium", "xvfb"}, added)
+        self.assertNotIn("libimgui-dev", added)
+
+    def test_the_options_that_scripts_and_documents_use_exist(self):
+        files = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *ROOT.glob("docs/**/*.md"), *ROOT.glob("scripts/**/*.sh")]
+        used = {option for file in files for line in re.findall(r"install_deps\.sh((?: --[a-z-]+)+)", file.read_text()) for option in line.split()}
+        self.assertLessEqual({"--tests", "--view", "--gui-tests"}, used)
+        self.packages(*sorted(used - {"--package"}))
 
 
 if __name__ == "__main__":
