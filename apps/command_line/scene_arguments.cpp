@@ -43,13 +43,15 @@ void set_shading(SceneFile& scene, const std::string& rate) {
   if (rate.empty()) return;
   ObjectDescription any;
   const std::span<const std::string_view> rates = find_field(section_of(any), "shading").key->choices;
-  if (std::ranges::find(rates, rate) == rates.end()) throw UsageError("--shading is '" + rate + "'" + suggestion(rate, rates));
+  const auto found = std::ranges::find(rates, rate);
+  if (found == rates.end()) throw UsageError("--shading is '" + rate + "'" + suggestion(rate, rates));
+  const auto value = static_cast<ShadingRate>(found - rates.begin());
   std::vector<std::string> settings;
   for (const auto& [name, object] : scene.description().objects) {
-    if (!object.shadow_only && lack_of_effect(object, "shading").empty()) settings.push_back("objects." + name + ".shading=" + rate);
+    if (!object.shadow_only && offers_shading(object, value)) settings.push_back("objects." + name + ".shading=" + rate);
   }
   if (settings.empty()) {
-    throw UsageError("--shading has no effect on this scene; expected an object that is not a model, or a model with the key material");
+    throw UsageError("--shading " + rate + " is not available for models with their own materials; expected none or phong");
   }
   scene.set(settings);
 }

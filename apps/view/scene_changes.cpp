@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "halfspace/core/check.h"
+#include "halfspace/scene/object_keys.h"
 #include "halfspace/scene/scene_paths.h"
 
 namespace halfspace {
@@ -27,14 +28,32 @@ int set_for_objects(SceneFile& scene, const char* key, const F& value_of) {
 
 std::string objects_text(int count) { return count == 1 ? "1 object" : fmt::format("{} objects", count); }
 
+bool has_model(const SceneFile& scene) {
+  return std::ranges::any_of(scene.description().objects, [](const auto& entry) { return has_own_materials(entry.second); });
+}
+
 enum class Relief { none, map, bump };
 
 bool has_detail(const ObjectDescription& o) { return is_map(o.surface.normal_map) || is_map(o.surface.bump_map); }
 // Returns true if the object has a key for the normals of its displacement.
 bool is_displaced(ObjectDescription o) { return is_map(o.height) && find_field(section_of(o), "normals").key != nullptr; }
-bool has_relief(const ObjectDescription& o) { return o.shape != Shape::file && (has_detail(o) || is_displaced(o)); }
+
+// Returns true if a material of the model has a map with a texture. Returns true if the model is unknown, because it may have one.
+bool may_have(const Model* model, std::initializer_list<TextureUse ModelMaterial::*> maps) {
+  if (model == nullptr) return true;
+  return std::ranges::any_of(model->materials, [&](const ModelMaterial& m) {
+    return std::ranges::any_of(maps, [&](TextureUse ModelMaterial::*map) { return (m.*map).texture >= 0; });
+  });
+}
+
+bool has_relief(const ObjectDescription& o, const Model* model) {
+  if (has_own_materials(o))
+    return may_have(model, {&ModelMaterial::normal_map, &ModelMaterial::clearcoat_normal_map, &ModelMaterial::bump_map});
+  return o.shape != Shape::file && (has_detail(o) || is_displaced(o));
+}
 
 Relief relief_of(const ObjectDescription& o) {
+  if (has_own_materials(o)) return o.surface.normal == DetailChoice::none ? Relief::none : Relief::map;
   if (!has_detail(o))
     return o.normals == NormalSource::undisplaced ? Relief::none : o.normals == NormalSource::pixel ? Relief::map : Relief::bump;
   switch (o.surface.normal) {
@@ -47,6 +66,7 @@ Relief relief_of(const ObjectDescription& o) {
 }
 
 bool offers(const ObjectDescription& o, Relief relief) {
+  if (has_own_materials(o)) return relief != Relief::bump;
   if (relief == Relief::none || !has_detail(o)) return true;
   return is_map(relief == Relief::map ? o.surface.normal_map : o.surface.bump_map);
 }
@@ -56,6 +76,7 @@ std::string relief_setting(const std::string& name, const ObjectDescription& o, 
   static constexpr const char* kDetail[] = {"none", "map", "bump"};
   static constexpr const char* kNormals[] = {"undisplaced", "pixel", "vertex"};
   const auto i = static_cast<std::size_t>(relief);
+  if (has_own_materials(o)) return fmt::format("objects.{}.normal={}", name, relief == Relief::none ? "none" : "auto");
   if (!has_detail(o)) return fmt::format("objects.{}.normals={}", name, kNormals[i]);
   return fmt::format("objects.{}.normal={}", name, offers(o, relief) ? kDetail[i] : "none");
 }
@@ -72,34 +93,39 @@ std::string try_set(SceneFile& scene, const std::string& setting) {
 }
 
 std::string set_shading_rate(SceneFile& scene, const std::string& rate) {
-  const int accepted = set_for_objects(scene, "shading", [&](const ObjectDescription& o) { return o.shape == Shape::file ? "" : rate; });
+  const int accepted = set_for_objects(scene, "shading", [&](const ObjectDescription& o) { return o.shadow_only ? "" : rate; });
+  if (accepted == 0 && has_model(scene)) return fmt::format("shading {} is not available for model files; press 0 or 3", rate);
   if (accepted == 0) return "no object of this scene has a `shading` key";
   return fmt::format("shading {}: {}", rate, objects_text(accepted));
 }
 
-std::string cycle_relief(SceneFile& scene) {
+std::string cycle_relief(SceneFile& scene, const Model* model) {
   const Named<ObjectDescription> objects = scene.description().objects;
-  const auto first = std::ranges::find_if(objects, [](const auto& entry) { return has_relief(entry.second); });
-  if (first == objects.end()) return "no object of this scene has a normal, bump or height map";
+  const auto first = std::ranges::find_if(objects, [&](const auto& entry) { return has_relief(entry.second, model); });
+  if (first == objects.end())
+    return model == nullptr ? "no object of this scene has a normal, bump or height map"
+                            : "no material of this model has a normal or bump map";
   Relief next = relief_of(first->second);
   do {
     next = static_cast<Relief>((static_cast<int>(next) + 1) % 3);
-  } while (std::ranges::none_of(objects, [&](const auto& entry) { return has_relief(entry.second) && offers(entry.second, next); }));
+  } while (std::ranges::none_of(objects, [&](const auto& entry) { return has_relief(entry.second, model) && offers(entry.second, next); }));
   std::vector<std::string> settings;
   for (const auto& [name, object] : objects) {
-    if (has_relief(object)) settings.push_back(relief_setting(name, object, next));
+    if (has_relief(object, model)) settings.push_back(relief_setting(name, object, next));
   }
   scene.set(settings);
   return settings.front();
 }
 
-std::string toggle_color_maps(SceneFile& scene) {
-  const auto has_color_map = [](const ObjectDescription& o) { return !first_map(o.surface).empty(); };
+std::string toggle_color_maps(SceneFile& scene, const Model* model) {
+  const auto has_color_map = [&](const ObjectDescription& o) {
+    return has_own_materials(o) ? may_have(model, {&ModelMaterial::base_color_map}) : !first_map(o.surface).empty();
+  };
   const Named<ObjectDescription>& objects = scene.description().objects;
   const bool on = std::ranges::any_of(objects, [&](const auto& e) { return has_color_map(e.second) && e.second.surface.textured; });
   const char* value = on ? "false" : "true";
   const int accepted = set_for_objects(scene, "textured", [&](const ObjectDescription& o) { return has_color_map(o) ? value : ""; });
-  if (accepted == 0) return "no object of this scene has a color map";
+  if (accepted == 0) return model == nullptr ? "no object of this scene has a color map" : "no material of this model has a color map";
   return fmt::format("textures {}: {}", on ? "off" : "on", objects_text(accepted));
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "halfspace/model/model.h"
 #include "halfspace/scene/scene_file.h"
 
 namespace halfspace {
@@ -14,15 +15,15 @@ namespace halfspace {
 /// Sets a key if the scene accepts the value. Returns an empty string on success, otherwise the reason.
 std::string try_set(SceneFile& scene, const std::string& setting);
 
-/// Sets the shading rate of all objects that accept it.
+/// Sets the shading rate of all objects that accept it. Materials of model files only accept `none` and `phong`.
 std::string set_shading_rate(SceneFile& scene, const std::string& rate);
 
 /// Switches the relief of all objects to the next of: none, normal map, bump map. For displaced objects: no displacement, normals per
-/// pixel, normals per vertex.
-std::string cycle_relief(SceneFile& scene);
+/// pixel, normals per vertex. For models: off, or the maps of their materials. model: the model that the scene was generated for, or null.
+std::string cycle_relief(SceneFile& scene, const Model* model);
 
-/// Switches the color maps of all objects on or off.
-std::string toggle_color_maps(SceneFile& scene);
+/// Switches the color maps of all objects and the materials of models on or off. model: as in cycle_relief.
+std::string toggle_color_maps(SceneFile& scene, const Model* model);
 
 /// Hides and shows objects and particles.
 class VisibilityToggle {

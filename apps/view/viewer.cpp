@@ -113,8 +113,8 @@ void Viewer::press(Action action, bool shift) {
     case Action::shade_flat: return shade("flat");
     case Action::shade_gouraud: return shade("gouraud");
     case Action::shade_phong: return shade("phong");
-    case Action::cycle_normals: message_ = change([&] { return cycle_relief(scene_); }); return;
-    case Action::toggle_textures: message_ = change([&] { return toggle_color_maps(scene_); }); return;
+    case Action::cycle_normals: message_ = change([&] { return cycle_relief(scene_, model()); }); return;
+    case Action::toggle_textures: message_ = change([&] { return toggle_color_maps(scene_, model()); }); return;
     case Action::toggle_shadows: message_ = change([&] { return shadows_.toggle(scene_); }); return;
     case Action::toggle_visibility: message_ = change([&] { return visibility_.toggle(scene_, picked_object_); }); return;
     case Action::darker: message_ = change([&] { return change_exposure(scene_, 1.0 / kQuarterStop); }); return;

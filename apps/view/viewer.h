@@ -59,6 +59,7 @@ class Viewer {
   bool restore_camera();
   void reset_or_next_camera();
   std::string change(const std::function<std::string()>& function);
+  const Model* model() const { return opened_.model == nullptr ? nullptr : &opened_.model->model; }
 
   OpenedScene opened_;  // original scene
   SceneFile scene_;     // scene with all changes

@@ -22,6 +22,12 @@ std::string_view mesh_only_key(const ObjectDescription& o) {
   return std::ranges::all_of(o.instances, is_uniformly_scaled) ? "" : kInstances;
 }
 
+bool has_own_materials(const ObjectDescription& o) { return o.shape == Shape::file && o.material.empty(); }
+
+bool offers_shading(const ObjectDescription& o, ShadingRate rate) {
+  return !has_own_materials(o) || rate == ShadingRate::none || rate == ShadingRate::phong;
+}
+
 std::string lack_of_effect(const ObjectDescription& o, std::string_view key) {
   if (o.shape != Shape::file) return {};
   static const std::vector<std::string_view> surface_keys = [] {
@@ -31,7 +37,8 @@ std::string lack_of_effect(const ObjectDescription& o, std::string_view key) {
     return names;
   }();
   if (key == "height" || key.starts_with("height_")) return "has no effect on a model; expected another shape, or no such key";
-  if (!o.material.empty() || std::ranges::find(surface_keys, key) == surface_keys.end()) return {};
+  if (!has_own_materials(o) || std::ranges::find(surface_keys, key) == surface_keys.end()) return {};
+  if (key == "textured" || key == "normal" || key == "shading") return {};
   return "has no effect on a model with its own materials; expected the key material as well, or no such key";
 }
 

@@ -14,9 +14,15 @@ namespace halfspace::HS_LANES {
 /// or per-triangle lighting, two-sided surfaces, non-uniform scale. Returns an empty string if there is none.
 std::string_view mesh_only_key(const ObjectDescription& o);
 
-/// Returns why a key of the object has no effect, and what is expected instead, or an empty string if it can have one. Surface keys have no
-/// effect on a model that keeps its own materials, and height maps have none on any model.
+/// Returns true if the object is a model that is drawn with the materials of its file.
+bool has_own_materials(const ObjectDescription& o);
+
+/// Returns why a key of the object has no effect, and what is expected instead, or an empty string if it can have one. Of the surface keys,
+/// only `textured`, `normal` and `shading` have an effect on a model that keeps its own materials. Height maps have none on any model.
 std::string lack_of_effect(const ObjectDescription& o, std::string_view key);
+
+/// Returns true if the object can be lit at this rate. Materials of model files are lit per pixel or not at all.
+bool offers_shading(const ObjectDescription& o, ShadingRate rate);
 
 /// Returns true if all ancestors of an object are scaled uniformly, so that a sphere remains a sphere. check_scene() must have accepted the
 /// scene.

@@ -129,6 +129,10 @@ bool is_default(KeyType type, const void* value, const void* standard) {
 // Rejects keys that have no effect unless they have their default values, which printed scenes contain.
 void check_effect(ObjectDescription& o, const std::string& where) {
   if (o.shape != Shape::file) return;
+  if (!offers_shading(o, o.surface.shading))
+    reject(where + ".shading", "a model with its own materials is lit per pixel; expected phong or none, or the key material as well");
+  if (has_own_materials(o) && o.surface.normal != DetailChoice::automatic && o.surface.normal != DetailChoice::none)
+    reject(where + ".normal", "a model with its own materials selects its maps itself; expected auto or none, or the key material as well");
   static ObjectDescription standard;
   const Section parts = section_of(o), defaults = section_of(standard);
   for (std::size_t i = 0; i < parts.size(); ++i) {

@@ -21,8 +21,8 @@ std::string object_of_model(const std::string& keys) { return R"("objects": {"a"
 // ---- models ------------------------------------------------------------------------------------------------------
 
 TEST(Effect, ModelsWithTheirOwnMaterialsRejectSurfaceKeys) {
-  for (const char* setting : {"color=#804020", "color=a.png", "tint=0.5", "diffuse=0.5", "emissive=1", "reflection=0.5", "shading=flat",
-                              "normal_map=n.png", "bump_map=b.png", "two_sided=true", "textured=false", "shininess=7", "model=phong"}) {
+  for (const char* setting : {"color=#804020", "color=a.png", "tint=0.5", "diffuse=0.5", "emissive=1", "reflection=0.5", "normal_map=n.png",
+                              "bump_map=b.png", "two_sided=true", "shininess=7", "model=phong"}) {
     SceneFile scene = scene_with(object_of_model(""));
     const std::string text = setting, key = text.substr(0, text.find('='));
     EXPECT_TRUE(reports(input_error([&] { scene.set("a." + text); }), "test.json: objects.a." + key,
@@ -32,6 +32,15 @@ TEST(Effect, ModelsWithTheirOwnMaterialsRejectSurfaceKeys) {
   EXPECT_EQ(
       input_error([] { scene_with(object_of_model(R"(, "color": [0, 1, 0])")); }),
       "test.json: objects.a.color: has no effect on a model with its own materials; expected the key material as well, or no such key");
+}
+
+TEST(Effect, ModelsWithTheirOwnMaterialsAreLitPerPixelOrNotAtAll) {
+  for (const char* setting : {"shading=flat", "shading=gouraud", "normal=map", "normal=bump"}) {
+    SceneFile scene = scene_with(object_of_model(""));
+    const std::string text = setting, key = text.substr(0, text.find('='));
+    EXPECT_TRUE(reports(input_error([&] { scene.set("a." + text); }), "test.json: objects.a." + key, {"own materials", "expected", "none"}))
+        << setting;
+  }
 }
 
 // Height maps displace only shapes of the scene.
@@ -56,6 +65,9 @@ TEST(Effect, ModelsAcceptAllOtherKeys) {
                                           "a.model_time=1",
                                           "a.color=1",
                                           "a.shading=phong",
+                                          "a.shading=none",
+                                          "a.normal=none",
+                                          "a.textured=false",
                                           "a.instances.0.position=1,0,0"};
   EXPECT_EQ(input_error([&] { scene.set(settings); }), "(no error)");
   EXPECT_EQ(SceneFile::parse(scene.print(), "test.json", "/").print(), scene.print()) << "printed scenes contain all keys";

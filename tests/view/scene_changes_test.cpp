@@ -19,7 +19,7 @@ TEST(SceneChanges, ReliefOfTheEarthCyclesThroughMapBumpAndNone) {
   SceneFile scene = SceneFile::open("earth");
   EXPECT_EQ(value_in(scene, "earth.normal"), "map");
   for (const char* expected : {"bump", "none", "map"}) {
-    cycle_relief(scene);
+    cycle_relief(scene, nullptr);
     EXPECT_EQ(value_in(scene, "earth.normal"), expected);
   }
 }
@@ -27,7 +27,7 @@ TEST(SceneChanges, ReliefOfTheEarthCyclesThroughMapBumpAndNone) {
 TEST(SceneChanges, ReliefOfADisplacedSurfaceCyclesThroughItsNormals) {
   SceneFile scene = SceneFile::open("moon");
   for (const char* expected : {"vertex", "undisplaced", "pixel"}) {
-    cycle_relief(scene);
+    cycle_relief(scene, nullptr);
     EXPECT_EQ(value_in(scene, "moon.normals"), expected);
   }
 }
@@ -40,10 +40,42 @@ TEST(SceneChanges, ShadingIsSetForEveryObject) {
 
 TEST(SceneChanges, TexturesAreToggled) {
   SceneFile scene = SceneFile::open("earth");
-  toggle_color_maps(scene);
+  toggle_color_maps(scene, nullptr);
   EXPECT_EQ(value_in(scene, "earth.textured"), "false");
-  toggle_color_maps(scene);
+  toggle_color_maps(scene, nullptr);
   EXPECT_EQ(value_in(scene, "earth.textured"), "true");
+}
+
+// A scene like the one that is generated for a model file.
+SceneFile scene_of_model() {
+  return SceneFile::parse(R"({ "version": 1, "cameras": { "main": {} },
+    "objects": { "model": { "shape": "file", "file": "a.obj" }, "floor": { "shape": "plane", "shadow_only": true } } })",
+                          "test", {});
+}
+
+TEST(SceneChanges, KeysActOnTheMaterialsOfAModel) {
+  SceneFile scene = scene_of_model();
+  Model model;
+  model.materials.resize(2);
+  EXPECT_EQ(toggle_color_maps(scene, &model), "no material of this model has a color map");
+  EXPECT_EQ(cycle_relief(scene, &model), "no material of this model has a normal or bump map");
+  model.materials[1].base_color_map.texture = 0;
+  model.materials[1].bump_map.texture = 0;
+  EXPECT_EQ(toggle_color_maps(scene, &model), "textures off: 1 object");
+  EXPECT_EQ(value_in(scene, "model.textured"), "false");
+  EXPECT_EQ(toggle_color_maps(scene, &model), "textures on: 1 object");
+  EXPECT_EQ(cycle_relief(scene, &model), "objects.model.normal=none");
+  EXPECT_EQ(cycle_relief(scene, &model), "objects.model.normal=auto");
+}
+
+TEST(SceneChanges, ModelsAreLitPerPixelOrNotAtAll) {
+  SceneFile scene = scene_of_model();
+  EXPECT_EQ(set_shading_rate(scene, "none"), "shading none: 1 object");
+  EXPECT_EQ(value_in(scene, "model.shading"), "none");
+  for (const char* rate : {"flat", "gouraud"})
+    EXPECT_EQ(set_shading_rate(scene, rate), std::string("shading ") + rate + " is not available for model files; press 0 or 3");
+  EXPECT_EQ(value_in(scene, "model.shading"), "none") << "the floor, which only shows shadows, is not an object to shade";
+  EXPECT_EQ(set_shading_rate(scene, "phong"), "shading phong: 1 object");
 }
 
 TEST(SceneChanges, TogglingShadowsTwiceRestoresTheirMethod) {
@@ -100,8 +132,8 @@ TEST(SceneChanges, EveryChangeKeepsEachSceneValidAndReturnsAMessage) {
     ShadowToggle shadows;
     for (int round = 0; round < 3; ++round) {
       for (const char* rate : {"none", "flat", "gouraud", "phong"}) EXPECT_FALSE(set_shading_rate(scene, rate).empty()) << name;
-      EXPECT_FALSE(cycle_relief(scene).empty()) << name;
-      EXPECT_FALSE(toggle_color_maps(scene).empty()) << name;
+      EXPECT_FALSE(cycle_relief(scene, nullptr).empty()) << name;
+      EXPECT_FALSE(toggle_color_maps(scene, nullptr).empty()) << name;
       EXPECT_FALSE(shadows.toggle(scene).empty()) << name;
       EXPECT_FALSE(visibility.toggle(scene, "").empty()) << name;
       EXPECT_FALSE(change_exposure(scene, 1.5).empty()) << name;

@@ -208,6 +208,19 @@ class Events(Folder):
                 self.assertEqual(first, self.rendered(model, *options))
                 self.assertTrue(first != plain, "the option has an effect")
 
+    def test_keys_act_on_the_materials_of_a_model(self):
+        texture, material, model = self.folder / "checks.png", self.folder / "square.mtl", self.folder / "square.obj"
+        subprocess.run([program("halfspace"), "render", "earth", "-o", texture, "--size", "64x64"], check=True)
+        material.write_text("newmtl m\nKd 0.9 0.8 0.7\nmap_Kd checks.png\nmap_Bump -bm 0.1 checks.png\n")
+        model.write_text("mtllib square.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nusemtl m\nf 1/1 2/2 3/3 4/4\n")
+        plain = self.rendered(model)
+        for key, setting in [("t", "model.textured=false"), ("n", "model.normal=none"), ("0", "model.shading=none")]:
+            with self.subTest(key=key):
+                before, after = self.pictures(model, [f"1 key {key}"], 2)
+                self.assertEqual(before, plain)
+                self.assertEqual(after, self.rendered(model, "--set", setting))
+                self.assertNotEqual(after, plain)
+
     def test_turntable_moves_the_camera_around_the_model(self):
         model = self.folder / "box.obj"
         model.write_text(BOX)

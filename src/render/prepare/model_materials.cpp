@@ -184,6 +184,26 @@ bool ModelMaterials::is_soft_mask(const ObjectDescription& o, const Model& model
   });
 }
 
+namespace {
+
+// Removes the maps that the keys `textured` and `normal` of the object switch off. The alpha of a color map remains if it has an effect.
+void drop_maps(MetallicMaterial& surface, const ObjectDescription& o, const ModelMaterial& m) {
+  if (o.surface.textured && o.surface.normal != DetailChoice::none) return;
+  if (!o.surface.textured) {
+    MaterialMap& color = surface.maps[kBaseColorMap];
+    MaterialMap& opacity = surface.maps[kOpacityMap];
+    if (m.alpha_mode != AlphaMode::opaque && color.map != nullptr && opacity.map == nullptr) {
+      opacity = color;
+      opacity.channel = weights_of(Channel::alpha);
+    }
+    color.map = nullptr;
+  }
+  if (o.surface.normal == DetailChoice::none) surface.maps[kNormalMap].map = surface.maps[kClearcoatNormalMap].map = nullptr;
+  for (MaterialMap& map : surface.maps) map.repeats = false;  // the map whose texel was used again may be gone
+}
+
+}  // namespace
+
 MetallicMaterial ModelMaterials::metallic_material(const ObjectDescription& o, const Model& model, const ModelMaterial& m, bool has_uvs) {
   MetallicMaterial out;
   out.to_eye_ws = glm::vec3(view_.to_eye_ws);
@@ -208,9 +228,9 @@ MetallicMaterial ModelMaterials::metallic_material(const ObjectDescription& o, c
   out.emissive = m.emissive;
   out.ambient = glm::vec3(lights_.ambient());
   out.alpha_cutoff = m.alpha_cutoff;
-  out.unlit = m.unlit;
+  out.unlit = m.unlit || o.surface.shading == ShadingRate::none;
   out.blends = m.alpha_mode == AlphaMode::blend || (has_uvs && is_soft_mask(o, model, m));
-  out.environment = m.unlit ? nullptr : environments_.light();
+  out.environment = out.unlit ? nullptr : environments_.light();
   if (!has_uvs) return out;
   const MaterialMap* previous = nullptr;  // the last map that has a texture
   int previous_texture = -1;
@@ -231,6 +251,7 @@ MetallicMaterial ModelMaterials::metallic_material(const ObjectDescription& o, c
     previous = &map;
     previous_texture = use.texture;
   }
+  drop_maps(out, o, m);
   return out;
 }
 
@@ -238,7 +259,8 @@ MetallicMaterial ModelMaterials::surface_of(const ObjectDescription& o, const Mo
                                             bool has_uvs) {
   MetallicMaterial surface =
       has_uvs ? metallic_material(o, model, m, true) : metallic_material(o, model, without_converted_maps(model, m), false);
-  if (m.bump_map.texture >= 0 && m.normal_map.texture < 0) add_bumps(surface, o, model, mesh, m, used_, warnings_);
+  const bool bumps = m.bump_map.texture >= 0 && m.normal_map.texture < 0 && o.surface.normal != DetailChoice::none;
+  if (bumps) add_bumps(surface, o, model, mesh, m, used_, warnings_);
   return surface;
 }
 
