@@ -91,7 +91,7 @@ void Interface::draw_statistics(const Viewer& viewer, const Contents& c) const {
   const FrameTimes& t = c.frames.times();
   const PassStatistics& s = c.frames.statistics();
   begin_label("Statistics", 0.0f, 0.0f);
-  ImGui::TextUnformatted(fmt::format("{:6.1f} ms per frame, {:.1f} frames per second", c.times.frame, 1000.0 / c.times.frame).c_str());
+  ImGui::TextUnformatted(frame_rate_text(c.times, t.total()).c_str());
   ImGui::TextUnformatted(fmt::format("{:6.1f} ms maps and shadows\n{:6.1f} ms drawing\n{:6.1f} ms overlay\n{:6.1f} ms interface\n"
                                      "{:6.1f} ms copy to the window",
                                      t.prepare_ms, t.draw_ms, t.overlay_ms, c.times.interface, c.times.present)

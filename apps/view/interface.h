@@ -11,19 +11,13 @@
 #include "view/imgui_pass.h"
 #include "view/scene_panel.h"
 #include "view/viewer.h"
+#include "view/window_times.h"
 
 struct SDL_Window;
 union SDL_Event;
 struct ImGuiContext;
 
 namespace halfspace {
-
-/// Times of the last frame, in milliseconds.
-struct WindowTimes {
-  double frame = 0.0;      ///< from the start of one frame to the start of the next
-  double interface = 0.0;  ///< drawing the user interface
-  double present = 0.0;    ///< copying the frame to the window
-};
 
 class Interface {
  public:

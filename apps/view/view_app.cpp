@@ -143,23 +143,25 @@ void ViewApp::render_scene(int divisor, bool moving) {
   }
 }
 
-// Renders the scene if its picture has changed.
-void ViewApp::update_scene_frame(const glm::ivec2& size) {
+// Renders the scene if its picture has changed. Returns false if it has not.
+bool ViewApp::update_scene_frame(const glm::ivec2& size) {
   const bool moving = input_.is_moving() || viewer_.is_running();
   const int divisor = is_timed() ? 1 : coarse_.divisor(moving);
   const bool is_stale = picked_ && picked_->is_outdated && !moving;
   const Shown next{viewer_.revision(), viewer_.animation_seconds(), viewer_.overlay(), size, divisor};
-  if (shown_ == next && !is_timed() && !is_stale) return;
+  if (shown_ == next && !is_timed() && !is_stale) return false;
   if (scene_frame_.width() != size.x || scene_frame_.height() != size.y) scene_frame_ = Image<glm::u8vec4>(size.x, size.y);
   const Clock::time_point start = Clock::now();
   render_scene(divisor, moving);
   coarse_.add_frame(divisor, milliseconds(Clock::now() - start));
   shown_ = next;
+  return true;
 }
 
 void ViewApp::show_frame() {
   constexpr auto kMessageTime = std::chrono::seconds(4);
-  update_scene_frame(window_.size());
+  const bool rendered = update_scene_frame(window_.size());
+  times_.idle = !rendered && !input_.is_moving();
   if (viewer_.message() != last_message_) {
     last_message_ = viewer_.message();
     message_time_ = Clock::now();
@@ -170,8 +172,10 @@ void ViewApp::show_frame() {
   interface_.draw(viewer_, {frames_, times_, shown_ ? shown_->divisor : 1, picked_, show_message}, frame_, workers_);
   const Clock::time_point drawn = Clock::now();
   window_.present(frame_);
-  times_.interface = milliseconds(drawn - start);
-  times_.present = milliseconds(Clock::now() - drawn);
+  if (rendered) {
+    times_.interface = milliseconds(drawn - start);
+    times_.present = milliseconds(Clock::now() - drawn);
+  }
   if (!options_.record.empty()) write_png(options_.record / fmt::format("frame_{:04}.png", frame_number_), frame_);
 }
 

@@ -49,7 +49,7 @@ class ViewApp {
   void handle_action(Action action);
   void handle_events();
   void show_frame();
-  void update_scene_frame(const glm::ivec2& size);
+  bool update_scene_frame(const glm::ivec2& size);
   void render_scene(int divisor, bool moving);
   void update_history(bool moving);
   void add_times(RunTimes& sum) const;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "halfspace/scene/scene_paths.h"
+#include "view/window_times.h"
 
 namespace halfspace {
 namespace {
@@ -71,6 +72,12 @@ TEST(Viewer, ARejectedValueLeavesTheSceneUnchangedAndSetsTheMessage) {
   viewer.set({"earth.shininess=abc"});
   EXPECT_NE(viewer.message().find("shininess"), std::string::npos);
   EXPECT_EQ(viewer.scene().print(), SceneFile::open("earth").print());
+}
+
+TEST(WindowTimes, AtRestTheWindowIsIdleAndHasNoFrameRate) {
+  EXPECT_EQ(frame_rate_text({.frame = 40.0}, 30.0), "  40.0 ms per frame, 25.0 frames per second");
+  EXPECT_EQ(frame_rate_text({.frame = 200.0, .interface = 2.0, .present = 1.5, .idle = true}, 30.0),
+            "  33.5 ms for the last frame; idle: nothing changes");
 }
 
 TEST(Viewer, OverlaysCycleInBothDirections) {

@@ -383,6 +383,18 @@ class Desktop(Folder):
                 self.press({"o": "shift+o", "h": "h", "Tab": "Tab", "i": "i"}.get(key, "x"))
                 self.wait_for_picture(plain, f"restored after {key}")
 
+    def test_at_rest_the_statistics_do_not_change(self):
+        self.start("earth", *STILL, size="640x400")
+        self.wait_for(lambda: any(self.screenshot()[2][0]), "first frame")  # the background is not black
+        plain = self.screenshot()[2][:200]  # above the message, which disappears after a while
+        self.press("i")
+        self.wait_for(lambda: self.screenshot()[2][:200] != plain, "statistics are shown")
+        pictures = []
+        for _ in range(4):
+            time.sleep(0.5)  # the window is drawn every 0.2 s
+            pictures.append(self.screenshot()[2][:200])
+        self.assertEqual(len({tuple(rows) for rows in pictures}), 1)
+
     def test_keys_do_nothing_while_a_text_field_has_the_focus(self):
         self.start("earth", *STILL)
         plain = self.rendered("earth", *STILL)
