@@ -55,6 +55,15 @@ void draw_picked(const PickedPixel& picked, float scale) {
     ImGui::GetBackgroundDrawList()->AddCircle(at, 6.0f * scale, color, 24, width * scale);
 }
 
+// Shows a line of text in the middle of the display. Drawn without a window, because ImGui shows new windows only in their second frame.
+void draw_note(const std::string& text, float scale) {
+  const ImVec2 display = ImGui::GetIO().DisplaySize, size = ImGui::CalcTextSize(text.c_str());
+  const float margin = 8.0f * scale, x = 0.5f * (display.x - size.x), y = 0.5f * (display.y - size.y);
+  ImDrawList& list = *ImGui::GetForegroundDrawList();
+  list.AddRectFilled({x - margin, y - margin}, {x + size.x + margin, y + size.y + margin}, IM_COL32(20, 20, 20, 230));
+  list.AddText({x, y}, IM_COL32_WHITE, text.c_str());
+}
+
 }  // namespace
 
 Interface::Context::Context(double scale) {
@@ -134,6 +143,7 @@ bool Interface::draw(Viewer& viewer, const Contents& c, Image<glm::u8vec4>& fram
   const float free = shows_panels_ ? 1.0f - ScenePanel::width(scale_) / ImGui::GetIO().DisplaySize.x : 1.0f;  // fraction left of the panel
   if (!text.empty()) draw_label("Message", 0.5f * free, 1.0f, text);
   if (shows_help_) draw_help();
+  if (!c.busy.empty()) draw_note(c.busy, static_cast<float>(scale_));
   ImGui::Render();
   const ImDrawData& data = *ImGui::GetDrawData();
   if (data.TotalVtxCount == 0) return false;

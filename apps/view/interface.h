@@ -42,6 +42,7 @@ class Interface {
     int divisor;                               ///< divisor of the last frame's width and height
     const std::optional<PickedPixel>& picked;  ///< the picked pixel, if any
     bool show_message;
+    std::string busy{};  ///< what the program is about to do, if that can take long
   };
 
   /// Draws the user interface over the frame, which must have the size of the window. Returns false if there was nothing to draw.

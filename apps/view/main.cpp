@@ -37,7 +37,8 @@ void add_options(CLI::App& program, ViewArguments& args) {
   program.add_option("--frames", args.frames, "Show N frames at intervals of 1/30 s, print the mean times and exit")->type_name("N");
   program.add_flag("--no-window", args.no_window, "With --frames: render the same frames without a window");
   program.add_option("--events", args.events, "Replay the input events in the file; for tests")->type_name("FILE");
-  program.add_option("--record", args.record, "Write every frame to the folder; for tests")->type_name("DIR");
+  program.add_option("--record", args.record, "Write every frame and every note about long work to the folder; for tests")
+      ->type_name("DIR");
   add_model_options(&program, args.model);
   add_limit_options(&program, args.limits, false);
   add_primitive_limit_option(&program, args.limits, false);

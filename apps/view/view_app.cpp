@@ -57,6 +57,7 @@ ViewApp::ViewApp(Viewer viewer, ViewOptions options)
 }
 
 void ViewApp::open_dropped(const std::string& file) {
+  show_busy("opening " + std::filesystem::path(file).filename().string());
   try {
     ModelView view;
     view.aspect = static_cast<double>(window_.size().x) / window_.size().y;
@@ -86,6 +87,7 @@ void ViewApp::pick() {
 }
 
 void ViewApp::save() {
+  show_busy("saving the picture");
   try {
     const ViewFiles files =
         save_view(viewer_.scene(), viewer_.seconds(), options_.name, window_.size().x, window_.size().y, options_.threads, ".");
@@ -129,6 +131,7 @@ void ViewApp::update_history(bool moving) {
     picked_->is_outdated = true;
     return;
   }
+  show_busy("computing the history of the pixel");
   const glm::ivec2 last(scene_frame_.width() - 1, scene_frame_.height() - 1);
   picked_ = frames_.pick(glm::clamp(picked_->pixel, glm::ivec2(0), last), options_.name);
   viewer_.set_picked_object(picked_->object);
@@ -159,24 +162,37 @@ bool ViewApp::update_scene_frame(const glm::ivec2& size) {
 }
 
 void ViewApp::show_frame() {
-  constexpr auto kMessageTime = std::chrono::seconds(4);
   const bool rendered = update_scene_frame(window_.size());
   times_.idle = !rendered && !input_.is_moving();
   if (viewer_.message() != last_message_) {
     last_message_ = viewer_.message();
     message_time_ = Clock::now();
   }
+  const WindowTimes before = times_;
+  present("");
+  if (!rendered) times_ = before;  // the statistics describe the last frame of the scene
+  if (!options_.record.empty()) write_png(options_.record / fmt::format("frame_{:04}.png", frame_number_), frame_);
+}
+
+// Draws the user interface over the last frame of the scene and shows it.
+void ViewApp::present(const std::string& busy) {
+  constexpr auto kMessageTime = std::chrono::seconds(4);
   const Clock::time_point start = Clock::now();
   frame_ = scene_frame_;
   const bool show_message = Clock::now() - message_time_ < kMessageTime;
-  interface_.draw(viewer_, {frames_, times_, shown_ ? shown_->divisor : 1, picked_, show_message}, frame_, workers_);
+  interface_.draw(viewer_, {frames_, times_, shown_ ? shown_->divisor : 1, picked_, show_message, busy}, frame_, workers_);
   const Clock::time_point drawn = Clock::now();
   window_.present(frame_);
-  if (rendered) {
-    times_.interface = milliseconds(drawn - start);
-    times_.present = milliseconds(Clock::now() - drawn);
-  }
-  if (!options_.record.empty()) write_png(options_.record / fmt::format("frame_{:04}.png", frame_number_), frame_);
+  times_.interface = milliseconds(drawn - start);
+  times_.present = milliseconds(Clock::now() - drawn);
+}
+
+// Shows what the program is about to do, because it cannot react to input until that is done.
+void ViewApp::show_busy(const std::string& text) {
+  const glm::ivec2 size = window_.size();
+  if (scene_frame_.width() != size.x || scene_frame_.height() != size.y) scene_frame_ = Image<glm::u8vec4>(size.x, size.y);
+  present(text);
+  if (!options_.record.empty()) write_png(options_.record / fmt::format("busy_{:04}.png", frame_number_), frame_);
 }
 
 // Limits the frame rate. Waits for events while nothing changes.
@@ -196,7 +212,8 @@ void ViewApp::add_times(RunTimes& sum) const {
 }
 
 RunTimes ViewApp::run() {
-  show_frame();  // creates the maps
+  show_busy("preparing the maps and meshes of " + options_.name);
+  show_frame();
   RunTimes sum;
   const Clock::time_point start = frame_time_ = Clock::now();
   while (!closed_ && (!is_timed() || frame_number_ < *options_.frames)) {

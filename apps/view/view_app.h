@@ -49,6 +49,8 @@ class ViewApp {
   void handle_action(Action action);
   void handle_events();
   void show_frame();
+  void show_busy(const std::string& text);
+  void present(const std::string& busy);
   bool update_scene_frame(const glm::ivec2& size);
   void render_scene(int divisor, bool moving);
   void update_history(bool moving);

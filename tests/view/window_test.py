@@ -98,7 +98,7 @@ class Events(Folder):
              "--events", "events", "--record", "record", *options], cwd=self.folder, env=environment, capture_output=True, text=True)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertNotIn("halfspace::", done.stderr)
-        return sorted(record.iterdir())
+        return sorted(record.glob("frame_*.png"))
 
     def pictures(self, *arguments):
         return [picture_of(file) for file in self.run_events(*arguments)]
@@ -170,6 +170,17 @@ class Events(Folder):
                 self.assertEqual(len({tuple(frame) for frame in frames[:-1]}), shown + 1, "each step has a picture of its own")
                 if key != "p":
                     self.assertEqual(frames[-1], frames[0], "the last press restores it")
+
+    def test_long_work_shows_a_note(self):
+        model = self.folder / "box.obj"
+        model.write_text(BOX)
+        frames = self.run_events("three-lights", ["2 mouse 10 10", "3 key p", "5 key f12", f"7 drop {model}"], 9)
+        notes = {file.name: read_rows(file)[2] for file in (self.folder / "record").glob("busy_*.png")}
+        self.assertEqual(sorted(notes), ["busy_0000.png", "busy_0003.png", "busy_0005.png", "busy_0007.png"])
+        for before, name in [(2, "busy_0003.png"), (4, "busy_0005.png"), (6, "busy_0007.png")]:
+            middle = [row[3 * WIDTH // 2 - 60:3 * WIDTH // 2 + 60] for row in notes[name][HEIGHT // 2 - 8:HEIGHT // 2 + 8]]
+            picture = [row[3 * WIDTH // 2 - 60:3 * WIDTH // 2 + 60] for row in read_rows(frames[before])[2][HEIGHT // 2 - 8:HEIGHT // 2 + 8]]
+            self.assertNotEqual(middle, picture, f"{name}: the note is in the middle of the window")
 
     def test_v_hides_the_picked_object(self):
         # The cube is at the center of the picture.
