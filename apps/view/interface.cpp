@@ -37,20 +37,31 @@ void draw_label(const char* name, float x, float y, const std::string& text) {
   ImGui::End();
 }
 
-// Shows the history of a pixel in a window that scrolls if it is long, above the message.
+// Returns the height of the part of the display that the message can cover.
+float message_height(float scale) { return 40.0f * scale; }
+
+bool is_in_lower_half(const PickedPixel& picked) { return static_cast<float>(picked.pixel.y) > 0.5f * ImGui::GetIO().DisplaySize.y; }
+
+// Shows the history of a pixel in a window that scrolls if it is long: above the pixel if the pixel is in the lower half of the display,
+// and otherwise below the pixel and above the message, so that the window does not cover the pixel.
 void draw_picked(const PickedPixel& picked, float scale) {
   const ImVec2 display = ImGui::GetIO().DisplaySize;
-  ImGui::SetNextWindowPos({0.0f, display.y - 40.0f * scale}, ImGuiCond_Always, {0.0f, 1.0f});
-  ImGui::SetNextWindowSizeConstraints({0.0f, 0.0f}, {display.x, 0.6f * display.y});
-  ImGui::SetNextWindowBgAlpha(0.85f);
-  ImGui::Begin("Pixel", nullptr,
-               ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_AlwaysAutoResize |
-                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav |
-                   ImGuiWindowFlags_HorizontalScrollbar);
-  if (picked.is_outdated) ImGui::TextUnformatted("history of an earlier frame; press space to pause the animation");
-  ImGui::TextUnformatted(picked.history.c_str());
-  ImGui::End();
   const ImVec2 at(static_cast<float>(picked.pixel.x) + 0.5f, static_cast<float>(picked.pixel.y) + 0.5f);
+  const float message = message_height(scale), marker = 10.0f * scale;
+  const float free = is_in_lower_half(picked) ? at.y - marker : display.y - message - at.y - marker;
+  const float y = is_in_lower_half(picked) ? 0.0f : 1.0f;
+  if (!picked.history.empty()) {
+    ImGui::SetNextWindowPos({0.0f, y * (display.y - message)}, ImGuiCond_Always, {0.0f, y});
+    ImGui::SetNextWindowSizeConstraints({0.0f, 0.0f}, {display.x, std::max(1.0f, std::min(free, 0.6f * display.y))});
+    ImGui::SetNextWindowBgAlpha(0.85f);
+    ImGui::Begin("Pixel", nullptr,
+                 ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_AlwaysAutoResize |
+                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav |
+                     ImGuiWindowFlags_HorizontalScrollbar);
+    if (picked.is_outdated) ImGui::TextUnformatted("history of an earlier frame; press space to pause the animation");
+    ImGui::TextUnformatted(picked.history.c_str());
+    ImGui::End();
+  }
   for (const auto& [color, width] : {std::pair(IM_COL32(0, 0, 0, 255), 3.0f), std::pair(IM_COL32(255, 255, 255, 255), 1.0f)})
     ImGui::GetBackgroundDrawList()->AddCircle(at, 6.0f * scale, color, 24, width * scale);
 }
@@ -99,7 +110,8 @@ void Interface::toggle(Action action) {
 void Interface::draw_statistics(const Viewer& viewer, const Contents& c) const {
   const FrameTimes& t = c.frames.times();
   const PassStatistics& s = c.frames.statistics();
-  begin_label("Statistics", 0.0f, 0.0f);
+  const bool history_on_top = c.picked && is_in_lower_half(*c.picked);
+  begin_label("Statistics", 0.0f, history_on_top ? 1.0f : 0.0f, history_on_top ? message_height(static_cast<float>(scale_)) : 0.0f);
   ImGui::TextUnformatted(frame_rate_text(c.times, t.total()).c_str());
   ImGui::TextUnformatted(fmt::format("{:6.1f} ms maps and shadows\n{:6.1f} ms drawing\n{:6.1f} ms overlay\n{:6.1f} ms interface\n"
                                      "{:6.1f} ms copy to the window",

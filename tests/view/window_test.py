@@ -182,6 +182,14 @@ class Events(Folder):
             picture = [row[3 * WIDTH // 2 - 60:3 * WIDTH // 2 + 60] for row in read_rows(frames[before])[2][HEIGHT // 2 - 8:HEIGHT // 2 + 8]]
             self.assertNotEqual(middle, picture, f"{name}: the note is in the middle of the window")
 
+    def test_the_history_does_not_cover_its_pixel(self):
+        for x, y in [(40, 30), (40, 85), (40, 100), (40, 170), (300, 170)]:
+            with self.subTest(pixel=(x, y)):
+                frames = [read_rows(file)[2] for file in self.run_events("three-lights", [f"1 mouse {x} {y}", "2 key p"], 6)]
+                self.assertEqual(frames[5][y][3 * x:3 * x + 3], frames[0][y][3 * x:3 * x + 3], "the pixel has its color")
+                changed = [row for row in range(HEIGHT - MESSAGE_ROWS) if frames[5][row][:3 * WIDTH // 4] != frames[0][row][:3 * WIDTH // 4]]
+                self.assertGreater(len(changed), 20, "the history is shown")
+
     def test_v_hides_the_picked_object(self):
         # The cube is at the center of the picture.
         events = [f"1 mouse {WIDTH // 2} {HEIGHT // 2}", "2 key p", "3 key v", "4 key p"]
