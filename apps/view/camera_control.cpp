@@ -74,10 +74,11 @@ void zoom_camera(CameraDescription& camera, double factor) {
   }
 }
 
-void apply_movement(CameraDescription& camera, Action movement, double seconds) {
+void apply_movement(CameraDescription& camera, Action movement, double seconds, double nearest) {
   constexpr double kSpeed = 0.6;   // per second, in units of the distance to the target
   constexpr double kTurning = 45;  // degrees per second
-  const double step = kSpeed * seconds, angle = kTurning * seconds;
+  const double distance = glm::distance(camera.position, camera.target);
+  const double step = kSpeed * seconds * std::max(1.0, nearest / distance), angle = kTurning * seconds;
   switch (movement) {
     case Action::forward: return move_camera(camera, {0, 0, step});
     case Action::backward: return move_camera(camera, {0, 0, -step});

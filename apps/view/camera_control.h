@@ -23,8 +23,9 @@ void pan_camera(CameraDescription& camera, double right, double down);
 /// Divides the distance between the camera and its target by `factor` or, in an orthographic view, the height of the view volume.
 void zoom_camera(CameraDescription& camera, double factor);
 
-/// Applies a movement for some time in seconds.
-void apply_movement(CameraDescription& camera, Action movement, double seconds);
+/// Applies a movement for some time in seconds. The speed is proportional to the distance of the target, but not less than if the target
+/// were `nearest` away. A camera that is close to its target can then still leave a large model.
+void apply_movement(CameraDescription& camera, Action movement, double seconds, double nearest = 0.0);
 
 /// Moves the near plane to the eye and the far plane away, so that a camera movement clips nothing.
 void widen_depth_range(CameraDescription& camera);

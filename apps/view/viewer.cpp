@@ -58,7 +58,8 @@ void Viewer::change_camera(const std::function<void(CameraDescription&)>& functi
 }
 
 void Viewer::move(Action movement, double seconds) {
-  change_camera([&](CameraDescription& c) { apply_movement(c, movement, seconds); });
+  constexpr double kNearest = 0.1;  // in radii of the model
+  change_camera([&](CameraDescription& c) { apply_movement(c, movement, seconds, kNearest * opened_.model_radius); });
 }
 void Viewer::orbit(double yaw, double pitch) {
   change_camera([&](CameraDescription& c) { orbit_camera(c, yaw, pitch); });

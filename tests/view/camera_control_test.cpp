@@ -108,6 +108,17 @@ TEST(CameraControl, EveryMovementChangesTheCameraAndItsOppositeRestoresIt) {
   }
 }
 
+TEST(CameraControl, CloseToTheTargetTheSpeedHasAMinimum) {
+  CameraDescription c = sample_camera();
+  apply_movement(c, Action::left, 0.5, 0.5 * distance_of(c));
+  EXPECT_NEAR(glm::distance(c.position, sample_camera().position), 0.3 * distance_of(sample_camera()), kRounding);
+  c = sample_camera();
+  zoom_camera(c, 1000.0);
+  const glm::dvec3 near = c.position;
+  apply_movement(c, Action::left, 0.5, 2.0);
+  EXPECT_NEAR(glm::distance(c.position, near), 0.3 * 2.0, 1e-9) << "the distance is divided by a thousandth of its own";
+}
+
 TEST(CameraControl, TheDepthRangeOnlyGrows) {
   CameraDescription c = sample_camera();
   c.near = 4;

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "view/viewer.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
 
 #include "halfspace/scene/scene_paths.h"
 #include "view/window_times.h"
@@ -45,6 +49,32 @@ TEST(Viewer, MovingAnAnimatedCameraAddsAFreeCamera) {
   viewer.press(Action::reset_camera);
   EXPECT_EQ(viewer.scene().description().head.camera, "equator");
   EXPECT_EQ(viewer.scene().description().cameras.size(), 3u);
+}
+
+// Two copies of a triangle with different units. The first camera is fitted to the model, and the second is inside of it.
+TEST(Viewer, SpeedsScaleWithAModel) {
+  for (const bool inside : {false, true}) {
+    std::vector<double> fractions;  // of the radius of the model
+    for (const double scale : {1.0, 2000.0}) {
+      const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "halfspace_view_triangle.obj";
+      std::ofstream(file) << fmt::format("v 0 0 0\nv {0} 0 0\nv 0 {0} {0}\nf 1 2 3\n", scale);
+      ModelView view;
+      view.inside = inside;
+      Viewer viewer(open_scene_or_model(file.string(), view), 0.0);
+      ASSERT_GT(viewer.opened().model_radius, 0.5 * scale);
+      for (int i = 0; i < 2; ++i) {
+        const glm::dvec3 before = camera_of(viewer).position;
+        viewer.move(Action::right, 0.5);
+        fractions.push_back(glm::distance(camera_of(viewer).position, before) / viewer.opened().model_radius);
+        viewer.zoom(1000.0);
+      }
+    }
+    EXPECT_GT(fractions[0], 0.1);
+    EXPECT_NEAR(fractions[1], 0.03, 1e-9) << "the smallest speed, for half a second";
+    // The camera is fitted to vertices in float.
+    EXPECT_NEAR(fractions[2] / fractions[0], 1.0, 1e-5) << "inside " << inside;
+    EXPECT_NEAR(fractions[3] / fractions[1], 1.0, 1e-5) << "inside " << inside;
+  }
 }
 
 TEST(Viewer, TimeStopsWhilePaused) {

@@ -93,7 +93,7 @@ OrderedJson fitted_camera(const ModelPoses& poses, const ModelBounds& b, const F
   } else if (view.inside) {
     const glm::dvec3 along = b.half.x >= b.half.z ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 0, 1);
     eye = b.center - along * (0.6 * glm::dot(along, b.half)) - glm::dvec3(0, 0.35 * b.half.y, 0);
-    target = view.look_at.value_or(eye + along);
+    target = view.look_at.value_or(eye + along * b.radius);
   } else {
     const FramedView framed = frame_model(poses, b, view);
     target = view.look_at.value_or(framed.target);
@@ -313,7 +313,7 @@ GeneratedScene model_scene(const std::filesystem::path& file, const ModelView& v
         {"shape", "plane"}, {"shadow_only", true}, {"size", 6.0 * b.radius * frame.scale}, {"position", json_of(frame.point(below))}};
   }
   try {
-    return {scene.dump(1), asset, std::move(camera_names)};
+    return {scene.dump(1), asset, std::move(camera_names), b.radius * frame.scale};
   } catch (const OrderedJson::type_error&) {
     throw InputError(file.string() + ": a name or option is not valid UTF-8; expected text that a scene file can contain");
   }

@@ -21,6 +21,7 @@ struct GeneratedScene {
   std::string text;
   std::shared_ptr<const ModelAsset> model;
   std::map<std::string, std::string> camera_names;  ///< names of cameras and of their nodes in the file, and the names in the scene
+  double radius = 0.0;                              ///< of the bounds of the model, in units of the scene
 };
 
 /// Returns true if the file has the extension of a model format.

@@ -14,7 +14,7 @@ OpenedScene open_scene_or_model(const std::string& name_or_file, const ModelView
   GeneratedScene generated = model_scene(name_or_file, view);
   const std::filesystem::path file = std::filesystem::absolute(name_or_file).lexically_normal();
   return {SceneFile::parse(generated.text, name_or_file, std::filesystem::current_path()), file, std::move(generated.model),
-          std::move(generated.camera_names)};
+          std::move(generated.camera_names), generated.radius};
 }
 
 std::string message_in_scene(const SceneFile& scene, const std::string& message) {

@@ -22,6 +22,7 @@ struct OpenedScene {
   std::filesystem::path model_file;  ///< empty if the scene was not generated
   std::shared_ptr<const ModelAsset> model;
   std::map<std::string, std::string> camera_names;  ///< names in the model and the corresponding names in the scene
+  double model_radius = 0.0;                        ///< of the bounds of the model; 0 if the scene was not generated
 };
 
 /// Opens a scene by name or file name, or generates one that shows a model file. `view` is only used for model files. Throws InputError.
