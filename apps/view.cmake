@@ -1,5 +1,5 @@
 # The window, halfspace-view: a library without a window system (keys, camera, overlays, saving), and the program.
-set(view_without_window actions camera_control frame_maker overlay overlay_counts overlay_shadow overlay_values overlay_wireframe
+set(view_without_window actions camera_control enclosing_object frame_maker overlay overlay_counts overlay_shadow overlay_values overlay_wireframe
   picked_pixel save_view scene_changes viewer window_times)
 list(TRANSFORM view_without_window REPLACE "(.+)" "view/\\1.cpp")
 add_library(halfspace_view STATIC ${view_without_window})

@@ -9,6 +9,7 @@
 #include "halfspace/core/check.h"
 #include "halfspace/scene/scene_paths.h"
 #include "view/camera_control.h"
+#include "view/enclosing_object.h"
 
 namespace halfspace {
 
@@ -87,15 +88,25 @@ bool Viewer::restore_camera() {
   return true;
 }
 
+// Names the camera, and the object that the camera is inside of, which hides the others.
+std::string Viewer::camera_text() const {
+  const SceneDescription now = description();
+  const std::string name = camera_name();
+  const CameraDescription* camera = find_named(now.cameras, name);
+  const std::string object = camera == nullptr ? "" : enclosing_object(now, camera->position);
+  return object.empty() ? "camera " + name
+                        : fmt::format("camera {}: inside of '{}', which hides what is outside; press x for the next camera", name, object);
+}
+
 void Viewer::reset_or_next_camera() {
   message_ = change([&] {
-    if (restore_camera()) return fmt::format("camera {}", camera_name());
+    if (restore_camera()) return camera_text();
     const Named<CameraDescription>& cameras = scene_.description().cameras;
     if (cameras.empty()) return std::string("this scene has no cameras");
     const auto current = std::ranges::find(cameras, camera_name(), [](const auto& entry) { return entry.first; });
     const auto next = current == cameras.end() || current + 1 == cameras.end() ? cameras.begin() : current + 1;
     scene_.set("camera=" + std::string(next->first));
-    return fmt::format("camera {}", camera_name());
+    return camera_text();
   });
 }
 

@@ -58,6 +58,7 @@ class Viewer {
   void change_camera(const std::function<void(CameraDescription&)>& change);
   bool restore_camera();
   void reset_or_next_camera();
+  std::string camera_text() const;
   std::string change(const std::function<std::string()>& function);
   const Model* model() const { return opened_.model == nullptr ? nullptr : &opened_.model->model; }
 

@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "halfspace/scene/scene_paths.h"
+#include "view/enclosing_object.h"
 #include "view/window_times.h"
 
 namespace halfspace {
@@ -34,6 +35,27 @@ TEST(Viewer, XResetsTheCameraAndThenSelectsTheNextOne) {
   viewer.press(Action::reset_camera);
   viewer.press(Action::reset_camera);
   EXPECT_EQ(viewer.scene().description().head.camera, "equator");
+}
+
+TEST(Viewer, XNamesTheObjectThatTheCameraIsInside) {
+  Viewer viewer = viewer_of("earth");
+  viewer.press(Action::reset_camera);
+  EXPECT_TRUE(viewer.message().starts_with("camera inside: inside of 'earth'")) << viewer.message();
+  viewer.press(Action::reset_camera);
+  EXPECT_EQ(viewer.message(), "camera north");
+}
+
+TEST(EnclosingObject, SpheresAndCubesContainPoints) {
+  const SceneFile file = SceneFile::parse(R"({ "version": 1, "objects": {
+    "ball": { "shape": "sphere", "radius": 2, "position": [10, 0, 0] },
+    "box": { "shape": "cube", "size": 2, "rotation": [0, 45, 0], "instances": [{}, { "position": [0, 5, 0], "scale": [3, 1, 1] }] },
+    "hidden": { "shape": "uv_sphere", "radius": 50, "visible": false } } })",
+                                          "test", {});
+  const SceneDescription scene = file.at(0.0);
+  const std::pair<glm::dvec3, const char*> cases[] = {
+      {{11.9, 0, 0}, "ball"}, {{12.1, 0, 0}, ""},   {{0, 0.9, 0}, "box"},    {{1.3, 0, 0}, "box"}, {{0.9, 0, 0.9}, ""},
+      {{0, 1.1, 0}, ""},      {{0, 5.9, 0}, "box"}, {{1.9, 5, -1.9}, "box"}, {{1.9, 5, 1.9}, ""},  {{0, -20, 0}, ""}};
+  for (const auto& [point, name] : cases) EXPECT_EQ(enclosing_object(scene, point), name) << point.x << ' ' << point.y << ' ' << point.z;
 }
 
 TEST(Viewer, MovingAnAnimatedCameraAddsAFreeCamera) {
