@@ -68,10 +68,25 @@ void FrameMaker::render(const SceneDescription& scene, int divisor, Overlay over
   statistics_ = scene_->shadow_statistics;
   statistics_ += halfspace::render(*scene_, picture, workers_);
   times_.draw_ms = watch.lap_ms();
-  overlay_text_.clear();
-  if (overlay != Overlay::none) overlay_text_ = draw_overlay(overlay, {description_, *scene_, picture, *assets_, workers_});
-  if (divisor > 1) enlarge(small_, divisor, frame);
+  add_overlay(overlay, scene, frame);
   times_.overlay_ms = watch.lap_ms();
+}
+
+// Enlarges a coarse picture and draws the overlay. In a coarse frame, the overlay needs the scene at full size, but without shadows.
+void FrameMaker::add_overlay(Overlay overlay, const SceneDescription& scene, Image<glm::u8vec4>& frame) {
+  overlay_text_.clear();
+  const bool coarse = divisor_ > 1, coarse_overlay = coarse && overlay == Overlay::shadow_error;
+  if (coarse_overlay) overlay_text_ = draw_overlay(overlay, {description_, *scene_, small_, *assets_, workers_});
+  if (coarse) enlarge(small_, divisor_, frame);
+  if (overlay == Overlay::none || coarse_overlay) return;
+  if (!coarse) {
+    overlay_text_ = draw_overlay(overlay, {description_, *scene_, frame, *assets_, workers_});
+    return;
+  }
+  SceneDescription full = description_;
+  full.head.samples = scene.head.samples;  // the size of tiles depends on it
+  full.shadow.method = ShadowMethod::none;
+  overlay_text_ = draw_overlay(overlay, {full, assets_->prepare(full, frame.width(), frame.height()), frame, *assets_, workers_});
 }
 
 PickedPixel FrameMaker::pick(const glm::ivec2& pixel, const std::string& title) const {

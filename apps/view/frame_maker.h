@@ -48,7 +48,8 @@ class FrameMaker {
   void open(const OpenedScene& opened);
 
   /// Renders a picture with the size of `frame`. With a divisor greater than 1, renders fewer pixels with one sample each and enlarges
-  /// them; shadow maps are smaller by the same factor. Throws InputError.
+  /// them; shadow maps are smaller by the same factor. Overlays have the size of `frame` for any divisor, except for the one that traces
+  /// rays. Throws InputError.
   void render(const SceneDescription& scene, int divisor, Overlay overlay, Image<glm::u8vec4>& frame);
 
   /// Returns the history of a pixel of the last frame, which must exist. Its first line starts with `title`.
@@ -60,6 +61,8 @@ class FrameMaker {
   const std::string& overlay_text() const { return overlay_text_; }
 
  private:
+  void add_overlay(Overlay overlay, const SceneDescription& scene, Image<glm::u8vec4>& frame);
+
   const Workers& workers_;
   std::function<void(const std::string&)> warn_;
   std::unique_ptr<SceneAssets> assets_;

@@ -71,6 +71,28 @@ TEST(FrameMaker, ACoarseFrameHasEnlargedPixels) {
   }
 }
 
+// The overlays that cover all pixels of an object equal those of a full frame, and so do the edges of triangles.
+TEST(FrameMaker, OverlaysOfACoarseFrameHaveFullResolution) {
+  Frame frame;
+  for (const Overlay overlay : {Overlay::overdraw, Overlay::normals}) {
+    frame.render(overlay);
+    const Image<glm::u8vec4> full = frame.picture;
+    frame.render(overlay, 4);
+    EXPECT_EQ(frame.picture, full) << name_of(overlay);
+  }
+  frame.scene.set("cameras.front.height=16");
+  frame.scene.set("samples=4");
+  const auto edges = [&](int divisor) {
+    frame.render(Overlay::wireframe, divisor);
+    std::vector<bool> green;
+    for (const glm::u8vec4& c : frame.picture.texels()) green.push_back(c.y > 240 && c.x < 120);
+    return green;
+  };
+  EXPECT_EQ(edges(1), edges(4));
+  frame.render(Overlay::tiles, 4);
+  EXPECT_NE(frame.maker.overlay_text().find("32x32"), std::string::npos) << "the tiles of a full frame with 4 samples";
+}
+
 TEST(FrameMaker, ACoarseFrameHasSmallerShadowMaps) {
   Frame frame;
   frame.scene = SceneFile::open("shadow-plane");
