@@ -10,12 +10,15 @@
 #endif
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
+
+#include "view/interface_font.h"
 
 namespace halfspace {
 
 namespace {
+
+constexpr double kTextHeight = 14.0;  // pixels at scale 1
 
 constexpr ImGuiWindowFlags kLabelFlags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_AlwaysAutoResize |
                                          ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav;
@@ -81,9 +84,7 @@ Interface::Context::Context(double scale) {
   ImGui::CreateContext();
   ImGuiIO& io = ImGui::GetIO();
   io.IniFilename = nullptr;  // do not store the positions of windows in a file
-  ImFontConfig font;
-  font.SizePixels = static_cast<float>(std::floor(13.0 * scale));
-  io.Fonts->AddFontDefault(&font);
+  add_interface_font(*io.Fonts, interface_font(), kTextHeight * scale);
   ImGui::StyleColorsDark();
   ImGui::GetStyle().ScaleAllSizes(static_cast<float>(scale));
   ImGui::GetStyle().AntiAliasedLinesUseTex = false;

@@ -21,7 +21,7 @@ namespace halfspace {
 
 class Interface {
  public:
-  /// scale: scale of text and panels. 1 means that text is 13 pixels high.
+  /// scale: scale of text and panels. 1 means that text is 14 pixels high.
   Interface(SDL_Window* window, double scale);
   ~Interface();
   Interface(const Interface&) = delete;

@@ -4,7 +4,11 @@
 #include <gtest/gtest.h>
 #include <imgui.h>
 
+#include <filesystem>
+#include <utility>
+
 #include "support/workers.h"
+#include "view/interface_font.h"
 
 namespace halfspace {
 namespace {
@@ -82,6 +86,22 @@ TEST_F(ImGuiPassTest, TextHasTheTexelsOfTheFont) {
   }
   EXPECT_GT(white, 15);
   EXPECT_EQ(other, 0);
+}
+
+TEST(InterfaceFont, AScalableFontHasTheRequestedHeightAndAMissingOneIsReplaced) {
+  for (const auto& [file, height] : {std::pair(std::filesystem::path("/no/font.ttf"), 21.0f), std::pair(interface_font(), 21.7f)}) {
+    if (file.empty()) GTEST_SKIP() << "no font is installed (Debian and Ubuntu: fonts-dejavu-core)";
+    ImFontAtlas fonts;
+    add_interface_font(fonts, file, 21.7);
+    unsigned char* texels = nullptr;
+    int width = 0, atlas_height = 0;
+    fonts.GetTexDataAsAlpha8(&texels, &width, &atlas_height);
+    ASSERT_EQ(fonts.Fonts.Size, 1);
+    EXPECT_EQ(fonts.Fonts[0]->FontSize, height) << file;
+    const bool scalable = file == interface_font();
+    EXPECT_EQ(fonts.Fonts[0]->FindGlyphNoFallback(0x416) != nullptr, scalable) << "a Cyrillic letter";
+    EXPECT_EQ(fonts.Fonts[0]->GetCharAdvance('i'), fonts.Fonts[0]->GetCharAdvance('M')) << "columns of text are aligned";
+  }
 }
 
 TEST_F(ImGuiPassTest, WithoutTrianglesTheFrameIsUnchanged) {
