@@ -2,6 +2,8 @@
 #include "view/frame_maker.h"
 #include "halfspace/render/frame/frame.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -36,6 +38,16 @@ void enlarge(const Image<glm::u8vec4>& from, int factor, Image<glm::u8vec4>& to)
   }
 }
 
+bool is_generated(const EnvironmentDescription& e) {
+  return e.type == EnvironmentType::day_sky || e.type == EnvironmentType::night_sky || e.type == EnvironmentType::studio;
+}
+
+// Returns true if two generated skies have the same texels.
+bool is_same_sky(const EnvironmentDescription& a, const EnvironmentDescription& b) {
+  return a.type == b.type && a.size == b.size && a.sun == b.sun && a.clouds == b.clouds && a.milky_way == b.milky_way &&
+         a.rotation == b.rotation;
+}
+
 }  // namespace
 
 int CoarseControl::divisor(bool moving) const {
@@ -51,10 +63,26 @@ void FrameMaker::open(const OpenedScene& opened) {
   if (opened.model != nullptr) assets_->add_model(opened.model_file, opened.model);
 }
 
-void FrameMaker::render(const SceneDescription& scene, int divisor, Overlay overlay, Image<glm::u8vec4>& frame) {
+// Limits the size of generated skies that have changed since the last frame. Generating a sky of 6 · 1024² texels takes longer than
+// drawing most scenes.
+void FrameMaker::shrink_skies(const SceneDescription& scene) {
+  constexpr int kFaceSize = 256;
+  for (std::size_t i = 0; i < scene.environments.size(); ++i) {
+    EnvironmentDescription& sky = description_.environments[i].second;
+    if (!is_generated(sky) || i >= environments_.size() || is_same_sky(sky, environments_[i].second)) continue;
+    sky.size = sky.size == 0 ? kFaceSize : std::min(sky.size, kFaceSize);
+    has_coarse_sky_ = true;
+  }
+}
+
+void FrameMaker::render(const SceneDescription& scene, const FrameQuality& quality, Overlay overlay, Image<glm::u8vec4>& frame) {
   Stopwatch watch;
+  const int divisor = quality.divisor;
   description_ = scene;
   divisor_ = divisor;
+  has_coarse_sky_ = false;
+  if (quality.coarse_skies) shrink_skies(scene);
+  environments_ = scene.environments;
   if (divisor > 1) {
     description_.head.samples = 1;
     int& texels = description_.shadow.resolution;
@@ -87,6 +115,13 @@ void FrameMaker::add_overlay(Overlay overlay, const SceneDescription& scene, Ima
   full.head.samples = scene.head.samples;  // the size of tiles depends on it
   full.shadow.method = ShadowMethod::none;
   overlay_text_ = draw_overlay(overlay, {full, assets_->prepare(full, frame.width(), frame.height()), frame, *assets_, workers_});
+}
+
+std::string FrameMaker::reduction_text() const {
+  std::string text;
+  if (divisor_ > 1) text = fmt::format("1/{} of the width and height, one sample, smaller shadow maps", divisor_);
+  if (has_coarse_sky_) text += text.empty() ? "smaller sky" : ", smaller sky";
+  return text.empty() ? text : "reduced while moving: " + text;
 }
 
 PickedPixel FrameMaker::pick(const glm::ivec2& pixel, const std::string& title) const {

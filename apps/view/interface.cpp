@@ -121,9 +121,7 @@ void Interface::draw_statistics(const Viewer& viewer, const Contents& c) const {
   ImGui::TextUnformatted(fmt::format("{} triangles, {} after culling\n{} vertices shaded\n{} samples passed\n{} fragments shaded",
                                      s.primitives_in, s.triangles_binned, s.vertices_shaded, s.samples_passed, s.fragments_shaded)
                              .c_str());
-  ImGui::TextUnformatted(fmt::format("time {:.2f} s{}{}", viewer.seconds(), viewer.is_paused() ? ", paused" : "",
-                                     c.divisor > 1 ? fmt::format("; reduced to 1/{} of the width and height", c.divisor) : std::string())
-                             .c_str());
+  ImGui::TextUnformatted(fmt::format("time {:.2f} s{}", viewer.seconds(), viewer.is_paused() ? ", paused" : "").c_str());
   ImGui::End();
 }
 
@@ -151,8 +149,11 @@ bool Interface::draw(Viewer& viewer, const Contents& c, Image<glm::u8vec4>& fram
   if (shows_panels_) panel_.draw(viewer, scale_);
   if (shows_statistics_) draw_statistics(viewer, c);
   if (c.picked) draw_picked(*c.picked, static_cast<float>(scale_));
-  std::string text = c.frames.overlay_text();
-  if (c.show_message && !viewer.message().empty()) text += (text.empty() ? "" : "\n") + viewer.message();
+  std::string text;
+  const std::string lines[] = {c.frames.reduction_text(), c.frames.overlay_text(), c.show_message ? viewer.message() : ""};
+  for (const std::string& line : lines) {
+    if (!line.empty()) text += (text.empty() ? "" : "\n") + line;
+  }
   const float free = shows_panels_ ? 1.0f - ScenePanel::width(scale_) / ImGui::GetIO().DisplaySize.x : 1.0f;  // fraction left of the panel
   if (!text.empty()) draw_label("Message", 0.5f * free, 1.0f, text);
   if (shows_help_) draw_help();

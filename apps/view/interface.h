@@ -39,7 +39,6 @@ class Interface {
   struct Contents {
     const FrameMaker& frames;
     const WindowTimes& times;
-    int divisor;                               ///< divisor of the last frame's width and height
     const std::optional<PickedPixel>& picked;  ///< the picked pixel, if any
     bool show_message;
     std::string busy{};  ///< what the program is about to do, if that can take long

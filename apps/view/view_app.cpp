@@ -30,12 +30,12 @@ RunTimes run_without_window(Viewer& viewer, const ViewOptions& options) {
   FrameMaker maker(workers, {});
   maker.open(viewer.opened());
   Image<glm::u8vec4> frame(options.width, options.height);
-  maker.render(viewer.description(), 1, Overlay::none, frame);  // creates the maps
+  maker.render(viewer.description(), {}, Overlay::none, frame);  // creates the maps
   RunTimes sum;
   const auto start = std::chrono::steady_clock::now();
   for (; sum.frames < options.frames.value_or(0); ++sum.frames) {
     viewer.advance(kTimedStep);
-    maker.render(viewer.description(), 1, Overlay::none, frame);
+    maker.render(viewer.description(), {}, Overlay::none, frame);
     sum.prepare += maker.times().prepare_ms;
     sum.draw += maker.times().draw_ms;
   }
@@ -137,9 +137,9 @@ void ViewApp::update_history(bool moving) {
   viewer_.set_picked_object(picked_->object);
 }
 
-void ViewApp::render_scene(int divisor, bool moving) {
+void ViewApp::render_scene(const FrameQuality& quality, bool moving) {
   try {
-    frames_.render(viewer_.description(), divisor, viewer_.overlay(), scene_frame_);
+    frames_.render(viewer_.description(), quality, viewer_.overlay(), scene_frame_);
     update_history(moving);
   } catch (const InputError& e) {
     viewer_.set_message(e.what());
@@ -149,14 +149,14 @@ void ViewApp::render_scene(int divisor, bool moving) {
 // Renders the scene if its picture has changed. Returns false if it has not.
 bool ViewApp::update_scene_frame(const glm::ivec2& size) {
   const bool moving = input_.is_moving() || viewer_.is_running();
-  const int divisor = is_timed() ? 1 : coarse_.divisor(moving);
+  const FrameQuality quality = is_timed() ? FrameQuality{} : FrameQuality{coarse_.divisor(moving), moving};
   const bool is_stale = picked_ && picked_->is_outdated && !moving;
-  const Shown next{viewer_.revision(), viewer_.animation_seconds(), viewer_.overlay(), size, divisor};
+  const Shown next{viewer_.revision(), viewer_.animation_seconds(), viewer_.overlay(), size, quality};
   if (shown_ == next && !is_timed() && !is_stale) return false;
   if (scene_frame_.width() != size.x || scene_frame_.height() != size.y) scene_frame_ = Image<glm::u8vec4>(size.x, size.y);
-  const Clock::time_point start = Clock::now();
-  render_scene(divisor, moving);
-  coarse_.add_frame(divisor, milliseconds(Clock::now() - start));
+  render_scene(quality, moving);
+  // The time of overlays does not depend on the resolution of the picture.
+  coarse_.add_frame(quality.divisor, frames_.times().prepare_ms + frames_.times().draw_ms);
   shown_ = next;
   return true;
 }
@@ -180,7 +180,7 @@ void ViewApp::present(const std::string& busy) {
   const Clock::time_point start = Clock::now();
   frame_ = scene_frame_;
   const bool show_message = Clock::now() - message_time_ < kMessageTime;
-  interface_.draw(viewer_, {frames_, times_, shown_ ? shown_->divisor : 1, picked_, show_message, busy}, frame_, workers_);
+  interface_.draw(viewer_, {frames_, times_, picked_, show_message, busy}, frame_, workers_);
   const Clock::time_point drawn = Clock::now();
   window_.present(frame_);
   times_.interface = milliseconds(drawn - start);
@@ -198,7 +198,7 @@ void ViewApp::show_busy(const std::string& text) {
 // Limits the frame rate. Waits for events while nothing changes.
 void ViewApp::wait_for_change() {
   constexpr double kShortestFrameMs = 1000.0 / 60.0, kIdleMs = 200.0;
-  const bool busy = input_.is_moving() || viewer_.is_running() || (shown_ && shown_->divisor > 1);
+  const bool busy = input_.is_moving() || viewer_.is_running() || (shown_ && shown_->quality != FrameQuality{});
   const double rest = (busy ? kShortestFrameMs : kIdleMs) - milliseconds(Clock::now() - frame_time_);
   if (rest >= 1.0) SDL_WaitEventTimeout(nullptr, static_cast<int>(rest));
 }

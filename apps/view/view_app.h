@@ -52,7 +52,7 @@ class ViewApp {
   void show_busy(const std::string& text);
   void present(const std::string& busy);
   bool update_scene_frame(const glm::ivec2& size);
-  void render_scene(int divisor, bool moving);
+  void render_scene(const FrameQuality& quality, bool moving);
   void update_history(bool moving);
   void add_times(RunTimes& sum) const;
   void pick();
@@ -77,7 +77,7 @@ class ViewApp {
     double seconds;
     Overlay overlay;
     glm::ivec2 size;
-    int divisor;
+    FrameQuality quality;
     friend bool operator==(const Shown&, const Shown&) = default;
   };
   std::optional<Shown> shown_;  // state of scene_frame_; nullopt: the next frame must be rendered

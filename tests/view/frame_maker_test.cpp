@@ -35,7 +35,7 @@ struct Frame {
   Image<glm::u8vec4> picture{kSize, kSize};
 
   Frame() { maker.open({scene, {}, nullptr, {}}); }
-  void render(Overlay overlay, int divisor = 1) { maker.render(scene.at(0.0), divisor, overlay, picture); }
+  void render(Overlay overlay, int divisor = 1) { maker.render(scene.at(0.0), {.divisor = divisor}, overlay, picture); }
 };
 
 TEST(CoarseControl, FramesAreCoarseOnlyWhileSomethingMovesAndFramesAreLong) {
@@ -91,6 +91,36 @@ TEST(FrameMaker, OverlaysOfACoarseFrameHaveFullResolution) {
   EXPECT_EQ(edges(1), edges(4));
   frame.render(Overlay::tiles, 4);
   EXPECT_NE(frame.maker.overlay_text().find("32x32"), std::string::npos) << "the tiles of a full frame with 4 samples";
+}
+
+// The sky of the first frame is large. While only the camera moves, it is kept; when the Sun moves, the sky becomes small.
+TEST(FrameMaker, OnlyASkyThatChangesIsSmall) {
+  Frame frame;
+  frame.scene = SceneFile::parse(R"({ "version": 1, "cameras": { "main": {} }, "environments": { "day": { "type": "day_sky" } },
+    "background": { "type": "environment" } })",
+                                 "test", {});
+  frame.maker.open({frame.scene, {}, nullptr, {}});
+  const FrameQuality coarse{.coarse_skies = true};
+  const auto render = [&](const char* setting, const FrameQuality& quality) {
+    frame.scene.set(setting);
+    frame.maker.render(frame.scene.at(0.0), quality, Overlay::none, frame.picture);
+    return frame.picture;
+  };
+  render("day.size=512", {});
+  EXPECT_EQ(render("main.fov=50", coarse), render("main.fov=50", {})) << "the camera has moved";
+  EXPECT_EQ(frame.maker.reduction_text(), "");
+  const Image<glm::u8vec4> small = render("day.sun=1,0.5,0", coarse);
+  EXPECT_EQ(frame.maker.reduction_text(), "reduced while moving: smaller sky");
+  const Image<glm::u8vec4> full = render("day.sun=1,0.5,0", {});
+  EXPECT_NE(small, full);
+  EXPECT_EQ(frame.maker.reduction_text(), "");
+  EXPECT_EQ(small, render("day.size=256", {})) << "a face has 256 texels";
+}
+
+TEST(FrameMaker, ACoarseFrameSaysSo) {
+  Frame frame;
+  frame.render(Overlay::none, 2);
+  EXPECT_EQ(frame.maker.reduction_text(), "reduced while moving: 1/2 of the width and height, one sample, smaller shadow maps");
 }
 
 TEST(FrameMaker, ACoarseFrameHasSmallerShadowMaps) {
