@@ -2,6 +2,7 @@
 //
 // `halfspace-view SCENE|MODEL`: shows a scene or a model in a window.
 #include <fmt/format.h>
+#include <malloc.h>
 #include <CLI/CLI.hpp>
 
 #include <iostream>
@@ -78,7 +79,15 @@ void print(const RunTimes& times, const ViewOptions& options) {
       1000.0 / times.frame);
 }
 
+// Keeps freed memory for the next frame. Otherwise, the C library returns the shadow maps and skies of a frame to the system, which clears
+// their pages again for the next frame. In day-night, that took a third of the time of a coarse frame.
+void keep_freed_memory() {
+  mallopt(M_MMAP_THRESHOLD, 32 << 20);  // the largest value that is allowed
+  mallopt(M_TRIM_THRESHOLD, 1 << 30);
+}
+
 void run(const ViewArguments& args) {
+  keep_freed_memory();
   set_limits(args.limits);
   const ViewOptions options = options_of(args);
   const double time = args.time.empty() ? 0.0 : parse_real("--time", args.time, -1e9, 1e9, "-1e9 to 1e9 seconds, for example 2.5");

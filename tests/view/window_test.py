@@ -174,7 +174,7 @@ class Events(Folder):
     def test_long_work_shows_a_note(self):
         model = self.folder / "box.obj"
         model.write_text(BOX)
-        frames = self.run_events("three-lights", ["2 mouse 10 10", "3 key p", "5 key f12", f"7 drop {model}"], 9)
+        frames = self.run_events("three-lights", ["2 mouse 10 10", "3 key p", "4 key p", "5 key f12", f"7 drop {model}"], 9)
         notes = {file.name: read_rows(file)[2] for file in (self.folder / "record").glob("busy_*.png")}
         self.assertEqual(sorted(notes), ["busy_0000.png", "busy_0003.png", "busy_0005.png", "busy_0007.png"])
         for before, name in [(2, "busy_0003.png"), (4, "busy_0005.png"), (6, "busy_0007.png")]:
