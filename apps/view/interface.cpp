@@ -121,7 +121,7 @@ void Interface::draw_statistics(const Viewer& viewer, const Contents& c) const {
   ImGui::TextUnformatted(fmt::format("{} triangles, {} after culling\n{} vertices shaded\n{} samples passed\n{} fragments shaded",
                                      s.primitives_in, s.triangles_binned, s.vertices_shaded, s.samples_passed, s.fragments_shaded)
                              .c_str());
-  ImGui::TextUnformatted(fmt::format("time {:.2f} s{}", viewer.seconds(), viewer.is_paused() ? ", paused" : "").c_str());
+  ImGui::TextUnformatted(fmt::format("time {:.2f} s{}", viewer.animation_seconds(), viewer.is_paused() ? ", paused" : "").c_str());
   ImGui::End();
 }
 

@@ -77,7 +77,7 @@ TEST(Effect, SurfaceKeysOfAModelOverrideItsMaterial) {
   SceneFile scene = scene_with(R"("materials": {"m": {"shininess": 7}}, )" + object_of_model(R"(, "material": "m", "color": [0, 1, 0])"));
   scene.set("a.shading=flat");
   EXPECT_EQ(scene.description().objects[0].second.surface.shading, ShadingRate::flat);
-  EXPECT_TRUE(reports(input_error([&] { scene.set("a.material="); }), "test.json: objects.a.", {"no effect"}));
+  EXPECT_TRUE(reports(input_error([&] { scene.set("a.material="); }), "test.json: objects.a.", {"own materials", "material as well"}));
 }
 
 TEST(Effect, AnimationsOfKeysWithoutEffectAreRejected) {

@@ -49,7 +49,7 @@ TEST(SceneChanges, TexturesAreToggled) {
 // A scene like the one that is generated for a model file.
 SceneFile scene_of_model() {
   return SceneFile::parse(R"({ "version": 1, "cameras": { "main": {} },
-    "objects": { "model": { "shape": "file", "file": "a.obj" }, "floor": { "shape": "plane", "shadow_only": true } } })",
+    "objects": { "model": { "shape": "file", "file": "/a.obj" }, "floor": { "shape": "plane", "shadow_only": true } } })",
                           "test", {});
 }
 
