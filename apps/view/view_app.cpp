@@ -190,7 +190,10 @@ void ViewApp::present(const std::string& busy) {
 // Shows what the program is about to do, because it cannot react to input until that is done.
 void ViewApp::show_busy(const std::string& text) {
   const glm::ivec2 size = window_.size();
-  if (scene_frame_.width() != size.x || scene_frame_.height() != size.y) scene_frame_ = Image<glm::u8vec4>(size.x, size.y);
+  if (scene_frame_.width() != size.x || scene_frame_.height() != size.y) {
+    scene_frame_ = Image<glm::u8vec4>(size.x, size.y);
+    std::fill_n(scene_frame_.data(), scene_frame_.texels().size(), glm::u8vec4(0, 0, 0, 255));
+  }
   present(text);
   if (!options_.record.empty()) write_png(options_.record / fmt::format("busy_{:04}.png", frame_number_), frame_);
 }

@@ -88,14 +88,16 @@ bool Viewer::restore_camera() {
   return true;
 }
 
-// Names the camera, and the object that the camera is inside of, which hides the others.
+// Names the camera, and the object that it is inside of, because the inner side of most objects is not drawn.
 std::string Viewer::camera_text() const {
   const SceneDescription now = description();
   const std::string name = camera_name();
   const CameraDescription* camera = find_named(now.cameras, name);
   const std::string object = camera == nullptr ? "" : enclosing_object(now, camera->position);
-  return object.empty() ? "camera " + name
-                        : fmt::format("camera {}: inside of '{}', which hides what is outside; press x for the next camera", name, object);
+  if (object.empty()) return "camera " + name;
+  const bool drawn = find_named(now.objects, object)->surface.two_sided;
+  return fmt::format("camera {}: inside of '{}', whose inner side is {}drawn; press x for the next camera", name, object,
+                     drawn ? "" : "not ");
 }
 
 void Viewer::reset_or_next_camera() {

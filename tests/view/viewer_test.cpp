@@ -40,7 +40,7 @@ TEST(Viewer, XResetsTheCameraAndThenSelectsTheNextOne) {
 TEST(Viewer, XNamesTheObjectThatTheCameraIsInside) {
   Viewer viewer = viewer_of("earth");
   viewer.press(Action::reset_camera);
-  EXPECT_TRUE(viewer.message().starts_with("camera inside: inside of 'earth'")) << viewer.message();
+  EXPECT_TRUE(viewer.message().starts_with("camera inside: inside of 'earth', whose inner side is not drawn;")) << viewer.message();
   viewer.press(Action::reset_camera);
   EXPECT_EQ(viewer.message(), "camera north");
 }
