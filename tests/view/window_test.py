@@ -7,15 +7,19 @@
 Events are pushed by --events, and the frames are written by --record. The class Desktop uses real key presses under Xvfb with openbox,
 wmctrl and xdotool. A test is skipped if a program that it needs is not installed; the message names the package.
 """
+import base64
 import functools
+import json
 import os
 import shutil
 import signal
+import struct
 import subprocess
 import sys
 import tempfile
 import time
 import unittest
+import zlib
 from pathlib import Path
 
 sys.dont_write_bytecode = True
@@ -239,6 +243,36 @@ class Events(Folder):
                 self.assertEqual(before, plain)
                 self.assertEqual(after, self.rendered(model, "--set", setting))
                 self.assertNotEqual(after, plain)
+
+    def test_without_its_color_map_a_cut_out_keeps_its_shape(self):
+        """The map of a square is red, and transparent in its right half."""
+        def chunk(kind, body):
+            return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
+
+        row = b"\0" + b"\xff\0\0\xff" * 8 + b"\xff\0\0\0" * 8
+        png = (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", 16, 16, 8, 6, 0, 0, 0)) + chunk(b"IDAT", zlib.compress(row * 16)) +
+               chunk(b"IEND", b""))
+        corners = [(-1, -1), (1, -1), (1, 1), (-1, -1), (1, 1), (-1, 1)]
+        data = struct.pack("<18f12f", *(v for x, y in corners for v in (x, y, 0)), *(0.5 + 0.5 * v for corner in corners for v in corner))
+        encoded = {kind: f"data:{kind};base64," + base64.b64encode(body).decode() for kind, body in
+                   (("image/png", png), ("application/octet-stream", data))}
+        model = self.folder / "square.gltf"
+        model.write_text(json.dumps({
+            "asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+            "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "TEXCOORD_0": 1}, "material": 0}]}],
+            "materials": [{"alphaMode": "MASK", "doubleSided": True, "pbrMetallicRoughness": {"baseColorTexture": {"index": 0}, "metallicFactor": 0}}],
+            "textures": [{"source": 0}], "images": [{"uri": encoded["image/png"]}],
+            "buffers": [{"uri": encoded["application/octet-stream"], "byteLength": len(data)}],
+            "bufferViews": [{"buffer": 0, "byteLength": 72}, {"buffer": 0, "byteOffset": 72, "byteLength": 48}],
+            "accessors": [{"bufferView": 0, "componentType": 5126, "count": 6, "type": "VEC3", "min": [-1, -1, 0], "max": [1, 1, 0]},
+                          {"bufferView": 1, "componentType": 5126, "count": 6, "type": "VEC2"}]}))
+        options = ["--no-floor", "--yaw", "0", "--set", "samples=1", "--set", "shadow.method=none"]
+        before, after = self.pictures(model, ["1 key t"], 2, *options)
+        background = before[0][:3]
+        shape = [[row[3 * x:3 * x + 3] != background for x in range(WIDTH)] for row in before]
+        self.assertGreater(sum(map(sum, shape)), 1000)
+        self.assertEqual([[row[3 * x:3 * x + 3] != background for x in range(WIDTH)] for row in after], shape)
+        self.assertNotEqual(after, before)
 
     def test_turntable_moves_the_camera_around_the_model(self):
         model = self.folder / "box.obj"
