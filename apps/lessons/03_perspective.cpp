@@ -41,7 +41,8 @@ void draw(std::vector<uint8_t>& image, const Projected& a, const Projected& b, c
       const double sum = qa + qb + qc;  // 1/distance of the pixel
       const double u = (qa * a.u + qb * b.u + qc * c.u) / sum;
       const double v = (qa * a.v + qb * b.v + qc * c.v) / sum;
-      const bool dark = (static_cast<int>(std::floor(u)) + static_cast<int>(std::floor(v))) % 2 != 0;
+      // Some centers are exactly on a line between two tiles. 1e-9 decides for them; otherwise, rounding would.
+      const bool dark = static_cast<int>(std::floor(u + 1e-9) + std::floor(v + 1e-9)) % 2 != 0;
       uint8_t* pixel = &image[3 * static_cast<std::size_t>(y * kWidth + x)];
       pixel[0] = dark ? 40 : 230;
       pixel[1] = dark ? 60 : 180;

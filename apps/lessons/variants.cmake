@@ -14,7 +14,8 @@ foreach(lesson ${lessons})
     add_custom_command(OUTPUT ${source}
       COMMAND ${CMAKE_COMMAND} -E make_directory ${CMAKE_CURRENT_BINARY_DIR}/lessons
       COMMAND ${Python3_EXECUTABLE} ${script} write ${name} ${variant} ${source}
-      DEPENDS ${script} ${CMAKE_CURRENT_SOURCE_DIR}/lessons/${name}.cpp ${pages}/${number}.md ${pages}/teachers.md)
+      DEPENDS ${script} ${CMAKE_CURRENT_SOURCE_DIR}/lessons/${name}.cpp ${pages}/${number}.md
+        ${PROJECT_SOURCE_DIR}/docs/teachers/solutions.md)
     add_executable(${lesson}-${variant} EXCLUDE_FROM_ALL ${source})
     get_target_property(libraries ${lesson} LINK_LIBRARIES)
     if(libraries)

@@ -2,13 +2,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """Draws the pictures of the lessons, and applies the changes that the lessons show to their programs.
 
-  scripts/docs/lesson_pictures.py draw BUILD            builds and runs all programs and variants, and writes docs/tutorial/lessons/images with
-                                                   `convert` of ImageMagick
+  scripts/docs/lesson_pictures.py draw BUILD            builds and runs all programs and variants, and writes their pictures with `convert` of
+                                                   ImageMagick: those of solutions to docs/teachers/images, and
+                                                   all others to docs/tutorial/lessons/images
   scripts/docs/lesson_pictures.py check BUILD           the same, but compares with the existing pictures, with `halfspace compare`
   scripts/docs/lesson_pictures.py write NAME VARIANT OUT  writes the source of one variant; CMake calls this
 
 A lesson shows changes to its program as diff blocks: "wrong" is the block in the section "Break the program" of the lesson, and
-"solution" is the block of the lesson in teachers.md. The old lines of a change must occur exactly once in the program, apart from their
+"solution" is the block of the lesson in docs/teachers/solutions.md. The old lines of a change must occur exactly once in the program, apart from their
 indentation.
 """
 
@@ -21,6 +22,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 PROGRAMS = ROOT / "apps" / "lessons"
 PAGES = ROOT / "docs" / "tutorial" / "lessons"
+TEACHERS = ROOT / "docs" / "teachers"
 VARIANTS = ("wrong", "solution")
 
 
@@ -44,7 +46,7 @@ def change_of(name, variant):
     if variant == "wrong":
         text = section((PAGES / f"{number}.md").read_text(encoding="utf-8"), "Break the program")
     else:
-        text = section((PAGES / "teachers.md").read_text(encoding="utf-8"), f"Lesson {int(number)}")
+        text = section((TEACHERS / "solutions.md").read_text(encoding="utf-8"), f"Lesson {int(number)}")
     block = re.search(r"^```diff\n(.*?)^```", text, re.MULTILINE | re.DOTALL)
     hunks, old, new = [], [], []
     for line in block.group(1).splitlines() if block else []:
@@ -77,8 +79,15 @@ def write_png(picture, out):
     subprocess.run(["convert", str(picture), "-strip", "-define", "png:compression-level=9", f"png:{out}"], check=True)
 
 
+def picture_path(name, variant):
+    """Returns the file of the picture of a program ("") or of one of its variants."""
+    if variant == "solution":
+        return TEACHERS / "images" / f"{name[:2]}.png"
+    return PAGES / "images" / (f"{name[:2]}-{variant}.png" if variant else f"{name[:2]}.png")
+
+
 def pictures(build):
-    """Builds and runs all programs and variants. Yields the name of each picture in the lessons and the file that the program wrote."""
+    """Builds and runs all programs and variants. Yields the path of each picture in the documents and the file that the program wrote."""
     subprocess.run(["cmake", "--build", str(build), "--target", "lessons", "lesson-variants", "halfspace"], check=True, stdout=subprocess.DEVNULL)
     with tempfile.TemporaryDirectory() as temporary:
         for name in names():
@@ -91,19 +100,18 @@ def pictures(build):
                 run = subprocess.run([str(program), str(picture)], stdout=subprocess.DEVNULL, check=False)
                 if run.returncode != 0 and variant != "wrong":
                     raise LessonError(f"{program.name} failed")
-                yield f"{name[:2]}-{variant}.png" if variant else f"{name[:2]}.png", picture
+                yield picture_path(name, variant), picture
 
 
 def draw(build):
-    for name, picture in pictures(build):
-        write_png(picture, PAGES / "images" / name)
+    for kept, picture in pictures(build):
+        write_png(picture, kept)
 
 
 def check(build):
-    for name, picture in pictures(build):
-        if name == "11-wrong.png":  # its blocks are as wide as a register
+    for kept, picture in pictures(build):
+        if kept.name == "11-wrong.png":  # its blocks are as wide as a register
             continue
-        kept = PAGES / "images" / name
         compare = [str(build / "bin" / "halfspace"), "compare", str(picture), str(kept), "--tolerance", "0"]
         result = subprocess.run(compare, capture_output=True, text=True, check=False)
         if result.returncode != 0:

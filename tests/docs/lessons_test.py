@@ -15,13 +15,18 @@ class Lessons(unittest.TestCase):
     def test_changes_apply(self):
         for name in lesson_pictures.names():
             source = (lesson_pictures.PROGRAMS / f"{name}.cpp").read_text(encoding="utf-8")
-            self.assertNotEqual(lesson_pictures.source_of(name, "solution"), source, f"{name}: no solution in teachers.md")
+            self.assertNotEqual(lesson_pictures.source_of(name, "solution"), source, f"{name}: no solution in solutions.md")
             self.assertNotEqual(lesson_pictures.source_of(name, "wrong"), source, f"{name}: its page shows no wrong variant")
 
     def test_pictures_are_small(self):
-        images = list((lesson_pictures.PAGES / "images").glob("*.png"))
-        self.assertEqual(len(images), 42)
+        names = lesson_pictures.names()
+        images = [path for folder in (lesson_pictures.PAGES, lesson_pictures.TEACHERS) for path in (folder / "images").glob("*.png")]
+        self.assertEqual(sorted(images), sorted(lesson_pictures.picture_path(name, variant) for name in names for variant in ("", *lesson_pictures.VARIANTS)))
         self.assertLessEqual(sum(path.stat().st_size for path in images), 1_000_000)
+
+    def test_solutions_are_not_in_the_folder_of_the_students(self):
+        for page in lesson_pictures.PAGES.glob("*.md"):
+            self.assertNotIn("teachers/images", page.read_text(encoding="utf-8"), page.name)
 
     def test_a_change_of_absent_or_repeated_lines_is_rejected(self):
         self.assertEqual(lesson_pictures.changed("a\n  b\nc", [(["b"], ["x", "y"])], ""), "a\nx\ny\nc")
