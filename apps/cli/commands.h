@@ -96,6 +96,12 @@ struct CompareArguments {
 };
 void compare_command(const CompareArguments& args);
 
+struct CheckLessonArguments {
+  std::string lesson, file;
+  std::string out;  ///< default: FILE-difference.png, and no differences of the pictures in a folder
+};
+void check_lesson_command(const CheckLessonArguments& args);
+
 struct ChartArguments {
   std::string study, out = "charts", threads;
   bool quick = false;

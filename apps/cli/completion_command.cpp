@@ -46,7 +46,7 @@ complete -c halfspace -n __fish_use_subcommand -a '(halfspace completion words)'
 complete -c halfspace -n '__fish_seen_subcommand_from render list' -a '(halfspace list --names)'
 complete -c halfspace -n '__fish_seen_subcommand_from render' -l set -x -a '(halfspace list (commandline -opc)[3] --names 2> /dev/null)'
 complete -c halfspace -n '__fish_seen_subcommand_from chart' -a '(halfspace completion studies)'
-complete -c halfspace -n '__fish_seen_subcommand_from convert-normal compare' -F
+complete -c halfspace -n '__fish_seen_subcommand_from convert-normal compare check-lesson' -F
 complete -c halfspace -n 'not __fish_use_subcommand' -a '(halfspace completion words (commandline -opc)[2])'
 )script";
 

@@ -207,6 +207,21 @@ void add_compare_command(CLI::App& program) {
   command->callback([args] { compare_command(*args); });
 }
 
+void add_check_lesson_command(CLI::App& program) {
+  CLI::App* command = program.add_subcommand("check-lesson", "Compare the picture of an exercise with its solution");
+  const auto args = std::make_shared<CheckLessonArguments>();
+  command->add_option("N", args->lesson, "Number of the lesson")->required()->type_name("");
+  command->add_option("FILE", args->file, "Picture, or a folder of pictures")->required()->type_name("")->check(not_empty());
+  command->add_option("-o,--output", args->out, "Difference image (PNG); of a folder: folder for them")
+      ->type_name("DIFF")
+      ->check(not_empty());
+  command->footer(
+      "Examples:\n"
+      "  halfspace check-lesson 1 lesson01.ppm\n"
+      "  halfspace check-lesson 1 submissions -o differences");
+  command->callback([args] { check_lesson_command(*args); });
+}
+
 void add_list_command(CLI::App& program) {
   CLI::App* command = program.add_subcommand("list", "List the scenes, or the keys of a scene");
   const auto args = std::make_shared<ListArguments>();
@@ -251,6 +266,7 @@ void parse_and_run(CLI::App& program, int argc, char** argv) {
   add_convert_normal_command(program);
   add_validate_command(program);
   add_compare_command(program);
+  add_check_lesson_command(program);
   add_chart_command(program);
   add_list_command(program);
   add_info_command(program);

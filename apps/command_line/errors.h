@@ -10,7 +10,7 @@ namespace halfspace {
 /// The exit codes of the programs.
 enum ExitCode : int {
   kOk = 0,
-  kDiffers = 1,     ///< compare: the images differ by more than the tolerance
+  kDiffers = 1,     ///< compare, check-lesson: the images differ by more than is accepted
   kUsage = 2,       ///< invalid command line
   kBadInput = 3,    ///< unknown scene, invalid key or value, unreadable file, or out of memory
   kCannotWrite = 4  ///< the result cannot be written
@@ -22,7 +22,7 @@ class UsageError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Two images differ by more than the tolerance. what() is one line.
+/// Images differ by more than is accepted. what() is one line.
 class DifferenceError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -358,7 +358,8 @@ TEST_F(Cli, ThreadsFollowTheAffinityMask) {
 }
 
 TEST_F(Cli, HelpFitsOnAScreenAndEndsWithTwoExamples) {
-  for (const char* command : {"render", "export", "convert-normal", "validate", "compare", "chart", "list", "info", "completion"}) {
+  for (const char* command :
+       {"render", "export", "convert-normal", "validate", "compare", "check-lesson", "chart", "list", "info", "completion"}) {
     const Outcome o = run({command, "--help"});
     EXPECT_EQ(o.exit_code, 0);
     EXPECT_LE(lines_of(o.out), 24);
@@ -419,7 +420,7 @@ TEST_F(Cli, ListPrintsScenesAndKeys) {
 TEST_F(Cli, CompletionScriptsWork) {
   for (const char* shell : {"bash", "zsh", "fish"}) EXPECT_EQ(run({"completion", shell}).exit_code, 0);
   EXPECT_EQ(run({"completion", "words"}).out,
-            "render\nexplain\nexport\nconvert-normal\nvalidate\ncompare\nchart\nlist\ninfo\ncompletion\n");
+            "render\nexplain\nexport\nconvert-normal\nvalidate\ncompare\ncheck-lesson\nchart\nlist\ninfo\ncompletion\n");
   std::ofstream(directory / "try.sh") << run({"completion", "bash"}).out << R"(
 halfspace() { ")" HALFSPACE_PROGRAM R"(" "$@"; }
 compopt() { :; }
