@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Lesson 11: SIMD lanes compute several pixels at once. One function template draws triangles pixel by pixel, or by lanes. Measures both.
+// Lesson 13: SIMD lanes compute several pixels at once. One function template draws triangles pixel by pixel, or by lanes. Measures both.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -92,7 +92,7 @@ int main(int argc, char** argv) try {
   const bool same = by_pixel == by_lanes;
   std::printf("scalar loop %.2f ms, %d lanes %.2f ms: %.1f times as fast, %s\n", pixel_ms, kLanes, lanes_ms, pixel_ms / lanes_ms,
               same ? "the same picture" : "different pictures");
-  write_image(argc > 1 ? argv[1] : "lesson11.png", by_lanes);
+  write_image(argc > 1 ? argv[1] : "lesson13.png", by_lanes);
   return same ? 0 : 1;
 } catch (const std::exception& error) {
   std::fprintf(stderr, "%s\n", error.what());

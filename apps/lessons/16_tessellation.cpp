@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Lesson 14: a teapot is stored as 24 curved patches of 16 points. Tessellation divides them into triangles: the nearer, the more.
+// Lesson 16: a teapot is stored as 24 curved patches of 16 points. Tessellation divides them into triangles: the nearer, the more.
 #include <cstdio>
 #include <exception>
 
@@ -50,7 +50,7 @@ struct PatchShader {
   }
   template <class R>
   Fragment<R> fragment(const Varyings<R>&, const Pixel<R>& px) const {
-    const vec3<R> normal = normalize(cross(px.ddx(&Varyings<R>::position), px.ddy(&Varyings<R>::position)));  // flat, as in lesson 6
+    const vec3<R> normal = normalize(cross(px.ddx(&Varyings<R>::position), px.ddy(&Varyings<R>::position)));  // flat, as in lesson 8
     const R diffuse = max(dot(normal, vec3<R>(glm::normalize(glm::vec3(-1, 2, 2)))), R(0));
     return {vec4<R>(vec3<R>(glm::vec3(0.8f, 0.35f, 0.15f)) * (R(0.1f) + R(0.9f) * diffuse), R(1))};
   }
@@ -93,7 +93,7 @@ int main(int argc, char** argv) try {
     pass.draw(PatchShader{camera, offset, eye}, make_vertex_view(stream(teapot)),
               {.topology = Topology::patches, .cull = CullMode::back, .depth = kReversedZ});
   pass.run(Workers(1));
-  write_image(argc > 1 ? argv[1] : "lesson14.png", image);
+  write_image(argc > 1 ? argv[1] : "lesson16.png", image);
 } catch (const std::exception& error) {
   std::fprintf(stderr, "%s\n", error.what());
   return 1;

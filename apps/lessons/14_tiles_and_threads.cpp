@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Lesson 12: threads draw parts of an image in parallel: bands of rows with the loops of lesson 11, and the tiles of the library.
+// Lesson 14: threads draw parts of an image in parallel: bands of rows with the loops of lesson 13, and the tiles of the library.
 #include <chrono>
 #include <cstdio>
 #include <exception>
@@ -14,7 +14,7 @@ using namespace halfspace;
 constexpr int kWidth = 896, kHeight = 448, kTriangles = 20480, kParts = 8, kRepeats = 20;
 
 struct Vertex {
-  glm::vec3 position;  // as in lesson 11
+  glm::vec3 position;  // as in lesson 13
   glm::vec4 color;     // 0 to 1
 };
 
@@ -22,7 +22,7 @@ template <class R>
 R edge(const glm::vec3& a, const glm::vec3& b, const R& x, const R& y) {
   return R(b.x - a.x) * (y - R(a.y)) - R(b.y - a.y) * (x - R(a.x));
 }
-// The loop of lesson 11, for some of the rows of the image and some of the triangles: those from `first` to the one before `last`.
+// The loop of lesson 13, for some of the rows of the image and some of the triangles: those from `first` to the one before `last`.
 template <class R>
 void draw(Image<glm::u8vec4>& image, const std::vector<Vertex>& vertices, int top, int bottom, std::size_t first, std::size_t last) {
   using I = IntOf<R>;
@@ -92,7 +92,7 @@ int main(int argc, char** argv) try {
   measure("scalar loop", 1, [&](const Workers&) { draw<float>(image, vertices, 0, kHeight, 0, kTriangles); });
   measure("lanes", 1, [&](const Workers&) { draw<Real>(image, vertices, 0, kHeight, 0, kTriangles); });
   for (const int threads : {1, Workers::cores()}) measure("bands", threads, bands);
-  write_image(argc > 1 ? argv[1] : "lesson12.png", image);
+  write_image(argc > 1 ? argv[1] : "lesson14.png", image);
   for (const int threads : {1, Workers::cores()}) measure("library", threads, library);
 } catch (const std::exception& error) {
   std::fprintf(stderr, "%s\n", error.what());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Lesson 7: a normal map stores normals relative to the surface. Here, it is computed from the heights of a bump map.
+// Lesson 9: a normal map stores normals relative to the surface. Here, it is computed from the heights of a bump map.
 #include <cmath>
 #include <cstdio>
 #include <exception>
@@ -73,7 +73,7 @@ int main(int argc, char** argv) try {
             make_vertex_view(stream(ring.positions), stream(ring.normals), stream(ring.tangents), stream(ring.uvs)), ring.indices,
             kReversedZState);
   pass.run(Workers(1));
-  write_image(argc > 1 ? argv[1] : "lesson07.png", image);
+  write_image(argc > 1 ? argv[1] : "lesson09.png", image);
 } catch (const std::exception& error) {
   std::fprintf(stderr, "%s\n", error.what());
   return 1;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Lesson 4: the picture from lesson 3, drawn with the library. The camera is a matrix, the mesh is a list of vertices and indices, and the
+// Lesson 6: the picture from lesson 3, drawn with the library. The camera is a matrix, the mesh is a list of vertices and indices, and the
 // shader transforms the vertices and colors the pixels.
 #include <cstdio>
 #include <exception>
@@ -24,7 +24,7 @@ struct FloorShader {
     vec2<R> uv;
   };
 
-  // Runs once per vertex. R is a float or several floats; lesson 11 explains why.
+  // Runs once per vertex. R is a float or several floats; lesson 13 explains why.
   template <class R>
   vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
     out.uv = in.uv;
@@ -56,7 +56,7 @@ int main(int argc, char** argv) try {
   Pass pass(320, 240, color, {.format = DepthFormat::d32f, .clear_value = 0.0f});
   pass.draw(FloorShader{glm::mat4(camera)}, make_vertex_view(stream(positions), stream(uvs)), indices, kReversedZState);
   pass.run(Workers(1));
-  write_image(argc > 1 ? argv[1] : "lesson04.png", image);
+  write_image(argc > 1 ? argv[1] : "lesson06.png", image);
 } catch (const std::exception& error) {
   std::fprintf(stderr, "%s\n", error.what());
   return 1;

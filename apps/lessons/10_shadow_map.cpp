@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Lesson 8: a shadow map is a depth buffer drawn from the light. A point is in shadow if the map contains something nearer to the light.
+// Lesson 10: a shadow map is a depth buffer drawn from the light. A point is in shadow if the map contains something nearer to the light.
 #include <cstdio>
 #include <exception>
 
@@ -71,7 +71,7 @@ int main(int argc, char** argv) try {
   }
   from_light.run(Workers(1));
   pass.run(Workers(1));
-  write_image(argc > 1 ? argv[1] : "lesson08.png", image);
+  write_image(argc > 1 ? argv[1] : "lesson10.png", image);
 } catch (const std::exception& error) {
   std::fprintf(stderr, "%s\n", error.what());
   return 1;

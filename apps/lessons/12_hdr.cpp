@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Lesson 10: light has no upper limit, but pixel values do. A float target stores the light, and a tone curve maps it to the display.
+// Lesson 12: light has no upper limit, but pixel values do. A float target stores the light, and a tone curve maps it to the display.
 #include <cstdio>
 #include <exception>
 
@@ -61,7 +61,7 @@ int main(int argc, char** argv) try {
               mesh.indices, kReversedZState);
   pass.post(ToneCurve{1.0f}, srgb8a8_target(image));
   pass.run(Workers(1));
-  write_image(argc > 1 ? argv[1] : "lesson10.png", image);
+  write_image(argc > 1 ? argv[1] : "lesson12.png", image);
 } catch (const std::exception& error) {
   std::fprintf(stderr, "%s\n", error.what());
   return 1;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Lesson 6: the same light on the same coarse sphere, with one normal per triangle (flat), with light per vertex (Gouraud) and with light
+// Lesson 8: the same light on the same coarse sphere, with one normal per triangle (flat), with light per vertex (Gouraud) and with light
 // per pixel (Phong).
 #include <cstdio>
 #include <exception>
@@ -70,7 +70,7 @@ int main(int argc, char** argv) try {
   pass.draw(LitShader<Rate::gouraud>{camera, {0, 0, 0}, eye}, vertices, ball.indices, kReversedZState);
   pass.draw(LitShader<Rate::phong>{camera, {2.4f, 0, 0}, eye}, vertices, ball.indices, kReversedZState);
   pass.run(Workers(1));
-  write_image(argc > 1 ? argv[1] : "lesson06.png", image);
+  write_image(argc > 1 ? argv[1] : "lesson08.png", image);
 } catch (const std::exception& error) {
   std::fprintf(stderr, "%s\n", error.what());
   return 1;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Lesson 13: a geometry function receives a whole triangle and emits any number of triangles: here the skin of a hedgehog and its quills.
+// Lesson 15: a geometry function receives a whole triangle and emits any number of triangles: here the skin of a hedgehog and its quills.
 #include <cstdio>
 #include <exception>
 
@@ -77,7 +77,7 @@ int main(int argc, char** argv) try {
   Pass pass(320, 220, color, {.format = DepthFormat::d32f, .clear_value = 0.0f});
   for (const QuillShader& part : parts) pass.draw(part, make_vertex_view(stream(ball.positions)), ball.indices, kReversedZState);
   pass.run(Workers(1));
-  write_image(argc > 1 ? argv[1] : "lesson13.png", image);
+  write_image(argc > 1 ? argv[1] : "lesson15.png", image);
 } catch (const std::exception& error) {
   std::fprintf(stderr, "%s\n", error.what());
   return 1;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Lesson 5: far away, a pixel covers many texels of a texture. Mip levels store their averages.
+// Lesson 7: far away, a pixel covers many texels of a texture. Mip levels store their averages.
 #include <cstdio>
 #include <exception>
 
@@ -58,7 +58,7 @@ int main(int argc, char** argv) try {
   pass.draw(TexturedShader{glm::mat4(camera), &texture, sampler}, make_vertex_view(stream(floor.positions), stream(floor.uvs)),
             floor.indices, kReversedZState);
   pass.run(Workers(1));
-  write_image(argc > 1 ? argv[1] : "lesson05.png", image);
+  write_image(argc > 1 ? argv[1] : "lesson07.png", image);
 } catch (const std::exception& error) {
   std::fprintf(stderr, "%s\n", error.what());
   return 1;

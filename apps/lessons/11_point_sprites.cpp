@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Lesson 9: a sphere without triangles. A point covers a square; the fragment function keeps a disk and computes its normal and depth.
+// Lesson 11: a sphere without triangles. A point covers a square; the fragment function keeps a disk and computes its normal and depth.
 #include <cmath>
 #include <cstdio>
 #include <exception>
@@ -63,7 +63,7 @@ int main(int argc, char** argv) try {
   state.topology = Topology::points;
   pass.draw(SphereShader{glm::mat4(camera)}, make_vertex_view(stream(centers), stream(colors)), state);
   pass.run(Workers(1));
-  write_image(argc > 1 ? argv[1] : "lesson09.png", image);
+  write_image(argc > 1 ? argv[1] : "lesson11.png", image);
 } catch (const std::exception& error) {
   std::fprintf(stderr, "%s\n", error.what());
   return 1;
