@@ -52,7 +52,7 @@ class Lessons(unittest.TestCase):
         compilers = [name for name in (["g++", "clang++"] if every else ["c++"]) if shutil.which(name)]
         if not compilers:
             self.skipTest("no compiler was found")
-        names = lesson_pictures.names()[: lesson_pictures.PLAIN] if every else ["03_perspective"]
+        names = [name for name in lesson_pictures.names() if name[:2] in lesson_pictures.PLAIN] if every else ["03_perspective"]
         with tempfile.TemporaryDirectory() as folder:
             source, program, picture = (Path(folder) / name for name in ("lesson.cpp", "lesson", "lesson.ppm"))
             for name in names:

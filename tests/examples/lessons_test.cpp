@@ -18,7 +18,10 @@
 namespace halfspace {
 namespace {
 
-constexpr int kLessons = 23, kPlainLessons = 5;
+constexpr int kLessons = 24;
+
+// Returns whether a lesson does not use the library. Such lessons write PPM.
+bool is_plain(int number) { return number <= 5 || number == 24; }
 
 struct Lesson {
   std::string name;    // "01_triangle"
@@ -63,14 +66,14 @@ Lesson run_lesson(int number) {
   Lesson lesson;
   lesson.name = lesson_name(number);
   const TemporaryFolder folder;
-  const std::filesystem::path out = folder.path() / ("lesson" + digits + (number <= kPlainLessons ? ".ppm" : ".png")),
+  const std::filesystem::path out = folder.path() / ("lesson" + digits + (is_plain(number) ? ".ppm" : ".png")),
                               printed = folder.path() / ("lesson" + digits + ".txt");
   const std::string command =
       std::string(HALFSPACE_EXAMPLES_DIR) + "/lesson-" + lesson.name + " '" + out.string() + "' > '" + printed.string() + "'";
   EXPECT_EQ(std::system(command.c_str()), 0) << command;
   std::ifstream text(printed);
   lesson.output.assign(std::istreambuf_iterator<char>(text), {});
-  lesson.picture = number <= kPlainLessons ? read_ppm(out) : read_image(out);
+  lesson.picture = is_plain(number) ? read_ppm(out) : read_image(out);
   lesson.in_docs = read_image(std::filesystem::path(HALFSPACE_LESSONS_DOCS_DIR) / "images" / (digits + ".png"));
   return lesson;
 }
