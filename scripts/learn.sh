@@ -1,24 +1,25 @@
 #!/usr/bin/env bash
-# Builds what the lessons (docs/tutorial/lessons) need into build/learn: the programs of the lessons, and `halfspace`, which checks the
-# exercises. Installs missing packages first. The programs of the lessons are built first, so that a student can begin.
+# Builds what the lessons (docs/tutorial/lessons) need into build/learn, in three steps: the library with the program of lesson 6, the
+# programs of the other lessons, and `halfspace`, which checks the exercises. Installs missing packages first.
 #
-#   scripts/learn.sh               builds everything
-#   scripts/learn.sh --lessons     builds only the programs of the lessons
+#   scripts/learn.sh            all steps
+#   scripts/learn.sh --first    only the first step; the program of another lesson is then built when it is needed
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-targets=(lessons halfspace)
+targets=(lesson-06_library lessons halfspace)
 case "${1:-}" in
   "") ;;
-  --lessons) targets=(lessons) ;;
-  *) echo "learn.sh: unknown argument '$1'; expected --lessons or nothing" >&2; exit 2 ;;
+  --first) targets=(lesson-06_library) ;;
+  *) echo "learn.sh: unknown argument '$1'; expected --first or nothing" >&2; exit 2 ;;
 esac
 
 scripts/install_deps.sh
-# Without optimization, the library compiles in a fraction of the time, and draws the same pictures.
+# Leaves out what no lesson needs.
 cmake --preset release -B build/learn -DHALFSPACE_BUILD_TESTS=OFF -DHALFSPACE_BUILD_BENCHMARKS=OFF -DHALFSPACE_WITH_EMBREE=OFF \
   -DHALFSPACE_INSTALL=OFF -DHALFSPACE_WERROR=OFF > /dev/null
 for target in "${targets[@]}"; do
+  echo "learn.sh: building $target"
   cmake --build build/learn --target "$target"
 done
-echo "The programs are in build/learn/bin."
+echo "learn.sh: the programs are in build/learn/bin"
