@@ -13,7 +13,7 @@ struct Vertex {
 };
 struct Triangle {
   Vertex a, b, c;
-  uint8_t red, green, blue;
+  int red, green, blue;  // 0 to 255
 };
 
 double edge(const Vertex& a, const Vertex& b, double x, double y) { return (b.x - a.x) * (y - a.y) - (b.y - a.y) * (x - a.x); }
