@@ -3,6 +3,7 @@
 """Checks that the changes shown in the lessons apply to the programs."""
 
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -66,6 +67,13 @@ class Lessons(unittest.TestCase):
                             subprocess.run([str(program), str(picture)], check=True)
                             pictures.add(picture.read_bytes())
                     self.assertEqual(len(pictures), 1, f"{name} {variant}")
+
+    def test_the_container_has_what_the_build_needs(self):
+        script = (ROOT / "scripts" / "install_deps.sh").read_text(encoding="utf-8")
+        needed = re.search(r"^packages=\((.*?)\)", script, re.MULTILINE | re.DOTALL)[1].split()
+        installed = (ROOT / "scripts" / "learn" / "Dockerfile").read_text(encoding="utf-8").split()
+        self.assertGreater(len(needed), 10)
+        self.assertEqual([package for package in needed if package not in installed], [])
 
     def test_solutions_are_not_in_the_folder_of_the_students(self):
         for page in lesson_pictures.PAGES.glob("*.md"):
