@@ -33,7 +33,9 @@ class Figure:
 
     def polygon(self, points, fill="none", stroke=INK, width=1.5, opacity=1.0):
         text = " ".join(f"{number(x)},{number(y)}" for x, y in points)
-        self.parts.append(f'<polygon points="{text}" fill="{fill}" fill-opacity="{number(opacity)}" stroke="{stroke}" stroke-width="{number(width)}"/>')
+        self.parts.append(
+            f'<polygon points="{text}" fill="{fill}" fill-opacity="{number(opacity)}" stroke="{stroke}" stroke-width="{number(width)}"/>'
+        )
 
     def box(self, x, y, width, height, fill="none", stroke=INK, opacity=1.0, line=1.5):
         self.polygon([(x, y), (x + width, y), (x + width, y + height), (x, y + height)], fill, stroke, line, opacity)
@@ -123,7 +125,8 @@ def frustum():
     f = Figure(640, 310, "View frustum and near plane")
     eye = (170, 150)
     near, far, slope = 60, 400, 0.3
-    f.polygon([(eye[0] + near, 150 - near * slope), (eye[0] + far, 150 - far * slope), (eye[0] + far, 150 + far * slope), (eye[0] + near, 150 + near * slope)], BLUE, BLUE, 1.5, 0.12)
+    corners = [(eye[0] + x, 150 + sign * x * slope) for x, sign in ((near, -1), (far, -1), (far, 1), (near, 1))]
+    f.polygon(corners, BLUE, BLUE, 1.5, 0.12)
     for s in (-1, 1):
         f.line(eye, (eye[0] + near, 150 + s * near * slope), BLUE, 1, True)
     f.line((eye[0] + near, 40), (eye[0] + near, 285), RED, 2)
@@ -177,7 +180,12 @@ def reflection():
     f.line((80, 240), (560, 240), INK, 2)
     for x in range(90, 560, 20):
         f.line((x, 240), (x - 10, 252), SOFT, 1)
-    vectors = (("l: to the light", 35, YELLOW, "end"), ("n: normal", 0, INK, "middle"), ("r: reflected", -35, RED, "start"), ("e: to the eye", -58, BLUE, "start"))
+    vectors = (
+        ("l: to the light", 35, YELLOW, "end"),
+        ("n: normal", 0, INK, "middle"),
+        ("r: reflected", -35, RED, "start"),
+        ("e: to the eye", -58, BLUE, "start"),
+    )
     for name, degrees, color, anchor in vectors:
         angle = math.radians(degrees)
         tip = (p[0] - r * math.sin(angle), p[1] - r * math.cos(angle))
@@ -248,7 +256,8 @@ def lanes():
         f.box(x0 + i * size, 40, size, size, GREEN if inside[i] else "#ffffff", SOFT, 0.3)
         f.dot((x0 + (i + 0.5) * size, 70), 3)
         f.text(x0 + (i + 0.5) * size, 30, f"lane {i}", SOFT, "middle", 12)
-        for row, (name, words) in enumerate((("mask", str(inside[i]).lower()), ("new", "new"), ("old", "old"), ("select", "new" if inside[i] else "old"))):
+        rows = (("mask", str(inside[i]).lower()), ("new", "new"), ("old", "old"), ("select", "new" if inside[i] else "old"))
+        for row, (name, words) in enumerate(rows):
             color = GREEN if words in ("true", "new") else RED
             f.text(x0 + (i + 0.5) * size, 135 + 26 * row, words, color, "middle")
             if i == 0:
@@ -263,7 +272,11 @@ def bins():
     """Three triangles on a grid of tiles, and the list of each tile."""
     f = Figure(720, 300, "Tiles and bins")
     size, x0, y0 = 80, 20, 20
-    triangles = (("A", BLUE, ((40, 50), (150, 60), (60, 130))), ("B", RED, ((120, 40), (320, 150), (130, 200))), ("C", GREEN, ((230, 190), (330, 200), (270, 245))))
+    triangles = (
+        ("A", BLUE, ((40, 50), (150, 60), (60, 130))),
+        ("B", RED, ((120, 40), (320, 150), (130, 200))),
+        ("C", GREEN, ((230, 190), (330, 200), (270, 245))),
+    )
     for row in range(3):
         for column in range(4):
             left, top = x0 + column * size, y0 + row * size
@@ -272,7 +285,10 @@ def bins():
             names = [
                 name
                 for name, _, p in triangles
-                if min(x for x, _ in p) < left + size and max(x for x, _ in p) > left and min(y for _, y in p) < top + size and max(y for _, y in p) > top
+                if min(x for x, _ in p) < left + size
+                and max(x for x, _ in p) > left
+                and min(y for _, y in p) < top + size
+                and max(y for _, y in p) > top
             ]
             f.box(380 + column * 60, top, 60, size, "none", SOFT, 1, 1)
             f.text(410 + column * 60, top + 45, " ".join(names), INK, "middle")

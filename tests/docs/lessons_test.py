@@ -58,8 +58,9 @@ class Lessons(unittest.TestCase):
             source, program, picture = (Path(folder) / name for name in ("lesson.cpp", "lesson", "lesson.ppm"))
             for name in names:
                 for variant in ("", "solution"):
-                    text = lesson_pictures.source_of(name, variant) if variant else (lesson_pictures.PROGRAMS / f"{name}.cpp").read_text(encoding="utf-8")
-                    source.write_text(text, encoding="utf-8")
+                    shutil.copyfile(lesson_pictures.PROGRAMS / f"{name}.cpp", source)
+                    if variant:
+                        source.write_text(lesson_pictures.source_of(name, variant), encoding="utf-8")
                     pictures = set()
                     for compiler in compilers:
                         for options in (["-O1", "-ffp-contract=off"], ["-O2", "-march=native"]):
