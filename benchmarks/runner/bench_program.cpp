@@ -33,6 +33,7 @@ struct BenchArguments {
   std::string sweep;              // empty: the table of workloads
   bool matrix = false;            // draw the rows of the matrix instead of the table of workloads
   bool scenes = false;            // draw the composed scenes instead of the table of workloads
+  bool views = false;             // draw the views instead of the table of workloads
   std::string model;              // draw this model file instead of the table of workloads
   std::string size = "1920x1080";
   std::string threads;  // empty: one per core
@@ -110,6 +111,19 @@ std::string text_of(const PictureErrors& e) {
   return fmt::format("  {:.3f}% within 1/255, rms {:.3f}/255", 100.0 - 100.0 * e.colors_off / std::max(e.covered, 1), e.rms_color);
 }
 
+nlohmann::ordered_json json_of(const ShadowMapUse& use) {
+  return {{"tiles", use.tiles},           {"filled_tiles", use.filled_tiles},
+          {"read_tiles", use.read_tiles}, {"read_filled_tiles", use.read_filled_tiles},
+          {"texels", use.texels},         {"read_texels", use.read_texels}};
+}
+
+std::string text_of(const ShadowMapUse& use) {
+  const auto percent = [](int part, int all) { return 100.0 * part / std::max(all, 1); };
+  return fmt::format("  reads {:.1f}% of the shadow map's tiles, {:.1f}% of those with casters, {:.1f}% of its texels",
+                     percent(use.read_tiles, use.tiles), percent(use.read_filled_tiles, use.filled_tiles),
+                     percent(use.read_texels, use.texels));
+}
+
 std::string text_of(const PictureDifference& d) {
   return fmt::format("  {:.3f}% of pixels away from edges differ from Halfspace by more than 2/255",
                      100.0 * d.off / std::max(d.compared, 1));
@@ -146,7 +160,9 @@ void report(const BenchProgram& program, const BenchArguments& args, const Workl
             int threads, const FrameTimes& times, std::optional<double> frames_mb) {
   std::optional<PictureErrors> errors;
   std::optional<PictureDifference> difference;
+  std::optional<ShadowMapUse> use;
   if (!args.check.empty()) difference = difference_from_twin(workload, threads);
+  if (!args.check.empty()) use = workload.shadow_map_use(Workers(threads));
   if (!args.check.empty() && workload.has_truth()) {
     const WorkloadTruth truth = kept_truth(args.check, kind.name, workload, {size.width, size.height});
     errors = picture_errors(workload.picture(), truth, kDepthTolerance);
@@ -156,9 +172,11 @@ void report(const BenchProgram& program, const BenchArguments& args, const Workl
     if (frames_mb) line["frames_mb"] = *frames_mb;
     if (errors) line["picture"] = json_of(*errors);
     if (difference) line["difference"] = {{"compared", difference->compared}, {"off", difference->off}};
+    if (use) line["shadow_map"] = json_of(*use);
     std::cout << line.dump() << '\n' << std::flush;
   } else {
-    std::cout << row(kind.name, times) << (errors ? text_of(*errors) : "") << (difference ? text_of(*difference) : "") << '\n'
+    std::cout << row(kind.name, times) << (errors ? text_of(*errors) : "") << (difference ? text_of(*difference) : "")
+              << (use ? text_of(*use) : "") << '\n'
               << std::flush;
   }
   if (!args.out.empty()) write_pictures(args.out, kind.name, workload.picture());
@@ -169,16 +187,30 @@ std::vector<WorkloadKind> list_of(const Kinds& kinds) {
   return {kinds.begin(), kinds.end()};
 }
 
+// Throws UsageError if several tables are chosen. An empty --sweep counts as none.
+void refuse_two_tables(const BenchArguments& args) {
+  std::string_view first;
+  const auto choose = [&](std::string_view option, bool is_chosen) {
+    if (!is_chosen) return;
+    if (!first.empty()) throw UsageError(fmt::format("{} cannot be combined with {}", first, option));
+    first = option;
+  };
+  choose("--model", !args.model.empty());
+  choose("--views", args.views);
+  choose("--scenes", args.scenes);
+  choose("--matrix", args.matrix);
+  choose("--sweep", !args.sweep.empty());
+}
+
 std::vector<WorkloadKind> kinds_of(const BenchProgram& program, const BenchArguments& args) {
-  if (args.scenes && args.matrix) throw UsageError("--scenes cannot be combined with --matrix");
-  if (args.scenes && !args.sweep.empty()) throw UsageError("--scenes cannot be combined with --sweep");
+  refuse_two_tables(args);
   if (args.matrix && !program.matrix) throw UsageError("--matrix: " + program.name + " does not draw the matrix");
   if (args.scenes && !program.scenes) throw UsageError("--scenes: " + program.name + " does not draw the scenes");
+  if (args.views && !program.views) throw UsageError("--views: " + program.name + " does not draw the views");
   if (!args.model.empty() && !program.model) throw UsageError("--model: " + program.name + " does not draw model files");
-  if (!args.model.empty() && (args.matrix || args.scenes || !args.sweep.empty()))
-    throw UsageError("--model cannot be combined with --matrix, --scenes or --sweep");
   if (args.matrix) return list_of(program.matrix());
   if (args.scenes) return list_of(program.scenes());
+  if (args.views) return list_of(program.views());
   if (!args.model.empty()) return program.model(args.model);
   const std::string& sweep = args.sweep;
   if (sweep.empty()) return list_of(program.kinds());
@@ -237,7 +269,7 @@ void run_bench(const BenchProgram& program, const BenchArguments& args) {
               << "\nworkload                     ms median       min       max       cpu  frames\n";
   }
   WorkloadAssets assets;
-  if (!args.matrix && !args.scenes) return measure(program, args, kinds, size, workers, seconds, assets);
+  if (!args.matrix && !args.scenes && !args.views) return measure(program, args, kinds, size, workers, seconds, assets);
   // Prepares one row at a time, because all rows of the matrix together would take gigabytes. Rows that an OpenGL driver does not support
   // are skipped.
   for (const WorkloadKind*& kind : kinds) {
@@ -257,20 +289,19 @@ void parse_and_run(CLI::App& app, const BenchProgram& program, int argc, char** 
   app.add_option("--sweep", args.sweep, "Run a series: triangle_size, triangle_count, overdraw, varyings")->type_name("NAME");
   app.add_flag("--matrix", args.matrix, "Run one scene with many draw states instead of the workloads");
   app.add_flag("--scenes", args.scenes, "Run three composed scenes, five cameras each, instead of the workloads");
+  app.add_flag("--views", args.views, "Run scenes that are mostly hidden, far away or static instead of the workloads");
   app.add_option("--model", args.model, "Run a model file with 1 and 4 samples per pixel, not the workloads")->type_name("FILE");
   app.add_option("--size", args.size, "Image size (default: 1920x1080)")->type_name("WxH");
   app.add_option("--threads", args.threads, "Threads, including the main one (default: one per core)")->type_name("N");
   app.add_option("--seconds", args.seconds, "Time per workload; 0: one frame each (default: 1)")->type_name("S");
   app.add_option("--out", args.out, "Write NAME.png and NAME.depth.exr of each workload to DIR")->type_name("DIR");
-  app.add_option("--check", args.check, "Compare with double-precision references (slow; cached in DIR)")->type_name("DIR");
+  app.add_option("--check", args.check, "Compare with references (slow; cached in DIR), and count shadow-map reads")->type_name("DIR");
   app.add_flag("--json", args.json, "Print one JSON object per line for each workload");
   app.add_flag("--scaling", args.scaling, "Predict the speed with more threads from the tasks of one thread");
   app.add_flag("--list", args.list, "Print the workloads and exit");
   for (const BenchOption& option : program.options) app.add_option(option.name, *option.value, option.help)->type_name(option.value_name);
-  app.footer(
-      "Times are in milliseconds per frame; cpu is the CPU time of all threads.\n"
-      "Examples:\n  " +
-      program.name + " --only fill,tiny_1m --size 512x512 --threads 1\n  " + program.name + " --seconds 0 --out pictures");
+  app.footer("Times are in milliseconds per frame; cpu is the CPU time of all threads. Examples:\n  " + program.name +
+             " --only fill,tiny_1m --size 512x512 --threads 1\n  " + program.name + " --seconds 0 --out pictures");
   app.parse(argc, argv);
   run_bench(program, args);
 }

@@ -31,6 +31,7 @@ struct BenchProgram {
   std::function<std::span<const Sweep>()> sweeps;
   std::function<std::span<const WorkloadKind>()> matrix;                    ///< empty if the program does not draw the matrix
   std::function<std::span<const WorkloadKind>()> scenes;                    ///< empty if the program does not draw the scenes
+  std::function<std::span<const WorkloadKind>()> views;                     ///< empty if the program does not draw the views
   std::function<std::vector<WorkloadKind>(const std::string& file)> model;  ///< empty if the program does not draw model files
   bool has_tasks = false;  ///< the program runs tasks with Workers, so that --scaling applies
   /// The first fields of each line of --json output, which identify the renderer.

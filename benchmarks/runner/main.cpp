@@ -19,6 +19,7 @@ extern "C" int halfspace_bench_main(int argc, char** argv) {
                             .sweeps = [] { return sweeps(); },
                             .matrix = [] { return matrix_workloads(); },
                             .scenes = [] { return scene_workloads(); },
+                            .views = [] { return view_workloads(); },
                             .model = model_workloads,
                             .has_tasks = true,
                             .identity =

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Composed scenes: an architectural interior, a garden and a workshop, each seen by five cameras. They are procedurally generated, and
-// drawn in the way an application would: a shadow map, then opaque and alpha-tested surfaces, then blended ones from back to front.
+// Composed scenes: an architectural interior, a garden and a workshop, each seen by five cameras, and the scenes of the views, which show
+// only a part of what they contain. All are procedurally generated, and drawn in the way an application would: a shadow map, then opaque
+// and alpha-tested surfaces, then blended ones from back to front.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <memory>
@@ -17,7 +17,7 @@
 
 namespace halfspace {
 
-enum class SceneKind : uint8_t { hall, garden, workshop };
+enum class SceneKind : uint8_t { hall, garden, workshop, street, detail, far, turn, leaves };
 
 /// Listed in drawing order.
 enum class SceneSurface : uint8_t {
@@ -41,7 +41,9 @@ using SceneVertex = MatrixVertex;  // positions are in object space
 /// A range of Scene::indices.
 struct SceneMesh {
   uint32_t first, count;
-  glm::dvec3 center;  ///< center of the bounding box
+  glm::dvec3 low, high;  ///< bounding box in object space
+
+  glm::dvec3 center() const { return 0.5 * (low + high); }
 };
 
 /// A draw call.
@@ -63,7 +65,6 @@ struct SceneLighting {
 struct SceneCamera {
   glm::dvec3 eye, target;
 };
-inline constexpr int kSceneCameras = 5;
 
 struct Scene {
   std::vector<SceneVertex> vertices;
@@ -73,7 +74,10 @@ struct Scene {
   std::vector<SceneMaterial> materials;
   std::vector<SceneObject> objects;
   SceneLighting light;
-  std::array<SceneCamera, kSceneCameras> cameras;
+  std::vector<SceneCamera> cameras;
+  /// Objects whose bounding boxes are outside of the camera's frustum, or of the shadow map, are not drawn, and those with depth tests
+  /// and without blending are drawn from front to back. Otherwise, everything is drawn, sorted by material.
+  bool culls_objects = false;
 
   const SceneMaterial& material(const SceneObject& object) const { return materials[object.material]; }
   const SceneMesh& mesh(const SceneObject& object) const { return meshes[object.mesh]; }
@@ -88,7 +92,7 @@ std::shared_ptr<const Scene> shared_scene(WorkloadAssets& assets, SceneKind kind
 struct SceneView {
   glm::mat4 clip_from_world, light_from_world;
   glm::vec3 eye_ws;
-  std::vector<std::size_t> order;    ///< drawing order of the objects: by surface and material; blended ones from back to front
+  std::vector<std::size_t> order;  ///< drawing order of the objects: by surface, see Scene::culls_objects; blended ones from back to front
   std::vector<std::size_t> casters;  ///< the objects that cast shadows, in the same order
 };
 SceneView scene_view(const Scene& scene, const SceneCamera& camera, WorkloadSize size);
@@ -106,10 +110,18 @@ inline constexpr float kSceneBias = 0.0004f;
 struct SceneRow {
   std::string name, what;
   SceneKind kind;
-  int camera;
+  std::size_t camera;        ///< the first camera
+  std::size_t pictures = 1;  ///< drawn in a frame, each by the next camera
+  bool keeps_map = false;    ///< the pictures of a frame share a shadow map
 };
+/// Returns the rows of the composed scenes, five cameras each.
 std::span<const SceneRow> scene_rows();
-/// Returns a workload for each row, drawn by Halfspace.
+/// Returns the rows of the views.
+std::span<const SceneRow> view_rows();
+/// Returns what each picture of a row needs.
+std::vector<SceneView> scene_views(const Scene& scene, const SceneRow& row, WorkloadSize size);
+/// Return a workload for each row, drawn by Halfspace.
 std::span<const WorkloadKind> scene_workloads();
+std::span<const WorkloadKind> view_workloads();
 
 }  // namespace halfspace

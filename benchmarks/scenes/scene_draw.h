@@ -12,7 +12,7 @@ namespace halfspace {
 struct SceneJob {
   const Scene& scene;
   const SceneView& view;
-  std::vector<Indices> meshes;
+  std::span<const Indices> meshes;
   SceneUniforms uniforms;  ///< uniforms of the whole scene; each draw call sets those of its material
 };
 

@@ -197,7 +197,7 @@ std::size_t add_mesh(Scene& scene, const SceneShape& shape) {
     high = glm::max(high, glm::dvec3(v.position));
   }
   const auto base = static_cast<uint32_t>(scene.vertices.size());
-  scene.meshes.push_back({static_cast<uint32_t>(scene.indices.size()), static_cast<uint32_t>(shape.indices.size()), 0.5 * (low + high)});
+  scene.meshes.push_back({static_cast<uint32_t>(scene.indices.size()), static_cast<uint32_t>(shape.indices.size()), low, high});
   scene.vertices.insert(scene.vertices.end(), shape.vertices.begin(), shape.vertices.end());
   for (const uint32_t i : shape.indices) scene.indices.push_back(base + i);
   return scene.meshes.size() - 1;

@@ -2,6 +2,7 @@
 //
 // The scenes as workloads, drawn by Halfspace.
 #include "scenes/scene_draw.h"
+#include "scenes/shadow_map_use.h"
 #include "workloads/workload_assets.h"
 #include "workloads/workload_canvas.h"
 
@@ -11,63 +12,93 @@ namespace {
 
 class SceneWorkload final : public Workload {
  public:
-  SceneWorkload(std::shared_ptr<const Scene> scene, int camera, WorkloadSize size)
+  SceneWorkload(std::shared_ptr<const Scene> scene, const SceneRow& row, WorkloadSize size)
       : scene_(std::move(scene)),
-        view_(scene_view(*scene_, scene_->cameras[static_cast<std::size_t>(camera)], size)),
+        keeps_map_(row.keeps_map),
+        views_(scene_views(*scene_, row, size)),
         map_(kShadowMapSize, kShadowMapSize),
-        canvas_(size),
-        job_{*scene_, view_, {}, {}} {
+        canvas_(size) {
     const std::span<const uint32_t> indices(scene_->indices);
-    for (const SceneMesh& mesh : scene_->meshes) job_.meshes.emplace_back(indices.subspan(mesh.first, mesh.count), scene_->vertices.size());
-    job_.uniforms.clip_from_world = view_.clip_from_world;
-    job_.uniforms.light_from_world = view_.light_from_world;
-    job_.uniforms.eye_ws = view_.eye_ws;
-    job_.uniforms.shadow_map = map_.data();
-    job_.uniforms.light = &scene_->light;
+    for (const SceneMesh& mesh : scene_->meshes) meshes_.emplace_back(indices.subspan(mesh.first, mesh.count), scene_->vertices.size());
+    for (const SceneView& view : views_) {
+      SceneJob& job = jobs_.emplace_back(SceneJob{*scene_, view, meshes_, {}});
+      job.uniforms.clip_from_world = view.clip_from_world;
+      job.uniforms.light_from_world = view.light_from_world;
+      job.uniforms.eye_ws = view.eye_ws;
+      job.uniforms.shadow_map = map_.data();
+      job.uniforms.light = &scene_->light;
+    }
   }
 
   void frame(const Workers& workers) override {
-    Pass light(kShadowMapSize, kShadowMapSize, ColorTarget{}, d32f_target(map_));
-    for (const std::size_t i : view_.casters) draw_scene_depth(light, job_, scene_->objects[i]);
-    light.run(workers);
-    Pass pass = canvas_.pass();
-    for (const std::size_t i : view_.order) draw(pass, scene_->objects[i]);
-    pass.run(workers);
+    for (const SceneJob& job : jobs_) {
+      if (!keeps_map_ || &job == &jobs_.front()) draw_shadow_map(job, workers);
+      Pass pass = canvas_.pass();
+      for (const std::size_t i : job.view.order) draw(pass, job, scene_->objects[i]);
+      pass.run(workers);
+    }
   }
 
   WorkloadPicture picture() const override { return canvas_.picture(); }
+  // Blended surfaces read the map, too, but do not write depth and are not counted.
+  std::optional<ShadowMapUse> shadow_map_use(const Workers& workers) const override {
+    const SceneJob& job = jobs_.back();
+    Canvas lit({canvas_.picture().color->width(), canvas_.picture().color->height()});
+    Pass pass = lit.pass();
+    for (const std::size_t i : job.view.order) {
+      const SceneObject& object = scene_->objects[i];
+      if (scene_->material(object).surface <= SceneSurface::cutout) draw(pass, job, object);
+    }
+    pass.run(workers);
+    return halfspace::shadow_map_use(*lit.picture().depth, glm::dmat4(job.view.clip_from_world), glm::dmat4(job.view.light_from_world),
+                                     map_);
+  }
   bool has_truth() const override { return false; }
   WorkloadTruth truth() const override { return canvas_.truth(); }  // not called, because has_truth() is false
 
  private:
-  void draw(Pass& pass, const SceneObject& object) const {
+  void draw_shadow_map(const SceneJob& job, const Workers& workers) {
+    Pass pass(kShadowMapSize, kShadowMapSize, ColorTarget{}, d32f_target(map_));
+    for (const std::size_t i : job.view.casters) draw_scene_depth(pass, job, scene_->objects[i]);
+    pass.run(workers);
+  }
+  void draw(Pass& pass, const SceneJob& job, const SceneObject& object) const {
     switch (scene_->material(object).surface) {
-      case SceneSurface::opaque: return draw_scene_opaque(pass, job_, object);
-      case SceneSurface::cutout: return draw_scene_cutout(pass, job_, object);
-      case SceneSurface::unlit: return draw_scene_unlit(pass, job_, object);
-      case SceneSurface::blended: return draw_scene_blended(pass, job_, object);
+      case SceneSurface::opaque: return draw_scene_opaque(pass, job, object);
+      case SceneSurface::cutout: return draw_scene_cutout(pass, job, object);
+      case SceneSurface::unlit: return draw_scene_unlit(pass, job, object);
+      case SceneSurface::blended: return draw_scene_blended(pass, job, object);
     }
   }
 
   std::shared_ptr<const Scene> scene_;
-  SceneView view_;
+  bool keeps_map_;
+  std::vector<SceneView> views_;
+  std::vector<Indices> meshes_;
+  std::vector<SceneJob> jobs_;  // one per view
   Image<float> map_;
   Canvas canvas_;
-  SceneJob job_;
 };
+
+std::vector<WorkloadKind> workloads_of(std::span<const SceneRow> rows) {
+  std::vector<WorkloadKind> all;
+  for (const SceneRow& row : rows) {
+    all.push_back({row.name, row.what, [&row](WorkloadSize size, WorkloadAssets& assets) {
+                     return std::make_unique<SceneWorkload>(shared_scene(assets, row.kind), row, size);
+                   }});
+  }
+  return all;
+}
 
 }  // namespace
 
 std::span<const WorkloadKind> scene_workloads() {
-  static const std::vector<WorkloadKind> kinds = [] {
-    std::vector<WorkloadKind> all;
-    for (const SceneRow& row : scene_rows()) {
-      all.push_back({row.name, row.what, [&row](WorkloadSize size, WorkloadAssets& assets) {
-                       return std::make_unique<SceneWorkload>(shared_scene(assets, row.kind), row.camera, size);
-                     }});
-    }
-    return all;
-  }();
+  static const std::vector<WorkloadKind> kinds = workloads_of(scene_rows());
+  return kinds;
+}
+
+std::span<const WorkloadKind> view_workloads() {
+  static const std::vector<WorkloadKind> kinds = workloads_of(view_rows());
   return kinds;
 }
 

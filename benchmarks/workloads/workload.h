@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -27,6 +28,13 @@ struct WorkloadPicture {
 /// The same image in double precision: the color before clamping and quantization, and the window depth, which is 1 for the background.
 using WorkloadTruth = NaiveTarget<double>;
 
+/// How much of a shadow map a picture reads, in texels and in tiles of 64 x 64 texels.
+struct ShadowMapUse {
+  int tiles = 0, texels = 0;  ///< of the map
+  int filled_tiles = 0;       ///< tiles that contain a part of a caster
+  int read_tiles = 0, read_filled_tiles = 0, read_texels = 0;
+};
+
 /// A workload that has been prepared for one image size. All inputs already exist; a frame allocates only what its passes need.
 class Workload {
  public:
@@ -41,6 +49,8 @@ class Workload {
   virtual WorkloadTruth truth() const = 0;
   /// For the matrix and the scenes drawn by another renderer: Halfspace's picture, for comparison. Null for all other workloads.
   virtual std::unique_ptr<Workload> twin() const { return nullptr; }
+  /// For the scenes drawn by Halfspace: what the last picture reads of its shadow map. Draws the picture again.
+  virtual std::optional<ShadowMapUse> shadow_map_use(const Workers&) const { return std::nullopt; }
 };
 
 class WorkloadAssets;

@@ -40,7 +40,8 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Mistake{"--only fil", "--only", {"'fil'", "'fill'"}},
                     Mistake{"--sweep overdrew", "--sweep", {"'overdrew'", "'overdraw'"}},
                     Mistake{"--scenes --matrix", "--scenes", {"--matrix"}}, Mistake{"--scenes --sweep overdraw", "--scenes", {"--sweep"}},
-                    Mistake{"--model a.glb --scenes", "--model", {"--scenes"}}, Mistake{"--size 0x4", "--size", {"'0x4'", "WxH"}},
+                    Mistake{"--model a.glb --scenes", "--model", {"--scenes"}}, Mistake{"--scenes --views", "--views", {"--scenes"}},
+                    Mistake{"--matrix --sweep overdraw", "--matrix", {"--sweep"}}, Mistake{"--size 0x4", "--size", {"'0x4'", "WxH"}},
                     Mistake{"--threads 0", "--threads", {"'0'", "1 to 1024"}}, Mistake{"--seconds -1", "--seconds", {"'-1'", "0 to 3600"}},
                     Mistake{"--sise 4x4", "unknown option", {"'--sise'", "'--size'"}},
                     Mistake{"--only fill tiny_1m", "unexpected argument", {"'tiny_1m'", "--help"}},
@@ -132,6 +133,7 @@ TEST(BenchCli, ListNamesEveryWorkload) {
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_EQ(lines_of(outcome.text).size(), 25u);
   EXPECT_EQ(lines_of(bench("--scenes --list").text).size(), 15u);
+  EXPECT_EQ(lines_of(bench("--views --list").text).size(), 6u);
 }
 
 }  // namespace

@@ -105,6 +105,14 @@ TEST(BenchGl, DrawsTheSameScenes) {
   for (const nlohmann::json& row : rows) expect_same_picture(row, 0.01);
 }
 
+// Most triangles of these scenes are smaller than a pixel at this size.
+TEST(BenchGl, DrawsTheSameViews) {
+  const std::vector<nlohmann::json> rows = drawn_by_gl("--views");
+  if (rows.empty()) GTEST_SKIP() << "halfspace-bench-gl is not built, or there is no OpenGL";
+  EXPECT_EQ(rows.size(), view_rows().size());
+  for (const nlohmann::json& row : rows) expect_same_picture(row, 0.01);
+}
+
 // Writes a model of spheres with different materials. The last sphere is mirrored and seen from inside.
 void write_spheres(const std::filesystem::path& file, bool colored) {
   Model model;

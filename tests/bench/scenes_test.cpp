@@ -72,7 +72,7 @@ TEST(Scenes, HaveTheStatedContents) {
 TEST(Scenes, BlendedObjectsAreDrawnLastAndBackToFront) {
   for (const SceneRow& row : scene_rows()) {
     const Scene& scene = *shared_scene(shared_assets(), row.kind);
-    const SceneCamera& camera = scene.cameras[static_cast<std::size_t>(row.camera)];
+    const SceneCamera& camera = scene.cameras[row.camera];
     const SceneView view = scene_view(scene, camera, kSceneSize);
     ASSERT_EQ(view.order.size(), scene.objects.size());
     double last = 1e9;
@@ -84,7 +84,7 @@ TEST(Scenes, BlendedObjectsAreDrawnLastAndBackToFront) {
         continue;
       }
       has_blended = true;
-      const double distance = glm::length(glm::dvec3(object.world_from_object * glm::dvec4(scene.mesh(object).center, 1.0)) - camera.eye);
+      const double distance = glm::length(glm::dvec3(object.world_from_object * glm::dvec4(scene.mesh(object).center(), 1.0)) - camera.eye);
       EXPECT_LE(distance, last + 1e-9) << row.name;
       last = distance;
     }

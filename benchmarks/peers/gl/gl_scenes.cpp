@@ -23,18 +23,15 @@ std::string shading() {
 // A program that draws objects, and the locations of the uniforms that differ between them.
 class ObjectProgram {
  public:
-  ObjectProgram(const std::string& fragment, const Scene& scene, const SceneView& view, bool is_lit)
+  ObjectProgram(const std::string& fragment, const Scene& scene, bool is_lit)
       : program_("", kSceneVertex, fragment),
         world_from_object_(program_.location("world_from_object")),
         tint_(program_.location("tint")),
         is_lit_(is_lit) {
-    program_.set("clip_from_world", view.clip_from_world);
     program_.set("map", 0);
     if (!is_lit) return;
     const SceneLighting& light = scene.light;
     program_.set("shadow_map", 1);
-    program_.set("light_from_world", view.light_from_world);
-    program_.set("eye_ws", view.eye_ws);
     program_.set("to_sun", light.to_sun);
     program_.set("sun", light.sun);
     program_.set("sky", light.sky);
@@ -47,6 +44,12 @@ class ObjectProgram {
   }
 
   void use() const { program_.use(); }
+  void set_view(const SceneView& view) {
+    program_.set("clip_from_world", view.clip_from_world);
+    if (!is_lit_) return;
+    program_.set("light_from_world", view.light_from_world);
+    program_.set("eye_ws", view.eye_ws);
+  }
   void set_material(const SceneMaterial& material) {
     glUniform3fv(tint_, 1, &material.tint[0]);
     if (is_lit_) glUniform1f(gloss_, material.gloss);
@@ -67,14 +70,16 @@ class GlScene final : public GlWorkload {
   GlScene(const GlInput& in, const SceneRow& row)
       : GlWorkload(in),
         scene_(shared_scene(in.assets, row.kind)),
-        view_(scene_view(*scene_, scene_->cameras[static_cast<std::size_t>(row.camera)], in.size)),
+        keeps_map_(row.keeps_map),
+        views_(scene_views(*scene_, row, in.size)),
         map_({kShadowMapSize, kShadowMapSize}, 0, true),
         mesh_(floats_of(std::span<const SceneVertex>(scene_->vertices)), {3, 3, 2}, scene_->indices),
-        programs_{{{shading() + std::string(kSceneOpaque), *scene_, view_, true},
-                   {shading() + std::string(kSceneCutout), *scene_, view_, true},
-                   {std::string(kSceneUnlit), *scene_, view_, false},
-                   {shading() + std::string(kSceneBlended), *scene_, view_, true}}} {
+        programs_{{{shading() + std::string(kSceneOpaque), *scene_, true},
+                   {shading() + std::string(kSceneCutout), *scene_, true},
+                   {std::string(kSceneUnlit), *scene_, false},
+                   {shading() + std::string(kSceneBlended), *scene_, true}}} {
     for (const auto& texels : scene_->textures) textures_.push_back(std::make_unique<GlTexture>(*texels, Sampler{}));
+    if (views_.size() == 1) set_view(views_[0]);
   }
 
   bool has_truth() const override { return false; }  // the picture is compared with Halfspace's
@@ -82,13 +87,24 @@ class GlScene final : public GlWorkload {
 
  private:
   void draw() override {
-    draw_shadow_map();
+    for (const SceneView& view : views_) {
+      if (views_.size() > 1) set_view(view);
+      if (!keeps_map_ || &view == &views_.front()) draw_shadow_map(view);
+      draw_picture(view);
+    }
+  }
+
+  void set_view(const SceneView& view) {
+    for (ObjectProgram& program : programs_) program.set_view(view);
+  }
+
+  void draw_picture(const SceneView& view) {
     begin();
     glActiveTexture(GL_TEXTURE1);
     map_.bind_depth();
     glActiveTexture(GL_TEXTURE0);
     const SceneMaterial* current = nullptr;
-    for (const std::size_t i : view_.order) {
+    for (const std::size_t i : view.order) {
       const SceneObject& object = scene_->objects[i];
       const SceneMaterial& material = scene_->material(object);
       ObjectProgram& program = programs_[static_cast<std::size_t>(material.surface)];
@@ -99,13 +115,13 @@ class GlScene final : public GlWorkload {
     }
   }
 
-  void draw_shadow_map() {
+  void draw_shadow_map(const SceneView& view) {
     map_.bind();
     map_.clear(glm::vec4(0));
     set_gl_state(scene_shadow_state(), true);
     const SceneMaterial* current = nullptr;
     GLint location = -1;
-    for (const std::size_t i : view_.casters) {
+    for (const std::size_t i : view.casters) {
       const SceneObject& object = scene_->objects[i];
       const SceneMaterial& material = scene_->material(object);
       if (current != &material) {
@@ -114,7 +130,7 @@ class GlScene final : public GlWorkload {
         textures_[material.texture]->bind();
         current = &material;
       }
-      const glm::mat4 clip_from_object = view_.light_from_world * glm::mat4(object.world_from_object);
+      const glm::mat4 clip_from_object = view.light_from_world * glm::mat4(object.world_from_object);
       glUniformMatrix4fv(location, 1, GL_FALSE, &clip_from_object[0][0]);
       draw_mesh(object);
     }
@@ -133,7 +149,8 @@ class GlScene final : public GlWorkload {
   }
 
   std::shared_ptr<const Scene> scene_;
-  SceneView view_;
+  bool keeps_map_;
+  std::vector<SceneView> views_;
   GlTarget map_;
   GlMesh mesh_;
   std::array<ObjectProgram, 4> programs_;  // by surface
@@ -141,20 +158,27 @@ class GlScene final : public GlWorkload {
   std::vector<std::unique_ptr<GlTexture>> textures_;
 };
 
+std::vector<WorkloadKind> workloads_of(std::span<const SceneRow> rows, std::span<const WorkloadKind> twins) {
+  std::vector<WorkloadKind> all;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const WorkloadKind& twin = twins[i];
+    const SceneRow& row = rows[i];
+    all.push_back({twin.name, twin.what, [&row, &twin](WorkloadSize size, WorkloadAssets& assets) {
+                     return std::make_unique<GlScene>(GlInput{twin, size, assets}, row);
+                   }});
+  }
+  return all;
+}
+
 }  // namespace
 
 std::span<const WorkloadKind> gl_scene_workloads() {
-  static const std::vector<WorkloadKind> kinds = [] {
-    std::vector<WorkloadKind> all;
-    for (std::size_t i = 0; i < scene_rows().size(); ++i) {
-      const WorkloadKind& twin = scene_workloads()[i];
-      const SceneRow& row = scene_rows()[i];
-      all.push_back({twin.name, twin.what, [&row, &twin](WorkloadSize size, WorkloadAssets& assets) {
-                       return std::make_unique<GlScene>(GlInput{twin, size, assets}, row);
-                     }});
-    }
-    return all;
-  }();
+  static const std::vector<WorkloadKind> kinds = workloads_of(scene_rows(), scene_workloads());
+  return kinds;
+}
+
+std::span<const WorkloadKind> gl_view_workloads() {
+  static const std::vector<WorkloadKind> kinds = workloads_of(view_rows(), view_workloads());
   return kinds;
 }
 

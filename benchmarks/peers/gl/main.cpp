@@ -34,6 +34,7 @@ int run(int argc, char** argv) {
                             .sweeps = [] { return gl_sweeps(); },
                             .matrix = [] { return gl_matrix_workloads(); },
                             .scenes = [] { return gl_scene_workloads(); },
+                            .views = [] { return gl_view_workloads(); },
                             .model = gl_model_workloads,
                             .identity =
                                 [&] {
