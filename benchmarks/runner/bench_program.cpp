@@ -289,13 +289,13 @@ void parse_and_run(CLI::App& app, const BenchProgram& program, int argc, char** 
   app.add_option("--sweep", args.sweep, "Run a series: triangle_size, triangle_count, overdraw, varyings")->type_name("NAME");
   app.add_flag("--matrix", args.matrix, "Run one scene with many draw states instead of the workloads");
   app.add_flag("--scenes", args.scenes, "Run three composed scenes, five cameras each, instead of the workloads");
-  app.add_flag("--views", args.views, "Run scenes that are mostly hidden, far away or static instead of the workloads");
+  app.add_flag("--views", args.views, "Run scenes that are mostly hidden, far away or static, not the workloads");
   app.add_option("--model", args.model, "Run a model file with 1 and 4 samples per pixel, not the workloads")->type_name("FILE");
   app.add_option("--size", args.size, "Image size (default: 1920x1080)")->type_name("WxH");
   app.add_option("--threads", args.threads, "Threads, including the main one (default: one per core)")->type_name("N");
   app.add_option("--seconds", args.seconds, "Time per workload; 0: one frame each (default: 1)")->type_name("S");
   app.add_option("--out", args.out, "Write NAME.png and NAME.depth.exr of each workload to DIR")->type_name("DIR");
-  app.add_option("--check", args.check, "Compare with references (slow; cached in DIR), and count shadow-map reads")->type_name("DIR");
+  app.add_option("--check", args.check, "Compare with references (slow; cached in DIR); count shadow-map reads")->type_name("DIR");
   app.add_flag("--json", args.json, "Print one JSON object per line for each workload");
   app.add_flag("--scaling", args.scaling, "Predict the speed with more threads from the tasks of one thread");
   app.add_flag("--list", args.list, "Print the workloads and exit");
