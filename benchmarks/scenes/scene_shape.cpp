@@ -63,7 +63,7 @@ void add_reveal(SceneShape& shape, const std::array<glm::dvec2, 2>& at, const st
 
 }  // namespace
 
-void add_surface(SceneShape& shape, int columns, int rows, glm::dvec2 repeats, const SurfacePoint& point) {
+void add_surface(SceneShape& shape, int columns, int rows, glm::dvec2 repeats, const SurfaceFunction& point) {
   constexpr double kStep = 1e-4;
   const uint32_t first = next_index(shape);
   for (int j = 0; j <= rows; ++j) {

@@ -17,8 +17,8 @@ struct SceneShape {
 
 /// Adds a grid of columns x rows quads over the unit square. `point` maps (u, v) to a position, and must also be defined slightly outside
 /// the square. The front side faces the direction of ∂point/∂u x ∂point/∂v. Texture coordinates are (u, v) times `repeats`.
-using SurfacePoint = std::function<glm::dvec3(double u, double v)>;
-void add_surface(SceneShape& shape, int columns, int rows, glm::dvec2 repeats, const SurfacePoint& point);
+using SurfaceFunction = std::function<glm::dvec3(double u, double v)>;
+void add_surface(SceneShape& shape, int columns, int rows, glm::dvec2 repeats, const SurfaceFunction& point);
 
 /// Adds an axis-aligned box. Texture coordinates are in units of 1/scale meters.
 void add_box(SceneShape& shape, glm::dvec3 center, glm::dvec3 size, double scale = 1.0);

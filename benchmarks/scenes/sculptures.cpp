@@ -13,7 +13,7 @@ namespace halfspace {
 namespace {
 
 // Adds a surface with about this number of triangles. shape_ratio: columns per row.
-void add_fine_surface(SceneShape& shape, double triangles, double columns_per_row, glm::dvec2 repeats, const SurfacePoint& point) {
+void add_fine_surface(SceneShape& shape, double triangles, double columns_per_row, glm::dvec2 repeats, const SurfaceFunction& point) {
   const int rows = std::max(static_cast<int>(std::sqrt(0.5 * triangles / columns_per_row) + 0.5), 4);
   const int columns = std::max(static_cast<int>(0.5 * triangles / rows + 0.5), 4);
   add_surface(shape, columns, rows, repeats, point);
