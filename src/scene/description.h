@@ -114,6 +114,7 @@ struct SurfaceDescription {
   MapValue emissive_map = Color{glm::dvec3(1.0)};
   bool textured = true;  ///< false: color maps are replaced by 1
   Color reflection{glm::dvec3(0.0)};
+  double opacity = 1.0;  ///< below 1: a transparent layer
 
   LightModel model = LightModel::blinn_phong;
   ShadingRate shading = ShadingRate::phong;

@@ -175,6 +175,7 @@ Section section_of(SurfaceDescription& s) {
       key<&T::emissive>("emissive", "Light emitted by the surface", {.low = 0}),
       key<&T::emissive_map>("emissive_map", "Map that multiplies the emitted light", {.low = 0}),
       key<&T::reflection>("reflection", "Strength of the reflections of the environment; requires Phong shading", {.low = 0, .high = 1e3}),
+      key<&T::opacity>("opacity", "Opacity; below 1, the surface is blended over what is behind it", {.low = 0, .high = 1}),
       key<&T::textured>("textured", "Whether color maps are used"),
       key<&T::model>("model", "Reflection model: diffuse only, or with a highlight from the reflected ray or from the half vector"),
       key<&T::shading>("shading", "How often lighting is computed: never, per triangle, per vertex, per pixel"),

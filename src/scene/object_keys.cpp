@@ -16,6 +16,7 @@ std::string_view mesh_only_key(const ObjectDescription& o) {
   if (is_map(o.height)) return "height";
   if (const std::string_view map = first_map(s); !map.empty()) return map;
   if (s.reflection.linear != glm::dvec3(0.0)) return "reflection";
+  if (s.opacity != 1.0) return "opacity";
   if (s.shading != ShadingRate::phong) return "shading";
   if (s.two_sided) return "two_sided";
   if (!is_uniformly_scaled(o.placement)) return "scale";

@@ -91,7 +91,7 @@ void check(const ObjectDescription& o, const std::string& where) {
   if (kind.is_ring && o.latitudes < 3) reject(where + ".latitudes", "2 bands do not form a tube; expected at least 3");
   if (const std::string_view key = mesh_only_key(o); o.shape == Shape::sphere && !key.empty()) {
     reject(where + "." + std::string(key),
-           std::string("is not supported by the shape sphere, which cannot have maps, a reflection, two visible sides, ") +
+           std::string("is not supported by the shape sphere, which cannot have maps, a reflection, transparency, two visible sides, ") +
                "shading other than phong or a non-uniform scale; expected the shape uv_sphere or icosphere");
   }
   const double thickness = kind.thickness(o);

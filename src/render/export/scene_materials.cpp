@@ -49,7 +49,8 @@ int SceneMaterials::add(const std::string& name, const DrawnMesh& drawn) {
   m.double_sided = s.two_sided;
   m.unlit = drawn.unlit;
   const glm::vec3 color = s.factors[kColor].constant * (drawn.unlit ? glm::vec3(1.0f) : s.factors[kDiffuse].constant);
-  m.base_color = glm::vec4(glm::min(color, 1.0f), 1.0f);
+  m.base_color = glm::vec4(glm::min(color, 1.0f), s.opacity);
+  if (s.opacity < 1.0f) m.alpha_mode = AlphaMode::blend;
   if (color != glm::vec3(m.base_color)) warn_once(model_, "colors above 1 are clamped to 1");
   m.base_color_map = texture_use(s.factors[kColor].map, s.factors[kColor].sampler, TextureRole::colors, false);
   m.emissive = s.factors[kEmissive].constant;

@@ -219,12 +219,12 @@ void ModelPreparation::add_replaced_part(int object, const ObjectDescription& o,
     detail = NormalDetail::none;
   }
   place_surface(surface, view_, world);
-  draws_.opaque.push_back(surface_draw(surface, o.surface.shading, detail, streams, indices));
-  draws_.opaque.back().source = {object, 0, streams, world};
-  draws_.meshes.push_back(
-      {streams.positions, streams.normals, indices, world, surface.two_sided, o.casts_shadow, o.receives_shadow, object});
-  if (clusters == nullptr) return;
-  draws_.opaque.back().state.clusters = ClusterCulling{clusters, surface.clip_from_object};
+  PreparedDraw draw = surface_draw(surface, o.surface.shading, detail, streams, indices);
+  draw.source = {object, 0, streams, world};
+  if (clusters != nullptr) draw.state.clusters = ClusterCulling{clusters, surface.clip_from_object};
+  draws_.add(std::move(draw));
+  draws_.meshes.push_back({streams.positions, streams.normals, indices, world, surface.two_sided, o.casts_shadow, o.receives_shadow, object,
+                           shadow_opacity(surface)});
   draws_.meshes.back().clusters = clusters;
 }
 

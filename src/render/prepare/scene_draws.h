@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "halfspace/render/prepared_scene.h"
@@ -13,6 +14,8 @@ struct SceneDraws {
   std::vector<PlacedMesh> meshes;
   std::vector<PlacedSpheres> spheres;
   bool needs_light = false;  // whether a surface has been added that is black without light
+
+  void add(PreparedDraw draw) { (draw.state.order_independent ? blended : opaque).push_back(std::move(draw)); }
 };
 
 }  // namespace halfspace::HS_LANES

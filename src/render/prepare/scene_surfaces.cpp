@@ -59,6 +59,7 @@ LitSurface SceneSurfaces::surface_of(const ObjectDescription& o, const std::stri
   s.lights = lights_.of_surface(o.receives_shadow);
   s.shadowed = lights_.have_shadow(o.receives_shadow);
   s.two_sided = d.two_sided || o.shape == Shape::plane;
+  s.opacity = static_cast<float>(d.opacity);
   report_unused_maps(o, path);
   add_factor(s, kColor, d.tint.linear, d.color, o, path + ".color");
   const glm::dvec3 around = d.shading == ShadingRate::none ? glm::dvec3(0.0) : ambient(d.ambient);

@@ -18,12 +18,12 @@ void ShapePreparation::add(int object, const std::string& path, const ObjectDesc
   int copy = 0;
   for (const glm::dmat4& world : places_of(scene_, o)) {
     place_surface(surface, view_, world);
-    draws_.opaque.push_back(surface_draw(surface, o.surface.shading, detail, streams, indices));
-    draws_.opaque.back().source = {object, copy++, streams, world};
-    draws_.meshes.push_back(
-        {mesh->mesh.positions, mesh->mesh.normals, indices, world, surface.two_sided, o.casts_shadow, o.receives_shadow, object});
-    if (clusters == nullptr) continue;
-    draws_.opaque.back().state.clusters = ClusterCulling{clusters, surface.clip_from_object};
+    PreparedDraw draw = surface_draw(surface, o.surface.shading, detail, streams, indices);
+    draw.source = {object, copy++, streams, world};
+    if (clusters != nullptr) draw.state.clusters = ClusterCulling{clusters, surface.clip_from_object};
+    draws_.add(std::move(draw));
+    draws_.meshes.push_back({mesh->mesh.positions, mesh->mesh.normals, indices, world, surface.two_sided, o.casts_shadow, o.receives_shadow,
+                             object, shadow_opacity(surface)});
     draws_.meshes.back().clusters = clusters;
   }
 }

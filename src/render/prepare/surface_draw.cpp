@@ -20,11 +20,20 @@ VertexView view_of(const MeshStreams& m) {
 template <ShadingRate rate, bool mapped, NormalDetail detail = NormalDetail::none, bool highlight = true>
 PreparedDraw draw_of(const LitSurface& surface, const MeshStreams& mesh, const std::shared_ptr<const Indices>& indices) {
   using S = SurfaceShader<rate, mapped, detail, highlight>;
-  return {S{surface}, view_of<S>(mesh), indices,
-          opaque_state(surface.two_sided ? CullMode::none : CullMode::back, surface.handedness < 0.0f)};
+  DrawState state = opaque_state(surface.two_sided ? CullMode::none : CullMode::back, surface.handedness < 0.0f);
+  if (surface.opacity < 1.0f) {
+    state.order_independent = true;
+    state.depth.write = false;
+  }
+  return {S{surface}, view_of<S>(mesh), indices, state};
 }
 
 }  // namespace
+
+std::optional<OpacityTest> shadow_opacity(const LitSurface& s) {
+  if (s.opacity == 1.0f) return std::nullopt;
+  return OpacityTest{.maps = {}, .opacity = s.opacity, .dithered = true};
+}
 
 PreparedDraw surface_draw(const LitSurface& s, ShadingRate rate, NormalDetail detail, const MeshStreams& mesh,
                           const std::shared_ptr<const Indices>& indices) {

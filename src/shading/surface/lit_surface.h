@@ -47,6 +47,7 @@ struct LitSurface : SurfaceUniforms {
   DetailMap detail;
   const EnvironmentBlend* reflected_environment = nullptr;  ///< null: none; not owned
   glm::vec3 reflection{0.0f};
+  float opacity = 1.0f;  ///< alpha of all fragments
 
   /// Returns the factors without their maps.
   template <class R>

@@ -99,23 +99,23 @@ struct SurfaceShader : LitSurface {
 
   template <class R>
   requires(rate == ShadingRate::flat) Fragment<R> fragment(const Varyings<R>& in, const Primitive<R>& face, const Pixel<R>& px)
-  const { return {vec4<R>(with_light_of(face, in, px), R(1))}; }
+  const { return {vec4<R>(with_light_of(face, in, px), R(opacity))}; }
 
   template <class R>
   requires(rate != ShadingRate::flat) Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>& px)
   const {
     if constexpr (kByVertex) {
-      return {vec4<R>(with_light_of(in, in, px), R(1))};
+      return {vec4<R>(with_light_of(in, in, px), R(opacity))};
     } else if constexpr (rate == ShadingRate::none) {
       const Material<R> m = material(in, px);
-      return {vec4<R>(m[kColor] + m[kEmissive], R(1))};
+      return {vec4<R>(m[kColor] + m[kEmissive], R(opacity))};
     } else {
       const Material<R> m = material(in, px);
       const SurfacePoint<R> p = point_at(in, px);
       vec3<R> light = reflected(m, illuminate(lights.at_pixel(px.x, px.y), model, m[kShininess].x, p));
       if (reflected_environment != nullptr)
         light += reflection * environment_reflection(*reflected_environment, from_eye(in, px), normal_with_steps(in, px, p.n_ws));
-      return {vec4<R>(light, R(1))};
+      return {vec4<R>(light, R(opacity))};
     }
   }
 
