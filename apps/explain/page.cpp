@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "explain/example_pixel.h"
 #include "explain/page_data.h"
 #include "explain/page_encode.h"
 #include "explain/page_history.h"
@@ -24,17 +25,6 @@ PageJson quotes_json() {
   return json;
 }
 
-// Returns the fragment that is visible at a pixel: the last one that replaced the color or, if there is none, the last one that was shaded.
-// If a pixel has several samples, it is visible at one of them. Returns null if no fragment was shaded.
-const TracedFragment* visible_fragment(const FrameTrace& trace, glm::ivec2 pixel) {
-  const TracedFragment* best = nullptr;
-  for (const TracedFragment& f : trace.at(pixel)) {
-    const bool replaces = f.outcome == FragmentOutcome::shaded;
-    if (replaces || (f.is_shaded && (best == nullptr || best->outcome != FragmentOutcome::shaded))) best = &f;
-  }
-  return best;
-}
-
 // Returns the light that the frame stores. Without HDR, it has been rounded to 8-bit values. With a transparent background, it is divided
 // by alpha, as before the tone curve.
 Image<glm::vec4> straight_light(const PreparedScene& scene, const FrameTrace& trace) {
@@ -52,6 +42,17 @@ uint32_t example_primitive(const StageGeometry& g, const TracedFragment* f) {
     if (p.draw == f->draw && p.instance == f->instance && p.index == f->primitive) return i;
   }
   return kNoPrimitive;
+}
+
+// Returns what the example pixel can show, and whether the user chose it.
+PageJson choice_json(const ExampleSearch& search, glm::ivec2 pixel, bool by_user) {
+  const ExampleFacts f = search.facts(pixel);
+  const ExampleIdeas& ideas = search.ideas();
+  PageJson json{{"by_user", by_user}, {"visible", f.visible_pixels}, {"covered", f.covered_pixels}, {"primitives", f.primitives}};
+  if (ideas.perspective && f.is_triangle) json["affine_error"] = f.affine_error;
+  if (ideas.light && f.is_triangle) json["cosine"] = f.cosine;
+  if (ideas.shadow && f.is_triangle) json["shadow"] = f.shadow;
+  return json;
 }
 
 std::string replaced(std::string text, std::string_view placeholder, std::string_view value) {
@@ -107,10 +108,12 @@ PageJson frame_json(const PageInput& in, const FrameTrace& trace) {
           {"bins", bins_json(in)},
           {"perspective", perspective_json(in)},
           {"pictures", pictures_json(in, trace.picture)},
+          {"surfaces", surfaces_json(in)},
           {"depth", depth_json(in)},
           {"mips", mip_json(in)},
           {"terms", terms_json(in)},
           {"shadow", shadow_json(in)},
+          {"tile", tile_json(in)},
           {"tone", tone_json(in)},
           {"sample_positions", samples_json(in)},
           {"sample_block", sample_block_json(in)},
@@ -124,9 +127,7 @@ PageJson frame_json(const PageInput& in, const FrameTrace& trace) {
 std::string explain_page(const SceneDescription& description, const PreparedScene& scene, const PageOptions& options,
                          const Workers& workers) {
   const FrameTrace trace = trace_frame(scene, workers);
-  const glm::ivec2 pixel = options.pixel.value_or(trace.busiest_pixel());
   const Image<glm::vec4> light = straight_light(scene, trace);
-  const TracedFragment* visible = visible_fragment(trace, pixel);
   const ValuePictures values = value_pictures(scene, workers);
   PageJson json{{"scene", options.scene},
                 {"command", options.command},
@@ -135,9 +136,13 @@ std::string explain_page(const SceneDescription& description, const PreparedScen
                 {"version", options.version}};
   visit_set_up_scene(scene, workers, [&](const PassContext& context, int round) {
     if (round > 0) return;  // for a very large scene, the page shows only the triangles of the first round
+    const ExampleSearch search({scene, context, trace, values, workers});
+    const glm::ivec2 pixel = options.pixel ? *options.pixel : search.best();
+    const TracedFragment* visible = visible_fragment(trace, pixel);
     const StageGeometry geometry = stage_geometry(context);
     const uint32_t example = example_primitive(geometry, visible);
     json.update(frame_json({description, scene, context, geometry, trace, light, values, pixel, visible, example, workers}, trace));
+    json["choice"] = choice_json(search, pixel, options.pixel.has_value());
   });
   std::string page(embedded_text("page.html"));
   page = replaced(std::move(page), "@style@", embedded_text("page.css"));

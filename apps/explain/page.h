@@ -16,7 +16,7 @@ struct PageOptions {
   std::string command;              ///< command that generates this page, without --pixel
   std::string render_command;       ///< command that renders the same picture
   std::string version;              ///< version of the program
-  std::optional<glm::ivec2> pixel;  ///< example pixel, counted from the upper left; default: the pixel with the most fragments
+  std::optional<glm::ivec2> pixel;  ///< example pixel, counted from the upper left; default: see example_pixel.h
 };
 
 /// Returns the page. Its numbers are the same on every machine and for any number of threads, except for times, the size of packets (which

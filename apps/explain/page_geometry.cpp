@@ -2,9 +2,11 @@
 #include <algorithm>
 #include <bit>
 
+#include "explain/example_pixel.h"
 #include "explain/page_data.h"
 #include "explain/page_encode.h"
 #include "halfspace/core/hash.h"
+#include "halfspace/raster/inspect/inspection.h"
 #include "halfspace/raster/pipeline/edge.h"
 #include "halfspace/raster/pipeline/pixel_box.h"
 #include "halfspace/raster/pipeline/sample_pattern.h"
@@ -109,16 +111,46 @@ double height_of(const Triangle& t) {
   return std::fabs(area) / longest / kSubPixels;
 }
 
-// Returns the largest distance by which affine interpolation displaces a value along an edge of a triangle, in pixels.
-double affine_error(const Triangle& t, const std::array<float, 3>& inv_w) {
-  double error = 0.0;
+// The largest difference between an affine and a perspective-correct weight on an edge, for the inverse w of the vertices.
+double weight_difference(const std::array<float, 3>& inv_w) {
+  double most = 0.0;
   for (std::size_t i = 0; i < 3; ++i) {
-    const std::size_t k = (i + 1) % 3;
-    const double q = std::sqrt(static_cast<double>(inv_w[i]) / static_cast<double>(inv_w[k]));
-    const double length = std::hypot(t.x[k] - t.x[i], t.y[k] - t.y[i]) / kSubPixels;
-    error = std::max(error, std::fabs(1.0 - q) / (1.0 + q) * std::min(length, 4096.0));
+    const double q = std::sqrt(static_cast<double>(inv_w[i]) / static_cast<double>(inv_w[(i + 1) % 3]));
+    most = std::max(most, std::fabs(1.0 - q) / (1.0 + q));
   }
-  return error;
+  return most;
+}
+
+// A triangle whose interpolation the page shows.
+struct ShownTriangle {
+  std::array<int32_t, 3> x, y;
+  std::array<float, 3> inv_w;
+
+  double error() const { return affine_error(x, y, inv_w); }
+  // The checkerboard of the page has ten squares per edge, so that a displacement by half a square is easy to see.
+  bool is_clear() const { return weight_difference(inv_w) >= 0.05; }
+  PageJson json(const char* kind) const {
+    return {{"kind", kind},
+            {"xy", {{x[0], y[0]}, {x[1], y[1]}, {x[2], y[2]}}},
+            {"inv_w", inv_w},
+            {"error", error()},
+            {"difference", weight_difference(inv_w)}};
+  }
+};
+
+// Part of a floor: its farthest vertex is four times as far away as the other two. It is not part of the frame.
+constexpr ShownTriangle kConstructed{{0, 600 * kSubPixels, 300 * kSubPixels}, {0, 0, 400 * kSubPixels}, {1.0f, 1.0f, 0.25f}};
+
+// Returns the triangle of the visible fragment after setup, or nullopt if it is not a triangle.
+std::optional<ShownTriangle> example_triangle(const PageInput& in) {
+  if (in.primitive == kNoPrimitive || in.visible->round > 0) return std::nullopt;
+  if (!is_triangle(in.context.draws[in.geometry.primitives[in.primitive].draw])) return std::nullopt;
+  const TriangleInspector triangles(in.context);
+  InspectedTriangle t;
+  triangles.find(in.visible->id, t);
+  ShownTriangle out{t.source.triangle->x, t.source.triangle->y, {}};
+  for (std::size_t k = 0; k < 3; ++k) out.inv_w[k] = t.source.vertex[k]->inv_w;
+  return out;
 }
 
 bool is_on_screen(const PassContext& context, const Triangle& t) {
@@ -126,6 +158,35 @@ bool is_on_screen(const PassContext& context, const Triangle& t) {
     if (t.x[i] < 0 || t.x[i] > context.width * kSubPixels || t.y[i] < 0 || t.y[i] > context.height * kSubPixels) return false;
   }
   return true;
+}
+
+// The triangle inside the window with the largest displacement that its height can show, which excludes slivers.
+struct WorstTriangle {
+  uint32_t primitive = kNoPrimitive;
+  ShownTriangle triangle{};
+};
+WorstTriangle worst_triangle(const PageInput& in) {
+  double worst = -1.0;
+  WorstTriangle out;
+  for (uint32_t i = 0; i < in.geometry.primitives.size(); ++i) {
+    const StagePrimitive& p = in.geometry.primitives[i];
+    if (p.outcome != StageOutcome::kept || !is_triangle(in.context.draws[p.draw])) continue;
+    const Triangle& t = in.geometry.triangles[p.first_triangle];
+    if (!is_on_screen(in.context, t)) continue;
+    const std::array<uint32_t, 3> slots = slots_of(in.context, p);
+    ShownTriangle here{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const ScreenVertex& v = in.context.shaded[p.draw].screen[slots[k]];
+      here.x[k] = v.x;
+      here.y[k] = v.y;
+      here.inv_w[k] = v.inv_w;
+    }
+    const double visible = std::min(here.error(), height_of(t));
+    if (!(visible > worst)) continue;
+    worst = visible;
+    out = {i, here};
+  }
+  return out;
 }
 
 }  // namespace
@@ -249,38 +310,25 @@ PageJson bins_json(const PageInput& in) {
 }
 
 PageJson perspective_json(const PageInput& in) {
-  double worst = -1.0;
-  PageJson json = nullptr;
-  for (uint32_t i = 0; i < in.geometry.primitives.size(); ++i) {
-    const StagePrimitive& p = in.geometry.primitives[i];
-    if (p.outcome != StageOutcome::kept || !is_triangle(in.context.draws[p.draw])) continue;
-    const Triangle& t = in.geometry.triangles[p.first_triangle];
-    if (!is_on_screen(in.context, t)) continue;
-    const std::array<uint32_t, 3> slots = slots_of(in.context, p);
-    std::array<float, 3> inv_w;
-    std::array<std::array<int32_t, 2>, 3> xy;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const ScreenVertex& v = in.context.shaded[p.draw].screen[slots[k]];
-      inv_w[k] = v.inv_w;
-      xy[k] = {v.x, v.y};
-    }
-    const Triangle ordered{.x = {xy[0][0], xy[1][0], xy[2][0]},
-                           .y = {xy[0][1], xy[1][1], xy[2][1]},
-                           .z0 = 0,
-                           .z_edge1 = 0,
-                           .z_edge2 = 0,
-                           .z_max = 0,
-                           .vertex = {},
-                           .flags = 0};
-    const double error = affine_error(ordered, inv_w), visible = std::min(error, height_of(ordered));  // avoids slivers
-    if (!(visible > worst)) continue;
-    worst = visible;
-    json = {{"object", object_name(in.description, in.scene.draws[p.draw].source.object)},
-            {"primitive", p.index},
-            {"xy", xy},
-            {"inv_w", inv_w},
-            {"error", error}};
+  const auto name = [&](PageJson& json, uint32_t primitive) {
+    const StagePrimitive& p = in.geometry.primitives[primitive];
+    json["object"] = object_name(in.description, in.scene.draws[p.draw].source.object);
+    json["primitive"] = p.index;
+  };
+  const std::optional<ShownTriangle> example = example_triangle(in);
+  const WorstTriangle worst = worst_triangle(in);
+  PageJson json;
+  if (example && example->is_clear()) {
+    json = example->json("example");
+    name(json, in.primitive);
+  } else if (worst.primitive != kNoPrimitive && worst.triangle.is_clear() && worst.triangle.error() >= 0.5) {
+    json = worst.triangle.json("frame");
+    name(json, worst.primitive);
+  } else {
+    json = kConstructed.json("constructed");
   }
+  if (example) json["example_error"] = example->error();
+  if (worst.primitive != kNoPrimitive) json["largest_error"] = worst.triangle.error();
   return json;
 }
 
