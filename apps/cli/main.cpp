@@ -107,7 +107,7 @@ void add_explain_command(CLI::App& program) {
   add_primitive_limit_option(command, args->limits, false);
   command->footer(
       "Examples:\n"
-      "  halfspace explain earth -o earth.html\n"
+      "  halfspace explain pipeline -o pipeline.html\n"
       "  halfspace explain day-night --pixel 320,180 --json");
   command->callback([args] { explain_command(*args); });
 }

@@ -56,10 +56,14 @@ PageJson sample_block_json(const PageInput& in);
 
 // page_pictures.cpp
 PageJson pictures_json(const PageInput& in, const Image<glm::u8vec4>& picture);
+PageJson surfaces_json(const PageInput& in);
 PageJson depth_json(const PageInput& in);
 PageJson mip_json(const PageInput& in);
 PageJson overdraw_json(const PageInput& in, const FrameTrace& trace);
 PageJson tile_times_json(const PageInput& in);
+
+// page_tile.cpp
+PageJson tile_json(const PageInput& in);
 
 // page_visible.cpp
 PageJson visible_json(const PageInput& in);

@@ -13,6 +13,7 @@ namespace halfspace {
 namespace {
 
 constexpr int kDetailSide = 64, kDetailStep = 8;
+constexpr int kMaxCompletePixels = 320 * 180;
 
 // The example pixel, the block around it, and the grid.
 constexpr std::size_t kDetailGroups = 3;
@@ -207,10 +208,11 @@ std::vector<uint32_t> kept_fragments(std::span<const TracedFragment> fragments, 
 std::vector<glm::ivec2> detailed_pixels(int width, int height, glm::ivec2 center) {
   const PixelBlock block = detailed_block(width, height, center);
   std::vector<glm::ivec2> pixels;
+  const bool all = width * height <= kMaxCompletePixels;
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       const bool is_example = x == center.x && y == center.y;
-      if (is_example || block.contains({x, y}) || (x % kDetailStep == 0 && y % kDetailStep == 0)) pixels.emplace_back(x, y);
+      if (all || is_example || block.contains({x, y}) || (x % kDetailStep == 0 && y % kDetailStep == 0)) pixels.emplace_back(x, y);
     }
   }
   return pixels;

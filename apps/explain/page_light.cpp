@@ -31,16 +31,22 @@ glm::dvec3 mean_of(const Image<glm::vec4>& light) {
 }
 
 // Returns a gray picture of the shadow factors of a light, computed from its diffuse light with and without shadows. Pixels that the light
-// does not reach are transparent.
-Image<glm::u8vec4> shadow_factors(const Image<glm::vec4>& with, const Image<glm::vec4>& without) {
+// does not reach are transparent. Counts the pixels that are fully or partly in shadow.
+Image<glm::u8vec4> shadow_factors(const Image<glm::vec4>& with, const Image<glm::vec4>& without, std::array<int, 2>& shadowed) {
   Image<glm::u8vec4> out(with.width(), with.height());
-  std::ranges::transform(with.texels(), without.texels(), out.data(), [](const glm::vec4& a, const glm::vec4& b) {
+  std::ranges::transform(with.texels(), without.texels(), out.data(), [&](const glm::vec4& a, const glm::vec4& b) {
     const float full = b.x + b.y + b.z;
     if (!(full > 0.0f)) return glm::u8vec4(0, 0, 0, 0);
     const auto code = static_cast<uint8_t>(std::clamp((a.x + a.y + a.z) / full, 0.0f, 1.0f) * 255.0f + 0.5f);
+    if (code < 255) ++shadowed[code == 0 ? 0 : 1];
     return glm::u8vec4(code, code, code, 255);
   });
   return out;
+}
+
+// Counts the pixels with a channel above 1 after exposure.
+int64_t clamped_pixels(const Image<glm::vec4>& light, float exposure) {
+  return std::ranges::count_if(light.texels(), [&](const glm::vec4& c) { return std::max({c.x, c.y, c.z}) * exposure > 1.0f; });
 }
 
 struct SurfaceAt {
@@ -156,8 +162,11 @@ PageJson terms_json(const PageInput& in) {
                   {"mean", json_of(mean_of(light))},
                   {"value", json_of(glm::dvec3(rgb(light.at(in.pixel.x, in.pixel.y))))}};
     const bool shadowed = term.light >= 0 && in.scene.lights[static_cast<std::size_t>(term.light)].light.shadow != nullptr;
-    if (shadowed && term.kind == TermKind::diffuse)
-      item["shadow"] = picture_uri(shadow_factors(light, render_term(in.scene, term, TermShadow::without, in.workers)));
+    if (shadowed && term.kind == TermKind::diffuse) {
+      std::array<int, 2> counts{};
+      item["shadow"] = picture_uri(shadow_factors(light, render_term(in.scene, term, TermShadow::without, in.workers), counts));
+      item["shadowed"] = counts;
+    }
     json.push_back(item);
   }
   return json;
@@ -211,6 +220,7 @@ PageJson tone_json(const PageInput& in) {
           {"histogram", t.histogram},
           {"dark", t.dark},
           {"bright", t.bright},
+          {"clamped", clamped_pixels(in.light, t.tone.exposure)},
           {"points", t.curve},
           {"pixel",
            {{"light", json_of(glm::dvec3(s.light))},

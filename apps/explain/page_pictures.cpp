@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "explain/page_data.h"
 #include "explain/page_encode.h"
 #include "halfspace/raster/inspect/inspection.h"
 #include "halfspace/render/frame/scene_pass.h"
+#include "halfspace/scene/scene_paths.h"
 
 namespace halfspace {
 
@@ -92,6 +94,38 @@ PageJson pictures_json(const PageInput& in, const Image<glm::u8vec4>& picture) {
           {"barycentrics", barycentric_picture(in)}};
 }
 
+// The objects whose shaders read a normal or bump map.
+struct HasRelief {
+  template <ShadingRate rate, bool mapped, NormalDetail detail, bool highlight>
+  bool operator()(const SurfaceShader<rate, mapped, detail, highlight>&) const {
+    return detail != NormalDetail::none;
+  }
+  template <class S>
+  requires std::derived_from<S, MetallicMaterial>
+  bool operator()(const S& s) const { return s.maps[kNormalMap].map != nullptr; }
+  bool operator()(const auto&) const { return false; }
+};
+
+PageJson surfaces_json(const PageInput& in) {
+  std::vector<std::string> relief;
+  for (const PreparedDraw& draw : in.scene.draws) {
+    const std::string name = object_name(in.description, draw.source.object);
+    if (std::visit(HasRelief{}, draw.shader) && std::ranges::find(relief, name) == relief.end()) relief.push_back(name);
+  }
+  glm::vec2 low(0.0f), high(0.0f);
+  bool is_first = true;
+  for (int y = 0; y < in.scene.view.height_px; ++y) {
+    for (int x = 0; x < in.scene.view.width_px; ++x) {
+      if (!is_surface(in, x, y)) continue;
+      const glm::vec2 uv = in.values.uv.at(x, y);
+      low = is_first ? uv : glm::min(low, uv);
+      high = is_first ? uv : glm::max(high, uv);
+      is_first = false;
+    }
+  }
+  return {{"relief", relief}, {"uv_low", json_of(glm::dvec2(low))}, {"uv_high", json_of(glm::dvec2(high))}};
+}
+
 PageJson depth_json(const PageInput& in) {
   const Image<float> depth = depth_buffer(in.scene, in.workers);
   float low = 1.0f, high = 0.0f;
@@ -117,7 +151,7 @@ PageJson depth_json(const PageInput& in) {
 
 PageJson mip_json(const PageInput& in) {
   const Image<MipLookup> mips = mip_levels(in.scene, in.workers);
-  float high = 0.0f;
+  float low = 0.0f, high = 0.0f;
   uint64_t pixels = 0;
   glm::ivec2 pixel = in.pixel;  // or the first pixel with a color map
   const bool has_map = mips.at(pixel.x, pixel.y).probes != 0.0f;
@@ -125,7 +159,8 @@ PageJson mip_json(const PageInput& in) {
     for (int x = mips.width() - 1; x >= 0; --x) {
       const MipLookup& m = mips.at(x, y);
       if (m.probes == 0.0f) continue;
-      high = std::max(high, m.lod);
+      low = pixels == 0 ? m.lod : std::min(low, m.lod);
+      high = pixels == 0 ? m.lod : std::max(high, m.lod);
       ++pixels;
       if (!has_map) pixel = {x, y};
     }
@@ -140,6 +175,7 @@ PageJson mip_json(const PageInput& in) {
   for (const MipLookup& m : mips.texels()) lods.push_back(m.probes == 0.0f ? -100.0f : std::round(m.lod * 64.0f) / 64.0f);
   const MipLookup& at = mips.at(pixel.x, pixel.y);
   return {{"picture", picture},
+          {"low", low},
           {"high", high},
           {"pixels", pixels},
           {"values", packed_planes(std::span<const float>(lods))},
@@ -163,13 +199,17 @@ PageJson overdraw_json(const PageInput& in, const FrameTrace& trace) {
     ++histogram[std::min<std::size_t>(n, histogram.size() - 1)];
     total += n;
   }
+  const auto unshaded = std::ranges::count(trace.fragments, false, &TracedFragment::is_shaded);
+  const auto dropped = std::accumulate(trace.others.begin(), trace.others.end(), uint64_t{0});
   const std::string picture = picture_of(in, [&](int x, int y) {
     const auto n = static_cast<float>(trace.count({x, y}));
     return n == 0.0f ? kNothing : heat_color(n / static_cast<float>(max_count));
   });
   return {{"picture", picture},
           {"most", max_count},
+          {"least", *std::ranges::min_element(counts)},
           {"total", total},
+          {"unshaded", static_cast<uint64_t>(unshaded) + dropped},
           {"histogram", histogram},
           {"counts", packed_planes(std::span<const uint32_t>(counts))}};
 }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "explain/page.h"
@@ -33,9 +34,9 @@ nlohmann::json data_of(const std::string& page) {
 
 TEST(Page, HasAllChapters) {
   const std::string page = page_of("earth", 2);
-  for (const char* id : {"frame",         "spaces",   "clipping", "culling",  "setup",   "binning",   "coverage", "depth",
-                         "interpolation", "varyings", "mips",     "lighting", "shadows", "tone",      "srgb",     "samples",
-                         "layers",        "final",    "history",  "overdraw", "times",   "statistics"})
+  for (const char* id : {"frame",    "spaces",        "clipping", "culling", "setup",    "binning", "coverage",   "depth",
+                         "stepping", "interpolation", "varyings", "mips",    "lighting", "shadows", "tone",       "srgb",
+                         "samples",  "layers",        "final",    "history", "overdraw", "times",   "statistics", "results"})
     EXPECT_NE(page.find("id: \"" + std::string(id) + "\""), std::string::npos) << id;
   EXPECT_EQ(page.find("http://") != std::string::npos, page.find("http://www.w3.org/2000/svg") != std::string::npos);
   EXPECT_EQ(page.find("https://"), std::string::npos) << "the page must not need a network";
@@ -114,6 +115,20 @@ TEST(Page, TheDetailedPixelsContainTheExamplePixel) {
   }
 }
 
+TEST(Page, SmallPicturesAreDetailedCompletely) {
+  EXPECT_EQ(detailed_pixels(320, 180, {0, 0}).size(), 320u * 180u);
+  EXPECT_LT(detailed_pixels(321, 180, {0, 0}).size(), 321u * 180u / 4);
+}
+
+// Between vertices with w = 1 and w = 4, interpolation differs by at most (√4 − √1) / (√4 + √1) = 1/3 of an edge.
+TEST(Page, AConstructedTriangleShowsTheInterpolation) {
+  const nlohmann::json p = page_data("earth", {}, 96, 54)["perspective"];
+  EXPECT_EQ(p["kind"], "constructed");
+  EXPECT_DOUBLE_EQ(p["difference"].get<double>(), 1.0 / 3.0);
+  EXPECT_LT(p["largest_error"].get<double>(), 0.5);
+  EXPECT_NE(page_data("pipeline", {}, 96, 54)["perspective"]["kind"], "constructed");
+}
+
 TEST(Page, QuotesAreTheLinesOfTheSources) {
   for (const QuoteRange& range : quote_ranges()) {
     const Quote q = quote(range);
@@ -125,6 +140,24 @@ TEST(Page, QuotesAreTheLinesOfTheSources) {
     EXPECT_EQ(file.substr(file.find_first_not_of(' ', at), first.size()), first) << q.file << ":" << q.line;
     EXPECT_LE(std::ranges::count(q.text, '\n'), 30) << range.file << ": a quote should fit on a screen";
   }
+}
+
+// The page names lessons by their titles.
+TEST(Page, NamedLessonsExist) {
+  std::string headings;
+  for (const auto& file : std::filesystem::directory_iterator("docs/tutorial/lessons")) {
+    if (file.path().extension() == ".md") headings += read_bytes(file.path()).substr(0, 200);
+  }
+  const std::string page = page_of("earth", 2), key = "lessons: [";
+  int named = 0;
+  for (std::size_t at = page.find(key); at != std::string::npos; at = page.find(key, at + 1)) {
+    const std::string list = page.substr(at + key.size(), page.find(']', at) - at - key.size());
+    for (std::size_t open = list.find('"'); open != std::string::npos; open = list.find('"', list.find('"', open + 1) + 1), ++named) {
+      const std::string title = list.substr(open + 1, list.find('"', open + 1) - open - 1);
+      EXPECT_NE(headings.find(": " + title + "\n"), std::string::npos) << title;
+    }
+  }
+  EXPECT_GT(named, 15);
 }
 
 TEST(Page, PackedBytesAreAPngFile) {

@@ -8,6 +8,9 @@ windows, and that there are no errors.
 Needs the Debian packages chromium, chromium-driver and python3-selenium. If a folder is given, a screenshot of every chapter is written to
 it.
 """
+import base64
+import csv
+import io
 import json
 import os
 import re
@@ -37,16 +40,20 @@ except ImportError:
 CHROMIUM, DRIVER = shutil.which("chromium"), shutil.which("chromedriver")
 PROGRAM = Path(sys.argv[1]).resolve() if len(sys.argv) > 1 else None
 SCREENSHOTS = Path(sys.argv[2]) if len(sys.argv) > 2 else None
-# Scenes that together use every stage: clipped triangles, shadows, HDR, points, several samples, transparent layers.
-SCENES = {"earth": ["earth"], "day-night": ["day-night", "--camera", "street"], "particles": ["particles"],
-          "knot": ["shadow-knot", "--set", "samples=4"], "box": ["box.obj"], "panes": ["panes.json"]}
+# Scenes that together use every stage: clipped triangles, shadows, HDR, points, several samples, transparent layers. The last two lack ideas:
+# one has no perspective, no light, no shadow and no texture, and the other shows nothing at all.
+SCENES = {"pipeline": ["pipeline"], "earth": ["earth"], "day-night": ["day-night", "--camera", "street"], "particles": ["particles"],
+          "knot": ["shadow-knot", "--set", "samples=4"], "box": ["box.obj"], "panes": ["panes.json"],
+          "flat": ["flat.json"], "empty": ["flat.json", "--set", "objects.plane.visible=false"]}
 LONG = "HALFSPACE_LONG_TESTS" in os.environ  # set by scripts/test_full.sh
-TOURED = list(SCENES) if LONG else ["day-night", "particles", "box"]  # together, these three show every chapter, too
+TOURED = list(SCENES) if LONG else ["pipeline", "particles", "flat", "empty"]
 HELMET = Path(__file__).resolve().parents[2].parent / "shared/data/gltf/DamagedHelmet/glTF-Binary/DamagedHelmet.glb"
 # Twenty-four squares, one behind the other and drawn from back to front, with two samples per pixel.
 PANES = {"version": 1, "samples": 2, "cameras": {"c": {"position": [0, 0, 6], "target": [0, 0, 0]}}, "lights": {"sun": {}},
          "objects": {f"pane{i}": {"shape": "plane", "size": 2, "rotation": [90, 0, 0], "position": [0, 0, 0.25 * i - 6], "color": [0.04 * i, 0.5, 0.5]}
                      for i in range(24)}}
+FLAT = {"version": 1, "cameras": {"c": {"type": "orthographic", "position": [0, 0, 6], "target": [0, 0, 0], "height": 3}},
+        "objects": {"plane": {"shape": "plane", "size": 2, "rotation": [90, 0, 0], "shading": "none", "color": [0.2, 0.4, 0.1]}}}
 BOX = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n"
 
 
@@ -100,9 +107,13 @@ PICTURE = """() => {
 EXERCISES = """() => {
   const c = CHAPTERS[state.chapter], note = document.querySelector('.absent-note');
   if (note) return {note: note.textContent};
-  const accepts = (x, text) => { const p = document.createElement('p'); judge(x, text, p); return p.className.includes('right'); };
-  const all = c.exercises();
-  return {count: document.querySelectorAll('.exercise').length, bad: all.filter((x) => !accepts(x, String(x.answer)) || accepts(x, '-12345.5') || accepts(x, '')).map((x) => x.ask)};
+  const all = c.exercises ? c.exercises() : [], text = (x) => roundedAnswer(x), shown = document.querySelector('article').cloneNode(true);
+  shown.querySelectorAll('.exercise, details.quote, .verdict').forEach((e) => e.remove());
+  const printed = new Set(shown.textContent.replace(/(\\d)\\u00a0(?=\\d)/g, '$1').replaceAll('−', '-').match(/-?\\d+(\\.\\d+)?/g) || []);
+  // Answers of fewer than three digits are found in any text, so only longer ones are looked for.
+  const isPrinted = (x) => typeof x.answer === 'number' && text(x).replace(/\\D/g, '').replace(/^0+/, '').length >= 3 && printed.has(text(x));
+  return {count: document.querySelectorAll('.exercise').length, printed: all.filter(isPrinted).map((x) => x.ask + ' ' + text(x)),
+          bad: all.filter((x) => !isRight(x, text(x)) || !isRight(x, text(x).replace('.', ',')) || isRight(x, '-12345.5') || isRight(x, '')).map((x) => x.ask + ' ' + text(x))};
 }"""
 WIDTH = "document.documentElement.scrollWidth"
 SMALLEST_FONT = """Math.min(99, ...[...document.querySelectorAll('figure svg text')].map((t) => {
@@ -118,6 +129,7 @@ class Page(unittest.TestCase):
         cls.pages = {}
         (Path(cls.folder.name) / "box.obj").write_text(BOX)
         (Path(cls.folder.name) / "panes.json").write_text(json.dumps(PANES))
+        (Path(cls.folder.name) / "flat.json").write_text(json.dumps(FLAT))
         for name, arguments in SCENES.items():
             page = Path(cls.folder.name) / f"{name}.html"
             subprocess.run([PROGRAM, "explain", *arguments, "--size", "320x180", "-o", page], check=True, cwd=cls.folder.name)
@@ -164,7 +176,7 @@ class Page(unittest.TestCase):
                 if "note" in exercises:
                     self.assertIn("halfspace explain", exercises["note"], where)
                     continue
-                self.assertEqual(exercises, {"count": 3, "bad": []}, where)
+                self.assertEqual(exercises, {"count": 0 if chapter == "results" else 3, "printed": [], "bad": []}, where)
                 self.assertNotIn(picture, seen.setdefault(chapter, []), f"{where} shows what was shown before")
                 seen[chapter].append(picture)
             self.assertEqual(self.errors(), [], name)
@@ -210,6 +222,138 @@ class Page(unittest.TestCase):
                     check(name)
         for scenes in (SCENES, TOURED):
             self.assertEqual(set.intersection(*(absent[name] for name in scenes)), set(), f"no page of {list(scenes)} shows these chapters")
+
+    def caption(self, name, chapter, step=1):
+        self.open(name, f"{chapter}/{step}")
+        return self.run_script("return document.querySelector('article').textContent")
+
+    def test_sentences_follow_from_the_frame(self):
+        """What a frame does not have is not claimed: the text of scenes without perspective, light, shadow and texture, or with nothing."""
+        text = self.caption("flat", "interpolation")
+        self.assertIn("A constructed triangle that is not part of this frame, because in this frame the projection is orthographic", text)
+        self.assertNotIn("distant ones smaller", self.caption("flat", "spaces", 5))
+        self.assertNotIn("relief", self.caption("flat", "varyings", 2))
+        self.assertIn("No opaque surface of this frame has a color map", self.caption("flat", "varyings", 5))
+        self.assertIn("No light of this frame casts shadows", self.caption("flat", "shadows"))
+        self.assertIn("No pixel of this frame exceeds 1", self.caption("flat", "tone"))
+        text = self.caption("earth", "interpolation")
+        self.assertRegex(text, r"A constructed triangle .* affine interpolation displaces a value by at most 0\.\d+ pixels")
+        self.assertIn("of this page", self.caption("pipeline", "interpolation"), "the example shows the interpolation itself")
+        self.assertIn("relief from the maps of globe", self.caption("pipeline", "varyings", 2))
+        self.assertIn("Nothing is drawn in this frame", self.caption("empty", "frame"))
+        self.assertEqual(self.run_script("return CHAPTERS.filter((c) => c.id === 'spaces' && !c.absent()).length"), 0)
+
+    def test_pipeline_has_no_empty_chapter(self):
+        self.open("pipeline")
+        self.assertEqual(self.run_script("return CHAPTERS.filter((c) => c.absent && c.absent()).map((c) => c.id)"), [])
+
+    def test_addresses_and_the_back_button(self):
+        self.open("earth", "spaces/3")
+        where = "return [CHAPTERS[state.chapter].id, state.step, location.hash]"
+        self.assertEqual(self.run_script(where), ["spaces", 2, "#spaces/3"])
+        self.run_script("move(1)")
+        self.run_script("goTo(CHAPTERS.findIndex((c) => c.id === 'depth'))")
+        self.assertEqual(self.run_script(where), ["depth", 0, "#depth"])
+        for expected in (["spaces", 3, "#spaces/4"], ["spaces", 2, "#spaces/3"]):
+            self.driver.back()
+            WebDriverWait(self.driver, 10).until(lambda d: d.execute_script(where) == expected)
+
+    def test_numbers_are_read_with_both_separators(self):
+        self.open("earth")
+        x = "{answer: 1234.565, decimals: 2}"
+        for exercise, text, right in ((x, "1234.57", True), (x, "1234,56", True), (x, "1,234.57", True), (x, "1.234,57", True), (x, "1 234,565", True),
+                                      (x, "1234.55", False), (x, "1235", False), ("{answer: 0.5, decimals: 1}", "0,5", True),
+                                      ("{answer: 57600}", "57,600", True), ("{answer: 57600}", "57.600", True), ("{answer: 57600}", "57601", False),
+                                      ("{answer: -0.001234, significant: 2}", "−0,0012", True), ("{answer: -0.001234, significant: 2}", "-0.0013", False),
+                                      ("{answer: 3}", "", False), ("{answer: 3}", "three", False)):
+            self.assertEqual(self.run_script(f"return isRight({exercise}, arguments[0])".replace("arguments[0]", json.dumps(text))), right, (exercise, text))
+
+    def exercise_form(self, index=0):
+        return self.driver.find_elements(By.CSS_SELECTOR, ".exercise form")[index]
+
+    def test_an_answer_is_revealed_after_a_try_and_kept(self):
+        self.open("earth", "frame")
+        form = self.exercise_form(1)
+        self.assertFalse(form.find_elements(By.TAG_NAME, "button")[1].is_enabled(), "predict first")
+        form.find_element(By.TAG_NAME, "input").send_keys("=1+1" + Keys.ENTER)
+        form.find_elements(By.TAG_NAME, "button")[1].click()
+        self.assertIn(self.run_script("return roundedAnswer(CHAPTERS[0].exercises()[1])"), form.find_element(By.CLASS_NAME, "verdict").text)
+        self.exercise_form().find_element(By.TAG_NAME, "input").send_keys("57.600" + Keys.ENTER)
+        self.open("earth", "frame")
+        self.assertIn("Solved", self.exercise_form().find_element(By.CLASS_NAME, "verdict").text)
+        self.assertEqual(self.driver.find_element(By.CSS_SELECTOR, "nav .done").text, "1/3")
+        self.run_script("progress.student = 'Zoë, \\u0022Z\\u0022'")
+        rows = list(csv.DictReader(io.StringIO(self.run_script("return resultsAsCsv()").lstrip("\ufeff"), newline="")))
+        self.assertEqual(len(rows), self.run_script("return CHAPTERS.reduce((n, c) => n + countOf(c), 0)"))
+        self.assertEqual([rows[0][k] for k in ("student", "chapter", "given", "expected", "right", "tries", "revealed")],
+                         ['Zoë, "Z"', "One frame", "57.600", "57600", "yes", "1", "no"])
+        self.assertEqual([rows[1][k] for k in ("given", "right", "tries", "revealed")], ["'=1+1", "no", "1", "yes"], "no cell is a formula")
+        self.run_script("localStorage.clear()")
+
+    def test_the_page_works_if_storage_is_refused(self):
+        script = "Object.defineProperty(window, 'localStorage', {get() { throw new DOMException('denied', 'SecurityError'); }})"
+        added = self.driver.execute_cdp_cmd("Page.addScriptToEvaluateOnNewDocument", {"source": script})
+        try:
+            self.open("earth", "frame")
+            self.exercise_form().find_element(By.TAG_NAME, "input").send_keys("57600" + Keys.ENTER)
+            self.assertIn("right", self.exercise_form().find_element(By.CLASS_NAME, "verdict").get_attribute("class"))
+            self.run_script("goTo(CHAPTERS.findIndex((c) => c.id === 'results'))")
+            self.assertIn("refuses to store", self.driver.find_element(By.TAG_NAME, "article").text)
+            self.assertEqual(self.errors(), [])
+        finally:
+            self.driver.execute_cdp_cmd("Page.removeScriptToEvaluateOnNewDocument", added)
+
+    def test_the_loupe_shows_the_pixel_under_the_pointer(self):
+        self.open("earth", "final")
+        canvas = self.driver.find_element(By.CSS_SELECTOR, "figure canvas")
+        ActionChains(self.driver).move_to_element(canvas).perform()
+        shown, expected = self.run_script("""const lens = document.querySelector('.loupe canvas'), [, x, y] = document.querySelector('.readout').textContent.match(/\\((\\d+), (\\d+)\\)/).map(Number);
+            const copy = document.createElement('canvas'); copy.width = W; copy.height = H;
+            copy.getContext('2d').drawImage(IMAGES.get(DATA.pictures.final), 0, 0);
+            const color = (c, i, j) => [...c.getContext('2d').getImageData(i, j, 1, 1).data];
+            return [[document.querySelector('.loupe').hidden, color(lens, 72, 72), color(lens, 72 + 16 * 4, 72)], [false, color(copy, x, y), color(copy, x + 4, y)]]""")
+        self.assertEqual(shown, expected)
+
+    def test_the_whole_page_can_be_printed(self):
+        self.open("pipeline", "depth/2")
+        self.driver.execute_async_script("const done = arguments[0]; window.print = () => {}; printAll().then(done)")
+        figures, steps, articles = self.run_script("""return [document.querySelectorAll('figure').length, CHAPTERS.reduce((n, c) => n + c.steps().length, 0), document.querySelectorAll('article').length]""")
+        self.assertEqual([figures, articles], [steps, len(self.chapters())])
+        pdf = base64.b64decode(self.driver.print_page())
+        self.assertGreater(len(re.findall(rb"/Type\s*/Page\b(?!s)", pdf)), len(self.chapters()))
+        self.run_script("showOne()")
+        self.assertEqual(self.run_script("return [CHAPTERS[state.chapter].id, state.step, document.querySelectorAll('article').length]"), ["depth", 1, 1])
+
+    def test_the_steps_of_the_tile_are_those_of_the_run(self):
+        """After the last step, the tile has the colors of the picture; and each tested depth was compared with the depth of the steps."""
+        self.open("earth", "stepping")
+        wrong_colors, wrong_depths, tested = self.driver.execute_async_script("""const done = arguments[0];
+            unpackTile().then(() => {
+              const f = FRAME.tile, {rows} = tileRows(), end = tileAfter(rows, rows.length), copy = document.createElement('canvas'); copy.width = W; copy.height = H;
+              copy.getContext('2d').drawImage(IMAGES.get(DATA.pictures.final), 0, 0);
+              let colors = 0, depths = 0, tested = 0;
+              end.color.forEach((c, i) => { const p = copy.getContext('2d').getImageData(TILE_X + i % TILE_W, H - 1 - TILE_Y - Math.floor(i / TILE_W), 1, 1).data; colors += c === null || c.some((v, k) => v !== p[k]); });
+              const depth = new Float32Array(TILE_W * TILE_H);
+              for (const i of rows) {
+                const at = f.y[i] * TILE_W + f.x[i];
+                if (f.outcome[i] > 1 && !Number.isNaN(f.stored[i])) { ++tested; depths += f.stored[i] !== depth[at]; }
+                if (passes(f.outcome[i])) depth[at] = f.depth[i];
+              }
+              done([colors, depths, tested]);
+            })""")
+        self.assertEqual([wrong_colors, wrong_depths], [0, 0])
+        self.assertGreater(tested, 0)
+        slider = self.driver.find_element(By.CSS_SELECTOR, "[aria-label='Next triangle']")
+        before = self.run_script("return stepping.triangle")
+        slider.click()
+        self.assertEqual(self.run_script("return stepping.triangle"), before + 1)
+
+    def test_blocks_beyond_an_edge_are_told_from_crossed_ones(self):
+        """A sliver that ends at (60, 4): beyond it, both of its long lines cross the blocks, but no edge does."""
+        self.open("earth")
+        kinds = self.run_script("""const xy = {x: [0, 60 * SUB, 0], y: [0, 4 * SUB, 2 * SUB]}, t = {...xy, edges: edgesOf(xy)};
+            return [[0, 0], [56, 0], [64, 0], [72, 0], [0, 8], [-8, 0]].map(([x, y]) => blockKind(t, x, y))""")
+        self.assertEqual(kinds, ["some", "some", "extension", "extension", "none", "none"])
 
     def test_the_switch_changes_the_colors(self):
         self.open("earth")
@@ -395,12 +539,19 @@ class Page(unittest.TestCase):
         self.assertLessEqual(abs(y - 90), 1)
 
     def test_other_pixels_show_the_nearest_one_and_the_command(self):
-        self.open("earth", "history")
-        x, y = self.run_script("return [...Array(W).keys()].map((x) => [x, H - 3]).find(([x]) => x % 8 === 3 && Math.abs(x - PIXEL[0]) > 80)")
-        shown = self.show_pixel(x, y)
-        self.assertIn(f"halfspace explain earth --size 320x180 --pixel {x},{y} --text", shown)
+        self.pages["large"] = Path(self.folder.name) / "large.html"
+        subprocess.run([PROGRAM, "explain", "flat.json", "--size", "400x180", "-o", self.pages["large"]], check=True, cwd=self.folder.name)
+        self.open("large", "history")
+        shown = self.show_pixel(3, 177)
+        self.assertIn("halfspace explain flat.json --size 400x180 --pixel 3,177 --text", shown)
         self.driver.find_element(By.CSS_SELECTOR, "#history-panel button").click()
         WebDriverWait(self.driver, 30).until(lambda d: d.execute_script("return detailsOf(...historyState.pixel) !== null"))
+
+    def test_small_frames_have_the_values_of_every_pixel(self):
+        self.open("earth", "history")
+        missing = self.driver.execute_async_script("""const done = arguments[0];
+            unpackHistory().then(() => done([...Array(W * H).keys()].filter((i) => detailsOf(i % W, Math.floor(i / W)) === null).length))""")
+        self.assertEqual(missing, 0)
 
     def test_screenshots(self):
         if SCREENSHOTS is None:

@@ -37,6 +37,8 @@ const vec = (v, digits = 5) => `(${v.map((x) => fmt(x, digits)).join(", ")})`;
 const plural = (n, one, many = one + "s") => `${fmt(n)} ${n === 1 ? one : many}`;
 // Prose inside a formula, which wraps.
 const say = (html) => `<span class="prose">${html}</span>`;
+// A pixel counted from the upper left, as in image files, and in brackets from the lower left, as in OpenGL's window coordinates.
+const px = ([x, y]) => `(${x}, ${y}) [${x}, ${H - 1 - y}]`;
 const css = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
 // Decodes the PNG files in which a page stores its arrays (page_encode.h).
@@ -83,12 +85,18 @@ async function unpackArray(base64, Type, count, size = Type.BYTES_PER_ELEMENT) {
   return new Type(bytes.buffer);
 }
 
-const loadImage = (uri) => new Promise((resolve, reject) => {
-  const image = new Image();
-  image.onload = () => resolve(image);
-  image.onerror = reject;
-  image.src = uri;
-});
+// Calls f(image) when the picture is decoded: at once if it has been decoded before.
+const IMAGES = new Map();
+function withImage(uri, f) {
+  const known = IMAGES.get(uri) || Object.assign(new Image(), {src: uri});
+  IMAGES.set(uri, known);
+  if (known.complete && known.naturalWidth > 0) return f(known);
+  known.addEventListener("load", () => f(known), {once: true});
+}
+
+// Decodes all pictures of the page.
+const allUris = () => [...Object.values(DATA.pictures), ...DATA.terms.flatMap((t) => [t.picture, t.shadow]), DATA.depth.picture, DATA.overdraw.picture, DATA.mips && DATA.mips.picture, DATA.shadow && DATA.shadow.map].filter(Boolean);
+const decodeAll = () => Promise.all(allUris().map((uri) => new Promise((resolve) => withImage(uri, resolve))));
 
 // ---- matrices, stored column by column -----------------------------------------------------------------------------
 

@@ -34,33 +34,73 @@ function pickable(element, columns, rows, start, pick) {
 }
 
 // Shows a picture of the frame with an optional overlay, and calls read(x, y) for the pixel under the pointer.
-function picture(uri, label, {overlay = null, read = null, click = null, scale = 2} = {}) {
+function picture(uri, label, {overlay = null, read = pixelRead, click = null, scale = 2} = {}) {
   const {canvas, pen} = canvasFigure(W * scale, H * scale, label);
   const box = el("div", {class: "stage"}, canvas);
-  const readout = read ? el("div", {class: "readout", "aria-live": "polite"}, "Point at the picture to read its values, or focus it and press the arrow keys.") : null;
+  const readout = el("div", {class: "readout", "aria-live": "polite"}, "Point at the picture to magnify it and read its values, or focus it and press the arrow keys.");
+  const loupe = loupeOf(canvas, W, H);
   const mark = el("div", {class: "mark", "aria-hidden": "true", hidden: true});
-  loadImage(uri).then((image) => {
+  withImage(uri, (image) => {
     pen.imageSmoothingEnabled = false;
     pen.drawImage(image, 0, 0, W * scale, H * scale);
+    loupe.source = image;
     if (overlay) overlay(pen, scale);
   });
   const pixelOf = (e) => {
     const r = canvas.getBoundingClientRect();
     return [Math.min(W - 1, Math.max(0, Math.floor((e.clientX - r.left) / r.width * W))), Math.min(H - 1, Math.max(0, Math.floor((e.clientY - r.top) / r.height * H)))];
   };
-  if (read) {
-    const show = (x, y) => {
-      readout.innerHTML = read(x, y);
-      if (click) return click(x, y);
-      mark.hidden = false;
-      placeMark(mark, x, y);
-    };
-    const moveTo = pickable(canvas, W, H, click ? historyState.pixel : PIXEL, show);
-    box.append(mark);
-    canvas.addEventListener("pointermove", (e) => { const at = pixelOf(e); moveTo(...at); mark.hidden = true; readout.innerHTML = read(...at); });
-    if (click) canvas.addEventListener("click", (e) => { const at = pixelOf(e); moveTo(...at); click(...at); });
-  }
-  return [box, readout].filter(Boolean);
+  const describe = (x, y) => { loupe.show(x, y); readout.innerHTML = read(x, y, loupe.color); };
+  const show = (x, y) => {
+    describe(x, y);
+    if (click) return click(x, y);
+    mark.hidden = false;
+    placeMark(mark, x, y);
+  };
+  const moveTo = pickable(canvas, W, H, click ? historyState.pixel : PIXEL, show);
+  box.append(mark, loupe.element);
+  canvas.addEventListener("pointermove", (e) => { const at = pixelOf(e); moveTo(...at); mark.hidden = true; describe(...at); });
+  canvas.addEventListener("pointerleave", loupe.hide);
+  canvas.addEventListener("blur", loupe.hide);
+  if (click) canvas.addEventListener("click", (e) => { const at = pixelOf(e); moveTo(...at); click(...at); });
+  return [box, readout];
+}
+
+// The default text of a pixel: its place, and its color in the picture, from 0 to 255.
+const pixelRead = (x, y, color) => `pixel ${px([x, y])}: ${colorText(color)}`;
+const colorText = (color) => (color === null ? "" : color[3] === 0 ? "nothing is drawn here" : `red ${color[0]}, green ${color[1]}, blue ${color[2]} in this picture`);
+
+const LOUPE_REACH = 4, LOUPE_SCALE = 16;
+// Returns a loupe that magnifies 9 x 9 cells of loupe.source 16 times. columns, rows: cells of the source. loupe.color is the color of the
+// cell in the middle.
+function loupeOf(canvas, columns, rows) {
+  const side = 2 * LOUPE_REACH + 1, size = side * LOUPE_SCALE, lens = el("canvas", {width: size, height: size, class: "pixels"}), pen = lens.getContext("2d", {willReadFrequently: true});
+  const element = el("div", {class: "loupe", "aria-hidden": "true", hidden: true}, lens), loupe = {source: null, color: null, element, hide: () => { element.hidden = true; }};
+  loupe.show = (x, y) => {
+    if (loupe.source === null) return;
+    const cell = loupe.source.width / columns;
+    pen.imageSmoothingEnabled = false;
+    pen.clearRect(0, 0, size, size);
+    pen.drawImage(loupe.source, (x - LOUPE_REACH) * cell, (y - LOUPE_REACH) * cell, side * cell, side * cell, 0, 0, size, size);
+    loupe.color = [...pen.getImageData(size / 2, size / 2, 1, 1).data];
+    pen.strokeStyle = "#000";
+    pen.strokeRect(LOUPE_REACH * LOUPE_SCALE - 1.5, LOUPE_REACH * LOUPE_SCALE - 1.5, LOUPE_SCALE + 3, LOUPE_SCALE + 3);
+    pen.strokeStyle = "#fff";
+    pen.strokeRect(LOUPE_REACH * LOUPE_SCALE - 0.5, LOUPE_REACH * LOUPE_SCALE - 0.5, LOUPE_SCALE + 1, LOUPE_SCALE + 1);
+    element.hidden = false;
+    element.classList.toggle("left", x > columns / 2);
+  };
+  return loupe;
+}
+
+// Gives a canvas of columns x rows cells a loupe that follows the pointer.
+function addLoupe(box, canvas, columns, rows) {
+  const loupe = loupeOf(canvas, columns, rows);
+  loupe.source = canvas;
+  canvas.addEventListener("pointermove", (e) => { const r = canvas.getBoundingClientRect(); loupe.show(Math.floor((e.clientX - r.left) / r.width * columns), Math.floor((e.clientY - r.top) / r.height * rows)); });
+  canvas.addEventListener("pointerleave", loupe.hide);
+  box.append(loupe.element);
+  return box;
 }
 
 function placeMark(mark, x, y) {
@@ -79,6 +119,14 @@ function ring(pen, scale, [x, y], radius = 9) {
     pen.arc((x + 0.5) * scale, (y + 0.5) * scale, radius * scale / 2, 0, 7);
     pen.stroke();
   }
+}
+
+// Strokes a line.
+function stroke(pen, [ax, ay], [bx, by]) {
+  pen.beginPath();
+  pen.moveTo(ax, ay);
+  pen.lineTo(bx, by);
+  pen.stroke();
 }
 
 // Strokes or fills a polygon of points.

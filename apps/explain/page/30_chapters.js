@@ -1,6 +1,6 @@
-// Chapters: registration, steps, exercises and navigation.
+// Chapters: registration, steps and navigation.
 //
-// A chapter is {id, title, kicker, lead, input, output, steps, formula, body, exercises, absent}. Texts are HTML. steps: a list of
+// A chapter is {id, title, kicker, lead, input, output, steps, formula, body, exercises, absent, related, lessons}. Texts are HTML. steps: a list of
 // {name, caption, draw}, where draw() returns elements. absent() returns null, or HTML that explains why this frame has no such stage.
 const CHAPTERS = [];
 const chapter = (c) => CHAPTERS.push(c);
@@ -21,40 +21,13 @@ function colored(text) {
   }).join("\n");
 }
 
-// An exercise is {ask, answer, tolerance, unit, hint, why}. The answer is a number or a string in lower case.
-function exercise(x, number) {
-  const verdict = el("p", {class: "verdict", role: "status"});
-  const input = el("input", {type: "text", "aria-label": `Your answer to exercise ${number}`, autocomplete: "off", inputmode: typeof x.answer === "number" ? "decimal" : null});
-  const check = (e) => { e.preventDefault(); judge(x, input.value, verdict); };
-  const show = el("button", {type: "button", onclick: () => { verdict.className = "verdict"; verdict.innerHTML = `${typeof x.answer === "number" ? num(x.answer, 9) : x.answer}${x.unit ? " " + x.unit : ""}. ${x.why}`; }}, "Show answer");
-  return el("div", {class: "exercise"}, el("p", {html: `<b>${number}.</b> ${x.ask}`}),
-    el("form", {onsubmit: check}, input, el("span", {}, x.unit || ""), el("button", {type: "submit"}, "Check"), show, verdict));
-}
-
-function isRight(x, text) {
-  const given = text.trim().toLowerCase().replace(/[\s ,]/g, "").replace("−", "-");
-  if (typeof x.answer !== "number") return given === x.answer.toLowerCase().replace(/[\s,]/g, "");
-  return given !== "" && Math.abs(Number(given) - x.answer) <= (x.tolerance ?? 0);
-}
-
-function judge(x, text, verdict) {
-  const right = isRight(x, text);
-  verdict.className = "verdict " + (right ? "right" : "wrong");
-  verdict.innerHTML = right ? `✓ Correct. ${x.why}` : `✗ Not correct yet. ${x.hint}`;
-}
-
-function exercisesOf(c) {
-  const list = c.exercises ? c.exercises() : [];
-  return list.length === 0 ? [] : [el("h3", {}, "Exercises"), ...list.map((x, i) => exercise(x, i + 1))];
-}
-
 const listOf = (title, items) => el("div", {}, el("h4", {}, title), el("ul", {}, ...items.map((i) => el("li", {html: i}))));
 
 // The figure with its stepper. show(n) draws step n.
 function stepsOf(c) {
   const steps = c.steps();
   const stage = el("div", {class: "step"}), caption = el("figcaption", {"aria-live": "polite"});
-  const range = el("input", {type: "range", min: 1, max: steps.length, value: 1, "aria-label": `Step of chapter “${c.title}”`, oninput: () => goToStep(Number(range.value) - 1)});
+  const range = el("input", {type: "range", min: 1, max: steps.length, value: 1, "aria-label": `Step of chapter “${c.title}”`, oninput: () => goToStep(Number(range.value) - 1, "replace")});
   const output = el("output");
   const back = el("button", {type: "button", "aria-label": "Previous step", onclick: () => move(-1)}, "←");
   const next = el("button", {type: "button", "aria-label": "Next step", onclick: () => move(1)}, "→");
@@ -67,6 +40,15 @@ function stepsOf(c) {
     caption.innerHTML = `<b>${steps[n].name}.</b> ${steps[n].caption}`;
   };
   return el("figure", {}, stage, steps.length > 1 ? el("div", {class: "stepper"}, back, range, next, output) : null, caption);
+}
+
+// Links to related chapters, and the lessons that build the stage.
+function relatedTo(c) {
+  const chapters = (c.related || []).map((id) => CHAPTERS.find((other) => other.id === id));
+  const links = chapters.flatMap((other, i) => [i > 0 ? ", " : null, el("a", {href: "#" + other.id, onclick: (e) => { e.preventDefault(); goTo(CHAPTERS.indexOf(other)); }}, other.title)]);
+  const lessons = (c.lessons || []).map((title) => `“${title}”`).join(" and ");
+  return el("p", {class: "related"}, ...(links.length > 0 ? ["Related chapters: ", ...links, ". "] : []),
+    lessons ? `Lessons that write this stage in C++ (docs/tutorial/lessons): ${lessons}.` : null);
 }
 
 function turnButtons(index) {
@@ -87,26 +69,42 @@ function build(c, index) {
     for (const block of c.formula ? c.formula() : []) parts.push(el("div", {class: "formula", tabindex: 0, role: "math", "aria-label": "Formula with the numbers of this frame", html: block}));
     if (c.body) parts.push(...[c.body()].flat());
   }
-  parts.push(...quotesOf(c.id), ...(absent ? [] : exercisesOf(c)), turnButtons(index));
+  parts.push(...quotesOf(c.id), ...(absent ? [] : exercisesOf(c)), relatedTo(c), turnButtons(index));
   return el("article", {"aria-labelledby": "title", id: "chapter-" + c.id}, ...parts);
 }
 
-function goTo(index, step = 0, focus = true) {
+// The address of a chapter and step: "#depth" for the first step, "#depth/2" for the second.
+const addressOf = (index, step) => `#${CHAPTERS[index].id}${step > 0 ? `/${step + 1}` : ""}`;
+
+// Writes the address of the current step. how: "push" adds an entry for the Back button, "replace" does not, "keep" leaves the address.
+function setAddress(how) {
+  const address = addressOf(state.chapter, state.step);
+  if (how === "keep" || location.hash === address) return;
+  history[how === "push" ? "pushState" : "replaceState"](null, "", address);
+}
+
+// Returns the chapter and step of the address of the page. Unknown ones are the first.
+function addressed() {
+  const [id, step] = location.hash.slice(1).split("/");
+  return [Math.max(0, CHAPTERS.findIndex((c) => c.id === id)), Math.max(0, (Number(step) || 1) - 1)];
+}
+
+function goTo(index, step = 0, focus = true, how = "push") {
   state.chapter = index;
   const main = document.getElementById("main"), c = CHAPTERS[index];
   main.replaceChildren(build(c, index));
   document.querySelectorAll("nav a").forEach((a, i) => (i === index ? a.setAttribute("aria-current", "page") : a.removeAttribute("aria-current")));
-  if (location.hash !== "#" + c.id) history.replaceState(null, "", "#" + c.id);
   document.title = `${c.title} · Halfspace`;
-  goToStep(step < 0 ? c.stepCount - 1 : step);
+  goToStep(step < 0 ? c.stepCount - 1 : Math.min(step, c.stepCount - 1), how);
   if (!focus) return;
   scrollTo(0, 0);
   main.focus({preventScroll: true});
 }
 
-function goToStep(step) {
+function goToStep(step, how = "push") {
   state.step = step;
   CHAPTERS[state.chapter].showStep(step);
+  setAddress(how);
 }
 
 // Goes to the next or previous step, and beyond the ends to the next or previous chapter.
@@ -127,7 +125,7 @@ function onKey(e) {
 
 function setTheme(theme) {
   document.documentElement.dataset.theme = theme;
-  if (CHAPTERS[state.chapter].showStep) goToStep(state.step);
+  if (CHAPTERS[state.chapter].showStep) goToStep(state.step, "keep");
 }
 
 function startTheme() {
@@ -141,23 +139,26 @@ function startNavigation() {
   const list = document.getElementById("chapters"), contents = document.getElementById("contents");
   CHAPTERS.forEach((c, i) => {
     const open = (e) => { e.preventDefault(); if (narrow.matches) contents.open = false; goTo(i); };
-    list.append(el("li", {}, el("a", {href: "#" + c.id, class: c.absent && c.absent() ? "absent" : null, onclick: open}, c.title)));
+    list.append(el("li", {}, el("a", {href: "#" + c.id, class: c.absent && c.absent() ? "absent" : null, onclick: open}, el("span", {}, c.title), el("small", {class: "done"}))));
   });
   const narrow = matchMedia("(max-width: 900px)");
   const fold = () => { contents.open = !narrow.matches; };
   narrow.addEventListener("change", fold);
-  narrowWindow.addEventListener("change", () => goToStep(state.step));
+  narrowWindow.addEventListener("change", () => goToStep(state.step, "keep"));
   fold();
   document.addEventListener("keydown", onKey);
-  addEventListener("hashchange", () => goTo(indexOfHash()));
+  const follow = () => { const [index, step] = addressed(); goTo(index, step, index !== state.chapter, "keep"); };
+  addEventListener("popstate", follow);
+  document.getElementById("print").addEventListener("click", printAll);
+  addEventListener("beforeprint", showAll);
+  addEventListener("afterprint", showOne);
+  showProgress();
 }
-
-const indexOfHash = () => Math.max(0, CHAPTERS.findIndex((c) => "#" + c.id === location.hash));
 
 async function start() {
   document.getElementById("scene-name").textContent = sceneName;
   startTheme();
   await unpackFrame();
   startNavigation();
-  goTo(indexOfHash(), 0, false);
+  goTo(...addressed(), false, "replace");
 }

@@ -23,6 +23,8 @@ const isPoint = EX !== null && EX.corners === 1 && TRI !== null;
 // The example pixel in window coordinates, whose origin is at the lower left.
 const WINDOW = [PIXEL[0], H - 1 - PIXEL[1]];
 const exampleName = EX === null ? "nothing" : `${EX.corners === 3 ? "triangle" : EX.corners === 2 ? "line" : "point"} ${fmt(EX.primitive)} of <i>${escapeHtml(EX.object)}</i>`;
+const capital = (text) => text[0].toUpperCase() + text.slice(1);
+const listed = (names) => names.map(escapeHtml).map((n, i, all) => (i === 0 ? n : i === all.length - 1 ? ` and ${n}` : `, ${n}`)).join("");
 const command = (rest) => `<code>${escapeHtml(rest)}</code>`;
 const shellName = (file) => (/^[\w.,:#%@/+-]+$/.test(file) ? file : `'${file.replaceAll("'", "'\\''")}'`);
 

@@ -4,9 +4,9 @@ chapter({
   id: "frame", title: "One frame", kicker: "Start",
   lead: () => `This page explains how Halfspace rendered one frame of the scene <b>${escapeHtml(sceneName)}</b>${DATA.title && DATA.title !== sceneName.replace(/\.[^.]*$/, "") ? ` (${escapeHtml(DATA.title)})` : ""} with ${W} × ${H} pixels. All numbers were computed by the renderer for this frame. Follow one ${isTriangle ? "triangle" : "primitive"} from its mesh to the screen.`,
   steps: () => [
-    {name: "The picture", caption: `The ring marks pixel (${PIXEL}), the example of this page. ${DATA.overdraw.most === 0 ? "Nothing is drawn in this frame." : `${plural(FRAME.fragments[PIXEL[1] * W + PIXEL[0]], "fragment competes", "fragments compete")} for it. The visible fragment belongs to ${exampleName}.`}`,
+    {name: "The picture", caption: `The ring marks pixel ${px(PIXEL)}, the example of this page. ${DATA.overdraw.most === 0 ? "Nothing is drawn in this frame." : `${plural(FRAME.fragments[PIXEL[1] * W + PIXEL[0]], "fragment competes", "fragments compete")} for it. The visible fragment belongs to ${exampleName}.`}`,
       draw: () => picture(DATA.pictures.final, "The rendered picture, with a ring around the example pixel", {overlay: (pen, s) => ring(pen, s, PIXEL)})},
-    {name: "The primitives", caption: "The same picture with one color per primitive. Everything in the picture is made of triangles, lines and points.",
+    {name: "The primitives", caption: `The same picture with one color per ${KINDS.length === 1 ? KINDS[0] : "primitive"}. Everything in it is made of ${listed(KINDS.map((k) => k + "s"))}.`,
       draw: () => picture(DATA.pictures.triangles, "The picture with one color per primitive", {overlay: (pen, s) => ring(pen, s, PIXEL)})},
     {name: "The pipeline", caption: "The stages of the pipeline in order, with the numbers of this frame. Each tile is drawn by one thread, so pixels need no locks, and the picture does not depend on the number of threads.",
       draw: () => el("div", {class: "stage"}, pipelineDiagram())},
@@ -14,18 +14,30 @@ chapter({
   body: () => [
     el("p", {class: "keys", html: "Press <kbd>←</kbd> or <kbd>→</kbd> for the previous or next step. The last step of a chapter is followed by the first step of the next chapter. The slider selects a step of the chapter."}),
     el("p", {class: "keys", html: `To explain another pixel: ${command(`${DATA.command} --pixel X,Y`)}`}),
+    ...(EX === null ? [] : choiceTable()),
     el("h3", {}, "Draw calls"),
     tableOf(["object", "kind", "vertices", "primitives", "culled faces"], DATA.draws.slice(0, 12).map((d) => [escapeHtml(d.object) + (d.copy ? ` (${d.copy})` : ""), `¶${d.kind}${d.layered ? ", transparent" : ""}`, d.vertices, d.primitives, `¶${d.cull}`])),
     DATA.draws.length > 12 ? el("p", {}, `… and ${DATA.draws.length - 12} more draws.`) : null],
+  related: ["statistics", "history"], lessons: ["A triangle", "The library"],
   exercises: () => {
-    const s = DATA.statistics;
+    const s = DATA.statistics, culled = s.culled_non_finite + s.culled_outside + s.culled_face + s.culled_degenerate + s.culled_no_sample;
     return [
-      {ask: "How many pixels does this frame have?", answer: W * H, hint: "Multiply the width by the height.", why: `${W} · ${H} pixels.`},
-      {ask: "How many fragments does a pixel have on average? (Two decimal places.)", answer: DATA.overdraw.total / (W * H), tolerance: 0.01, hint: `The frame has ${fmt(DATA.overdraw.total)} fragments.`, why: `${fmt(DATA.overdraw.total)} fragments for ${fmt(W * H)} pixels.`},
-      {ask: "How many of the submitted primitives never reached a tile?", answer: s.culled_non_finite + s.culled_outside + s.culled_face + s.culled_degenerate + s.culled_no_sample, hint: "The chapter “Culling” shows the number for each reason.", why: "They were culled: outside the view, facing away, without area, or covering no sample."},
+      {ask: "How many samples does this frame have, over all pixels?", answer: W * H * DATA.samples, hint: "Multiply the width, the height and the number of samples per pixel.", why: `${W} · ${H} · ${DATA.samples}.`},
+      {ask: "How many fragments does a pixel have on average?", answer: DATA.overdraw.total / (W * H), decimals: 2, hint: `The frame has ${fmt(DATA.overdraw.total)} fragments.`, why: `${fmt(DATA.overdraw.total)} fragments for ${fmt(W * H)} pixels.`},
+      {ask: "What percentage of the submitted primitives never reached a tile?", answer: culled / Math.max(1, s.primitives_in) * 100, decimals: 0, hint: "The chapter “Culling” shows the number for each reason.", why: `${fmt(culled)} of ${fmt(s.primitives_in)} were culled.`},
     ];
   },
 });
+
+// Why the example pixel was chosen, in measured values (apps/explain/example_pixel.cpp).
+function choiceTable() {
+  const c = DATA.choice, rows = [["primitives with a fragment in the pixel", c.primitives], [`pixels at which this ${isTriangle ? "triangle" : "primitive"} is visible`, c.visible], ["pixels that it covers, visible or not", c.covered]];
+  if (c.affine_error !== undefined) rows.push(["error of affine interpolation along its edges, in pixels", fmt(c.affine_error, 3)]);
+  if (c.cosine !== undefined) rows.push(["largest n · l of the lights", fmt(c.cosine, 3)]);
+  if (c.shadow !== undefined) rows.push(["shadow factor of the first light with a shadow", fmt(c.shadow, 3)]);
+  return [el("h3", {}, "The example"), el("p", {}, c.by_user ? "The pixel was chosen with --pixel. What it can show:" : "The page chooses a visible triangle of about 10 to 2000 pixels, where the frame has one, at a pixel with several fragments that is partly lit, partly in shadow, and where perspective matters. Measured at this pixel:"), tableOf(["measured", "value"], rows)];
+}
+const KINDS = ["triangle", "line", "point"].filter((k) => DATA.draws.some((d) => d.kind === k + "s"));
 
 function pipelineDiagram() {
   const s = DATA.statistics;
@@ -44,6 +56,34 @@ function pipelineDiagram() {
 }
 
 // ---- wireframes ------------------------------------------------------------------------------------------------------
+
+// Returns the edges of the wireframe's triangles, each edge once: {ends, outcome, draw, w}. The ends are in view space, where edges are
+// clipped at the near plane, so that an edge is whole up to there. w: distance of the middle of the edge along the view axis.
+function wireEdges(keeps = () => true) {
+  const seen = new Set(), out = [], near = M.perspective ? M.near : -Infinity;
+  for (let t = 0; t < DATA.wire.count; ++t) {
+    if (!keeps(FRAME.outcomes[t])) continue;
+    const p = [0, 1, 2].map((k) => FRAME.positions.subarray(9 * t + 3 * k, 9 * t + 3 * k + 3));
+    for (const k of [0, 1, 2]) {
+      const names = [p[k].join(), p[(k + 1) % 3].join()].sort().join(" ");
+      if (seen.has(names)) continue;
+      seen.add(names);
+      const a = toView(p[k]), b = toView(p[(k + 1) % 3]), [da, db] = [-a[2], -b[2]];
+      if (Math.max(da, db) < near) continue;
+      const cut = (inside, outside) => { const f = (near + inside[2]) / (inside[2] - outside[2]); return inside.map((v, i) => v + (outside[i] - v) * f); };
+      const ends = da < near ? [cut(b, a), b] : db < near ? [a, cut(a, b)] : [a, b];
+      out.push({ends, outcome: FRAME.outcomes[t], draw: FRAME.wireDraws[t], w: -(ends[0][2] + ends[1][2]) / 2});
+    }
+  }
+  return out;
+}
+
+// Returns the opacity of an edge: near edges are strong, and distant ones fade.
+function distanceFade(edges) {
+  const sorted = edges.map((e) => e.w).sort((a, b) => a - b), near = sorted[Math.floor(sorted.length * 0.02)] ?? 1, far = sorted[Math.floor(sorted.length * 0.98)] ?? 1;
+  const dense = Math.max(0.35, Math.min(1, 3000 / Math.max(edges.length, 1)));
+  return (w) => dense * (0.12 + 0.88 * (1 - Math.min(1, Math.max(0, (w - near) / Math.max(far - near, 1e-9)))));
+}
 
 // Returns the wireframe's triangles in one space. to(position, triangle) returns three coordinates, or null.
 function wireIn(to) {
@@ -82,8 +122,7 @@ function wireCanvas(label, triangles, lines, example, points = []) {
     pen.clearRect(0, 0, width, height);
     pen.lineJoin = "round";
     const ink = css("--ink");
-    pen.globalAlpha = Math.max(0.12, Math.min(0.6, 600 / Math.max(triangles.length, 1)));
-    for (const t of triangles) polygon(pen, t.corners.map(to), {stroke: ink, width: 1});
+    drawEdges(pen, triangles, to, ink);
     pen.globalAlpha = 0.7;
     pen.fillStyle = ink;
     for (const p of points) { const [x, y] = to(p); pen.fillRect(x - 1, y - 1, 2, 2); }
@@ -103,6 +142,25 @@ function wireCanvas(label, triangles, lines, example, points = []) {
   draggable(canvas, draw);
   draw();
   return [el("div", {class: "stage"}, canvas), turnControl(draw)];
+}
+
+// Draws each edge of the triangles once. Edges that are farther from the viewer of the drawing are fainter.
+function drawEdges(pen, triangles, to, ink) {
+  const seen = new Set(), edges = [];
+  for (const t of triangles) for (const k of [0, 1, 2]) {
+    const ends = [t.corners[k], t.corners[(k + 1) % 3]], name = ends.map((p) => p.join()).sort().join(" ");
+    if (seen.has(name)) continue;
+    seen.add(name);
+    edges.push(ends.map(to));
+  }
+  const depths = edges.map(([a, b]) => a[2] + b[2]), low = depths.reduce((m, d) => Math.min(m, d), Infinity), high = depths.reduce((m, d) => Math.max(m, d), -Infinity);
+  const dense = Math.max(0.3, Math.min(0.9, 2000 / Math.max(edges.length, 1)));
+  pen.strokeStyle = ink;
+  pen.lineWidth = 1;
+  edges.forEach(([a, b], i) => {
+    pen.globalAlpha = dense * (0.15 + 0.85 * (depths[i] - low) / Math.max(high - low, 1e-9));
+    stroke(pen, a, b);
+  });
 }
 
 function markExample(pen, points) {
@@ -171,7 +229,7 @@ function spaceSteps() {
       draw: () => wireCanvas("Wireframe in view space, with the camera at the origin", wireIn((p) => toView(p).slice(0, 3)), [...frustumLines(), ...axes(visibleDepth() / 4)], exampleCorners((p) => toView(p).slice(0, 3)))},
     {name: "Clip space", caption: `Positions have four coordinates. The plot shows x, y and −w. ${M.perspective ? "w is the distance along the view axis, and the visible part is the pyramid |x| ≤ w, |y| ≤ w" : "w is 1 for all vertices in an orthographic view"}.`,
       draw: () => wireCanvas("Wireframe in clip space, with w as the third axis", wireIn((p) => { const c = toClip(p); return [c[0], c[1], -c[3]]; }), clipCone(), exampleCorners((p) => { const c = toClip(p); return [c[0], c[1], -c[3]]; }))},
-    {name: "Normalized device coordinates", caption: "After the division by w, the view volume is a box: x and y from −1 to 1, depth from 0 (far) to 1 (near). Near objects have become larger and distant ones smaller.",
+    {name: "Normalized device coordinates", caption: "After the division by w, the view volume is a box: x and y from −1 to 1, depth from 0 (far) to 1 (near). " + (M.perspective ? "Near objects have become larger and distant ones smaller." : "The projection of this frame is orthographic, so w is 1 and the division changes nothing."),
       draw: () => wireCanvas("Wireframe in normalized device coordinates", wireIn((p) => toNdc(toClip(p))).filter(isInBox), boxLines(), exampleCorners((p) => toNdc(toClip(p))))},
     {name: "Window space", caption: "The box is scaled to the size of the window, and positions are rounded to 1/256 pixel. From here on, x and y are integers.",
       draw: () => picture(DATA.pictures.final, "The picture with the wireframe on top", {overlay: windowWires})},
@@ -190,9 +248,15 @@ function windowWires(pen, s) {
   pen.fillStyle = css("--paper");
   pen.globalAlpha = 0.72;
   pen.fillRect(0, 0, W * s, H * s);
-  pen.globalAlpha = Math.max(0.25, Math.min(0.8, 900 / Math.max(DATA.wire.count, 1)));
-  const scaled = ([x, y]) => [x * s, y * s], ink = css("--ink");
-  for (const t of wireIn((p) => toPixels(toNdc(toClip(p))))) if (t.outcome < 2 || t.outcome > 3) polygon(pen, t.corners.map(scaled), {stroke: ink});
+  const scaled = ([x, y]) => [x * s, y * s], edges = wireEdges((outcome) => outcome < 2 || outcome > 3), fade = distanceFade(edges);
+  pen.strokeStyle = css("--ink");
+  pen.lineWidth = 1.25;
+  for (const e of edges) {
+    const [a, b] = e.ends.map((v) => toPixels(toNdc(transform(M.clip_from_view, v))));
+    if (a === null || b === null) continue;
+    pen.globalAlpha = fade(e.w);
+    stroke(pen, scaled(a), scaled(b));
+  }
   pen.globalAlpha = 1;
   if (EX) markExample(pen, EX.vertices.map((v) => scaled([v.x / SUB, H - v.y / SUB])));
 }
@@ -221,17 +285,18 @@ const productRows = (m, p, result) => [0, 1, 2].map((r) => `${[0, 1, 2].map((c) 
 chapter({
   id: "spaces", title: "From the mesh to the window", kicker: "Vertex stage",
   lead: () => "The position of a vertex is given in the coordinates of its mesh. Three matrices and one division transform it to the window. The renderer multiplies the matrices once per object, in double precision, and transforms each vertex with the product.",
-  absent: () => (EX === null ? `Nothing is visible at the example pixel of this frame. Try ${command("halfspace explain earth")}.` : DATA.wire.count === 0 ? `This frame has no mesh: ${EX.corners === 1 ? "it consists of points, and each point is drawn as a sphere inside a rectangle" : "the background is a single triangle that covers the window"}. A scene with meshes: ${command("halfspace explain earth")}.` : null),
+  absent: () => (EX === null ? `Nothing is visible at the example pixel of this frame. Try ${command("halfspace explain pipeline")}.` : DATA.wire.count === 0 ? `This frame has no mesh: ${EX.corners === 1 ? "it consists of points, and each point is drawn as a sphere inside a rectangle" : "the background is a single triangle that covers the window"}. A scene with meshes: ${command("halfspace explain pipeline")}.` : null),
   input: () => [plural(DATA.statistics.vertices_in, "index", "indices"), plural(DATA.draws.length, "draw with a matrix", "draws, each with a matrix")],
   output: () => [plural(DATA.statistics.vertices_shaded, "shaded vertex", "shaded vertices"), "for each: x and y in 1/256 pixel, depth, 1/w"],
   steps: spaceSteps,
   formula: spaceFormulas,
+  related: ["clipping", "interpolation"], lessons: ["Perspective"],
   exercises: () => {
-    const v = EX.vertices[0];
+    const v = EX.vertices[1];
     return [
-      {ask: `The first vertex has clip coordinates x = ${num(v.clip[0])} and w = ${num(v.clip[3])}. What is x in normalized device coordinates?`, answer: v.ndc[0], tolerance: Math.abs(v.ndc[0]) * 1e-3 + 1e-6, hint: "Divide by w.", why: "x / w."},
-      {ask: `The window position of the first vertex is x = ${num(v.x)}, in units of 1/256 pixel. Which pixel column is it in?`, answer: Math.floor(v.x / SUB), hint: "Divide by 256 and round down.", why: `${fmt(v.x)} / 256 = ${fmt(v.x / SUB, 9)}.`},
-      {ask: `The ${fmt(DATA.statistics.vertices_in)} indices refer to fewer vertices, and each vertex was shaded once. How many vertices were shaded?`, answer: DATA.statistics.vertices_shaded, hint: "See “Output”.", why: "A vertex that several triangles share is shaded only once."},
+      {ask: `The second vertex has clip coordinates x = ${num(v.clip[0])} and w = ${num(v.clip[3])}. What is x in normalized device coordinates?`, answer: v.ndc[0], decimals: 3, hint: "Divide by w.", why: "x / w."},
+      {ask: `The window position of the second vertex is x = ${num(v.x)}, in units of 1/256 pixel. Which pixel column is it in?`, answer: Math.floor(v.x / SUB), hint: "Divide by 256 and round down.", why: `${fmt(v.x)} / 256 = ${fmt(v.x / SUB, 9)}.`},
+      {ask: `The ${fmt(DATA.statistics.vertices_in)} indices refer to ${fmt(DATA.statistics.vertices_shaded)} vertices, each of which is shaded once. How many times is a vertex used on average?`, answer: DATA.statistics.vertices_in / Math.max(1, DATA.statistics.vertices_shaded), decimals: 2, hint: "Divide the number of indices by the number of vertices.", why: DATA.statistics.vertices_shaded < DATA.statistics.vertices_in ? "A vertex that several triangles share is shaded only once." : "No vertex of this frame is shared."},
     ];
   },
 });

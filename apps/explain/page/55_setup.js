@@ -37,7 +37,7 @@ function clipFormula(c) {
 chapter({
   id: "clipping", title: "Clipping", kicker: "Primitive setup",
   lead: () => "Dividing by w gives wrong positions for points behind the eye. Triangles that cross the near plane, the far plane or the limits of the integer grid are therefore clipped to polygons first. Triangles that only cross the edges of the window are not clipped: the rasterizer skips the pixels outside.",
-  absent: () => (CLIPPED.length === 0 ? `No triangle of this frame crosses the near or far plane: ${fmt(DATA.outcomes[2])} of ${fmt(DATA.statistics.primitives_in)} primitives are entirely outside the view, and the others need no clipping. A frame with clipped triangles: ${command("halfspace explain shadow-plane --camera low")}.` : null),
+  absent: () => (CLIPPED.length === 0 ? `No triangle of this frame crosses the near or far plane: ${fmt(DATA.outcomes[2])} of ${fmt(DATA.statistics.primitives_in)} primitives are entirely outside the view, and the others need no clipping. A frame with clipped triangles: ${command("halfspace explain pipeline")}.` : null),
   input: () => [plural(DATA.statistics.primitives_in, "primitive"), "outcodes: for each vertex, one bit per clip plane, which is set if the vertex is outside"],
   output: () => [`${plural(DATA.statistics.clipped, "primitive")} clipped`, `${plural(DATA.statistics.culled_outside, "primitive")} entirely outside the view, and therefore culled`],
   steps: () => CLIPPED.slice(0, 4).flatMap((c, i) => [
@@ -45,12 +45,13 @@ chapter({
     {name: "After clipping", caption: `The polygon has ${c.after.length} vertices, ${c.after.filter((a) => a.vertex < 0).length} of them new. It is drawn as a fan of ${plural(c.after.length - 2, "triangle")}.`, draw: () => clipPicture(c, 0, true)}]),
   formula: () => clipFormula(CLIPPED[0]),
   body: () => [el("h3", {}, "Vertices of the first polygon"), tableOf(["vertex", "x", "y", "z", "w", "weights of the original vertices"], CLIPPED[0].after.map((a, i) => [String(i), ...a.clip.map((v) => fmt(v, 6)), a.vertex >= 0 ? `¶vertex ${a.vertex}` : `¶${a.weights.map((w) => fmt(w, 4)).join(" · ")}`]))],
+  related: ["spaces", "culling"], lessons: ["Perspective"],
   exercises: () => {
     const c = CLIPPED[0];
     return [
-      {ask: "How many vertices does the first triangle have after clipping?", answer: c.after.length, hint: "Count them in the table.", why: "Each clip plane can add at most one vertex."},
-      {ask: "How many triangles is that polygon split into?", answer: c.after.length - 2, hint: "A fan with n vertices has n − 2 triangles.", why: `${c.after.length} − 2.`},
-      {ask: "How many vertices of this triangle are outside the near plane?", answer: c.before.filter((p) => p[2] > p[3]).length, hint: "Depth is reversed: a vertex is outside the near plane if z > w.", why: "z > w for these vertices."},
+      {ask: "A triangle has one vertex behind the near plane, and crosses no other plane. How many vertices does it have after clipping?", answer: 4, hint: "Two of its edges are cut.", why: "Two vertices are kept, and two edges get a new vertex each."},
+      {ask: "How many triangles is a polygon with 7 vertices split into?", answer: 5, hint: "A fan starts at one vertex; each further edge that does not touch it gives a triangle.", why: "A fan with n vertices has n − 2 triangles."},
+      {ask: "How many vertices of the first triangle in the picture are outside the near plane?", answer: c.before.filter((p) => p[2] > p[3]).length, hint: "Count the vertices on the eye's side of the near plane.", why: "z > w for these vertices, because depth is reversed."},
     ];
   },
 });
@@ -74,25 +75,33 @@ function cullPicture(outcome) {
 // The rectangle of the example point. Its coordinates include the last covered position, in 1/256 pixel.
 const pointRectangle = () => `x: ${fmt(TRI.x[0])} … ${fmt(TRI.x[1])}, y: ${fmt(TRI.y[0])} … ${fmt(TRI.y[1])} in 1/256 pixel\n\n${say(`The rectangle around ${exampleName} covers the pixels with a sample in it:`)}⌈(${fmt(TRI.x[0])} − ${sampleX(0)}) / 256⌉ ≤ x ≤ ⌊(${fmt(TRI.x[1])} − ${sampleX(0)}) / 256⌋ → <b>${TRI.boxes[SAMPLE][0]} … ${TRI.boxes[SAMPLE][2] - 1}</b>\n⌈(${fmt(TRI.y[0])} − ${sampleY(0)}) / 256⌉ ≤ y ≤ ⌊(${fmt(TRI.y[1])} − ${sampleY(0)}) / 256⌋ → <b>${TRI.boxes[SAMPLE][1]} … ${TRI.boxes[SAMPLE][3] - 1}</b>`;
 
+const percent = (part, all) => `${fmt(Math.round(part / Math.max(1, all) * 1000) / 10)} %`;
 const area2 = (t) => (t.x[1] - t.x[0]) * (t.y[2] - t.y[0]) - (t.y[1] - t.y[0]) * (t.x[2] - t.x[0]);
 const submitted = () => ({x: EX.vertices.map((v) => v.x), y: EX.vertices.map((v) => v.y)});
 
 chapter({
   id: "culling", title: "Culling", kicker: "Primitive setup",
-  lead: () => "Most invisible triangles are culled before any pixel is processed: those that face away, those without area, and those that cover no sample.",
+  lead: () => "Invisible triangles are culled before any pixel is processed: those outside the view, those that face away, those without area, and those that cover no sample.",
+  absent: () => (DATA.statistics.primitives_in === 0 ? `This frame has no primitives. A frame with triangles: ${command("halfspace explain pipeline")}.` : null),
   input: () => [plural(DATA.statistics.primitives_in, "primitive"), "the winding of front faces"],
   output: () => [`${plural(DATA.statistics.triangles_binned, "primitive")} to draw, including the pieces of clipped ones`],
   steps: () => [
     {name: "Outcomes", caption: OUTCOMES.map((name, i) => [name, DATA.outcomes[i]]).filter(([, n]) => n > 0).map(([name, n]) => `${fmt(n)} ${name}`).join(", ") + ".",
       draw: () => bars(OUTCOMES.map((name, i) => ({value: DATA.outcomes[i], name, label: ["kept", "clipped", "outside", "facing", "no area", "no sample", "∞ or NaN"][i], marked: i === 0})), "Number of primitives by outcome: " + OUTCOMES.map((name, i) => `${DATA.outcomes[i]} ${name}`).join(", "))},
-    ...[0, 3, 5].filter((i) => DATA.outcomes[i] > 0 && FRAME.outcomes.includes(i)).map((i) => ({name: `Primitives ${OUTCOMES[i]}`, caption: i === 3 ? "The far sides of closed surfaces. About half of the triangles of a solid object are culled this way." : i === 5 ? "Triangles that are so small or thin that they cover no sample." : "These primitives are passed to the rasterizer.", draw: () => cullPicture(i)})),
+    ...[0, 3, 5].filter((i) => DATA.outcomes[i] > 0 && FRAME.outcomes.includes(i)).map((i) => ({name: `Primitives ${OUTCOMES[i]}`, caption: i === 3 ? `They face away from the eye. They are ${percent(DATA.outcomes[3], DATA.statistics.primitives_in)} of the submitted primitives.` : i === 5 ? "Triangles that are so small or thin that they cover no sample." : "These primitives are passed to the rasterizer.", draw: () => cullPicture(i)})),
   ],
   formula: () => (isPoint ? [pointRectangle(), `${say("A point is culled if its rectangle is empty, outside the window, or covers no sample.")}${fmt(TRI.box[2] - TRI.box[0])} × ${fmt(TRI.box[3] - TRI.box[1])} pixels &gt; 0 → <b>kept</b>`] : isTriangle ? [`2 · area = (<em>x</em><sub>1</sub> − <em>x</em><sub>0</sub>)(<em>y</em><sub>2</sub> − <em>y</em><sub>0</sub>) − (<em>y</em><sub>1</sub> − <em>y</em><sub>0</sub>)(<em>x</em><sub>2</sub> − <em>x</em><sub>0</sub>)\n\n${say(`for ${exampleName}, in 1/256 pixel:`)}= (${fmt(submitted().x[1] - submitted().x[0])}) · (${fmt(submitted().y[2] - submitted().y[0])}) − (${fmt(submitted().y[1] - submitted().y[0])}) · (${fmt(submitted().x[2] - submitted().x[0])}) = <b>${fmt(area2(submitted()))}</b>\n\n${say(`${area2(submitted()) > 0 ? "Positive: counter-clockwise." : "Negative: clockwise."} The area is ${fmt(Math.abs(area2(submitted())) / 131072, 6)} pixels.`)}`] : []),
-  exercises: () => [
-    {ask: "How many primitives were culled because of their facing?", answer: DATA.statistics.culled_face, hint: "See the bar “facing”.", why: "In the window, their winding is that of culled faces."},
-    {ask: "What percentage of the submitted primitives is drawn? (Rounded to an integer.)", answer: Math.round((DATA.outcomes[0] + DATA.outcomes[1]) / Math.max(1, DATA.statistics.primitives_in) * 100), tolerance: 0.5, hint: "Divide the number of kept and clipped primitives by the number of all primitives.", why: `${fmt(DATA.outcomes[0] + DATA.outcomes[1])} of ${fmt(DATA.statistics.primitives_in)}.`},
-    isTriangle ? {ask: `Twice the area of the example triangle is ${num(Math.abs(area2(submitted())))}, in units of (1/256 pixel)². What is its area in pixels? (Two decimal places.)`, answer: Math.abs(area2(submitted())) / 131072, tolerance: 0.0051, hint: "Divide by 2 and by 256².", why: "One pixel is 256 · 256 = 65 536 units."} : {ask: "How many primitives have no area?", answer: DATA.statistics.culled_degenerate, hint: "See the bar “no area”.", why: "After rounding to 1/256 pixel, their vertices are on a line."},
-  ],
+  related: ["clipping", "setup"], lessons: ["A triangle"],
+  exercises: () => {
+    const o = DATA.outcomes, all = Math.max(1, DATA.statistics.primitives_in), inView = DATA.statistics.primitives_in - o[2];
+    return [
+      {ask: "What percentage of the primitives that are not outside the view was culled because of their facing?", answer: o[3] / Math.max(1, inView) * 100, decimals: 0, hint: "Leave out the bar “outside”.", why: `${fmt(o[3])} of ${fmt(inView)}.`},
+      {ask: "What percentage of the submitted primitives is drawn?", answer: (o[0] + o[1]) / all * 100, decimals: 0, hint: "Divide the number of kept and clipped primitives by the number of all primitives.", why: `${fmt(o[0] + o[1])} of ${fmt(DATA.statistics.primitives_in)}.`},
+      isTriangle ? {ask: "The same view is rendered with twice the width and height. How many pixels is the area of the example triangle then?", answer: 4 * Math.abs(area2(submitted())) / 131072, significant: 3, hint: "Both directions double.", why: `4 · ${fmt(Math.abs(area2(submitted())) / 131072, 6)} pixels.`}
+        : isPoint ? {ask: "How many pixels does the rectangle of the example point have?", answer: (TRI.box[2] - TRI.box[0]) * (TRI.box[3] - TRI.box[1]), hint: "Multiply its width by its height.", why: `${TRI.box[2] - TRI.box[0]} · ${TRI.box[3] - TRI.box[1]}.`}
+          : {ask: "What percentage of the submitted primitives covers no sample?", answer: o[5] / all * 100, decimals: 0, hint: "See the bar “no sample”.", why: `${fmt(o[5])} of ${fmt(DATA.statistics.primitives_in)}.`},
+    ];
+  },
 });
 
 // ---- setup ------------------------------------------------------------------------------------------------------------
@@ -133,7 +142,7 @@ const depthFromEdges = () => { const at = edgesAtPixel(); return TRI.z0 + at[1] 
 chapter({
   id: "setup", title: "Triangle setup", kicker: "Primitive setup",
   lead: () => "Three lines bound a triangle. Each line has an edge function that is positive inside, zero on the line and negative outside. Because positions are integers, the values are exact: where triangles meet, no pixel is missed or drawn twice.",
-  absent: () => (isTriangle ? null : `${EX === null ? "No primitive is visible at the example pixel" : "The primitive that is visible at the example pixel is not a triangle, so it has no edge functions"}. A frame with triangles: ${command("halfspace explain earth")}.`),
+  absent: () => (isTriangle ? null : `${EX === null ? "No primitive is visible at the example pixel" : "The primitive that is visible at the example pixel is not a triangle, so it has no edge functions"}. A frame with triangles: ${command("halfspace explain pipeline")}.`),
   input: () => ["three window positions in 1/256 pixel", "three depths"],
   output: () => ["three edge functions", "depth as z₀ + E₁ · a + E₂ · b", TRI && TRI.small ? "a small triangle: all values fit into 32 bits" : "a large triangle: values are shifted to fit into 32 bits"],
   steps: () => [
@@ -142,15 +151,16 @@ chapter({
   ],
   formula: () => {
     const at = edgesAtPixel();
-    return [`${TRI.edges.map(edgeLine).join("\n")}\n\n${say(`at ${sampleName} of pixel (${WINDOW}), which is at (${fmt(sampleX(WINDOW[0]))}, ${fmt(sampleY(WINDOW[1]))}) in units of 1/256 pixel:`)}${TRI.edges.map((e, i) => `E<sub>${i}</sub> = ${fmt(at[i])} ≥ ${e.bias} → <b>${at[i] - e.bias >= 0 ? "inside" : "outside"}</b>`).join("\n")}`,
+    return [`${TRI.edges.map(edgeLine).join("\n")}\n\n${say(`at ${sampleName} of pixel ${px(PIXEL)}, which is at (${fmt(sampleX(WINDOW[0]))}, ${fmt(sampleY(WINDOW[1]))}) in units of 1/256 pixel:`)}${TRI.edges.map((e, i) => `E<sub>${i}</sub> = ${fmt(at[i])} ≥ ${e.bias} → <b>${at[i] - e.bias >= 0 ? "inside" : "outside"}</b>`).join("\n")}`,
       `<em>z</em>(x, y) = z<sub>0</sub> + E<sub>1</sub> · ${fmt(TRI.z_edge1, 9)} + E<sub>2</sub> · ${fmt(TRI.z_edge2, 9)}\n     = ${fmt(TRI.z0, 9)} + ${fmt(at[1])} · ${fmt(TRI.z_edge1, 5)} + ${fmt(at[2])} · ${fmt(TRI.z_edge2, 5)} = <b>${fmt(depthFromEdges(), 8)}</b>${say(`The renderer computed the depth ${fmt(VISIBLE.depth, 8)} in floats.`)}`];
   },
+  related: ["coverage", "depth"], lessons: ["A triangle"],
   exercises: () => {
-    const at = edgesAtPixel();
+    const at = edgesAtPixel(), e = TRI.edges[0];
     return [
-      {ask: `What is E₀ at ${sampleName} of the example pixel, before the fill rule?`, answer: at[0], hint: "See the formula above.", why: "The value is exact; nothing was rounded."},
-      {ask: "What is E₀ + E₁ + E₂ there?", answer: at[0] + at[1] + at[2], hint: "It is the same at every point of the plane.", why: "The sum is twice the area of the triangle at every point."},
-      {ask: "What is the barycentric weight of v1 there? (Three decimal places.)", answer: at[1] / area2(TRI), tolerance: 0.0011, hint: "Divide E₁ by the sum from the previous exercise.", why: "The values of the edge functions are unnormalized barycentric coordinates."},
+      {ask: `What is E₀ at ${sampleName} of the pixel to the right of the example pixel, before the fill rule?`, answer: at[0] - e.ey * SUB, hint: "x increases by 256; only the second product changes.", why: `${fmt(at[0])} − (${fmt(e.ey)}) · 256.`},
+      {ask: `What is E₀ + E₁ + E₂ at ${sampleName} of the example pixel?`, answer: at[0] + at[1] + at[2], hint: "It is the same at every point of the plane.", why: "The sum is twice the area of the triangle at every point."},
+      {ask: `What is the barycentric weight of v1 at ${sampleName} of the example pixel, without perspective?`, answer: at[1] / area2(TRI), decimals: 3, hint: "Divide E₁ by the sum from the previous exercise.", why: "The values of the edge functions are unnormalized barycentric coordinates."},
     ];
   },
 });

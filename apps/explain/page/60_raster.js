@@ -2,6 +2,7 @@
 
 const BINS = DATA.bins, TILE = BINS.tile;
 const binCount = (tx, ty) => BINS.counts[ty * BINS.columns + tx];
+const emptyTiles = () => BINS.counts.filter((n) => n === 0).length;
 const mostBinned = Math.max(...BINS.counts, 1);
 // Tile of the example pixel, in window coordinates.
 const EXTILE = [Math.floor(WINDOW[0] / TILE), Math.floor(WINDOW[1] / TILE)];
@@ -61,22 +62,43 @@ chapter({
   input: () => [plural(DATA.statistics.triangles_binned, "primitive")],
   output: () => [`${BINS.columns} × ${BINS.rows} bins`, plural(DATA.statistics.bin_entries, "entry", "entries") + ", in submission order"],
   steps: () => [
-    {name: "Tiles", caption: `${BINS.columns * BINS.rows} tiles cover the window. Tiles at the top and right edges may be smaller. Rows are counted from the bottom, as in OpenGL.`, draw: () => tilePicture("grid")},
-    {name: "Primitives per tile", caption: `The fullest tile has ${fmt(mostBinned)} primitives, and ${fmt(BINS.counts.filter((n) => n === 0).length)} tiles have none. Empty tiles are filled with the background color without processing their pixels one by one.`, draw: () => [tilePicture("heat"), legend("0", fmt(mostBinned))].flat()},
+    {name: "Tiles", caption: `${plural(BINS.columns * BINS.rows, "tile covers", "tiles cover")} the window. ${W % TILE || H % TILE ? "Those at the top and right edges are cut off. " : ""}Rows are counted from the bottom, as in OpenGL.`, draw: () => tilePicture("grid")},
+    {name: "Primitives per tile", caption: `The fullest tile has ${fmt(mostBinned)} primitives, and ${emptyTiles() === 0 ? "no tile is empty" : `${plural(emptyTiles(), "tile has", "tiles have")} none. Empty tiles are filled with the background color without processing their pixels one by one`}.`, draw: () => [tilePicture("heat"), legend("0", fmt(mostBinned))].flat()},
     {name: "The tiles of the example", caption: EX === null ? "No primitive is visible at the example pixel." : `${exampleName[0].toUpperCase() + exampleName.slice(1)} is listed in the bins of ${plural(touchedTiles().length, "tile")}.`, draw: () => tilePicture("example")},
   ],
   formula: () => (isPoint ? [`tiles = ⌊x<sub>0</sub> / ${TILE}⌋ … ⌊x<sub>1</sub> / ${TILE}⌋ × ⌊y<sub>0</sub> / ${TILE}⌋ … ⌊y<sub>1</sub> / ${TILE}⌋\n\n${say(`${exampleName[0].toUpperCase() + exampleName.slice(1)} covers the pixels x = ${TRI.box[0]} … ${TRI.box[2] - 1} and y = ${TRI.box[1]} … ${TRI.box[3] - 1}:`)}x: ⌊${TRI.box[0]} / ${TILE}⌋ … ⌊${TRI.box[2] - 1} / ${TILE}⌋ = <b>${tileBox(TRI)[0]} … ${tileBox(TRI)[2]}</b>\ny: ⌊${TRI.box[1]} / ${TILE}⌋ … ⌊${TRI.box[3] - 1} / ${TILE}⌋ = <b>${tileBox(TRI)[1]} … ${tileBox(TRI)[3]}</b>`] : isTriangle ? [`${say(`A tile is skipped if the maximum of an edge function over the samples of the tile is less than its bias. Tile (${EXTILE}), which contains the example pixel:`)}${TRI.edges.map((e, i) => `max E<sub>${i}</sub> = ${fmt(maxInTile(e, ...EXTILE))} ≥ ${e.bias} → <b>${maxInTile(e, ...EXTILE) - e.bias >= 0 ? "may overlap" : "cannot overlap"}</b>`).join("\n")}`] : []),
-  exercises: () => [
-    {ask: "How many primitives does the fullest tile have?", answer: mostBinned, hint: "See the heat map.", why: "This is the largest number in the heat map."},
-    {ask: "How many tiles does a primitive overlap on average? (Two decimal places.)", answer: DATA.statistics.bin_entries / Math.max(1, DATA.statistics.triangles_binned), tolerance: 0.0051, hint: "Divide the number of entries by the number of primitives.", why: `${fmt(DATA.statistics.bin_entries)} entries for ${fmt(DATA.statistics.triangles_binned)} primitives.`},
-    EX === null ? {ask: "How many tiles does the window have?", answer: BINS.columns * BINS.rows, hint: "Multiply the number of columns by the number of rows.", why: `${BINS.columns} · ${BINS.rows}.`}
-      : {ask: `How many bins contain ${exampleName}?`, answer: touchedTiles().length, hint: "The third step highlights their tiles.", why: "The page uses the same test as the source code above."},
-  ],
+  related: ["coverage", "times"], lessons: ["Tiles and threads"],
+  exercises: () => {
+    const filled = BINS.columns * BINS.rows - emptyTiles();
+    return [
+      {ask: "How many primitives does a tile that is not empty have on average?", answer: DATA.statistics.bin_entries / Math.max(1, filled), decimals: 1, hint: "Divide the number of entries by the number of tiles that have some.", why: `${fmt(DATA.statistics.bin_entries)} / ${fmt(filled)}.`},
+      {ask: "How many tiles does a primitive overlap on average?", answer: DATA.statistics.bin_entries / Math.max(1, DATA.statistics.triangles_binned), decimals: 2, hint: "Divide the number of entries by the number of primitives.", why: `${fmt(DATA.statistics.bin_entries)} entries for ${fmt(DATA.statistics.triangles_binned)} primitives.`},
+      {ask: "How many tiles would a window of 1920 × 1080 pixels have with tiles of this size?", answer: Math.ceil(1920 / TILE) * Math.ceil(1080 / TILE), hint: "Round up the number of columns and the number of rows.", why: `⌈1920 / ${TILE}⌉ · ⌈1080 / ${TILE}⌉.`},
+    ];
+  },
 });
 
 // ---- coverage -----------------------------------------------------------------------------------------------------------
 
 const PACKET = DATA.build.packet;
+
+// Returns true if a segment has a point in a rectangle, by clipping it to the rectangle (Liang and Barsky).
+function meets([ax, ay], [bx, by], x0, y0, x1, y1) {
+  let from = 0, to = 1;
+  for (const [p, q] of [[ax - bx, ax - x0], [bx - ax, x1 - ax], [ay - by, ay - y0], [by - ay, y1 - ay]]) {
+    if (p === 0 && q < 0) return false;
+    if (p < 0) from = Math.max(from, q / p);
+    if (p > 0) to = Math.min(to, q / p);
+  }
+  return from <= to;
+}
+
+// Tells blocks that an edge of the triangle crosses from those that only the extension of its line crosses. The block test compares lines,
+// so it cannot tell them apart.
+function blockKind(t, x, y) {
+  const kind = blockCoverage(t, x, y), at = [x * SUB, y * SUB, (x + 8) * SUB, (y + 8) * SUB], points = corners(t);
+  return kind !== "some" || [0, 1, 2].some((i) => meets(points[i], points[(i + 1) % 3], ...at)) ? kind : "extension";
+}
 
 // Returns the coverage of the 8x8 block whose lower left pixel is (x, y), from the edge functions at the visible
 // sample of its corner pixels: "none", "some" or "whole".
@@ -107,17 +129,18 @@ function outline(root, to, points, width = 2) {
 const corners = (t) => (t.edges ? t.x.map((x, i) => [x, t.y[i]]) : [[t.x[0], t.y[0]], [t.x[1], t.y[0]], [t.x[1], t.y[1]], [t.x[0], t.y[1]]]);
 
 function blocksPicture() {
-  const [x0, y0] = EXTILE.map((t) => t * TILE), n = {none: 0, some: 0, whole: 0};
-  const g = gridPicture(x0 / 8, y0 / 8, TILE / 8, TILE / 8, "The blocks of the tile: outside the triangle, crossed by an edge, or fully covered", (bx, by) => {
-    const kind = blockCoverage(TRI, bx * 8, by * 8);
+  const [x0, y0] = EXTILE.map((t) => t * TILE), n = {none: 0, some: 0, extension: 0, whole: 0};
+  const look = {none: ["transparent", 0], extension: ["var(--soft)", 0.3], some: ["var(--accent)", 0.3], whole: ["var(--accent)", 0.75]};
+  const g = gridPicture(x0 / 8, y0 / 8, TILE / 8, TILE / 8, "The blocks of the tile: outside the triangle, crossed by an edge, crossed only by the extension of an edge, or fully covered", (bx, by) => {
+    const kind = blockKind(TRI, bx * 8, by * 8);
     ++n[kind];
-    return {fill: kind === "none" ? "transparent" : "var(--accent)", opacity: kind === "whole" ? 0.75 : 0.3};
+    return {fill: look[kind][0], opacity: look[kind][1]};
   });
   const scaled = (x, y) => g.to(x / 8, y / 8), clip = svg("clipPath", {id: "tile"}, svg("rect", {x: scaled(x0 * SUB, 0)[0], y: 4, width: g.size * TILE / 8, height: g.size * TILE / 8}));
   const inner = svg("g", {"clip-path": "url(#tile)"});
   outline(inner, scaled, corners(TRI));
   g.root.append(clip, inner);
-  return [el("div", {class: "stage"}, g.root), el("div", {class: "readout"}, `${n.none} blocks outside · ${n.some} crossed by an edge · ${n.whole} fully covered`)];
+  return [el("div", {class: "stage"}, g.root), el("div", {class: "readout"}, `${n.none} blocks outside · ${n.some} crossed by an edge · ${n.extension} crossed only by the extension of an edge (gray) · ${n.whole} fully covered`)];
 }
 
 function packetPicture() {
@@ -137,7 +160,7 @@ function packetPicture() {
 function samplePicture() {
   const [x0, y0] = WINDOW.map((v) => blockOf(v));
   const readout = el("div", {class: "readout", "aria-live": "polite"});
-  const show = (x, y) => { readout.innerHTML = `pixel (${x}, ${y}) from the lower left, ${sampleName}: ` + (TRI.edges ? TRI.edges.map((e, i) => `E${i} = ${fmt(edgeAt(e, sampleX(x), sampleY(y)))} ${edgeAt(e, sampleX(x), sampleY(y)) >= e.bias ? "≥" : "<"} ${e.bias}`).join(" · ") : `(${fmt(sampleX(x))}, ${fmt(sampleY(y))}) in 1/256 pixel`) + ` → ${covers(TRI, x, y) ? "covered" : "not covered"}`; };
+  const show = (x, y) => { readout.innerHTML = `pixel ${px([x, H - 1 - y])}, ${sampleName}: ` + (TRI.edges ? TRI.edges.map((e, i) => `E${i} = ${fmt(edgeAt(e, sampleX(x), sampleY(y)))} ${edgeAt(e, sampleX(x), sampleY(y)) >= e.bias ? "≥" : "<"} ${e.bias}`).join(" · ") : `(${fmt(sampleX(x))}, ${fmt(sampleY(y))}) in 1/256 pixel`) + ` → ${covers(TRI, x, y) ? "covered" : "not covered"}`; };
   const g = gridPicture(x0, y0, 8, 8, "The samples of one block", (x, y) => ({fill: covers(TRI, x, y) ? "var(--accent)" : "transparent", opacity: 0.3}));
   for (let y = y0; y < y0 + 8; ++y) for (let x = x0; x < x0 + 8; ++x) {
     const [a, b] = g.to(sampleX(x), sampleY(y)), example = x === WINDOW[0] && y === WINDOW[1];
@@ -176,20 +199,21 @@ const inBlock = () => { let n = 0; const [x0, y0] = WINDOW.map(blockOf); for (le
 chapter({
   id: "coverage", title: "Coverage", kicker: "Tiles",
   lead: () => "Which samples are inside the triangle? The rasterizer proceeds from coarse to fine: tile, block of 8 × 8 pixels, packet, sample. Blocks that are entirely inside or outside need no test per sample.",
-  absent: () => (TRI === null ? `No primitive is visible at the example pixel. A frame with triangles: ${command("halfspace explain earth")}.` : null),
+  absent: () => (TRI === null ? `No primitive is visible at the example pixel. A frame with triangles: ${command("halfspace explain pipeline")}.` : null),
   input: () => ["the bin of the tile", isPoint ? "the rectangle of each point" : "three edge functions per triangle"],
   output: () => [`packets of ${PACKET[0]} × ${PACKET[1]} pixels with a coverage mask, one bit per lane`, `this build has ${DATA.build.lanes} lanes (${escapeHtml(DATA.build.description)})`],
   steps: () => [
-    ...(TRI.edges ? [{name: "Blocks of the tile", caption: `The tile of the example pixel, divided into blocks of 8 × 8 pixels. Only blocks that an edge crosses are tested further.${DATA.samples > 1 ? ` The picture is for sample ${SAMPLE}; each of the ${DATA.samples} samples is processed like a picture of its own.` : ""}`, draw: blocksPicture}] : []),
+    ...(TRI.edges ? [{name: "Blocks of the tile", caption: `The tile of the example pixel, divided into blocks of 8 × 8 pixels. Only blocks that the line of an edge crosses are tested further. Where the line crosses a block beyond the end of the edge, the block is tested in vain.${DATA.samples > 1 ? ` The picture is for sample ${SAMPLE}; each of the ${DATA.samples} samples is processed like a picture of its own.` : ""}`, draw: blocksPicture}] : []),
     {name: "Packets", caption: `The block of the example pixel. This build (${escapeHtml(DATA.build.description)}) processes ${DATA.build.lanes} pixels at once, in packets of ${PACKET[0]} × ${PACKET[1]}, because a register holds ${DATA.build.lanes} floats. Filled pixels are covered${DATA.samples > 1 ? ` at sample ${SAMPLE}` : ""}.`, draw: packetPicture},
     {name: "Samples", caption: "A sample is covered if no edge function is negative after the fill rule has been applied. Point at a sample to see its values, or focus the picture and press the arrow keys." + (DATA.samples > 1 ? ` The dots are sample ${SAMPLE} of each pixel, the one at which ${exampleName} is visible in the example pixel.` : ""), draw: samplePicture},
     {name: "A shared edge", caption: "Two triangles that form a square (not part of this frame). Their common edge passes exactly through pixel centers. Each of these centers belongs to exactly one triangle: the one for which the edge is a left edge, or a horizontal edge with the inside above it.", draw: sharedPicture},
   ],
-  formula: () => (isPoint ? [pointRectangle(), `${say(`${sampleName === "the center" ? "The center" : `Sample ${SAMPLE}`} of pixel (${WINDOW}):`)}${fmt(TRI.x[0])} ≤ ${fmt(sampleX(WINDOW[0]))} ≤ ${fmt(TRI.x[1])}  and  ${fmt(TRI.y[0])} ≤ ${fmt(sampleY(WINDOW[1]))} ≤ ${fmt(TRI.y[1])} → <b>covered</b>${say("The shader then discards the fragments of the rectangle that are outside the sphere.")}`] : isTriangle ? [`covered = E<sub>0</sub> ≥ bias<sub>0</sub>  and  E<sub>1</sub> ≥ bias<sub>1</sub>  and  E<sub>2</sub> ≥ bias<sub>2</sub>\n\n${say(`at ${sampleName} of pixel (${WINDOW}):`)}${TRI.edges.map((e, i) => `E<sub>${i}</sub> = ${fmt(edgesAtPixel()[i])} ≥ ${e.bias} → <b>${edgesAtPixel()[i] >= e.bias}</b>`).join("\n")}\n\n${say("bias = 0 if the edge goes down (e<sub>y</sub> &lt; 0), or to the right (e<sub>y</sub> = 0, e<sub>x</sub> &gt; 0); otherwise 1")}`] : []),
+  formula: () => (isPoint ? [pointRectangle(), `${say(`${sampleName === "the center" ? "The center" : `Sample ${SAMPLE}`} of pixel ${px(PIXEL)}:`)}${fmt(TRI.x[0])} ≤ ${fmt(sampleX(WINDOW[0]))} ≤ ${fmt(TRI.x[1])}  and  ${fmt(TRI.y[0])} ≤ ${fmt(sampleY(WINDOW[1]))} ≤ ${fmt(TRI.y[1])} → <b>covered</b>${say("The shader then discards the fragments of the rectangle that are outside the sphere.")}`] : isTriangle ? [`covered = E<sub>0</sub> ≥ bias<sub>0</sub>  and  E<sub>1</sub> ≥ bias<sub>1</sub>  and  E<sub>2</sub> ≥ bias<sub>2</sub>\n\n${say(`at ${sampleName} of pixel ${px(PIXEL)}:`)}${TRI.edges.map((e, i) => `E<sub>${i}</sub> = ${fmt(edgesAtPixel()[i])} ≥ ${e.bias} → <b>${edgesAtPixel()[i] >= e.bias}</b>`).join("\n")}\n\n${say("bias = 0 if the edge goes down (e<sub>y</sub> &lt; 0), or to the right (e<sub>y</sub> = 0, e<sub>x</sub> &gt; 0); otherwise 1")}`] : []),
+  related: ["setup", "samples", "stepping"], lessons: ["A triangle", "SIMD lanes"],
   exercises: () => [
-    {ask: `${DATA.samples === 1 ? "How many pixel centers" : "Of how many pixels"} does ${exampleName} cover${DATA.samples === 1 ? "" : " at least one sample"}?`, answer: countCovered(), hint: `Count the filled pixels. The ${TRI.edges ? "triangle" : "primitive"} may extend beyond the block that is shown.`, why: TRI.edges ? "The page counted them with the exact edge functions." : "They are the pixels with a sample inside the rectangle of the primitive."},
+    {ask: `${DATA.samples === 1 ? "How many pixel centers" : "Of how many pixels"} does ${exampleName} cover${DATA.samples === 1 ? "" : " at least one sample"}?`, answer: countCovered(), hint: `Count the filled pixels. The ${TRI.edges ? "triangle" : "primitive"} may extend beyond the block that is shown; the chapter “One frame” gives the number of pixels.`, why: TRI.edges ? "The page counted them with the exact edge functions." : "They are the pixels with a sample inside the rectangle of the primitive."},
     {ask: "How many pixels of the block in the “Packets” step are covered?", answer: inBlock(), hint: "Count the filled pixels in that step.", why: "At most 64 are possible."},
-    {ask: `How many packets does a block of 8 × 8 pixels have in this build?`, answer: 64 / DATA.build.lanes, hint: `A packet has ${DATA.build.lanes} pixels.`, why: `64 / ${DATA.build.lanes}.`},
+    {ask: "How many packets would a block of 8 × 8 pixels have if a register held 16 floats?", answer: 4, hint: "A packet has one pixel per float.", why: `64 / 16. In this build, a block has 64 / ${DATA.build.lanes} packets.`},
   ],
 });
 
@@ -205,7 +229,7 @@ function hizPicture(which) {
     pen.fillStyle = depthHeat(z[which][by * z.columns + bx]);
     pen.fillRect(bx * 16, H * 2 - (by + 1) * 16, 15.5, 15.5);
   }
-  return [el("div", {class: "stage"}, canvas), legend(`far, ${fmt(DATA.depth.low, 4)}`, `near, ${fmt(DATA.depth.high, 4)}`)];
+  return [addLoupe(el("div", {class: "stage"}, canvas), canvas, W, H), legend(`far, ${fmt(DATA.depth.low, 4)}`, `near, ${fmt(DATA.depth.high, 4)}`)];
 }
 const depthAt = (x, y) => FRAME.depth[y * W + x];
 const exampleBlock = () => { const z = hierarchicalZ(), b = Math.floor(WINDOW[1] / 8) * z.columns + Math.floor(WINDOW[0] / 8); return {low: z.low[b], high: z.high[b]}; };
@@ -220,25 +244,28 @@ const ofSample0 = DATA.samples > 1 ? " of sample 0" : "";
 chapter({
   id: "depth", title: "Depth", kicker: "Tiles",
   lead: () => "Of all surfaces at a sample, the nearest one is visible. The depth buffer stores its depth. Depth is reversed: 1 is at the near plane and 0 is far away. Distant surfaces therefore benefit from the higher precision of floats near 0.",
-  absent: () => (DATA.depth.high <= 0 ? `Nothing in this frame writes depth. A frame that does: ${command("halfspace explain earth")}.` : null),
+  absent: () => (DATA.depth.high <= 0 ? `Nothing in this frame writes depth. A frame that does: ${command("halfspace explain pipeline")}.` : null),
   input: () => ["covered packets", "a depth plane per triangle"],
   output: () => [`${fmt(DATA.statistics.samples_passed)} of ${fmt(DATA.statistics.samples_tested)} tested samples passed`, "the id of the visible triangle for each sample"],
   steps: () => [
-    {name: "The depth buffer", caption: `The depth buffer${ofSample0} of the finished frame, on a logarithmic scale. Point at the picture to read the exact values.`, draw: () => [picture(DATA.depth.picture, "The depth buffer as a heat map", {read: (x, y) => `pixel (${x}, ${y}): depth${ofSample0} ${fmt(depthAt(x, y), 9)}`, overlay: (pen, s) => ring(pen, s, PIXEL)}), legend(`far, ${fmt(DATA.depth.low, 4)}`, `near, ${fmt(DATA.depth.high, 4)}`)].flat()},
+    {name: "The depth buffer", caption: `The depth buffer${ofSample0} of the finished frame, on a logarithmic scale. Point at the picture to read the exact values.`, draw: () => [picture(DATA.depth.picture, "The depth buffer as a heat map", {read: (x, y) => `pixel ${px([x, y])}: depth${ofSample0} ${fmt(depthAt(x, y), 9)}`, overlay: (pen, s) => ring(pen, s, PIXEL)}), legend(`far, ${fmt(DATA.depth.low, 4)}`, `near, ${fmt(DATA.depth.high, 4)}`)].flat()},
     {name: "Farthest depth of each block", caption: "Hierarchical Z: if the nearest point of a triangle is behind the farthest depth of a block, the triangle is hidden in all 64 pixels of the block. One comparison rejects them all." + (DATA.samples > 1 ? " All samples are taken into account." : ""), draw: () => hizPicture("low")},
     {name: "Nearest depth of each block", caption: "The opposite bound: a triangle that is entirely in front of the nearest depth of a block passes the test in the whole block, without a depth test per pixel.", draw: () => hizPicture("high")},
   ],
   formula: () => {
     const b = exampleBlock(), v = VISIBLE, failed = v.failed;
-    const test = v.is_tested ? `${say(`The visible fragment of pixel (${PIXEL})${DATA.samples > 1 ? ` at sample ${SAMPLE}` : ""}, which belongs to ${exampleName}:`)}${fmt(v.depth, 9)} &gt; ${fmt(v.stored_depth, 9)} → <b>pass</b>\n` : v.depth === undefined ? "" : `${say(`The depth of the visible fragment of pixel (${PIXEL}) is ${fmt(v.depth, 9)}. It was not compared: the block was known to be farther away.`)}`;
+    const test = v.is_tested ? `${say(`The visible fragment of pixel ${px(PIXEL)}${DATA.samples > 1 ? ` at sample ${SAMPLE}` : ""}, which belongs to ${exampleName}:`)}${fmt(v.depth, 9)} &gt; ${fmt(v.stored_depth, 9)} → <b>pass</b>\n` : v.depth === undefined ? "" : `${say(`The depth of the visible fragment of pixel ${px(PIXEL)} is ${fmt(v.depth, 9)}. It was not compared: the block was known to be farther away.`)}`;
     const fail = failed ? `${say(`The first fragment there that ${failed.outcome.startsWith("rejected") ? `was ${escapeHtml(failed.outcome)}` : escapeHtml(failed.outcome)}:`)}${fmt(failed.tested, 9)} &gt; ${fmt(failed.stored, 9)} → <b>${failed.tested > failed.stored}</b>\n` : "";
     return [`pass = <em>z</em><sub>fragment</sub> &gt; <em>z</em><sub>stored</sub>\n\n${test}${fail}`,
       `${say("The 8 × 8 block of the example pixel at the end of the frame:")}farthest depth <b>${fmt(b.low, 9)}</b>\nnearest depth  <b>${fmt(b.high, 9)}</b>\n\n${say(`A triangle with <em>z</em><sub>max</sub> ≤ ${fmt(b.low, 7)} is rejected with the whole block. A triangle with <em>z</em><sub>0</sub> &gt; ${fmt(b.high, 7)} passes in the whole block.`)}`];
   },
+  related: ["stepping", "overdraw"], lessons: ["Depth"],
   exercises: () => {
+    const b = exampleBlock();
     return [
-      {ask: `A triangle at the constant depth ${num(depthAt(...PIXEL), 7)} is drawn over the whole 8 × 8 block of the example pixel, after all other primitives. At how many pixels does it pass the depth test${DATA.samples > 1 ? " of sample 0" : ""}?`, answer: fartherInBlock(depthAt(...PIXEL)), hint: `It passes where the stored depth is smaller. The block is x = ${blockOf(WINDOW[0])} … ${blockOf(WINDOW[0]) + 7}, y = ${H - 1 - blockOf(WINDOW[1]) - 7} … ${H - 1 - blockOf(WINDOW[1])} in the first step.`, why: "These pixels are farther away than the example pixel."},
-      {ask: `What is the depth${ofSample0} at the example pixel? (Three significant digits.)`, answer: depthAt(...PIXEL), tolerance: depthAt(...PIXEL) * 0.006 + 1e-9, hint: "Point at the center of the ring in the first step.", why: "This is the value in the depth buffer."},
+      {ask: `A triangle at the constant depth of the example pixel is drawn over its whole 8 × 8 block, after all other primitives. At how many pixels does it pass the depth test${DATA.samples > 1 ? " of sample 0" : ""}?`, answer: fartherInBlock(depthAt(...PIXEL)), hint: `It passes where the stored depth is smaller. The block is x = ${blockOf(WINDOW[0])} … ${blockOf(WINDOW[0]) + 7}, y = ${H - 1 - blockOf(WINDOW[1]) - 7} … ${H - 1 - blockOf(WINDOW[1])} in the first step.`, why: fartherInBlock(depthAt(...PIXEL)) > 0 ? "These pixels are farther away than the example pixel." : "No pixel of the block is farther away than the example pixel."},
+      b.low > 0 ? {ask: "By what factor is the nearest depth in the block of the example pixel larger than the farthest one?", answer: b.high / b.low, significant: 3, hint: "See the second formula.", why: `${fmt(b.high, 7)} / ${fmt(b.low, 7)}. Depth is proportional to 1 / distance except for a constant.`}
+        : {ask: "At how many pixels of the block of the example pixel is nothing drawn (a stored depth of 0)?", answer: fartherInBlock(1e-38), hint: "Read the depths in the first step.", why: "There, the depth buffer still has the value that it was cleared to."},
       {ask: "How many blocks of 8 × 8 pixels does one tile have?", answer: (TILE / 8) ** 2, hint: `A tile has ${TILE} × ${TILE} pixels.`, why: `${TILE / 8} · ${TILE / 8}.`},
     ];
   },

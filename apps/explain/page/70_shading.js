@@ -1,7 +1,8 @@
 // Interpolation, varyings, mip levels, light and shadows.
 
+// The triangle that shows the interpolation: the example, another triangle of the frame, or a constructed one.
 const P = DATA.perspective;
-const CORNERS = P && P.xy.map(([x, y]) => [x / SUB, y / SUB]);
+const CORNERS = P.xy.map(([x, y]) => [x / SUB, y / SUB]);
 
 // Returns the linear and the perspective-correct weights of a point of triangle P. x and y are pixels from the lower left.
 function weightsAt(x, y) {
@@ -34,7 +35,7 @@ function checkered(kind) {
     image.data[at + 3] = 255;
   }
   pen.putImageData(image, 0, 0);
-  return el("div", {class: "stage"}, canvas);
+  return addLoupe(el("div", {class: "stage"}, canvas), canvas, width, height);
 }
 const squareColor = (b) => ((Math.floor(b[1] * 10) + Math.floor(b[2] * 10)) % 2 ? [194, 65, 12] : [250, 236, 226]);
 function differenceColor(a, b) {
@@ -43,25 +44,34 @@ function differenceColor(a, b) {
 }
 const middle = () => weightsAt(...[0, 1].map((k) => (CORNERS[0][k] + CORNERS[1][k] + CORNERS[2][k]) / 3));
 
+// Names the triangle, and says why it is shown.
+function interpolatedName() {
+  if (P.kind === "example") return `${capital(exampleName)}, the example of this page; vertices in the order of the chapter “Triangle setup”.`;
+  const errors = [P.example_error, P.largest_error].filter((e) => e !== undefined), own = P.example_error === undefined ? "" : ` In ${exampleName}, affine interpolation displaces a value by at most ${fmt(P.example_error, 3)} pixels.`;
+  if (P.kind === "frame") return `Triangle ${fmt(P.primitive)} of <i>${escapeHtml(P.object)}</i>.${own}`;
+  const why = !M.perspective ? "the projection is orthographic, so that w is 1 everywhere and both interpolations agree" : errors.length === 0 ? "no triangle lies entirely inside the window" : `affine interpolation displaces a value by at most ${fmt(Math.max(...errors), 3)} pixels in the triangles inside the window`;
+  return `A constructed triangle that is not part of this frame, because in this frame ${why}.`;
+}
+
 chapter({
   id: "interpolation", title: "Perspective-correct interpolation", kicker: "Shading",
   lead: () => "Vertices have values such as texture coordinates, normals and positions. These values are interpolated between the vertices. The interpolation cannot be linear on the screen: where a surface is farther away, its values change faster from pixel to pixel.",
-  absent: () => (P === null ? `${DATA.wire.count === 0 ? "This frame has no mesh, so there are no triangles between whose vertices values are interpolated" : "No triangle of this frame is entirely inside the window"}. A frame that shows the difference: ${command("halfspace explain shadow-plane")}.` : null),
   input: () => ["edge functions at a sample", "1/w of the three vertices"],
   output: () => ["three weights that add up to 1"],
   steps: () => [
-    {name: "Affine and perspective-correct", caption: `Triangle ${fmt(P.primitive)} of <i>${escapeHtml(P.object)}</i>, for which the difference is easy to see. Affine: the weights are the normalized edge functions, so all squares have the same size on the screen. Perspective-correct: the weights are divided by w and normalized. 1/w is ${P.inv_w.map((v) => fmt(v, 4)).join(", ")} at the vertices.`, draw: checkeredPair},
-    {name: "Difference", caption: `The difference of the weights, from 0 (dark) to 0.25 or more (bright). Along an edge, affine interpolation displaces a value by up to ${fmt(P.error, 3)} pixels.`, draw: () => [checkered("difference"), legend("0", "0.25")]},
+    {name: "Affine and perspective-correct", caption: `${interpolatedName()} Affine: the weights are the normalized edge functions, so all squares have the same size on the screen. Perspective-correct: the weights are divided by w and normalized. 1/w is ${P.inv_w.map((v) => fmt(v, 4)).join(", ")} at the vertices.`, draw: checkeredPair},
+    {name: "Difference", caption: `The difference of the weights, from 0 (dark) to 0.25 or more (bright). Along an edge, it is at most ${fmt(P.difference, 3)}: affine interpolation displaces a value by up to ${fmt(P.error, 3)} pixels.`, draw: () => [checkered("difference"), legend("0", "0.25")]},
   ],
   formula: () => {
     const m = middle();
     return [`<em>p</em><sub>i</sub> = E<sub>i</sub> q<sub>i</sub> / (E<sub>0</sub> q<sub>0</sub> + E<sub>1</sub> q<sub>1</sub> + E<sub>2</sub> q<sub>2</sub>)      q<sub>i</sub> = 1/w<sub>i</sub>\n\n${say("at the centroid of the triangle on the screen, where the linear weights are ⅓, ⅓, ⅓:")}${[0, 1, 2].map((i) => `p<sub>${i}</sub> = ⅓ · ${fmt(P.inv_w[i], 6)} / (⅓ · ${fmt(P.inv_w[0] + P.inv_w[1] + P.inv_w[2], 6)}) = <b>${fmt(m.perspective[i], 6)}</b>`).join("\n")}`];
   },
+  related: ["setup", "varyings"], lessons: ["Perspective"],
   exercises: () => {
-    const m = middle().perspective;
+    const m = middle().perspective, [q0, q1] = P.inv_w;
     return [
-      {ask: "What is p₁ at the centroid of the triangle? (Three decimal places.)", answer: m[1], tolerance: 0.0011, hint: "Divide q₁ by the sum of all three q.", why: "At the centroid, the linear weights are equal and cancel out."},
-      {ask: "By how much is the largest of the three weights larger there than with affine interpolation? (Three decimal places.)", answer: Math.max(...m) - 1 / 3, tolerance: 0.0011, hint: "With affine interpolation, all weights are ⅓.", why: "The vertex nearest to the eye gets the largest weight, because the surface is foreshortened behind the centroid."},
+      {ask: "What is the perspective-correct weight of vertex 0 in the middle of the edge from vertex 0 to vertex 1 on the screen?", answer: q0 / (q0 + q1), decimals: 3, hint: "There, the linear weights are ½, ½ and 0.", why: `${fmt(q0, 5)} / (${fmt(q0, 5)} + ${fmt(q1, 5)}).`},
+      {ask: "By how much is the largest of the three weights at the centroid larger than with affine interpolation?", answer: Math.max(...m) - 1 / 3, decimals: 3, hint: "With affine interpolation, all weights are ⅓.", why: "The vertex nearest to the eye gets the largest weight."},
       {ask: "Which vertex is nearest to the eye: 0, 1 or 2?", answer: P.inv_w.indexOf(Math.max(...P.inv_w)), hint: "1/w is largest there.", why: "w is the distance along the view axis."},
     ];
   },
@@ -79,11 +89,11 @@ const POSITION = (() => {
 function interpolationFormula() {
   const p = POSITION, [, p1, p2] = p.weights;
   const line = (k) => `${"xyz"[k]} = ${fmt(p.corners[0][k], 6)} + ${fmt(p1, 6)} · (${fmt(p.corners[1][k] - p.corners[0][k], 6)}) + ${fmt(p2, 6)} · (${fmt(p.corners[2][k] - p.corners[0][k], 6)}) = <b>${fmt(p.corners[0][k] * p.weights[0] + p.corners[1][k] * p1 + p.corners[2][k] * p2, 6)}</b>`;
-  return `\n\n${say(`The position relative to the eye at ${shadedWhere === "center" ? "the center" : shadedWhere} of pixel (${PIXEL}), where ${exampleName} is visible:`)}${[0, 1, 2].map(line).join("\n")}${say(`The shader received ${vec(p.value, 6)}.`)}`;
+  return `\n\n${say(`The position relative to the eye at ${shadedWhere === "center" ? "the center" : shadedWhere} of pixel ${px(PIXEL)}, where ${exampleName} is visible:`)}${[0, 1, 2].map(line).join("\n")}${say(`The shader received ${vec(p.value, 6)}.`)}`;
 }
 function varyingTable() {
   if (VARYINGS.length === 0) return null;
-  return [el("h3", {}, `Varyings at pixel (${PIXEL})`), tableOf(["name", "value"], VARYINGS.map(([name, v]) => [`<code>${name}</code>`, vec(v, 6)]))];
+  return [el("h3", {}, `Varyings at pixel ${px(PIXEL)}`), tableOf(["name", "value"], VARYINGS.map(([name, v]) => [`<code>${name}</code>`, vec(v, 6)]))];
 }
 
 // ---- varyings -------------------------------------------------------------------------------------------------------------
@@ -95,19 +105,20 @@ chapter({
   output: () => ["interpolated values, one lane per pixel", "analytic derivatives, from the plane of the triangle"],
   steps: () => [
     ["barycentrics", "Barycentric coordinates", "Red, green and blue are the weights of the three vertices."],
-    ["normal", "Normal", "The unit normal used for lighting, after normal and bump mapping. x, y and z from −1 to 1 are shown as red, green and blue."],
-    ["uv", "Texture coordinates", "u is red and v is green. Colors jump where a coordinate crosses an integer."],
+    ["normal", "Normal", `The unit normal used for lighting${DATA.surfaces.relief.length ? `, with the relief from the maps of ${listed(DATA.surfaces.relief)}` : ""}. x, y and z from −1 to 1 are shown as red, green and blue.`],
+    ["uv", "Texture coordinates", DATA.surfaces.uv_low.every((v, k) => v === DATA.surfaces.uv_high[k]) ? "No visible surface of this frame has texture coordinates that vary." : `u is red and v is green. u is from ${fmt(DATA.surfaces.uv_low[0], 4)} to ${fmt(DATA.surfaces.uv_high[0], 4)}, and v from ${fmt(DATA.surfaces.uv_low[1], 4)} to ${fmt(DATA.surfaces.uv_high[1], 4)}; the picture shows their fractions.`],
     ["position", "Position in world space", "Red, green and blue are x, y and z, scaled to the range of their values in this frame."],
-    ["albedo", "Surface color", "The color before lighting: the product of the material color, the vertex color and the color map."],
+    ["albedo", "Surface color", `The color before lighting${DATA.mips === null ? ". No opaque surface of this frame has a color map" : ": the color of the material times the color map"}.`],
   ].map(([key, name, caption]) => ({name, caption, draw: () => picture(DATA.pictures[key], `${name} as colors`, {overlay: (pen, s) => ring(pen, s, PIXEL)})})),
   formula: () => ["value = a<sub>0</sub> + p<sub>1</sub> · (a<sub>1</sub> − a<sub>0</sub>) + p<sub>2</sub> · (a<sub>2</sub> − a<sub>0</sub>)" + (POSITION ? interpolationFormula() : isPoint ? `\n\n${say("The varyings of a point are constant: all fragments of the rectangle receive the values of its vertex.")}` : "")],
   body: () => [varyingTable()].flat().filter(Boolean),
+  related: ["interpolation", "mips", "lighting"], lessons: ["Flat, Gouraud and Phong shading", "Normal and bump maps"],
   exercises: () => [
-    POSITION ? {ask: `A value is ${POSITION.corners.map((c) => num(c[0], 5)).join(", ")} at the three vertices, and the weights are ${POSITION.weights.map((w) => num(w, 5)).join(", ")}. What is it at the pixel? (Three significant digits.)`, answer: POSITION.corners.reduce((s, c, i) => s + c[0] * POSITION.weights[i], 0), tolerance: 0.006 * Math.max(...POSITION.corners.map((c) => Math.abs(c[0]))) + 1e-6, hint: "Use the formula, or multiply each value by its weight and add the products.", why: "This is x in the formula above."}
-      : {ask: `How many numbers does the shader receive as varyings at pixel (${PIXEL})?`, answer: VARYINGS.reduce((n, [, v]) => n + v.length, 0), hint: "Count the components of all varyings in the table.", why: VARYINGS.map(([name, v]) => `${name}: ${v.length}`).join(", ") + "."},
+    POSITION ? {ask: `x of the position is ${POSITION.corners.map((c) => num(c[0], 5)).join(", ")} at the three vertices. What is it where all three weights are ⅓?`, answer: POSITION.corners.reduce((s, c) => s + c[0], 0) / 3, significant: 3, tolerance: 1e-4 * Math.max(...POSITION.corners.map((c) => Math.abs(c[0]))), hint: "It is the mean of the three values.", why: "Each value is multiplied by ⅓."}
+      : {ask: `How many numbers does the shader receive as varyings at pixel ${px(PIXEL)}?`, answer: VARYINGS.reduce((n, [, v]) => n + v.length, 0), hint: "Count the components of all varyings in the table.", why: VARYINGS.map(([name, v]) => `${name}: ${v.length}`).join(", ") + "."},
     VISIBLE.normal ? {ask: `The normal at the example pixel is ${vec(VISIBLE.normal, 4)}. What is the red value of the pixel in the picture of the normals, from 0 to 255?`, answer: Math.floor((Math.min(1, Math.max(-1, VISIBLE.normal[0])) + 1) / 2 * 255 + 0.5), tolerance: 1, hint: "(x + 1) / 2, times 255, rounded.", why: `(${fmt(VISIBLE.normal[0], 4)} + 1) / 2 · 255.`}
-      : {ask: "How many pixels have no fragments, and therefore no varyings?", answer: DATA.overdraw.histogram[0], hint: "See the chapter “Overdraw”.", why: "They show the background color."},
-    {ask: "How many fragments were shaded in this frame?", answer: DATA.statistics.fragments_shaded, hint: "See the chapter “Statistics”.", why: "Opaque surfaces are shaded once per visible pixel, after the depth of the whole tile is known."},
+      : {ask: "What red value, from 0 to 255, shows the x component 0.5 of a normal?", answer: 191, tolerance: 1, hint: "(x + 1) / 2, times 255, rounded.", why: "(0.5 + 1) / 2 · 255."},
+    {ask: "What percentage of the fragments of this frame were shaded?", answer: DATA.statistics.fragments_shaded / Math.max(1, DATA.overdraw.total) * 100, decimals: 0, hint: "See the chapter “Overdraw”.", why: `${fmt(DATA.statistics.fragments_shaded)} of ${fmt(DATA.overdraw.total)} fragments.`},
   ],
 });
 
@@ -119,7 +130,7 @@ const MIP = DATA.mips ? DATA.mips.pixel : null;
 // The size of a probe in texels.
 const mipSize = () => (MIP.anisotropic ? Math.max(MIP.axes[1], MIP.axes[0] / MIP.probes) : Math.max(...MIP.axes));
 function mipFormula() {
-  const [a, b] = MIP.axes, where = say(`at pixel (${MIP.at})${MIP.at.join() === PIXEL.join() ? "" : ", the first pixel with a color map, because the example pixel has none"}, in texels of level 0:`);
+  const [a, b] = MIP.axes, where = say(`at pixel ${px(MIP.at)}${MIP.at.join() === PIXEL.join() ? "" : ", the first pixel with a color map, because the example pixel has none"}, in texels of level 0:`);
   const result = `λ = log<sub>2</sub>(${fmt(mipSize(), 6)}) = <b>${fmt(Math.log2(mipSize()), 6)}</b>`;
   if (!MIP.anisotropic) return [`λ = log<sub>2</sub> max(|∂(s,t)/∂x|, |∂(s,t)/∂y|)\n\n${where}max(${fmt(a, 6)}, ${fmt(b, 6)}) = ${fmt(mipSize(), 6)}\n${result}`];
   return [`${say("A pixel covers an ellipse of the texture. Probes of the same size are placed along its major axis.")}N    = min(⌈major / minor⌉, limit)      minor ≥ 1\nsize = max(minor, major / N)\nλ    = log<sub>2</sub>(size)\n\n${where}major = ${fmt(a, 6)}, minor = ${fmt(b, 6)}, N = ${fmt(MIP.probes)}\nsize = max(${fmt(b, 6)}, ${fmt(a, 6)} / ${fmt(MIP.probes)}) = ${fmt(mipSize(), 6)}\n${result}`];
@@ -128,18 +139,18 @@ function mipFormula() {
 chapter({
   id: "mips", title: "Mip levels", kicker: "Shading",
   lead: () => "A pixel that covers many texels should show their average. Textures are therefore also stored at 1/2, 1/4, 1/8 of their size, and so on. The renderer samples the level whose texels are about as large as the pixel.",
-  absent: () => (DATA.mips === null ? `No opaque surface of this frame has a color map. A frame with textures: ${command("halfspace explain earth")}.` : null),
+  absent: () => (DATA.mips === null ? `No opaque surface of this frame has a color map. A frame with textures: ${command("halfspace explain pipeline")}.` : null),
   input: () => ["texture coordinates and their derivatives"],
   output: () => ["the level of detail, which selects the two mip levels to sample"],
   steps: () => [
-    {name: "Level of detail", caption: `Level 0 is the full texture, and each level has half the width and height of the previous one. ${fmt(DATA.mips.pixels)} pixels use a color map. Point at the picture to read the levels.`, draw: () => [picture(DATA.mips.picture, "The mip level of each pixel as a heat map", {read: (x, y) => `pixel (${x}, ${y}): ${lodAt(x, y) < -50 ? "no color map" : "level " + fmt(lodAt(x, y), 4) + (lodAt(x, y) < 0 ? " (magnified)" : "")}`, overlay: (pen, s) => ring(pen, s, MIP.at)}), legend("magnified", `level ${fmt(DATA.mips.high, 3)}`)].flat()},
+    {name: "Level of detail", caption: `Level 0 is the full texture, and each level has half the width and height of the previous one. ${fmt(DATA.mips.pixels)} pixels use a color map. Point at the picture to read the levels.`, draw: () => [picture(DATA.mips.picture, "The mip level of each pixel as a heat map", {read: (x, y) => `pixel ${px([x, y])}: ${lodAt(x, y) < -50 ? "no color map" : "level " + fmt(lodAt(x, y), 4) + (lodAt(x, y) < 0 ? " (magnified)" : "")}`, overlay: (pen, s) => ring(pen, s, MIP.at)}), legend(DATA.mips.low < 0 ? "magnified" : "level −1", `level ${fmt(DATA.mips.high, 3)}`)].flat()},
   ],
   formula: mipFormula,
+  related: ["interpolation", "varyings"], lessons: ["Texture and mipmaps"],
   exercises: () => [
-    MIP.anisotropic ? {ask: `Near pixel (${MIP.at}), the renderer reads ${plural(MIP.probes, "probe")} of ${num(mipSize(), 6)} texels. If the texture had twice the width and height, and the number of probes were the same, what would the level of detail be? (Two decimal places.)`, answer: MIP.lod + 1, tolerance: 0.0051, hint: "All distances in texels double, so the logarithm increases by 1.", why: `${fmt(MIP.lod, 5)} + 1.`}
-      : {ask: `At pixel (${MIP.at}), the longer step is ${num(mipSize(), 6)} texels. What would the level of detail be if the texture had twice the width and height? (Two decimal places.)`, answer: MIP.lod + 1, tolerance: 0.0051, hint: "All distances in texels double, so the logarithm increases by 1.", why: `${fmt(MIP.lod, 5)} + 1.`},
-    {ask: "What is the highest level of detail in this frame? (One decimal place.)", answer: DATA.mips.high, tolerance: 0.051, hint: "See the legend.", why: "The level of detail is high far away and at grazing angles."},
-    {ask: "For how many pixels is the texture magnified, that is, is the level of detail below 0?", answer: FRAME.lods.reduce((n, l) => n + (l < 0 && l > -50), 0), tolerance: 0, hint: "Point at the picture to find such pixels. “Show answer” gives their number.", why: "There, a texel is larger than a pixel."},
+    {ask: `What would the level of detail at pixel ${px(MIP.at)} be if the texture had twice the width and height${MIP.anisotropic ? ", and the number of probes were the same" : ""}?`, answer: MIP.lod + 1, decimals: 2, hint: "All distances in texels double.", why: `The logarithm increases by 1: ${fmt(MIP.lod, 5)} + 1.`},
+    {ask: "How many texels of level 0 is a texel of the highest level of this frame wide, if fractions of levels are allowed?", answer: 2 ** DATA.mips.high, significant: 2, hint: "Each level doubles the width of a texel.", why: `2<sup>${fmt(DATA.mips.high, 4)}</sup>.`},
+    {ask: "How many levels does a texture of 1024 × 1024 texels have?", answer: 11, hint: "The last level has a single texel.", why: "1024, 512, 256, …, 2, 1: log<sub>2</sub>(1024) + 1."},
   ],
 });
 
@@ -160,7 +171,7 @@ function lightFormulas() {
   const head = isMetallic ? "diffuse  = light · (n · l) · shadow · albedo · (1 − metallic) · (1 − F)\nspecular = light · shadow · reflectance of the microfacets"
     : `diffuse  = light · (n · l) · shadow · albedo · k<sub>d</sub>${cosine ? `\nspecular = light · ${cosine}<sup>${fmt(LIGHTING.shininess, 4)}</sup> · shadow · k<sub>s</sub>` : ""}`;
   const blocks = LIGHTING.lights.filter(isLit).slice(0, 4).map((l) => `${say(`Light ${escapeHtml(l.name)}:`)}${isMetallic ? metallicLight(l) : modelLight(l, cosine)}`);
-  return [`${say(`The visible fragment of pixel (${PIXEL}) is lit with the ${MODEL_NAMES[LIGHTING.model]} model, evaluated at ${shadedWhere === "center" ? "its center" : shadedWhere} (red, green, blue). n · l includes the attenuation of the light.`)}${head}\n\nalbedo      ${triple(LIGHTING.albedo)}\n${isMetallic ? "" : `k<sub>d</sub>          ${triple(LIGHTING.diffuse)}\n${cosine ? `k<sub>s</sub>          ${triple(LIGHTING.specular)}\n` : ""}`}\n${blocks.join("\n\n")}`];
+  return [`${say(`The visible fragment of pixel ${px(PIXEL)} is lit with the ${MODEL_NAMES[LIGHTING.model]} model, evaluated at ${shadedWhere === "center" ? "its center" : shadedWhere} (red, green, blue). n · l includes the attenuation of the light.`)}${head}\n\nalbedo      ${triple(LIGHTING.albedo)}\n${isMetallic ? "" : `k<sub>d</sub>          ${triple(LIGHTING.diffuse)}\n${cosine ? `k<sub>s</sub>          ${triple(LIGHTING.specular)}\n` : ""}`}\n${blocks.join("\n\n")}`];
 }
 function modelLight(l, cosine) {
   const d = LIGHTING.albedo.map((a, k) => l.diffuse_color[k] * l.n_l * l.shadow * a * LIGHTING.diffuse[k]);
@@ -182,16 +193,17 @@ chapter({
   input: () => ["position, normal and material per pixel", plural(DATA.terms.filter((t) => t.name.startsWith("diffuse")).length, "light")],
   output: () => ["linear light, without an upper limit"],
   steps: () => [...TERMS.flatMap((t) => [
-    {name: t.name[0].toUpperCase() + t.name.slice(1), caption: `The mean luminance is ${num(mean3(t.mean), 4)}, and the luminance at the example pixel is ${num(mean3(t.value), 4)}.`, draw: () => picture(t.picture, `The term “${t.name}”`, {overlay: (pen, s) => ring(pen, s, PIXEL)})},
-    ...(t.shadow ? [{name: `Shadow factor of ${t.name.split(", ")[1]}`, caption: "The fraction of this light that reaches the surface: white is all, black is none. Surfaces that face away from the light are transparent in this picture.", draw: () => picture(t.shadow, `The shadow factor of ${t.name.split(", ")[1]}`, {overlay: (pen, s) => ring(pen, s, PIXEL)})}] : []),
+    {name: t.name[0].toUpperCase() + t.name.slice(1), caption: `${mean3(t.mean) > 0 ? `The mean luminance is ${num(mean3(t.mean), 4)}` : "This term is zero in the whole picture"}, and the luminance at the example pixel is ${num(mean3(t.value), 4)}.`, draw: () => picture(t.picture, `The term “${t.name}”`, {overlay: (pen, s) => ring(pen, s, PIXEL)})},
+    ...(t.shadow ? [{name: `Shadow factor of ${t.name.split(", ")[1]}`, caption: `The fraction of this light that reaches the surface: white is all, black is none. Surfaces that face away from the light are transparent in this picture. ${plural(t.shadowed[0], "pixel is", "pixels are")} in full shadow, and ${fmt(t.shadowed[1])} partly in shadow.`, draw: () => picture(t.shadow, `The shadow factor of ${t.name.split(", ")[1]}`, {overlay: (pen, s) => ring(pen, s, PIXEL)})}] : []),
   ]), {name: "Sum", caption: "The sum of all terms, after exposure, tone curve and encoding, is the final picture.", draw: () => picture(DATA.pictures.final, "The sum of all terms", {overlay: (pen, s) => ring(pen, s, PIXEL)})}],
-  formula: () => [...lightFormulas(), `${say(`color = sum of the terms, at pixel (${PIXEL})${DATA.samples > 1 ? ", as the mean of its samples" : ""}:`)}${TERMS.map((t) => `${t.name.padEnd(22)} ${t.value.map((v) => fmt(v, 5).padStart(11)).join(" ")}`).join("\n")}\n${"sum".padEnd(22)} <b>${sumOf(TERMS.map((t) => t.value)).map((v) => fmt(v, 5).padStart(11)).join(" ")}</b>\n${"stored".padEnd(22)} ${DATA.tone.pixel.light.map((v) => fmt(v, 5).padStart(11)).join(" ")}${say(`The frame stores light as ${DATA.tone.stored_as}, so the last row is rounded.`)}`],
+  formula: () => [...lightFormulas(), `${say(`color = sum of the terms, at pixel ${px(PIXEL)}${DATA.samples > 1 ? ", as the mean of its samples" : ""}:`)}${TERMS.map((t) => `${t.name.padEnd(22)} ${t.value.map((v) => fmt(v, 5).padStart(11)).join(" ")}`).join("\n")}\n${"sum".padEnd(22)} <b>${sumOf(TERMS.map((t) => t.value)).map((v) => fmt(v, 5).padStart(11)).join(" ")}</b>\n${"stored".padEnd(22)} ${DATA.tone.pixel.light.map((v) => fmt(v, 5).padStart(11)).join(" ")}${say(`The frame stores light as ${DATA.tone.stored_as}, so the last row is rounded.`)}`],
+  related: ["shadows", "tone"], lessons: ["Flat, Gouraud and Phong shading"],
   exercises: () => {
-    const best = TERMS.reduce((a, b) => (mean3(b.mean) > mean3(a.mean) ? b : a)), sum = sumOf(TERMS.map((t) => t.value));
+    const best = TERMS.reduce((a, b) => (mean3(b.mean) > mean3(a.mean) ? b : a)), sum = mean3(sumOf(TERMS.map((t) => t.value))), most = Math.max(...TERMS.map((t) => mean3(t.value)));
     return [
       {ask: `Which term contributes most to the picture: ${TERMS.map((t) => `“${escapeHtml(t.name)}”`).join(", ")}?`, answer: best.name, hint: "Compare the mean luminances.", why: `Its mean luminance is ${fmt(mean3(best.mean), 4)}.`},
-      {ask: "What is the red channel of the sum at the example pixel? (Three significant digits.)", answer: sum[0], tolerance: Math.abs(sum[0]) * 0.006 + 1e-6, hint: "See the first number in the row “sum”.", why: "The terms of a color are added."},
-      {ask: "How many terms does this frame have?", answer: TERMS.length, hint: "Count the rows of the formula.", why: "There are terms for ambient light, for the diffuse and specular light of each light source, and for emitted or reflected light."},
+      {ask: "What percentage of the luminance at the example pixel comes from its largest term?", answer: sum > 0 ? most / sum * 100 : 0, decimals: 0, hint: "Divide the largest luminance of the steps by their sum.", why: sum > 0 ? `${fmt(most, 4)} / ${fmt(sum, 4)}.` : "The example pixel is black."},
+      {ask: "How many terms does this frame have?", answer: TERMS.length, hint: "Count the rows of the formula.", why: `They are ${listed(TERMS.map((t) => t.name))}.`},
     ];
   },
 });
@@ -203,12 +215,12 @@ const SHADOW = DATA.shadow, LOOK = SHADOW && SHADOW.lookup && SHADOW.lookup.view
 function mapPicture() {
   const {canvas, pen} = canvasFigure(512, 512, "The shadow map: the depth of the scene, seen from the light"), box = el("div", {class: "stage"}, canvas);
   canvas.style.maxWidth = "512px";
-  loadImage(SHADOW.map).then((image) => {
+  withImage(SHADOW.map, (image) => {
     pen.imageSmoothingEnabled = false;
     pen.drawImage(image, 0, 0, 512, 512);
     if (LOOK) ring(pen, 1, [LOOK.x / SHADOW.size * 512, 512 - LOOK.y / SHADOW.size * 512], 22);
   });
-  return box;
+  return addLoupe(box, canvas, 512, 512);
 }
 
 // Explains how the pixel of the lookup was chosen if it is not the example pixel.
@@ -235,23 +247,21 @@ function lookupPicture() {
 chapter({
   id: "shadows", title: "Shadow map", kicker: "Shading",
   lead: () => "Before the picture is rendered, the scene is rendered as seen from the light, and only depth is stored. The result is the shadow map. A point is in shadow if the map contains something nearer to the light at the same position.",
-  absent: () => (SHADOW === null ? `No light of this frame casts shadows. A frame with shadows: ${command("halfspace explain shadow-knot")}.` : null),
+  absent: () => (SHADOW === null ? `No light of this frame casts shadows. A frame with shadows: ${command("halfspace explain pipeline")}.` : null),
   input: () => [`${SHADOW.views > 1 ? `${SHADOW.views} maps` : "a map"} of ${SHADOW.size} × ${SHADOW.size} texels`, "the position of each pixel"],
   output: () => ["a factor from 0 (in shadow) to 1 (lit)", `filter: ${SHADOW.filter}`],
   steps: () => [
     {name: "Seen from the light", caption: `The shadow map of <i>${escapeHtml(SHADOW.light)}</i>${SHADOW.views > 1 ? `, view ${SHADOW.view + 1} of ${SHADOW.views}` : ""}. Bright texels are near the light, and black texels are empty.${LOOK ? " The ring marks the point of the next step." : ""}`, draw: mapPicture},
     ...(LOOK ? [
-      {name: "One pixel", caption: `Pixel (${SHADOW.pixel})${nearestPixel()} reads the map at texel (${LOOK.i}, ${LOOK.j}).`, draw: () => picture(DATA.pictures.final, "The picture, with a ring around the pixel whose shadow is looked up", {overlay: (pen, s) => ring(pen, s, SHADOW.pixel)})},
-      {name: "The texels around the point", caption: `Gray texels are nearer to the light than the plane of the surface, so they occlude the point. The dot marks the point. The filter ${SHADOW.filter} computes a shadow factor of ${num(LOOK.factor, 5)}.`, draw: lookupPicture}] : []),
+      {name: "One pixel", caption: `Pixel ${px(SHADOW.pixel)}${nearestPixel()} reads the map at texel (${LOOK.i}, ${LOOK.j}).`, draw: () => picture(DATA.pictures.final, "The picture, with a ring around the pixel whose shadow is looked up", {overlay: (pen, s) => ring(pen, s, SHADOW.pixel)})},
+      {name: "The texels around the point", caption: `${LOOK.lit.every((l) => l) ? "No texel around the point is nearer to the light than the plane of the surface, so none occludes it." : "Gray texels are nearer to the light than the plane of the surface, so they occlude the point."} The dot marks the point. The filter ${SHADOW.filter} computes a shadow factor of ${num(LOOK.factor, 5)}.`, draw: lookupPicture}] : []),
   ],
   formula: () => (LOOK ? [`texel (${LOOK.i}, ${LOOK.j}), point at (${fmt(LOOK.x, 7)}, ${fmt(LOOK.y, 7)}):\n\n<em>d</em> = depth + bias = ${fmt(LOOK.depth, 8)} + ${fmt(LOOK.biased - LOOK.depth, 4)} = ${fmt(LOOK.biased, 8)}\nplane: ${fmt(LOOK.dx, 4)} per texel to the right, ${fmt(LOOK.dy, 4)} up\n\n${say("lit = <em>d</em> + slope · distance to the center of the texel ≥ depth in the map")}map: ${fmt(LOOK.texels[(LOOK.side * LOOK.side - 1) / 2], 8)} → <b>${LOOK.lit[(LOOK.side * LOOK.side - 1) / 2] ? "lit" : "in shadow"}</b>      after the filter: <b>${fmt(LOOK.factor, 6)}</b>`] : []),
-  exercises: () => (LOOK ? [
-    {ask: "How many of the texels shown occlude the point?", answer: LOOK.lit.filter((l) => !l).length, hint: `Count the gray ones; ${LOOK.lit.length} texels are shown.`, why: "The depth of each texel is compared separately."},
-    {ask: "What is the shadow factor of the pixel? (Two decimal places.)", answer: LOOK.factor, tolerance: 0.0051, hint: "See the caption of the last step.", why: "The light's diffuse and specular terms are multiplied by it."},
-    {ask: "How many texels does the map have?", answer: SHADOW.size ** 2, hint: "Square its width.", why: `${SHADOW.size} · ${SHADOW.size}.`},
-  ] : [
-    {ask: "How many texels does the map have?", answer: SHADOW.size ** 2, hint: "Square its width.", why: `${SHADOW.size} · ${SHADOW.size}.`},
-    {ask: "How many bytes does the map have, with four bytes per texel?", answer: SHADOW.size ** 2 * 4, hint: "Multiply the number of texels by 4.", why: "Each texel stores one float."},
-    {ask: "How many maps does the light have?", answer: SHADOW.views, hint: "See “Input”.", why: "A light can need several maps, for example one for each part of the view."},
-  ]),
+  related: ["lighting", "depth"], lessons: ["Shadow map and bias"],
+  exercises: () => {
+    const texels = {ask: "How many texels does the map have?", answer: SHADOW.size ** 2, hint: "Square its width.", why: `${SHADOW.size} · ${SHADOW.size}.`};
+    const ratio = {ask: "How many texels do all maps of the light have per pixel of the picture?", answer: SHADOW.size ** 2 * SHADOW.views / (W * H), decimals: 1, hint: "Divide by the number of pixels.", why: `${SHADOW.views} · ${SHADOW.size}² / (${W} · ${H}).`};
+    const bytes = {ask: "How many bytes does the map have, with four bytes per texel?", answer: SHADOW.size ** 2 * 4, hint: "Multiply the number of texels by 4.", why: "Each texel stores one float."};
+    return LOOK ? [{ask: "How many of the texels shown occlude the point?", answer: LOOK.lit.filter((l) => !l).length, hint: `Count the gray ones; ${LOOK.lit.length} texels are shown.`, why: "The depth of each texel is compared separately."}, texels, ratio] : [texels, bytes, ratio];
+  },
 });

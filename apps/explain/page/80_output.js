@@ -36,15 +36,15 @@ const curveFormula = {none: "", reinhard: "curve(x) = x / (1 + x)\n", reinhard_e
 function storageFormula() {
   const row = (name, v) => `${name.padEnd(11)}${v.slice(0, 3).map((x) => fmt(x, 6).padStart(12)).join("")}`;
   const rounding = TONE.is_8_bit ? `Rounding: a tile of this frame stores colors as ${TONE.stored_as}. A shaded color is encoded, rounded to a multiple of 1/255 and stored; this is the linear value of the stored color.` : `A tile of this frame stores colors as ${TONE.stored_as}, so a shaded color is rounded to this format.`;
-  const one = `${say(`${rounding} At pixel (${PIXEL}):`)}${row("stored", TONE.samples[0])}`;
-  const many = `${say(`${rounding} The mean of the samples is rounded in the same way. At pixel (${PIXEL}):`)}${TONE.samples.map((s, i) => row(`sample ${i}`, s)).join("\n")}\n${row("mean", meanSample())}\n<b>${row("resolved", TONE.pixel.light)}</b>`;
+  const one = `${say(`${rounding} At pixel ${px(PIXEL)}:`)}${row("stored", TONE.samples[0])}`;
+  const many = `${say(`${rounding} The mean of the samples is rounded in the same way. At pixel ${px(PIXEL)}:`)}${TONE.samples.map((s, i) => row(`sample ${i}`, s)).join("\n")}\n${row("mean", meanSample())}\n<b>${row("resolved", TONE.pixel.light)}</b>`;
   return [DATA.samples === 1 ? one : many];
 }
 const meanSample = () => [0, 1, 2].map((k) => TONE.samples.reduce((n, s) => n + s[k], 0) / TONE.samples.length);
 
 chapter({
   id: "tone", title: "High dynamic range and tone curve", kicker: "Output",
-  lead: () => (TONE.hdr ? "Light has no upper limit, but the brightness of a display does. The exposure scales the light, and the tone curve maps it to the range from 0 to 1." : "This scene is displayed without a tone curve: light above 1 is clamped. The histogram shows how many pixels this affects."),
+  lead: () => (TONE.hdr ? "Light has no upper limit, but the brightness of a display does. The exposure scales the light, and the tone curve maps it to the range from 0 to 1." : `This scene is displayed without a tone curve: light above 1 is clamped. ${TONE.clamped === 0 ? "No pixel of this frame exceeds 1." : `${plural(TONE.clamped, "pixel exceeds", "pixels exceed")} 1 in red, green or blue.`}`),
   input: () => [`linear light per pixel, stored as ${TONE.stored_as}`],
   output: () => ["display light from 0 to 1"],
   steps: () => [
@@ -54,12 +54,13 @@ chapter({
   formula: () => {
     const p = TONE.pixel;
     const exposure = TONE.auto ? `exposure = key / mean = ${fmt(TONE.key)} / ${fmt(TONE.log_average, 6)} → <b>${fmt(TONE.exposure, 7)}</b>${say("mean: the geometric mean of the luminance of all pixels")}\n` : `exposure = ${fmt(TONE.exposure, 7)}\n\n`;
-    return [...storageFormula(), `${exposure}${say(`at pixel (${PIXEL}):`)}${curveFormula}light      ${p.light.map((v) => fmt(v, 6).padStart(12)).join("")}\n· exposure ${p.exposed.map((v) => fmt(v, 6).padStart(12)).join("")}\ncurve      <b>${p.display.map((v) => fmt(v, 6).padStart(12)).join("")}</b>`];
+    return [...storageFormula(), `${exposure}${say(`at pixel ${px(PIXEL)}:`)}${curveFormula}light      ${p.light.map((v) => fmt(v, 6).padStart(12)).join("")}\n· exposure ${p.exposed.map((v) => fmt(v, 6).padStart(12)).join("")}\ncurve      <b>${p.display.map((v) => fmt(v, 6).padStart(12)).join("")}</b>`];
   },
+  related: ["srgb", "lighting"], lessons: ["High dynamic range"],
   exercises: () => [
-    {ask: "What is the exposure of this frame? (Three significant digits.)", answer: TONE.exposure, tolerance: TONE.exposure * 0.006, hint: "See the formula.", why: TONE.auto ? "It was computed from the luminance of the frame." : "It is a constant of the scene."},
-    {ask: "The exposure is increased by one stop, which doubles the light. What is the exposed light of the example pixel's green channel then? (Three significant digits.)", answer: 2 * TONE.pixel.exposed[1], tolerance: 0.006 * 2 * TONE.pixel.exposed[1] + 1e-9, hint: "Double the second number in the row “· exposure”.", why: `2 · ${fmt(TONE.pixel.exposed[1], 6)}.`},
-    {ask: "How many pixels are too dark for the histogram?", answer: TONE.dark, hint: "See the caption of the histogram.", why: `Their luminance is below 2<sup>${TONE.low}</sup>.`},
+    {ask: "By how many stops does the exposure of this frame change the light?", answer: Math.log2(TONE.exposure), decimals: 2, hint: "A stop doubles the light: take the logarithm to the base 2 of the exposure.", why: `log<sub>2</sub>(${fmt(TONE.exposure, 6)}).`},
+    {ask: "The exposure is increased by one stop. What is the exposed light of the example pixel's green channel then?", answer: 2 * TONE.pixel.exposed[1], significant: 3, hint: "Double the second number in the row “· exposure”.", why: `2 · ${fmt(TONE.pixel.exposed[1], 6)}.`},
+    {ask: "What percentage of the pixels is too dark for the histogram?", answer: TONE.dark / (W * H) * 100, decimals: 1, hint: `The frame has ${fmt(W * H)} pixels.`, why: `The luminance of ${fmt(TONE.dark)} pixels is below 2<sup>${TONE.low}</sup>.`},
   ],
 });
 
@@ -93,12 +94,16 @@ chapter({
     {name: "The curve", caption: `${TONE.gamma ? `This scene is encoded with a power function with the exponent 1/${fmt(TONE.gamma)} instead of the sRGB curve.` : "Close to 0, the curve is a straight line; beyond that, it is a power function with the exponent 1/2.4."} The dots are red, green and blue of the example pixel.`, draw: srgbPicture},
     {name: "Equal steps", caption: "Above: 16 equal steps of linear light, most of which look almost white. Below: 16 equal steps of the encoded value, which look evenly spaced.", draw: rampPicture},
   ],
-  formula: () => [`${TONE.gamma ? `encoded = x<sup>1/${fmt(TONE.gamma)}</sup>` : "encoded = 12.92 x                   if x ≤ 0.0031308\n          1.055 x<sup>1/2.4</sup> − 0.055      otherwise"}\nvalue   = round(255 · encoded)\n\n${say(`at pixel (${PIXEL}):`)}${["red", "green", "blue"].map((n, k) => `${n.padEnd(6)} ${fmt(TONE.pixel.display[k], 6).padStart(10)} → ${fmt(TONE.pixel.encoded[k], 6).padStart(10)} → round(${fmt(255 * TONE.pixel.encoded[k], 6)}) = <b>${TONE.pixel.code[k]}</b>`).join("\n")}${say(TONE.dither ? "This scene is dithered: a pattern determines whether values are rounded up or down." : "This is the pixel of the picture.")}`],
-  exercises: () => [
-    {ask: "What is the 8-bit value of the example pixel's green channel?", answer: TONE.pixel.code[1], tolerance: TONE.dither ? 1 : 0, hint: "See the last column of the second row.", why: TONE.dither ? "Rounded up or down by the dither pattern." : "Rounded to the nearest integer."},
-    {ask: "What 8-bit value encodes half of the display light of the example pixel's red channel?", answer: Math.round(encodeDisplay(TONE.pixel.display[0] / 2) * 255), tolerance: 1, hint: `Apply the formula to ${fmt(TONE.pixel.display[0] / 2, 6)}, and multiply by 255.`, why: `The full light is encoded as ${TONE.pixel.code[0]}, which is less than twice as much.`},
-    {ask: `What linear value does the 8-bit value ${TONE.pixel.code[2]} of the example pixel's blue channel encode? (Two decimal places.)`, answer: decodeDisplay(TONE.pixel.code[2] / 255), tolerance: 0.0051, hint: "Divide by 255, and invert the formula.", why: `The display light was ${fmt(TONE.pixel.display[2], 6)}. Rounding to 8 bits changed it.`},
-  ],
+  formula: () => [`${TONE.gamma ? `encoded = x<sup>1/${fmt(TONE.gamma)}</sup>` : "encoded = 12.92 x                   if x ≤ 0.0031308\n          1.055 x<sup>1/2.4</sup> − 0.055      otherwise"}\nvalue   = round(255 · encoded)\n\n${say(`at pixel ${px(PIXEL)}:`)}${["red", "green", "blue"].map((n, k) => `${n.padEnd(6)} ${fmt(TONE.pixel.display[k], 6).padStart(10)} → ${fmt(TONE.pixel.encoded[k], 6).padStart(10)} → round(${fmt(255 * TONE.pixel.encoded[k], 6)}) = <b>${TONE.pixel.code[k]}</b>`).join("\n")}${say(TONE.dither ? "This scene is dithered: a pattern determines whether values are rounded up or down." : "This is the pixel of the picture.")}`],
+  related: ["tone", "final"], lessons: ["High dynamic range"],
+  exercises: () => {
+    const code = (TONE.pixel.code[2] + 64) % 256;
+    return [
+      {ask: "What 8-bit value encodes a display light of 0.5?", answer: Math.round(encodeDisplay(0.5) * 255), hint: "Apply the formula, and multiply by 255.", why: `255 · ${fmt(encodeDisplay(0.5), 5)}, rounded. It is more than half of 255.`},
+      {ask: "What 8-bit value encodes half of the display light of the example pixel's red channel?", answer: Math.round(encodeDisplay(TONE.pixel.display[0] / 2) * 255), tolerance: 1, hint: `Apply the formula to ${fmt(TONE.pixel.display[0] / 2, 6)}, and multiply by 255.`, why: `The full light is encoded as ${TONE.pixel.code[0]}.`},
+      {ask: `What linear value does the 8-bit value ${code} encode?`, answer: decodeDisplay(code / 255), decimals: 3, hint: "Divide by 255, and invert the formula.", why: `The inverse of the ${curveName} at ${fmt(code / 255, 5)}.`},
+    ];
+  },
 });
 
 // ---- samples and layers -------------------------------------------------------------------------------------------------------
@@ -119,6 +124,7 @@ function sampleCoverage() {
   return el("div", {class: "stage"}, g.root);
 }
 
+const hasEqualSamples = () => TONE.samples.every((s) => s.slice(0, 3).join() === TONE.samples[0].slice(0, 3).join());
 chapter({
   id: "samples", title: "Samples and resolve", kicker: "Output",
   lead: () => "With several samples per pixel, coverage and depth are computed for each sample. At the end, the color of a pixel is the mean of its samples, which makes edges look smooth.",
@@ -126,13 +132,14 @@ chapter({
   input: () => [`${DATA.samples} samples per pixel`],
   output: () => ["one color per pixel"],
   steps: () => [
-    {name: "Sample positions", caption: "No two samples are in the same row or column of the grid, so that nearly horizontal and nearly vertical edges get as many steps as possible.", draw: patternPicture},
+    {name: "Sample positions", caption: `The positions of the samples in a pixel, on a grid of 16 × 16.${new Set(DATA.sample_positions.map((p) => p[0])).size === DATA.samples && new Set(DATA.sample_positions.map((p) => p[1])).size === DATA.samples ? " No two samples are in the same row or column, so that nearly horizontal and nearly vertical edges get as many steps as possible." : ""}`, draw: patternPicture},
     {name: "Colors of the samples", caption: `The block of the example pixel. Each sample is drawn with the color that the renderer stored for it. The outlined pixel is the example.`, draw: sampleColors},
     ...(isTriangle ? [{name: "Coverage", caption: "The block of the example pixel. The stronger the color of a pixel, the more of its samples the example triangle covers.", draw: sampleCoverage}] : []),
   ],
-  formula: () => [`color = (s<sub>0</sub> + … + s<sub>${DATA.samples - 1}</sub>) / ${DATA.samples}\n\n${say(`at pixel (${PIXEL}), in linear light:`)}${["red", "green", "blue"].map((name, k) => `${name.padEnd(6)}(${TONE.samples.map((s) => fmt(s[k], 5)).join(" + ")}) / ${DATA.samples} = ${fmt(meanSample()[k], 6)} → <b>${fmt(TONE.pixel.light[k], 6)}</b>`).join("\n")}${say(`The last number is the mean, rounded to ${TONE.stored_as}.`)}`],
+  formula: () => [`color = (s<sub>0</sub> + … + s<sub>${DATA.samples - 1}</sub>) / ${DATA.samples}\n\n${say(`at pixel ${px(PIXEL)}, in linear light:`)}${["red", "green", "blue"].map((name, k) => `${name.padEnd(6)}(${TONE.samples.map((s) => fmt(s[k], 5)).join(" + ")}) / ${DATA.samples} = ${fmt(meanSample()[k], 6)} → <b>${fmt(TONE.pixel.light[k], 6)}</b>`).join("\n")}${say(`The last number is the mean, rounded to ${TONE.stored_as}.${hasEqualSamples() ? " All samples of this pixel have the same color, so the mean is that color." : ""}`)}`],
+  related: ["coverage", "layers"], lessons: [],
   exercises: () => [
-    {ask: `What would be the red light of pixel (${PIXEL}) if its sample 0 were black? (Three significant digits, before rounding.)`, answer: meanSample()[0] - TONE.samples[0][0] / DATA.samples, tolerance: 0.006 * Math.abs(meanSample()[0]) + 1e-6, hint: "Compute the mean of all samples, with 0 for sample 0.", why: `The mean decreases by ${fmt(TONE.samples[0][0], 5)} / ${DATA.samples}.`},
+    {ask: `What would be the red light of pixel ${px(PIXEL)} if its sample 0 were black, before rounding to the format?`, answer: meanSample()[0] - TONE.samples[0][0] / DATA.samples, significant: 3, tolerance: 1e-4 * Math.abs(meanSample()[0]) + 1e-9, hint: "Compute the mean of all samples, with 0 for sample 0.", why: `The mean decreases by ${fmt(TONE.samples[0][0], 5)} / ${DATA.samples}.`},
     {ask: "How many samples does the whole frame have?", answer: W * H * DATA.samples, hint: "Multiply the number of pixels by the number of samples per pixel.", why: `${W} · ${H} · ${DATA.samples}.`},
     {ask: "How many different shades can the pixels at the edge of a white triangle on a black background have, including black and white?", answer: DATA.samples + 1, hint: "How many samples can be covered?", why: `From 0 to ${DATA.samples} samples can be covered.`},
   ],
@@ -158,21 +165,25 @@ const blendedSums = () => LAYERS.list.reduce((sums, l) => [...sums, sums[sums.le
 function layerFormula() {
   const sums = blendedSums(), row = (v) => v.slice(0, 3).map((x) => fmt(x, 5).padStart(10)).join(" ");
   const lines = LAYERS.list.map((l, i) => `α = ${fmt(alphaOf(l), 5)}, layer ${vec(l.color.slice(0, 3), 5)}\n  ${fmt(alphaOf(l), 5)} · layer + ${fmt(1 - alphaOf(l), 5)} · color = <b>${row(sums[i + 1])}</b>`);
-  return [`${say("for each layer, from the farthest to the nearest:")}color = α · layer + (1 − α) · color\n\n${say(`at pixel (${LAYERS.pixel})${DATA.samples > 1 ? `, sample ${LAYERS.sample}` : ""}:`)}opaque color  ${row(LAYERS.under)}\n\n${lines.join("\n")}${say(`The sample stores ${vec(LAYERS.result.slice(0, 3), 6)}, rounded to ${TONE.stored_as}.${LAYERS.list.length > 8 ? " Because it has more than 8 layers, the farthest ones were merged." : ""}`)}`];
+  return [`${say("for each layer, from the farthest to the nearest:")}color = α · layer + (1 − α) · color\n\n${say(`at pixel ${px(LAYERS.pixel)}${DATA.samples > 1 ? `, sample ${LAYERS.sample}` : ""}:`)}opaque color  ${row(LAYERS.under)}\n\n${lines.join("\n")}${say(`The sample stores ${vec(LAYERS.result.slice(0, 3), 6)}, rounded to ${TONE.stored_as}.${LAYERS.list.length > 8 ? " Because it has more than 8 layers, the farthest ones were merged." : ""}`)}`];
 }
 
 const LAYERED = DATA.draws.filter((d) => d.layered);
 chapter({
   id: "layers", title: "Transparent layers", kicker: "Output",
   lead: () => "Transparent surfaces do not hide what is behind them, so they must be blended in the right order. Each sample keeps the fragments of transparent surfaces as layers, sorted by depth. When all layers are known, they are blended from the farthest to the nearest.",
-  absent: () => (LAYERED.length > 0 && LAYERS === null ? `The transparent surfaces of this frame are not visible. Another view may show them: ${command(`${DATA.command} --yaw 120`)}.` : LAYERED.length === 0 ? `No surface of this frame is transparent. The floor that receives the shadow of a model file is a transparent layer: ${command("halfspace explain MODEL")} with any .glb, .gltf, .obj, .ply or .stl file.` : null),
+  absent: () => (LAYERED.length > 0 && LAYERS === null ? `The transparent surfaces of this frame are not visible. Another view may show them: ${command(`${DATA.command} --yaw 120`)}.` : LAYERED.length === 0 ? `No surface of this frame is transparent. A frame with glass: ${command("halfspace explain pipeline")}.` : null),
   input: () => [plural(LAYERED.length, "transparent draw")],
   output: () => [`${plural(DATA.statistics.layers_merged, "merge")} of the two farthest layers of a sample (a sample can store 8 layers)`],
   steps: () => [{name: "Transparent draws", caption: `These objects are blended over the opaque picture: ${LAYERED.map((d) => `<i>${escapeHtml(d.object)}</i>`).join(", ")}. The ring marks the pixel of the formula, which has ${plural(LAYERS.list.length, "layer")}.`, draw: () => picture(DATA.pictures.final, "The picture with its transparent surfaces", {overlay: (pen, s) => ring(pen, s, LAYERS.pixel)})}],
   formula: layerFormula,
-  exercises: () => [
-    {ask: `How much of the light from behind does the nearest layer at pixel (${LAYERS.pixel}) let through, from 0 to 1? (Two decimal places.)`, answer: 1 - alphaOf(LAYERS.list[LAYERS.list.length - 1]), tolerance: 0.0051, hint: "It is 1 − α of the last layer.", why: `1 − ${fmt(alphaOf(LAYERS.list[LAYERS.list.length - 1]), 5)}.`},
-    {ask: `How much of the opaque color do all layers of that ${DATA.samples > 1 ? "sample" : "pixel"} let through together, from 0 to 1? (Two decimal places.)`, answer: LAYERS.list.reduce((t, l) => t * (1 - alphaOf(l)), 1), tolerance: 0.0051, hint: "Multiply 1 − α of all layers.", why: LAYERS.list.map((l) => `(1 − ${fmt(alphaOf(l), 4)})`).join(" · ") + "."},
-    {ask: "How many draws of this frame are transparent?", answer: LAYERED.length, hint: "See “Input”.", why: "They are drawn after all opaque draws."},
-  ],
+  related: ["depth", "samples"], lessons: [],
+  exercises: () => {
+    const nearest = 1 - alphaOf(LAYERS.list[LAYERS.list.length - 1]), all = LAYERS.list.reduce((t, l) => t * (1 - alphaOf(l)), 1), isSingle = LAYERS.list.length === 1;
+    return [
+      {ask: `Two layers like the nearest one at pixel ${px(LAYERS.pixel)} lie one behind the other. How much light do they let through, from 0 to 1?`, answer: nearest ** 2, decimals: 2, hint: "Each lets through 1 − α of the light.", why: `(1 − α)² = ${fmt(nearest, 5)}².`},
+      {ask: isSingle ? "How much do three such layers let through, from 0 to 1?" : `How much of the opaque color do all layers of that ${DATA.samples > 1 ? "sample" : "pixel"} let through together, from 0 to 1?`, answer: isSingle ? nearest ** 3 : all, decimals: 2, hint: "Multiply 1 − α of all layers.", why: isSingle ? `${fmt(nearest, 5)}³.` : LAYERS.list.map((l) => `(1 − ${fmt(alphaOf(l), 4)})`).join(" · ") + "."},
+      {ask: `A layer has a color of four floats, of 4 bytes each, and a depth of 4 bytes. How many bytes do 8 layers need for all samples of one tile of ${TILE} × ${TILE} pixels?`, answer: TILE * TILE * DATA.samples * 8 * 20, hint: "Multiply the number of samples of the tile by 8 and by 20.", why: `${TILE} · ${TILE} · ${DATA.samples} · 8 · 20.`},
+    ];
+  },
 });

@@ -150,7 +150,7 @@ function historyPicture() {
       if (panel && historyState.pixel.join() === [x, y].join()) panel.replaceChildren(...historyPanel(x, y, go).filter(Boolean));
     });
   };
-  const form = pixelForm(go), [box, readout] = picture(DATA.pictures.final, "The final picture. Click a pixel to see its history.", {click: go, read: (x, y) => `pixel (${x}, ${y}): ${plural(fragmentsAt(x, y), "fragment")}`});
+  const form = pixelForm(go), [box, readout] = picture(DATA.pictures.final, "The final picture. Click a pixel to see its history.", {click: go, read: (x, y) => `pixel ${px([x, y])}: ${plural(fragmentsAt(x, y), "fragment")}`});
   box.append(mark);
   queueMicrotask(() => go(...historyState.pixel));
   return [box, readout, form.form];
@@ -161,11 +161,12 @@ chapter({
   lead: () => "Click a pixel to see all of its fragments in drawing order, and what the renderer did with each of them. A fragment can be rejected together with its block, fail the depth test, be hidden before it is shaded, or be shaded.",
   input: () => [`${fmt(DATA.overdraw.total)} fragments of the whole frame`],
   output: () => [`${W} × ${H} pixels, whose colors are stored as ${HISTORY.stored_as}`],
-  steps: () => [{name: "Choose a pixel", caption: `This page contains the draw, primitive, depth and outcome of the fragments of all pixels${HISTORY.most < 64 ? `, up to ${HISTORY.most} fragments per pixel` : ""}. It contains all values ${HISTORY.details.most.some((n) => n < 64) ? `of up to ${HISTORY.details.most.join(", ")} fragments per pixel for the example pixel, ` : "for "}the 64 × 64 pixels around ${HISTORY.details.most.some((n) => n < 64) ? "it" : "the example pixel"} and ${HISTORY.details.most.some((n) => n < 64) ? "" : "for "}every eighth pixel in x and y.`, draw: historyPicture}],
+  steps: () => [{name: "Choose a pixel", caption: `This page contains the draw, primitive, depth and outcome of the fragments of all pixels${HISTORY.most < 64 ? `, up to ${HISTORY.most} fragments per pixel` : ""}. ${HISTORY.details.pixels === W * H && HISTORY.details.most.every((n) => n === 64) ? "It contains all values of all of them." : `It contains all values ${HISTORY.details.most.some((n) => n < 64) ? `of up to ${HISTORY.details.most.join(", ")} fragments per pixel for the example pixel, ` : "for "}the 64 × 64 pixels around ${HISTORY.details.most.some((n) => n < 64) ? "it" : "the example pixel"} and ${HISTORY.details.most.some((n) => n < 64) ? "" : "for "}${HISTORY.details.pixels === W * H ? "all other pixels" : "every eighth pixel in x and y"}.`}`, draw: historyPicture}],
   body: () => el("div", {id: "history-panel", "aria-live": "polite"}, el("p", {class: "loading"}, "Loading the fragments …")),
+  related: ["overdraw", "stepping"], lessons: ["Depth"],
   exercises: () => [
-    {ask: `How many fragments does the example pixel (${PIXEL}) have?`, answer: fragmentsAt(...PIXEL), hint: "Enter its coordinates below the picture.", why: "Its history lists them."},
-    {ask: "How many fragments does the pixel in the upper left corner have?", answer: fragmentsAt(0, 0), hint: "Enter the coordinates 0, 0.", why: "Its history lists them."},
-    {ask: `What is the y coordinate of the example pixel's center in OpenGL window coordinates? (One decimal place.)`, answer: H - PIXEL[1] - 0.5, tolerance: 0.01, hint: "Window coordinates start at the bottom, and pixel centers are at half-integers.", why: `${H} − ${PIXEL[1]} − 0.5.`},
+    {ask: "How many fragments more than an average pixel of this frame does the example pixel have?", answer: fragmentsAt(...PIXEL) - DATA.overdraw.total / (W * H), decimals: 1, hint: "Divide the number of all fragments by the number of pixels.", why: `${fmt(fragmentsAt(...PIXEL))} − ${fmt(DATA.overdraw.total / (W * H), 4)}.`},
+    {ask: "How many fragments does the pixel in the lower right corner have?", answer: fragmentsAt(W - 1, H - 1), hint: `Enter the coordinates ${W - 1}, ${H - 1}.`, why: "Its history lists them."},
+    {ask: "What is the x coordinate of the center of the rightmost pixels in OpenGL window coordinates?", answer: W - 0.5, decimals: 1, hint: "Pixel centers are at half-integers.", why: `${W} − 0.5.`},
   ],
 });

@@ -6,31 +6,36 @@ chapter({
   id: "final", title: "The final picture", kicker: "Output",
   lead: () => "Finished tiles are written to the image. The picture is bit-identical to the one that <code>halfspace render</code> writes.",
   input: () => [plural(DATA.statistics.tiles_touched, "tile with primitives", "tiles with primitives")],
-  formula: () => [`picture(x, y) = tile(⌊x / ${TILE}⌋, ⌊(${H} − 1 − y) / ${TILE}⌋)\n\n${say(`Pixel (${PIXEL}) comes from tile (${EXTILE}):`)}⌊${PIXEL[0]} / ${TILE}⌋ = <b>${EXTILE[0]}</b>,  ⌊(${H} − 1 − ${PIXEL[1]}) / ${TILE}⌋ = <b>${EXTILE[1]}</b>\nvalue = <b>${TONE.pixel.code.join(", ")}</b>`],
+  formula: () => [`picture(x, y) = tile(⌊x / ${TILE}⌋, ⌊(${H} − 1 − y) / ${TILE}⌋)\n\n${say(`Pixel ${px(PIXEL)} comes from tile (${EXTILE}):`)}⌊${PIXEL[0]} / ${TILE}⌋ = <b>${EXTILE[0]}</b>,  ⌊(${H} − 1 − ${PIXEL[1]}) / ${TILE}⌋ = <b>${EXTILE[1]}</b>\nvalue = <b>${TONE.pixel.code.join(", ")}</b>`],
   output: () => [`${W} × ${H} pixels with 8 bits per channel`],
-  steps: () => [{name: "The picture", caption: `Rendered with ${command(DATA.render_command)}.`, draw: () => picture(DATA.pictures.final, "The final picture", {read: (x, y) => `pixel (${x}, ${y}), in OpenGL's window coordinates (${x}, ${H - 1 - y}): ${plural(fragmentsAt(x, y), "fragment")}`})}],
+  steps: () => [{name: "The picture", caption: `Rendered with ${command(DATA.render_command)}.`, draw: () => picture(DATA.pictures.final, "The final picture", {read: (x, y) => `pixel ${px([x, y])}: ${plural(fragmentsAt(x, y), "fragment")}`})}],
+  related: ["srgb", "history"], lessons: ["Tiles and threads"],
   exercises: () => [
     {ask: "How many bytes does the uncompressed picture have, with one byte each for red, green and blue?", answer: W * H * 3, hint: "A pixel has three bytes.", why: `${W} · ${H} · 3.`},
-    {ask: `The example pixel is in row ${PIXEL[1]}, counted from the top. Which row is it in OpenGL's window coordinates, which count from the bottom?`, answer: H - 1 - PIXEL[1], hint: `There are ${H} rows, and both counts start at 0.`, why: `${H} − 1 − ${PIXEL[1]}.`},
-    {ask: "How many tiles had primitives to draw?", answer: DATA.statistics.tiles_touched, hint: "See “Input”.", why: "The other tiles were filled with the background color."},
+    {ask: "An image file lists the pixels row by row, from the upper left. How many pixels come before the example pixel?", answer: PIXEL[1] * W + PIXEL[0], hint: `A row has ${W} pixels.`, why: `${PIXEL[1]} · ${W} + ${PIXEL[0]}.`},
+    {ask: "What percentage of the tiles had primitives to draw?", answer: DATA.statistics.tiles_touched / (BINS.columns * BINS.rows) * 100, decimals: 0, hint: "The chapter “Binning into tiles” gives the number of tiles.", why: `${fmt(DATA.statistics.tiles_touched)} of ${fmt(BINS.columns * BINS.rows)} tiles; the others were filled with the background color.`},
   ],
 });
 
 chapter({
   id: "overdraw", title: "Overdraw", kicker: "The whole frame",
-  lead: () => "How many fragments compete for each pixel? Hidden fragments of opaque surfaces are rejected before they are shaded.",
+  lead: () => `How many fragments compete for each pixel? Of the ${fmt(DATA.overdraw.total)} fragments of this frame, ${fmt(DATA.statistics.fragments_shaded)} were shaded${DATA.overdraw.unshaded > 0 ? `, and ${fmt(DATA.overdraw.unshaded)} were rejected, discarded or hidden first` : ""}.`,
   input: () => [plural(DATA.overdraw.total, "fragment")],
   output: () => [plural(DATA.statistics.fragments_shaded, "shaded fragment"), plural(W * H, "pixel")],
   steps: () => [
-    {name: "Fragments per pixel", caption: "Bright pixels are covered by many primitives. Point at the picture to read the numbers.", draw: () => [picture(DATA.overdraw.picture, "Number of fragments per pixel as a heat map", {read: (x, y) => `pixel (${x}, ${y}): ${plural(fragmentsAt(x, y), "fragment")}`, overlay: (pen, s) => ring(pen, s, PIXEL)}), legend("1", fmt(DATA.overdraw.most))].flat()},
+    {name: "Fragments per pixel", caption: `The pixels have ${DATA.overdraw.histogram[0] > 0 ? "0" : fmt(DATA.overdraw.least)} to ${fmt(DATA.overdraw.most)} fragments; bright pixels have the most. Point at the picture to read the numbers.`, draw: () => [picture(DATA.overdraw.picture, "Number of fragments per pixel as a heat map", {read: (x, y) => `pixel ${px([x, y])}: ${plural(fragmentsAt(x, y), "fragment")}`, overlay: (pen, s) => ring(pen, s, PIXEL)}), legend("1", fmt(DATA.overdraw.most))].flat()},
     {name: "Histogram", caption: `The number of pixels for each number of fragments${DATA.overdraw.most > 64 ? "; the last bar is for 64 and more" : ""}.`, draw: () => bars(DATA.overdraw.histogram.map((value, i) => ({value, name: plural(i, "fragment"), label: DATA.overdraw.histogram.length < 25 || i % 8 === 0 ? String(i) : undefined})), "Histogram: number of pixels for each number of fragments", {unit: " pixels"})},
   ],
   formula: () => [`overdraw = fragments / covered pixels = ${fmt(DATA.overdraw.total)} / ${fmt(W * H - DATA.overdraw.histogram[0])} = <b>${fmt(DATA.overdraw.total / Math.max(1, W * H - DATA.overdraw.histogram[0]), 5)}</b>`],
-  exercises: () => [
-    {ask: "What is the largest number of fragments in a pixel?", answer: DATA.overdraw.most, hint: "See the legend.", why: "Unless --pixel was given, the example pixel has this number of fragments."},
-    {ask: "How many pixels have no fragments?", answer: DATA.overdraw.histogram[0], hint: "See the first bar of the histogram.", why: "They show the background color."},
-    {ask: "What is the ratio of shaded fragments to all fragments? (Two decimal places.)", answer: DATA.statistics.fragments_shaded / Math.max(1, DATA.overdraw.total), tolerance: 0.0051, hint: `${fmt(DATA.statistics.fragments_shaded)} were shaded, and there are ${fmt(DATA.overdraw.total)} in all.`, why: "Most of the other fragments were hidden."},
-  ],
+  related: ["depth", "history"], lessons: ["Depth"],
+  exercises: () => {
+    const several = DATA.overdraw.histogram.slice(2).reduce((n, v) => n + v, 0);
+    return [
+      {ask: "What percentage of the pixels has at least two fragments?", answer: several / (W * H) * 100, decimals: 0, hint: "Add the bars of the histogram from the third one on.", why: `${fmt(several)} of ${fmt(W * H)} pixels.`},
+      {ask: "What percentage of the pixels has no fragments?", answer: DATA.overdraw.histogram[0] / (W * H) * 100, decimals: 1, hint: "Point at the first bar of the histogram.", why: DATA.overdraw.histogram[0] > 0 ? `${fmt(DATA.overdraw.histogram[0])} pixels show the background color.` : "Every pixel of this frame has a fragment."},
+      {ask: "What is the ratio of shaded fragments to all fragments?", answer: DATA.statistics.fragments_shaded / Math.max(1, DATA.overdraw.total), decimals: 2, hint: `${fmt(DATA.statistics.fragments_shaded)} were shaded, and there are ${fmt(DATA.overdraw.total)} in all.`, why: `${fmt(DATA.overdraw.unshaded)} fragments were not shaded.`},
+    ];
+  },
 });
 
 // ---- tile times ---------------------------------------------------------------------------------------------------------
@@ -67,11 +72,15 @@ chapter({
     {name: "Time per tile", caption: `All tiles together took ${fmt(allTimes, 3)} ms. Tiles of a single color are filled at once and were not timed.`, draw: timePicture},
     {name: "Time and primitives", caption: "Each dot is a tile. Primitives take time, but so does shading: a tile with a single triangle can be slow if its shader is slow.", draw: timePlot},
   ],
-  exercises: () => [
-    {ask: "How many tiles were timed?", answer: TIMES.filter((t) => t > 0).length, hint: `There are ${TIMES.length} tiles. Those filled with one color were not timed.`, why: "The second step shows a dot for each of them."},
-    {ask: "What percentage of the total time did the slowest tile take? (Rounded to an integer.)", answer: Math.round(slowest / Math.max(allTimes, 1e-9) * 100), tolerance: 0.51, hint: "Its time is in the legend, and the total is in the caption.", why: "However many threads there are, a frame takes at least as long as its slowest tile."},
-    {ask: "By what factor at most could more threads shorten the drawing of the timed tiles? (One decimal place.)", answer: allTimes / slowest, tolerance: 0.051, hint: "Each tile is drawn by one thread, so the slowest tile is a lower limit. Divide the total time by the time of the slowest tile.", why: `${fmt(allTimes, 4)} ms / ${fmt(slowest, 4)} ms.`},
-  ],
+  related: ["binning", "statistics"], lessons: ["Tiles and threads"],
+  exercises: () => {
+    const timed = TIMES.filter((t) => t > 0), mean = allTimes / Math.max(1, timed.length), slow = timed.filter((t) => t > mean).length;
+    return [
+      {ask: "What percentage of the tiles of the window was timed?", answer: timed.length / TIMES.length * 100, decimals: 0, hint: `There are ${TIMES.length} tiles. Those filled with one color were not timed.`, why: `${fmt(timed.length)} of ${fmt(TIMES.length)}; the second step shows a dot for each of them.`},
+      {ask: "What percentage of the total time did the slowest tile take?", answer: slowest / Math.max(allTimes, 1e-9) * 100, decimals: 0, tolerance: 0.6, hint: "Its time is in the legend, and the total is in the caption.", why: "However many threads there are, a frame takes at least as long as its slowest tile."},
+      {ask: "How many tiles took longer than the mean?", answer: slow, tolerance: Math.ceil(timed.length / 50), hint: "Count the dots above the mean in the second step.", why: `The mean is ${fmt(mean * 1000, 4)} µs.`},
+    ];
+  },
 });
 
 const STATISTICS = [
@@ -89,9 +98,10 @@ chapter({
   formula: () => { const s = DATA.statistics, culled = s.culled_non_finite + s.culled_outside + s.culled_face + s.culled_degenerate + s.culled_no_sample; return [`${say("Each submitted primitive is culled or drawn:")}primitives_in = culled + drawn\n${fmt(s.primitives_in)} = ${[s.culled_non_finite, s.culled_outside, s.culled_face, s.culled_degenerate, s.culled_no_sample].map((n) => fmt(n)).join(" + ")} + ${fmt(DATA.outcomes[0] + DATA.outcomes[1])} = ${fmt(culled)} + <b>${fmt(s.primitives_in - culled)}</b>\n\nshaded per pixel = ${fmt(s.fragments_shaded)} / ${fmt(W * H)} = <b>${fmt(s.fragments_shaded / (W * H), 4)}</b>`]; },
   steps: () => [{name: "From primitives to pixels", caption: "The number of items that each stage of the pipeline outputs.", draw: () => el("div", {class: "stage"}, pipelineDiagram())}],
   body: () => [tableOf(["counter", "value", "meaning"], STATISTICS.map(([key, text]) => [`<code>${key}</code>`, DATA.statistics[key], "¶" + text]))],
+  related: ["culling", "overdraw"], lessons: ["The library"],
   exercises: () => [
-    {ask: "How many times was a shaded vertex used on average? (Two decimal places.)", answer: DATA.statistics.vertices_in / Math.max(1, DATA.statistics.vertices_shaded), tolerance: 0.0051, hint: "Divide vertices_in by vertices_shaded.", why: "In a large closed mesh, a vertex belongs to about six triangles on average."},
-    {ask: "How many tested samples failed?", answer: DATA.statistics.samples_tested - DATA.statistics.samples_passed, tolerance: 0, hint: "Subtract samples_passed from samples_tested.", why: "Most of them were behind a surface that had been drawn before."},
-    {ask: "How many fragments were shaded per pixel on average? (Two decimal places.)", answer: DATA.statistics.fragments_shaded / (W * H), tolerance: 0.0051, hint: "Divide fragments_shaded by the number of pixels.", why: "Opaque surfaces are shaded once per visible pixel. Pixels without surfaces lower the average; edges and transparent surfaces raise it."},
+    {ask: "How many times was a shaded vertex used on average?", answer: DATA.statistics.vertices_in / Math.max(1, DATA.statistics.vertices_shaded), decimals: 2, hint: "Divide vertices_in by vertices_shaded.", why: DATA.statistics.vertices_in > DATA.statistics.vertices_shaded ? "A vertex that several primitives share is shaded once." : "No vertex of this frame is shared."},
+    {ask: "How many tested samples failed?", answer: DATA.statistics.samples_tested - DATA.statistics.samples_passed, hint: "Subtract samples_passed from samples_tested.", why: DATA.statistics.samples_tested > DATA.statistics.samples_passed ? "They were not in front of what was drawn before, or failed another test." : "No tested sample was behind what was drawn before."},
+    {ask: "How many fragments were shaded per sample that passed?", answer: DATA.statistics.fragments_shaded / Math.max(1, DATA.statistics.samples_passed), decimals: 2, hint: "Divide fragments_shaded by samples_passed.", why: `${fmt(DATA.statistics.fragments_shaded)} / ${fmt(DATA.statistics.samples_passed)}. A later fragment can hide one that passed, before it is shaded${DATA.samples > 1 ? ", and the samples of a pixel can share one shaded fragment" : ""}.`},
   ],
 });

@@ -1,0 +1,40 @@
+// Printing of the whole page: all chapters with all steps, one below the other.
+
+// Returns a chapter as it is printed: without controls, and with an empty line for each answer.
+function printed(c) {
+  const absent = isAbsent(c) ? c.absent() : null;
+  const parts = [el("p", {class: "kicker"}, c.kicker), el("h2", {}, c.title), el("p", {class: "lead", html: c.lead()})];
+  if (absent) return el("article", {}, ...parts, el("p", {class: "absent-note", html: absent}));
+  if (c.input) parts.push(el("div", {class: "flow"}, listOf("Input", c.input()), listOf("Output", c.output())));
+  for (const step of c.steps()) parts.push(el("figure", {}, el("div", {class: "step"}, ...[step.draw()].flat()), el("figcaption", {html: `<b>${step.name}.</b> ${step.caption}`})));
+  for (const block of c.formula ? c.formula() : []) parts.push(el("div", {class: "formula", html: block}));
+  if (c.body) parts.push(...[c.body()].flat().filter(Boolean));
+  const exercises = c.exercises ? c.exercises() : [];
+  if (exercises.length > 0) parts.push(el("h3", {}, "Exercises"), ...exercises.map((x, i) => el("p", {class: "blank", html: `<b>${i + 1}.</b> ${x.ask}${askedDigits(x)}`})));
+  return el("article", {}, ...parts);
+}
+
+let isPrinting = false, screenTheme = "light";
+function showAll() {
+  if (isPrinting) return;
+  isPrinting = true;
+  screenTheme = document.documentElement.dataset.theme;
+  document.documentElement.dataset.theme = "light";
+  document.body.classList.add("printing");
+  document.getElementById("main").replaceChildren(...CHAPTERS.map(printed));
+}
+function showOne() {
+  if (!isPrinting) return;
+  isPrinting = false;
+  document.documentElement.dataset.theme = screenTheme;
+  document.body.classList.remove("printing");
+  goTo(state.chapter, state.step, false, "keep");
+}
+
+// Decodes the pictures first, because the browser does not wait for them.
+async function printAll() {
+  await decodeAll();
+  await unpackHistory();
+  showAll();
+  print();
+}
