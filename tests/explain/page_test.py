@@ -44,7 +44,7 @@ SCREENSHOTS = Path(sys.argv[2]) if len(sys.argv) > 2 else None
 # one has no perspective, no light, no shadow and no texture, and the other shows nothing at all.
 SCENES = {"pipeline": ["pipeline"], "earth": ["earth"], "day-night": ["day-night", "--camera", "street"], "particles": ["particles"],
           "knot": ["shadow-knot", "--set", "samples=4"], "box": ["box.obj"], "panes": ["panes.json"],
-          "flat": ["flat.json"], "empty": ["flat.json", "--set", "objects.plane.visible=false"]}
+          "flat": ["flat.json"], "empty": ["flat.json", "--set", "plane.visible=false"]}
 LONG = "HALFSPACE_LONG_TESTS" in os.environ  # set by scripts/test_full.sh
 TOURED = list(SCENES) if LONG else ["pipeline", "particles", "flat", "empty"]
 HELMET = Path(__file__).resolve().parents[2].parent / "shared/data/gltf/DamagedHelmet/glTF-Binary/DamagedHelmet.glb"

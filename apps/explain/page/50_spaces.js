@@ -101,13 +101,19 @@ const toClip = (p) => transform(M.clip_from_view, toView(p));
 const toNdc = (c) => (c[3] > 1e-9 ? [c[0] / c[3], c[1] / c[3], c[2] / c[3]] : null);
 const toPixels = (n) => (n === null ? null : [(n[0] + 1) / 2 * W, (1 - n[1]) / 2 * H, 0]);
 
+// Returns the range of values that a drawing shows: all of them or, if a few values are far away from the others, those of the others.
+function shownRange(values) {
+  const sorted = Float64Array.from(values).sort(), at = (q) => sorted[Math.round(q * (sorted.length - 1))], all = [sorted[0], sorted[sorted.length - 1]];
+  const most = [at(0.03), at(0.97)], margin = 0.15 * (most[1] - most[0]);
+  return all[1] - all[0] > 4 * (most[1] - most[0]) && most[1] > most[0] ? [most[0] - margin, most[1] + margin] : all;
+}
+
 // Returns a function that projects points to the canvas, as seen from the front right and above. Dragging changes ORBIT.
 const ORBIT = {yaw: 0.6, pitch: 0.42};
 function projector(points, width, height) {
   const [cy, sy, cp, sp] = [Math.cos(ORBIT.yaw), Math.sin(ORBIT.yaw), Math.cos(ORBIT.pitch), Math.sin(ORBIT.pitch)];
   const turn = ([x, y, z]) => [cy * x - sy * z, cp * y - sp * (sy * x + cy * z), sp * y + cp * (sy * x + cy * z)];
-  const box = [[Infinity, Infinity], [-Infinity, -Infinity]];
-  for (const p of points.map(turn)) for (const k of [0, 1]) { box[0][k] = Math.min(box[0][k], p[k]); box[1][k] = Math.max(box[1][k], p[k]); }
+  const turned = points.map(turn), ranges = [0, 1].map((k) => shownRange(turned.map((p) => p[k]))), box = [0, 1].map((end) => ranges.map((r) => r[end]));
   const scale = 0.86 * Math.min(width / Math.max(box[1][0] - box[0][0], 1e-9), height / Math.max(box[1][1] - box[0][1], 1e-9));
   const [cx, cyy] = [0, 1].map((k) => (box[0][k] + box[1][k]) / 2);
   return (p) => { const q = turn(p); return [width / 2 + (q[0] - cx) * scale, height / 2 - (q[1] - cyy) * scale, q[2]]; };
