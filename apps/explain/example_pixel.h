@@ -66,7 +66,7 @@ class ExampleSearch {
   void measure_perspective();
   void render_shadow();
 
-  const ExampleSource& source_;
+  ExampleSource source_;
   ExampleIdeas ideas_;
   std::vector<uint32_t> primitive_of_;  // for each pixel, the index of its visible primitive in seen_, or kNone
   std::vector<Seen> seen_;
