@@ -21,11 +21,14 @@ constexpr uint32_t kUnseen = 0xffffffffu;
 // The parts of the score, each from 0 to 100. They are integers that depend on comparisons only, so that equal facts give equal scores on
 // every machine.
 
+// A triangle that is only a few pixels high has no inside, however long it is.
+bool is_sliver(const ExampleFacts& f) { return f.height < 4.0; }
+
 // A triangle of fewer than 10 pixels has no inside: its blocks, edges and weights cannot be seen. One of more than 2,000 pixels fills
 // whole tiles, so that hardly any block is crossed by an edge. In between, a triangle of some blocks is best.
 int size_score(const ExampleFacts& f) {
   if (f.visible_pixels < 10) return static_cast<int>(3 * f.visible_pixels);
-  if (f.covered_pixels > 2000) return 40;
+  if (f.covered_pixels > 2000 || is_sliver(f)) return 40;
   return f.visible_pixels >= 40 && f.covered_pixels <= 600 ? 100 : 80;
 }
 
@@ -44,6 +47,13 @@ int perspective_score(const ExampleFacts& f) {
 int shadow_score(const ExampleFacts& f) {
   if (f.shadow <= 0.0f || f.shadow >= 1.0f) return 0;
   return f.shadow >= 0.35f && f.shadow <= 0.65f ? 100 : f.shadow >= 0.2f && f.shadow <= 0.8f ? 80 : 50;
+}
+
+// Returns true if a pixel shows all ideas of the frame. Such a pixel is better than one that shows some of them very well.
+bool shows_everything(const ExampleFacts& f, const ExampleIdeas& ideas) {
+  return f.is_triangle && f.visible_pixels >= 10 && f.covered_pixels <= 2000 && !is_sliver(f) && f.primitives >= 2 &&
+         (!ideas.light || light_score(f) == 100) && (!ideas.perspective || perspective_score(f) == 100) &&
+         (!ideas.shadow || shadow_score(f) == 100);
 }
 
 struct PrimitiveKey {
@@ -80,9 +90,7 @@ bool has_different_samples(std::span<const TracedFragment> fragments) {
   return false;
 }
 
-double measured_error(const TriangleInspector& triangles, const TracedFragment& f) {
-  InspectedTriangle t;
-  triangles.find(f.id, t);
+double measured_error(const InspectedTriangle& t) {
   std::array<float, 3> inv_w;
   for (std::size_t i = 0; i < 3; ++i) inv_w[i] = t.source.vertex[i]->inv_w;
   return affine_error(t.source.triangle->x, t.source.triangle->y, inv_w);
@@ -112,6 +120,16 @@ double affine_error(const std::array<int32_t, 3>& x, const std::array<int32_t, 3
   return error;
 }
 
+double height_above_longest_edge(const std::array<int32_t, 3>& x, const std::array<int32_t, 3>& y) {
+  double longest = 1.0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double dx = x[(i + 1) % 3] - x[i], dy = y[(i + 1) % 3] - y[i];
+    longest = std::max(longest, std::sqrt(dx * dx + dy * dy));
+  }
+  const double area = static_cast<double>(int64_t{x[1] - x[0]} * (y[2] - y[0]) - int64_t{y[1] - y[0]} * (x[2] - x[0]));
+  return std::fabs(area) / longest / kSubPixels;
+}
+
 int example_score(const ExampleFacts& f, const ExampleIdeas& ideas) {
   // A triangle shows edges, coverage and interpolation; a point, a line or the background does not. The size comes next, because nothing
   // else can be seen on a triangle that is too small.
@@ -120,6 +138,7 @@ int example_score(const ExampleFacts& f, const ExampleIdeas& ideas) {
   if (ideas.perspective) score += 2 * perspective_score(f);
   if (ideas.shadow) score += 2 * shadow_score(f);
   if (ideas.samples && f.has_different_samples) score += 100;
+  if (shows_everything(f, ideas)) score += 2000;  // more than the sum of the parts
   return score;
 }
 
@@ -128,7 +147,7 @@ ExampleSearch::ExampleSearch(const ExampleSource& source) : source_(source) {
   ideas_.light = !source.scene.lights.empty();
   ideas_.samples = source.trace.samples > 1;
   count_primitives();
-  if (ideas_.perspective) measure_perspective();
+  measure_triangles();
   render_shadow();
 }
 
@@ -153,13 +172,17 @@ void ExampleSearch::count_primitives() {
   }
 }
 
-void ExampleSearch::measure_perspective() {
+void ExampleSearch::measure_triangles() {
   const TriangleInspector triangles(source_.context);
   std::vector<bool> is_measured(seen_.size());
   for (std::size_t i = 0; i < visible_.size(); ++i) {
     if (visible_[i] == nullptr || !is_mesh_triangle(source_.scene, *visible_[i]) || is_measured[primitive_of_[i]]) continue;
     is_measured[primitive_of_[i]] = true;
-    seen_[primitive_of_[i]].affine_error = measured_error(triangles, *visible_[i]);
+    InspectedTriangle t;
+    triangles.find(visible_[i]->id, t);
+    Seen& seen = seen_[primitive_of_[i]];
+    seen.height = height_above_longest_edge(t.source.triangle->x, t.source.triangle->y);
+    if (ideas_.perspective) seen.affine_error = measured_error(t);
   }
 }
 
@@ -189,6 +212,7 @@ ExampleFacts ExampleSearch::facts(glm::ivec2 pixel) const {
   const Seen& seen = seen_[primitive_of_[i]];
   out.visible_pixels = seen.visible;
   out.covered_pixels = seen.covered;
+  out.height = seen.height;
   out.affine_error = seen.affine_error;
   for_each_primitive(trace.at(pixel), [&](const TracedFragment&) { ++out.primitives; });
   out.has_different_samples = has_different_samples(trace.at(pixel));

@@ -17,6 +17,9 @@ const TracedFragment* visible_fragment(const FrameTrace& trace, glm::ivec2 pixel
 /// 1/256 pixel.
 double affine_error(const std::array<int32_t, 3>& x, const std::array<int32_t, 3>& y, const std::array<float, 3>& inv_w);
 
+/// Returns the height of a triangle above its longest edge, in pixels. x and y are in 1/256 pixel.
+double height_above_longest_edge(const std::array<int32_t, 3>& x, const std::array<int32_t, 3>& y);
+
 /// The parts of a frame that the choice depends on.
 struct ExampleSource {
   const PreparedScene& scene;
@@ -32,6 +35,7 @@ struct ExampleFacts {
   uint32_t visible_pixels = 0;         ///< pixels at which the primitive is the visible one
   uint32_t covered_pixels = 0;         ///< pixels with a fragment of the primitive, visible or not
   uint32_t primitives = 0;             ///< different primitives with a fragment in the pixel
+  double height = 0.0;                 ///< of the triangle above its longest edge, in pixels; 0 for other primitives
   double affine_error = 0.0;           ///< see affine_error(); 0 in an orthographic view
   float cosine = 0.0f;                 ///< largest n·l of the lights that reach the surface, at most 1; 0 or less: faces away from all
   float shadow = 1.0f;                 ///< fraction of the light of the first light with a shadow that reaches the surface
@@ -59,11 +63,11 @@ class ExampleSearch {
  private:
   struct Seen {
     uint32_t visible = 0, covered = 0;
-    double affine_error = 0.0;
+    double height = 0.0, affine_error = 0.0;
   };
 
   void count_primitives();
-  void measure_perspective();
+  void measure_triangles();
   void render_shadow();
 
   ExampleSource source_;

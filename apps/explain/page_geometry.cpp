@@ -103,14 +103,6 @@ std::optional<std::array<glm::vec3, 3>> corners_ws(const PageInput& in, const St
   return out;
 }
 
-// Returns the height of a triangle above its longest edge, in pixels.
-double height_of(const Triangle& t) {
-  double longest = 1.0;
-  for (std::size_t i = 0; i < 3; ++i) longest = std::max(longest, std::hypot(t.x[(i + 1) % 3] - t.x[i], t.y[(i + 1) % 3] - t.y[i]));
-  const double area = static_cast<double>(int64_t{t.x[1] - t.x[0]} * (t.y[2] - t.y[0]) - int64_t{t.y[1] - t.y[0]} * (t.x[2] - t.x[0]));
-  return std::fabs(area) / longest / kSubPixels;
-}
-
 // The largest difference between an affine and a perspective-correct weight on an edge, for the inverse w of the vertices.
 double weight_difference(const std::array<float, 3>& inv_w) {
   double most = 0.0;
@@ -127,8 +119,8 @@ struct ShownTriangle {
   std::array<float, 3> inv_w;
 
   double error() const { return affine_error(x, y, inv_w); }
-  // The checkerboard of the page has ten squares per edge, so that a displacement by half a square is easy to see.
-  bool is_clear() const { return weight_difference(inv_w) >= 0.05; }
+  // The checkerboard of the page has ten squares per edge: a quarter of a square can be seen next to the other picture.
+  bool is_clear() const { return weight_difference(inv_w) >= 0.025; }
   PageJson json(const char* kind) const {
     return {{"kind", kind},
             {"xy", {{x[0], y[0]}, {x[1], y[1]}, {x[2], y[2]}}},
@@ -181,7 +173,7 @@ WorstTriangle worst_triangle(const PageInput& in) {
       here.y[k] = v.y;
       here.inv_w[k] = v.inv_w;
     }
-    const double visible = std::min(here.error(), height_of(t));
+    const double visible = std::min(here.error(), height_above_longest_edge(here.x, here.y));
     if (!(visible > worst)) continue;
     worst = visible;
     out = {i, here};

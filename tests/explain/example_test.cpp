@@ -24,7 +24,7 @@ struct Choice {
   bool any_triangle = false, any_size = false, any_ideal = false;
 };
 
-bool has_size(const ExampleFacts& f) { return f.is_triangle && f.visible_pixels >= 10 && f.covered_pixels <= 2000; }
+bool has_size(const ExampleFacts& f) { return f.is_triangle && f.visible_pixels >= 10 && f.covered_pixels <= 2000 && f.height >= 4.0; }
 
 // The requirements of the page, independent of the scores.
 bool is_ideal(const ExampleFacts& f, const ExampleIdeas& ideas) {
@@ -97,7 +97,7 @@ TEST(Example, TheErrorOfAffineInterpolationHasAClosedForm) {
 
 // Each fact that the frame can show raises the score, and a fact about an idea that it cannot show does not.
 TEST(Example, EachFactCountsIfTheFrameShowsItsIdea) {
-  const ExampleFacts plain{.is_triangle = true, .visible_pixels = 50, .covered_pixels = 60, .primitives = 1};
+  const ExampleFacts plain{.is_triangle = true, .visible_pixels = 50, .covered_pixels = 60, .primitives = 1, .height = 8.0};
   const ExampleIdeas all{.perspective = true, .light = true, .shadow = true, .samples = true};
   const auto with = [&](const auto& set) {
     ExampleFacts f = plain;
@@ -114,6 +114,7 @@ TEST(Example, EachFactCountsIfTheFrameShowsItsIdea) {
   EXPECT_GT(example_score(with([](ExampleFacts& f) { f.primitives = 3; }), {}), example_score(plain, {}));
   EXPECT_GT(example_score(plain, {}), example_score(with([](ExampleFacts& f) { f.visible_pixels = 1; }), {}));
   EXPECT_GT(example_score(plain, {}), example_score(with([](ExampleFacts& f) { f.covered_pixels = 50000; }), {}));
+  EXPECT_GT(example_score(plain, {}), example_score(with([](ExampleFacts& f) { f.height = 1.0; }), {}));
 }
 
 }  // namespace

@@ -118,7 +118,7 @@ chapter({
       : {ask: `How many numbers does the shader receive as varyings at pixel ${px(PIXEL)}?`, answer: VARYINGS.reduce((n, [, v]) => n + v.length, 0), hint: "Count the components of all varyings in the table.", why: VARYINGS.map(([name, v]) => `${name}: ${v.length}`).join(", ") + "."},
     VISIBLE.normal ? {ask: `The normal at the example pixel is ${vec(VISIBLE.normal, 4)}. What is the red value of the pixel in the picture of the normals, from 0 to 255?`, answer: Math.floor((Math.min(1, Math.max(-1, VISIBLE.normal[0])) + 1) / 2 * 255 + 0.5), tolerance: 1, hint: "(x + 1) / 2, times 255, rounded.", why: `(${fmt(VISIBLE.normal[0], 4)} + 1) / 2 · 255.`}
       : {ask: "What red value, from 0 to 255, shows the x component 0.5 of a normal?", answer: 191, tolerance: 1, hint: "(x + 1) / 2, times 255, rounded.", why: "(0.5 + 1) / 2 · 255."},
-    {ask: "What percentage of the fragments of this frame were shaded?", answer: DATA.statistics.fragments_shaded / Math.max(1, DATA.overdraw.total) * 100, decimals: 0, hint: "See the chapter “Overdraw”.", why: `${fmt(DATA.statistics.fragments_shaded)} of ${fmt(DATA.overdraw.total)} fragments.`},
+    {ask: "What percentage of the fragments of this frame were shaded?", answer: shadedFragments() / Math.max(1, DATA.overdraw.total) * 100, decimals: 0, hint: "See the chapter “Overdraw”.", why: `${fmt(shadedFragments())} of ${fmt(DATA.overdraw.total)} fragments.`},
   ],
 });
 

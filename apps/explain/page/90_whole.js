@@ -17,11 +17,13 @@ chapter({
   ],
 });
 
+// A fragment is one sample of one primitive.
+const shadedFragments = () => DATA.overdraw.total - DATA.overdraw.unshaded;
 chapter({
   id: "overdraw", title: "Overdraw", kicker: "The whole frame",
-  lead: () => `How many fragments compete for each pixel? Of the ${fmt(DATA.overdraw.total)} fragments of this frame, ${fmt(DATA.statistics.fragments_shaded)} were shaded${DATA.overdraw.unshaded > 0 ? `, and ${fmt(DATA.overdraw.unshaded)} were rejected, discarded or hidden first` : ""}.`,
+  lead: () => `How many fragments compete for each pixel? Of the ${fmt(DATA.overdraw.total)} fragments of this frame, ${fmt(shadedFragments())} were shaded${DATA.samples > 1 ? `, in ${fmt(DATA.statistics.fragments_shaded)} runs of a shader, because the samples of a pixel can share one` : ""}${DATA.overdraw.unshaded > 0 ? `, and ${fmt(DATA.overdraw.unshaded)} were rejected, discarded or hidden first` : ""}.`,
   input: () => [plural(DATA.overdraw.total, "fragment")],
-  output: () => [plural(DATA.statistics.fragments_shaded, "shaded fragment"), plural(W * H, "pixel")],
+  output: () => [plural(shadedFragments(), "shaded fragment"), plural(W * H, "pixel")],
   steps: () => [
     {name: "Fragments per pixel", caption: `The pixels have ${DATA.overdraw.histogram[0] > 0 ? "0" : fmt(DATA.overdraw.least)} to ${fmt(DATA.overdraw.most)} fragments; bright pixels have the most. Point at the picture to read the numbers.`, draw: () => [picture(DATA.overdraw.picture, "Number of fragments per pixel as a heat map", {read: (x, y) => `pixel ${px([x, y])}: ${plural(fragmentsAt(x, y), "fragment")}`, overlay: (pen, s) => ring(pen, s, PIXEL)}), legend("1", fmt(DATA.overdraw.most))].flat()},
     {name: "Histogram", caption: `The number of pixels for each number of fragments${DATA.overdraw.most > 64 ? "; the last bar is for 64 and more" : ""}.`, draw: () => bars(DATA.overdraw.histogram.map((value, i) => ({value, name: plural(i, "fragment"), label: DATA.overdraw.histogram.length < 25 || i % 8 === 0 ? String(i) : undefined})), "Histogram: number of pixels for each number of fragments", {unit: " pixels"})},
@@ -31,9 +33,9 @@ chapter({
   exercises: () => {
     const several = DATA.overdraw.histogram.slice(2).reduce((n, v) => n + v, 0);
     return [
-      {ask: "What percentage of the pixels has at least two fragments?", answer: several / (W * H) * 100, decimals: 0, hint: "Add the bars of the histogram from the third one on.", why: `${fmt(several)} of ${fmt(W * H)} pixels.`},
+      {ask: "What percentage of the pixels has at least two fragments?", answer: several / (W * H) * 100, decimals: 1, hint: "Add the bars of the histogram from the third one on.", why: `${fmt(several)} of ${fmt(W * H)} pixels.`},
       {ask: "What percentage of the pixels has no fragments?", answer: DATA.overdraw.histogram[0] / (W * H) * 100, decimals: 1, hint: "Point at the first bar of the histogram.", why: DATA.overdraw.histogram[0] > 0 ? `${fmt(DATA.overdraw.histogram[0])} pixels show the background color.` : "Every pixel of this frame has a fragment."},
-      {ask: "What is the ratio of shaded fragments to all fragments?", answer: DATA.statistics.fragments_shaded / Math.max(1, DATA.overdraw.total), decimals: 2, hint: `${fmt(DATA.statistics.fragments_shaded)} were shaded, and there are ${fmt(DATA.overdraw.total)} in all.`, why: `${fmt(DATA.overdraw.unshaded)} fragments were not shaded.`},
+      {ask: "What is the ratio of shaded fragments to all fragments?", answer: shadedFragments() / Math.max(1, DATA.overdraw.total), decimals: 2, hint: `${fmt(shadedFragments())} were shaded, and there are ${fmt(DATA.overdraw.total)} in all.`, why: `${fmt(DATA.overdraw.unshaded)} fragments were not shaded.`},
     ];
   },
 });
