@@ -107,17 +107,23 @@ std::optional<ShadowLookup> lookup_at(const PageInput& in, const Light& light, i
   return shadow_lookup(light, s->position_rws, s->face_ws, s->normal_ws, window, s->smooth);
 }
 
-// Returns the pixel whose shadow lookup the page shows. Searches every fourth pixel in x and y for the partially shadowed pixel nearest to
-// the example pixel. If there is none, takes the nearest pixel that faces the light and is inside one of its views.
+// Returns the pixel whose shadow lookup the page shows: the example pixel if it is partially shadowed. Otherwise, searches every fourth
+// pixel in x and y for the partially shadowed pixel nearest to the example pixel. If there is none, takes the nearest pixel that faces the
+// light and is inside one of its views.
 glm::ivec2 shadow_pixel(const PageInput& in, const Light& light) {
+  constexpr int64_t kNone = INT64_MAX, kNotPartial = int64_t{1} << 40;
+  const auto distance_of = [&](int x, int y) {
+    const std::optional<ShadowLookup> at = lookup_at(in, light, x, y);
+    if (!at || at->view < 0 || glm::dot(at->normal_ws, at->to_light_ws) <= 0.0f) return kNone;
+    const int64_t dx = x - in.pixel.x, dy = y - in.pixel.y;
+    return dx * dx + dy * dy + (at->factor > 0.0f && at->factor < 1.0f ? 0 : kNotPartial);
+  };
   glm::ivec2 best = in.pixel;
-  int64_t nearest = INT64_MAX;
+  int64_t nearest = distance_of(best.x, best.y);
+  if (nearest == 0) return best;
   for (int y = 0; y < in.scene.view.height_px; y += 4) {
     for (int x = 0; x < in.scene.view.width_px; x += 4) {
-      const std::optional<ShadowLookup> at = lookup_at(in, light, x, y);
-      if (!at || at->view < 0 || glm::dot(at->normal_ws, at->to_light_ws) <= 0.0f) continue;
-      const bool partial = at->factor > 0.0f && at->factor < 1.0f;
-      const int64_t dx = x - in.pixel.x, dy = y - in.pixel.y, distance = dx * dx + dy * dy + (partial ? 0 : int64_t{1} << 40);
+      const int64_t distance = distance_of(x, y);
       if (distance >= nearest) continue;
       nearest = distance;
       best = {x, y};
