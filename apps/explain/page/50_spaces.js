@@ -300,7 +300,8 @@ chapter({
   exercises: () => {
     const v = EX.vertices[1];
     return [
-      {ask: `The second vertex has clip coordinates x = ${num(v.clip[0])} and w = ${num(v.clip[3])}. What is x in normalized device coordinates?`, answer: v.ndc[0], decimals: 3, hint: "Divide by w.", why: "x / w."},
+      M.perspective ? {ask: `The second vertex has clip coordinates x = ${num(v.clip[0])} and w = ${num(v.clip[3])}. What is x in normalized device coordinates?`, answer: v.ndc[0], decimals: 3, hint: "Divide by w.", why: "x / w."}
+        : {ask: `The second vertex has y = ${num(v.ndc[1])} in normalized device coordinates. How many pixels is it above the lower edge of the window?`, answer: (v.ndc[1] + 1) / 2 * H, decimals: 1, hint: `From −1 to 1, there are ${H} pixels.`, why: `(${fmt(v.ndc[1], 6)} + 1) / 2 · ${H}.`},
       {ask: `The window position of the second vertex is x = ${num(v.x)}, in units of 1/256 pixel. Which pixel column is it in?`, answer: Math.floor(v.x / SUB), hint: "Divide by 256 and round down.", why: `${fmt(v.x)} / 256 = ${fmt(v.x / SUB, 9)}.`},
       {ask: `The ${fmt(DATA.statistics.vertices_in)} indices refer to ${fmt(DATA.statistics.vertices_shaded)} vertices, each of which is shaded once. How many times is a vertex used on average?`, answer: DATA.statistics.vertices_in / Math.max(1, DATA.statistics.vertices_shaded), decimals: 2, hint: "Divide the number of indices by the number of vertices.", why: DATA.statistics.vertices_shaded < DATA.statistics.vertices_in ? "A vertex that several triangles share is shaded only once." : "No vertex of this frame is shared."},
     ];
