@@ -51,6 +51,7 @@ std::string another_value(const Field& field) {
   const Json now = value_of(field);
   const auto number = [&](double x) {
     const double low = key.limits.low, high = key.limits.high;
+    if (key.name == std::string("samples")) return number_text(x == 8 ? 1 : 2 * x);  // powers of two
     const double up = key.type == KeyType::integer ? x + 1 : x + 0.125 * std::max(1.0, std::abs(x));
     const double step = key.name == std::string("width") ? 2 : 1;  // widths must be even
     return number_text(up + step - 1 <= high ? up + step - 1 : std::max(low, x - step));

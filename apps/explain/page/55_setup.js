@@ -156,9 +156,9 @@ chapter({
   },
   related: ["coverage", "depth"], lessons: ["A triangle"],
   exercises: () => {
-    const at = edgesAtPixel(), e = TRI.edges[0];
+    const at = edgesAtPixel(), i = TRI.edges.findIndex((e) => e.ey !== 0), e = TRI.edges[i], name = `E${"₀₁₂"[i]}`;
     return [
-      {ask: `What is E₀ at ${sampleName} of the pixel to the right of the example pixel, before the fill rule?`, answer: at[0] - e.ey * SUB, hint: "x increases by 256; only the second product changes.", why: `${fmt(at[0])} − (${fmt(e.ey)}) · 256.`},
+      {ask: `What is ${name} at ${sampleName} of the pixel to the right of the example pixel, before the fill rule?`, answer: at[i] - e.ey * SUB, hint: "x increases by 256; only the second product changes.", why: `${fmt(at[i])} − (${fmt(e.ey)}) · 256.`},
       {ask: `What is E₀ + E₁ + E₂ at ${sampleName} of the example pixel?`, answer: at[0] + at[1] + at[2], hint: "It is the same at every point of the plane.", why: "The sum is twice the area of the triangle at every point."},
       {ask: `What is the barycentric weight of v1 at ${sampleName} of the example pixel, without perspective?`, answer: at[1] / area2(TRI), decimals: 3, hint: "Divide E₁ by the sum from the previous exercise.", why: "The values of the edge functions are unnormalized barycentric coordinates."},
     ];
