@@ -24,8 +24,8 @@ uint32_t fragments_per_pixel(const FrameTrace& trace, std::size_t max_fragments)
 /// fragments over later ones.
 std::vector<uint32_t> kept_fragments(std::span<const TracedFragment> fragments, uint32_t max_fragments);
 
-/// Returns the pixels that are stored with all values: all pixels of a picture of at most 320x180 pixels; otherwise the center, 64x64 pixels
-/// around it, and every eighth pixel in x and y. They are sorted by row, without duplicates.
+/// Returns the pixels that are stored with all values: all pixels of a picture of at most 320x180 pixels; otherwise the center, 64x64
+/// pixels around it, and every eighth pixel in x and y. They are sorted by row, without duplicates.
 std::vector<glm::ivec2> detailed_pixels(int width, int height, glm::ivec2 center);
 
 PageJson histories_json(const PageInput& in, const FrameTrace& trace);

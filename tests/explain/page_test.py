@@ -53,7 +53,7 @@ PANES = {"version": 1, "samples": 2, "cameras": {"c": {"position": [0, 0, 6], "t
          "objects": {f"pane{i}": {"shape": "plane", "size": 2, "rotation": [90, 0, 0], "position": [0, 0, 0.25 * i - 6], "color": [0.04 * i, 0.5, 0.5]}
                      for i in range(24)}}
 FLAT = {"version": 1, "cameras": {"c": {"type": "orthographic", "position": [0, 0, 6], "target": [0, 0, 0], "height": 3}},
-        "objects": {"plane": {"shape": "plane", "size": 2, "rotation": [90, 0, 0], "shading": "none", "color": [0.2, 0.4, 0.1]}}}
+        "objects": {"plane": {"shape": "plane", "size": 2, "rotation": [90, 0, 0], "position": [0.13, 0.07, 0], "shading": "none", "color": [0.2, 0.4, 0.1]}}}
 BOX = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n"
 
 
