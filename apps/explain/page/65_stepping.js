@@ -136,7 +136,7 @@ chapter({
   steps: () => [{name: "The steps", caption: `The sliders select a triangle of the tile and one of its pixels, row by row from the bottom; the panels show the tile after this step${DATA.samples > 1 ? `, at sample ${SAMPLE} of each pixel` : ""}. The renderer shades opaque surfaces when the visible triangle of each sample is known. A fragment that passed, and was hidden before it was shaded, never got a color; it is gray in the third panel.`, draw: tileStepper}],
   related: ["coverage", "depth", "history"], lessons: ["Depth"],
   exercises: () => [
-    {ask: "How many samples does this tile have?", answer: TILE_W * TILE_H * DATA.samples, hint: "Multiply its width, its height and the number of samples per pixel.", why: `${TILE_W} · ${TILE_H} · ${DATA.samples}.`},
+    {ask: "How many samples would this tile have with 16 samples per pixel?", answer: TILE_W * TILE_H * 16, hint: "Multiply its width, its height and the number of samples per pixel.", why: `${TILE_W} · ${TILE_H} · 16.`},
     {ask: "How many fragments does a sample of this tile have on average, among those that the page recorded?", answer: STEPS.fragments.count / (TILE_W * TILE_H * DATA.samples), decimals: 2, hint: "See “Output”, and divide.", why: `${fmt(STEPS.fragments.count)} / ${fmt(TILE_W * TILE_H * DATA.samples)}.`},
     {ask: "Two opaque triangles overlap at a pixel, and the nearer one is drawn first. How many of the two fragments are shaded?", answer: 1, hint: "Predict it, then look for such a pixel.", why: "The farther fragment fails the depth test."},
   ],
