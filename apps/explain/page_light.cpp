@@ -44,9 +44,9 @@ Image<glm::u8vec4> shadow_factors(const Image<glm::vec4>& with, const Image<glm:
   return out;
 }
 
-// Counts the pixels with a channel above 1 after exposure.
+// Counts the pixels with a channel of at least 1 after exposure. Without HDR, light is stored in 8 bits, and 1 is the largest value.
 int64_t clamped_pixels(const Image<glm::vec4>& light, float exposure) {
-  return std::ranges::count_if(light.texels(), [&](const glm::vec4& c) { return std::max({c.x, c.y, c.z}) * exposure > 1.0f; });
+  return std::ranges::count_if(light.texels(), [&](const glm::vec4& c) { return std::max({c.x, c.y, c.z}) * exposure >= 1.0f; });
 }
 
 struct SurfaceAt {

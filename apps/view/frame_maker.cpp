@@ -59,6 +59,7 @@ void CoarseControl::add_frame(int divisor, double milliseconds) { full_ms_ = mil
 
 void FrameMaker::open(const OpenedScene& opened) {
   scene_.reset();
+  environments_.clear();
   assets_ = std::make_unique<SceneAssets>(workers_, warn_);
   if (opened.model != nullptr) assets_->add_model(opened.model_file, opened.model);
 }

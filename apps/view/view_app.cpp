@@ -155,8 +155,9 @@ bool ViewApp::update_scene_frame(const glm::ivec2& size) {
   if (shown_ == next && !is_timed() && !is_stale) return false;
   if (scene_frame_.width() != size.x || scene_frame_.height() != size.y) scene_frame_ = Image<glm::u8vec4>(size.x, size.y);
   render_scene(quality, moving);
-  // The time of overlays does not depend on the resolution of the picture.
-  coarse_.add_frame(quality.divisor, frames_.times().prepare_ms + frames_.times().draw_ms);
+  // The time of the other overlays does not depend on the resolution of the picture.
+  const double overlay_ms = viewer_.overlay() == Overlay::shadow_error ? frames_.times().overlay_ms : 0.0;
+  coarse_.add_frame(quality.divisor, frames_.times().prepare_ms + frames_.times().draw_ms + overlay_ms);
   shown_ = next;
   return true;
 }

@@ -32,7 +32,7 @@ TEST_F(CheckLesson, PassesTheSolutionOfEachLesson) {
     EXPECT_NE(o.out.find("pass"), std::string::npos) << o.out;
     ++lessons;
   }
-  EXPECT_GE(lessons, 16);
+  EXPECT_EQ(lessons, 24);
   EXPECT_EQ(files(), (std::vector<std::string>{"right.png", "wrong.png"})) << "no difference is written";
 }
 

@@ -21,12 +21,12 @@ constexpr std::pair<const char*, Negative> kNegatives[] = {{"all_of_first", Nega
                                                            {"never", Negative::never},
                                                            {"all_and_clipped", Negative::all_and_clipped}};
 
-constexpr std::pair<const char*, Topology> kTopologies[] = {{"points", Topology::points},
-                                                            {"lines", Topology::lines},
-                                                            {"line_strip", Topology::line_strip},
-                                                            {"triangles", Topology::triangles},
-                                                            {"triangle_strip", Topology::triangle_strip},
-                                                            {"triangle_fan", Topology::triangle_fan}};
+constexpr std::pair<const char*, Topology> kCulledTopologies[] = {{"points", Topology::points},
+                                                                  {"lines", Topology::lines},
+                                                                  {"line_strip", Topology::line_strip},
+                                                                  {"triangles", Topology::triangles},
+                                                                  {"triangle_strip", Topology::triangle_strip},
+                                                                  {"triangle_fan", Topology::triangle_fan}};
 
 // The vertices in the lower half of the list, which form whole primitives of a list, have negative distances.
 Picture culled(Topology topology, Negative negative, int samples) {
@@ -82,7 +82,7 @@ std::string without_culled(const Picture& p, const Seen& seen) {
 
 Cases cull_distance_cases() {
   Cases cases;
-  for (const auto& [name, topology] : kTopologies) {
+  for (const auto& [name, topology] : kCulledTopologies) {
     for (const auto& [which, negative] : kNegatives) {
       for (const int samples : {1, 4}) {
         cases.push_back({std::string("functional_") + name + "_" + which + (samples == 1 ? "" : "_multisample"),

@@ -235,7 +235,7 @@ class Page(unittest.TestCase):
         self.assertNotIn("relief", self.caption("flat", "varyings", 2))
         self.assertIn("No opaque surface of this frame has a color map", self.caption("flat", "varyings", 5))
         self.assertIn("No light of this frame casts shadows", self.caption("flat", "shadows"))
-        self.assertIn("No pixel of this frame exceeds 1", self.caption("flat", "tone"))
+        self.assertIn("No pixel of this frame reaches 1", self.caption("flat", "tone"))
         text = self.caption("earth", "interpolation")
         self.assertRegex(text, r"A constructed triangle .* affine interpolation displaces a value by at most 0\.\d+ pixels")
         self.assertIn("of this page", self.caption("pipeline", "interpolation"), "the example shows the interpolation itself")

@@ -10,14 +10,14 @@
 namespace halfspace {
 namespace {
 
-constexpr int kWidth = 96, kHeight = 72;
+constexpr int kClusterWidth = 96, kClusterHeight = 72;
 
-struct Frame {
-  Image<glm::u8vec4> picture{kWidth, kHeight};
+struct ClusterFrame {
+  Image<glm::u8vec4> picture{kClusterWidth, kClusterHeight};
   PassStatistics color, shadow;
 };
 
-Frame frame_of(SceneAssets& assets, const std::vector<std::string>& settings, const Workers& workers) {
+ClusterFrame frame_of(SceneAssets& assets, const std::vector<std::string>& settings, const Workers& workers) {
   SceneFile file = SceneFile::parse(R"({ "version": 1,
     "cameras": { "main": { "position": [0, 3, 6], "target": [0, 0, 0] } },
     "lights": { "sun": { "direction": [1, 2, 1] } },
@@ -25,8 +25,8 @@ Frame frame_of(SceneAssets& assets, const std::vector<std::string>& settings, co
                  "globe": { "shape": "uv_sphere", "latitudes": 40, "longitudes": 80, "position": [0, 1, 0] } } })",
                                     "test", ".");
   file.set(settings);
-  const PreparedScene scene = assets.prepare(file.at(0.0), kWidth, kHeight);
-  Frame out;
+  const PreparedScene scene = assets.prepare(file.at(0.0), kClusterWidth, kClusterHeight);
+  ClusterFrame out;
   out.shadow = scene.shadow_statistics;
   out.color = render(scene, out.picture, workers);
   return out;
@@ -35,12 +35,12 @@ Frame frame_of(SceneAssets& assets, const std::vector<std::string>& settings, co
 TEST(SceneClusters, MeshesThatAreDrawnAgainSkipTriangles) {
   const Workers workers(1);
   SceneAssets assets(workers);
-  const Frame first = frame_of(assets, {}, workers);
+  const ClusterFrame first = frame_of(assets, {}, workers);
   EXPECT_EQ(first.color.culled_cluster + first.shadow.culled_cluster, 0u);
   for (const char* position : {"main.position=[0, 3, 6]", "main.position=[4, 1, 4]", "main.position=[0, 1, 0.5]"}) {
-    const Frame again = frame_of(assets, {position}, workers);
+    const ClusterFrame again = frame_of(assets, {position}, workers);
     SceneAssets others(workers);
-    const Frame alone = frame_of(others, {position}, workers);
+    const ClusterFrame alone = frame_of(others, {position}, workers);
     EXPECT_GT(again.color.culled_cluster, 1000u) << position;  // of 6240; about half of a globe faces away
     EXPECT_GT(again.shadow.culled_cluster, 1000u) << position;
     EXPECT_LT(again.color.vertices_shaded, alone.color.vertices_shaded) << position;

@@ -5,6 +5,7 @@
 
 #include "halfspace/core/check.h"
 #include "halfspace/image/image_difference.h"
+#include "halfspace/render/frame/frame.h"
 #include "halfspace/render/prepared_scene.h"
 #include "halfspace/render/scene_assets.h"
 #include "halfspace/scene/scene_file.h"

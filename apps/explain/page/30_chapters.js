@@ -86,7 +86,7 @@ function setAddress(how) {
 // Returns the chapter and step of the address of the page. Unknown ones are the first.
 function addressed() {
   const [id, step] = location.hash.slice(1).split("/");
-  return [Math.max(0, CHAPTERS.findIndex((c) => c.id === id)), Math.max(0, (Number(step) || 1) - 1)];
+  return [Math.max(0, CHAPTERS.findIndex((c) => c.id === id)), Math.max(0, (Math.trunc(Number(step)) || 1) - 1)];
 }
 
 function goTo(index, step = 0, focus = true, how = "push") {

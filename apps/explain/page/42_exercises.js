@@ -41,7 +41,9 @@ function isRight(x, text) {
 // ---- progress -------------------------------------------------------------------------------------------------------------
 
 // Browsers can refuse storage, for example in private windows; then the progress is kept until the page is closed.
-const STORE = `halfspace explain ${DATA.command} ${PIXEL}`;
+// The key contains a hash (FNV-1a) of values of the frame, because a page of a changed scene has other answers.
+const frameHash = [...JSON.stringify([DATA.statistics, EX])].reduce((h, c) => Math.imul(h ^ c.codePointAt(0), 16777619) >>> 0, 2166136261);
+const STORE = `halfspace explain ${DATA.command} ${PIXEL} ${frameHash}`;
 const progress = (() => {
   try {
     return {kept: true, student: "", answers: {}, ...JSON.parse(localStorage.getItem(STORE) || "{}")};

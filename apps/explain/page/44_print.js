@@ -33,8 +33,8 @@ function showOne() {
 
 // Decodes the pictures first, because the browser does not wait for them.
 async function printAll() {
-  await decodeAll();
-  await unpackHistory();
+  await Promise.all([decodeAll(), unpackHistory(), unpackTile()]);
   showAll();
+  await new Promise((done) => setTimeout(done));  // chapters with unpacked data fill their panels in a task of their own
   print();
 }

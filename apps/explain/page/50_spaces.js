@@ -18,7 +18,7 @@ chapter({
     el("h3", {}, "Draw calls"),
     tableOf(["object", "kind", "vertices", "primitives", "culled faces"], DATA.draws.slice(0, 12).map((d) => [escapeHtml(d.object) + (d.copy ? ` (${d.copy})` : ""), `¶${d.kind}${d.layered ? ", transparent" : ""}`, d.vertices, d.primitives, `¶${d.cull}`])),
     DATA.draws.length > 12 ? el("p", {}, `… and ${DATA.draws.length - 12} more draws.`) : null],
-  related: ["statistics", "history"], lessons: ["A triangle", "The library"],
+  related: ["statistics", "history"], lessons: ["Rotation, view and look-at", "The library"],
   exercises: () => {
     const s = DATA.statistics, culled = s.culled_non_finite + s.culled_outside + s.culled_face + s.culled_degenerate + s.culled_no_sample;
     return [
@@ -298,11 +298,11 @@ chapter({
   formula: spaceFormulas,
   related: ["clipping", "interpolation"], lessons: ["Perspective"],
   exercises: () => {
-    const v = EX.vertices[1];
+    const v = EX.vertices[Math.min(1, EX.vertices.length - 1)], which = EX.vertices.length > 1 ? "second vertex" : "vertex";
     return [
-      M.perspective ? {ask: `The second vertex has clip coordinates x = ${num(v.clip[0])} and w = ${num(v.clip[3])}. What is x in normalized device coordinates?`, answer: v.ndc[0], decimals: 3, hint: "Divide by w.", why: "x / w."}
-        : {ask: `The second vertex has y = ${num(v.ndc[1])} in normalized device coordinates. How many pixels is it above the lower edge of the window?`, answer: (v.ndc[1] + 1) / 2 * H, decimals: 1, hint: `From −1 to 1, there are ${H} pixels.`, why: `(${fmt(v.ndc[1], 6)} + 1) / 2 · ${H}.`},
-      {ask: `The window position of the second vertex is x = ${num(v.x)}, in units of 1/256 pixel. Which pixel column is it in?`, answer: Math.floor(v.x / SUB), hint: "Divide by 256 and round down.", why: `${fmt(v.x)} / 256 = ${fmt(v.x / SUB, 9)}.`},
+      M.perspective ? {ask: `The ${which} has clip coordinates x = ${num(v.clip[0])} and w = ${num(v.clip[3])}. What is x in normalized device coordinates?`, answer: v.ndc[0], decimals: 3, hint: "Divide by w.", why: "x / w."}
+        : {ask: `The ${which} has y = ${num(v.ndc[1])} in normalized device coordinates. How many pixels is it above the lower edge of the window?`, answer: (v.ndc[1] + 1) / 2 * H, decimals: 1, hint: `From −1 to 1, there are ${H} pixels.`, why: `(${fmt(v.ndc[1], 6)} + 1) / 2 · ${H}.`},
+      {ask: `The window position of the ${which} is x = ${num(v.x)}, in units of 1/256 pixel. Which pixel column is it in?`, answer: Math.floor(v.x / SUB), hint: "Divide by 256 and round down.", why: `${fmt(v.x)} / 256 = ${fmt(v.x / SUB, 9)}.`},
       {ask: `The ${fmt(DATA.statistics.vertices_in)} indices refer to ${fmt(DATA.statistics.vertices_shaded)} vertices, each of which is shaded once. How many times is a vertex used on average?`, answer: DATA.statistics.vertices_in / Math.max(1, DATA.statistics.vertices_shaded), decimals: 2, hint: "Divide the number of indices by the number of vertices.", why: DATA.statistics.vertices_shaded < DATA.statistics.vertices_in ? "A vertex that several triangles share is shaded only once." : "No vertex of this frame is shared."},
     ];
   },

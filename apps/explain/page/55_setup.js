@@ -45,7 +45,7 @@ chapter({
     {name: "After clipping", caption: `The polygon has ${c.after.length} vertices, ${c.after.filter((a) => a.vertex < 0).length} of them new. It is drawn as a fan of ${plural(c.after.length - 2, "triangle")}.`, draw: () => clipPicture(c, 0, true)}]),
   formula: () => clipFormula(CLIPPED[0]),
   body: () => [el("h3", {}, "Vertices of the first polygon"), tableOf(["vertex", "x", "y", "z", "w", "weights of the original vertices"], CLIPPED[0].after.map((a, i) => [String(i), ...a.clip.map((v) => fmt(v, 6)), a.vertex >= 0 ? `¶vertex ${a.vertex}` : `¶${a.weights.map((w) => fmt(w, 4)).join(" · ")}`]))],
-  related: ["spaces", "culling"], lessons: ["Perspective"],
+  related: ["spaces", "culling"], lessons: ["Projection, w and clipping"],
   exercises: () => {
     const c = CLIPPED[0];
     return [

@@ -21,7 +21,8 @@ const FATES = [
   {name: "rejected with its tile or block", color: "#7c3aed", has: (o) => o <= 1},
   {name: "failed a test", color: "#c0392b", has: (o) => o === 2 || o === 3},
   {name: "discarded by the shader", color: "#8d6e00", has: (o) => o === 4},
-  {name: "passed, but hidden before it was shaded", color: "#8b8e97", has: (o) => o === 5 || o === 6},
+  {name: "passed, but hidden before it was shaded", color: "#8b8e97", has: (o) => o === 5},
+  {name: "passed, and wrote only its depth", color: "#5f6b7a", has: (o) => o === 6},
   {name: "shaded", color: "#2f7d32", has: (o) => o === 7},
   {name: "blended or kept as a layer", color: "#1976d2", has: (o) => o >= 8},
 ];
@@ -133,7 +134,7 @@ chapter({
   absent: () => (STEPS.triangles.length === 0 ? `Nothing is drawn in the tile of the example pixel. A frame with triangles: ${command("halfspace explain pipeline")}.` : null),
   input: () => [`${plural(STEPS.triangles.length, "primitive")} with a fragment in the tile, in submission order`],
   output: () => [`${plural(STEPS.fragments.count, "recorded fragment")}${STEPS.left_out > 0 ? `; ${fmt(STEPS.left_out)} more were left out, because the page would become too large` : ""}`],
-  steps: () => [{name: "The steps", caption: `The sliders select a triangle of the tile and one of its pixels, row by row from the bottom; the panels show the tile after this step${DATA.samples > 1 ? `, at sample ${SAMPLE} of each pixel` : ""}. The renderer shades opaque surfaces when the visible triangle of each sample is known. A fragment that passed, and was hidden before it was shaded, never got a color; it is gray in the third panel.`, draw: tileStepper}],
+  steps: () => [{name: "The steps", caption: `The sliders select a triangle of the tile and one of its pixels, row by row from the bottom; the panels show the tile after this step${DATA.samples > 1 ? `, at sample ${SAMPLE} of each pixel` : ""}. The renderer shades opaque surfaces when the visible triangle of each sample is known. A fragment that passed, and was hidden before it was shaded, never got a color; it is gray in the third panel. Transparent layers are blended after the last step, so the third panel does not contain them.`, draw: tileStepper}],
   related: ["coverage", "depth", "history"], lessons: ["Depth"],
   exercises: () => [
     {ask: "How many samples would this tile have with 16 samples per pixel?", answer: TILE_W * TILE_H * 16, hint: "Multiply its width, its height and the number of samples per pixel.", why: `${TILE_W} · ${TILE_H} · 16.`},

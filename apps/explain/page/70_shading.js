@@ -68,11 +68,12 @@ chapter({
   },
   related: ["setup", "varyings"], lessons: ["Perspective"],
   exercises: () => {
-    const m = middle().perspective, [q0, q1] = P.inv_w;
+    const m = middle().perspective, near = P.inv_w.indexOf(Math.max(...P.inv_w)), far = P.inv_w.indexOf(Math.min(...P.inv_w));
+    const q0 = P.inv_w[near], q1 = P.inv_w[far], isUnique = P.inv_w.filter((q) => q === q0).length === 1;
     return [
-      {ask: "What is the perspective-correct weight of vertex 0 in the middle of the edge from vertex 0 to vertex 1 on the screen?", answer: q0 / (q0 + q1), decimals: 3, hint: "There, the linear weights are ½, ½ and 0.", why: `${fmt(q0, 5)} / (${fmt(q0, 5)} + ${fmt(q1, 5)}).`},
+      {ask: `What is the perspective-correct weight of vertex ${near} in the middle of the edge from vertex ${near} to vertex ${far} on the screen?`, answer: q0 / (q0 + q1), decimals: 3, hint: "There, two of the linear weights are ½, and the third is 0.", why: `${fmt(q0, 5)} / (${fmt(q0, 5)} + ${fmt(q1, 5)}).`},
       {ask: "By how much is the largest of the three weights at the centroid larger than with affine interpolation?", answer: Math.max(...m) - 1 / 3, decimals: 3, hint: "With affine interpolation, all weights are ⅓.", why: "The vertex nearest to the eye gets the largest weight."},
-      {ask: "Which vertex is nearest to the eye: 0, 1 or 2?", answer: P.inv_w.indexOf(Math.max(...P.inv_w)), hint: "1/w is largest there.", why: "w is the distance along the view axis."},
+      {ask: `Which vertex is ${isUnique ? "nearest to" : "farthest from"} the eye: 0, 1 or 2?`, answer: isUnique ? near : far, hint: `1/w is ${isUnique ? "largest" : "smallest"} there.`, why: "w is the distance along the view axis."},
     ];
   },
 });

@@ -44,7 +44,7 @@ const meanSample = () => [0, 1, 2].map((k) => TONE.samples.reduce((n, s) => n + 
 
 chapter({
   id: "tone", title: "High dynamic range and tone curve", kicker: "Output",
-  lead: () => (TONE.hdr ? "Light has no upper limit, but the brightness of a display does. The exposure scales the light, and the tone curve maps it to the range from 0 to 1." : `This scene is displayed without a tone curve: light above 1 is clamped. ${TONE.clamped === 0 ? "No pixel of this frame exceeds 1." : `${plural(TONE.clamped, "pixel exceeds", "pixels exceed")} 1 in red, green or blue.`}`),
+  lead: () => (TONE.hdr ? "Light has no upper limit, but the brightness of a display does. The exposure scales the light, and the tone curve maps it to the range from 0 to 1." : `This scene is displayed without a tone curve: light above 1 is clamped when it is stored. ${TONE.clamped === 0 ? "No pixel of this frame reaches 1." : `${plural(TONE.clamped, "pixel has", "pixels have")} the largest value in red, green or blue.`}`),
   input: () => [`linear light per pixel, stored as ${TONE.stored_as}`],
   output: () => ["display light from 0 to 1"],
   steps: () => [
@@ -137,7 +137,7 @@ chapter({
     ...(isTriangle ? [{name: "Coverage", caption: "The block of the example pixel. The stronger the color of a pixel, the more of its samples the example triangle covers.", draw: sampleCoverage}] : []),
   ],
   formula: () => [`color = (s<sub>0</sub> + … + s<sub>${DATA.samples - 1}</sub>) / ${DATA.samples}\n\n${say(`at pixel ${px(PIXEL)}, in linear light:`)}${["red", "green", "blue"].map((name, k) => `${name.padEnd(6)}(${TONE.samples.map((s) => fmt(s[k], 5)).join(" + ")}) / ${DATA.samples} = ${fmt(meanSample()[k], 6)} → <b>${fmt(TONE.pixel.light[k], 6)}</b>`).join("\n")}${say(`The last number is the mean, rounded to ${TONE.stored_as}.${hasEqualSamples() ? " All samples of this pixel have the same color, so the mean is that color." : ""}`)}`],
-  related: ["coverage", "layers"], lessons: [],
+  related: ["coverage", "layers"], lessons: ["Antialiasing"],
   exercises: () => [
     {ask: `What would be the red light of pixel ${px(PIXEL)} if its sample 0 were black, before rounding to the format?`, answer: meanSample()[0] - TONE.samples[0][0] / DATA.samples, significant: 3, tolerance: 1e-4 * Math.abs(meanSample()[0]) + 1e-9, hint: "Compute the mean of all samples, with 0 for sample 0.", why: `The mean decreases by ${fmt(TONE.samples[0][0], 5)} / ${DATA.samples}.`},
     {ask: "How many samples does the whole frame have?", answer: W * H * DATA.samples, hint: "Multiply the number of pixels by the number of samples per pixel.", why: `${W} · ${H} · ${DATA.samples}.`},
@@ -177,7 +177,7 @@ chapter({
   output: () => [`${plural(DATA.statistics.layers_merged, "merge")} of the two farthest layers of a sample (a sample can store 8 layers)`],
   steps: () => [{name: "Transparent draws", caption: `These objects are blended over the opaque picture: ${LAYERED.map((d) => `<i>${escapeHtml(d.object)}</i>`).join(", ")}. The ring marks the pixel of the formula, which has ${plural(LAYERS.list.length, "layer")}.`, draw: () => picture(DATA.pictures.final, "The picture with its transparent surfaces", {overlay: (pen, s) => ring(pen, s, LAYERS.pixel)})}],
   formula: layerFormula,
-  related: ["depth", "samples"], lessons: [],
+  related: ["depth", "samples"], lessons: ["Blending and order"],
   exercises: () => {
     const nearest = 1 - alphaOf(LAYERS.list[LAYERS.list.length - 1]), all = LAYERS.list.reduce((t, l) => t * (1 - alphaOf(l)), 1), isSingle = LAYERS.list.length === 1;
     return [

@@ -186,7 +186,8 @@ bool ModelMaterials::is_soft_mask(const ObjectDescription& o, const Model& model
 
 namespace {
 
-// Removes the maps that the keys `textured` and `normal` of the object switch off. The alpha of a color map remains if it has an effect.
+// Removes the maps that the keys `textured` and `normal` of the object switch off. The alpha of a color map remains if it is
+// the only map of the opacity.
 void drop_maps(MetallicMaterial& surface, const ObjectDescription& o, const ModelMaterial& m) {
   if (o.surface.textured && o.surface.normal != DetailChoice::none) return;
   if (!o.surface.textured) {
