@@ -51,7 +51,10 @@ void set_shading(SceneFile& scene, const std::string& rate) {
     if (!object.shadow_only && offers_shading(object, value)) settings.push_back("objects." + name + ".shading=" + rate);
   }
   if (settings.empty()) {
-    throw UsageError("--shading " + rate + " is not available for models with their own materials; expected none or phong");
+    throw UsageError(
+        "--shading " + rate +
+        " has no effect on this scene: models with their own materials are lit per pixel or not at all; expected phong or none, or "
+        "an object of another shape");
   }
   scene.set(settings);
 }

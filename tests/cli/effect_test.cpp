@@ -63,7 +63,7 @@ TEST_F(Effects, ShadingIsRefusedIfThereAreOnlyModelsWithTheirOwnMaterials) {
 
 TEST_F(Effects, SurfaceKeysOfModelsAreRefused) {
   EXPECT_TRUE(fails({"a.obj", "--set", "model.color=#00ff00"}, 3, "a.obj: objects.model.color", {"no effect", "material"}));
-  EXPECT_TRUE(fails({"model.json", "--set", "a.shading=flat"}, 3, "model.json: objects.a.shading", {"no effect", "material"}));
+  EXPECT_TRUE(fails({"model.json", "--set", "a.shading=flat"}, 3, "model.json: objects.a.shading", {"lit per pixel", "material"}));
   EXPECT_TRUE(picture_of({"model.json", "--set", "a.material=red", "--set", "a.color=#00ff00"}) != picture_of({"red.json"}));
 }
 
