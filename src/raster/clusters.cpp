@@ -30,8 +30,8 @@ struct Shape {
 
 // Each difference and product has an error of 2^-53, which is far below the margins of the cone.
 Shape shape_of(const std::array<glm::vec3, 3>& p) {
-  const glm::dvec3 a(p[0]), b(p[1]), c(p[2]), n = glm::cross(b - a, c - a);
-  const double twice_area = glm::length(n), longest = std::max({glm::length(b - a), glm::length(c - b), glm::length(a - c)});
+  const glm::dvec3 ab(glm::dvec3(p[1]) - glm::dvec3(p[0])), ac(glm::dvec3(p[2]) - glm::dvec3(p[0])), bc = ac - ab, n = glm::cross(ab, ac);
+  const double twice_area = glm::length(n), longest = std::sqrt(std::max({glm::dot(ab, ab), glm::dot(ac, ac), glm::dot(bc, bc)}));
   return {n / twice_area, twice_area / longest, longest};
 }
 
@@ -44,19 +44,20 @@ bool is_drawn(const std::array<glm::vec3, 3>& p) {
 
 Bounds bounds_of(std::span<const std::array<glm::vec3, 3>> triangles) {
   Bounds out;
-  std::vector<Shape> shapes;
+  std::array<Shape, kClusterTriangles> shapes;
+  std::size_t drawn = 0;
   for (const std::array<glm::vec3, 3>& t : triangles) {
     if (!is_drawn(t)) continue;
     for (const glm::vec3& p : t) {
       out.low = glm::min(out.low, p);
       out.high = glm::max(out.high, p);
     }
-    shapes.push_back(shape_of(t));
-    out.axis += shapes.back().normal;
+    shapes[drawn] = shape_of(t);
+    out.axis += shapes[drawn++].normal;
   }
   const double length = glm::length(out.axis);
   out.axis /= length;
-  for (const Shape& s : shapes) {
+  for (const Shape& s : std::span(shapes).first(drawn)) {
     out.min_cos = std::min(out.min_cos, glm::dot(s.normal, out.axis));
     out.min_height = std::min(out.min_height, s.height >= kMinRatio * s.longest ? s.height : 0.0);
   }
@@ -94,21 +95,19 @@ Clusters::Clusters(const VertexStream& positions, const Indices& indices)
   for (std::vector<float>& v : values_) v.resize(padded);
   first_block_.reserve(count_ + 1);
   first_block_.push_back(0);
-  std::vector<std::array<glm::vec3, 3>> triangles;
+  std::array<std::array<glm::vec3, 3>, kClusterTriangles> triangles;
+  std::array<uint32_t, 3 * kClusterTriangles> corners;
   std::vector<uint32_t> blocks;
   for (std::size_t i = 0; i < count_; ++i) {
-    triangles.clear();
+    const std::size_t first = i * corners.size(), count = std::min(corners.size(), indices.size() / 3 * 3 - first);
     blocks.clear();
-    const std::size_t end = std::min<std::size_t>(indices.size() / 3, (i + 1) * kClusterTriangles);
-    for (std::size_t t = i * kClusterTriangles; t < end; ++t) {
-      std::array<glm::vec3, 3>& corners = triangles.emplace_back();
-      for (std::size_t k = 0; k < 3; ++k) {
-        const uint32_t index = indices[3 * t + k];
-        read_row(positions, index, &corners[k].x);
-        blocks.push_back(number_of(indices, index) / kClusterVertexBlock);
-      }
+    for (std::size_t k = 0; k < count; ++k) {
+      corners[k] = indices[first + k];
+      const uint32_t block = number_of(indices, corners[k]) / kClusterVertexBlock;
+      if (blocks.empty() || blocks.back() != block) blocks.push_back(block);
     }
-    const Bounds b = bounds_of(triangles);
+    read_rows(positions, std::span(corners).first(count), &triangles[0][0].x);
+    const Bounds b = bounds_of(std::span(triangles).first(count / 3));
     for (std::size_t k = 0; k < 3; ++k) {
       const int axis = static_cast<int>(k);
       values_[kLowX + k][i] = b.low[axis];
