@@ -72,7 +72,7 @@ class ExampleSearch {
 
   ExampleSource source_;
   ExampleIdeas ideas_;
-  std::vector<uint32_t> primitive_of_;  // for each pixel, the index of its visible primitive in seen_, or kNone
+  std::vector<uint32_t> primitive_of_;  // for each pixel, the index of its visible primitive in seen_, or kUnseen
   std::vector<Seen> seen_;
   std::vector<const TracedFragment*> visible_;  // for each pixel
   Image<float> shadow_;                         // empty if no light has a shadow
