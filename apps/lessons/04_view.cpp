@@ -33,9 +33,9 @@ struct View {
   Vec eye, right, up, back;
   Vec operator()(Vec p) const { return {dot(right, p - eye), dot(up, p - eye), dot(back, p - eye)}; }
 };
-View look_at(Vec eye, Vec target, Vec up) {
+View look_at(Vec eye, Vec target, Vec above) {
   const Vec back = normalize(eye - target);  // the camera looks along -back
-  const Vec right = normalize(cross(up, back));
+  const Vec right = normalize(cross(above, back));
   return {eye, right, cross(back, right), back};
 }
 
