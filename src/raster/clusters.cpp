@@ -36,28 +36,28 @@ Shape shape_of(const std::array<glm::vec3, 3>& p) {
 }
 
 bool is_finite(const glm::vec3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
-
-// A triangle with two equal corners, or with one that is not finite, is never drawn.
-bool is_drawn(const std::array<glm::vec3, 3>& p) {
-  return is_finite(p[0]) && is_finite(p[1]) && is_finite(p[2]) && p[0] != p[1] && p[1] != p[2] && p[2] != p[0];
-}
+// A triangle with a corner that is not finite is never drawn.
+bool is_finite(const std::array<glm::vec3, 3>& p) { return is_finite(p[0]) && is_finite(p[1]) && is_finite(p[2]); }
+// A triangle with two equal corners is never filled. Its outline can be drawn.
+bool has_area(const std::array<glm::vec3, 3>& p) { return p[0] != p[1] && p[1] != p[2] && p[2] != p[0]; }
 
 Bounds bounds_of(std::span<const std::array<glm::vec3, 3>> triangles) {
   Bounds out;
   std::array<Shape, kClusterTriangles> shapes;
-  std::size_t drawn = 0;
+  std::size_t filled = 0;
   for (const std::array<glm::vec3, 3>& t : triangles) {
-    if (!is_drawn(t)) continue;
+    if (!is_finite(t)) continue;
     for (const glm::vec3& p : t) {
       out.low = glm::min(out.low, p);
       out.high = glm::max(out.high, p);
     }
-    shapes[drawn] = shape_of(t);
-    out.axis += shapes[drawn++].normal;
+    if (!has_area(t)) continue;
+    shapes[filled] = shape_of(t);
+    out.axis += shapes[filled++].normal;
   }
   const double length = glm::length(out.axis);
   out.axis /= length;
-  for (const Shape& s : std::span(shapes).first(drawn)) {
+  for (const Shape& s : std::span(shapes).first(filled)) {
     out.min_cos = std::min(out.min_cos, glm::dot(s.normal, out.axis));
     out.min_height = std::min(out.min_height, s.height >= kMinRatio * s.longest ? s.height : 0.0);
   }

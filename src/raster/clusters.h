@@ -30,8 +30,8 @@ inline constexpr uint32_t kClusterVertexBlock = 64;
 /// in the list should be neighbors on the surface.
 class Clusters {
  public:
-  /// positions: a stream of three components, in object space. indices: a list of triangles without restarts. Neither is kept. Computes in
-  /// O(n) time; create it once per mesh.
+  /// positions: a stream of three components, in object space. indices: a list of triangles without restarts. Neither is kept. Create
+  /// it once per mesh.
   Clusters(const VertexStream& positions, const Indices& indices);
 
   std::size_t size() const { return count_; }

@@ -112,7 +112,7 @@ TEST(Clusters, NothingIsShadedOfAMeshOutsideOfTheView) {
   EXPECT_EQ(share({0, 0, -10}), 0.0);
 }
 
-// A draw without clusters that follows a draw of which nothing is left has tasks and chunks of its own.
+// Draws without clusters before and after a draw of which nothing is left.
 TEST(Clusters, DrawsBesideASkippedOneAreComplete) {
   const Mesh mesh = uv_sphere(8, 12, 1.0f);
   const Indices indices(mesh.indices, mesh.positions.size());
@@ -185,6 +185,16 @@ TEST(Clusters, NonFiniteCornersHideNoOtherTriangle) {
     const Clusters clusters(stream(mesh.positions), Indices(mesh.indices, mesh.positions.size()));
     EXPECT_EQ(expect_same_picture(mesh, clusters, glm::mat4(1.0f), {}), 0.0) << bad;
   }
+}
+
+// The corners and outlines of a triangle without area are drawn, so they belong to the bounds.
+TEST(Clusters, OutlinesOfTrianglesWithoutAreaAreKept) {
+  Mesh mesh;
+  mesh.positions = {{-0.5f, -0.5f, 0}, {0.5f, 0.4f, 0}, {5, 5, 0}, {6, 5, 0}, {6, 6, 0}};
+  mesh.indices = {0, 0, 1, 2, 3, 4};
+  const Clusters clusters(stream(mesh.positions), Indices(mesh.indices, mesh.positions.size()));
+  for (const PolygonMode mode : {PolygonMode::line, PolygonMode::point})
+    EXPECT_EQ(expect_same_picture(mesh, clusters, glm::mat4(1.0f), {.polygon_mode = mode, .cull = CullMode::back}), 0.0);
 }
 
 // With a small budget, the pass runs in rounds; with two threads, parts of the clusters that are left are shaded at the same time.
