@@ -12,7 +12,7 @@
 
 namespace halfspace::HS_LANES {
 
-/// Allocates zeroed memory that starts on a cache line boundary, so that code can write whole lines. Blocks of 4 MiB or more are mapped
+/// Allocates zeroed memory that starts on a cache line boundary, so that code can write whole lines. Blocks of 1 MiB or more are mapped
 /// directly from the system, on huge pages where available. The kernel clears each such page on the thread that first touches it.
 /// Allocating and freeing such blocks is much faster, so a program with gigabytes of images exits without delay. Throws std::bad_alloc on
 /// failure.

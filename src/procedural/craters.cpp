@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
+#include "halfspace/core/cache_line_allocator.h"
 #include "halfspace/core/lane_math.h"
 #include "halfspace/core/random.h"
 #include "halfspace/core/trig_double.h"
@@ -59,14 +61,16 @@ struct Aged {
   Crater crater;
   float age;
 };
+using AgedCraters = std::vector<Aged, CacheLineAllocator<Aged>>;
 
 // Adds craters with radii from lo to hi = 2·lo. The number of craters larger than r is proportional to r^-2, so every size class
 // covers the same area.
-void add_class(std::vector<Aged>& out, float lo, float hi, SplitMix64 random) {
+void add_class(AgedCraters& out, float lo, float hi, SplitMix64 random) {
   const float covered = 0.24f;  // fraction of the sphere covered by this class, counting overlaps twice
   // A crater covers r²/4 of the sphere. The mean of r² over the class is lo² · 2 ln(hi/lo) / (1 − (lo/hi)²).
   const int count = static_cast<int>(covered * 4.0f / (lo * lo * 1.848f));
   const float cut = 1.0f - (lo / hi) * (lo / hi);
+  out.reserve(out.size() + static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) {
     Aged a{};
     a.crater.radius = lo / sqrt(1.0f - cut * random.real(0.0f, 1.0f));
@@ -92,7 +96,7 @@ constexpr RayCrater kRayCraters[] = {{-11.4, -43.3, 43, 62}, {-20.1, 9.6, 46, 22
                                      {46.8, 16.1, 14, 13},   {54.0, -32.5, 38, 16},  {-10.1, 73.5, 26, 24},  {102.9, 35.9, 11, 30},
                                      {-163.3, 22.0, 36, 24}, {-63.9, -24.6, 10, 16}, {129.0, -61.0, 30, 20}, {-152.0, -36.0, 22, 18}};
 
-void add_ray_craters(std::vector<Aged>& out, SplitMix64 random) {
+void add_ray_craters(AgedCraters& out, SplitMix64 random) {
   for (const RayCrater& r : kRayCraters) {
     Aged a{};
     a.crater.radius = r.radius / kMoonRadius;
@@ -188,15 +192,18 @@ Real profile(const Crater& c, Real x, Real q) {
 
 Craters moon_craters(int width) {
   const float smallest = 1.2f * 2.0f * static_cast<float>(std::numbers::pi) / static_cast<float>(width);
-  std::vector<Aged> all;
+  AgedCraters all;
   uint64_t seed = 1;
   for (float hi = kLargest; hi > smallest; hi *= 0.5f) add_class(all, 0.5f * hi, hi, SplitMix64(1000 * seed++));
   add_ray_craters(all, SplitMix64(77));
-  std::stable_sort(all.begin(), all.end(), [](const Aged& a, const Aged& b) { return a.age < b.age; });
+  std::vector<std::size_t> order(all.size());  // sorting the craters themselves would move more memory
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return all[a].age < all[b].age; });
   Craters craters{{}, 0};
-  for (const Aged& a : all) {
-    craters.all.push_back(a.crater);
-    craters.first_young += a.age < kYoung ? 1 : 0;
+  craters.all.reserve(all.size());
+  for (const std::size_t i : order) {
+    craters.all.push_back(all[i].crater);
+    craters.first_young += all[i].age < kYoung ? 1 : 0;
   }
   return craters;
 }

@@ -7,6 +7,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "halfspace/core/cache_line_allocator.h"
 #include "halfspace/core/lanes.h"
 
 namespace halfspace::HS_LANES::procedural {
@@ -32,7 +33,7 @@ inline constexpr float kBlanketEnd = 2.1f;
 
 /// Craters from old to young. Craters with an index ≥ `first_young` are younger than the lava of the maria.
 struct Craters {
-  std::vector<Crater> all;
+  std::vector<Crater, CacheLineAllocator<Crater>> all;
   std::size_t first_young;
 };
 
