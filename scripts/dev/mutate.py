@@ -9,7 +9,7 @@
   scripts/dev/mutate.py list                  numbers, file names and descriptions of the faults
     --resume      skips the faults that were caught before with the same sources
     --record      writes the name of the test that caught the fault into each fault file
-    --copies N    number of faults tried at the same time, each in its own copy of the tree; default: half the number of cores
+    --copies N    number of faults tried at the same time, each in its own copy of the tree; default: the number of cores
 
 The last line is "N caught, M missed"; the exit code is 1 if any fault was missed. A fault is caught if a test fails that passes without the
 fault. A fault that does not compile proves nothing and counts as missed (warnings are not errors here).
@@ -27,7 +27,7 @@ The old text must occur exactly once in the file. It can be part of a line. test
 
 The test is given by the name of its program and a GoogleTest filter. Only this test is built and run. If it passes, or if none is given,
 all programs that can detect a fault in the file are built and run. The copies and the results are kept in build/mutate. Everything is
-compiled at -O1.
+compiled at -O1, with clang++ if it is installed, because it compiles faster than g++.
 """
 
 import argparse
@@ -204,12 +204,13 @@ class Copy:
         return result.returncode
 
     def configure(self):
+        compiler = ["-DCMAKE_CXX_COMPILER=clang++"] if shutil.which("clang++") else []
         return self.run(["cmake", "-S", str(self.root), "-B", str(self.build), "-G", "Ninja", "-DCMAKE_BUILD_TYPE=None",
                          "-DCMAKE_CXX_FLAGS=-O1 -DNDEBUG", "-DHALFSPACE_BUILD_BENCHMARKS=OFF", "-DHALFSPACE_BUILD_EXAMPLES=OFF",
-                         "-DHALFSPACE_WERROR=OFF"]) == 0
+                         "-DHALFSPACE_WERROR=OFF", *compiler]) == 0
 
-    def make(self, program):
-        return self.run(["cmake", "--build", str(self.build), "--target", f"test-{program}", "--", "-j", str(self.jobs)]) == 0
+    def make(self, program, jobs=None):
+        return self.run(["cmake", "--build", str(self.build), "--target", f"test-{program}", "--", "-j", str(jobs or self.jobs)]) == 0
 
     def passes(self, program, test="*"):
         """Builds and runs a test program. The exit code 1 of GoogleTest, a crash and a timeout are failures."""
@@ -252,8 +253,8 @@ class Copy:
             file.write_text(text, encoding="utf-8")
 
 
-def check_without_faults(copy, faults):
-    """Checks that the recorded tests of all faults run and pass."""
+def check_without_faults(copy, faults, jobs):
+    """Checks that the recorded tests of all faults run and pass. Builds them with that many jobs."""
     tests = {}
     for fault in faults:
         if fault.test:
@@ -262,7 +263,7 @@ def check_without_faults(copy, faults):
     if not copy.configure():
         raise FaultError("the copy cannot be configured:\n" + copy.log)
     for program, names in sorted(tests.items()):
-        if not copy.make(program) or not copy.passes(program, ":".join(sorted(names))):
+        if not copy.make(program, jobs) or not copy.passes(program, ":".join(sorted(names))):
             raise FaultError(f"the tests of test-{program} fail without any fault:\n" + "\n".join(copy.log.splitlines()[-30:]))
         if copy.tests_run() < len(names):
             raise FaultError(f"fault files name tests that test-{program} does not have; expected {', '.join(sorted(names))}")
@@ -281,37 +282,41 @@ def run_faults(selected, options):
     sources = source_key(names)
     WORK.mkdir(parents=True, exist_ok=True)
     known = set(RESULTS.read_text().split()[::2]) if options.resume and RESULTS.exists() else set()
-    pending = queue.Queue()
-    for number, fault in selected:
-        if fault_key(sources, fault) not in known:
-            pending.put((number, fault))
-    counts = {True: len(selected) - pending.qsize(), False: 0}
+    unknown = [(number, fault) for number, fault in selected if fault_key(sources, fault) not in known]
+    counts = {True: len(selected) - len(unknown), False: 0}
     if counts[True]:
         print(f"{counts[True]} faults are skipped: they were caught before with the same sources", flush=True)
+    groups = queue.Queue()  # one copy tries all faults of a file, because what depends on the file is compiled only there
+    for file in sorted({fault.file for _, fault in unknown}):
+        groups.put([(number, fault) for number, fault in unknown if fault.file == file])
     jobs = max(1, (os.cpu_count() or 1) // options.copies)
-    copies = [Copy(WORK / str(i), names, jobs) for i in range(min(options.copies, pending.qsize()))]
+    copies = [Copy(WORK / str(i), names, jobs) for i in range(min(options.copies, groups.qsize()))]
     lock = threading.Lock()
+
+    def try_fault(copy, number, fault):
+        begin = time.monotonic()
+        caught, detail = copy.catch(fault)
+        with lock:
+            counts[caught] += 1
+            print(f"{'caught' if caught else 'MISSED'} {number} {fault.stem} ({detail}; {time.monotonic() - begin:.0f} s)", flush=True)
+            if caught:
+                with RESULTS.open("a", encoding="utf-8") as file:
+                    file.write(f"{fault_key(sources, fault)} {fault.stem}\n")
+                if options.record:
+                    record(fault, detail)
 
     def work(copy):
         while True:
             try:
-                number, fault = pending.get_nowait()
+                group = groups.get_nowait()
             except queue.Empty:
                 return
-            begin = time.monotonic()
-            caught, detail = copy.catch(fault)
-            with lock:
-                counts[caught] += 1
-                print(f"{'caught' if caught else 'MISSED'} {number} {fault.stem} ({detail}; {time.monotonic() - begin:.0f} s)", flush=True)
-                if caught:
-                    with RESULTS.open("a", encoding="utf-8") as file:
-                        file.write(f"{fault_key(sources, fault)} {fault.stem}\n")
-                    if options.record:
-                        record(fault, detail)
+            for number, fault in group:
+                try_fault(copy, number, fault)
 
     if copies:
         print("building the tree without faults", flush=True)
-        check_without_faults(copies[0], [fault for _, fault in pending.queue])
+        check_without_faults(copies[0], [fault for _, fault in unknown], os.cpu_count() or 1)
     for copy in copies[1:]:
         if not copy.configure():
             raise FaultError("a copy cannot be configured:\n" + copy.log)
@@ -328,7 +333,7 @@ def main(arguments):
     parser.add_argument("faults", nargs="*")
     parser.add_argument("--resume", action="store_true")
     parser.add_argument("--record", action="store_true")
-    parser.add_argument("--copies", type=int, default=max(1, (os.cpu_count() or 1) // 2))
+    parser.add_argument("--copies", type=int, default=os.cpu_count() or 1)
     options = parser.parse_args(arguments)
     try:
         faults = load_all()
