@@ -12,6 +12,7 @@ namespace {
 struct Count {
   const char* name;
   uint64_t PassStatistics::*member;
+  uint64_t PassStatistics::*whole = nullptr;  // the text also gives the share of this count
 };
 
 constexpr Count kCounts[] = {{"vertices_in", &PassStatistics::vertices_in},
@@ -20,17 +21,17 @@ constexpr Count kCounts[] = {{"vertices_in", &PassStatistics::vertices_in},
                              {"vertices_evaluated", &PassStatistics::vertices_evaluated},
                              {"geometry_invocations", &PassStatistics::geometry_invocations},
                              {"primitives_in", &PassStatistics::primitives_in},
-                             {"culled_non_finite", &PassStatistics::culled_non_finite},
-                             {"culled_outside", &PassStatistics::culled_outside},
-                             {"culled_face", &PassStatistics::culled_face},
-                             {"culled_degenerate", &PassStatistics::culled_degenerate},
-                             {"culled_cluster", &PassStatistics::culled_cluster},
-                             {"culled_no_sample", &PassStatistics::culled_no_sample},
+                             {"culled_non_finite", &PassStatistics::culled_non_finite, &PassStatistics::primitives_in},
+                             {"culled_outside", &PassStatistics::culled_outside, &PassStatistics::primitives_in},
+                             {"culled_face", &PassStatistics::culled_face, &PassStatistics::primitives_in},
+                             {"culled_degenerate", &PassStatistics::culled_degenerate, &PassStatistics::primitives_in},
+                             {"culled_cluster", &PassStatistics::culled_cluster, &PassStatistics::primitives_in},
+                             {"culled_no_sample", &PassStatistics::culled_no_sample, &PassStatistics::primitives_in},
                              {"clipped", &PassStatistics::clipped},
-                             {"triangles_binned", &PassStatistics::triangles_binned},
+                             {"triangles_binned", &PassStatistics::triangles_binned, &PassStatistics::primitives_in},
                              {"bin_entries", &PassStatistics::bin_entries},
                              {"samples_tested", &PassStatistics::samples_tested},
-                             {"samples_passed", &PassStatistics::samples_passed},
+                             {"samples_passed", &PassStatistics::samples_passed, &PassStatistics::samples_tested},
                              {"fragments_shaded", &PassStatistics::fragments_shaded},
                              {"layers_merged", &PassStatistics::layers_merged},
                              {"tiles_touched", &PassStatistics::tiles_touched},
@@ -38,13 +39,21 @@ constexpr Count kCounts[] = {{"vertices_in", &PassStatistics::vertices_in},
 static_assert(sizeof(PassStatistics) == sizeof(uint64_t) * std::size(kCounts) + 3 * sizeof(PassStatistics::queries),
               "kCounts does not list every count of PassStatistics");
 
+// Returns a line such as "culled_face          1919 (41.5 %)".
+std::string line_of(const Count& c, const PassStatistics& s) {
+  const uint64_t whole = c.whole == nullptr ? 0 : s.*c.whole;
+  const std::string share =
+      whole == 0 ? "" : fmt::format(" ({:.1f} %)", 100.0 * static_cast<double>(s.*c.member) / static_cast<double>(whole));
+  return fmt::format("{:20} {}{}\n", c.name, s.*c.member, share);
+}
+
 }  // namespace
 
 std::string text_report(const RenderReport& r) {
   std::string text =
       fmt::format("{}, {}x{}, {} thread{}: {}\n", r.scene, r.width, r.height, r.threads, r.threads == 1 ? "" : "s", r.output);
-  for_each_stage(r, [&](const char* name, double ms) { text += fmt::format("{:20}{:.1f}\n", name, ms); });
-  for (const Count& c : kCounts) text += fmt::format("{:20}{}\n", c.name, r.counts.*c.member);
+  for_each_stage(r, [&](const char* name, double ms) { text += fmt::format("{:20} {:.1f}\n", name, ms); });
+  for (const Count& c : kCounts) text += line_of(c, r.counts);
   for (const ApproximationChoice& c : r.choices) text += fmt::format("{}={}  ({})\n", c.key, c.value, c.why);
   return text;
 }

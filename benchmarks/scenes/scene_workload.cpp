@@ -10,6 +10,23 @@ namespace halfspace {
 
 namespace {
 
+// The vertex stage of a smaller mesh takes too little time to matter.
+constexpr uint32_t kMinClusteredTriangles = 256;
+
+// What is hidden is only looked for in scenes of this size, because a second pass has its price. The objects of the first pass have one
+// part in kNearShare of the triangles.
+constexpr std::size_t kMinHidingTriangles = 500'000, kNearShare = 8;
+
+// Returns the number of objects to draw before looking for hidden ones, from the front.
+std::size_t near_objects(const Scene& scene, const SceneView& view) {
+  const auto triangles = [&](std::size_t i) { return scene.mesh(scene.objects[i]).count / 3; };
+  std::size_t all = 0, near = 0, count = 0;
+  for (const std::size_t i : view.order) all += triangles(i);
+  if (!scene.culls_objects || all < kMinHidingTriangles) return view.order.size();
+  while (near < all / kNearShare) near += triangles(view.order[count++]);
+  return count;
+}
+
 class SceneWorkload final : public Workload {
  public:
   SceneWorkload(std::shared_ptr<const Scene> scene, const SceneRow& row, WorkloadSize size)
@@ -19,9 +36,15 @@ class SceneWorkload final : public Workload {
         map_(kShadowMapSize, kShadowMapSize),
         canvas_(size) {
     const std::span<const uint32_t> indices(scene_->indices);
-    for (const SceneMesh& mesh : scene_->meshes) meshes_.emplace_back(indices.subspan(mesh.first, mesh.count), scene_->vertices.size());
+    const VertexStream positions = stream(scene_->vertices, &SceneVertex::position);
+    for (const SceneMesh& mesh : scene_->meshes) {
+      const Indices& list = meshes_.emplace_back(indices.subspan(mesh.first, mesh.count), scene_->vertices.size());
+      clusters_.emplace_back();
+      if (mesh.count >= 3 * kMinClusteredTriangles) clusters_.back().emplace(positions, list);
+    }
     for (const SceneView& view : views_) {
-      SceneJob& job = jobs_.emplace_back(SceneJob{*scene_, view, meshes_, {}});
+      near_.push_back(near_objects(*scene_, view));
+      SceneJob& job = jobs_.emplace_back(SceneJob{*scene_, view, meshes_, clusters_, {}});
       job.uniforms.clip_from_world = view.clip_from_world;
       job.uniforms.light_from_world = view.light_from_world;
       job.uniforms.eye_ws = view.eye_ws;
@@ -33,9 +56,18 @@ class SceneWorkload final : public Workload {
   void frame(const Workers& workers) override {
     for (const SceneJob& job : jobs_) {
       if (!keeps_map_ || &job == &jobs_.front()) draw_shadow_map(job, workers);
+      const std::span<const std::size_t> order(job.view.order);
+      const std::size_t near = near_[static_cast<std::size_t>(&job - jobs_.data())];
       Pass pass = canvas_.pass();
-      for (const std::size_t i : job.view.order) draw(pass, job, scene_->objects[i]);
+      for (const std::size_t i : order.first(near)) draw(pass, job, scene_->objects[i]);
       pass.run(workers);
+      if (near == order.size()) continue;
+      const DepthPyramid pyramid(canvas_.depth_texels(), workers);
+      SceneJob rest = job;
+      rest.hidden_by = &pyramid;
+      Pass second = canvas_.pass_over();
+      for (const std::size_t i : order.subspan(near)) draw(second, rest, scene_->objects[i]);
+      second.run(workers);
     }
   }
 
@@ -75,7 +107,8 @@ class SceneWorkload final : public Workload {
   bool keeps_map_;
   std::vector<SceneView> views_;
   std::vector<Indices> meshes_;
-  std::vector<SceneJob> jobs_;  // one per view
+  std::vector<std::optional<Clusters>> clusters_;  // one per mesh
+  std::vector<SceneJob> jobs_;                     // one per view
   Image<float> map_;
   Canvas canvas_;
 };

@@ -21,4 +21,11 @@ Pass Canvas::pass() {
   return {color_.width(), color_.height(), color, d32f_target(depth_)};
 }
 
+Pass Canvas::pass_over() {
+  ColorTarget color = rgba8_target(color_);
+  DepthTarget depth = d32f_target(depth_);
+  color.load = depth.load = LoadOp::load;
+  return {color_.width(), color_.height(), color, depth};
+}
+
 }  // namespace halfspace

@@ -251,14 +251,20 @@ struct DrawCondition {
 };
 
 class Clusters;
+class DepthPyramid;
 
 /// Skips triangles of a draw that cannot cover a sample before their vertices are shaded (Clusters). The picture stays the same, bit for
 /// bit; in PassStatistics, these triangles count as culled_cluster. Requires one instance of a triangle list without base_vertex and
-/// without stages that emit primitives, and a shader whose clip-space position is clip_from_object · (position, 1) in float, up to 2^-20 of
-/// the sum of the absolute values of the products.
+/// without stages that emit primitives, and a shader whose clip-space position is clip_from_world · (world_from_object · (position, 1)) in
+/// float, up to 2^-20 of the sum of the absolute values of all products. A shader with a single matrix leaves out the second one.
 struct ClusterCulling {
   const Clusters* clusters = nullptr;  ///< of the index list and the positions of the draw; must stay valid until Pass::run() returns
-  glm::mat4 clip_from_object{1.0f};
+  glm::mat4 clip_from_world{1.0f}, world_from_object{1.0f};
+  /// Also skips clusters that lie behind the depths of this pyramid. It must be that of the depth that the pass loads (LoadOp::load, d32f),
+  /// and no draw or clear may move a depth away from the eye before this one. Has no effect if a hidden triangle can change something: if `compare`
+  /// is none of less, less_equal, greater and greater_equal, with a stencil test, a polygon offset, depth clamp, smooth polygons or
+  /// outlines, and if the shader computes the depth. Must stay valid until Pass::run() returns.
+  const DepthPyramid* hidden_by = nullptr;
   friend bool operator==(const ClusterCulling&, const ClusterCulling&) = default;
 };
 

@@ -7,6 +7,7 @@
 
 #include "halfspace/core/float_mode.h"
 #include "halfspace/raster/amplify/emit_primitives.h"
+#include "halfspace/raster/depth_pyramid.h"
 #include "halfspace/raster/detail/draw_placement.h"
 #include "halfspace/raster/detail/emitted_draws.h"
 #include "halfspace/raster/detail/state_checks.h"
@@ -48,6 +49,7 @@ class PassState {
 
  private:
   int tile_size() const;
+  void check_pyramid(const ClusterCulling& clusters) const;
   void check_color_types(const ShaderKernels& kernels) const;
   // Such passes are planned layer by layer, when they run.
   bool runs_layers() const { return has_emitting_ || options_.layers > 1; }
@@ -152,7 +154,10 @@ void PassState::add_draw(const ShaderKernels& kernels, KeptShader shader, const 
                                         keep_streams(vertices, state.base_instance, memory()), kept, placement);
   d.vertex_count = d.indices->used_count() * state.instances;
   count_primitives(d);
-  if (state.clusters) check_clusters(d);
+  if (state.clusters) {
+    check_clusters(d);
+    check_pyramid(*state.clusters);
+  }
   const bool replaces = set_color_writes(d);
   const bool decides_visibility = (kernels.discards && !kernels.tests_early) || kernels.writes_depth;
   // Without color attachments, there is nothing to blend.
@@ -166,6 +171,15 @@ void PassState::add_draw(const ShaderKernels& kernels, KeptShader shader, const 
   d.layer_group = layer_group_;
   has_emitting_ |= kernels.emitting != nullptr;
   if (!runs_layers()) plan_.add(d, context_.draws.size() - 1);
+}
+
+void PassState::check_pyramid(const ClusterCulling& clusters) const {
+  const DepthPyramid* const pyramid = clusters.hidden_by;
+  const DepthTarget& depth = attachments_.depth;
+  HS_CHECK(pyramid == nullptr || (pyramid->width() == context_.width && pyramid->height() == context_.height),
+           "ClusterCulling::hidden_by: the pyramid has another size than the pass; expected the same size");
+  HS_CHECK(pyramid == nullptr || (depth.format == DepthFormat::d32f && depth.load == LoadOp::load),
+           "ClusterCulling::hidden_by: the pass does not load a depth of the format d32f; expected the depth of the pyramid");
 }
 
 void PassState::check_color_types(const ShaderKernels& kernels) const {

@@ -63,7 +63,7 @@ inline constexpr int kMaxGeometryInvocations = 32;
 /// and 4; the other vertices are those of the neighbors (OpenGL 4.6, section 10.1).
 template <class R, class V, std::size_t N>
 struct GeometryInput {
-  std::array<vec4<R>, N> position;  ///< clip space
+  std::array<vec4<R>, N> position;  ///< as `vertex` returned it, usually in clip space
   std::array<V, N> varyings;
   IntOf<R> primitive;      ///< 0, 1, … in submission order; starts again in each instance (gl_PrimitiveIDIn)
   IntOf<R> instance;       ///< 0 … DrawState::instances − 1

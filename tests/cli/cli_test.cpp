@@ -19,6 +19,7 @@
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <set>
 #include <sstream>
 #include <string>
@@ -327,6 +328,9 @@ TEST_F(Cli, PrintsStatisticsAsTextAndJson) {
   const Outcome text = run({"render", "--stats", "earth", "--size", "64x36"});
   EXPECT_EQ(text.exit_code, 0) << text.err;
   EXPECT_TRUE(text.out.starts_with("earth, 64x36, ")) << text.out;
+  const std::regex line("\\w+ +[0-9.]+( \\([0-9.]+ %\\))?");
+  std::istringstream lines(text.out.substr(text.out.find('\n') + 1));
+  for (std::string l; std::getline(lines, l);) EXPECT_TRUE(std::regex_match(l, line)) << l;
   const Outcome json = run({"render", "earth", "--stats=json", "--size", "64x36"});
   const auto parsed = nlohmann::json::parse(json.out);
   EXPECT_EQ(parsed.at("width"), 64);

@@ -5,11 +5,14 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <optional>
 
 #include "halfspace/core/float_mode.h"
 #include "halfspace/core/lanes.h"
 #include "halfspace/raster/clusters.h"
 #include "halfspace/raster/pipeline/window.h"
+#include "halfspace/raster/primitives/cluster_boxes.h"
+#include "halfspace/raster/primitives/hidden_clusters.h"
 #include "halfspace/raster/primitives/primitive_assembly.h"
 #include "halfspace/raster/primitives/vertex_stage.h"
 
@@ -17,52 +20,8 @@ namespace halfspace::HS_LANES {
 
 namespace {
 
-// Bound of the rounding errors of a clip-space coordinate, as a part of the sum of the absolute values of its terms: 32 roundings of 2^-24.
-// The shader may make 16 (ClusterCulling), and the computations of this file make fewer than 16.
-constexpr float kError = 0x1p-19f;
 // Smaller values have lost precision or may soon.
 constexpr float kTiny = 0x1p-100f;
-
-// A linear function a·x + b·y + c·z + d of the position.
-struct Plane {
-  glm::vec3 normal, size;  // size: absolute values of normal
-  float offset;
-};
-Plane plane_of(const glm::dvec4& p) {
-  const glm::vec3 normal(p);
-  return {normal, glm::abs(normal), static_cast<float>(p.w)};
-}
-
-// The bounding boxes of W clusters.
-struct Boxes {
-  std::array<Real, 3> center, half, largest;  // largest: absolute value of a coordinate
-};
-
-Boxes load_boxes(const Clusters& clusters, std::size_t first) {
-  Boxes out;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Real low = load<Real>(clusters.values(static_cast<Clusters::Value>(Clusters::kLowX + k)) + first);
-    const Real high = load<Real>(clusters.values(static_cast<Clusters::Value>(Clusters::kHighX + k)) + first);
-    out.center[k] = Real(0.5f) * low + Real(0.5f) * high;
-    out.half[k] = Real(0.5f) * high - Real(0.5f) * low;
-    out.largest[k] = max(abs(low), abs(high));
-  }
-  return out;
-}
-
-Real dot(const glm::vec3& a, const std::array<Real, 3>& b) { return Real(a.x) * b[0] + Real(a.y) * b[1] + Real(a.z) * b[2]; }
-
-// The values of a plane function in W boxes: [middle − radius, middle + radius]. radius includes rounding errors, also those of a shader
-// that computes the function.
-struct Interval {
-  Real middle, radius;
-  Real low() const { return middle - radius; }
-  Real high() const { return middle + radius; }
-};
-Interval interval(const Plane& p, const Plane& terms, const Boxes& b) {
-  const Real error = Real(kError) * (dot(terms.size, b.largest) + Real(std::fabs(terms.offset)));
-  return {dot(p.normal, b.center) + Real(p.offset), dot(p.size, b.half) + error};
-}
 
 class Culling {
  public:
@@ -72,23 +31,20 @@ class Culling {
   Mask skipped(const Clusters& clusters, std::size_t first) const {
     const Boxes boxes = load_boxes(clusters, first);
     Mask outside(false);
-    for (std::size_t k = 0; k < sides_; ++k) outside = outside | (interval(planes_[k], terms_[k], boxes).high() < Real(0.0f));
+    for (std::size_t k = 0; k < sides_; ++k) outside = outside | (interval(planes_[k], boxes).high() < Real(0.0f));
     return culls_faces_ ? outside | faces_away(clusters, first, boxes) : outside;
   }
 
  private:
-  // Adds the half-space p ≥ 0. terms: absolute values of the products that are added.
-  void add_side(const glm::dvec4& p, const glm::dvec4& terms) {
-    planes_[sides_] = plane_of(p);
-    terms_[sides_++] = plane_of(terms);
-  }
+  // Adds the half-space p ≥ 0.
+  void add_side(const glm::dvec4& p, const glm::dvec4& sums) { planes_[sides_++] = {plane_of(p), plane_of(sums)}; }
   Mask faces_away(const Clusters& clusters, std::size_t first, const Boxes& boxes) const;
 
   Viewport viewport_;
   std::size_t sides_ = 0, first_depth_side_ = 0;
-  std::array<Plane, 6> planes_, terms_;
+  std::array<Computed, 6> planes_;
   bool culls_faces_ = false;
-  Plane x_, y_, w_;
+  Computed x_, y_, w_;
   // The eye in homogeneous object space: the point that has no image. Its sign is such that the triangles to be culled are those with
   // dot(normal, eye.xyz − eye.w · corner) < 0. It is divided by eye_scale_, so that its largest component is 1.
   glm::vec4 eye_{0.0f};
@@ -105,21 +61,22 @@ glm::dvec4 cross4(const glm::dvec4& a, const glm::dvec4& b, const glm::dvec4& c)
 
 Culling::Culling(const Draw& draw) : viewport_(draw.viewport) {
   const DrawState& state = draw.state;
-  const glm::dmat4 rows = glm::transpose(glm::dmat4(state.clusters->clip_from_object));
-  const glm::dvec4 &x = rows[0], &y = rows[1], &z = rows[2], &w = rows[3];
-  for (const glm::dvec4& side : {x, y}) {
-    add_side(w + side, glm::abs(w) + glm::abs(side));
-    add_side(w - side, glm::abs(w) + glm::abs(side));
+  const ClipTransform transform(*state.clusters);
+  const glm::dvec4 &x = transform.rows[0], &y = transform.rows[1], &z = transform.rows[2], &w = transform.rows[3];
+  const glm::dmat4& sums = transform.sums;
+  for (const int axis : {0, 1}) {
+    add_side(w + transform.rows[axis], sums[3] + sums[axis]);
+    add_side(w - transform.rows[axis], sums[3] + sums[axis]);
   }
   first_depth_side_ = sides_;
   if (!state.depth.clamp) {
     const bool both = state.depth.clip == ClipDepth::negative_one_to_one;
-    add_side(both ? w + z : z, both ? glm::abs(w) + glm::abs(z) : glm::abs(z));
-    add_side(w - z, glm::abs(w) + glm::abs(z));
+    add_side(both ? w + z : z, both ? sums[3] + sums[2] : sums[2]);
+    add_side(w - z, sums[3] + sums[2]);
   }
-  x_ = plane_of(x);
-  y_ = plane_of(y);
-  w_ = plane_of(w);
+  x_ = transform.computed(0);
+  y_ = transform.computed(1);
+  w_ = transform.computed(3);
   // Clip distances cut triangles, and the pieces of a triangle can face another way after snapping.
   culls_faces_ = (state.cull == CullMode::back || state.cull == CullMode::front) && state.polygon_mode == PolygonMode::fill &&
                  draw.kernels.clip_distance_count == 0;
@@ -138,13 +95,13 @@ Culling::Culling(const Draw& draw) : viewport_(draw.viewport) {
 // and whose height on it is h, has edges of at most L · S px and a doubled area of at least L · h · K px², where K depends on the angle at
 // which it is seen. Therefore all triangles of a cluster are culled if h·K > 4·D·S + 4·D²/h, because L ≥ h.
 Mask Culling::faces_away(const Clusters& clusters, std::size_t first, const Boxes& boxes) const {
-  const Interval w = interval(w_, w_, boxes), x = interval(x_, x_, boxes), y = interval(y_, y_, boxes);
+  const Interval w = interval(w_, boxes), x = interval(x_, boxes), y = interval(y_, boxes);
   const Real w_low = w.low(), inverse_w = Real(1.0f) / w_low;
   const Real ndc_x = max(abs(x.low()), abs(x.high())) * inverse_w, ndc_y = max(abs(y.low()), abs(y.high())) * inverse_w;
   // No triangle is clipped.
   Mask whole = (w_low > Real(2.0f * kMinW)) & (ndc_x < Real(0.999f * std::min(-viewport_.guard_left, viewport_.guard_right))) &
                (ndc_y < Real(0.999f * std::min(-viewport_.guard_bottom, viewport_.guard_top)));
-  for (std::size_t k = first_depth_side_; k < sides_; ++k) whole = whole & (interval(planes_[k], terms_[k], boxes).low() > Real(0.0f));
+  for (std::size_t k = first_depth_side_; k < sides_; ++k) whole = whole & (interval(planes_[k], boxes).low() > Real(0.0f));
 
   // The largest dot(n, eye.xyz − eye.w · corner) for all unit normals n in the cone and all corners in the box.
   const auto value = [&](Clusters::Value v) { return load<Real>(clusters.values(v) + first); };
@@ -170,15 +127,14 @@ Mask Culling::faces_away(const Clusters& clusters, std::size_t first, const Boxe
   const Real cubed = w_high * w_high * w_high;
   const Real area = Real(static_cast<float>(static_cast<double>(half_width * half_height) * eye_scale_)) * -facing / cubed;  // K
   whole = whole & (cubed > Real(kTiny)) & (square > Real(kTiny)) & (area < Real(1.0f / kTiny));  // no underflow and no overflow
-  const float slope_x = glm::length(x_.normal), slope_y = glm::length(y_.normal), slope_w = glm::length(w_.normal);
+  const float slope_x = glm::length(x_.plane.normal), slope_y = glm::length(y_.plane.normal), slope_w = glm::length(w_.plane.normal);
   const Real scale =
       (Real(half_width) * (Real(slope_x) + ndc_x * Real(slope_w)) + Real(half_height) * (Real(slope_y) + ndc_y * Real(slope_w))) *
       inverse_w;  // S
-  const auto error = [&](const Plane& p) { return Real(kError) * (dot(p.size, boxes.largest) + Real(std::fabs(p.offset))); };
-  const Real error_w = error(w_);
-  const Real moved =
-      Real(1.01f / 256.0f) + (Real(half_width) * (error(x_) + ndc_x * error_w) + Real(half_height) * (error(y_) + ndc_y * error_w)) *
-                                 inverse_w;  // D, the sum of both axes
+  const Real error_w = error_bound(w_, boxes);
+  const Real moved = Real(1.01f / 256.0f) + (Real(half_width) * (error_bound(x_, boxes) + ndc_x * error_w) +
+                                             Real(half_height) * (error_bound(y_, boxes) + ndc_y * error_w)) *
+                                                inverse_w;  // D, the sum of both axes
   const Real height = value(Clusters::kMinHeight);
   return whole & (facing < Real(0.0f)) & (height * area > Real(4.01f) * moved * (scale + moved / height));
 }
@@ -237,6 +193,8 @@ VisibleClusters visible_clusters(const Draw& draw) {
   const std::size_t triangles = draw.primitive_count, vertices = draw.vertex_count;
   VisibleClusters out;
   const Culling culling(draw);
+  std::optional<HiddenClusters> hidden;
+  if (draw.state.clusters->hidden_by != nullptr && can_hide(draw)) hidden.emplace(draw);
   std::vector<bool> is_used((vertices + kClusterVertexBlock - 1) / kClusterVertexBlock);
   for (std::size_t first = 0; first < clusters.size(); first += kLanes) {
     const uint32_t exists = bits(first_lanes<Mask>(static_cast<int>(std::min<std::size_t>(kLanes, clusters.size() - first))));
@@ -245,7 +203,9 @@ VisibleClusters visible_clusters(const Draw& draw) {
       const std::size_t begin = (first + static_cast<std::size_t>(std::countr_zero(left))) * kClusterTriangles;
       HS_DCHECK(are_culled(draw, begin, std::min(triangles, begin + kClusterTriangles)));
     }
-    for (uint32_t left = exists & ~skipped; left != 0; left &= left - 1) {
+    uint32_t left = exists & ~skipped;
+    if (hidden && left != 0) left &= ~hidden->among(left, clusters, first);
+    for (; left != 0; left &= left - 1) {
       const std::size_t i = first + static_cast<std::size_t>(std::countr_zero(left));
       append(out.triangles, i * kClusterTriangles, std::min<std::size_t>(triangles, (i + 1) * kClusterTriangles));
       for (const uint32_t block : clusters.vertex_blocks(i)) is_used[block] = true;
