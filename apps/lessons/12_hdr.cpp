@@ -54,7 +54,7 @@ int main(int argc, char** argv) try {
   const glm::dmat4 camera = perspective_reversed(0.7, 320.0 / 240.0, 0.1, 100.0) * look_at({0, 2.2, 5}, {0, 0.4, 0}, {0, 1, 0});
 
   Image<glm::u8vec4> image(320, 240);
-  // The pass renders to half floats, which exist only while a tile is being drawn. The tone curve writes its result to the image.
+  // The pass renders to 16-bit floats, up to 65504. They exist only while a tile is being drawn. The tone curve writes to the image.
   Pass pass(320, 240, {.format = ColorFormat::rgba16f, .store = StoreOp::dont_care}, {.format = DepthFormat::d32f, .clear_value = 0.0f});
   for (const Mesh& mesh : meshes)
     pass.draw(LampShader{glm::mat4(camera), {1.4f, 1.0f, 0.7f}}, make_vertex_view(stream(mesh.positions), stream(mesh.normals)),

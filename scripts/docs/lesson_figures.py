@@ -268,36 +268,39 @@ def lanes():
     return f
 
 
+def overlaps(triangle, left, top, size):
+    """Whether a triangle, clockwise in the picture, overlaps a square: neither is beyond an edge of the other."""
+    square = [(left, top), (left + size, top), (left + size, top + size), (left, top + size)]
+
+    def meets_inside(polygon, points):
+        edges = zip(polygon, polygon[1:] + polygon[:1])
+        return all(max((bx - ax) * (y - ay) - (by - ay) * (x - ax) for x, y in points) > 0 for (ax, ay), (bx, by) in edges)
+
+    return meets_inside(list(triangle), square) and meets_inside(square, triangle)
+
+
 def bins():
     """Three triangles on a grid of tiles, and the list of each tile."""
     f = Figure(720, 300, "Tiles and bins")
-    size, x0, y0 = 80, 20, 20
+    size, y0 = 80, 20
     triangles = (
-        ("A", BLUE, ((40, 50), (150, 60), (60, 130))),
+        ("A", BLUE, ((40, 50), (140, 60), (50, 130))),
         ("B", RED, ((120, 40), (320, 150), (130, 200))),
         ("C", GREEN, ((230, 190), (330, 200), (270, 245))),
     )
     for row in range(3):
         for column in range(4):
-            left, top = x0 + column * size, y0 + row * size
-            f.box(left, top, size, size, "none", SOFT, 1, 1)
-            # A bin lists the triangles whose bounding box overlaps the tile.
-            names = [
-                name
-                for name, _, p in triangles
-                if min(x for x, _ in p) < left + size
-                and max(x for x, _ in p) > left
-                and min(y for _, y in p) < top + size
-                and max(y for _, y in p) > top
-            ]
-            f.box(380 + column * 60, top, 60, size, "none", SOFT, 1, 1)
-            f.text(410 + column * 60, top + 45, " ".join(names), INK, "middle")
+            left, right, top = 20 + column * size, 380 + column * size, y0 + row * size
+            names = [name for name, _, points in triangles if overlaps(points, left, top, size)]
+            for x in (left, right):
+                f.box(x, top, size, size, "none", SOFT, 1, 1)
+            f.text(right + size / 2, top + 45, " ".join(names), INK, "middle")
     for name, color, points in triangles:
         f.polygon(points, color, color, 2, 0.25)
         center = (sum(x for x, _ in points) / 3, sum(y for _, y in points) / 3)
         f.text(center[0], center[1] + 5, name, color, "middle", 18)
     f.text(20, 285, "tiles of the picture")
-    f.text(380, 285, "bins: the triangles that may touch the tile")
+    f.text(380, 285, "bins: the triangles that overlap the tile")
     return f
 
 
@@ -340,13 +343,13 @@ def samples():
     """A pixel with four samples at OpenGL's standard places, and an edge."""
     f = Figure(720, 280, "Four samples of a pixel")
     x0, y0, size = 40, 30, 220
-    f.polygon([(x0, y0 + 150), (x0 + size, y0 + 30), (x0 + size, y0 + size), (x0, y0 + size)], BLUE, "none", 0, 0.25)
+    f.polygon([(x0, y0 + 35), (x0 + size, y0 + 115), (x0 + size, y0 + size), (x0, y0 + size)], BLUE, "none", 0, 0.25)
     f.box(x0, y0, size, size)
-    f.line((x0 - 20, y0 + 161), (x0 + size + 20, y0 + 19), BLUE, 2)
+    f.line((x0 - 22, y0 + 27), (x0 + size + 22, y0 + 123), BLUE, 2)
     covered = 0
-    for x, y in ((6, 2), (14, 6), (2, 10), (10, 14)):  # in sixteenths, from the upper left
-        px, py = x0 + x / 16 * size, y0 + y / 16 * size
-        inside = (py - y0) > 150 - 120 * (px - x0) / size
+    for x, y in ((6, 2), (14, 6), (2, 10), (10, 14)):  # in sixteenths, from the lower left
+        px, py = x0 + x / 16 * size, y0 + size - y / 16 * size
+        inside = (py - y0) > 35 + 80 * (px - x0) / size
         covered += inside
         f.dot((px, py), 7, BLUE if inside else SOFT)
     f.line((x0 + size / 2 - 6, y0 + size / 2), (x0 + size / 2 + 6, y0 + size / 2), INK, 1)
