@@ -53,8 +53,9 @@ struct ShadowShader {
 int main(int argc, char** argv) try {
   Mesh meshes[]{torus_knot(0.7f, 0.16f, 24, 240), plane(6.0f)};
   for (glm::vec3& p : meshes[0].positions) p.y += 1.1f;  // above the plane
-  const glm::dvec3 sun(3, 4, 2);
-  const glm::dmat4 light = orthographic_reversed(6.0, 1.0, 0.1, 12.0) * look_at(sun, {0, 0.5, 0}, {0, 1, 0});
+  const glm::dvec3 sun(3, 4, 2), center(0, 0.5, 0);
+  const glm::vec3 to_light(glm::normalize(sun - center));
+  const glm::dmat4 light = orthographic_reversed(6.0, 1.0, 0.1, 12.0) * look_at(sun, center, {0, 1, 0});
   const glm::dmat4 camera = perspective_reversed(0.7, 320.0 / 240.0, 0.1, 100.0) * look_at({-2, 3, 4.5}, {0, 0.6, 0}, {0, 1, 0});
 
   Image<float> map(kMapSize, kMapSize);
@@ -66,8 +67,7 @@ int main(int argc, char** argv) try {
   for (const Mesh& mesh : meshes) {
     const auto vertices = make_vertex_view(stream(mesh.positions), stream(mesh.normals));
     from_light.draw_depth(ShadowShader{glm::mat4(light), {}, {}, nullptr}, vertices, mesh.indices, kReversedZState);
-    pass.draw(ShadowShader{glm::mat4(camera), glm::mat4(light), glm::vec3(glm::normalize(sun)), &map}, vertices, mesh.indices,
-              kReversedZState);
+    pass.draw(ShadowShader{glm::mat4(camera), glm::mat4(light), to_light, &map}, vertices, mesh.indices, kReversedZState);
   }
   from_light.run(Workers(1));
   pass.run(Workers(1));

@@ -82,9 +82,9 @@ int main(int argc, char** argv) try {
   for (int i = 0; i < 64 * 64; ++i)
     checks.set(i % 64, i / 64, 0, 0, (i / 32 + i / 2048) % 2 == 0 ? glm::vec4(0.8f, 0.4f, 0.1f, 1) : glm::vec4(0.1f, 0.2f, 0.5f, 1));
   checks.generate_mipmaps();
-  const glm::dvec3 sun(3, 5, 2);
-  const glm::mat4 light(orthographic_gl(7.0, 1.0, 0.1, 12.0) * look_at(sun, {0, 0.5, 0}, {0, 1, 0}));
-  ModelShader shader{light, light, glm::vec3(glm::normalize(sun)), checks.view<kKind>(), map.view<kKind>()};
+  const glm::dvec3 sun(3, 5, 2), center(0, 0.5, 0);
+  const glm::mat4 light(orthographic_gl(7.0, 1.0, 0.1, 12.0) * look_at(sun, center, {0, 1, 0}));
+  ModelShader shader{light, light, glm::vec3(glm::normalize(sun - center)), checks.view<kKind>(), map.view<kKind>()};
   Pass from_light(512, 512, {}, depth_target(map.level()));
   from_light.draw_depth(shader, vertices);
   Image<glm::u8vec4> image(320, 240);
