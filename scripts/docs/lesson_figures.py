@@ -88,12 +88,13 @@ def half_planes():
         f.dot(at)
         f.text(at[0] + dx, at[1] - 6, name)
     f.dot((180.5, 140.5), 4, GREEN)
-    f.text(150, 164, "(150, 120): + + +", GREEN)
+    f.text(118, 164, "(150, 120): + + +", GREEN)
     f.dot((70.5, 60.5), 4, RED)
     f.text(20, 48, "(40, 40): + − +", RED)
     f.text(400, 60, "Walk from a to b to c to a:")
     f.text(400, 82, "the inside is on the right of each edge,")
     f.text(400, 104, "where its function is positive.")
+    f.text(400, 140, "Order of the signs: bc, ca, ab.", SOFT)
     return f
 
 
@@ -130,6 +131,7 @@ def frustum():
     for s in (-1, 1):
         f.line(eye, (eye[0] + near, 150 + s * near * slope), BLUE, 1, True)
     f.line((eye[0] + near, 40), (eye[0] + near, 285), RED, 2)
+    f.text(430, 155, "view frustum", BLUE, "middle")
     f.text(eye[0] + near, 30, "near plane: z + w = 0", RED, "middle")
     f.line((eye[0], 60), (eye[0], 280), SOFT, 1, True)
     f.text(eye[0] - 8, 290, "w = 0", SOFT, "end")
@@ -215,9 +217,9 @@ def tangent_frame():
     f.text(p[0] + 66, p[1] - 44, "bitangent", GREEN)
     f.arrow(p, (p[0], p[1] - 100), INK)
     f.text(p[0] - 6, p[1] - 104, "normal", INK, "end")
-    f.arrow(p, (p[0] - 55, p[1] - 80), YELLOW, 3)
-    f.text(p[0] - 62, p[1] - 78, "normal of the map", YELLOW, "end")
-    f.text(60, 228, "The tangent points to where u increases.")
+    f.arrow(p, (p[0] + 0.5 * 110, p[1] + 0.5 * 2 - 0.86 * 100), YELLOW, 3)
+    f.text(p[0] + 60, p[1] - 92, "normal of the map: 0.5 · tangent + 0.86 · normal", YELLOW)
+    f.text(60, 228, "The tangent points to where u increases, and the bitangent to where v decreases.")
     f.text(60, 250, "A texel (x, y, z) stands for x · tangent + y · bitangent + z · normal.")
     f.text(60, 272, "The bluish texel (128, 128, 255) is the normal itself: x = y = 0, z = 1.", SOFT)
     return f
@@ -228,7 +230,7 @@ def shadow_texel():
     f = Figure(720, 320, "A texel of the shadow map on a slope")
     # The light shines straight down; the texel has the width w, and the surface falls to the right.
     x0, w, top, slope = 220, 200, 110, 0.5
-    f.line((100, top - 120 * slope), (540, top + 320 * slope), INK, 2)
+    f.line((100, top - 120 * slope), (582, top + 362 * slope), INK, 2)
     for x in range(120, 440, 40):
         f.line((x, 14), (x, top + (x - x0) * slope - 4), YELLOW, 1)
     f.text(440, 26, "light", YELLOW)
@@ -241,6 +243,14 @@ def shadow_texel():
     f.polygon([middle, (x0 + w, middle[1]), (x0 + w, middle[1] + w / 2 * slope)], RED, "none", 0, 0.25)
     f.line((x0 + w + 14, middle[1]), (x0 + w + 14, middle[1] + w / 2 * slope), BLUE, 2)
     f.text(x0 + w + 22, middle[1] + w / 4 * slope - 12, "bias ≥ w / 2 · tan θ", BLUE)
+    # The angle between the normal and the direction to the light.
+    p, theta = (x0 + 320, top + 320 * slope), math.atan(slope)
+    f.arrow(p, (p[0], p[1] - 80), YELLOW)
+    f.arrow(p, (p[0] + 80 * math.sin(theta), p[1] - 80 * math.cos(theta)))
+    f.curve([(p[0] + 45 * math.sin(theta * i / 10), p[1] - 45 * math.cos(theta * i / 10)) for i in range(11)], SOFT, 1.5)
+    f.text(p[0] + 14, p[1] - 50, "θ", SOFT, "middle")
+    f.text(p[0] - 8, p[1] - 70, "to the light", YELLOW, "end")
+    f.text(p[0] + 44, p[1] - 70, "normal")
     f.arrow((x0, 276), (x0 + w, 276), SOFT, 1)
     f.text(middle[0], 294, "w: one texel", SOFT, "middle")
     f.text(20, 310, "The red part of the surface is farther from the light than the stored depth: it would shadow itself.", RED, "start", 12)
