@@ -33,9 +33,9 @@ struct TexturedShader {
   }
   template <class R>
   Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>& px) const {
-    // The change of uv from one pixel to the next gives the size of a pixel on the texture, which selects the mip level.
-    const vec2<R> across = px.ddx(&Varyings<R>::uv), down = px.ddy(&Varyings<R>::uv);
-    return {texture->sample<R>(sampler, in.uv, across, down)};
+    // The changes of uv to the pixels on the right and above give the size of a pixel on the texture, which selects the mip level.
+    const vec2<R> across = px.ddx(&Varyings<R>::uv), up = px.ddy(&Varyings<R>::uv);
+    return {texture->sample<R>(sampler, in.uv, across, up)};
   }
 };
 

@@ -54,7 +54,7 @@ Image<glm::u8vec4> normal_map() {
   Image<glm::u8vec4> map(512, 256);
   for (int y = 0; y < 256; ++y)
     for (int x = 0; x < 512; ++x) {
-      const glm::dvec3 slope(height(x - 1, y) - height(x + 1, y), height(x, y + 1) - height(x, y - 1), 0.04);
+      const glm::dvec3 slope(height(x - 1, y) - height(x + 1, y), height(x, y + 1) - height(x, y - 1), 0.04);  // 0.04 sets the steepness
       map.at(x, y) = glm::u8vec4((glm::normalize(slope) * 0.5 + 0.5) * 255.0 + 0.5, 255);
     }
   return map;
