@@ -8,6 +8,7 @@
 
 import math
 import sys
+from fractions import Fraction
 from pathlib import Path
 
 IMAGES = Path(__file__).resolve().parents[2] / "docs" / "tutorial" / "lessons" / "images"
@@ -370,9 +371,234 @@ def samples():
     return f
 
 
+def strip_triangles(first, vertices):
+    """The triangles of a strip, as numbers of vertices: each vertex from the third forms one with the two before it."""
+    return [(k, k + 1, k + 2) for k in range(first, first + vertices - 2)]
+
+
+def geometry_stage():
+    """Two triangles of lesson 15, the strips that the geometry function emits for them, and the triangles in the order of drawing."""
+    f = Figure(720, 330, "From a triangle to strips, and from strips to triangles")
+    for x, words in ((90, "in"), (265, "strip of the quill"), (400, "strip of the skin"), (605, "drawn in this order")):
+        f.text(x, 24, words, SOFT, "middle")
+    along, across = (-30, -120), (12, -3)  # as in the program, `across` is perpendicular to `along` and a tenth as long
+    drawn = []
+    for name, top, grows in (("A", 170, True), ("B", 270, False)):
+        corners = [(-60, 20), (70, 10), (-10, -36)]
+        root = (sum(x for x, _ in corners) / 3, sum(y for _, y in corners) / 3)
+        f.polygon([(90 + x, top + y) for x, y in corners], SOFT, INK, 1.5, 0.2)
+        f.text(90 + root[0], top + root[1] + 5, name, INK, "middle", 18)
+        f.text(90, top + 40, f"grows = {str(grows).lower()}", GREEN if grows else RED, "middle", 12)
+        f.arrow((180, top), (212, top), SOFT)
+        strips = []
+        if grows:
+            side = [root[0] + 0.3 * along[0], root[1] + 0.3 * along[1]]
+            quill = [root, (side[0] - across[0], side[1] - across[1]), (side[0] + across[0], side[1] + across[1]), (root[0] + along[0], root[1] + along[1])]
+            strips.append((BLUE, [(280 + x, top + 8 + y) for x, y in quill]))
+        else:
+            f.text(265, top + 5, "none", RED, "middle", 12)
+        strips.append((YELLOW, [(395 + x, top + y) for x, y in corners]))
+        first = 1
+        for color, points in strips:
+            triangles = strip_triangles(first, len(points))
+            for t in triangles:
+                f.polygon([points[k - first] for k in t], color, color, 1.5, 0.3)
+            center = sum(x for x, _ in points) / len(points)
+            for k, (x, y) in enumerate(points):
+                f.dot((x, y), 3)
+                end = len(points) == 4 and k in (0, 3)
+                f.text(x if end else x + (-9 if x < center else 9), y + (16 if k == 0 else -7) if end else y + 5, str(first + k), INK,
+                       "middle" if end else "end" if x < center else "start", 12)
+            drawn += [(name, color, t) for t in triangles]
+            first += len(points)
+        f.arrow((482, top), (510, top), SOFT)
+    for row, (name, color, t) in enumerate(drawn):
+        y = 102 + 36 * row + (46 if name == "B" else 0)
+        f.box(520, y, 170, 28, color, color, 0.3)
+        f.text(534, y + 19, f"{row + 1}.  {name}: {' '.join(map(str, t))}")
+    return f
+
+
+def divided_square(outer, inner):
+    """The triangles that tessellation makes of the square, as corners (u, v). outer: left, bottom, right, top; inner: along u, along v.
+    This is tessellate_quad in src/raster/amplify/tessellator.cpp for equal spacing and inner levels of at least 2."""
+    columns, rows = inner
+    # The points of the four sides, counterclockwise from v = 0: as their position on the side and their distance from it.
+    turned = (lambda p, d: (p, d), lambda p, d: (1 - d, p), lambda p, d: (1 - p, 1 - d), lambda p, d: (d, 1 - p))
+    outer_sides = [[(Fraction(k, n), 0) for k in range(n + 1)] for n in (outer[1], outer[2], outer[3], outer[0])]
+    inner_sides = [[(Fraction(k, n), Fraction(1, m)) for k in range(1, n)] for n, m in ((columns, rows), (rows, columns)) * 2]
+    triangles = []
+    for x in range(1, columns - 1):
+        for y in range(1, rows - 1):
+            a, b, c, d = ((Fraction(x + i, columns), Fraction(y + j, rows)) for i, j in ((0, 0), (1, 0), (1, 1), (0, 1)))
+            triangles += [(a, b, c), (a, c, d)]
+    for turn, far, near in zip(turned, outer_sides, inner_sides):
+        i = j = 0
+        while i + 1 < len(far) or j + 1 < len(near):
+            # Go on along the side whose next segment has its middle first.
+            along_outer = j + 1 == len(near) or (i + 1 < len(far) and far[i][0] + far[i + 1][0] <= near[j][0] + near[j + 1][0])
+            corners = (far[i], far[i + 1], near[j]) if along_outer else (far[i], near[j + 1], near[j])
+            triangles.append(tuple(turn(*corner) for corner in corners))
+            i, j = (i + 1, j) if along_outer else (i, j + 1)
+    return triangles
+
+
+def teapot_patch():
+    """The 16 points of a patch of the near teapot of lesson 16: a quarter of the upper body, whose last row is on the widest circle."""
+    rings = ((1.5, 2.4), (1.75, 1.875), (2, 1.35), (2, 0.9))
+    return [(x - 1.5, y, z + 1) for r, y in rings for x, z in ((r, 0), (r, 0.56 * r), (0.56 * r, r), (0, r))]
+
+
+def patch_levels(points, eye):
+    """The levels of the four edges (left, bottom, right, top), as the control function of lesson 16 computes them."""
+
+    def level(i, step):
+        edge = [points[i + k * step] for k in range(4)]
+        return max(16 * sum(math.dist(a, b) for a, b in zip(edge, edge[1:])) / math.dist(edge[0], eye), 1)
+
+    return level(0, 4), level(0, 1), level(3, 4), level(12, 1)
+
+
+def evaluated(points, u, v):
+    """The point of the patch at (u, v): the sum of its points, each times two Bernstein polynomials."""
+    a, b = (((1 - t) ** 3, 3 * (1 - t) ** 2 * t, 3 * (1 - t) * t**2, t**3) for t in (float(u), float(v)))
+    return [sum(points[i][k] * a[i % 4] * b[i // 4] for i in range(16)) for k in range(3)]
+
+
+def tessellation():
+    """The square of lesson 16, divided by the levels of a patch of its teapot, and the divided patch."""
+    f = Figure(720, 340, "Levels, points of the square, and the divided patch")
+    eye, points = (0, 4, 9), teapot_patch()
+    levels = patch_levels(points, eye)
+    outer = [math.ceil(level) for level in levels]
+    inner = (max(outer[1], outer[3]), max(outer[0], outer[2]))
+    triangles = divided_square(outer, inner)
+    x0, y0, size = 110, 60, 220
+    # The view of lesson 4, from the eye to the middle of the patch, without perspective.
+    middle = evaluated(points, 0.5, 0.5)
+    back = [(e - m) / math.dist(eye, middle) for e, m in zip(eye, middle)]
+    length = math.hypot(back[0], back[2])
+    right = (back[2] / length, 0, -back[0] / length)
+    up = (back[1] * right[2], back[2] * right[0] - back[0] * right[2], -back[1] * right[0])
+
+    def in_square(u, v):
+        return (x0 + float(u) * size, y0 + float(1 - v) * size)
+
+    def in_view(u, v):
+        offset = [a - b for a, b in zip(evaluated(points, u, v), middle)]
+        return (610 + 85 * sum(a * b for a, b in zip(right, offset)), 170 - 85 * sum(a * b for a, b in zip(up, offset)))
+
+    for place in (in_square, in_view):
+        for corners in triangles:
+            f.polygon([place(*corner) for corner in corners], BLUE, SOFT, 1, 0.1)
+        for u, v in sorted({corner for corners in triangles for corner in corners}):
+            f.dot(place(u, v), 3.5, RED if u in (0, 1) or v in (0, 1) else BLUE)
+    texts = [f"{level:.2f} → {n}" for level, n in zip(levels, outer)]
+    f.text(x0 - 10, y0 + size / 2 - 4, "left", RED, "end")
+    f.text(x0 - 10, y0 + size / 2 + 14, texts[0], RED, "end")
+    f.text(x0 + size / 2, y0 + size + 20, f"bottom {texts[1]}", RED, "middle")
+    f.text(x0 + size + 10, y0 + size / 2 - 4, "right", RED)
+    f.text(x0 + size + 10, y0 + size / 2 + 14, texts[2], RED)
+    f.text(x0 + size / 2, y0 - 10, f"top {texts[3]}", RED, "middle")
+    f.text(x0 - 10, y0 + size + 6, "(0, 0)", SOFT, "end", 12)
+    f.text(x0 + size + 10, y0 + 4, "(1, 1)", SOFT, "start", 12)
+    f.arrow((x0 + size + 20, y0 + size - 24), (x0 + size + 100, y0 + size - 24), SOFT)
+    f.text(x0 + size + 58, y0 + size - 32, "evaluate", SOFT, "middle")
+    for u, v, dx, dy, anchor in ((0, 0, 8, -6, "start"), (1, 1, -8, 14, "end")):
+        at = in_view(u, v)
+        f.text(at[0] + dx, at[1] + dy, f"({u}, {v})", SOFT, anchor, 12)
+    f.text(20, 24, "outer levels, rounded up", RED)
+    f.text(20, 328, f"inner levels: {inner[0]} along u, {inner[1]} along v", BLUE)
+    f.text(610, 328, f"{len(triangles)} triangles", INK, "middle")
+    return f
+
+
+def cube_map():
+    """A direction in a cube, the face that it meets, and the place on this face."""
+    f = Figure(720, 300, "A direction, its face, and its place on the face")
+    direction, face = (3, 1, -2), "+x"  # x has the largest magnitude, and is positive
+    hit = [Fraction(value, direction[0]) for value in direction]
+    s, t = -hit[2], -hit[1]  # the face +x contains the directions (1, -t, -s)
+
+    def signed(value):
+        return str(value).replace("-", "−")
+
+    def at(x, y, z):  # z points to the reader, to the lower left
+        return (160 + 85 * float(x) - 48 * float(z), 165 - 85 * float(y) + 34 * float(z))
+
+    corners = [(1, 1, 1), (1, 1, -1), (1, -1, -1), (1, -1, 1)]
+    f.polygon([at(*c) for c in corners], BLUE, BLUE, 2, 0.15)
+    for y, z in ((1, 1), (1, -1), (-1, -1), (-1, 1)):
+        f.line(at(-1, y, z), at(1, y, z), SOFT, 1)
+    f.polygon([at(-1, y, z) for _, y, z in corners], "none", SOFT, 1)
+    f.arrow(at(0, 0, 0), at(*hit), RED, 2.5)
+    f.dot(at(0, 0, 0), 5)
+    f.dot(at(*hit), 4, RED)
+    f.text(at(0, 0, 0)[0] - 10, at(0, 0, 0)[1] - 8, "eye", INK, "end")
+    for name, dx, dy in (("x", 34, 0), ("y", 0, -34), ("z", -24, 17)):
+        f.arrow((44, 54), (44 + dx, 54 + dy), SOFT, 1.5)
+        f.text(44 + 1.3 * dx, 59 + 1.3 * dy, name, SOFT, "middle", 12)
+    # s and t on the edges of the face.
+    edge = at(1, 1, 1)
+    f.arrow((edge[0] - 4, edge[1] - 8), (at(1, 1, -1)[0] - 4, at(1, 1, -1)[1] - 8), INK, 1.5)
+    f.text(at(1, 1, 0)[0] - 14, at(1, 1, 0)[1] - 12, "s", INK, "middle")
+    f.arrow((edge[0] - 9, edge[1]), (edge[0] - 9, at(1, -1, 1)[1]), INK, 1.5)
+    f.text(edge[0] - 20, at(1, -0.4, 1)[1], "t", INK, "middle")
+    f.text(at(1, -1, 0)[0] + 10, at(1, -1, 0)[1] + 22, f"face {face}", BLUE)
+
+    x0, y0, size = 335, 55, 180
+    f.box(x0, y0, size, size, BLUE, BLUE, 0.15, 2)
+    center = (x0 + size / 2, y0 + size / 2)
+    place = (center[0] + float(s) * size / 2, center[1] + float(t) * size / 2)
+    f.line((x0, center[1]), (x0 + size, center[1]), SOFT, 1)
+    f.line((center[0], y0), (center[0], y0 + size), SOFT, 1)
+    f.arrow((x0, y0 - 12), (x0 + size, y0 - 12), INK, 1.5)
+    f.text(center[0], y0 - 20, "s", INK, "middle")
+    f.arrow((x0 - 12, y0), (x0 - 12, y0 + size), INK, 1.5)
+    f.text(x0 - 24, center[1] + 5, "t", INK, "middle")
+    f.text(x0, y0 + size + 16, "s = −1", SOFT, "start", 12)
+    f.text(x0 + size, y0 + size + 16, "s = 1", SOFT, "end", 12)
+    f.text(x0 + size + 6, y0 + 8, "t = −1", SOFT, "start", 12)
+    f.text(x0 + size + 6, y0 + size, "t = 1", SOFT, "start", 12)
+    f.line(place, (place[0], center[1]), RED, 1, True)
+    f.line(place, (center[0], place[1]), RED, 1, True)
+    f.dot(place, 5, RED)
+    f.text(place[0], center[1] + 18, signed(s), RED, "middle")
+    f.text(center[0] - 8, place[1] + 5, signed(t), RED, "end")
+    f.text(x0, y0 + size + 36, f"the texture of the face {face}", BLUE)
+
+    order = sorted(direction, key=abs, reverse=True)
+    for y, words, color in (
+        (90, f"direction ({', '.join(map(signed, direction))})", RED),
+        (120, " &gt; ".join(f"|{signed(value)}|" for value in sorted(direction, key=abs, reverse=True)), INK),
+        (142, f"so the face is {face}", INK),
+        (172, f"divided by {direction[0]}:", INK),
+        (194, f"({', '.join(map(signed, hit))})", RED),
+        (216, "= (1, −t, −s)", INK),
+        (246, f"s = {signed(s)}, t = {signed(t)}", RED),
+    ):
+        f.text(570, y, words, color)
+    return f
+
+
 FIGURES = {
     function.__name__: function
-    for function in (half_planes, similar_triangles, frustum, mip_pyramid, reflection, tangent_frame, shadow_texel, lanes, bins, gamma, samples)
+    for function in (
+        half_planes,
+        similar_triangles,
+        frustum,
+        mip_pyramid,
+        reflection,
+        tangent_frame,
+        shadow_texel,
+        lanes,
+        bins,
+        gamma,
+        samples,
+        geometry_stage,
+        tessellation,
+        cube_map,
+    )
 }
 
 

@@ -37,6 +37,20 @@ class Lessons(unittest.TestCase):
         pages = "".join(path.read_text(encoding="utf-8") for path in lesson_pictures.PAGES.glob("*.md"))
         self.assertEqual([name for name in kept if f"images/{name}.svg" not in pages], [], "no page shows these figures")
 
+    def test_the_divided_square_of_lesson_16_is_covered_once(self):
+        """The triangles have a positive area, their areas add up to 1, and each edge has as many segments as its level."""
+        for outer, inner in (((4, 6, 4, 7), (7, 4)), ((1, 1, 1, 1), (2, 2)), ((3, 1, 5, 2), (2, 5))):
+            triangles = lesson_figures.divided_square(outer, inner)
+            areas = [(b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]) for a, b, c in triangles]
+            self.assertGreater(min(areas), 0)
+            self.assertEqual(sum(areas), 2)  # twice the area
+            points = {point for corners in triangles for point in corners}
+            edges = [sum(u == 0 for u, _ in points), sum(v == 0 for _, v in points), sum(u == 1 for u, _ in points), sum(v == 1 for _, v in points)]
+            self.assertEqual(tuple(count - 1 for count in edges), outer)
+        # The lesson states the level and the segments of the widest circle.
+        level = lesson_figures.patch_levels(lesson_figures.teapot_patch(), (0, 4, 9))[3]
+        self.assertIn(f"= {level:.2f}, so it has 7 segments", (lesson_pictures.PAGES / "16.md").read_text(encoding="utf-8"))
+
     def test_each_page_states_what_a_student_needs(self):
         for name in lesson_pictures.names():
             page = (lesson_pictures.PAGES / f"{name[:2]}.md").read_text(encoding="utf-8")
