@@ -109,6 +109,7 @@ class SceneWorkload final : public Workload {
   std::vector<Indices> meshes_;
   std::vector<std::optional<Clusters>> clusters_;  // one per mesh
   std::vector<SceneJob> jobs_;                     // one per view
+  std::vector<std::size_t> near_;                  // near_objects() of each view
   Image<float> map_;
   Canvas canvas_;
 };
