@@ -27,7 +27,7 @@ constexpr std::array kBindings{
     KeyBinding{"n", Action::cycle_normals, "switch relief: none, normal map, bump map"},
     KeyBinding{"t", Action::toggle_textures, "textures on or off"},
     KeyBinding{"y", Action::toggle_shadows, "shadows on or off"},
-    KeyBinding{"v", Action::toggle_visibility, "hide or show all objects, or the picked one"},
+    KeyBinding{"v", Action::toggle_visibility, "hide or show all objects, or the object whose history is open (p)"},
     KeyBinding{"space", Action::pause, "pause or resume the animation"},
     KeyBinding{"[", Action::darker, "decrease the exposure by 1/4 stop"},
     KeyBinding{"]", Action::brighter, "increase the exposure by 1/4 stop"},

@@ -118,7 +118,8 @@ void Interface::draw_statistics(const Viewer& viewer, const Contents& c) const {
                                      "{:6.1f} ms copy to the window",
                                      t.prepare_ms, t.draw_ms, t.overlay_ms, c.times.interface, c.times.present)
                              .c_str());
-  ImGui::TextUnformatted(fmt::format("{} triangles, {} after culling\n{} vertices shaded\n{} samples passed\n{} fragments shaded",
+  ImGui::TextUnformatted(fmt::format("{} triangles in all passes, with shadow maps\n{} of them after culling\n"
+                                     "{} vertices shaded\n{} samples passed\n{} fragments shaded",
                                      s.primitives_in, s.triangles_binned, s.vertices_shaded, s.samples_passed, s.fragments_shaded)
                              .c_str());
   ImGui::TextUnformatted(fmt::format("time {:.2f} s{}", viewer.animation_seconds(), viewer.is_paused() ? ", paused" : "").c_str());

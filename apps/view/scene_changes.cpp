@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "halfspace/core/check.h"
 #include "halfspace/scene/object_keys.h"
@@ -130,12 +131,14 @@ std::string toggle_color_maps(SceneFile& scene, const Model* model) {
 }
 
 std::string VisibilityToggle::toggle(SceneFile& scene, const std::string& object) {
-  if (!object.empty()) {
-    const ObjectDescription* o = find_named(scene.description().objects, object);
+  const std::string name = hidden_object_.empty() ? object : std::exchange(hidden_object_, "");
+  if (!name.empty()) {
+    const ObjectDescription* o = find_named(scene.description().objects, name);
     if (o == nullptr) return "the picked object no longer exists";
     const bool visible = o->visible;
-    scene.set(fmt::format("objects.{}.visible={}", object, !visible));
-    return fmt::format("{} {}", visible ? "hidden:" : "visible:", object);
+    scene.set(fmt::format("objects.{}.visible={}", name, !visible));
+    if (visible) hidden_object_ = name;
+    return fmt::format("{} {}", visible ? "hidden:" : "visible:", name);
   }
   const SceneDescription& d = scene.description();
   const bool on = std::ranges::any_of(d.objects, [](const auto& e) { return e.second.visible; });

@@ -28,10 +28,14 @@ std::string toggle_color_maps(SceneFile& scene, const Model* model);
 /// Hides and shows objects and particles.
 class VisibilityToggle {
  public:
-  /// Toggles the object with this name, or all objects and particles if the name is empty.
+  /// Toggles the object with this name, or all objects and particles if the name is empty. If the previous call hid a single object, shows
+  /// it again instead, because `object` is now what was behind it.
   std::string toggle(SceneFile& scene, const std::string& object);
+  /// Forgets which object was hidden.
+  void forget_object() { hidden_object_.clear(); }
 
  private:
+  std::string hidden_object_;                  // the single object that the previous call hid, or empty
   std::vector<std::string> hidden_particles_;  // settings that show the particles again
 };
 

@@ -78,7 +78,7 @@ void ViewApp::open_dropped(const std::string& file) {
 void ViewApp::pick() {
   if (picked_) {
     picked_.reset();
-    viewer_.set_picked_object("");
+    viewer_.clear_picked_object();
     return;
   }
   picked_.emplace();

@@ -135,7 +135,9 @@ void Viewer::press(Action action, bool shift) {
     case Action::brighter: message_ = change([&] { return change_exposure(scene_, kQuarterStop); }); return;
     case Action::pause:
       paused_ = !paused_;
-      message_ = paused_ ? fmt::format("paused at {:.2f} s", seconds_) : "animation resumed";
+      message_ = !is_animated() ? "this scene has no animation"
+                 : paused_      ? fmt::format("paused at {:.2f} s", seconds_)
+                                : "animation resumed";
       return;
     case Action::next_overlay:
       overlay_ = halfspace::next_overlay(overlay_, shift);

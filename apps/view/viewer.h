@@ -47,6 +47,11 @@ class Viewer {
   Overlay overlay() const { return overlay_; }
   /// Sets the name of the object that the key `v` hides; empty for all objects.
   void set_picked_object(const std::string& name) { picked_object_ = name; }
+  /// Ends the selection of an object. The key `v` then hides or shows all objects.
+  void clear_picked_object() {
+    picked_object_.clear();
+    visibility_.forget_object();
+  }
 
   /// Returns a line about the last action.
   const std::string& message() const { return message_; }

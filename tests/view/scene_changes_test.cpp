@@ -94,6 +94,7 @@ TEST(SceneChanges, VisibilityAppliesToThePickedObjectOrToAll) {
   toggle.toggle(scene, "cube");
   EXPECT_EQ(value_in(scene, "cube.visible"), "false");
   EXPECT_EQ(value_in(scene, "globe.visible"), "true");
+  toggle.forget_object();
   toggle.toggle(scene, "");
   EXPECT_EQ(value_in(scene, "globe.visible"), "false");
   toggle.toggle(scene, "");

@@ -112,8 +112,31 @@ TEST(Viewer, TimeStopsWhilePaused) {
   EXPECT_EQ(viewer.seconds(), 0.75);
 }
 
+// While a history is open, the picked object changes to the one behind the hidden object, or to none.
+TEST(Viewer, VShowsTheHiddenObjectAgain) {
+  Viewer viewer = viewer_of("three-lights");
+  const auto is_visible = [&](const char* name) { return find_named(viewer.scene().description().objects, name)->visible; };
+  for (const char* behind : {"globe", ""}) {
+    viewer.set_picked_object("cube");
+    viewer.press(Action::toggle_visibility);
+    EXPECT_FALSE(is_visible("cube"));
+    viewer.set_picked_object(behind);
+    viewer.press(Action::toggle_visibility);
+    EXPECT_EQ(viewer.message(), "visible: cube");
+    EXPECT_TRUE(is_visible("cube") && is_visible("globe"));
+  }
+  viewer.set_picked_object("cube");
+  viewer.press(Action::toggle_visibility);
+  viewer.clear_picked_object();  // the history is closed
+  viewer.press(Action::toggle_visibility);
+  EXPECT_FALSE(is_visible("cube") || is_visible("globe")) << "all objects are hidden";
+}
+
 TEST(Viewer, ASceneWithoutAnimationsDoesNotChangeWithTime) {
   Viewer viewer = viewer_of("three-lights");
+  viewer.press(Action::pause);
+  EXPECT_EQ(viewer.message(), "this scene has no animation");
+  viewer.press(Action::pause);
   viewer.advance(1.0);
   EXPECT_FALSE(viewer.is_running());
   EXPECT_EQ(viewer.animation_seconds(), 0.0);
