@@ -7,6 +7,7 @@
 #include <map>
 #include <tuple>
 
+#include "explain/fragment_values.h"
 #include "explain/stage_terms.h"
 #include "halfspace/raster/inspect/inspection.h"
 #include "halfspace/raster/pipeline/sample_pattern.h"
@@ -26,7 +27,9 @@ bool is_sliver(const ExampleFacts& f) { return f.height < 4.0; }
 
 // A triangle of fewer than 10 pixels has no inside: its blocks, edges and weights cannot be seen. One of more than 2,000 pixels fills
 // whole tiles, so that hardly any block is crossed by an edge. In between, a triangle of some blocks is best.
+// A clipped triangle has vertices that are not in the window, or even behind the eye.
 int size_score(const ExampleFacts& f) {
+  if (f.is_clipped) return std::min(30, static_cast<int>(3 * f.visible_pixels));
   if (f.visible_pixels < 10) return static_cast<int>(3 * f.visible_pixels);
   if (f.covered_pixels > 2000 || is_sliver(f)) return 40;
   return f.visible_pixels >= 40 && f.covered_pixels <= 600 ? 100 : 80;
@@ -51,7 +54,7 @@ int shadow_score(const ExampleFacts& f) {
 
 // Returns true if a pixel shows all ideas of the frame. Such a pixel is better than one that shows some of them very well.
 bool shows_everything(const ExampleFacts& f, const ExampleIdeas& ideas) {
-  return f.is_triangle && f.visible_pixels >= 10 && f.covered_pixels <= 2000 && !is_sliver(f) && f.primitives >= 2 &&
+  return f.is_triangle && !f.is_clipped && f.visible_pixels >= 10 && f.covered_pixels <= 2000 && !is_sliver(f) && f.primitives >= 2 &&
          (!ideas.light || light_score(f) == 100) && (!ideas.perspective || perspective_score(f) == 100) &&
          (!ideas.shadow || shadow_score(f) == 100);
 }
@@ -88,6 +91,12 @@ bool has_different_samples(std::span<const TracedFragment> fragments) {
     first = f;
   }
   return false;
+}
+
+// Returns true if the color of a pixel is made of the colors of several primitives.
+bool mixes_surfaces(std::span<const TracedFragment> fragments) {
+  return has_different_samples(fragments) ||
+         std::ranges::any_of(fragments, [](const TracedFragment& f) { return f.outcome > FragmentOutcome::shaded; });
 }
 
 double measured_error(const InspectedTriangle& t) {
@@ -181,8 +190,30 @@ void ExampleSearch::measure_triangles() {
     InspectedTriangle t;
     triangles.find(visible_[i]->id, t);
     Seen& seen = seen_[primitive_of_[i]];
+    seen.is_clipped = t.source.triangle->is(kClipped);
     seen.height = height_above_longest_edge(t.source.triangle->x, t.source.triangle->y);
     if (ideas_.perspective) seen.affine_error = measured_error(t);
+  }
+}
+
+// Replaces the quotients of pixels that mix several surfaces by the shadow factor of the visible fragment.
+void ExampleSearch::correct_shadow(int light) {
+  const FrameTrace& trace = source_.trace;
+  const TriangleInspector triangles(source_.context);
+  const std::vector<std::string> names(source_.scene.lights.size());
+  for (std::size_t i = 0; i < visible_.size(); ++i) {
+    float& shadow = shadow_.data()[i];
+    if (shadow <= 0.0f || shadow >= 1.0f || visible_[i] == nullptr) continue;
+    const TracedFragment& f = *visible_[i];
+    const glm::ivec2 pixel(static_cast<int>(i % static_cast<std::size_t>(trace.width)),
+                           static_cast<int>(i / static_cast<std::size_t>(trace.width)));
+    if (!is_mesh_triangle(source_.scene, f) || !mixes_surfaces(trace.at(pixel))) continue;
+    InspectedTriangle t;
+    triangles.find(f.id, t);
+    const SamplePosition at = t.draw->shades_samples ? sample_position(trace.samples, f.sample) : kPixelCenter;
+    const FragmentPlace place{t, {pixel.x, trace.height - 1 - pixel.y}, at, f.depth};
+    const LightingDetail detail = lighting_detail(source_.scene.draws[f.draw].shader, place, names);
+    if (!detail.lights.empty()) shadow = detail.lights[static_cast<std::size_t>(light)].shadow;
   }
 }
 
@@ -195,8 +226,9 @@ void ExampleSearch::render_shadow() {
     shadow_ = Image<float>(with.width(), with.height());
     std::ranges::transform(with.texels(), without.texels(), shadow_.data(), [](const glm::vec4& a, const glm::vec4& b) {
       const float full = b.x + b.y + b.z;
-      return full > 0.0f ? (a.x + a.y + a.z) / full : 1.0f;
+      return full > 0.0f ? (a.x + a.y + a.z) / full : 0.0f;
     });
+    correct_shadow(term.light);
     ideas_.shadow = true;
     return;
   }
@@ -212,6 +244,7 @@ ExampleFacts ExampleSearch::facts(glm::ivec2 pixel) const {
   const Seen& seen = seen_[primitive_of_[i]];
   out.visible_pixels = seen.visible;
   out.covered_pixels = seen.covered;
+  out.is_clipped = seen.is_clipped;
   out.height = seen.height;
   out.affine_error = seen.affine_error;
   for_each_primitive(trace.at(pixel), [&](const TracedFragment&) { ++out.primitives; });

@@ -35,10 +35,11 @@ struct ExampleFacts {
   uint32_t visible_pixels = 0;         ///< pixels at which the primitive is the visible one
   uint32_t covered_pixels = 0;         ///< pixels with a fragment of the primitive, visible or not
   uint32_t primitives = 0;             ///< different primitives with a fragment in the pixel
+  bool is_clipped = false;             ///< the triangle was clipped, and is drawn as several pieces
   double height = 0.0;                 ///< of the triangle above its longest edge, in pixels; 0 for other primitives
   double affine_error = 0.0;           ///< see affine_error(); 0 in an orthographic view
   float cosine = 0.0f;                 ///< largest n·l of the lights that reach the surface, at most 1; 0 or less: faces away from all
-  float shadow = 1.0f;                 ///< fraction of the light of the first light with a shadow that reaches the surface
+  float shadow = 0.0f;                 ///< fraction of the first light with a shadow that reaches the visible fragment; 0 if it faces away
   bool has_different_samples = false;  ///< different primitives are visible at the samples of the pixel
 };
 
@@ -64,11 +65,13 @@ class ExampleSearch {
   struct Seen {
     uint32_t visible = 0, covered = 0;
     double height = 0.0, affine_error = 0.0;
+    bool is_clipped = false;
   };
 
   void count_primitives();
   void measure_triangles();
   void render_shadow();
+  void correct_shadow(int light);
 
   ExampleSource source_;
   ExampleIdeas ideas_;

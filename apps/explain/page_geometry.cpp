@@ -41,7 +41,7 @@ PageJson json_of_triangle(const PassContext& context, const Draw& draw, const Tr
   json["box"] = json_of_box(pixel_bounds(draw, t, draw.bounds, context.samples_at));
   for (int s = 0; s < context.samples; ++s)
     json["boxes"].push_back(json_of_box(pixel_bounds(draw, t, draw.bounds, sample_position(context.samples, s))));
-  json["covered"] = covered_pixels(context, draw, t);
+  json["covered"] = covered_pixels(context, draw, std::span(&t, 1));
   if (!t.is_triangle()) return json;
   for (std::size_t i = 0; i < 3; ++i) {
     const Edge e = edge_of(t, i);
@@ -181,6 +181,23 @@ WorstTriangle worst_triangle(const PageInput& in) {
   return out;
 }
 
+// Returns the name of the plane that a new corner of a clipped polygon is on: a limit of the integer grid, or the near plane. Returns an
+// empty name for other planes. A corner on several planes gets the name of the first limit.
+const char* plane_of(const Viewport& v, const glm::dvec4& p) {
+  const auto is_equal = [](double a, double b) { return std::fabs(a - b) <= 1e-9 * (std::fabs(a) + std::fabs(b)); };
+  if (is_equal(p.x, double{v.guard_left} * p.w)) return "left";
+  if (is_equal(p.x, double{v.guard_right} * p.w)) return "right";
+  if (is_equal(p.y, double{v.guard_bottom} * p.w)) return "bottom";
+  if (is_equal(p.y, double{v.guard_top} * p.w)) return "top";
+  return is_equal(p.z, p.w) ? "near" : "";
+}
+
+bool is_cut_by_near_plane_only(const Draw& draw, const ClipPolygon& polygon) {
+  const auto corners = std::span(polygon.corners).first(static_cast<std::size_t>(polygon.count));
+  return std::ranges::all_of(
+      corners, [&](const ClipCorner& c) { return c.vertex >= 0 || std::string_view(plane_of(draw.viewport, c.pos_clip)) == "near"; });
+}
+
 }  // namespace
 
 PageJson json_of(const glm::dvec2& v) { return {v.x, v.y}; }
@@ -240,6 +257,7 @@ PageJson example_json(const PageInput& in) {
   if (!e.triangles.empty()) {
     const std::size_t shown = shown_triangle(in, draw, e.triangles);
     json["shown"] = shown;
+    json["covered"] = covered_pixels(in.context, draw, e.triangles);
     json["block"] = block_coverage_json(in, draw, e.triangles[shown]);
   }
   if (e.sprite) json["sprite"] = {e.sprite->x0, e.sprite->y0, e.sprite->x1, e.sprite->y1};
@@ -255,14 +273,23 @@ PageJson outcomes_json(const PageInput& in) {
 PageJson clip_json(const PageInput& in) {
   PageJson json = PageJson::array();
   const std::vector<StagePrimitive>& all = in.geometry.primitives;
-  for (uint32_t i = 0; i < all.size() && json.size() < kMaxClipped; ++i) {
-    if (all[i].outcome != StageOutcome::clipped || !is_triangle(in.context.draws[all[i].draw])) continue;
+  std::vector<uint32_t> clipped, others;  // the triangles that only the near plane cuts come first
+  for (uint32_t i = 0; i < all.size() && clipped.size() < kMaxClipped; ++i) {
+    const Draw& draw = in.context.draws[all[i].draw];
+    if (all[i].outcome != StageOutcome::clipped || !is_triangle(draw)) continue;
+    (is_cut_by_near_plane_only(draw, stage_clip(in.context, in.geometry, i).polygon) ? clipped : others).push_back(i);
+  }
+  clipped.insert(clipped.end(), others.begin(), others.end());
+  clipped.resize(std::min(clipped.size(), kMaxClipped));
+  for (const uint32_t i : clipped) {
     const StageClip c = stage_clip(in.context, in.geometry, i);
+    const Draw& draw = in.context.draws[all[i].draw];
     PageJson item{{"object", object_name(in.description, in.scene.draws[all[i].draw].source.object)}, {"primitive", all[i].index}};
     for (const glm::vec4& v : c.clip) item["before"].push_back(json_of(glm::dvec4(v)));
     for (int k = 0; k < c.polygon.count; ++k) {
       const ClipCorner& corner = c.polygon.corners[static_cast<std::size_t>(k)];
       item["after"].push_back({{"clip", json_of(corner.pos_clip)}, {"weights", json_of(corner.weights)}, {"vertex", corner.vertex}});
+      if (corner.vertex < 0) item["after"].back()["plane"] = plane_of(draw.viewport, corner.pos_clip);
       item["window"].push_back(json_of(c.window[static_cast<std::size_t>(k)]));
     }
     json.push_back(item);

@@ -50,6 +50,13 @@ bool line_covers(const Draw& draw, const Triangle& t, int64_t x, int64_t y) {
   return true;
 }
 
+bool covers_pixel(const PassContext& context, const Draw& draw, const Triangle& t, int x, int y) {
+  for (int s = 0; s < context.samples; ++s) {
+    if (covers(context, draw, t, x, y, s)) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 StageGeometry stage_geometry(const PassContext& context) {
@@ -89,14 +96,16 @@ bool covers(const PassContext& context, const Draw& draw, const Triangle& t, int
   return true;
 }
 
-uint64_t covered_pixels(const PassContext& context, const Draw& draw, const Triangle& t) {
-  const PixelBounds box = pixel_bounds(draw, t, draw.bounds, context.samples_at);
+uint64_t covered_pixels(const PassContext& context, const Draw& draw, std::span<const Triangle> triangles) {
   uint64_t count = 0;
-  for (int y = box.y0; y < box.y1; ++y) {
-    for (int x = box.x0; x < box.x1; ++x) {
-      bool any = false;
-      for (int s = 0; s < context.samples && !any; ++s) any = covers(context, draw, t, x, y, s);
-      count += any;
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    const std::span<const Triangle> before = triangles.first(i);
+    const PixelBounds box = pixel_bounds(draw, triangles[i], draw.bounds, context.samples_at);
+    for (int y = box.y0; y < box.y1; ++y) {
+      for (int x = box.x0; x < box.x1; ++x) {
+        const auto has_sample = [&](const Triangle& t) { return covers_pixel(context, draw, t, x, y); };
+        count += has_sample(triangles[i]) && std::ranges::none_of(before, has_sample);
+      }
     }
   }
   return count;

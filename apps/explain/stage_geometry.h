@@ -3,6 +3,7 @@
 // The primitives of a frame from the vertex stage to the bins, computed by the pipeline's own functions.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "halfspace/raster/pipeline/pass_context.h"
@@ -47,8 +48,8 @@ std::array<glm::vec4, 3> clip_positions(const PassContext& context, const StageP
 /// Returns true if t covers a sample of a pixel. x and y are window coordinates of the pixel, from the lower left.
 bool covers(const PassContext& context, const Draw& draw, const Triangle& t, int x, int y, int sample);
 
-/// Returns the number of pixels with at least one covered sample.
-uint64_t covered_pixels(const PassContext& context, const Draw& draw, const Triangle& t);
+/// Returns the number of pixels in which the triangles of a primitive cover at least one sample.
+uint64_t covered_pixels(const PassContext& context, const Draw& draw, std::span<const Triangle> triangles);
 
 /// Returns the number of triangles in the bin of each tile, row by row from the lower left.
 std::vector<uint32_t> triangles_per_tile(const PassContext& context);

@@ -24,7 +24,9 @@ struct Choice {
   bool any_triangle = false, any_size = false, any_ideal = false;
 };
 
-bool has_size(const ExampleFacts& f) { return f.is_triangle && f.visible_pixels >= 10 && f.covered_pixels <= 2000 && f.height >= 4.0; }
+bool has_size(const ExampleFacts& f) {
+  return f.is_triangle && !f.is_clipped && f.visible_pixels >= 10 && f.covered_pixels <= 2000 && f.height >= 4.0;
+}
 
 // The requirements of the page, independent of the scores.
 bool is_ideal(const ExampleFacts& f, const ExampleIdeas& ideas) {
@@ -115,6 +117,7 @@ TEST(Example, EachFactCountsIfTheFrameShowsItsIdea) {
   EXPECT_GT(example_score(plain, {}), example_score(with([](ExampleFacts& f) { f.visible_pixels = 1; }), {}));
   EXPECT_GT(example_score(plain, {}), example_score(with([](ExampleFacts& f) { f.covered_pixels = 50000; }), {}));
   EXPECT_GT(example_score(plain, {}), example_score(with([](ExampleFacts& f) { f.height = 1.0; }), {}));
+  EXPECT_GT(example_score(plain, {}), example_score(with([](ExampleFacts& f) { f.is_clipped = true; }), {}));
 }
 
 }  // namespace

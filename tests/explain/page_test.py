@@ -54,6 +54,9 @@ PANES = {"version": 1, "samples": 2, "cameras": {"c": {"position": [0, 0, 6], "t
                      for i in range(24)}}
 FLAT = {"version": 1, "cameras": {"c": {"type": "orthographic", "position": [0, 0, 6], "target": [0, 0, 0], "height": 3}},
         "objects": {"plane": {"shape": "plane", "size": 2, "rotation": [90, 0, 0], "position": [0.13, 0.07, 0], "shading": "none", "color": [0.2, 0.4, 0.1]}}}
+# A floor that begins behind the eye: both of its triangles are clipped.
+FLOOR = {"version": 1, "cameras": {"c": {"position": [0.7, 1, 0], "target": [0.2, 0.6, -4]}}, "lights": {"sun": {}},
+         "objects": {"floor": {"shape": "plane", "size": 40, "color": [0.5, 0.5, 0.5]}}}
 BOX = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n"
 
 
@@ -114,6 +117,12 @@ EXERCISES = """() => {
   const isPrinted = (x) => typeof x.answer === 'number' && text(x).replace(/\\D/g, '').replace(/^0+/, '').length >= (text(x).includes('.') ? 3 : 4) && printed.has(text(x));
   return {count: document.querySelectorAll('.exercise').length, printed: all.filter(isPrinted).map((x) => x.ask + ' ' + text(x)),
           bad: all.filter((x) => !isRight(x, text(x)) || !isRight(x, text(x).replace('.', ',')) || isRight(x, '-12345.5') || isRight(x, '')).map((x) => x.ask + ' ' + text(x))};
+}"""
+# Returns the number of pixels with a sample that one of the triangles covers.
+COUNT_OF_PIXELS = """(pieces) => {
+  const pixels = new Set();
+  for (const t of pieces) for (let y = t.box[1]; y < t.box[3]; ++y) for (let x = t.box[0]; x < t.box[2]; ++x) if (covered(t, x, y)) pixels.add(y * W + x);
+  return pixels.size;
 }"""
 WIDTH = "document.documentElement.scrollWidth"
 SMALLEST_FONT = """Math.min(99, ...[...document.querySelectorAll('figure svg text')].map((t) => {
@@ -236,9 +245,14 @@ class Page(unittest.TestCase):
         self.assertIn("No opaque surface of this frame has a color map", self.caption("flat", "varyings", 5))
         self.assertIn("No light of this frame casts shadows", self.caption("flat", "shadows"))
         self.assertIn("No pixel of this frame reaches 1", self.caption("flat", "tone"))
+        self.assertEqual(self.run_script("return TIMES.includes(0)"), "filled at once and were not timed" in self.caption("flat", "times"))
         text = self.caption("earth", "interpolation")
         self.assertRegex(text, r"A constructed triangle .* affine interpolation displaces a value by at most 0\.\d+ pixels")
         self.assertIn("of this page", self.caption("pipeline", "interpolation"), "the example shows the interpolation itself")
+        text = self.caption("pipeline", "clipping")
+        self.assertIn("It is cut at the near plane.", text, "such triangles come first")
+        table, light = self.run_script("return [DATA.choice.shadow, LIGHTING.lights.find((l) => l.name === SHADOW.light).shadow]")
+        self.assertAlmostEqual(table, light, 3, "the table of the example, and the chapter on light")
         self.assertIn("relief from the maps of globe", self.caption("pipeline", "varyings", 2))
         self.assertIn("Nothing is drawn in this frame", self.caption("empty", "frame"))
         self.assertEqual(self.run_script("return CHAPTERS.filter((c) => c.id === 'spaces' && !c.absent()).length"), 0)
@@ -251,6 +265,9 @@ class Page(unittest.TestCase):
         self.open("earth", "spaces/3")
         where = "return [CHAPTERS[state.chapter].id, state.step, location.hash]"
         self.assertEqual(self.run_script(where), ["spaces", 2, "#spaces/3"])
+        self.open("earth", "nosuch/9")
+        self.assertEqual(self.run_script("return [state.chapter, state.step]"), [0, 0], "an unknown chapter")
+        self.open("earth", "spaces/3")
         self.run_script("move(1)")
         self.run_script("goTo(CHAPTERS.findIndex((c) => c.id === 'depth'))")
         self.assertEqual(self.run_script(where), ["depth", 0, "#depth"])
@@ -265,7 +282,10 @@ class Page(unittest.TestCase):
                                       (x, "1234.55", False), (x, "1235", False), ("{answer: 0.5, decimals: 1}", "0,5", True),
                                       ("{answer: 57600}", "57,600", True), ("{answer: 57600}", "57.600", True), ("{answer: 57600}", "57601", False),
                                       ("{answer: -0.001234, significant: 2}", "−0,0012", True), ("{answer: -0.001234, significant: 2}", "-0.0013", False),
-                                      ("{answer: 3}", "", False), ("{answer: 3}", "three", False)):
+                                      ("{answer: 3}", "", False), ("{answer: 3}", "three", False),
+                                      ("{answer: 82}", "82 %", True), ("{answer: 82}", "82%", True), ("{answer: 82}", "82 pixels", True), ("{answer: 82}", "83 %", False),
+                                      ("{answer: 'diffuse, sun'}", "“diffuse, sun”", True), ("{answer: 'diffuse, sun'}", "'Diffuse (sun)'", True),
+                                      ("{answer: 'diffuse, sun'}", "diffuse, moon", False)):
             self.assertEqual(self.run_script(f"return isRight({exercise}, arguments[0])".replace("arguments[0]", json.dumps(text))), right, (exercise, text))
 
     def exercise_form(self, index=0):
@@ -276,18 +296,27 @@ class Page(unittest.TestCase):
         form = self.exercise_form(1)
         self.assertFalse(form.find_elements(By.TAG_NAME, "button")[1].is_enabled(), "predict first")
         form.find_element(By.TAG_NAME, "input").send_keys("=1+1" + Keys.ENTER)
+        self.assertEqual(form.find_element(By.CLASS_NAME, "verdict").text, "This is not a number.")
+        self.assertFalse(form.find_elements(By.TAG_NAME, "button")[1].is_enabled(), "this was not a try")
+        form.find_element(By.TAG_NAME, "input").clear()
+        form.find_element(By.TAG_NAME, "input").send_keys("-1" + Keys.ENTER)
         form.find_elements(By.TAG_NAME, "button")[1].click()
         self.assertIn(self.run_script("return roundedAnswer(CHAPTERS[0].exercises()[1])"), form.find_element(By.CLASS_NAME, "verdict").text)
-        self.exercise_form().find_element(By.TAG_NAME, "input").send_keys("57.600" + Keys.ENTER)
+        for text in ("57.600", "57601"):  # the right answer is kept
+            self.exercise_form().find_element(By.TAG_NAME, "input").clear()
+            self.exercise_form().find_element(By.TAG_NAME, "input").send_keys(text + Keys.ENTER)
         self.open("earth", "frame")
         self.assertIn("Solved", self.exercise_form().find_element(By.CLASS_NAME, "verdict").text)
         self.assertEqual(self.driver.find_element(By.CSS_SELECTOR, "nav .done").text, "1/3")
+        self.assertEqual(self.run_script("return resultsName()"), "earth-results.csv")
         self.run_script("progress.student = 'Zoë, \\u0022Z\\u0022'")
+        self.assertEqual(self.run_script("return resultsName()"), "earth-Zoë_Z_-results.csv")
         rows = list(csv.DictReader(io.StringIO(self.run_script("return resultsAsCsv()").lstrip("\ufeff"), newline="")))
         self.assertEqual(len(rows), self.run_script("return CHAPTERS.reduce((n, c) => n + countOf(c), 0)"))
         self.assertEqual([rows[0][k] for k in ("student", "chapter", "given", "expected", "right", "tries", "revealed")],
-                         ['Zoë, "Z"', "One frame", "57.600", "57600", "yes", "1", "no"])
-        self.assertEqual([rows[1][k] for k in ("given", "right", "tries", "revealed")], ["'=1+1", "no", "1", "yes"], "no cell is a formula")
+                         ['Zoë, "Z"', "One frame", "57.600", "57600", "yes", "2", "no"])
+        self.assertEqual([rows[1][k] for k in ("given", "right", "tries", "revealed")], ["-1", "no", "1", "yes"])
+        self.assertEqual(self.run_script("return csvCell('=1+1')"), "'=1+1", "no cell is a formula")
         self.run_script("localStorage.clear()")
 
     def test_the_page_works_if_storage_is_refused(self):
@@ -322,6 +351,15 @@ class Page(unittest.TestCase):
         pdf = base64.b64decode(self.driver.print_page())
         self.assertGreater(len(re.findall(rb"/Type\s*/Page\b(?!s)", pdf)), len(self.chapters()))
         self.run_script("showOne()")
+        # The print command of the browser: the page is prepared some time after it was opened.
+        text = self.run_script("dispatchEvent(new Event('beforeprint')); return new Promise((done) => setTimeout(() => done(document.querySelector('main').textContent)))")
+        self.assertIn("It contains", text)
+        self.assertNotIn("Loading", text)
+        self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "print"})
+        shown = self.run_script("return [...document.querySelectorAll('main form, main .legend input, main button')].filter((e) => e.checkVisibility()).length")
+        self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": ""})
+        self.assertEqual(shown, 0, "controls on paper")
+        self.run_script("dispatchEvent(new Event('afterprint'))")
         self.assertEqual(self.run_script("return [CHAPTERS[state.chapter].id, state.step, document.querySelectorAll('article').length]"), ["depth", 1, 1])
 
     def test_the_steps_of_the_tile_are_those_of_the_run(self):
@@ -368,8 +406,10 @@ class Page(unittest.TestCase):
         """The page computes the same coverage of the example as the renderer."""
         if self.run_script("return TRI === null"):
             return  # nothing is visible at the example pixel
-        own, expected = self.run_script("return [countCovered(), TRI.covered]")
+        own, expected, pixels = self.run_script("return [EX.triangles.map((t) => countOfPixels([t])), EX.triangles.map((t) => t.covered), countOfPixels(EX.triangles)]"
+                                                .replace("countOfPixels", f"({COUNT_OF_PIXELS})"))
         self.assertEqual(own, expected)
+        self.assertEqual([pixels] * 2, self.run_script("return [EX.covered, DATA.choice.covered]"), "all pieces, and the fragments of the primitive")
         own, expected = self.run_script("""const [x0, y0] = WINDOW.map(blockOf);
             return [EX.block.map((_, i) => allSamples.reduce((bits, s) => bits | covers(TRI, x0 + i % 8, y0 + (i >> 3), s) << s, 0)), EX.block]""")
         self.assertEqual(own, expected)
@@ -548,6 +588,24 @@ class Page(unittest.TestCase):
         self.assertIn("halfspace explain flat.json --size 400x180 --pixel 3,177 --text", shown)
         self.driver.find_element(By.CSS_SELECTOR, "#history-panel button").click()
         WebDriverWait(self.driver, 30).until(lambda d: d.execute_script("return detailsOf(...historyState.pixel) !== null"))
+
+    def test_the_page_follows_a_piece_of_a_clipped_triangle(self):
+        (Path(self.folder.name) / "floor.json").write_text(json.dumps(FLOOR))
+        self.pages["floor"] = Path(self.folder.name) / "floor.html"
+        subprocess.run([PROGRAM, "explain", "floor.json", "--size", "320x180", "-o", self.pages["floor"]], check=True, cwd=self.folder.name)
+        self.open("floor", "culling")
+        self.assertTrue(self.run_script("return isClipped && EX.triangles.length > 1"))
+        self.check_coverage("floor")
+        self.check_setup_depth("floor")
+        self.assertIn("the page follows the piece", self.run_script("return document.querySelector('article').textContent"))
+        coverage, area, pixel = self.run_script("const of = (id, i) => CHAPTERS.find((c) => c.id === id).exercises()[i].answer; return [of('coverage', 0), of('setup', 1), of('spaces', 1)]")
+        self.assertEqual(coverage, self.run_script("return DATA.choice.covered"))
+        self.assertEqual(area, self.run_script("return area2(TRI)"))
+        self.assertLess(-1, pixel)
+        self.assertLess(pixel, 320)
+        for chapter, step, (_, nameless, exercises) in self.tour(f"() => [({PICTURE})(), ({NAMELESS})(), ({EXERCISES})()]"):
+            self.assertEqual([nameless, exercises.get("bad", []), exercises.get("printed", [])], [[], [], []], f"{chapter}, step {step}")
+        self.assertEqual(self.errors(), [])
 
     def test_small_frames_have_the_values_of_every_pixel(self):
         self.open("earth", "history")

@@ -47,8 +47,12 @@ TEST(Stages, TheTrianglesOfASquareCoverEachPixelOnce) {
   s.visit([&](const PassContext& context, const StageGeometry& g) {
     uint64_t sum = 0;
     for (std::size_t i = 0; i < g.triangles.size(); ++i)
-      sum += covered_pixels(context, context.draws[g.primitives[g.primitive_of[i]].draw], g.triangles[i]);
+      sum += covered_pixels(context, context.draws[g.primitives[g.primitive_of[i]].draw], std::span(&g.triangles[i], 1));
     EXPECT_EQ(sum, 32u * 32u);
+    const Draw& draw = context.draws[g.primitives[0].draw];
+    EXPECT_EQ(covered_pixels(context, draw, g.triangles), 32u * 32u);
+    const std::array twice{g.triangles[0], g.triangles[0]};
+    EXPECT_EQ(covered_pixels(context, draw, twice), covered_pixels(context, draw, std::span(twice).first(1))) << "each pixel counts once";
   });
 }
 

@@ -33,6 +33,8 @@ function fmt(x, digits = 6) {
 }
 const group = (x) => (x < 0 ? "−" : "") + String(Math.abs(x)).replace(/\B(?=(\d{3})+$)/g, "\u00a0");
 const num = (x, digits) => `<span class="n">${fmt(x, digits)}</span>`;
+// A number as a term or factor of a formula: in parentheses if it is negative.
+const operand = (x, digits) => (x < 0 ? `(${fmt(x, digits)})` : fmt(x, digits));
 const vec = (v, digits = 5) => `(${v.map((x) => fmt(x, digits)).join(", ")})`;
 const plural = (n, one, many = one + "s") => `${fmt(n)} ${n === 1 ? one : many}`;
 // Prose inside a formula, which wraps.

@@ -85,8 +85,8 @@ function setAddress(how) {
 
 // Returns the chapter and step of the address of the page. Unknown ones are the first.
 function addressed() {
-  const [id, step] = location.hash.slice(1).split("/");
-  return [Math.max(0, CHAPTERS.findIndex((c) => c.id === id)), Math.max(0, (Math.trunc(Number(step)) || 1) - 1)];
+  const [id, step] = location.hash.slice(1).split("/"), index = CHAPTERS.findIndex((c) => c.id === id);
+  return index < 0 ? [0, 0] : [index, Math.max(0, (Math.trunc(Number(step)) || 1) - 1)];
 }
 
 function goTo(index, step = 0, focus = true, how = "push") {
@@ -94,6 +94,7 @@ function goTo(index, step = 0, focus = true, how = "push") {
   const main = document.getElementById("main"), c = CHAPTERS[index];
   main.replaceChildren(build(c, index));
   document.querySelectorAll("nav a").forEach((a, i) => (i === index ? a.setAttribute("aria-current", "page") : a.removeAttribute("aria-current")));
+  document.querySelector("nav [aria-current]").scrollIntoView({block: "nearest"});
   document.title = `${c.title} · Halfspace`;
   goToStep(step < 0 ? c.stepCount - 1 : Math.min(step, c.stepCount - 1), how);
   if (!focus) return;
@@ -161,4 +162,5 @@ async function start() {
   await unpackFrame();
   startNavigation();
   goTo(...addressed(), false, "replace");
+  setTimeout(prepareToPrint, 2000);  // for the print command of the browser, which does not wait
 }

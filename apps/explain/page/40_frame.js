@@ -19,10 +19,13 @@ const EX = DATA.example, PIXEL = DATA.pixel, VISIBLE = DATA.visible, SAMPLE = VI
 const TRI = EX && EX.triangles ? EX.triangles[EX.shown] : null;
 const sceneName = DATA.scene.split("/").pop();
 const isTriangle = EX !== null && EX.corners === 3 && TRI !== null;
+// A clipped triangle was replaced by the pieces of its polygon. The page then follows the piece that covers the example pixel.
+const isClipped = isTriangle && TRI.clipped;
 const isPoint = EX !== null && EX.corners === 1 && TRI !== null;
 // The example pixel in window coordinates, whose origin is at the lower left.
 const WINDOW = [PIXEL[0], H - 1 - PIXEL[1]];
 const exampleName = EX === null ? "nothing" : `${EX.corners === 3 ? "triangle" : EX.corners === 2 ? "line" : "point"} ${fmt(EX.primitive)} of <i>${escapeHtml(EX.object)}</i>`;
+const pieceNote = isClipped ? `${exampleName[0].toUpperCase() + exampleName.slice(1)} was clipped. From here on, the page follows the piece that covers the example pixel.` : "";
 const capital = (text) => text[0].toUpperCase() + text.slice(1);
 const listed = (names) => names.map(escapeHtml).map((n, i, all) => (i === 0 ? n : i === all.length - 1 ? ` and ${n}` : `, ${n}`)).join("");
 const command = (rest) => `<code>${escapeHtml(rest)}</code>`;

@@ -24,16 +24,20 @@ function roundedAnswer(x) {
   return x.significant !== undefined ? String(Number(x.answer.toPrecision(x.significant))) : String(x.answer);
 }
 
-// Returns the numbers that a text can mean. The decimal separator is a point or a comma; the other one, or a space, groups digits.
+// Returns the numbers that a text can mean. The decimal separator is a point or a comma; the other one, or a space, groups digits. A unit
+// behind the number is ignored.
 function numbersOf(text) {
-  const plain = text.trim().replace(/[\s\u00a0\u202f'_]/g, "").replace(/[−–]/g, "-");
+  const plain = text.trim().replace(/(%|[a-z]+)$/i, "").replace(/[\s\u00a0\u202f'_]/g, "").replace(/[−–]/g, "-");
   const point = plain.replace(/,(?=\d{3}(\D|$))/g, ""), comma = plain.replace(/\.(?=\d{3}(\D|$))/g, "").replace(",", ".");
   return [plain, point, comma].filter((t) => /^[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?$/i.test(t)).map(Number);
 }
 
+// Text answers are compared without spaces, quotation marks and punctuation.
+const lettersOf = (text) => text.toLowerCase().replace(/[\s,.()"'“”„«»]/g, "");
+
 // An answer is right if it is the exact value, or the value rounded to the digits asked for. A value halfway may be rounded up or down.
 function isRight(x, text) {
-  if (typeof x.answer !== "number") return text.trim().toLowerCase().replace(/[\s,]/g, "") === x.answer.toLowerCase().replace(/[\s,]/g, "");
+  if (typeof x.answer !== "number") return lettersOf(text) === lettersOf(x.answer);
   const unit = lastDigit(x), allowed = Math.max(x.tolerance ?? 0, unit / 2 * (1 + 1e-9));
   return numbersOf(text).some((given) => Math.abs(given - x.answer) <= allowed);
 }
@@ -85,25 +89,28 @@ function exercise(c, x, number) {
     verdict.className = "verdict";
     verdict.innerHTML = `The answer is <span class="n">${escapeHtml(roundedAnswer(x))}</span>${x.unit ? " " + x.unit : ""}. ${x.why}`;
   }}, "Reveal");
-  const check = (e) => { e.preventDefault(); if (input.value.trim() !== "") reveal.disabled = false; judge(c, x, number, input.value, verdict); };
+  const check = (e) => { e.preventDefault(); if (judge(c, x, number, input.value, verdict)) reveal.disabled = false; };
   if (known && known.right) { verdict.className = "verdict right"; verdict.innerHTML = `✓ Solved. ${x.why}`; }
   return el("div", {class: "exercise"}, el("p", {html: `<b>${number}.</b> ${x.ask}${askedDigits(x)}`}),
     el("form", {onsubmit: check}, input, el("span", {}, x.unit || ""), el("button", {type: "submit"}, "Check"), reveal, verdict));
 }
 
+// Judges an answer. Returns false if the text is not an answer, and does not count it as a try.
 function judge(c, x, number, text, verdict) {
-  if (text.trim() === "") {
+  const problem = text.trim() === "" ? "Predict a value first; the answer can be revealed afterwards." : typeof x.answer === "number" && numbersOf(text).length === 0 ? "This is not a number." : "";
+  if (problem) {
     verdict.className = "verdict wrong";
-    verdict.innerHTML = "Predict a value first; the answer can be revealed afterwards.";
-    return;
+    verdict.textContent = problem;
+    return false;
   }
   const right = isRight(x, text), record = recordOf(c.id, number);
   if (++record.tries === 1) record.first = right;
-  record.given = text.trim();
+  if (right || !record.right) record.given = text.trim();
   record.right ||= right;
   saveProgress();
   verdict.className = "verdict " + (right ? "right" : "wrong");
   verdict.innerHTML = right ? `✓ Correct. ${x.why}` : `✗ Not correct yet. ${x.hint}`;
+  return true;
 }
 
 function exercisesOf(c) {
@@ -136,10 +143,12 @@ function saveFile(name, text, type) {
   setTimeout(() => URL.revokeObjectURL(link.href), 10000);
 }
 
+const resultsName = () => `${[sceneName, progress.student.trim()].filter(Boolean).map((s) => s.replace(/[^\p{L}\p{N}_.-]+/gu, "_")).join("-")}-results.csv`;
+
 function resultsPicture() {
   const with3 = CHAPTERS.filter((c) => countOf(c) > 0), all = with3.reduce((n, c) => n + countOf(c), 0), solved = with3.reduce((n, c) => n + solvedOf(c), 0);
   const name = el("input", {type: "text", value: progress.student, "aria-label": "Name in the result file", oninput: () => { progress.student = name.value; saveProgress(); }});
-  const save = el("button", {type: "button", onclick: () => saveFile(`${sceneName.replace(/[^\w.-]/g, "_")}-results.csv`, resultsAsCsv(), "text/csv;charset=utf-8")}, "Save results as CSV");
+  const save = el("button", {type: "button", onclick: () => saveFile(resultsName(), resultsAsCsv(), "text/csv;charset=utf-8")}, "Save results as CSV");
   const clear = el("button", {type: "button", onclick: () => { progress.answers = {}; saveProgress(); goToStep(state.step, "keep"); }}, "Forget all answers");
   return [el("div", {class: "results"}, el("p", {html: `<b>${fmt(solved)}</b> of ${fmt(all)} exercises solved.${progress.kept ? "" : " This browser refuses to store the progress, so it is lost when the page is closed."}`}),
     el("form", {onsubmit: (e) => e.preventDefault()}, el("label", {}, "Name ", name), save, clear)),

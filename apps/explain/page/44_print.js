@@ -14,14 +14,14 @@ function printed(c) {
   return el("article", {}, ...parts);
 }
 
-let isPrinting = false, screenTheme = "light";
+let isPrinting = false, canPrint = false, screenTheme = "light";
 function showAll() {
   if (isPrinting) return;
   isPrinting = true;
   screenTheme = document.documentElement.dataset.theme;
   document.documentElement.dataset.theme = "light";
   document.body.classList.add("printing");
-  document.getElementById("main").replaceChildren(...CHAPTERS.map(printed));
+  document.getElementById("main").replaceChildren(...(canPrint ? CHAPTERS.map(printed) : [el("p", {}, "The page was still being prepared for printing. Print it again, or use its button “Print”.")]));
 }
 function showOne() {
   if (!isPrinting) return;
@@ -31,9 +31,13 @@ function showOne() {
   goTo(state.chapter, state.step, false, "keep");
 }
 
-// Decodes the pictures first, because the browser does not wait for them.
-async function printAll() {
+// Decodes the pictures and arrays of all chapters, because the browser does not wait for them when it prints.
+async function prepareToPrint() {
   await Promise.all([decodeAll(), unpackHistory(), unpackTile()]);
+  canPrint = true;
+}
+async function printAll() {
+  await prepareToPrint();
   showAll();
   await new Promise((done) => setTimeout(done));  // chapters with unpacked data fill their panels in a task of their own
   print();

@@ -4,15 +4,15 @@ chapter({
   id: "frame", title: "One frame", kicker: "Start",
   lead: () => `This page explains how Halfspace rendered one frame of the scene <b>${escapeHtml(sceneName)}</b>${DATA.title && DATA.title !== sceneName.replace(/\.[^.]*$/, "") ? ` (${escapeHtml(DATA.title)})` : ""} with ${W} × ${H} pixels. All numbers were computed by the renderer for this frame. Follow one ${isTriangle ? "triangle" : "primitive"} from its mesh to the screen.`,
   steps: () => [
-    {name: "The picture", caption: `The ring marks pixel ${px(PIXEL)}, the example of this page. ${DATA.overdraw.most === 0 ? "Nothing is drawn in this frame." : `${plural(FRAME.fragments[PIXEL[1] * W + PIXEL[0]], "fragment competes", "fragments compete")} for it. The visible fragment belongs to ${exampleName}.`}`,
+    {name: "The picture", caption: `The ring marks pixel ${px(PIXEL)}, the example of this page. ${DATA.overdraw.most === 0 ? "Nothing is drawn in this frame." : `${plural(FRAME.fragments[PIXEL[1] * W + PIXEL[0]], "fragment competes", "fragments compete")} for it. A fragment is one sample of one primitive${DATA.samples > 1 ? `; this frame has ${DATA.samples} samples per pixel` : ""}. The visible opaque fragment belongs to ${exampleName}.`}`,
       draw: () => picture(DATA.pictures.final, "The rendered picture, with a ring around the example pixel", {overlay: (pen, s) => ring(pen, s, PIXEL)})},
-    {name: "The primitives", caption: `The same picture with one color per ${KINDS.length === 1 ? KINDS[0] : "primitive"}. Everything in it is made of ${listed(KINDS.map((k) => k + "s"))}.`,
+    {name: "The primitives", caption: `The opaque surfaces of the picture, with one color per ${KINDS.length === 1 ? KINDS[0] : "primitive"}. The background and transparent surfaces are left out.`,
       draw: () => picture(DATA.pictures.triangles, "The picture with one color per primitive", {overlay: (pen, s) => ring(pen, s, PIXEL)})},
     {name: "The pipeline", caption: "The stages of the pipeline in order, with the numbers of this frame. Each tile is drawn by one thread, so pixels need no locks, and the picture does not depend on the number of threads.",
       draw: () => el("div", {class: "stage"}, pipelineDiagram())},
   ],
   body: () => [
-    el("p", {class: "keys", html: "Press <kbd>←</kbd> or <kbd>→</kbd> for the previous or next step. The last step of a chapter is followed by the first step of the next chapter. The slider selects a step of the chapter."}),
+    el("p", {class: "keys", html: "Press <kbd>←</kbd> or <kbd>→</kbd> for the previous or next step. The last step of a chapter is followed by the first step of the next chapter. The slider selects a step of the chapter. While a picture has the focus, the arrow keys select a pixel; press <kbd>Tab</kbd> to leave it."}),
     el("p", {class: "keys", html: `To explain another pixel: ${command(`${DATA.command} --pixel X,Y`)}`}),
     ...(EX === null ? [] : choiceTable()),
     el("h3", {}, "Draw calls"),
@@ -41,7 +41,7 @@ const KINDS = ["triangle", "line", "point"].filter((k) => DATA.draws.some((d) =>
 
 function pipelineDiagram() {
   const s = DATA.statistics;
-  const stages = [["vertices", s.vertices_shaded, "shaded"], ["primitives", s.primitives_in, "submitted"], ["setup", s.triangles_binned, "kept"], ["bins", s.bin_entries, "entries"], ["samples", s.samples_passed, "passed"], ["fragments", s.fragments_shaded, "shaded"]];
+  const stages = [["vertices", s.vertices_shaded, "shaded"], ["primitives", s.primitives_in, "submitted"], ["setup", s.triangles_binned, "kept"], ["bins", s.bin_entries, "entries"], ["samples", s.samples_passed, "passed"], ["shader runs", s.fragments_shaded, "of fragments"]];
   const narrow = narrowWindow.matches, columns = narrow ? 3 : 6, root = svgFigure(24 + columns * 118, narrow ? 260 : 150, "Pipeline. " + stages.map(([name, count, what]) => `${name}: ${fmt(count)} ${what}`).join(", "));
   stages.forEach(([name, count, what], i) => {
     const x = 12 + i % columns * 118, top = Math.floor(i / columns) * 116;
@@ -264,8 +264,20 @@ function windowWires(pen, s) {
     stroke(pen, scaled(a), scaled(b));
   }
   pen.globalAlpha = 1;
-  if (EX) markExample(pen, EX.vertices.map((v) => scaled([v.x / SUB, H - v.y / SUB])));
+  if (isClipped) for (const t of EX.triangles) markExample(pen, windowCorners(t, s));
+  else if (EX) markExample(pen, EX.vertices.map((v) => scaled([v.x / SUB, H - v.y / SUB])));
 }
+
+// The vertex whose transforms the chapter shows: one inside the window or, if there is none, one in front of the near plane. The window
+// position of a vertex outside the integer grid has no meaning.
+const OUT_GUARD = 64;  // see pipeline_data.h
+const isInWindow = (v) => v.clip[3] > 0 && v.outcode === 0 && v.x >= 0 && v.x < W * SUB && v.y >= 0 && v.y < H * SUB;
+const isInGrid = (v) => v.clip[3] > 0 && (v.outcode & OUT_GUARD) === 0;
+const bestVertex = (indices) => indices.find((i) => isInWindow(EX.vertices[i])) ?? indices.find((i) => isInGrid(EX.vertices[i]));
+const shownVertex = () => bestVertex([...EX.vertices.keys()]) ?? 0;
+// The vertex of the exercises: another one, or undefined.
+const askedVertex = () => { const n = EX.vertices.length, shown = shownVertex(); return bestVertex([1, 2].slice(0, n - 1).map((k) => (shown + k) % n)); };
+const vertexName = (i) => (EX.vertices.length > 1 ? `${["first", "second", "third"][i]} vertex` : "vertex");
 
 const column = (name, values, digits = 6) => `${name.padEnd(8)}${values.map((v) => fmt(v, digits).padStart(14)).join("")}`;
 // Elements that are merely rounding errors are shown as 0.
@@ -275,9 +287,9 @@ const matrixRows = (m) => {
 };
 
 function spaceFormulas() {
-  const v = EX.vertices[0], rows = (v.ws ? [["object", [...v.os, 1]], ["world", [...v.ws, 1]], ["view", [...v.vs, 1]]] : []).concat([["clip", v.clip], ["NDC", v.ndc]]);
+  const shown = shownVertex(), v = EX.vertices[shown], rows = (v.ws ? [["object", [...v.os, 1]], ["world", [...v.ws, 1]], ["view", [...v.vs, 1]]] : []).concat([["clip", v.clip], ["NDC", v.ndc]]);
   const chain = rows.map(([n, values]) => column(n, values)).join("\n") + "\n" + column("window", [v.x / SUB, v.y / SUB, v.z], 9);
-  const formula = `<em>p</em><sub>clip</sub> = P · V · M · <em>p</em><sub>object</sub>        <em>p</em><sub>ndc</sub> = (<em>x</em>, <em>y</em>, <em>z</em>) / <em>w</em>\n\n${say(`The first vertex of ${exampleName}:`)}`;
+  const formula = `<em>p</em><sub>clip</sub> = P · V · M · <em>p</em><sub>object</sub>        <em>p</em><sub>ndc</sub> = (<em>x</em>, <em>y</em>, <em>z</em>) / <em>w</em>\n\n${say(`The ${vertexName(shown)} of ${exampleName}:`)}`;
   const own = EX.vertices[0].ws ? `\n\n${say(`<em>p</em><sub>world</sub> = M · <em>p</em><sub>object</sub>, row by row:`)}${productRows(DATA.draws[EX.draw].world_from_object, v.os, v.ws)}` : "";
   const x = `\n\n<em>x</em><sub>window</sub> = round(256 · (<em>x</em>/<em>w</em> · ${fmt(W / 2)} + ${fmt(W / 2)})) / 256\n         = round(256 · (${fmt(v.ndc[0], 7)} · ${fmt(W / 2)} + ${fmt(W / 2)})) / 256 = <b>${fmt(v.x)}/256 = ${fmt(v.x / SUB, 9)}</b>`;
   const matrices = EX.vertices[0].ws ? [`M (world from object)\n${matrixRows(DATA.draws[EX.draw].world_from_object).join("\n")}\n\nV (view from world)\n${matrixRows(M.view_from_world).join("\n")}\n\nP (clip from view)\n${matrixRows(M.clip_from_view).join("\n")}`] : [];
@@ -286,7 +298,7 @@ function spaceFormulas() {
 }
 
 // The first three rows of a matrix times a point, with numbers.
-const productRows = (m, p, result) => [0, 1, 2].map((r) => `${[0, 1, 2].map((c) => `${fmt(m[4 * c + r], 5)} · ${fmt(p[c], 5)}`).join(" + ")} + ${fmt(m[12 + r], 5)} = <b>${fmt(result[r], 6)}</b>`).join("\n");
+const productRows = (m, p, result) => [0, 1, 2].map((r) => `${[0, 1, 2].map((c) => `${(c === 0 ? fmt : operand)(m[4 * c + r], 5)} · ${operand(p[c], 5)}`).join(" + ")} + ${operand(m[12 + r], 5)} = <b>${fmt(result[r], 6)}</b>`).join("\n");
 
 chapter({
   id: "spaces", title: "From the mesh to the window", kicker: "Vertex stage",
@@ -298,11 +310,13 @@ chapter({
   formula: spaceFormulas,
   related: ["clipping", "interpolation"], lessons: ["Perspective"],
   exercises: () => {
-    const v = EX.vertices[Math.min(1, EX.vertices.length - 1)], which = EX.vertices.length > 1 ? "second vertex" : "vertex";
+    const asked = askedVertex(), v = EX.vertices[asked], which = vertexName(asked);
     return [
-      M.perspective ? {ask: `The ${which} has clip coordinates x = ${num(v.clip[0])} and w = ${num(v.clip[3])}. What is x in normalized device coordinates?`, answer: v.ndc[0], decimals: 3, hint: "Divide by w.", why: "x / w."}
+      v === undefined ? {ask: "A vertex has the clip coordinates x = −1.5 and w = 6. What is x in normalized device coordinates?", answer: -0.25, decimals: 2, hint: "Divide by w.", why: "−1.5 / 6."}
+        : M.perspective ? {ask: `The ${which} has clip coordinates x = ${num(v.clip[0])} and w = ${num(v.clip[3])}. What is x in normalized device coordinates?`, answer: v.ndc[0], decimals: 3, hint: "Divide by w.", why: "x / w."}
         : {ask: `The ${which} has y = ${num(v.ndc[1])} in normalized device coordinates. How many pixels is it above the lower edge of the window?`, answer: (v.ndc[1] + 1) / 2 * H, decimals: 1, hint: `From −1 to 1, there are ${H} pixels.`, why: `(${fmt(v.ndc[1], 6)} + 1) / 2 · ${H}.`},
-      {ask: `The window position of the ${which} is x = ${num(v.x)}, in units of 1/256 pixel. Which pixel column is it in?`, answer: Math.floor(v.x / SUB), hint: "Divide by 256 and round down.", why: `${fmt(v.x)} / 256 = ${fmt(v.x / SUB, 9)}.`},
+      v === undefined || !isInWindow(v) ? {ask: "A vertex has x = 0.3 in normalized device coordinates. Which pixel column is it in?", answer: Math.floor(0.65 * W), hint: `From −1 to 1, there are ${W} columns.`, why: `(0.3 + 1) / 2 · ${W} = ${fmt(0.65 * W, 7)}, rounded down.`}
+        : {ask: `The window position of the ${which} is x = ${num(v.x)}, in units of 1/256 pixel. Which pixel column is it in?`, answer: Math.floor(v.x / SUB), hint: "Divide by 256 and round down.", why: `${fmt(v.x)} / 256 = ${fmt(v.x / SUB, 9)}.`},
       {ask: `The ${fmt(DATA.statistics.vertices_in)} indices refer to ${fmt(DATA.statistics.vertices_shaded)} vertices, each of which is shaded once. How many times is a vertex used on average?`, answer: DATA.statistics.vertices_in / Math.max(1, DATA.statistics.vertices_shaded), decimals: 2, hint: "Divide the number of indices by the number of vertices.", why: DATA.statistics.vertices_shaded < DATA.statistics.vertices_in ? "A vertex that several triangles share is shaded only once." : "No vertex of this frame is shared."},
     ];
   },

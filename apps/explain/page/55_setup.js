@@ -2,6 +2,26 @@
 
 const CLIPPED = DATA.clipped;
 
+// The limits of the integer grid that cut a triangle: {plane, axis, ratio}. On the limit, the coordinate is ratio · w.
+function gridLimits(c) {
+  const axes = {left: 0, right: 0, bottom: 1, top: 1}, limits = new Map();
+  for (const a of c.after) if (a.plane in axes) limits.set(a.plane, {plane: a.plane, axis: axes[a.plane], ratio: a.clip[axes[a.plane]] / a.clip[3]});
+  return [...limits.values()];
+}
+const isCutByNear = (c) => c.after.some((a) => a.plane === "near");
+// The axis of the plot: x, or y if only limits of y cut the triangle and it is not a line in the plot of w and y.
+function plottedAxis(c) {
+  const [a, b, d] = c.before.map((p) => [p[3], p[1]]), sides = [[a, b], [b, d], [d, a]].map(([p, q]) => Math.hypot(q[0] - p[0], q[1] - p[1]));
+  const height = Math.abs((b[0] - a[0]) * (d[1] - a[1]) - (b[1] - a[1]) * (d[0] - a[0])) / Math.max(...sides);
+  return gridLimits(c).length > 0 && gridLimits(c).every((l) => l.axis === 1) && height > 0.05 * Math.max(...sides) ? 1 : 0;
+}
+function cutText(c) {
+  const limits = gridLimits(c);
+  if (limits.length === 0) return isCutByNear(c) ? "It is cut at the near plane." : "";
+  const pixels = ({axis, ratio}) => Math.round(Math.abs((ratio + 1) / 2 * [W, H][axis])), from = (l) => `${fmt(pixels(l))} pixels from the ${l.axis === 0 ? "left" : "lower"} edge of the window`;
+  return `It is cut at ${limits.map((l) => `${"xy"[l.axis]} = ${fmt(l.ratio, 4)} w`).join(" and ")}, ${limits.length === 1 ? "a limit" : "limits"} of the integer grid (${from(limits[0])})${isCutByNear(c) ? ", and at the near plane" : ", not at the near plane"}.${limits.every((l) => l.axis !== plottedAxis(c)) ? " The plot cannot show this limit, because in w and y, the triangle is a line." : ""}`;
+}
+
 // Plots a triangle and the clip planes: w (the distance along the view axis) to the right, x or y up.
 function clipPicture(c, axis, after) {
   const name = "xy"[axis], points = [...c.before.map((p) => [p[3], p[axis]]), [0, 0]], shown = c.after.map((a) => [a.clip[3], a.clip[axis]]);
@@ -13,6 +33,7 @@ function clipPicture(c, axis, after) {
   const far = Math.max(w1, Math.abs(w0));
   line([0, 0], [far, far], "var(--soft)", "5 4");
   line([0, 0], [far, -far], "var(--soft)", "5 4");
+  for (const {ratio} of gridLimits(c).filter((l) => l.axis === axis)) line([0, 0], [far, ratio * far], "var(--accent)", "9 4");
   const near = M.perspective ? M.near : 1;
   line([near, y0 - 9e3], [near, y1 + 9e3], "var(--accent)");
   root.append(svg("polygon", {points: path(c.before.map((p) => [p[3], p[axis]])), fill: "var(--soft)", "fill-opacity": after ? 0.08 : 0.22, stroke: "var(--soft)", "stroke-width": 1.5}));
@@ -20,6 +41,7 @@ function clipPicture(c, axis, after) {
   if (after) c.after.forEach((a) => { const [x, y] = to([a.clip[3], a.clip[axis]]); root.append(svg("circle", {cx: x, cy: y, r: a.vertex < 0 ? 6 : 4, fill: a.vertex < 0 ? "var(--accent)" : "var(--ink)"})); });
   const label = (at, text) => { const [x, y] = to(at); root.append(svg("text", {x: Math.min(x, width - 120), y: Math.max(18, Math.min(y, height - 8)), "font-size": 14}, document.createTextNode(text))); };
   label([near, y1], " near plane");
+  for (const {ratio} of gridLimits(c).filter((l) => l.axis === axis)) { const up = ratio > 0 ? y1 - 24 / scale : y0 + 24 / scale; label([up / ratio, up], ` ${name} = ${fmt(ratio, 4)} w`); }
   // The name of a side of the view volume is written where the side crosses the figure.
   const up = Math.min(w1, y1), down = Math.min(w1, -y0);
   if (up >= down && up > 0) label([up * 0.7, up * 0.7], ` ${name} = w`);
@@ -31,7 +53,7 @@ function clipFormula(c) {
   const cut = c.after.find((a) => a.vertex < 0);
   if (!cut) return [];
   const used = [0, 1, 2].filter((k) => cut.weights[k] !== 0);
-  return [`${say("A new vertex on a clip plane is a weighted sum of the original vertices. The first new vertex of this polygon:")}<em>p</em> = ${used.map((k) => `${fmt(cut.weights[k], 6)} · <em>v</em><sub>${k}</sub>`).join(" + ")}\n  = ${used.map((k) => `${fmt(cut.weights[k], 6)} · ${vec(c.before[k], 5)}`).join("\n  + ")}\n  = <b>${vec(cut.clip, 6)}</b>`];
+  return [`${say("A new vertex on a clip plane is a weighted sum of the original vertices. The first new vertex of this polygon:")}<em>p</em> = ${used.map((k) => `${operand(cut.weights[k], 6)} · <em>v</em><sub>${k}</sub>`).join(" + ")}\n  = ${used.map((k) => `${fmt(cut.weights[k], 6)} · ${vec(c.before[k], 5)}`).join("\n  + ")}\n  = <b>${vec(cut.clip, 6)}</b>`];
 }
 
 chapter({
@@ -41,10 +63,10 @@ chapter({
   input: () => [plural(DATA.statistics.primitives_in, "primitive"), "outcodes: for each vertex, one bit per clip plane, which is set if the vertex is outside"],
   output: () => [`${plural(DATA.statistics.clipped, "primitive")} clipped`, `${plural(DATA.statistics.culled_outside, "primitive")} entirely outside the view, and therefore culled`],
   steps: () => CLIPPED.slice(0, 4).flatMap((c, i) => [
-    {name: `Triangle ${fmt(c.primitive)} of ${escapeHtml(c.object)}, before clipping`, caption: `Clip space seen from above: the eye is at the left end, where the dashed sides of the view volume meet. Vertices with w below ${fmt(M.near)} are on the eye's side of the near plane, and vertices with negative w are behind the eye.`, draw: () => clipPicture(c, 0, false)},
-    {name: "After clipping", caption: `The polygon has ${c.after.length} vertices, ${c.after.filter((a) => a.vertex < 0).length} of them new. It is drawn as a fan of ${plural(c.after.length - 2, "triangle")}.`, draw: () => clipPicture(c, 0, true)}]),
+    {name: `Triangle ${fmt(c.primitive)} of ${escapeHtml(c.object)}, before clipping`, caption: `Clip space seen from ${plottedAxis(c) === 0 ? "above" : "the side"}: w increases to the right, and ${"xy"[plottedAxis(c)]} upward. The eye is at w = 0, where the dashed lines meet; gray ones are the sides of the view volume. ${cutText(c)} Vertices with w below ${fmt(M.near)} are on the eye's side of the near plane, and vertices with negative w are behind the eye.`, draw: () => clipPicture(c, plottedAxis(c), false)},
+    {name: "After clipping", caption: `The polygon has ${c.after.length} vertices, ${c.after.filter((a) => a.vertex < 0).length} of them new. It is drawn as a fan of ${plural(c.after.length - 2, "triangle")}.`, draw: () => clipPicture(c, plottedAxis(c), true)}]),
   formula: () => clipFormula(CLIPPED[0]),
-  body: () => [el("h3", {}, "Vertices of the first polygon"), tableOf(["vertex", "x", "y", "z", "w", "weights of the original vertices"], CLIPPED[0].after.map((a, i) => [String(i), ...a.clip.map((v) => fmt(v, 6)), a.vertex >= 0 ? `¶vertex ${a.vertex}` : `¶${a.weights.map((w) => fmt(w, 4)).join(" · ")}`]))],
+  body: () => [el("h3", {}, "Vertices of the first polygon"), tableOf(["vertex", "x", "y", "z", "w", "weights of the original vertices"], CLIPPED[0].after.map((a, i) => [String(i), ...a.clip.map((v) => fmt(v, 6)), a.vertex >= 0 ? `¶vertex ${a.vertex}` : `¶${a.weights.map((w) => fmt(w, 4)).join(", ")}`]))],
   related: ["spaces", "culling"], lessons: ["Projection, w and clipping"],
   exercises: () => {
     const c = CLIPPED[0];
@@ -77,7 +99,8 @@ const pointRectangle = () => `x: ${fmt(TRI.x[0])} … ${fmt(TRI.x[1])}, y: ${fmt
 
 const percent = (part, all) => `${fmt(Math.round(part / Math.max(1, all) * 1000) / 10)} %`;
 const area2 = (t) => (t.x[1] - t.x[0]) * (t.y[2] - t.y[0]) - (t.y[1] - t.y[0]) * (t.x[2] - t.x[0]);
-const submitted = () => ({x: EX.vertices.map((v) => v.x), y: EX.vertices.map((v) => v.y)});
+// The vertices whose order decides about the facing: those of the submitted triangle or, if it was clipped, of the piece of the page.
+const submitted = () => (isClipped ? TRI : {x: EX.vertices.map((v) => v.x), y: EX.vertices.map((v) => v.y)});
 
 chapter({
   id: "culling", title: "Culling", kicker: "Primitive setup",
@@ -90,14 +113,14 @@ chapter({
       draw: () => bars(OUTCOMES.map((name, i) => ({value: DATA.outcomes[i], name, label: ["kept", "clipped", "outside", "facing", "no area", "no sample", "∞ or NaN"][i], marked: i === 0})), "Number of primitives by outcome: " + OUTCOMES.map((name, i) => `${DATA.outcomes[i]} ${name}`).join(", "))},
     ...[0, 3, 5].filter((i) => DATA.outcomes[i] > 0 && FRAME.outcomes.includes(i)).map((i) => ({name: `Primitives ${OUTCOMES[i]}`, caption: i === 3 ? `They face away from the eye. They are ${percent(DATA.outcomes[3], DATA.statistics.primitives_in)} of the submitted primitives.` : i === 5 ? "Triangles that are so small or thin that they cover no sample." : "These primitives are passed to the rasterizer.", draw: () => cullPicture(i)})),
   ],
-  formula: () => (isPoint ? [pointRectangle(), `${say("A point is culled if its rectangle is empty, outside the window, or covers no sample.")}${fmt(TRI.box[2] - TRI.box[0])} × ${fmt(TRI.box[3] - TRI.box[1])} pixels &gt; 0 → <b>kept</b>`] : isTriangle ? [`2 · area = (<em>x</em><sub>1</sub> − <em>x</em><sub>0</sub>)(<em>y</em><sub>2</sub> − <em>y</em><sub>0</sub>) − (<em>y</em><sub>1</sub> − <em>y</em><sub>0</sub>)(<em>x</em><sub>2</sub> − <em>x</em><sub>0</sub>)\n\n${say(`for ${exampleName}, in 1/256 pixel:`)}= (${fmt(submitted().x[1] - submitted().x[0])}) · (${fmt(submitted().y[2] - submitted().y[0])}) − (${fmt(submitted().y[1] - submitted().y[0])}) · (${fmt(submitted().x[2] - submitted().x[0])}) = <b>${fmt(area2(submitted()))}</b>\n\n${say(`${area2(submitted()) > 0 ? "Positive: counter-clockwise." : "Negative: clockwise."} The area is ${fmt(Math.abs(area2(submitted())) / 131072, 6)} pixels.`)}`] : []),
+  formula: () => (isPoint ? [pointRectangle(), `${say("A point is culled if its rectangle is empty, outside the window, or covers no sample.")}${fmt(TRI.box[2] - TRI.box[0])} × ${fmt(TRI.box[3] - TRI.box[1])} pixels &gt; 0 → <b>kept</b>`] : isTriangle ? [`2 · area = (<em>x</em><sub>1</sub> − <em>x</em><sub>0</sub>)(<em>y</em><sub>2</sub> − <em>y</em><sub>0</sub>) − (<em>y</em><sub>1</sub> − <em>y</em><sub>0</sub>)(<em>x</em><sub>2</sub> − <em>x</em><sub>0</sub>)\n\n${say(`${isClipped ? `${pieceNote} For this piece` : `for ${exampleName}`}, in 1/256 pixel:`)}= (${fmt(submitted().x[1] - submitted().x[0])}) · (${fmt(submitted().y[2] - submitted().y[0])}) − (${fmt(submitted().y[1] - submitted().y[0])}) · (${fmt(submitted().x[2] - submitted().x[0])}) = <b>${fmt(area2(submitted()))}</b>\n\n${say(`${isClipped ? "Setup has ordered the vertices of the piece counter-clockwise." : area2(submitted()) > 0 ? "Positive: counter-clockwise." : "Negative: clockwise."} The area is ${fmt(Math.abs(area2(submitted())) / 131072, 6)} pixels.`)}`] : []),
   related: ["clipping", "setup"], lessons: ["A triangle"],
   exercises: () => {
     const o = DATA.outcomes, all = Math.max(1, DATA.statistics.primitives_in), inView = DATA.statistics.primitives_in - o[2];
     return [
       {ask: "What percentage of the primitives that are not outside the view was culled because of their facing?", answer: o[3] / Math.max(1, inView) * 100, decimals: 0, hint: "Leave out the bar “outside”.", why: `${fmt(o[3])} of ${fmt(inView)}.`},
       {ask: "What percentage of the submitted primitives is drawn?", answer: (o[0] + o[1]) / all * 100, decimals: 0, hint: "Divide the number of kept and clipped primitives by the number of all primitives.", why: `${fmt(o[0] + o[1])} of ${fmt(DATA.statistics.primitives_in)}.`},
-      isTriangle ? {ask: "The same view is rendered with twice the width and height. How many pixels is the area of the example triangle then?", answer: 4 * Math.abs(area2(submitted())) / 131072, significant: 3, hint: "Both directions double.", why: `4 · ${fmt(Math.abs(area2(submitted())) / 131072, 6)} pixels.`}
+      isTriangle ? {ask: `The same view is rendered with twice the width and height. How many pixels is the area of ${isClipped ? "the piece of the example triangle" : "the example triangle"} then?`, answer: 4 * Math.abs(area2(submitted())) / 131072, significant: 3, hint: "Both directions double.", why: `4 · ${fmt(Math.abs(area2(submitted())) / 131072, 6)} pixels.`}
         : isPoint ? {ask: "How many pixels does the rectangle of the example point have?", answer: (TRI.box[2] - TRI.box[0]) * (TRI.box[3] - TRI.box[1]), hint: "Multiply its width by its height.", why: `${TRI.box[2] - TRI.box[0]} · ${TRI.box[3] - TRI.box[1]}.`}
           : {ask: "What percentage of the submitted primitives covers no sample?", answer: o[5] / all * 100, decimals: 0, hint: "See the bar “no sample”.", why: `${fmt(o[5])} of ${fmt(DATA.statistics.primitives_in)}.`},
     ];
@@ -106,17 +129,24 @@ chapter({
 
 // ---- setup ------------------------------------------------------------------------------------------------------------
 
+// The pixels around the example triangle and their size in the picture of its edges, which has a border for labels.
+function edgeFrame() {
+  const margin = 1.2, border = 26, [x0, y0] = [TRI.x, TRI.y].map((v) => Math.min(...v) / SUB - margin), [x1, y1] = [TRI.x, TRI.y].map((v) => Math.max(...v) / SUB + margin);
+  return {x0, x1, y0, y1, border, scale: (figureWidth() - 2 * border) / Math.max(x1 - x0, (y1 - y0) * 1.6)};
+}
+// Pixels and samples are drawn if they are large enough to be told apart.
+const showsSamples = () => edgeFrame().scale > 5;
+
 // Draws the example triangle and its edges on the surrounding pixel grid.
 function edgePicture(highlight) {
-  const t = TRI, margin = 1.2, box = t.box, x0 = Math.min(...t.x) / SUB - margin, x1 = Math.max(...t.x) / SUB + margin, y0 = Math.min(...t.y) / SUB - margin, y1 = Math.max(...t.y) / SUB + margin;
-  const size = Math.max(x1 - x0, (y1 - y0) * 1.6), width = figureWidth(), scale = width / size, height = Math.max(240, (y1 - y0) * scale), left = (width - (x1 - x0) * scale) / 2, top = (height - (y1 - y0) * scale) / 2;
+  const t = TRI, box = t.box, {x0, x1, y0, y1, scale, border} = edgeFrame(), width = figureWidth(), height = Math.max(240, (y1 - y0) * scale + 2 * border), left = (width - (x1 - x0) * scale) / 2, top = (height - (y1 - y0) * scale) / 2;
   const to = (x, y) => [left + (x / SUB - x0) * scale, top + (y1 - y / SUB) * scale];
   const root = svgFigure(width, height, "The example triangle and its three edges on the pixel grid");
-  if (scale > 5) gridLines(root, to, Math.floor(x0), Math.ceil(x1), Math.floor(y0), Math.ceil(y1));
+  if (showsSamples()) gridLines(root, to, Math.floor(x0), Math.ceil(x1), Math.floor(y0), Math.ceil(y1));
   root.append(svg("polygon", {points: t.x.map((x, i) => to(x, t.y[i]).join(",")).join(" "), fill: "var(--accent)", "fill-opacity": 0.16}));
   t.edges.forEach((e, i) => edgeArrow(root, to, e, i, highlight === i || highlight === 3));
   t.x.forEach((x, i) => { const [a, b] = to(x, t.y[i]); root.append(svg("circle", {cx: a, cy: b, r: 4.5, fill: "var(--ink)"}), svg("text", {x: a + 8, y: b - 8, "font-size": 15, "font-weight": 650}, document.createTextNode("v" + i))); });
-  if (scale > 5) for (let y = box[1]; y < box[3]; ++y) for (let x = box[0]; x < box[2]; ++x) { const [a, b] = to(sampleX(x), sampleY(y)); root.append(svg("circle", {cx: a, cy: b, r: Math.min(3.5, scale / 8), fill: covers(t, x, y) ? "var(--accent)" : "var(--soft)"})); }
+  if (showsSamples()) for (let y = box[1]; y < box[3]; ++y) for (let x = box[0]; x < box[2]; ++x) { const [a, b] = to(sampleX(x), sampleY(y)); root.append(svg("circle", {cx: a, cy: b, r: Math.min(3.5, scale / 8), fill: covers(t, x, y) ? "var(--accent)" : "var(--soft)"})); }
   return el("div", {class: "stage"}, root);
 }
 
@@ -135,7 +165,7 @@ function edgeArrow(root, to, e, i, strong) {
   root.append(svg("text", {x: m[0] - d[1] * 20 - 8, y: m[1] + d[0] * 20 + 5, "font-size": 15, "font-weight": 650, style: `fill:${color}`}, document.createTextNode("E" + i)));
 }
 
-const edgeLine = (e, i) => `E<sub>${i}</sub>(x, y) = ${fmt(e.ex)} · (y − ${fmt(e.y0)}) − (${fmt(e.ey)}) · (x − ${fmt(e.x0)})`;
+const edgeLine = (e, i) => `E<sub>${i}</sub>(x, y) = ${fmt(e.ex)} · (y − ${operand(e.y0)}) − ${operand(e.ey)} · (x − ${operand(e.x0)})`;
 const edgesAtPixel = () => TRI.edges.map((e) => edgeAt(e, sampleX(WINDOW[0]), sampleY(WINDOW[1])));
 const depthFromEdges = () => { const at = edgesAtPixel(); return TRI.z0 + at[1] * TRI.z_edge1 + at[2] * TRI.z_edge2; };
 
@@ -146,20 +176,20 @@ chapter({
   input: () => ["three window positions in 1/256 pixel", "three depths"],
   output: () => ["three edge functions", "depth as z₀ + E₁ · a + E₂ · b", TRI && TRI.small ? "a small triangle: all values fit into 32 bits" : "a large triangle: values are shifted to fit into 32 bits"],
   steps: () => [
-    {name: "Three edges", caption: `${exampleName[0].toUpperCase() + exampleName.slice(1)}. Its vertices are in counter-clockwise order, starting with the farthest one (v0). The dots are ${DATA.samples === 1 ? "pixel centers" : `sample ${SAMPLE} of each pixel, the one at which the triangle is visible in the example pixel`}.`, draw: () => edgePicture(3)},
+    {name: "Three edges", caption: `${exampleName[0].toUpperCase() + exampleName.slice(1)}. ${isClipped ? "It was clipped, and the picture shows the piece that covers the example pixel. " : ""}Its vertices are in counter-clockwise order, starting with the farthest one (v0).${showsSamples() ? ` The dots are ${DATA.samples === 1 ? "pixel centers" : `sample ${SAMPLE} of each pixel, the one at which the triangle is visible in the example pixel`}.` : ""}`, draw: () => edgePicture(3)},
     ...TRI.edges.map((e, i) => ({name: `Edge E${i}`, caption: `From v${(i + 1) % 3} to v${(i + 2) % 3}, opposite v${i}. ${e.bias ? `Samples exactly on this edge belong to the neighboring triangle, so E${i} must be at least 1 inside.` : `Samples exactly on this edge belong to this triangle, so E${i} may be 0.`}`, draw: () => edgePicture(i)})),
   ],
   formula: () => {
     const at = edgesAtPixel();
     return [`${TRI.edges.map(edgeLine).join("\n")}\n\n${say(`at ${sampleName} of pixel ${px(PIXEL)}, which is at (${fmt(sampleX(WINDOW[0]))}, ${fmt(sampleY(WINDOW[1]))}) in units of 1/256 pixel:`)}${TRI.edges.map((e, i) => `E<sub>${i}</sub> = ${fmt(at[i])} ≥ ${e.bias} → <b>${at[i] - e.bias >= 0 ? "inside" : "outside"}</b>`).join("\n")}`,
-      `<em>z</em>(x, y) = z<sub>0</sub> + E<sub>1</sub> · ${fmt(TRI.z_edge1, 9)} + E<sub>2</sub> · ${fmt(TRI.z_edge2, 9)}\n     = ${fmt(TRI.z0, 9)} + ${fmt(at[1])} · ${fmt(TRI.z_edge1, 5)} + ${fmt(at[2])} · ${fmt(TRI.z_edge2, 5)} = <b>${fmt(depthFromEdges(), 8)}</b>${say(`The renderer computed the depth ${fmt(VISIBLE.depth, 8)} in floats.`)}`];
+      `<em>z</em>(x, y) = z<sub>0</sub> + E<sub>1</sub> · ${operand(TRI.z_edge1, 9)} + E<sub>2</sub> · ${operand(TRI.z_edge2, 9)}\n     = ${fmt(TRI.z0, 9)} + ${operand(at[1])} · ${operand(TRI.z_edge1, 5)} + ${operand(at[2])} · ${operand(TRI.z_edge2, 5)} = <b>${fmt(depthFromEdges(), 8)}</b>${say(`The renderer computed the depth ${fmt(VISIBLE.depth, 8)} in floats.`)}`];
   },
   related: ["coverage", "depth"], lessons: ["A triangle"],
   exercises: () => {
     const at = edgesAtPixel(), i = TRI.edges.findIndex((e) => e.ey !== 0), e = TRI.edges[i], name = `E${"₀₁₂"[i]}`;
     return [
-      {ask: `What is ${name} at ${sampleName} of the pixel to the right of the example pixel, before the fill rule?`, answer: at[i] - e.ey * SUB, hint: "x increases by 256; only the second product changes.", why: `${fmt(at[i])} − (${fmt(e.ey)}) · 256.`},
-      {ask: `What is E₀ + E₁ + E₂ at ${sampleName} of the example pixel?`, answer: at[0] + at[1] + at[2], hint: "It is the same at every point of the plane.", why: "The sum is twice the area of the triangle at every point."},
+      {ask: `What is ${name} at ${sampleName} of the pixel to the right of the example pixel, before the fill rule?`, answer: at[i] - e.ey * SUB, hint: "x increases by 256; only the second product changes.", why: `${fmt(at[i])} − ${operand(e.ey)} · 256.`},
+      {ask: `What is E₀ + E₁ + E₂ at ${sampleName} of the example pixel?`, answer: at[0] + at[1] + at[2], hint: "It is the same at every point of the plane.", why: `The sum is twice the area of the triangle${isClipped ? ", here of the piece," : ""} at every point.`},
       {ask: `What is the barycentric weight of v1 at ${sampleName} of the example pixel, without perspective?`, answer: at[1] / area2(TRI), decimals: 3, hint: "Divide E₁ by the sum from the previous exercise.", why: "The values of the edge functions are unnormalized barycentric coordinates."},
     ];
   },

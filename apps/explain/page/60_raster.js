@@ -36,7 +36,7 @@ function tilePicture(mode) {
       pen.textAlign = "center";
       if (pen.measureText(fmt(n)).width + size / 2 < w * s && size < h * s) pen.fillText(fmt(n), (x + w / 2) * s, (y + h / 2) * s + size / 3);
     });
-    if (mode === "example" && isTriangle) polygon(pen, TRI.x.map((v, i) => [v / SUB * s, (H - TRI.y[i] / SUB) * s]), {stroke: "#fff", fill: css("--accent"), width: 2});
+    if (mode === "example" && isTriangle) for (const t of EX.triangles) polygon(pen, windowCorners(t, s), {stroke: "#fff", fill: css("--accent"), width: 2});
   }});
 }
 
@@ -46,13 +46,17 @@ function maxInTile(e, tx, ty) {
   const at = DATA.sample_positions.flat(), low = Math.min(...at), high = Math.max(...at);
   return edgeAt(e, px * SUB + (e.ey < 0 ? high : low), py * SUB + (e.ex > 0 ? high : low));
 }
+// The vertices of a triangle after setup, in a picture that is scaled by s.
+const windowCorners = (t, s) => t.x.map((v, i) => [v / SUB * s, (H - t.y[i] / SUB) * s]);
 const tileBox = (t) => [Math.floor(t.box[0] / TILE), Math.floor(t.box[1] / TILE), Math.floor((t.box[2] - 1) / TILE), Math.floor((t.box[3] - 1) / TILE)];
 function touches(tx, ty) {
-  if (TRI === null) return tx === EXTILE[0] && ty === EXTILE[1];
-  const [x0, y0, x1, y1] = tileBox(TRI);
+  return TRI === null ? tx === EXTILE[0] && ty === EXTILE[1] : EX.triangles.some((t) => isInBin(t, tx, ty));
+}
+function isInBin(t, tx, ty) {
+  const [x0, y0, x1, y1] = tileBox(t);
   if (tx < x0 || ty < y0 || tx > x1 || ty > y1) return false;
-  if (!TRI.edges || x0 === x1 || y0 === y1) return true;
-  return TRI.edges.every((e) => maxInTile(e, tx, ty) - e.bias >= 0);
+  if (!t.edges || x0 === x1 || y0 === y1) return true;
+  return t.edges.every((e) => maxInTile(e, tx, ty) - e.bias >= 0);
 }
 function touchedTiles() { const list = []; eachTile((tx, ty) => { if (touches(tx, ty)) list.push([tx, ty]); }); return list; }
 
@@ -183,17 +187,12 @@ const SHARED = (() => {
 })();
 const inShared = (i, x, y) => inside(SHARED[i], x * SUB + SUB / 2, y * SUB + SUB / 2);
 function sharedPicture() {
-  const g = gridPicture(0, 0, 7, 7, "Two triangles that share an edge through pixel centers; each center belongs to exactly one of the triangles", (x, y) => ({fill: inShared(0, x, y) ? "var(--accent)" : inShared(1, x, y) ? "var(--soft)" : "transparent", opacity: 0.55}));
+  const g = gridPicture(0, 0, 7, 7, "Two triangles that share an edge through pixel centers; each center inside the square belongs to exactly one of the triangles", (x, y) => ({fill: inShared(0, x, y) ? "var(--accent)" : inShared(1, x, y) ? "var(--soft)" : "transparent", opacity: 0.55}));
   for (const t of SHARED) outline(g.root, g.to, corners(t));
   for (let y = 0; y < 7; ++y) for (let x = 0; x < 7; ++x) { const [a, b] = g.to(x * SUB + SUB / 2, y * SUB + SUB / 2); g.root.append(svg("circle", {cx: a, cy: b, r: 4.5, fill: "var(--ink)"})); }
   return el("div", {class: "stage"}, g.root);
 }
 
-function countCovered() {
-  let n = 0;
-  for (let y = TRI.box[1]; y < TRI.box[3]; ++y) for (let x = TRI.box[0]; x < TRI.box[2]; ++x) n += covered(TRI, x, y);
-  return n;
-}
 const inBlock = () => { let n = 0; const [x0, y0] = WINDOW.map(blockOf); for (let y = y0; y < y0 + 8; ++y) for (let x = x0; x < x0 + 8; ++x) n += covers(TRI, x, y); return n; };
 
 chapter({
@@ -206,12 +205,12 @@ chapter({
     ...(TRI.edges ? [{name: "Blocks of the tile", caption: `The tile of the example pixel, divided into blocks of 8 × 8 pixels. Only blocks that the line of an edge crosses are tested further. Where the line crosses a block beyond the end of the edge, the block is tested in vain.${DATA.samples > 1 ? ` The picture is for sample ${SAMPLE}; each of the ${DATA.samples} samples is processed like a picture of its own.` : ""}`, draw: blocksPicture}] : []),
     {name: "Packets", caption: `The block of the example pixel. This build (${escapeHtml(DATA.build.description)}) processes ${DATA.build.lanes} pixels at once, in packets of ${PACKET[0]} × ${PACKET[1]}, because a register holds ${DATA.build.lanes} floats. Filled pixels are covered${DATA.samples > 1 ? ` at sample ${SAMPLE}` : ""}.`, draw: packetPicture},
     {name: "Samples", caption: "A sample is covered if no edge function is negative after the fill rule has been applied. Point at a sample to see its values, or focus the picture and press the arrow keys." + (DATA.samples > 1 ? ` The dots are sample ${SAMPLE} of each pixel, the one at which ${exampleName} is visible in the example pixel.` : ""), draw: samplePicture},
-    {name: "A shared edge", caption: "Two triangles that form a square (not part of this frame). Their common edge passes exactly through pixel centers. Each of these centers belongs to exactly one triangle: the one for which the edge is a left edge, or a horizontal edge with the inside above it.", draw: sharedPicture},
+    {name: "A shared edge", caption: "Two triangles that form a square (not part of this frame). Their common edge passes exactly through pixel centers. Each center inside the square belongs to exactly one triangle: the one for which the edge is a left edge, or a horizontal edge with the inside above it. The center at the upper right corner belongs to neither, because the right and the top side of the square are not covered.", draw: sharedPicture},
   ],
   formula: () => (isPoint ? [pointRectangle(), `${say(`${sampleName === "the center" ? "The center" : `Sample ${SAMPLE}`} of pixel ${px(PIXEL)}:`)}${fmt(TRI.x[0])} ≤ ${fmt(sampleX(WINDOW[0]))} ≤ ${fmt(TRI.x[1])}  and  ${fmt(TRI.y[0])} ≤ ${fmt(sampleY(WINDOW[1]))} ≤ ${fmt(TRI.y[1])} → <b>covered</b>${say("The shader then discards the fragments of the rectangle that are outside the sphere.")}`] : isTriangle ? [`covered = E<sub>0</sub> ≥ bias<sub>0</sub>  and  E<sub>1</sub> ≥ bias<sub>1</sub>  and  E<sub>2</sub> ≥ bias<sub>2</sub>\n\n${say(`at ${sampleName} of pixel ${px(PIXEL)}:`)}${TRI.edges.map((e, i) => `E<sub>${i}</sub> = ${fmt(edgesAtPixel()[i])} ≥ ${e.bias} → <b>${edgesAtPixel()[i] >= e.bias}</b>`).join("\n")}\n\n${say("bias = 0 if the edge goes down (e<sub>y</sub> &lt; 0), or to the right (e<sub>y</sub> = 0, e<sub>x</sub> &gt; 0); otherwise 1")}`] : []),
   related: ["setup", "samples", "stepping"], lessons: ["A triangle", "SIMD lanes"],
   exercises: () => [
-    {ask: `${DATA.samples === 1 ? "How many pixel centers" : "Of how many pixels"} does ${exampleName} cover${DATA.samples === 1 ? "" : " at least one sample"}?`, answer: countCovered(), hint: `Count the filled pixels. The ${TRI.edges ? "triangle" : "primitive"} may extend beyond the block that is shown; the chapter “One frame” gives the number of pixels.`, why: TRI.edges ? "The page counted them with the exact edge functions." : "They are the pixels with a sample inside the rectangle of the primitive."},
+    {ask: `${DATA.samples === 1 ? "How many pixel centers" : "Of how many pixels"} does ${exampleName} cover${DATA.samples === 1 ? "" : " at least one sample"}?`, answer: EX.covered, hint: `Count the filled pixels. The ${isTriangle ? "triangle" : "primitive"} may extend beyond the block that is shown; the chapter “One frame” gives the number of pixels.`, why: isTriangle ? `The renderer counted them with the exact edge functions${EX.triangles.length > 1 ? ` of all ${EX.triangles.length} pieces` : ""}.` : isPoint ? "They are the pixels with a sample inside the rectangle of the point." : "The renderer counted the pixels with a sample inside the line."},
     {ask: "How many pixels of the block in the “Packets” step are covered?", answer: inBlock(), hint: "Count the filled pixels in that step.", why: "At most 64 are possible."},
     {ask: "How many packets would a block of 8 × 8 pixels have if a register held 16 floats?", answer: 4, hint: "A packet has one pixel per float.", why: `64 / 16. In this build, a block has 64 / ${DATA.build.lanes} packets.`},
   ],

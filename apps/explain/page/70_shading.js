@@ -40,7 +40,7 @@ function checkered(kind) {
 const squareColor = (b) => ((Math.floor(b[1] * 10) + Math.floor(b[2] * 10)) % 2 ? [194, 65, 12] : [250, 236, 226]);
 function differenceColor(a, b) {
   const d = Math.max(...a.map((v, i) => Math.abs(v - b[i])));
-  return heat(d * 4).match(/\d+/g).map(Number);
+  return heat(d / P.difference).match(/\d+/g).map(Number);
 }
 const middle = () => weightsAt(...[0, 1].map((k) => (CORNERS[0][k] + CORNERS[1][k] + CORNERS[2][k]) / 3));
 
@@ -60,7 +60,7 @@ chapter({
   output: () => ["three weights that add up to 1"],
   steps: () => [
     {name: "Affine and perspective-correct", caption: `${interpolatedName()} Affine: the weights are the normalized edge functions, so all squares have the same size on the screen. Perspective-correct: the weights are divided by w and normalized. 1/w is ${P.inv_w.map((v) => fmt(v, 4)).join(", ")} at the vertices.`, draw: checkeredPair},
-    {name: "Difference", caption: `The difference of the weights, from 0 (dark) to 0.25 or more (bright). Along an edge, it is at most ${fmt(P.difference, 3)}: affine interpolation displaces a value by up to ${fmt(P.error, 3)} pixels.`, draw: () => [checkered("difference"), legend("0", "0.25")]},
+    {name: "Difference", caption: `The difference of the weights. Along an edge, it is at most ${fmt(P.difference, 3)}: affine interpolation displaces a value by up to ${fmt(P.error, 3)} pixels.`, draw: () => [checkered("difference"), legend("0", fmt(P.difference, 3))]},
   ],
   formula: () => {
     const m = middle();
@@ -90,7 +90,13 @@ const POSITION = (() => {
 function interpolationFormula() {
   const p = POSITION, [, p1, p2] = p.weights;
   const line = (k) => `${"xyz"[k]} = ${fmt(p.corners[0][k], 6)} + ${fmt(p1, 6)} · (${fmt(p.corners[1][k] - p.corners[0][k], 6)}) + ${fmt(p2, 6)} · (${fmt(p.corners[2][k] - p.corners[0][k], 6)}) = <b>${fmt(p.corners[0][k] * p.weights[0] + p.corners[1][k] * p1 + p.corners[2][k] * p2, 6)}</b>`;
-  return `\n\n${say(`The position relative to the eye at ${shadedWhere === "center" ? "the center" : shadedWhere} of pixel ${px(PIXEL)}, where ${exampleName} is visible:`)}${[0, 1, 2].map(line).join("\n")}${say(`The shader received ${vec(p.value, 6)}.`)}`;
+  return `\n\n${say(`The position relative to the eye at ${shadedWhere === "center" ? "the center" : shadedWhere} of pixel ${px(PIXEL)}, where ${exampleName} is visible:`)}${[0, 1, 2].map(line).join("\n")}${say(`The shader received ${vec(p.value, 6)}.`)}${outsideNote()}`;
+}
+// A pixel center can be outside a triangle that covers a sample of the pixel.
+function outsideNote() {
+  if (!isTriangle || shadedWhere !== "center" || !VISIBLE.barycentrics.some((b) => b < 0)) return "";
+  const inside = allSamples.filter((s) => covers(TRI, ...WINDOW, s));
+  return say(`A weight is negative, because the pixel center is outside the triangle; only ${inside.length === 1 ? `its sample ${inside[0]} is` : `its samples ${listed(inside)} are`} inside.`);
 }
 function varyingTable() {
   if (VARYINGS.length === 0) return null;
@@ -164,6 +170,13 @@ const mean3 = (v) => 0.2126 * v[0] + 0.7152 * v[1] + 0.0722 * v[2];
 // The terms of each light at the visible fragment, as products of their factors.
 const LIGHTING = VISIBLE.lighting || null;
 const MODEL_NAMES = {lambert: "Lambert", phong: "Phong", blinn_phong: "Blinn–Phong", metallic: "metallic-roughness"};
+// How often the shader of the example lights its surface: per pixel, vertex or triangle.
+const shadingRate = () => { const rate = VISIBLE.shader.match(/ per \w+/); return rate ? `${rate[0]}, ` : " "; };
+// Names the transparent layers that cover the example pixel.
+function exampleLayers() {
+  const n = LAYERS !== null && LAYERS.pixel.join() === PIXEL.join() ? LAYERS.list.length : 0;
+  return n > 0 ? ` The pixel is also covered by ${plural(n, "transparent layer")}; the sum below includes ${n === 1 ? "it" : "them"} (chapter “Transparent layers”).` : "";
+}
 const triple = (v, digits = 5) => v.map((x) => fmt(x, digits).padStart(10)).join(" ");
 function lightFormulas() {
   if (LIGHTING === null) return [];
@@ -172,7 +185,7 @@ function lightFormulas() {
   const head = isMetallic ? "diffuse  = light · (n · l) · shadow · albedo · (1 − metallic) · (1 − F)\nspecular = light · shadow · reflectance of the microfacets"
     : `diffuse  = light · (n · l) · shadow · albedo · k<sub>d</sub>${cosine ? `\nspecular = light · ${cosine}<sup>${fmt(LIGHTING.shininess, 4)}</sup> · shadow · k<sub>s</sub>` : ""}`;
   const blocks = LIGHTING.lights.filter(isLit).slice(0, 4).map((l) => `${say(`Light ${escapeHtml(l.name)}:`)}${isMetallic ? metallicLight(l) : modelLight(l, cosine)}`);
-  return [`${say(`The visible fragment of pixel ${px(PIXEL)} is lit with the ${MODEL_NAMES[LIGHTING.model]} model, evaluated at ${shadedWhere === "center" ? "its center" : shadedWhere} (red, green, blue). n · l includes the attenuation of the light.`)}${head}\n\nalbedo      ${triple(LIGHTING.albedo)}\n${isMetallic ? "" : `k<sub>d</sub>          ${triple(LIGHTING.diffuse)}\n${cosine ? `k<sub>s</sub>          ${triple(LIGHTING.specular)}\n` : ""}`}\n${blocks.join("\n\n")}`];
+  return [`${say(`The visible opaque fragment of pixel ${px(PIXEL)} is shaded${shadingRate()}with the ${MODEL_NAMES[LIGHTING.model]} model, evaluated at ${shadedWhere === "center" ? "its center" : shadedWhere} (red, green, blue).${exampleLayers()} n · l includes the attenuation of the light.`)}${head}\n\nalbedo      ${triple(LIGHTING.albedo)}\n${isMetallic ? "" : `k<sub>d</sub>          ${triple(LIGHTING.diffuse)}\n${cosine ? `k<sub>s</sub>          ${triple(LIGHTING.specular)}\n` : ""}`}\n${blocks.join("\n\n")}`];
 }
 function modelLight(l, cosine) {
   const d = LIGHTING.albedo.map((a, k) => l.diffuse_color[k] * l.n_l * l.shadow * a * LIGHTING.diffuse[k]);
@@ -204,7 +217,7 @@ chapter({
     return [
       {ask: `Which term contributes most to the picture: ${TERMS.map((t) => `“${escapeHtml(t.name)}”`).join(", ")}?`, answer: best.name, hint: "Compare the mean luminances.", why: `Its mean luminance is ${fmt(mean3(best.mean), 4)}.`},
       {ask: "What percentage of the luminance at the example pixel comes from its largest term?", answer: sum > 0 ? most / sum * 100 : 0, decimals: 0, hint: "Divide the largest luminance of the steps by their sum.", why: sum > 0 ? `${fmt(most, 4)} / ${fmt(sum, 4)}.` : "The example pixel is black."},
-      {ask: "How many terms does this frame have?", answer: TERMS.length, hint: "Count the rows of the formula.", why: `They are ${listed(TERMS.map((t) => t.name))}.`},
+      {ask: "How many terms does this frame have?", answer: TERMS.length, hint: "Count the rows of the formula.", why: `They are ${listed(TERMS.map((t) => `“${t.name}”`))}.`},
     ];
   },
 });

@@ -13,7 +13,7 @@ chapter({
   exercises: () => [
     {ask: "How many bytes does the uncompressed picture have, with one byte each for red, green and blue?", answer: W * H * 3, hint: "A pixel has three bytes.", why: `${W} · ${H} · 3.`},
     {ask: "An image file lists the pixels row by row, from the upper left. How many pixels come before the example pixel?", answer: PIXEL[1] * W + PIXEL[0], hint: `A row has ${W} pixels.`, why: `${PIXEL[1]} · ${W} + ${PIXEL[0]}.`},
-    {ask: "What percentage of the tiles had primitives to draw?", answer: DATA.statistics.tiles_touched / (BINS.columns * BINS.rows) * 100, decimals: 0, hint: "The chapter “Binning into tiles” gives the number of tiles.", why: `${fmt(DATA.statistics.tiles_touched)} of ${fmt(BINS.columns * BINS.rows)} tiles; the others were filled with the background color.`},
+    {ask: "What percentage of the tiles had primitives to draw?", answer: DATA.statistics.tiles_touched / (BINS.columns * BINS.rows) * 100, decimals: 0, hint: "The chapter “Binning into tiles” gives the number of tiles.", why: `${fmt(DATA.statistics.tiles_touched)} of ${fmt(BINS.columns * BINS.rows)} tiles${DATA.statistics.tiles_touched < BINS.columns * BINS.rows ? "; the others were filled with the background color" : ""}.`},
   ],
 });
 
@@ -25,10 +25,10 @@ chapter({
   input: () => [plural(DATA.overdraw.total, "fragment")],
   output: () => [plural(shadedFragments(), "shaded fragment"), plural(W * H, "pixel")],
   steps: () => [
-    {name: "Fragments per pixel", caption: `The pixels have ${DATA.overdraw.histogram[0] > 0 ? "0" : fmt(DATA.overdraw.least)} to ${fmt(DATA.overdraw.most)} fragments; bright pixels have the most. Point at the picture to read the numbers.`, draw: () => [picture(DATA.overdraw.picture, "Number of fragments per pixel as a heat map", {read: (x, y) => `pixel ${px([x, y])}: ${plural(fragmentsAt(x, y), "fragment")}`, overlay: (pen, s) => ring(pen, s, PIXEL)}), legend("1", fmt(DATA.overdraw.most))].flat()},
+    {name: "Fragments per pixel", caption: `A fragment is one sample of one primitive${DATA.samples > 1 ? `, and a pixel has ${DATA.samples} samples` : ""}. The pixels have ${DATA.overdraw.histogram[0] > 0 ? "0" : fmt(DATA.overdraw.least)} to ${fmt(DATA.overdraw.most)} fragments; bright pixels have the most. Point at the picture to read the numbers.`, draw: () => [picture(DATA.overdraw.picture, "Number of fragments per pixel as a heat map", {read: (x, y) => `pixel ${px([x, y])}: ${plural(fragmentsAt(x, y), "fragment")}`, overlay: (pen, s) => ring(pen, s, PIXEL)}), legend("1", fmt(DATA.overdraw.most))].flat()},
     {name: "Histogram", caption: `The number of pixels for each number of fragments${DATA.overdraw.most > 64 ? "; the last bar is for 64 and more" : ""}.`, draw: () => bars(DATA.overdraw.histogram.map((value, i) => ({value, name: plural(i, "fragment"), label: DATA.overdraw.histogram.length < 25 || i % 8 === 0 ? String(i) : undefined})), "Histogram: number of pixels for each number of fragments", {unit: " pixels"})},
   ],
-  formula: () => [`overdraw = fragments / covered pixels = ${fmt(DATA.overdraw.total)} / ${fmt(W * H - DATA.overdraw.histogram[0])} = <b>${fmt(DATA.overdraw.total / Math.max(1, W * H - DATA.overdraw.histogram[0]), 5)}</b>`],
+  formula: () => [`overdraw = fragments / covered pixels = ${fmt(DATA.overdraw.total)} / ${fmt(W * H - DATA.overdraw.histogram[0])} = <b>${fmt(DATA.overdraw.total / Math.max(1, W * H - DATA.overdraw.histogram[0]), 5)}</b>${DATA.samples > 1 ? say(`Divided by ${DATA.samples} samples per pixel: ${fmt(DATA.overdraw.total / Math.max(1, W * H - DATA.overdraw.histogram[0]) / DATA.samples, 3)} surfaces per sample.`) : ""}`],
   related: ["depth", "history"], lessons: ["Depth"],
   exercises: () => {
     const several = DATA.overdraw.histogram.slice(2).reduce((n, v) => n + v, 0);
@@ -43,6 +43,8 @@ chapter({
 // ---- tile times ---------------------------------------------------------------------------------------------------------
 
 const TIMES = DATA.tile_times.ms, slowest = Math.max(...TIMES, 1e-6), allTimes = TIMES.reduce((a, b) => a + b, 0);
+// Tiles of a single color have no time.
+const untimedTiles = () => (TIMES.includes(0) ? "Tiles of a single color are filled at once and were not timed." : "All tiles were timed, also those without primitives.");
 function timePicture() {
   const read = (x, y) => { const tx = Math.floor(x / TILE), ty = Math.floor((H - 1 - y) / TILE), ms = TIMES[ty * BINS.columns + tx]; return `tile (${tx}, ${ty}): ${ms === 0 ? "not timed, filled with one color" : fmt(ms * 1000, 3) + " µs"}, ${plural(binCount(tx, ty), "primitive")}`; };
   return [picture(DATA.pictures.final, "Tiles colored by rendering time", {read, overlay: (pen, s) => eachTile((tx, ty, x, y, w, h) => {
@@ -71,14 +73,14 @@ chapter({
   output: () => [`${fmt(allTimes, 3)} ms for all timed tiles on one thread`],
   formula: () => { const n = TIMES.filter((t) => t > 0).length; return [`mean = total / tiles = ${fmt(allTimes, 4)} ms / ${fmt(n)} = <b>${fmt(allTimes / Math.max(1, n) * 1000, 4)} µs</b>\nslowest / mean = ${fmt(slowest * 1000, 4)} / ${fmt(allTimes / Math.max(1, n) * 1000, 4)} = <b>${fmt(slowest * n / Math.max(1e-9, allTimes), 4)}</b>`]; },
   steps: () => [
-    {name: "Time per tile", caption: `All tiles together took ${fmt(allTimes, 3)} ms. Tiles of a single color are filled at once and were not timed.`, draw: timePicture},
+    {name: "Time per tile", caption: `All tiles together took ${fmt(allTimes, 3)} ms. ${untimedTiles()}`, draw: timePicture},
     {name: "Time and primitives", caption: "Each dot is a tile. Primitives take time, but so does shading: a tile with a single triangle can be slow if its shader is slow.", draw: timePlot},
   ],
   related: ["binning", "statistics"], lessons: ["Tiles and threads"],
   exercises: () => {
     const timed = TIMES.filter((t) => t > 0), mean = allTimes / Math.max(1, timed.length), slow = timed.filter((t) => t > mean).length;
     return [
-      {ask: "What percentage of the tiles of the window was timed?", answer: timed.length / TIMES.length * 100, decimals: 0, hint: `There are ${TIMES.length} tiles. Those filled with one color were not timed.`, why: `${fmt(timed.length)} of ${fmt(TIMES.length)}; the second step shows a dot for each of them.`},
+      {ask: "What percentage of the tiles of the window was timed?", answer: timed.length / TIMES.length * 100, decimals: 0, hint: `There are ${TIMES.length} tiles. ${untimedTiles()}`, why: `${fmt(timed.length)} of ${fmt(TIMES.length)}; the second step shows a dot for each of them.`},
       {ask: "What percentage of the total time did the slowest tile take?", answer: slowest / Math.max(allTimes, 1e-9) * 100, decimals: 0, tolerance: 0.6, hint: "Its time is in the legend, and the total is in the caption.", why: "However many threads there are, a frame takes at least as long as its slowest tile."},
       {ask: "How many tiles took longer than the mean?", answer: slow, tolerance: Math.ceil(timed.length / 50), hint: "Count the dots above the mean in the second step.", why: `The mean is ${fmt(mean * 1000, 4)} µs.`},
     ];
@@ -90,20 +92,20 @@ const STATISTICS = [
   ["culled_non_finite", "culled: a position or clip distance is infinite or NaN"], ["culled_outside", "culled: outside the view, or nothing is left after clipping"], ["culled_face", "culled because of their facing"],
   ["culled_degenerate", "culled: no area"], ["culled_no_sample", "culled: no sample is covered"], ["clipped", "clipped primitives"], ["triangles_binned", "primitives to draw, including the pieces of clipped ones"],
   ["bin_entries", "pairs of a primitive and a tile that the primitive may overlap"], ["samples_tested", "covered samples, except for those rejected with their block"], ["samples_passed", "samples that passed all tests"],
-  ["fragments_shaded", "fragments that were shaded"], ["layers_merged", "transparent fragments beyond 8 layers per sample"], ["tiles_touched", "tiles with at least one primitive"], ["flushes", "number of times that the memory for bins or vertices was full"]];
+  ["fragments_shaded", "runs of a fragment shader; the samples of a pixel can share one"], ["layers_merged", "transparent fragments beyond 8 layers per sample"], ["tiles_touched", "tiles with at least one primitive"], ["flushes", "number of times that the memory for bins or vertices was full"]];
 
 chapter({
   id: "statistics", title: "Statistics", kicker: "The whole frame",
   lead: () => "These are the counters of the pass that rendered this frame. They are the same on every machine, except for samples_tested, which depends on the number of lanes.",
   input: () => [plural(DATA.statistics.primitives_in, "primitive")],
-  output: () => [plural(DATA.statistics.fragments_shaded, "shaded fragment")],
-  formula: () => { const s = DATA.statistics, culled = s.culled_non_finite + s.culled_outside + s.culled_face + s.culled_degenerate + s.culled_no_sample; return [`${say("Each submitted primitive is culled or drawn:")}primitives_in = culled + drawn\n${fmt(s.primitives_in)} = ${[s.culled_non_finite, s.culled_outside, s.culled_face, s.culled_degenerate, s.culled_no_sample].map((n) => fmt(n)).join(" + ")} + ${fmt(DATA.outcomes[0] + DATA.outcomes[1])} = ${fmt(culled)} + <b>${fmt(s.primitives_in - culled)}</b>\n\nshaded per pixel = ${fmt(s.fragments_shaded)} / ${fmt(W * H)} = <b>${fmt(s.fragments_shaded / (W * H), 4)}</b>`]; },
+  output: () => [plural(DATA.statistics.fragments_shaded, "run of a fragment shader", "runs of a fragment shader")],
+  formula: () => { const s = DATA.statistics, culled = s.culled_non_finite + s.culled_outside + s.culled_face + s.culled_degenerate + s.culled_no_sample; return [`${say("Each submitted primitive is culled or drawn:")}primitives_in = culled + drawn\n${fmt(s.primitives_in)} = ${[s.culled_non_finite, s.culled_outside, s.culled_face, s.culled_degenerate, s.culled_no_sample].map((n) => fmt(n)).join(" + ")} + ${fmt(DATA.outcomes[0] + DATA.outcomes[1])} = ${fmt(culled)} + <b>${fmt(s.primitives_in - culled)}</b>\n\nshader runs per pixel = ${fmt(s.fragments_shaded)} / ${fmt(W * H)} = <b>${fmt(s.fragments_shaded / (W * H), 4)}</b>`]; },
   steps: () => [{name: "From primitives to pixels", caption: "The number of items that each stage of the pipeline outputs.", draw: () => el("div", {class: "stage"}, pipelineDiagram())}],
   body: () => [tableOf(["counter", "value", "meaning"], STATISTICS.map(([key, text]) => [`<code>${key}</code>`, DATA.statistics[key], "¶" + text]))],
   related: ["culling", "overdraw"], lessons: ["The library"],
   exercises: () => [
     {ask: "How many times was a shaded vertex used on average?", answer: DATA.statistics.vertices_in / Math.max(1, DATA.statistics.vertices_shaded), decimals: 2, hint: "Divide vertices_in by vertices_shaded.", why: DATA.statistics.vertices_in > DATA.statistics.vertices_shaded ? "A vertex that several primitives share is shaded once." : "No vertex of this frame is shared."},
     {ask: "How many tested samples failed?", answer: DATA.statistics.samples_tested - DATA.statistics.samples_passed, hint: "Subtract samples_passed from samples_tested.", why: DATA.statistics.samples_tested > DATA.statistics.samples_passed ? "They were not in front of what was drawn before, or failed another test." : "No tested sample was behind what was drawn before."},
-    {ask: "How many fragments were shaded per sample that passed?", answer: DATA.statistics.fragments_shaded / Math.max(1, DATA.statistics.samples_passed), decimals: 2, hint: "Divide fragments_shaded by samples_passed.", why: `${fmt(DATA.statistics.fragments_shaded)} / ${fmt(DATA.statistics.samples_passed)}. A later fragment can hide one that passed, before it is shaded${DATA.samples > 1 ? ", and the samples of a pixel can share one shaded fragment" : ""}.`},
+    {ask: "How many times did a fragment shader run per sample that passed?", answer: DATA.statistics.fragments_shaded / Math.max(1, DATA.statistics.samples_passed), decimals: 2, hint: "Divide fragments_shaded by samples_passed.", why: `${fmt(DATA.statistics.fragments_shaded)} / ${fmt(DATA.statistics.samples_passed)}. A later fragment can hide one that passed, before it is shaded${DATA.samples > 1 ? ", and the samples of a pixel can share one run" : ""}.`},
   ],
 });
