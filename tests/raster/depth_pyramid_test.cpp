@@ -58,10 +58,11 @@ HiddenPicture filled(float depth) {
 
 TEST(DepthPyramid, BoundsAreThoseOfThePixels) {
   Random r(1);
-  for (const auto& [width, height] : {std::pair{1, 1}, {8, 8}, {61, 37}, {300, 5}}) {
+  for (const auto& [width, height] : {std::pair{1, 1}, {8, 8}, {61, 37}, {300, 5}, {5, 300}}) {
     Image<float> depth(width, height);
+    const float slope = 0.002f;  // the last blocks of a row and of a column have the largest depths
     for (int y = 0; y < height; ++y) {
-      for (float& z : depth.row(y)) z = r.real(0.0f, 1.0f);
+      for (int x = 0; x < width; ++x) depth.at(x, y) = r.real(0.0f, 0.1f) + slope * static_cast<float>(x + y);
     }
     const TexelView view = texel_view(depth, TexelFormat::d32f);
     const DepthPyramid pyramid(view, two_workers());
