@@ -249,6 +249,14 @@ class Page(unittest.TestCase):
         text = self.caption("earth", "interpolation")
         self.assertRegex(text, r"A constructed triangle .* affine interpolation displaces a value by at most 0\.\d+ pixels")
         self.assertIn("of this page", self.caption("pipeline", "interpolation"), "the example shows the interpolation itself")
+        for name in ("flat", "pipeline"):
+            text = self.caption(name, "setup")
+            dots, others, share, outside = self.run_script("""const x = CHAPTERS.find((c) => c.id === 'final').exercises()[2], svg = document.querySelector('figure svg'), box = svg.viewBox.baseVal;
+                const isOutside = (b) => b.x < 0 || b.y < 0 || b.x + b.width > box.width || b.y + b.height > box.height;
+                return [svg.querySelectorAll('circle').length - 3, x.why.includes('the others'), x.answer, [...svg.querySelectorAll('text')].filter((t) => isOutside(t.getBBox())).length]""")
+            self.assertEqual("The dots are" in text, dots > 0, name)
+            self.assertEqual(others, share < 100, name)
+            self.assertEqual(outside, 0, f"{name}: labels that are cut off")
         text = self.caption("pipeline", "clipping")
         self.assertIn("It is cut at the near plane.", text, "such triangles come first")
         table, light = self.run_script("return [DATA.choice.shadow, LIGHTING.lights.find((l) => l.name === SHADOW.light).shadow]")
