@@ -95,9 +95,7 @@ void add_explain_command(CLI::App& program) {
       ->type_name("")
       ->check(not_empty());
   command->add_option("-o,--output", args->out, "Output file (default SCENE.html)")->type_name("PAGE")->check(not_empty());
-  command
-      ->add_option("--pixel", args->pixel,
-                   "Pixel, from the upper left (default: an instructive pixel; with --text or --json, the one with the most fragments)")
+  command->add_option("--pixel", args->pixel, "Pixel, from the upper left (default: an example; --text, --json: most fragments)")
       ->type_name("X,Y");
   command->add_flag("--text", args->text, "Print the history of the pixel as text instead");
   command->add_flag("--json", args->json, "Print the history of the pixel as JSON instead");
