@@ -11,7 +11,7 @@ namespace halfspace {
 namespace {
 
 // The vertex stage of a smaller mesh takes too little time to matter.
-constexpr uint32_t kMinClusteredTriangles = 256;
+constexpr uint32_t kMinClusteredTriangles = 1024;
 
 // What is hidden is only looked for in scenes of this size, because a second pass has its price. The objects of the first pass have one
 // part in kNearShare of the triangles.
