@@ -62,7 +62,7 @@ class SceneWorkload final : public Workload {
       for (const std::size_t i : order.first(near)) draw(pass, job, scene_->objects[i]);
       pass.run(workers);
       if (near == order.size()) continue;
-      const DepthPyramid pyramid(canvas_.depth_texels(), workers);
+      const DepthPyramid pyramid(canvas_.depth_target(), workers);
       SceneJob rest = job;
       rest.hidden_by = &pyramid;
       Pass second = canvas_.pass_over();

@@ -31,7 +31,7 @@ class Canvas {
   Pass pass();
   /// Returns a pass that draws over what a pass before it has stored.
   Pass pass_over();
-  ConstTexelView depth_texels() { return target_texels(d32f_target(depth_)); }
+  DepthTarget depth_target() { return d32f_target(depth_); }
   WorkloadPicture picture() const { return {&color_, &depth_}; }
   WorkloadTruth truth() const { return {color_.width(), color_.height(), vec4<double>(glm::dvec4(kBackground)), 1.0}; }
 

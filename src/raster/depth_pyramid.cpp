@@ -26,10 +26,19 @@ void add(DepthPyramid::Bounds& to, const DepthPyramid::Bounds& b) {
 
 }  // namespace
 
-DepthPyramid::DepthPyramid(const ConstTexelView& depth, const Workers& workers) : width_(depth.width), height_(depth.height) {
-  HS_CHECK(depth.format == TexelFormat::d32f, "DepthPyramid: the depth has another format; expected d32f");
-  HS_CHECK(depth.layers == 1, "DepthPyramid: the depth has several layers; expected one");
-  HS_CHECK(width_ >= 1 && height_ >= 1, "DepthPyramid: the depth has no pixels; expected at least one");
+bool DepthPyramid::is_of(const DepthTarget& depth) const {
+  const TexelView view = target_texels(depth);
+  return view.format == TexelFormat::d32f && view.data == texels_ && view.row_pitch == row_pitch_ && view.width == width_ &&
+         view.height == height_;
+}
+
+DepthPyramid::DepthPyramid(const DepthTarget& target, const Workers& workers) : width_(target.width), height_(target.height) {
+  HS_CHECK(target.format == DepthFormat::d32f, "DepthPyramid: the depth has another format; expected d32f");
+  HS_CHECK(target.samples == 1 && target.layers == 1, "DepthPyramid: the depth has several samples or layers; expected one of each");
+  HS_CHECK(target.data != nullptr && width_ >= 1 && height_ >= 1, "DepthPyramid: the depth has no pixels; expected at least one");
+  const ConstTexelView depth = target_texels(target);
+  texels_ = depth.data;
+  row_pitch_ = depth.row_pitch;
   Level& finest = levels_.emplace_back(Level{blocks_of(width_, kBlock), blocks_of(height_, kBlock), {}});
   finest.blocks.assign(static_cast<std::size_t>(finest.width) * static_cast<std::size_t>(finest.height), kNone);
   workers.for_each(finest.height, [&](int row) {

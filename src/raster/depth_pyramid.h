@@ -4,27 +4,28 @@
 // them, a draw skips the clusters of triangles that are hidden by what an earlier pass has drawn.
 //
 //   first.run(workers);                                          // draws what is near, and stores the depth
-//   const DepthPyramid pyramid(target_texels(depth), workers);
-//   DepthTarget kept = depth;
-//   kept.load = LoadOp::load;
-//   Pass second(width, height, color, kept);
+//   const DepthPyramid pyramid(depth, workers);
+//   color.load = depth.load = LoadOp::load;
+//   Pass second(width, height, color, depth);
 //   second.draw(shader, vertices, indices, {.clusters = ClusterCulling{&clusters, clip_from_world, world_from_object, &pyramid}});
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "halfspace/core/parallel.h"
-#include "halfspace/core/texel_view.h"
+#include "halfspace/raster/target.h"
 
 namespace halfspace::HS_LANES {
 
 class DepthPyramid {
  public:
-  /// depth: one layer of d32f texels, row 0 at the bottom of the window (target_texels()). It is not kept.
-  DepthPyramid(const ConstTexelView& depth, const Workers& workers);
+  /// depth: a target that an earlier pass has stored, of the format d32f, with one sample and one layer. The pyramid keeps the address to
+  /// compare it with that of other targets, but does not read the depth again.
+  DepthPyramid(const DepthTarget& depth, const Workers& workers);
 
-  int width() const { return width_; }
-  int height() const { return height_; }
+  /// Returns true if the pyramid was built from the texels of this target.
+  bool is_of(const DepthTarget& depth) const;
 
   struct Bounds {
     float low, high;
@@ -40,6 +41,8 @@ class DepthPyramid {
   };
 
   int width_, height_;
+  const std::byte* texels_;
+  std::ptrdiff_t row_pitch_;
   std::vector<Level> levels_;  // level k has blocks of 2^k · kBlock pixels
 };
 

@@ -260,10 +260,12 @@ class DepthPyramid;
 struct ClusterCulling {
   const Clusters* clusters = nullptr;  ///< of the index list and the positions of the draw; must stay valid until Pass::run() returns
   glm::mat4 clip_from_world{1.0f}, world_from_object{1.0f};
-  /// Also skips clusters that lie behind the depths of this pyramid. It must be that of the depth that the pass loads (LoadOp::load, d32f),
-  /// and no draw or clear may move a depth away from the eye before this one. Has no effect if a hidden triangle can change something: if `compare`
-  /// is none of less, less_equal, greater and greater_equal, with a stencil test, a polygon offset, depth clamp, smooth polygons or
-  /// outlines, and if the shader computes the depth. Must stay valid until Pass::run() returns.
+  /// Also skips clusters all of whose depths fail the depth test against those of this pyramid. The pass must load the depth from which the
+  /// pyramid was built, which must not have changed, and no draw or clear before this draw may change a depth so that more would pass; the
+  /// latter is checked. Has no effect where a hidden triangle can change something, or its depth is not that of its plane: if `compare` is
+  /// none of less, less_equal, greater and greater_equal, with a polygon offset, depth clamp, smooth polygons or outlines, and if the
+  /// shader computes the depth. Tiles with nothing but hidden triangles are not touched, so attachments with LoadOp::dont_care keep what
+  /// they had, and flushes (PassTuning::bin_budget) can come later. Must stay valid until Pass::run() returns.
   const DepthPyramid* hidden_by = nullptr;
   friend bool operator==(const ClusterCulling&, const ClusterCulling&) = default;
 };

@@ -49,7 +49,9 @@ class PassState {
 
  private:
   int tile_size() const;
-  void check_pyramid(const ClusterCulling& clusters) const;
+  // Checks that the depths are those of ClusterCulling::hidden_by, or fail more.
+  void check_pyramid(const DrawState& state) const;
+  void note_depth_changes(const DepthState& depth);
   void check_color_types(const ShaderKernels& kernels) const;
   // Such passes are planned layer by layer, when they run.
   bool runs_layers() const { return has_emitting_ || options_.layers > 1; }
@@ -61,8 +63,9 @@ class PassState {
   Attachments attachments_;
   PassOptions options_;
   PassPlan plan_;
-  uint32_t layer_group_ = 0;   // of the last draw
-  bool has_emitting_ = false;  // some draw has emitting stages
+  uint32_t layer_group_ = 0;                                // of the last draw
+  bool may_lower_depth_ = false, may_raise_depth_ = false;  // what the draws so far can do to stored depths
+  bool has_emitting_ = false;                               // some draw has emitting stages
 };
 
 PassState::PassState(int width, int height, std::span<const ColorTarget> colors, const DepthTarget& depth, const PassOptions& options)
@@ -154,10 +157,9 @@ void PassState::add_draw(const ShaderKernels& kernels, KeptShader shader, const 
                                         keep_streams(vertices, state.base_instance, memory()), kept, placement);
   d.vertex_count = d.indices->used_count() * state.instances;
   count_primitives(d);
-  if (state.clusters) {
-    check_clusters(d);
-    check_pyramid(*state.clusters);
-  }
+  if (state.clusters) check_clusters(d);
+  check_pyramid(state);
+  note_depth_changes(state.depth);
   const bool replaces = set_color_writes(d);
   const bool decides_visibility = (kernels.discards && !kernels.tests_early) || kernels.writes_depth;
   // Without color attachments, there is nothing to blend.
@@ -173,13 +175,33 @@ void PassState::add_draw(const ShaderKernels& kernels, KeptShader shader, const 
   if (!runs_layers()) plan_.add(d, context_.draws.size() - 1);
 }
 
-void PassState::check_pyramid(const ClusterCulling& clusters) const {
-  const DepthPyramid* const pyramid = clusters.hidden_by;
+void PassState::check_pyramid(const DrawState& state) const {
+  if (!state.clusters || state.clusters->hidden_by == nullptr) return;
   const DepthTarget& depth = attachments_.depth;
-  HS_CHECK(pyramid == nullptr || (pyramid->width() == context_.width && pyramid->height() == context_.height),
-           "ClusterCulling::hidden_by: the pyramid has another size than the pass; expected the same size");
-  HS_CHECK(pyramid == nullptr || (depth.format == DepthFormat::d32f && depth.load == LoadOp::load),
-           "ClusterCulling::hidden_by: the pass does not load a depth of the format d32f; expected the depth of the pyramid");
+  HS_CHECK(
+      depth.load == LoadOp::load && depth.samples == 1 && state.clusters->hidden_by->is_of(depth),
+      "ClusterCulling::hidden_by: the pass does not load the depth from which the pyramid was built; expected LoadOp::load, one sample "
+      "and the same target");
+  const CompareOp compare = state.depth.compare;
+  HS_CHECK(
+      !(may_raise_depth_ && (compare == CompareOp::less || compare == CompareOp::less_equal)) &&
+          !(may_lower_depth_ && (compare == CompareOp::greater || compare == CompareOp::greater_equal)),
+      "ClusterCulling::hidden_by: a draw or clear before this draw can change depths so that more passes than in the pyramid; expected "
+      "draws with the same direction of `compare`");
+}
+
+void PassState::note_depth_changes(const DepthState& depth) {
+  if (!depth.test || !depth.write) return;
+  switch (depth.compare) {
+    case CompareOp::never:
+    case CompareOp::equal: return;
+    case CompareOp::less:
+    case CompareOp::less_equal: may_lower_depth_ = true; return;
+    case CompareOp::greater:
+    case CompareOp::greater_equal: may_raise_depth_ = true; return;
+    case CompareOp::not_equal:
+    case CompareOp::always: may_lower_depth_ = may_raise_depth_ = true; return;
+  }
 }
 
 void PassState::check_color_types(const ShaderKernels& kernels) const {

@@ -33,8 +33,8 @@ struct PassStatistics {
   uint64_t culled_outside = 0;     ///< completely outside one plane of the view volume, by a cull distance, or nothing left after clipping
   uint64_t culled_face = 0;        ///< by CullMode
   uint64_t culled_degenerate = 0;  ///< zero area or length after snapping
-  /// As part of a cluster (DrawState::clusters). Scenes use clusters for large meshes that a frame before has drawn; otherwise, these
-  /// triangles are culled for another reason, and their vertices are shaded.
+  /// As part of a cluster (DrawState::clusters). Scenes use clusters for large meshes that a frame before has drawn; otherwise, the
+  /// vertices of these triangles are shaded, and the triangles are culled for another reason or, if they are hidden, binned.
   uint64_t culled_cluster = 0;
   /// No sample inside the bounding box, viewport and scissor. With one sample per pixel, triangles of at most 4 x 4 pixels are also counted
   /// here if they cover no sample.

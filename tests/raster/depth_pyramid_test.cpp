@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <optional>
 
 #include "halfspace/raster/depth_pyramid.h"
 #include "raster/placed_mesh.h"
@@ -35,7 +36,7 @@ PassStatistics draw_over(HiddenPicture& picture, const PlacedMesh& m, DrawState 
   return pass.run(one_worker());
 }
 
-DepthPyramid pyramid_of(HiddenPicture& picture) { return DepthPyramid(target_texels(d32f_target(picture.depth)), one_worker()); }
+DepthPyramid pyramid_of(HiddenPicture& picture) { return DepthPyramid(d32f_target(picture.depth), one_worker()); }
 
 // Draws a mesh with and without the pyramid of what is in the picture, compares the pictures, and returns the share of skipped triangles.
 double expect_same_over(const HiddenPicture& before, const PlacedMesh& m, const DrawState& state, int samples = 1) {
@@ -64,8 +65,7 @@ TEST(DepthPyramid, BoundsAreThoseOfThePixels) {
     for (int y = 0; y < height; ++y) {
       for (int x = 0; x < width; ++x) depth.at(x, y) = r.real(0.0f, 0.1f) + slope * static_cast<float>(x + y);
     }
-    const TexelView view = texel_view(depth, TexelFormat::d32f);
-    const DepthPyramid pyramid(view, two_workers());
+    const DepthPyramid pyramid(depth_target(texel_view(depth, TexelFormat::d32f)), two_workers());
     const auto exact = [&](int x0, int y0, int x1, int y1) {
       DepthPyramid::Bounds out{1.0f, 0.0f};
       for (int y = y0; y < y1; ++y) {
@@ -127,7 +127,6 @@ TEST(DepthPyramid, HasNoEffectWhereHiddenTrianglesMatter) {
   EXPECT_EQ(expect_same_over(near, m, {.depth = {.clamp = true}}), 0.0);
   EXPECT_EQ(expect_same_over(near, m, {.offset = {.constant = -1.0f}}), 0.0);
   EXPECT_EQ(expect_same_over(near, m, {.polygon_mode = PolygonMode::line}), 0.0);
-  EXPECT_EQ(expect_same_over(near, m, {.stencil = StencilState{}}), 0.0);
 }
 
 // Occluders and meshes of all sizes, with eyes inside of them; both directions of depth, ranges in reverse, and shaders with two matrices
@@ -183,20 +182,32 @@ TEST(DepthPyramidDeathTest, ChecksTheDepthAndThePass) {
   const Mesh mesh = uv_sphere(8, 12, 1.0f);
   const Clusters clusters = clusters_of(mesh);
   const Indices indices(mesh.indices, mesh.positions.size());
-  Image<float> depth(16, 16), small(8, 8);
+  const VertexView vertices = make_vertex_view(stream(mesh.positions));
+  Image<float> depth(16, 16), other(16, 16);
   Image<uint16_t> codes(16, 16);
-  EXPECT_DEATH(DepthPyramid(texel_view(codes, TexelFormat::d16), one_worker()), "expected d32f");
-  EXPECT_DEATH(DepthPyramid(ConstTexelView{.format = TexelFormat::d32f}, one_worker()), "has no pixels");
-  const auto draw = [&](Image<float>& pyramid_of, LoadOp load) {
-    const DepthPyramid pyramid(texel_view(pyramid_of, TexelFormat::d32f), one_worker());
+  EXPECT_DEATH(DepthPyramid(d16_target(codes), one_worker()), "expected d32f");
+  EXPECT_DEATH(DepthPyramid(DepthTarget{.format = DepthFormat::d32f}, one_worker()), "has no pixels");
+  DepthTarget samples = d32f_target(depth);
+  samples.samples = 4;
+  EXPECT_DEATH(DepthPyramid(samples, one_worker()), "several samples");
+  // Draws with the pyramid of `from`, after `first` if there is one.
+  const auto draw = [&](Image<float>& from, LoadOp load, std::optional<DrawState> first, const DepthState& state = {}) {
+    const DepthPyramid pyramid(d32f_target(from), one_worker());
     DepthTarget target = d32f_target(depth);
     target.load = load;
     Pass pass(16, 16, ColorTarget{}, target);
-    pass.draw(PlacedShader{glm::mat4(1.0f)}, make_vertex_view(stream(mesh.positions)), indices,
-              {.clusters = ClusterCulling{&clusters, glm::mat4(1.0f), glm::mat4(1.0f), &pyramid}});
+    if (first) pass.draw(PlacedShader{glm::mat4(1.0f)}, vertices, indices, *first);
+    const ClusterCulling culling{&clusters, glm::mat4(1.0f), glm::mat4(1.0f), &pyramid};
+    pass.draw(PlacedShader{glm::mat4(1.0f)}, vertices, indices, {.depth = state, .clusters = culling});
   };
-  EXPECT_DEATH(draw(small, LoadOp::load), "expected the same size");
-  EXPECT_DEATH(draw(depth, LoadOp::clear), "expected the depth of the pyramid");
+  EXPECT_DEATH(draw(other, LoadOp::load, {}), "the same target");
+  EXPECT_DEATH(draw(depth, LoadOp::clear, {}), "expected LoadOp::load");
+  const DrawState farther{.depth = {.compare = CompareOp::greater}}, anything{.depth = {.compare = CompareOp::always}};
+  EXPECT_DEATH(draw(depth, LoadOp::load, farther), "the same direction");
+  EXPECT_DEATH(draw(depth, LoadOp::load, anything), "the same direction");
+  EXPECT_DEATH(draw(depth, LoadOp::load, DrawState{}, {.compare = CompareOp::greater}), "the same direction");
+  draw(depth, LoadOp::load, DrawState{});
+  draw(depth, LoadOp::load, DrawState{.depth = {.write = false, .compare = CompareOp::always}});
 }
 
 }  // namespace

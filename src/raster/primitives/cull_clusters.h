@@ -20,8 +20,8 @@ struct VisibleClusters {
   uint64_t triangle_count = 0, vertex_count = 0;  ///< in all ranges
 };
 
-/// Returns what is left of the clusters of a draw. A cluster is only skipped if setup would cull all its triangles: because they are
-/// outside of one plane of the view volume, or face away.
+/// Returns what is left of the clusters of a draw. A cluster is only skipped if setup would cull all its triangles, because they are
+/// outside of one plane of the view volume or face away, or if all its samples fail the depth test (ClusterCulling::hidden_by).
 VisibleClusters visible_clusters(const Draw& draw);
 
 /// Returns true if setup culls the triangles [begin, end) of a draw. Slow; for checks.
