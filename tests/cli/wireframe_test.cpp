@@ -74,7 +74,7 @@ TEST_F(Wireframe, ModelsAreDrawnWithoutTheirFloor) {
   write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   const Outcome o = run({"render", "a.obj", "--size", "160x120", "--wireframe", "--stats"});
   EXPECT_EQ(o.exit_code, 0);
-  EXPECT_NE(o.out.find("primitives_in       1\n"), std::string::npos) << o.out;
+  EXPECT_NE(o.out.find("primitives_in        1\n"), std::string::npos) << o.out;
 }
 
 TEST_F(Wireframe, RejectsOtherValues) { EXPECT_EQ(run({"render", "earth", "--wireframe=all"}).exit_code, 2); }

@@ -196,8 +196,8 @@ TEST(Display, LinearOutputPrecedesExposureAndToneCurve) {
 
 // Returns how many allocations made during rendering have at least `bytes` bytes per pixel of the image.
 std::size_t large_blocks(const std::vector<std::string>& settings, std::size_t bytes) {
-  // Less than 4 MB at 16 bytes per pixel, because allocate_lines requests larger blocks directly from the system.
-  constexpr int kWidth = 512, kHeight = 511;
+  // Less than 1 MiB at 16 bytes per pixel, because allocate_lines requests larger blocks directly from the system.
+  constexpr int kWidth = 256, kHeight = 255;
   const Workers workers(2);
   SceneAssets assets(workers);
   const PreparedScene scene = assets.prepare(bright_scene(settings), kWidth, kHeight);
