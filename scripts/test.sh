@@ -7,6 +7,6 @@ cd "$(dirname "$0")/.."
 scripts/install_deps.sh --tests
 cmake --preset release -DHALFSPACE_BUILD_BENCHMARKS=OFF
 cmake --build --preset release -j "$(nproc)"  # more jobs than cores would only compete for the caches
-# Large pages for malloc (glibc) save up to half of the page faults, and with them a third of the time of some tests.
+# Large pages for malloc (glibc) save half or more of the page faults of test-image and test-render, and a third of their time.
 export GLIBC_TUNABLES=glibc.malloc.hugetlb=1
 ctest --preset release -j "$(($(nproc) + 1))"  # some tests wait most of the time, for a browser or a window

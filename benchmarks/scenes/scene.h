@@ -78,6 +78,8 @@ struct Scene {
   /// Objects whose bounding boxes are outside of the camera's frustum, or of the shadow map, are not drawn, and those with depth tests
   /// and without blending are drawn from front to back. Otherwise, everything is drawn, sorted by material.
   bool culls_objects = false;
+  /// Most of what is far is behind what is near, so it pays to find out what is hidden. Requires culls_objects.
+  bool near_hides_far = false;
 
   const SceneMaterial& material(const SceneObject& object) const { return materials[object.material]; }
   const SceneMesh& mesh(const SceneObject& object) const { return meshes[object.mesh]; }

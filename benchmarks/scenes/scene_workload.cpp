@@ -13,17 +13,14 @@ namespace {
 // The vertex stage of a smaller mesh takes too little time to matter.
 constexpr uint32_t kMinClusteredTriangles = 1024;
 
-// What is hidden is only looked for in scenes of this size, because a second pass has its price. The objects of the first pass have one
-// part in kNearShare of the triangles.
-constexpr std::size_t kMinHidingTriangles = 500'000, kNearShare = 8;
-
-// Returns the number of objects to draw before looking for hidden ones, from the front.
+// Returns the number of objects, from the front, that are drawn before the other ones are tested against them: those with an eighth of the
+// triangles if near objects hide others, and all otherwise, because a second pass has its price.
 std::size_t near_objects(const Scene& scene, const SceneView& view) {
+  if (!scene.near_hides_far) return view.order.size();
   const auto triangles = [&](std::size_t i) { return scene.mesh(scene.objects[i]).count / 3; };
   std::size_t all = 0, near = 0, count = 0;
   for (const std::size_t i : view.order) all += triangles(i);
-  if (!scene.culls_objects || all < kMinHidingTriangles) return view.order.size();
-  while (near < all / kNearShare) near += triangles(view.order[count++]);
+  while (near < all / 8) near += triangles(view.order[count++]);
   return count;
 }
 
@@ -43,7 +40,6 @@ class SceneWorkload final : public Workload {
       if (mesh.count >= 3 * kMinClusteredTriangles) clusters_.back().emplace(positions, list);
     }
     for (const SceneView& view : views_) {
-      near_.push_back(near_objects(*scene_, view));
       SceneJob& job = jobs_.emplace_back(SceneJob{*scene_, view, meshes_, clusters_, {}});
       job.uniforms.clip_from_world = view.clip_from_world;
       job.uniforms.light_from_world = view.light_from_world;
@@ -57,7 +53,7 @@ class SceneWorkload final : public Workload {
     for (const SceneJob& job : jobs_) {
       if (!keeps_map_ || &job == &jobs_.front()) draw_shadow_map(job, workers);
       const std::span<const std::size_t> order(job.view.order);
-      const std::size_t near = near_[static_cast<std::size_t>(&job - jobs_.data())];
+      const std::size_t near = near_objects(*scene_, job.view);
       Pass pass = canvas_.pass();
       for (const std::size_t i : order.first(near)) draw(pass, job, scene_->objects[i]);
       pass.run(workers);
@@ -109,7 +105,6 @@ class SceneWorkload final : public Workload {
   std::vector<Indices> meshes_;
   std::vector<std::optional<Clusters>> clusters_;  // one per mesh
   std::vector<SceneJob> jobs_;                     // one per view
-  std::vector<std::size_t> near_;                  // near_objects() of each view
   Image<float> map_;
   Canvas canvas_;
 };

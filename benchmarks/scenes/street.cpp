@@ -99,6 +99,7 @@ Scene make_street(TownSize town) {
   place(s, ground_plane(480.0, 60), m.cobbles);
   place(s, sky_dome(400.0), m.sky);
   s.culls_objects = true;
+  s.near_hides_far = true;
   s.light = {.to_sun = glm::normalize(glm::vec3(-0.45f, 0.68f, 0.60f)),
              .sun = {1.15f, 1.05f, 0.88f},
              .sky = {0.50f, 0.55f, 0.63f},

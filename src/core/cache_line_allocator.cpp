@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::align_val_t kLine{64};
 constexpr std::size_t kLargePage = std::size_t{2} << 20;
-constexpr std::size_t kLarge = std::size_t{1} << 20;  // wastes at most half of a large page, which costs less than 256 page faults
+constexpr std::size_t kLarge = std::size_t{1} << 20;  // smaller blocks would leave more than half of a large page unused
 
 // Maps zeroed memory aligned to a large page. bytes must be a multiple of kLargePage.
 void* map_pages(std::size_t bytes) {

@@ -34,8 +34,8 @@ def without_links(text):
 
 
 def pixels(slide):
-    """Returns the height of a slide's text with the sizes in the deck's style. A character of a wide font takes 15 of the 1112 pixels of a list
-    item, and on the title slide of the 600 beside the picture. Code does not wrap."""
+    """Returns the height of a slide's text with the sizes in the deck's style. A line is 1112 pixels wide, and 600 on the title slide, where the
+    picture is beside it. A character takes 15 pixels, as in a wide font. Code does not wrap."""
     width, total, in_code = (600 if slide.startswith("![bg") else 1112), 0, False
     for line in slide.splitlines():
         if line.startswith("```"):
