@@ -2,7 +2,7 @@
 function(halfspace_embed_file folder name)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${folder}/${name})
   file(READ ${folder}/${name} text)
-  set(entries "${entries}    {\"${name}\", R\"embedded(${text})embedded\"},\n" PARENT_SCOPE)
+  set(entries "${entries}    {\"${name}\", R\"embedded(${text})embedded\"sv},\n" PARENT_SCOPE)
 endfunction()
 
 # halfspace_embed_page(OUT): writes a source file that contains the parts of the `halfspace explain` page and the sources that it quotes.
@@ -29,6 +29,7 @@ function(halfspace_embed_page out)
 namespace halfspace {
 
 std::span<const EmbeddedFile> embedded_files() {
+  using namespace std::string_view_literals;  // clang would otherwise search the end of each text in more steps than it allows
   static constexpr EmbeddedFile files[] = {
 ${entries}  };
   return files;

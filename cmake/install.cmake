@@ -18,8 +18,8 @@ set(halfspace_public_headers
   shading/sphere/sphere_impostor.h shading/surface/colored_primitives.h shading/surface/depth_only.h shading/surface/lit_surface.h
   shading/surface/masked_depth.h shading/surface/metallic_surface.h shading/surface/shadow_catcher.h shading/surface/surface_shader.h
   shading/surface/surface_uniforms.h shading/texture/sampler.h shading/texture/texture.h shading/texture/texture_memory.h
-  shading/texture/texture_view.h shading/values/tone.h shading/values/tone_types.h
-  raster/blit.h raster/capture.h raster/clusters.h raster/depth_pyramid.h raster/draw_state.h raster/naive.h raster/pass.h
+  shading/texture/texture_view.h shading/texture/tiles_on_demand.h shading/values/tone.h shading/values/tone_types.h
+  raster/blit.h raster/capture.h raster/clusters.h raster/depth_on_demand.h raster/depth_pyramid.h raster/draw_state.h raster/naive.h raster/pass.h
   raster/sample_location.h raster/statistics.h raster/target.h raster/vertex_input.h raster/vertex_stream.h
   image/image_difference.h image/image_io.h
   geometry/camera.h geometry/displaced_sphere.h geometry/height_field.h geometry/mesh.h geometry/normal_map.h geometry/shapes.h

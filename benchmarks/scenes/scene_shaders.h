@@ -13,7 +13,7 @@ namespace halfspace {
 struct SceneUniforms {
   glm::mat4 world_from_object, clip_from_world, light_from_world;
   glm::vec3 eye_ws;
-  const float* shadow_map;
+  WorkloadShadowMap shadow_map;
   const SceneLighting* light;
   const Texture2D* map;
   glm::vec3 tint;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The scenes as workloads, drawn by Halfspace.
+#include "halfspace/raster/depth_on_demand.h"
 #include "scenes/scene_draw.h"
 #include "scenes/shadow_map_use.h"
 #include "workloads/workload_assets.h"
@@ -44,14 +45,15 @@ class SceneWorkload final : public Workload {
       job.uniforms.clip_from_world = view.clip_from_world;
       job.uniforms.light_from_world = view.light_from_world;
       job.uniforms.eye_ws = view.eye_ws;
-      job.uniforms.shadow_map = map_.data();
+      job.uniforms.shadow_map = {map_.data(), nullptr};
       job.uniforms.light = &scene_->light;
     }
   }
 
   void frame(const Workers& workers) override {
-    for (const SceneJob& job : jobs_) {
+    for (SceneJob& job : jobs_) {
       if (!keeps_map_ || &job == &jobs_.front()) draw_shadow_map(job, workers);
+      job.uniforms.shadow_map.tiles = shadow_ ? &shadow_->tiles() : nullptr;
       const std::span<const std::size_t> order(job.view.order);
       const std::size_t near = near_objects(*scene_, job.view);
       Pass pass = canvas_.pass();
@@ -70,6 +72,7 @@ class SceneWorkload final : public Workload {
   WorkloadPicture picture() const override { return canvas_.picture(); }
   // Blended surfaces read the map, too, but do not write depth and are not counted.
   std::optional<ShadowMapUse> shadow_map_use(const Workers& workers) const override {
+    if (shadow_) shadow_->draw_all(workers);
     const SceneJob& job = jobs_.back();
     Canvas lit({canvas_.picture().color->width(), canvas_.picture().color->height()});
     Pass pass = lit.pass();
@@ -86,9 +89,15 @@ class SceneWorkload final : public Workload {
 
  private:
   void draw_shadow_map(const SceneJob& job, const Workers& workers) {
+    shadow_.reset();  // so that the next pass can use its memory
     Pass pass(kShadowMapSize, kShadowMapSize, ColorTarget{}, d32f_target(map_));
     for (const std::size_t i : job.view.casters) draw_scene_depth(pass, job, scene_->objects[i]);
-    pass.run(workers);
+    // A map that many views read is drawn at once, so that no view has to ask for its tiles.
+    if (keeps_map_) {
+      pass.run(workers);
+    } else {
+      shadow_.emplace(std::move(pass), workers);
+    }
   }
   void draw(Pass& pass, const SceneJob& job, const SceneObject& object) const {
     switch (scene_->material(object).surface) {
@@ -106,6 +115,7 @@ class SceneWorkload final : public Workload {
   std::vector<std::optional<Clusters>> clusters_;  // one per mesh
   std::vector<SceneJob> jobs_;                     // one per view
   Image<float> map_;
+  std::optional<DepthOnDemand> shadow_;  // draws map_, unless it is kept
   Canvas canvas_;
 };
 

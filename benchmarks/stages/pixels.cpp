@@ -54,7 +54,7 @@ void shader_shadowed(benchmark::State& state) {
   const std::vector<float> map(static_cast<std::size_t>(kShadowMapSize) * kShadowMapSize, 0.5f);
   const ShadowedShader shader{.clip_from_world = glm::mat4(1.0f),
                               .light_from_world = glm::mat4(1.0f),
-                              .map = map.data(),
+                              .map = {map.data(), nullptr},
                               .eye_ws = {0, 0, 2},
                               .to_light_ws = {0, 0, 1},
                               .base = kShadowPlaneBase};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // shadow_200k: renders a depth map from the light, then an image that reads nine depth-map texels per pixel.
+#include "halfspace/raster/depth_on_demand.h"
 #include "halfspace/shading/surface/depth_only.h"
 #include "workloads/families.h"
 #include "workloads/workload_geometry.h"
@@ -29,7 +30,7 @@ class Shadowed final : public Workload {
     depth_shader_.clip_from_object = cameras.light_from_world;
     sphere_shader_ = {.clip_from_world = cameras.clip_from_world,
                       .light_from_world = cameras.light_from_world,
-                      .map = map_.data(),
+                      .map = {map_.data(), nullptr},
                       .eye_ws = cameras.eye_ws,
                       .to_light_ws = cameras.to_light_ws,
                       .base = kShadowSphereBase};
@@ -38,10 +39,11 @@ class Shadowed final : public Workload {
   void frame(const Workers& workers) override {
     Pass light(kShadowMapSize, kShadowMapSize, ColorTarget{}, d32f_target(map_));
     light.draw_depth(depth_shader_, positions(), sphere_indices_, workload_state());
-    light.run(workers);
+    const DepthOnDemand demand(std::move(light), workers);
+    sphere_shader_.map.tiles = &demand.tiles();
     Pass pass = canvas_.pass();
     pass.draw(sphere_shader_, sphere_vertices(), sphere_indices_, workload_state());
-    pass.draw(plane_shader(map_.data()), plane_vertices(), plane_indices_, workload_state());
+    pass.draw(plane_shader(sphere_shader_.map), plane_vertices(), plane_indices_, workload_state());
     pass.run(workers);
   }
   WorkloadPicture picture() const override { return canvas_.picture(); }
@@ -56,9 +58,9 @@ class Shadowed final : public Workload {
     }
     WorkloadTruth target = canvas_.truth();
     ShadowedShader sphere = sphere_shader_;
-    sphere.map = map.data();
+    sphere.map = {map.data(), nullptr};
     draw_naive(target, sphere, sphere_vertices(), sphere_indices_, workload_state());
-    draw_naive(target, plane_shader(map.data()), plane_vertices(), plane_indices_, workload_state());
+    draw_naive(target, plane_shader(sphere.map), plane_vertices(), plane_indices_, workload_state());
     return target;
   }
 
@@ -68,7 +70,7 @@ class Shadowed final : public Workload {
     return make_vertex_view(stream(sphere_->vertices, &SphereVertex::position), stream(sphere_->vertices, &SphereVertex::normal));
   }
   static VertexView plane_vertices() { return make_vertex_view(stream(std::span<const PlaneVertex>(kShadowPlane))); }
-  ShadowedShader plane_shader(const float* map) const {
+  ShadowedShader plane_shader(const WorkloadShadowMap& map) const {
     ShadowedShader shader = sphere_shader_;
     shader.base = kShadowPlaneBase;
     shader.map = map;

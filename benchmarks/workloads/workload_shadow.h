@@ -3,6 +3,7 @@
 
 #include "halfspace/shading/contract.h"
 #include "halfspace/shading/texture/map_row.h"
+#include "halfspace/shading/texture/tiles_on_demand.h"
 #include "workloads/workload_shading.h"
 
 namespace halfspace {
@@ -10,20 +11,26 @@ namespace halfspace {
 /// Width and height of the shadow maps of the workloads.
 inline constexpr int kShadowMapSize = 2048;
 
-/// Returns the fraction of the 3 x 3 shadow-map texels around a point that do not occlude it. `map` has kShadowMapSize² window depths, top
-/// row first.
+/// A shadow map of kShadowMapSize² window depths, top row first.
+struct WorkloadShadowMap {
+  const float* depths;
+  const TilesOnDemand* tiles;  ///< null if all tiles are drawn
+};
+
+/// Returns the fraction of the 3 x 3 shadow-map texels around a point that do not occlude it.
 template <class R>
-HS_INLINE R unoccluded_fraction(const float* map, const glm::mat4& light_from_world, float bias, const vec3<R>& position_ws) {
+HS_INLINE R unoccluded_fraction(const WorkloadShadowMap& map, const glm::mat4& light_from_world, float bias, const vec3<R>& position_ws) {
   constexpr float kHalf = 0.5f * kShadowMapSize;
   const vec4<R> q = light_from_world * vec4<R>(position_ws, R(1));
   const R scale(kHalf), inverse = R(1) / q.w;
   const IntOf<R> i = truncate_to_int(floor(q.x * inverse * scale + scale)), j = truncate_to_int(floor(q.y * inverse * scale + scale));
   const R depth = R(0.5f) * (q.z * inverse) + R(0.5f - bias);
   const IntOf<R> first(0), last(kShadowMapSize - 1);
+  if (map.tiles != nullptr) map.tiles->require(IntOf<R>(i - 1), IntOf<R>(j - 1), IntOf<R>(i + 2), IntOf<R>(j + 1));  // map_row reads four
   R sum(0);
   for (int dj = -1; dj <= 1; ++dj) {
     const IntOf<R> row = last - min(max(IntOf<R>(j + dj), first), last);
-    for (const R& nearest : map_row<3, R>(map, kShadowMapSize, i - 1, row)) sum += select(depth <= nearest, R(1), R(0));
+    for (const R& nearest : map_row<3, R>(map.depths, kShadowMapSize, i - 1, row)) sum += select(depth <= nearest, R(1), R(0));
   }
   return sum * R(1.0f / 9.0f);
 }
@@ -32,7 +39,7 @@ HS_INLINE R unoccluded_fraction(const float* map, const glm::mat4& light_from_wo
 /// and bias, so this code reads the map itself instead of using shading/shadow/shadow.h, whose filters do more.
 struct ShadowedShader {
   glm::mat4 clip_from_world, light_from_world;
-  const float* map;  ///< kShadowMapSize² window depths, top row first
+  WorkloadShadowMap map;
   glm::vec3 eye_ws, to_light_ws;
   glm::vec3 base;
 

@@ -10,10 +10,10 @@
 #include "halfspace/raster/depth_pyramid.h"
 #include "halfspace/raster/detail/draw_placement.h"
 #include "halfspace/raster/detail/emitted_draws.h"
+#include "halfspace/raster/detail/run_pass.h"
 #include "halfspace/raster/detail/state_checks.h"
 #include "halfspace/raster/detail/target_checks.h"
 #include "halfspace/raster/loop/pass_rounds.h"
-#include "halfspace/raster/pipeline/pass_memory.h"
 #include "halfspace/raster/primitives/cull_clusters.h"
 #include "halfspace/raster/primitives/primitive_assembly.h"
 #include "halfspace/raster/primitives/vertex_stage.h"
@@ -46,6 +46,9 @@ class PassState {
   const Attachments& attachments() const { return attachments_; }
   int layers() const { return options_.layers; }
   PassStatistics run(TileRunner& tiles, const Workers& workers);
+  // Runs the pass, but keeps what the tiles of the last round read until release() is called.
+  PassStatistics run_and_keep(TileRunner& tiles, const Workers& workers);
+  void release();
 
  private:
   int tile_size() const;
@@ -56,6 +59,7 @@ class PassState {
   // Such passes are planned layer by layer, when they run.
   bool runs_layers() const { return has_emitting_ || options_.layers > 1; }
   PassStatistics run_layers(TileRunner& tiles, const Workers& workers);
+  void return_draws();
   // Sets d.writes_color. Returns true if the draw replaces all colors of a pixel.
   bool set_color_writes(Draw& d) const;
 
@@ -63,6 +67,7 @@ class PassState {
   Attachments attachments_;
   PassOptions options_;
   PassPlan plan_;
+  PassMemory spare_;                                        // of the last run
   uint32_t layer_group_ = 0;                                // of the last draw
   bool may_lower_depth_ = false, may_raise_depth_ = false;  // what the draws so far can do to stored depths
   bool has_emitting_ = false;                               // some draw has emitting stages
@@ -238,21 +243,41 @@ PassStatistics PassState::run_layers(TileRunner& tiles, const Workers& workers) 
     Attachments attachments = attachments_;
     for (ColorTarget& c : attachments.colors) c = layer_of(c, layer);
     attachments.depth = layer_of(attachments.depth, layer);
-    statistics += run_rounds(context_, attachments, std::move(plan), options_.tuning.bin_budget, tiles, workers);
+    statistics += run_rounds(context_, attachments, std::move(plan), options_.tuning.bin_budget, tiles, workers, spare_);
+    release_rounds(context_, std::exchange(spare_, {}));
   }
   context_.draws.clear();
   return statistics;
 }
 
 PassStatistics PassState::run(TileRunner& tiles, const Workers& workers) {
+  if (!runs_layers()) {
+    PassStatistics statistics = run_and_keep(tiles, workers);
+    release();
+    return statistics;
+  }
+  const FloatMode float_mode;
+  PassStatistics statistics = run_layers(tiles, workers);
+  has_emitting_ = false;
+  return_draws();
+  return statistics;
+}
+
+PassStatistics PassState::run_and_keep(TileRunner& tiles, const Workers& workers) {
+  HS_CHECK(!runs_layers(),
+           "Pass: the pass has several layers, or a shader emits primitives; expected one layer, and no tessellation or geometry function");
   const FloatMode float_mode;
   PassPlan plan = std::exchange(plan_, PassPlan(context_.samples, options_.tuning.chunk_triangles));
-  PassStatistics statistics = runs_layers()
-                                  ? run_layers(tiles, workers)
-                                  : run_rounds(context_, attachments_, std::move(plan), options_.tuning.bin_budget, tiles, workers);
-  has_emitting_ = false;
+  return run_rounds(context_, attachments_, std::move(plan), options_.tuning.bin_budget, tiles, workers, spare_);
+}
+
+void PassState::release() {
+  release_rounds(context_, std::exchange(spare_, {}));
+  return_draws();
+}
+
+void PassState::return_draws() {
   if (context_.arena != nullptr) return_draw_list({std::exchange(context_.arena, {}), std::exchange(context_.draws, {})});
-  return statistics;
 }
 
 void PassState::set_post_step(PostStep post) {
@@ -394,5 +419,9 @@ PassStatistics run_with(Pass& pass, TileRunner& tiles, const Workers& workers) {
            "Pass: the stages of a pass with several layers cannot be inspected; expected one");
   return detail::PassAccess::state_of(pass).run(tiles, workers);
 }
+PassStatistics run_and_keep(Pass& pass, TileRunner& tiles, const Workers& workers) {
+  return detail::PassAccess::state_of(pass).run_and_keep(tiles, workers);
+}
+void release(Pass& pass) { detail::PassAccess::state_of(pass).release(); }
 
 }  // namespace halfspace::HS_LANES

@@ -46,7 +46,7 @@ ROOMS = {
         ["visibility/full_tile"],
         ["shade/"],
         ["loop/", "detail/"],
-        ["pass", "naive", "blit", "capture", "sample_location"],
+        ["pass", "depth_on_demand", "naive", "blit", "capture", "sample_location"],
         ["inspect/"],
     ],
     "shading": [

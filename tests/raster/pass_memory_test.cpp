@@ -49,7 +49,7 @@ TEST(PassMemory, DrawListsAreRecycledEmptyWithTheirMemory) {
 TEST(PassMemory, ExcessivelyLargeListsAreNotKept) {
   forget_draws();
   DrawList list = take_draw_list();
-  list.draws.reserve((std::size_t{257} << 20) / sizeof(Draw));
+  list.draws.reserve((std::size_t{513} << 20) / sizeof(Draw));
   return_draw_list(std::move(list));
   EXPECT_EQ(take_draw_list().draws.capacity(), 0u);
 }
@@ -58,7 +58,7 @@ TEST(PassMemory, AnExcessivelyLargeArenaIsNotKept) {
   forget_draws();
   DrawList list = take_draw_list();
   list.draws.reserve(1);
-  EXPECT_NE(list.arena->allocate(std::size_t{257} << 20), nullptr);
+  EXPECT_NE(list.arena->allocate(std::size_t{513} << 20), nullptr);
   return_draw_list(std::move(list));
   EXPECT_EQ(take_draw_list().draws.capacity(), 0u);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "halfspace/raster/inspect/inspection.h"
 
+#include "halfspace/raster/detail/run_pass.h"
 #include "halfspace/raster/primitives/vertex_stage.h"
 
 namespace halfspace::HS_LANES {

@@ -16,9 +16,6 @@
 
 namespace halfspace::HS_LANES {
 
-/// Runs a pass like Pass::run(), but calls tiles.run() in each round instead of drawing the tiles.
-PassStatistics run_with(Pass& pass, TileRunner& tiles, const Workers& workers);
-
 /// Runs a pass and traces its fragments. Images and statistics are the same as with Pass::run().
 PassStatistics run_traced(Pass& pass, const Workers& workers, PassTrace& trace);
 

@@ -55,13 +55,11 @@ class PassRounds {
     return next_chunk_ == plan_.chunks.size();
   }
 
-  // Decides about conditional draws after the last chunk, of which nothing is drawn, and returns the memory of the pass to the pool. Must
-  // be called after the last round.
-  void finish(PassStatistics& statistics) {
+  // Decides about conditional draws after the last chunk, of which nothing is drawn. Must be called after the last round. Returns the
+  // memory that was not needed.
+  PassMemory finish(PassStatistics& statistics) {
     decide_conditional_draws(statistics);
-    recycle_chunks(context_.chunks, memory_.chunks);
-    memory_.shaded = std::exchange(context_.shaded, {});
-    return_pass_memory(std::move(memory_));
+    return std::move(memory_);
   }
 
  private:
@@ -217,7 +215,7 @@ class PassRounds {
 }  // namespace
 
 PassStatistics run_rounds(PassContext& context, Attachments& attachments, PassPlan plan, std::size_t budget, TileRunner& tiles,
-                          const Workers& workers) {
+                          const Workers& workers, PassMemory& spare) {
   PassStatistics statistics = std::move(plan.submitted);
   context.inspects_primitives = tiles.inspects_primitives();
   PassRounds rounds(context, plan, budget, workers);
@@ -231,8 +229,14 @@ PassStatistics run_rounds(PassContext& context, Attachments& attachments, PassPl
     tiles.run(context, attachments, round, workers, statistics);
     round.first = false;
   } while (!round.last);
-  rounds.finish(statistics);
+  spare = rounds.finish(statistics);
   return statistics;
+}
+
+void release_rounds(PassContext& context, PassMemory spare) {
+  recycle_chunks(context.chunks, spare.chunks);
+  spare.shaded = std::exchange(context.shaded, {});
+  return_pass_memory(std::move(spare));
 }
 
 }  // namespace halfspace::HS_LANES

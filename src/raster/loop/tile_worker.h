@@ -29,6 +29,9 @@ struct TileRecords {
 void run_tiles(const PassContext& context, const Attachments& attachments, Round round, const Workers& workers, PassStatistics& statistics,
                const TileRecords& records = {});
 
+/// Runs one tile of a pass that has a single round.
+void run_single_tile(const PassContext& context, const Attachments& attachments, int tile_x, int tile_y, PassStatistics& statistics);
+
 /// Runs the tiles of each round of a pass.
 class TileRunner {
  public:

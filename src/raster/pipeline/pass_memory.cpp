@@ -7,7 +7,8 @@ namespace halfspace::HS_LANES {
 
 namespace {
 
-constexpr std::size_t kMaxKept = std::size_t{256} << 20;
+// Two passes with full bins (PassTuning::bin_budget), one of which may be a shadow map (depth_on_demand.h).
+constexpr std::size_t kMaxKept = std::size_t{512} << 20;
 
 struct Kept {
   std::mutex mutex;
@@ -64,8 +65,14 @@ PassMemory take_pass_memory() {
 
 void return_pass_memory(PassMemory memory) {
   const std::size_t bytes = bytes_of(memory);
+  std::vector<PassMemory> oldest;  // freed after the lock is released
   Kept& k = kept();
   const std::lock_guard lock(k.mutex);
+  while (!k.idle.empty() && k.bytes + bytes > kMaxKept) {
+    k.bytes -= bytes_of(k.idle.front());
+    oldest.push_back(std::move(k.idle.front()));
+    k.idle.erase(k.idle.begin());
+  }
   if (k.bytes + bytes > kMaxKept) return;
   k.bytes += bytes;
   k.idle.push_back(std::move(memory));

@@ -31,7 +31,7 @@ void return_draw_list(DrawList list);
 /// Takes recycled memory from the pool; returns empty buffers if there is none. Thread-safe.
 PassMemory take_pass_memory();
 
-/// Returns memory to the pool, or frees it if the pool would exceed 256 MB.
+/// Returns memory to the pool. If the pool would exceed 512 MB, the memory that was returned first is freed.
 void return_pass_memory(PassMemory memory);
 
 }  // namespace halfspace::HS_LANES
