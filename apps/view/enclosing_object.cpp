@@ -22,8 +22,8 @@ bool contains(const ObjectDescription& o, const glm::dvec3& point_os) {
 std::string enclosing_object(const SceneDescription& scene, const glm::dvec3& point) {
   for (const auto& [name, object] : scene.objects) {
     if (!object.visible || object.shadow_only) continue;
-    const bool inside = std::ranges::any_of(places_of(scene, object), [&](const glm::dmat4& world_from_object) {
-      return contains(object, glm::dvec3(glm::inverse(world_from_object) * glm::dvec4(point, 1.0)));
+    const bool inside = std::ranges::any_of(places_of(scene, object), [&point, &shape = object](const glm::dmat4& world_from_object) {
+      return contains(shape, glm::dvec3(glm::inverse(world_from_object) * glm::dvec4(point, 1.0)));
     });
     if (inside) return name;
   }
