@@ -72,6 +72,29 @@ TEST(PassMemory, ReturningAListDestroysItsShaders) {
   EXPECT_EQ(shader.use_count(), 1);
 }
 
+// Returns memory with one chunk that has reserved that many bytes, without touching them.
+PassMemory memory_of(std::size_t bytes) {
+  PassMemory memory;
+  memory.chunks.emplace_back().triangles.reserve(bytes / sizeof(Triangle));
+  return memory;
+}
+
+TEST(PassMemory, TheMemoryThatWasReturnedFirstIsFreedFirst) {
+  forget_draws();
+  while (!take_pass_memory().chunks.empty()) {
+  }
+  constexpr std::size_t kMegabyte = std::size_t{1} << 20;
+  return_pass_memory(memory_of(10 * kMegabyte));
+  PassMemory large = memory_of(400 * kMegabyte), other = memory_of(300 * kMegabyte);
+  const Triangle* const place = other.chunks[0].triangles.data();
+  return_pass_memory(std::move(large));
+  return_pass_memory(std::move(other));
+  const PassMemory kept = take_pass_memory();
+  ASSERT_EQ(kept.chunks.size(), 1u);
+  EXPECT_EQ(kept.chunks[0].triangles.data(), place);
+  EXPECT_TRUE(take_pass_memory().chunks.empty());  // the oldest was freed before the large one
+}
+
 TEST(DrawArena, AllocatesAlignedMemoryThatDoesNotOverlap) {
   DrawArena arena;
   std::byte* end = nullptr;

@@ -65,28 +65,7 @@ class TileWorker {
     });
     for (const PassStatistics& s : by_strip) statistics += s;
   }
-
-  // Processes tiles [tile_x0, tile_x1) of a row.
-  void run_strip(int tile_x0, int tile_x1, int tile_y, PassStatistics& statistics) const {
-    const TileMemoryLease memory;
-    const std::unique_ptr<TileTrace> trace = trace_ != nullptr ? std::make_unique<TileTrace>() : nullptr;
-    const bool alone = is_alone();
-    ConstantArea area{};  // area of the preceding tiles that is not filled yet
-    for (int x = tile_x0; x < tile_x1; ++x) {
-      const auto [is_constant, draw] = alone ? constant_tiles(context_, attachments_, x, x + 1, tile_y, statistics) : ConstantTiles{};
-      const PixelBounds pixels = tile_pixels(context_, x, x + 1, tile_y);
-      if (is_constant && !area.pixels.empty() && area.draw == draw) {
-        area.pixels.x1 = pixels.x1;
-        continue;
-      }
-      fill_images(attachments_, area);
-      area = is_constant ? ConstantArea{pixels, draw} : ConstantArea{};
-      // If this is the only round, a tile without geometry has a constant color and does not get here.
-      if (!is_constant) run_measured_tile(x, tile_y, alone || is_drawn(x, tile_y), *memory, statistics, trace.get());
-    }
-    fill_images(attachments_, area);
-    finish_stores();
-  }
+  void run_one(int tile_x, int tile_y, PassStatistics& statistics) const { run_strip(tile_x, tile_x + 1, tile_y, statistics); }
 
  private:
   // A task processes several adjacent tiles of a row, so that tiles with the same color are filled together: writing a few hundred bytes at
@@ -117,6 +96,28 @@ class TileWorker {
       }
     }
     return rest;
+  }
+
+  // Processes tiles [tile_x0, tile_x1) of a row.
+  void run_strip(int tile_x0, int tile_x1, int tile_y, PassStatistics& statistics) const {
+    const TileMemoryLease memory;
+    const std::unique_ptr<TileTrace> trace = trace_ != nullptr ? std::make_unique<TileTrace>() : nullptr;
+    const bool alone = is_alone();
+    ConstantArea area{};  // area of the preceding tiles that is not filled yet
+    for (int x = tile_x0; x < tile_x1; ++x) {
+      const auto [is_constant, draw] = alone ? constant_tiles(context_, attachments_, x, x + 1, tile_y, statistics) : ConstantTiles{};
+      const PixelBounds pixels = tile_pixels(context_, x, x + 1, tile_y);
+      if (is_constant && !area.pixels.empty() && area.draw == draw) {
+        area.pixels.x1 = pixels.x1;
+        continue;
+      }
+      fill_images(attachments_, area);
+      area = is_constant ? ConstantArea{pixels, draw} : ConstantArea{};
+      // If this is the only round, a tile without geometry has a constant color and does not get here.
+      if (!is_constant) run_measured_tile(x, tile_y, alone || is_drawn(x, tile_y), *memory, statistics, trace.get());
+    }
+    fill_images(attachments_, area);
+    finish_stores();
   }
 
   bool is_drawn(int tile_x, int tile_y) const {
@@ -250,7 +251,7 @@ void run_tiles(const PassContext& context, const Attachments& attachments, Round
 }
 
 void run_single_tile(const PassContext& context, const Attachments& attachments, int tile_x, int tile_y, PassStatistics& statistics) {
-  TileWorker(context, attachments, {.first = true, .last = true}, {}).run_strip(tile_x, tile_x + 1, tile_y, statistics);
+  TileWorker(context, attachments, {.first = true, .last = true}, {}).run_one(tile_x, tile_y, statistics);
 }
 
 }  // namespace halfspace::HS_LANES
