@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/cli_run.h"
+#include "support/sanitized.h"
 
 namespace halfspace {
 namespace {
@@ -113,6 +114,7 @@ TEST_F(Lists, ResumeKeepsPictures) {
 // Memory of a scene is free for the next one, whether it was rendered or kept. One scene needs about 66 MB, and each further one that
 // stayed in memory 15 MB.
 TEST_F(Lists, AScenesMemoryIsFreedForTheNext) {
+  if (kSanitized) GTEST_SKIP() << "sanitizers need more memory than the limit";
   std::string grid;
   constexpr int kEdge = 300;
   for (int y = 0; y < kEdge; ++y) {

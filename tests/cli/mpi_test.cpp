@@ -4,9 +4,13 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/cli_run.h"
+#include "support/sanitized.h"
 
 namespace halfspace {
 namespace {
+
+// OpenMPI does not free everything at exit.
+constexpr const char* kMpirun = kSanitized ? "ASAN_OPTIONS=detect_leaks=0 mpirun --allow-run-as-root" : "mpirun --allow-run-as-root";
 
 class Mpi : public Cli {
  protected:
@@ -17,7 +21,7 @@ class Mpi : public Cli {
       GTEST_SKIP() << "the program was built without MPI (scripts/install_deps.sh --mpi)";
   }
   Outcome mpirun(int ranks, const std::string& arguments) const {
-    const std::string command = "cd " + directory.string() + " && mpirun --allow-run-as-root --oversubscribe --bind-to none -n " +
+    const std::string command = "cd " + directory.string() + " && " + kMpirun + " --oversubscribe --bind-to none -n " +
                                 std::to_string(ranks) + " " HALFSPACE_PROGRAM " render " + arguments + " --mpi > " +
                                 (root / "out").string() + " 2> " + (root / "err").string();
     const int status = std::system(command.c_str());
@@ -68,8 +72,8 @@ TEST_F(Mpi, WrongArgumentsEndAllRanks) {
 
 TEST_F(Mpi, ARankWithTooFewCpusWarns) {
   if (::sysconf(_SC_NPROCESSORS_ONLN) < 2) GTEST_SKIP() << "this machine has one CPU";
-  const std::string command = "cd " + directory.string() +
-                              " && mpirun --allow-run-as-root --bind-to core -n 1 " HALFSPACE_PROGRAM
+  const std::string command = "cd " + directory.string() + " && " + kMpirun +
+                              " --bind-to core -n 1 " HALFSPACE_PROGRAM
                               " render moon --size 16x9 --frames 0..1 -o m.png --mpi --threads 2 2> " +
                               (root / "err").string();
   EXPECT_EQ(std::system(command.c_str()), 0);

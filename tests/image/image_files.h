@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
-#include <cstring>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -24,9 +23,7 @@ inline std::string big_endian(uint32_t number, int bytes) {
 /// Returns the object representation of the numbers, in host byte order.
 template <class T>
 std::string memory_of(const std::vector<T>& numbers) {
-  std::string bytes(numbers.size() * sizeof(T), '\0');
-  std::memcpy(bytes.data(), numbers.data(), bytes.size());
-  return bytes;
+  return {reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(T)};
 }
 
 /// Computes the checksum of a PNG chunk (CRC-32).

@@ -97,11 +97,11 @@ class Surrounded {
   explicit Surrounded(const TexelView& image) : image_(image) {
     if (image.data == nullptr) return;
     view_ = image;
-    view_.row_pitch = (image.width + 5) * std::ptrdiff_t{texel_info(image.format).bytes} + 1;
+    const std::ptrdiff_t bytes = texel_info(image.format).bytes;
+    view_.row_pitch = (image.width + 5) * bytes + 1;
     view_.layer_pitch = (image.height + 7) * view_.row_pitch;
     memory_.assign(static_cast<std::size_t>(image.layers * view_.layer_pitch), kGuard);
-    view_.data = memory_.data();
-    view_.data = view_.at(2, 3);
+    view_.data = memory_.data() + 3 * view_.row_pitch + 2 * bytes;
     copy_texels(image_, view_);
   }
 
