@@ -11,11 +11,11 @@
 
 namespace halfspace {
 
-/// Appends bits to a block, from the lowest bit of the first byte to the highest bit of the last one.
+/// Appends bits to a block, from the lowest bit of the first byte to the highest bit of the last one. Bits from 64 on are 0.
 class BlockWriter {
  public:
   BlockWriter& put(uint64_t value, int bits) {
-    for (int i = 0; i < bits; ++i) bits_.push_back((value >> i & 1) != 0);
+    for (int i = 0; i < bits; ++i) bits_.push_back(i < 64 && (value >> i & 1) != 0);
     return *this;
   }
   /// Sets a bit that was put before.
