@@ -73,8 +73,9 @@ class DepthOnDemand::State final : private BinnedPass, public TilesOnDemand {
   void draw(int tile_x, int tile_y) const override {
     if (round.is_drawn) return;
     const FloatMode float_mode;
-    run_single_tile(*round.context, *round.attachments, tile_x, tile_y,
-                    by_tile_[static_cast<std::size_t>(tile_y * round.context->tiles_x + tile_x)]);
+    PassStatistics& tile = by_tile_[static_cast<std::size_t>(tile_y * round.context->tiles_x + tile_x)];
+    tile = {};  // if a shader threw before
+    run_single_tile(*round.context, *round.attachments, tile_x, tile_y, tile);
   }
 
   mutable std::vector<PassStatistics> by_tile_;

@@ -258,6 +258,7 @@ PassStatistics PassState::run(TileRunner& tiles, const Workers& workers) {
   }
   const FloatMode float_mode;
   PassStatistics statistics = run_layers(tiles, workers);
+  plan_ = PassPlan(context_.samples, options_.tuning.chunk_triangles);  // it has the draws before the first that emits primitives
   has_emitting_ = false;
   return_draws();
   return statistics;
