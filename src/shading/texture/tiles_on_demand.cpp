@@ -22,14 +22,18 @@ void TilesOnDemand::require_tiles(int32_t from, int32_t to) const {
 void TilesOnDemand::require_tile(int tile_x, int tile_y) const {
   std::atomic<State>& state = states_[static_cast<std::size_t>(tile_y * tiles_x_ + tile_x)];
   const auto leave_as = [&](State s) {
-    state.store(s, std::memory_order_release);
-    state.notify_all();
+    {
+      const std::lock_guard lock(mutex_);
+      state.store(s, std::memory_order_release);
+    }
+    finished_.notify_all();
   };
   for (;;) {
     State seen = State::missing;
     if (state.compare_exchange_strong(seen, State::in_work, std::memory_order_acquire)) break;
     if (seen == State::drawn) return;
-    state.wait(State::in_work, std::memory_order_acquire);
+    std::unique_lock lock(mutex_);
+    finished_.wait(lock, [&] { return state.load(std::memory_order_acquire) != State::in_work; });
   }
   try {
     draw(tile_x, tile_y);

@@ -10,7 +10,9 @@
 
 #include <atomic>
 #include <bit>
+#include <condition_variable>
 #include <memory>
+#include <mutex>
 
 #include "halfspace/core/lane_pairs.h"
 
@@ -64,6 +66,8 @@ class TilesOnDemand {
 
   int width_, height_, tiles_x_, tile_shift_;
   std::unique_ptr<std::atomic<State>[]> states_;  // by rows
+  mutable std::mutex mutex_;                      // held while a tile changes from in_work to another state
+  mutable std::condition_variable finished_;
 };
 
 }  // namespace halfspace::HS_LANES
