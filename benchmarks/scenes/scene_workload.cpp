@@ -51,8 +51,9 @@ class SceneWorkload final : public Workload {
   }
 
   void frame(const Workers& workers) override {
-    for (SceneJob& job : jobs_) {
-      if (!keeps_map_ || &job == &jobs_.front()) draw_shadow_map(job, workers);
+    for (const SceneJob& recorded : jobs_) {
+      if (!keeps_map_ || &recorded == &jobs_.front()) draw_shadow_map(recorded, workers);
+      SceneJob job = recorded;
       job.uniforms.shadow_map.tiles = shadow_ ? &shadow_->tiles() : nullptr;
       const std::span<const std::size_t> order(job.view.order);
       const std::size_t near = near_objects(*scene_, job.view);
@@ -61,10 +62,9 @@ class SceneWorkload final : public Workload {
       pass.run(workers);
       if (near == order.size()) continue;
       const DepthPyramid pyramid(canvas_.depth_target(), workers);
-      SceneJob rest = job;
-      rest.hidden_by = &pyramid;
+      job.hidden_by = &pyramid;
       Pass second = canvas_.pass_over();
-      for (const std::size_t i : order.subspan(near)) draw(second, rest, scene_->objects[i]);
+      for (const std::size_t i : order.subspan(near)) draw(second, job, scene_->objects[i]);
       second.run(workers);
     }
   }
@@ -115,7 +115,7 @@ class SceneWorkload final : public Workload {
   std::vector<std::optional<Clusters>> clusters_;  // one per mesh
   std::vector<SceneJob> jobs_;                     // one per view
   Image<float> map_;
-  std::optional<DepthOnDemand> shadow_;  // draws map_, unless it is kept
+  std::optional<DepthOnDemand> shadow_;  // draws the tiles of map_; empty if all views share the map
   Canvas canvas_;
 };
 

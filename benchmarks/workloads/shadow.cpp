@@ -40,10 +40,11 @@ class Shadowed final : public Workload {
     Pass light(kShadowMapSize, kShadowMapSize, ColorTarget{}, d32f_target(map_));
     light.draw_depth(depth_shader_, positions(), sphere_indices_, workload_state());
     const DepthOnDemand demand(std::move(light), workers);
-    sphere_shader_.map.tiles = &demand.tiles();
+    ShadowedShader sphere = sphere_shader_;
+    sphere.map.tiles = &demand.tiles();
     Pass pass = canvas_.pass();
-    pass.draw(sphere_shader_, sphere_vertices(), sphere_indices_, workload_state());
-    pass.draw(plane_shader(sphere_shader_.map), plane_vertices(), plane_indices_, workload_state());
+    pass.draw(sphere, sphere_vertices(), sphere_indices_, workload_state());
+    pass.draw(plane_shader(sphere.map), plane_vertices(), plane_indices_, workload_state());
     pass.run(workers);
   }
   WorkloadPicture picture() const override { return canvas_.picture(); }

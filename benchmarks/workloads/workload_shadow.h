@@ -23,7 +23,11 @@ HS_INLINE R unoccluded_fraction(const WorkloadShadowMap& map, const glm::mat4& l
   constexpr float kHalf = 0.5f * kShadowMapSize;
   const vec4<R> q = light_from_world * vec4<R>(position_ws, R(1));
   const R scale(kHalf), inverse = R(1) / q.w;
-  const IntOf<R> i = truncate_to_int(floor(q.x * inverse * scale + scale)), j = truncate_to_int(floor(q.y * inverse * scale + scale));
+  // Lanes without a pixel can have any coordinates. Beyond the map, all texels are those of its edge.
+  const auto texel = [&](R ndc) {
+    return min(max(truncate_to_int(floor(ndc * inverse * scale + scale)), IntOf<R>(-2)), IntOf<R>(kShadowMapSize + 1));
+  };
+  const IntOf<R> i = texel(q.x), j = texel(q.y);
   const R depth = R(0.5f) * (q.z * inverse) + R(0.5f - bias);
   const IntOf<R> first(0), last(kShadowMapSize - 1);
   if (map.tiles != nullptr) map.tiles->require(IntOf<R>(i - 1), IntOf<R>(j - 1), IntOf<R>(i + 2), IntOf<R>(j + 1));  // map_row reads four

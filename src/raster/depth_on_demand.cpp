@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "halfspace/raster/depth_on_demand.h"
 
+#include <mutex>
+#include <new>
 #include <utility>
-#include <vector>
 
 #include "halfspace/core/check.h"
 #include "halfspace/core/float_mode.h"
@@ -12,79 +13,87 @@ namespace halfspace::HS_LANES {
 
 namespace {
 
-// Keeps the last round of a pass, if it is the only one; otherwise draws all tiles.
-class KeepRound final : public TileRunner {
+// Leaves the tiles of a pass with one round for later, and draws those of a pass with several rounds.
+class DeferTiles final : public TileRunner {
  public:
-  const PassContext* context = nullptr;
-  const Attachments* attachments = nullptr;
-  bool is_drawn = false;
+  bool drew_all_tiles = false;
 
-  void run(const PassContext& c, const Attachments& a, Round round, const Workers& workers, PassStatistics& statistics) override {
-    context = &c;
-    attachments = &a;
-    is_drawn = !(round.first && round.last);
-    if (is_drawn) run_tiles(c, a, round, workers, statistics);
+  void run(const PassContext& context, const Attachments& attachments, Round round, const Workers& workers,
+           PassStatistics& statistics) override {
+    drew_all_tiles = !(round.first && round.last);
+    if (drew_all_tiles) run_tiles(context, attachments, round, workers, statistics);
   }
 };
 
-// Runs the pass up to binning.
-struct BinnedPass {
-  Pass pass;
-  KeepRound round;
-  PassStatistics statistics;
-
-  BinnedPass(Pass p, const Workers& workers) : pass(std::move(p)), statistics(run_and_keep(pass, round, workers)) {
-    const Attachments& a = *round.attachments;
-    HS_CHECK(!a.has_color, "DepthOnDemand: the pass has a color target; expected none");
-    HS_CHECK(round.context->samples == 1, "DepthOnDemand: the pass has several samples; expected one");
-    HS_CHECK(a.depth.format != DepthFormat::none && a.depth.data != nullptr && a.depth.store == StoreOp::store,
-             "DepthOnDemand: the pass stores no depth; expected a depth target with an image and StoreOp::store");
-    for (const Draw& d : round.context->draws) {
-      HS_CHECK(!d.state.query && !d.state.timer && !d.state.condition,
-               "DepthOnDemand: a draw has a query, a timer or a condition; expected none of them");
-    }
-    if (round.is_drawn) release(pass);
+// Returns what the pass has recorded, if it can be drawn on demand.
+RecordedPass checked(const Pass& pass) {
+  const RecordedPass recorded = recorded_pass(pass);
+  const DepthTarget& depth = recorded.attachments.depth;
+  HS_CHECK(recorded.layers == 1, "DepthOnDemand: the pass has several layers; expected one");
+  HS_CHECK(recorded.context.samples == 1, "DepthOnDemand: the pass has several samples; expected one");
+  HS_CHECK(!recorded.attachments.has_color, "DepthOnDemand: the pass has a color target; expected none");
+  HS_CHECK(depth.format != DepthFormat::none && depth.data != nullptr && depth.store == StoreOp::store,
+           "DepthOnDemand: the pass stores no depth; expected a depth target with an image and StoreOp::store");
+  for (const Draw& d : recorded.context.draws) {
+    HS_CHECK(d.kernels.emitting == nullptr, "DepthOnDemand: the shader of a draw emits primitives; expected a vertex function only");
+    HS_CHECK(!d.state.query && !d.state.timer && !d.state.condition,
+             "DepthOnDemand: a draw has a query, a timer or a condition; expected none of them");
   }
-  ~BinnedPass() {
-    if (!round.is_drawn) release(pass);
-  }
-};
+  return recorded;
+}
 
 }  // namespace
 
-class DepthOnDemand::State final : private BinnedPass, public TilesOnDemand {
+class DepthOnDemand::State final : public TilesOnDemand {
  public:
-  State(Pass p, const Workers& workers)
-      : BinnedPass(std::move(p), workers),
-        TilesOnDemand(round.context->width, round.context->height, round.context->tile_size),
-        by_tile_(static_cast<std::size_t>(tile_count())) {}
+  State(Pass&& pass, const RecordedPass& recorded, const Workers& workers)
+      : TilesOnDemand(recorded.context.width, recorded.context.height, recorded.context.tile_size),
+        recorded_(recorded),
+        pass_(std::move(pass)),
+        statistics_(run_and_keep_triangles(pass_, tiles_, workers)) {
+    if (tiles_.drew_all_tiles) release_triangles(pass_);
+  }
+  ~State() override {
+    if (tiles_.drew_all_tiles) return;
+    try {
+      release_triangles(pass_);
+    } catch (const std::bad_alloc&) {  // the memory is freed with the pass
+    }
+  }
+  State(const State&) = delete;
+  State& operator=(const State&) = delete;
 
   void draw_all(const Workers& workers) const {
-    workers.for_each(tile_count(), [&](int i) { require_tile(i % round.context->tiles_x, i / round.context->tiles_x); });
+    const int tiles_x = recorded_.context.tiles_x;
+    workers.for_each(tiles_x * recorded_.context.tiles_y, [&](int i) { require_tile(i % tiles_x, i / tiles_x); });
   }
-  PassStatistics sum() const {
-    PassStatistics all = statistics;
-    for (const PassStatistics& s : by_tile_) all += s;
-    return all;
+  PassStatistics statistics() const {
+    const std::lock_guard lock(mutex_);
+    return statistics_;
   }
 
  private:
-  int tile_count() const { return round.context->tiles_x * round.context->tiles_y; }
   void draw(int tile_x, int tile_y) const override {
-    if (round.is_drawn) return;
+    if (tiles_.drew_all_tiles) return;
     const FloatMode float_mode;
-    PassStatistics& tile = by_tile_[static_cast<std::size_t>(tile_y * round.context->tiles_x + tile_x)];
-    tile = {};  // if a shader threw before
-    run_single_tile(*round.context, *round.attachments, tile_x, tile_y, tile);
+    PassStatistics of_tile;
+    run_single_tile(recorded_.context, recorded_.attachments, tile_x, tile_y, of_tile);
+    const std::lock_guard lock(mutex_);
+    statistics_ += of_tile;  // counters, whose sum does not depend on the order
   }
 
-  mutable std::vector<PassStatistics> by_tile_;
+  const RecordedPass recorded_;  // of pass_
+  Pass pass_;
+  DeferTiles tiles_;
+  mutable std::mutex mutex_;  // for statistics_
+  mutable PassStatistics statistics_;
 };
 
-DepthOnDemand::DepthOnDemand(Pass pass, const Workers& workers) : state_(std::make_unique<State>(std::move(pass), workers)) {}
+DepthOnDemand::DepthOnDemand(Pass pass, const Workers& workers)
+    : state_(std::make_unique<State>(std::move(pass), checked(pass), workers)) {}
 DepthOnDemand::~DepthOnDemand() = default;
 const TilesOnDemand& DepthOnDemand::tiles() const { return *state_; }
 void DepthOnDemand::draw_all(const Workers& workers) const { state_->draw_all(workers); }
-PassStatistics DepthOnDemand::statistics() const { return state_->sum(); }
+PassStatistics DepthOnDemand::statistics() const { return state_->statistics(); }
 
 }  // namespace halfspace::HS_LANES

@@ -49,6 +49,7 @@ class PassState {
   // Runs the pass, but keeps what the tiles of the last round read until release() is called.
   PassStatistics run_and_keep(TileRunner& tiles, const Workers& workers);
   void release();
+  RecordedPass recorded() const { return {context_, attachments_, options_.layers}; }
 
  private:
   int tile_size() const;
@@ -265,8 +266,7 @@ PassStatistics PassState::run(TileRunner& tiles, const Workers& workers) {
 }
 
 PassStatistics PassState::run_and_keep(TileRunner& tiles, const Workers& workers) {
-  HS_CHECK(!runs_layers(),
-           "Pass: the pass has several layers, or a shader emits primitives; expected one layer, and no tessellation or geometry function");
+  HS_DCHECK(!runs_layers());
   const FloatMode float_mode;
   PassPlan plan = std::exchange(plan_, PassPlan(context_.samples, options_.tuning.chunk_triangles));
   return run_rounds(context_, attachments_, std::move(plan), options_.tuning.bin_budget, tiles, workers, spare_);
@@ -307,6 +307,7 @@ void set_post_step(PassState& state, PostStep post) { state.set_post_step(std::m
 
 struct PassAccess {
   static PassState& state_of(Pass& pass) { return *pass.state_; }
+  static const PassState& state_of(const Pass& pass) { return *pass.state_; }
 };
 
 }  // namespace detail
@@ -420,9 +421,10 @@ PassStatistics run_with(Pass& pass, TileRunner& tiles, const Workers& workers) {
            "Pass: the stages of a pass with several layers cannot be inspected; expected one");
   return detail::PassAccess::state_of(pass).run(tiles, workers);
 }
-PassStatistics run_and_keep(Pass& pass, TileRunner& tiles, const Workers& workers) {
+PassStatistics run_and_keep_triangles(Pass& pass, TileRunner& tiles, const Workers& workers) {
   return detail::PassAccess::state_of(pass).run_and_keep(tiles, workers);
 }
-void release(Pass& pass) { detail::PassAccess::state_of(pass).release(); }
+void release_triangles(Pass& pass) { detail::PassAccess::state_of(pass).release(); }
+RecordedPass recorded_pass(const Pass& pass) { return detail::PassAccess::state_of(pass).recorded(); }
 
 }  // namespace halfspace::HS_LANES

@@ -77,7 +77,7 @@ class Pass {
   ~Pass();
 
   /// Adds an indexed draw. The shader is copied. The vertices, the indices and all data that the shader points to are not copied; they must
-  /// stay valid and unchanged until run() returns.
+  /// stay valid and unchanged until run() returns or, with DepthOnDemand, until that is destroyed.
   ///
   /// indices is an Indices object or a raw list without restarts: a vector, array or span of uint32_t, uint16_t or uint8_t. Raw lists are
   /// scanned on every call, so create an Indices object once for a list that is drawn repeatedly. DrawState::first and count select a part

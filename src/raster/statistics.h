@@ -9,7 +9,7 @@
 namespace halfspace::HS_LANES {
 
 /// Time that draws take, in seconds, summed over all threads. It lacks the blending of order-independent layers and tiles that a draw fills
-/// with one color.
+/// with one color. Tiles that a shader requires (DepthOnDemand) are part of its shading.
 struct DrawTime {
   double setup = 0.0;       ///< vertex functions, clipping, setup and binning; control, evaluation and geometry functions by the clock
   double visibility = 0.0;  ///< coverage, tests and visibility functions

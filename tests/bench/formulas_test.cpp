@@ -10,8 +10,10 @@
 #include <optional>
 #include <string_view>
 
+#include "halfspace/raster/depth_on_demand.h"
 #include "workloads/workload.h"
 #include "workloads/workload_assets.h"
+#include "workloads/workload_shadow.h"
 
 namespace halfspace {
 
@@ -148,6 +150,21 @@ TEST(WorkloadFormulas, TinyCoversTheExpectedArea) {
   const auto background = std::ranges::count(image.texels(), glm::u8vec4(26, 51, 77, 255));
   EXPECT_EQ(covered + background, 1920 * 1080);
   EXPECT_NEAR(static_cast<double>(covered), 1e6, 1e4);
+}
+
+TEST(ShadowFormulas, TheShadowFilterRequiresTheTexelsThatItReads) {
+  constexpr float kUndrawn = -7.0f;
+  const Workers workers(1);
+  Image<float> map(kShadowMapSize, kShadowMapSize);
+  for (const float x : {-1e30f, -3.0f, -1.0f, 0.0f, 0.36f, 1.0f, 3.0f, 1e30f}) {  // ±1e30 becomes the lowest integer, as NaN does
+    for (const float y : {0.5f, x}) {
+      std::fill_n(map.data(), map.texels().size(), kUndrawn);
+      // Without draws, all depths are 1, so that nothing is in shadow.
+      const DepthOnDemand demand(Pass(kShadowMapSize, kShadowMapSize, ColorTarget{}, d32f_target(map)), workers);
+      const WorkloadShadowMap read{map.data(), &demand.tiles()};
+      EXPECT_FLOAT_EQ(unoccluded_fraction(read, glm::mat4(1.0f), 0.0f, vec3<float>(x, y, 0.0f)), 1.0f) << x << ", " << y;
+    }
+  }
 }
 
 }  // namespace

@@ -179,7 +179,7 @@ TEST(DepthOnDemand, APassThatLoadsItsDepthKeepsIt) {
   EXPECT_EQ(pixel(image, 0, 0), pixel(whole, 0, 0));
 }
 
-// Fails the first time that its visibility is asked for.
+// Throws in the first call of its visibility function.
 struct FailsOnce : PositionShader {
   std::atomic<int>* calls;
   template <class R>
@@ -202,6 +202,66 @@ TEST(DepthOnDemand, ATileWhoseShaderThrewIsDrawnWhenItIsRequiredAgain) {
   EXPECT_THROW(demand.tiles().require(0, 0, 0, 0), std::runtime_error);
   demand.tiles().require(0, 0, 0, 0);
   EXPECT_EQ(pixel(image, 3, 3), 0.75f);  // z = 0.5 in the default depth range
+}
+
+TEST(DepthOnDemand, AThreadThatWaitsDrawsTheTileIfTheOtherOneFails) {
+  const DemandCase c{64, 64, 64};
+  const std::vector<glm::vec4> corners = full_screen(0.5f);
+  const Workers workers(4);
+  for (int i = 0; i < effort(100); ++i) {
+    Image<float> image = untouched(c);
+    std::atomic<int> calls = 0, thrown = 0;
+    FailsOnce shader;
+    shader.calls = &calls;
+    Pass pass(c.width, c.height, ColorTarget{}, d32f_target(image));
+    pass.draw_depth(shader, make_vertex_view(stream(corners)));
+    const DepthOnDemand demand(std::move(pass), one_worker());
+    workers.for_each(4, [&](int) {
+      try {
+        demand.tiles().require(0, 0, 0, 0);
+      } catch (const std::runtime_error&) {
+        ++thrown;
+        demand.tiles().require(0, 0, 0, 0);
+      }
+    });
+    EXPECT_EQ(thrown, 1);
+    EXPECT_EQ(pixel(image, 3, 3), 0.75f);  // z = 0.5 in the default depth range
+    EXPECT_EQ(demand.statistics().samples_passed, 64u * 64u);
+  }
+}
+
+TEST(DepthOnDemand, AllFormatsLoadAndClearAsInAWholePass) {
+  constexpr int kWidth = 100, kHeight = 70;
+  const std::vector<glm::vec4> corners = random_triangles(9, 30);
+  const StencilFace count{.pass = StencilOp::increment_wrap};
+  for (const DepthFormat format : {DepthFormat::d16, DepthFormat::d24, DepthFormat::d32f, DepthFormat::d24s8, DepthFormat::d32fs8}) {
+    for (const LoadOp load : {LoadOp::clear, LoadOp::load}) {
+      for (const LoadOp stencil_load : {LoadOp::clear, LoadOp::load}) {
+        const std::size_t texel = texel_info(format).bytes, pitch = (kWidth + 3) * texel;
+        const std::vector<std::byte> before(pitch * kHeight, std::byte{0x2a});
+        const auto pass_into = [&](std::vector<std::byte>& bytes) {
+          DepthTarget target = depth_target(TexelView{
+              .format = format, .data = bytes.data(), .width = kWidth, .height = kHeight, .row_pitch = static_cast<std::ptrdiff_t>(pitch)});
+          target.load = load;
+          if (has_stencil(format)) target.stencil_load = stencil_load;
+          Pass pass(kWidth, kHeight, ColorTarget{}, target);
+          DrawState state;
+          if (has_stencil(format)) state.stencil = StencilState{count, count};
+          pass.draw_depth(PositionShader{}, make_vertex_view(stream(corners)), state);
+          pass.clear({.rect = Rect{20, 10, 50, 40}, .depth = 0.25f});
+          pass.draw_depth(PositionShader{}, make_vertex_view(stream(corners)), state);
+          return pass;
+        };
+        std::vector<std::byte> whole = before, tiles = before;
+        const PassStatistics all = pass_into(whole).run(one_worker());
+        const DepthOnDemand demand(pass_into(tiles), one_worker());
+        EXPECT_EQ(tiles, before);
+        demand.draw_all(two_workers());
+        EXPECT_EQ(tiles, whole) << texel_info(format).name;
+        EXPECT_EQ(demand.statistics(), all);
+      }
+    }
+  }
 }
 
 // Reads the texel of a depth image of the same size.
@@ -242,32 +302,43 @@ TEST(DepthOnDemand, AShaderReadsTheTilesThatItRequires) {
   expect_tiles(c, image, whole, [](int x, int y) { return (y == 0 && x <= 2) || (y == 1 && x == 0); });
 }
 
+struct EmitsNothing : PositionShader {
+  static constexpr GeometryLayout geometry_layout{};
+  template <class R>
+  void geometry(const GeometryInput<R, NoVaryings<R>, 3>&, Emitter<R, NoVaryings<R>>&) const {}
+};
+
 class DepthOnDemandMisuse : public ThrowingChecksTest {};
 
-TEST_F(DepthOnDemandMisuse, PassesThatCannotBeDrawnByTilesAreRefused) {
+TEST_F(DepthOnDemandMisuse, PassesThatCannotBeDrawnByTilesAreRefusedBeforeAnythingIsDrawn) {
   const std::vector<glm::vec4> corners = full_screen();
   Image<float> depth(16, 16);
   Image<glm::u8vec4> color(16, 16);
   const auto message = [&](const ColorTarget& c, const DepthTarget& d, const PassOptions& options, const DrawState& state) {
     return failure_of([&] {
       Pass pass(16, 16, c, d, options);
-      pass.draw_depth(PositionShader{}, make_vertex_view(stream(corners)), state);
+      pass.draw(ConstantShader{}, make_vertex_view(stream(corners)), state);
       DepthOnDemand(std::move(pass), one_worker());
     });
   };
   const auto contains = [](const std::string& text, const char* part) { return text.find(part) != std::string::npos; };
   const DepthTarget target = d32f_target(depth);
   EXPECT_EQ(message({}, target, {}, {}), "");
-  EXPECT_TRUE(contains(message(rgba8_target(color), target, {}, {}), "has a color target"));
-  EXPECT_TRUE(contains(message({}, target, {.samples = 4}, {}), "has several samples"));
-  EXPECT_TRUE(contains(message({}, {.format = DepthFormat::d32f}, {}, {}), "stores no depth"));
-  DepthTarget lost = target;
-  lost.store = StoreOp::dont_care;
-  EXPECT_TRUE(contains(message({}, lost, {}, {}), "neither loaded nor stored"));
-  EXPECT_TRUE(contains(message({}, {.format = DepthFormat::d32f}, {.layers = 2}, {}), "has several layers"));
-  EXPECT_TRUE(contains(message({}, target, {}, {.query = 0}), "has a query"));
-  EXPECT_TRUE(contains(message({}, target, {}, {.timer = 0}), "has a query"));
-  EXPECT_TRUE(contains(message({}, target, {}, {.condition = DrawCondition{.query = 0}}), "has a query"));
+  EXPECT_TRUE(contains(message(rgba8_target(color), target, {}, {}), "DepthOnDemand: the pass has a color target"));
+  // A condition leads to several rounds, and those before the last one are drawn at once.
+  EXPECT_TRUE(contains(message(rgba8_target(color), target, {}, {.condition = DrawCondition{.query = 0}}), "has a color target"));
+  EXPECT_TRUE(std::ranges::all_of(color.texels(), [](const glm::u8vec4& c) { return c == glm::u8vec4(0); }));
+  EXPECT_TRUE(contains(message({}, target, {.samples = 4}, {}), "DepthOnDemand: the pass has several samples"));
+  EXPECT_TRUE(contains(message({}, {.format = DepthFormat::d32f}, {}, {}), "DepthOnDemand: the pass stores no depth"));
+  EXPECT_TRUE(contains(message({}, {.format = DepthFormat::d32f}, {.layers = 2}, {}), "DepthOnDemand: the pass has several layers"));
+  for (const DrawState& state : {DrawState{.query = 0}, DrawState{.timer = 0}, DrawState{.condition = DrawCondition{.query = 0}}})
+    EXPECT_TRUE(contains(message({}, target, {}, state), "DepthOnDemand: a draw has a query, a timer or a condition"));
+  EXPECT_TRUE(contains(failure_of([&] {
+                         Pass pass(16, 16, ColorTarget{}, target);
+                         pass.draw_depth(EmitsNothing{}, make_vertex_view(stream(corners)));
+                         DepthOnDemand(std::move(pass), one_worker());
+                       }),
+                       "DepthOnDemand: the shader of a draw emits primitives"));
 }
 
 }  // namespace

@@ -79,20 +79,49 @@ PassMemory memory_of(std::size_t bytes) {
   return memory;
 }
 
-TEST(PassMemory, TheMemoryThatWasReturnedFirstIsFreedFirst) {
-  forget_draws();
+constexpr std::size_t kMegabyte = std::size_t{1} << 20;
+
+void forget_pass_memory() {
   while (!take_pass_memory().chunks.empty()) {
   }
-  constexpr std::size_t kMegabyte = std::size_t{1} << 20;
+}
+
+TEST(PassMemory, TheMemoryThatWasReturnedFirstIsFreedFirst) {
+  forget_draws();
+  forget_pass_memory();
   return_pass_memory(memory_of(10 * kMegabyte));
-  PassMemory large = memory_of(400 * kMegabyte), other = memory_of(300 * kMegabyte);
-  const Triangle* const place = other.chunks[0].triangles.data();
-  return_pass_memory(std::move(large));
-  return_pass_memory(std::move(other));
+  return_pass_memory(memory_of(400 * kMegabyte));
+  PassMemory last = memory_of(300 * kMegabyte);
+  const Triangle* const place = last.chunks[0].triangles.data();
+  return_pass_memory(std::move(last));
   const PassMemory kept = take_pass_memory();
   ASSERT_EQ(kept.chunks.size(), 1u);
   EXPECT_EQ(kept.chunks[0].triangles.data(), place);
   EXPECT_TRUE(take_pass_memory().chunks.empty());  // the oldest was freed before the large one
+}
+
+TEST(PassMemory, MemoryThatExceedsTheLimitByItselfFreesNothingElse) {
+  forget_draws();
+  forget_pass_memory();
+  PassMemory small = memory_of(10 * kMegabyte);
+  const Triangle* const place = small.chunks[0].triangles.data();
+  return_pass_memory(std::move(small));
+  return_pass_memory(memory_of(513 * kMegabyte));
+  const PassMemory kept = take_pass_memory();
+  ASSERT_EQ(kept.chunks.size(), 1u);
+  EXPECT_EQ(kept.chunks[0].triangles.data(), place);
+}
+
+TEST(PassMemory, ADrawListIsKeptWhenThePoolIsFullOfPassMemory) {
+  forget_draws();
+  forget_pass_memory();
+  return_pass_memory(memory_of(511 * kMegabyte));
+  DrawList list = take_draw_list();
+  list.draws.reserve(2 * kMegabyte / sizeof(Draw));
+  const Draw* const place = list.draws.data();
+  return_draw_list(std::move(list));
+  EXPECT_EQ(take_draw_list().draws.data(), place);
+  EXPECT_TRUE(take_pass_memory().chunks.empty());
 }
 
 TEST(DrawArena, AllocatesAlignedMemoryThatDoesNotOverlap) {

@@ -24,14 +24,15 @@ struct DrawList {
 };
 
 /// Takes a recycled draw list from the pool, and returns one to it. This is separate from PassMemory, because a pass adds draws before it
-/// runs. The list is empty; if the pool is, it has a new arena.
+/// runs. The list is empty; if the pool is, it has a new arena. Thread-safe.
 DrawList take_draw_list();
 void return_draw_list(DrawList list);
 
 /// Takes recycled memory from the pool; returns empty buffers if there is none. Thread-safe.
 PassMemory take_pass_memory();
 
-/// Returns memory to the pool. If the pool would exceed 512 MB, the memory that was returned first is freed.
+/// Returns memory to the pool. The pool has at most 512 MB: to make room for what is returned, it frees the pass memory that was returned
+/// first. Memory that exceeds the limit by itself is freed at once.
 void return_pass_memory(PassMemory memory);
 
 }  // namespace halfspace::HS_LANES

@@ -21,7 +21,7 @@ void TilesOnDemand::require_tiles(int32_t from, int32_t to) const {
 
 void TilesOnDemand::require_tile(int tile_x, int tile_y) const {
   std::atomic<State>& state = states_[static_cast<std::size_t>(tile_y * tiles_x_ + tile_x)];
-  const auto leave_as = [&](State s) {
+  const auto set_state = [&](State s) {
     {
       const std::lock_guard lock(mutex_);
       state.store(s, std::memory_order_release);
@@ -30,18 +30,18 @@ void TilesOnDemand::require_tile(int tile_x, int tile_y) const {
   };
   for (;;) {
     State seen = State::missing;
-    if (state.compare_exchange_strong(seen, State::in_work, std::memory_order_acquire)) break;
+    if (state.compare_exchange_strong(seen, State::being_drawn, std::memory_order_acquire)) break;
     if (seen == State::drawn) return;
     std::unique_lock lock(mutex_);
-    finished_.wait(lock, [&] { return state.load(std::memory_order_acquire) != State::in_work; });
+    finished_.wait(lock, [&] { return state.load(std::memory_order_acquire) != State::being_drawn; });
   }
   try {
     draw(tile_x, tile_y);
   } catch (...) {
-    leave_as(State::missing);
+    set_state(State::missing);
     throw;
   }
-  leave_as(State::drawn);
+  set_state(State::drawn);
 }
 
 }  // namespace halfspace::HS_LANES

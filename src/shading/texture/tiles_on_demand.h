@@ -11,13 +11,17 @@
 #include <atomic>
 #include <bit>
 #include <condition_variable>
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <mutex>
+#include <type_traits>
 
 #include "halfspace/core/lane_pairs.h"
 
 namespace halfspace::HS_LANES {
 
+/// Which tiles are drawn. Only DepthOnDemand derives from this class.
 class TilesOnDemand {
  public:
   virtual ~TilesOnDemand() = default;
@@ -27,6 +31,9 @@ class TilesOnDemand {
   /// Returns when the tiles that contain the texels from (x0, y0) to (x1, y1) are drawn; each lane has its own rectangle, with x0 <= x1 and
   /// y0 <= y1. Texels are counted from the lower left, as window coordinates are. Coordinates outside of the image are clamped. All texels
   /// that a lane reads must be named, also if their value is not used, because another thread may be drawing them. Thread-safe.
+  ///
+  /// Lanes without a pixel can have any coordinates, also those of NaN. Clamp a coordinate before adding an offset: if the sum wraps, x0 is
+  /// above x1, and nothing is drawn.
   template <class I>
   HS_INLINE void require(I x0, I y0, I x1, I y1) const {
     const auto tile = [this](I texel, int end) { return I(min(max(texel, I(0)), I(end - 1)) >> tile_shift_); };
@@ -55,9 +62,10 @@ class TilesOnDemand {
   void require_tile(int tile_x, int tile_y) const;
 
  private:
-  enum class State : uint8_t { missing, in_work, drawn };
+  enum class State : uint8_t { missing, being_drawn, drawn };
 
-  /// Draws a tile. Is called once for each tile, from several threads. Must not require other tiles of the same image.
+  /// Draws a tile. Is called from any thread, but not for a tile that is drawn or being drawn; after an exception, it is called again. Must
+  /// not require tiles of the same image.
   virtual void draw(int tile_x, int tile_y) const = 0;
 
   bool is_drawn(int32_t tile) const { return states_[static_cast<std::size_t>(tile)].load(std::memory_order_acquire) == State::drawn; }
@@ -66,7 +74,7 @@ class TilesOnDemand {
 
   int width_, height_, tiles_x_, tile_shift_;
   std::unique_ptr<std::atomic<State>[]> states_;  // by rows
-  mutable std::mutex mutex_;                      // held while a tile changes from in_work to another state
+  mutable std::mutex mutex_;                      // held while a tile changes from being_drawn to another state
   mutable std::condition_variable finished_;
 };
 
