@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // shadow_200k: renders a depth map from the light, then an image that reads nine depth-map texels per pixel.
-#include "halfspace/raster/depth_on_demand.h"
 #include "halfspace/shading/surface/depth_only.h"
 #include "workloads/families.h"
 #include "workloads/workload_geometry.h"
@@ -39,12 +38,10 @@ class Shadowed final : public Workload {
   void frame(const Workers& workers) override {
     Pass light(kShadowMapSize, kShadowMapSize, ColorTarget{}, d32f_target(map_));
     light.draw_depth(depth_shader_, positions(), sphere_indices_, workload_state());
-    const DepthOnDemand demand(std::move(light), workers);
-    ShadowedShader sphere = sphere_shader_;
-    sphere.map.tiles = &demand.tiles();
+    light.run(workers);
     Pass pass = canvas_.pass();
-    pass.draw(sphere, sphere_vertices(), sphere_indices_, workload_state());
-    pass.draw(plane_shader(sphere.map), plane_vertices(), plane_indices_, workload_state());
+    pass.draw(sphere_shader_, sphere_vertices(), sphere_indices_, workload_state());
+    pass.draw(plane_shader(sphere_shader_.map), plane_vertices(), plane_indices_, workload_state());
     pass.run(workers);
   }
   WorkloadPicture picture() const override { return canvas_.picture(); }
