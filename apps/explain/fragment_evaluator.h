@@ -86,19 +86,11 @@ class FragmentEvaluator {
     return weights_at<kUsesNoPerspective<V>>(t, px_.x * kSubPixels - t.x0, px_.y * kSubPixels - t.y0);
   }
 
-  // Uses the formulas of raster/shade/fragment_kernel.h.
   void set_pixel() {
-    const float x_sub = static_cast<float>(place_.pixel.x * kSubPixels + place_.at.x);
-    const float y_sub = static_cast<float>(place_.pixel.y * kSubPixels + place_.at.y);
-    px_.dx = x_sub - lanes_.x0;
-    px_.dy = y_sub - lanes_.y0;
-    px_.triangle = &lanes_;
-    px_.component_lanes = &components_;
-    px_.weights = weights_at<kUsesNoPerspective<V>>(lanes_, px_.dx, px_.dy);
-    px_.x = x_sub * (1.0f / kSubPixels);
-    px_.y = y_sub * (1.0f / kSubPixels);
-    px_.quad_x = static_cast<float>(place_.pixel.x & 1);
-    px_.quad_y = static_cast<float>(place_.pixel.y & 1);
+    const auto in_sub_pixels = [](int pixel, int at) { return static_cast<float>(pixel * kSubPixels + at); };
+    const auto odd = [](int pixel) { return static_cast<float>(pixel & 1); };
+    place_pixel<V>(px_, lanes_, components_, in_sub_pixels(place_.pixel.x, place_.at.x), in_sub_pixels(place_.pixel.y, place_.at.y),
+                   odd(place_.pixel.x), odd(place_.pixel.y));
     px_.find_z = [](const Pixel<float>& pixel) { return *static_cast<const float*>(pixel.z_source); };
     px_.z_source = &place_.depth;
   }

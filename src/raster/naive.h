@@ -145,15 +145,7 @@ void rasterize(NaiveTarget<R>& target, const S& shader, const std::array<const V
       }
     }
     Pixel<R> px;
-    px.triangle = &surface.lanes;
-    px.component_lanes = &surface.components;
-    px.dx = real(x * 256 + 128) - surface.lanes.x0;
-    px.dy = real(y * 256 + 128) - surface.lanes.y0;
-    px.weights = weights_at(surface.lanes, px.dx, px.dy);
-    px.x = real(x) + R(0.5f);
-    px.y = real(y) + R(0.5f);
-    px.quad_x = real(x & 1);
-    px.quad_y = real(y & 1);
+    place_pixel<V>(px, surface.lanes, surface.components, real(x * 256 + 128), real(y * 256 + 128), real(x & 1), real(y & 1));
     R z = std::clamp(depth_plane.at(x * 256 + 128, y * 256 + 128), R(std::min(state.depth.range_near, state.depth.range_far)),
                      R(std::max(state.depth.range_near, state.depth.range_far)));
     px.find_z = [](const Pixel<R>& pixel) { return *static_cast<const R*>(pixel.z_source); };

@@ -27,7 +27,7 @@ class DecidedPackets {
 
   // Finishes n packets of the queue, all samples of each. result(i, lanes) returns the keep mask and the depth of packet i.
   template <class F>
-  HS_INLINE void finish_batch(std::size_t begin, std::size_t n, F result) {
+  HS_INLINE void finish_packets(std::size_t begin, std::size_t n, F result) {
     for (std::size_t i = 0; i < n; ++i) {
       const std::size_t k = begin + i;
       const auto [keep, depth] = result(i, queue_.packets[k].lanes);
@@ -84,7 +84,7 @@ void decide_pixels(const DrawInTile& d, PacketQueue& queue, DecidedPackets<Write
       n = pack(rest, &queue.ids[begin], packed);
       d.draw.kernels.visibility(d.draw.shader.get(), {packed.batch(d.context, d.tile), decisions.keep.data(), decisions.depth.data()});
       std::size_t next = 0;
-      decided.finish_batch(begin, n, [&](std::size_t, uint32_t lanes) {
+      decided.finish_packets(begin, n, [&](std::size_t, uint32_t lanes) {
         const std::size_t first = next;
         next += static_cast<std::size_t>(std::popcount(lanes));
         const Real depth =
@@ -98,7 +98,7 @@ void decide_pixels(const DrawInTile& d, PacketQueue& queue, DecidedPackets<Write
       std::array<SamplePosition, kPacketBatch * kLanes> centroids;
       if (uses_centroids) batch.centroids = find_centroids(batch, centroids);
       d.draw.kernels.visibility(d.draw.shader.get(), batch);
-      decided.finish_batch(begin, n, [&](std::size_t i, uint32_t) {
+      decided.finish_packets(begin, n, [&](std::size_t i, uint32_t) {
         return std::pair<uint32_t, Real>(decisions.keep[i], d.draw.kernels.writes_depth ? decisions.depth[i] : Real(0.0f));
       });
     }

@@ -49,17 +49,8 @@ HS_INLINE typename S::template Varyings<FragmentReal> begin_packets(const Packet
   using V = typename S::template Varyings<R>;
   const I ix = pixels.x, iy = pixels.y;
   const SamplePosition& at = batch.position;
-  const R x_sub = to_real<R>(ix * kSubPixels + at.x);
-  const R y_sub = to_real<R>(iy * kSubPixels + at.y);
-  px.dx = x_sub - t.lanes.x0;
-  px.dy = y_sub - t.lanes.y0;
-  px.triangle = &t.lanes;
-  px.component_lanes = &t.components;
-  px.weights = weights_at<kUsesNoPerspective<V>>(t.lanes, px.dx, px.dy);
-  px.x = x_sub * R(1.0f / kSubPixels);
-  px.y = y_sub * R(1.0f / kSubPixels);
-  px.quad_x = to_real<R>(ix & I(1));
-  px.quad_y = to_real<R>(iy & I(1));
+  place_pixel<V>(px, t.lanes, t.components, to_real<R>(ix * kSubPixels + at.x), to_real<R>(iy * kSubPixels + at.y), to_real<R>(ix & I(1)),
+                 to_real<R>(iy & I(1)));
   px.find_z = [](const Pixel<R>& pixel) {
     const auto& of = *static_cast<const std::array<PacketTriangleIds, 2>*>(pixel.z_source);
     return R(packet_depth(pixel.x.low, pixel.y.low, of[0]), packet_depth(pixel.x.high, pixel.y.high, of[1]));
@@ -98,12 +89,28 @@ HS_INLINE PrimitiveId<FragmentReal> primitive_id(const PacketTriangles<N, kIdRow
   return {as_int(t.primitive[kIdPrimitive]), as_int(t.primitive[kIdInstance]), vec3<R>(R(1) - (second + third), second, third)};
 }
 
-/// Writes the colors of a packet as rgba8; see FragmentBatch::codes.
-HS_INLINE void write_codes(int32_t* codes, PacketMask packet, const PacketColor& color) {
+/// Encodes the colors of a packet as rgba8; see FragmentBatch::codes.
+HS_INLINE void encode_packet(int32_t* codes, PacketMask packet, const PacketColor& color) {
   const Int packed = packed_codes<ColorFormat::rgba8>(color);
   int32_t* to = codes + static_cast<std::size_t>(packet.packet) * kLanes;
   if (packet.lanes == kAllBits<Mask>) return store(to, packed);
   store(to, select(mask_from_bits<Mask>(packet.lanes), packed, load<Int>(to)));
+}
+
+/// Gives the first color of packets `first` and `second` of the batch to the codes or to the write program. Returns false if the batch has
+/// neither, so that all colors belong in FragmentBatch::out.
+HS_INLINE bool write_directly(const FragmentBatch& batch, int first, int second, const vec4<FragmentReal>& color) {
+  const PacketMask a = batch.packets[first], b = batch.packets[second];
+  if (batch.codes != nullptr) {
+    encode_packet(batch.codes, a, {color.x.low, color.y.low, color.z.low, color.w.low});
+    encode_packet(batch.codes, b, {color.x.high, color.y.high, color.z.high, color.w.high});
+    return true;
+  }
+  const WriteTarget& to = batch.target;
+  if (to.program == nullptr) return false;
+  to.write(a, color.x.low, color.y.low, color.z.low, color.w.low);
+  if (second != first) to.write(b, color.x.high, color.y.high, color.z.high, color.w.high);
+  return true;
 }
 
 /// Stores color n of packets i and i + 1 of the batch.
@@ -151,7 +158,6 @@ HS_FLATTEN void fragment_kernel(const void* shader, const FragmentBatch& batch) 
   RecentTriangles<F, kUsesPrimitiveId<S>> recent(cell_of(batch));
   for (int first = 0; first < batch.count; first += 2) {
     const int second = std::min(first + 1, batch.count - 1);  // if the count is odd, the last packet is shaded twice
-    const PacketMask a = batch.packets[first], b = batch.packets[second];
     find_triangles<0>(batch, first, recent, triangles);
     find_triangles<1>(batch, second, recent, triangles);
     const std::array<PacketTriangleIds, 2> ids{triangle_ids_of(batch, first), triangle_ids_of(batch, second)};
@@ -165,18 +171,7 @@ HS_FLATTEN void fragment_kernel(const void* shader, const FragmentBatch& batch) 
     }
     const auto fragment = call_fragment<S, R>(s, in, face, px);
     if constexpr (!decides || !(kDiscards<S> || kWritesDepth<S>)) {
-      if (batch.codes != nullptr) {
-        const vec4<R>& color = nth_color(fragment.color, 0);
-        write_codes(batch.codes, a, {color.x.low, color.y.low, color.z.low, color.w.low});
-        write_codes(batch.codes, b, {color.x.high, color.y.high, color.z.high, color.w.high});
-        continue;
-      }
-      if (const WriteTarget& to = batch.target; to.program != nullptr) {
-        const vec4<R>& color = nth_color(fragment.color, 0);
-        to.write(a, color.x.low, color.y.low, color.z.low, color.w.low);
-        if (second != first) to.write(b, color.x.high, color.y.high, color.z.high, color.w.high);
-        continue;
-      }
+      if (write_directly(batch, first, second, nth_color(fragment.color, 0))) continue;
     }
     const auto i = static_cast<std::size_t>(first);
     for (std::size_t n_color = 0; n_color < kColors<S>; ++n_color) {

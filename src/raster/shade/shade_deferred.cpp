@@ -130,7 +130,7 @@ class DrawShading {
         std::size_t pixel = 0;
         for (const PacketMask& p : packets.first(count)) {
           const Int code = as_int(unpack_lanes(load<Real>(reinterpret_cast<const float*>(&codes[pixel])), p.lanes));
-          pixels_.copies_to_samples ? copy_codes(p, code) : write_codes(p.packet, mask_from_bits<Mask>(p.lanes), code);
+          pixels_.copies_to_samples ? copy_codes(p, code) : store_codes(p.packet, mask_from_bits<Mask>(p.lanes), code);
           pixel += static_cast<std::size_t>(std::popcount(p.lanes));
         }
       } else if (target_.program != nullptr) {
@@ -147,7 +147,7 @@ class DrawShading {
     }
   }
 
-  HS_INLINE void write_codes(int packet, Mask mask, Int code) {
+  HS_INLINE void store_codes(int packet, Mask mask, Int code) {
     int32_t* to = codes_ + static_cast<std::size_t>(packet) * kLanes;
     store(to, select(mask, code, load<Int>(to)));
   }
@@ -166,7 +166,7 @@ class DrawShading {
   }
 
   HS_INLINE void copy_codes(const PacketMask& packet, Int code) {
-    for_each_sample(packet, [&](int sample_packet, Mask mask) { write_codes(sample_packet, mask, code); });
+    for_each_sample(packet, [&](int sample_packet, Mask mask) { store_codes(sample_packet, mask, code); });
   }
 
   // Writes packets that were shaded as packets 0, 1, ... of the output.

@@ -81,7 +81,7 @@ WriteTarget queue_target(const QueuedShading& c) {
 }
 
 // Writes the samples of n packets of the queue, which were shaded as packets 0, 1, ... of the output.
-void write_samples(const Tile& tile, const FragmentOutput& output, const PacketQueue& queue, std::size_t begin, std::size_t n,
+void write_sampled_packets(const Tile& tile, const FragmentOutput& output, const PacketQueue& queue, std::size_t begin, std::size_t n,
                    const WriteTarget& to) {
   std::array<int, kMaxSamples> shift;
   for (int s = 0; s < tile.samples; ++s) shift[static_cast<std::size_t>(s)] = packet_shift(sample_plane(tile.samples, s, tile.size));
@@ -111,7 +111,7 @@ void apply_areas(const QueuedShading& c, const PacketQueue& queue, std::size_t b
 // in the queue; target: see queue_target().
 void finish_batch(const QueuedShading& c, PacketQueue& queue, std::size_t begin, std::size_t n, const WriteTarget& target) {
   if (c.d.tile.samples > 1) {
-    if (target.program != nullptr) return write_samples(c.d.tile, c.output, queue, begin, n, target);
+    if (target.program != nullptr) return write_sampled_packets(c.d.tile, c.output, queue, begin, n, target);
     for (int s = 0; s < c.d.tile.samples; ++s) finish_sample_of_pixels(c, queue, begin, n, s);
     return;
   }
