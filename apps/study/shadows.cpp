@@ -129,6 +129,7 @@ Study study_shadows(const StudyOptions& options, const Workers& workers) {
     if (!errors.contains(c.scene)) errors[c.scene] = ambiguous_fraction(scene, width, height, workers);
     const Timing time = time_of(
         [&] {
+          assets.forget_shadow_maps();
           scene = assets.prepare(c.description, width, height);  // reuses the meshes and draws the shadow maps
           draw_shadow_picture({&scene, 0}, scene.view, width, height, true, workers);
         },

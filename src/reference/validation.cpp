@@ -22,6 +22,7 @@ glm::u8vec4 gray(float value) {
 
 Validation validate(const std::string& name, const SceneDescription& description, const ValidationOptions& options, SceneAssets& assets,
                     const Workers& workers) {
+  assets.forget_shadow_maps();  // so that the scores contain the time to draw them
   const PreparedScene scene = assets.prepare(description, options.width, options.height);
   const RayScene rays(scene.meshes, scene.view.eye_ws), casters(scene.meshes, scene.view.eye_ws, true, scene.spheres);
   SceneDescription shown = description;

@@ -11,6 +11,7 @@
 #include "halfspace/render/prepare/scene_maps.h"
 #include "halfspace/render/prepare/scene_places.h"
 #include "halfspace/render/prepare/scene_preparation.h"
+#include "halfspace/render/shadow/kept_shadow_maps.h"
 
 namespace halfspace::HS_LANES {
 
@@ -52,8 +53,10 @@ PreparedScene SceneAssets::prepare_values(SceneDescription scene, int width, int
   scene.reflections.on = false;
   scene.background.type = BackgroundType::color;
   PreparedScene prepared = ScenePreparation(scene, width, height, minimum_, cache_, warnings_, workers_).prepare();
-  cache_.remove_unwanted(std::array<std::type_index, 2>{typeid(EnvironmentMap), typeid(FilteredEnvironment)});
+  cache_.remove_unwanted(std::array<std::type_index, 3>{typeid(EnvironmentMap), typeid(FilteredEnvironment), typeid(KeptShadowMaps)});
   return prepared;
 }
+
+void SceneAssets::forget_shadow_maps() { cache_.remove_all<KeptShadowMaps>(); }
 
 }  // namespace halfspace::HS_LANES

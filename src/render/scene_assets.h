@@ -21,7 +21,7 @@ namespace halfspace::HS_LANES {
 struct ModelAsset;
 
 /// Creates the textures, meshes and maps that scene descriptions require. Assets are cached until a frame is prepared that does not
-/// use them.
+/// use them. Frames share the shadow maps of a light as long as its view, the settings and all objects that cast shadows stay the same.
 class SceneAssets {
  public:
   /// warn: called with one line for each problem that does not prevent rendering, such as a missing texture of a model.
@@ -49,8 +49,11 @@ class SceneAssets {
   PreparedScene prepare(const SceneDescription& scene, int width, int height);
 
   /// The same for a frame without color (render/frame/frame.h). Lights, shadows, reflections and the background are not prepared.
-  /// Environments stay in the cache for later frames.
+  /// Environments and shadow maps stay in the cache for later frames.
   PreparedScene prepare_values(SceneDescription scene, int width, int height);
+
+  /// Removes the shadow maps from the cache, so that the next frame draws them anew, for measurements.
+  void forget_shadow_maps();
 
  private:
   const Workers& workers_;

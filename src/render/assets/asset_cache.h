@@ -36,6 +36,20 @@ class AssetCache {
     entries_.insert_or_assign(recipe, Entry{std::move(asset), typeid(T), true});
   }
 
+  /// Removes an asset and returns it, or null if it does not exist.
+  template <class T>
+  std::shared_ptr<const T> take(const std::string& recipe) {
+    std::shared_ptr<const T> found = find<T>(recipe);
+    entries_.erase(recipe);
+    return found;
+  }
+
+  /// Removes all assets of a type.
+  template <class T>
+  void remove_all() {
+    std::erase_if(entries_, [](const auto& entry) { return entry.second.type == typeid(T); });
+  }
+
   /// Removes the assets that were neither found nor added since the last call, except for those of the kept types.
   void remove_unwanted(std::span<const std::type_index> kept = {}) {
     const auto is_kept = [&](const Entry& e) { return e.wanted || std::ranges::find(kept, e.type) != kept.end(); };

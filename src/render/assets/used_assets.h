@@ -67,6 +67,11 @@ class UsedAssets {
     if (!cache_.contains(recipe)) cache_.add(recipe, SharedAssets::of_process().get<T>(recipe, make, bytes));
     return existing<T>(recipe);
   }
+  // Removes an asset of an earlier scene from the cache and returns it, or null if it does not exist.
+  template <class T>
+  std::shared_ptr<const T> take_last(const std::string& recipe) {
+    return cache_.take<T>(recipe);
+  }
   // Adds an asset that does not exist yet.
   template <class T>
   void add(const std::string& recipe, std::shared_ptr<const T> asset) {
@@ -75,6 +80,8 @@ class UsedAssets {
   }
   // Adds an asset that is not in the cache.
   void keep(std::shared_ptr<const void> asset) { used_.push_back(std::move(asset)); }
+  // Returns what has been used so far.
+  const std::vector<std::shared_ptr<const void>>& used() const { return used_; }
   // Returns everything that was used, and forgets it.
   std::vector<std::shared_ptr<const void>> take() { return std::exchange(used_, {}); }
 

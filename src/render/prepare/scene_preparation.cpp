@@ -91,14 +91,14 @@ void ScenePreparation::add_particles() {
 
 void ScenePreparation::add_shadows(PreparedScene& out) {
   if (scene_.shadow.method == ShadowMethod::none) return;
-  const ShadowRenderer renderer(scene_.shadow, view_, out.meshes, out.spheres, workers_);
+  ShadowRenderer renderer(scene_.shadow, view_, out.meshes, out.spheres, used_, workers_);
   for (std::size_t i = 0; i < out.lights.size(); ++i) {
     PreparedLight& light = out.lights[i];
     if (!light.description.shadow) continue;
     const auto start = std::chrono::steady_clock::now();
     const RenderedShadow rendered = renderer.render(light.name, light.description);
     lights_.shadows()[i] = rendered.shadow;
-    used_.keep(rendered.maps);
+    used_.keep(rendered.views);
     out.shadow_statistics += rendered.statistics;
     light.map_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   }

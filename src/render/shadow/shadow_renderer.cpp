@@ -20,13 +20,6 @@ namespace halfspace::HS_LANES {
 
 namespace {
 
-// The maps that the Shadow of a light points to.
-struct ShadowMaps {
-  std::vector<Image<float>> depths, block_depths;
-  std::vector<Image<glm::vec4>> moments;
-  std::vector<ShadowView> views;
-};
-
 // The filters that use block depths.
 bool is_wide_box(ShadowFilter f) { return f == ShadowFilter::pcf5 || f == ShadowFilter::pcf7; }
 
@@ -174,25 +167,43 @@ int ShadowRenderer::resolution(const LightDescription& light, const ShadowSettin
   return size;
 }
 
-RenderedShadow ShadowRenderer::render(const std::string& name, const LightDescription& light) const {
-  RenderedShadow out;
-  const ShadowSettings settings = settings_of(shadow_, light);
-  const int size = resolution(light, settings);
-  const std::vector<LightView> light_views = views(light, settings, size);
-  const MemoryClaim claim(map_bytes(light_views.size(), size, settings.filter), "lights." + name + " (shadow maps)");
-  const auto maps = std::make_shared<ShadowMaps>();
-  for (const LightView& view : light_views) {
-    maps->views.push_back(to_shading(view, size, view_.eye_ws));
-    ShadowView& s = maps->views.back();
-    Image<float>& depth = maps->depths.emplace_back(size, size);
-    out.statistics += draw_depth(view.clip_from_world, view.near, view.far, scene_, true, shadow_.faces, depth, workers_);
-    s.depth = depth.data();
-    if (is_wide_box(settings.filter)) s.block_depths = maps->block_depths.emplace_back(shadow_block_depths(depth, workers_)).data();
-    if (!is_moment_filter(settings.filter)) continue;
-    s.moments = maps->moments.emplace_back(filtered_moments(s, depth, static_cast<int>(std::lround(shadow_.radius)), workers_)).data();
+ShadowMaps ShadowRenderer::rendered_maps(const std::string& name, const ShadowMapSource& source, PassStatistics& statistics) const {
+  const MemoryClaim claim(map_bytes(source.views.size(), source.size, source.filter), "lights." + name + " (shadow maps)");
+  ShadowMaps maps;
+  for (const LightView& view : source.views) {
+    Image<float>& depth = maps.depths.emplace_back(source.size, source.size);
+    statistics += draw_depth(view.clip_from_world, view.near, view.far, scene_, true, source.faces, depth, workers_);
+    if (is_wide_box(source.filter)) maps.block_depths.push_back(shadow_block_depths(depth, workers_));
+    if (!is_moment_filter(source.filter)) continue;
+    maps.moments.push_back(filtered_moments(to_shading(view, source.size, view_.eye_ws), depth, source.mean_radius, workers_));
   }
-  out.shadow = {maps->views, settings};
-  out.maps = maps;
+  return maps;
+}
+
+RenderedShadow ShadowRenderer::render(const std::string& name, const LightDescription& light) {
+  const ShadowSettings settings = settings_of(shadow_, light);
+  ShadowMapSource source;
+  source.size = resolution(light, settings);
+  source.views = views(light, settings, source.size);
+  source.mean_radius = is_moment_filter(settings.filter) ? static_cast<int>(std::lround(shadow_.radius)) : 0;
+  source.faces = shadow_.faces;
+  source.filter = settings.filter;
+  add_casters(scene_, source);
+  RenderedShadow out;
+  const std::string key = recipe("shadow maps", name);
+  std::shared_ptr<const ShadowMaps> maps;
+  if (const auto last = used_.take_last<KeptShadowMaps>(key); last != nullptr && have_same_maps(last->source, source)) maps = last->maps;
+  if (maps == nullptr) maps = std::make_shared<const ShadowMaps>(rendered_maps(name, source, out.statistics));
+  used_.add(key, std::make_shared<const KeptShadowMaps>(KeptShadowMaps{maps, source, assets_}));
+  auto shading_views = std::make_shared<std::vector<ShadowView>>();
+  for (std::size_t i = 0; i < maps->depths.size(); ++i) {
+    ShadowView& s = shading_views->emplace_back(to_shading(source.views[i], source.size, view_.eye_ws));
+    s.depth = maps->depths[i].data();
+    if (!maps->block_depths.empty()) s.block_depths = maps->block_depths[i].data();
+    if (!maps->moments.empty()) s.moments = maps->moments[i].data();
+  }
+  out.shadow = {*shading_views, settings};
+  out.views = std::move(shading_views);
   return out;
 }
 

@@ -20,6 +20,7 @@ struct LightView {
   double depth_per_unit = 1.0;  ///< window depth per unit along the axis where w = 1
   bool perspective = false;
   double near = 0.0, far = 1.0;  ///< distance along the axis from the light; for directional lights, from the start of the view
+  friend bool operator==(const LightView&, const LightView&) = default;
 };
 
 /// Axis-aligned bounds; empty if low > high.

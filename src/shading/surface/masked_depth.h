@@ -15,6 +15,7 @@ struct OpacityTest {
   float opacity = 1.0f;
   float cutoff = 0.5f;    ///< covered where opacity ≥ cutoff
   bool dithered = false;  ///< ignores the cutoff: covers texels in an ordered pattern, in proportion to the opacity
+  friend bool operator==(const OpacityTest&, const OpacityTest&) = default;
 };
 
 /// colored: vertices have colors, whose alpha multiplies the opacity.

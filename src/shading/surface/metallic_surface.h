@@ -47,6 +47,7 @@ struct MaterialMap {
   glm::mat3x2 uv_transform{1.0f};  ///< uv' = uv_transform · (u, v, 1)
   glm::vec4 channel{1, 0, 0, 0};   ///< weights of red, green, blue and alpha
   bool repeats = false;            ///< the lookup equals that of the previous map with a texture, so its texel is used again
+  friend bool operator==(const MaterialMap&, const MaterialMap&) = default;
 };
 
 /// Transforms texture coordinates, uv' = transform · (u, v, 1), and their derivatives.

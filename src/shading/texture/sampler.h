@@ -48,6 +48,7 @@ struct Sampler {
   Wrap wrap_r = Wrap::repeat;  ///< along the third axis of a 3D texture
   LodControl lod{};
   CompareOp compare = CompareOp::less_equal;  ///< of the reference with the texel, for lookups that compare
+  friend constexpr bool operator==(const Sampler&, const Sampler&) = default;
 };
 
 }  // namespace halfspace::HS_LANES
