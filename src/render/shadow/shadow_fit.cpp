@@ -61,8 +61,10 @@ class ViewFinder {
     for (const ShadowExtent& e : scene.objects) {
       const Box part = part_within(e.box_ws, position, reach);
       if (glm::any(glm::greaterThan(part.low, part.high))) continue;
-      if (e.casts_shadow) casters_.push_back(e);
-      if (e.receives_shadow && !common_corners(frustum_, part).empty()) receivers_.push_back(e);
+      ShadowExtent& object = objects_.emplace_back(e);
+      object.receives_shadow = e.receives_shadow && !common_corners(frustum_, part).empty();
+      if (object.casts_shadow) casters_.push_back(object);
+      if (object.receives_shadow) receivers_.push_back(object);
     }
   }
 
@@ -71,8 +73,12 @@ class ViewFinder {
   std::vector<LightView> directional(const glm::dvec3& to_light_ws, int cascades, double growth) const {
     const glm::dmat3 axes = light_axes(to_light_ws);
     std::vector<Box> receivers, casters;
-    for (const ShadowExtent& r : receivers_) receivers.push_back(bounds_along(r, axes));
-    for (const ShadowExtent& c : casters_) casters.push_back(bounds_along(c, axes));
+    for (const ShadowExtent& e : objects_) {
+      if (!e.casts_shadow && !e.receives_shadow) continue;
+      const Box box = bounds_along(e, axes);
+      if (e.casts_shadow) casters.push_back(box);
+      if (e.receives_shadow) receivers.push_back(box);
+    }
     const auto view_of = [&](const std::array<glm::dvec3, 8>& part) -> std::optional<LightView> {
       Box seen;
       for (std::size_t i = 0; i < receivers_.size(); ++i) {
@@ -158,7 +164,7 @@ class ViewFinder {
   double reach_;
   int size_;
   double margin_;
-  std::vector<ShadowExtent> casters_, receivers_;
+  std::vector<ShadowExtent> objects_, casters_, receivers_;  // within reach; receivers are visible
 };
 
 }  // namespace
