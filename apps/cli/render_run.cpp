@@ -33,6 +33,11 @@ PreparedScene prepare(const RenderJob& job, double seconds, SceneAssets& assets,
     }
     if (o.wireframe) scene.shadow.method = ShadowMethod::none;
     PreparedScene prepared = assets.prepare(scene, o.size.width, o.size.height);
+    report.models.clear();
+    for (const SimplifiedObject& s : prepared.simplified) {
+      const auto& [name, object] = scene.objects[static_cast<std::size_t>(s.object)];
+      report.models.push_back({name, object.model_error, s});
+    }
     if (o.wireframe) report.spheres_without_wireframe |= make_wireframe(prepared, scene, *o.wireframe);
     if (o.arguments.naive) check_naive(prepared, scene);
     return prepared;

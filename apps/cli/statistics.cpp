@@ -55,6 +55,9 @@ std::string text_report(const RenderReport& r) {
   for_each_stage(r, [&](const char* name, double ms) { text += fmt::format("{:20} {:.1f}\n", name, ms); });
   for (const Count& c : kCounts) text += line_of(c, r.counts);
   for (const ApproximationChoice& c : r.choices) text += fmt::format("{}={}  ({})\n", c.key, c.value, c.why);
+  for (const SimplifiedModel& m : r.models)
+    text += fmt::format("objects.{}: draws {} of {} triangles, at most {:.3f} px off; {} px are allowed\n", m.name, m.counts.drawn,
+                        m.counts.triangles, m.counts.error_px, m.allowed_px);
   return text;
 }
 
@@ -65,6 +68,13 @@ std::string json_report(const RenderReport& r) {
   for (const Count& c : kCounts) json["counts"][c.name] = r.counts.*c.member;
   json["choices"] = nlohmann::ordered_json::array();
   for (const ApproximationChoice& c : r.choices) json["choices"].push_back({{"key", c.key}, {"value", c.value}, {"why", c.why}});
+  json["models"] = nlohmann::ordered_json::array();
+  for (const SimplifiedModel& m : r.models)
+    json["models"].push_back({{"object", m.name},
+                              {"triangles", m.counts.triangles},
+                              {"drawn", m.counts.drawn},
+                              {"error_px", m.counts.error_px},
+                              {"allowed_px", m.allowed_px}});
   return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 

@@ -7,8 +7,16 @@
 #include "cli/naive_picture.h"
 #include "halfspace/raster/statistics.h"
 #include "halfspace/render/error_budget/approximation_choice.h"
+#include "halfspace/render/prepared_scene.h"
 
 namespace halfspace {
+
+/// What model_error has simplified.
+struct SimplifiedModel {
+  std::string name;  ///< of the object
+  double allowed_px = 0.0;
+  SimplifiedObject counts;
+};
 
 /// The data that --stats prints.
 struct RenderReport {
@@ -26,6 +34,7 @@ struct RenderReport {
   int pictures = 0, empty_pictures = 0;      ///< an empty picture shows only the background color
   NaiveReport naive;                         ///< report of --naive
   std::vector<ApproximationChoice> choices;  ///< settings chosen by --max-error for the last image
+  std::vector<SimplifiedModel> models;       ///< of the last image
 };
 
 /// Calls visit(name, milliseconds) for each stage of a run.

@@ -96,6 +96,14 @@ struct PlacedSpheres {
   int object = -1;  ///< index in the scene's objects; −1: particles
 };
 
+/// What has been simplified of a model file.
+struct SimplifiedObject {
+  int object = 0;          ///< index in the scene's objects
+  uint64_t triangles = 0;  ///< of the file, in all copies
+  uint64_t drawn = 0;
+  double error_px = 0.0;  ///< no outline is off by more
+};
+
 /// A light, prepared for one image.
 struct PreparedLight {
   std::string name;
@@ -115,8 +123,9 @@ struct PreparedScene {
   std::vector<PlacedMesh> meshes;  ///< meshes of all objects that are drawn
   std::vector<PlacedSpheres> spheres;
   std::vector<PreparedLight> lights;
-  PassStatistics shadow_statistics;  ///< sum over the passes that rendered shadow maps
-  double images_ms = 0.0;            ///< time to decode images of models
+  std::vector<SimplifiedObject> simplified;  ///< objects with ObjectDescription::model_error
+  PassStatistics shadow_statistics;          ///< sum over the passes that rendered shadow maps
+  double images_ms = 0.0;                    ///< time to decode images of models
   std::vector<std::shared_ptr<const void>> assets;
 };
 

@@ -165,6 +165,7 @@ struct ObjectDescription {
   std::string model_variant;    ///< name or index in the file; empty: the default materials
   std::string model_materials;  ///< materials of the scene that replace those of the file: "NAME=MATERIAL, NAME=MATERIAL"
   double model_time = 0.0;      ///< seconds
+  double model_error = 0.0;     ///< allowed distance of the outlines of simplified meshes from the exact ones, in pixels; 0: not simplified
   bool shadow_only = false;
   bool visible = true;
   bool casts_shadow = true, receives_shadow = true;

@@ -244,6 +244,8 @@ Section section_of(ObjectDescription& o) {
                              {.only = shapes_with("model_variant")}),
       key<&T::model_materials>("model_materials", "Materials that replace those of the file, as NAME=MATERIAL, NAME=MATERIAL",
                                {.only = shapes_with("model_materials")}),
+      key<&T::model_error>("model_error", "Distance by which outlines may be off, so that meshes can be simplified; 0: exact",
+                           {.unit = "px", .low = 0, .high = 100, .only = shapes_with("model_error")}),
       key<&T::shadow_only>("shadow_only", "Whether to draw only the shadows on the plane, over the background",
                            {.only = shapes_with("shadow_only")}),
       key<&T::visible>("visible", "Whether the object is drawn"),

@@ -178,7 +178,7 @@ constexpr ShapeKind kKinds[]{
      .set_parts = knot_parts},
     {.shape = Shape::file,
      .name = "file",
-     .keys = "file allow_outside up_axis model_scene model_animation model_time model_variant model_materials",
+     .keys = "file allow_outside up_axis model_scene model_animation model_time model_variant model_materials model_error",
      .is_ring = false,
      .has_flat_faces = false,
      .is_sphere_mesh = false,

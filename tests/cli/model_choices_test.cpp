@@ -267,12 +267,16 @@ TEST_F(ModelChoices, EveryCommandCanAllowOutsideFiles) {
   EXPECT_NE(textures.err.find("and 1 more file are outside"), std::string::npos) << textures.err;
 }
 
-TEST_F(ModelChoices, MaxErrorLeavesFilesAlone) {
+TEST_F(ModelChoices, MaxErrorSimplifiesFiles) {
   write_textured("a", "t.png");
   const Outcome o = render({"a.obj", "--max-error", "0.5", "--stats"});
   EXPECT_EQ(o.exit_code, 0) << o.err;
-  EXPECT_NE(o.out.find("objects.model.file=a.obj  (the meshes of a file are left unchanged)"), std::string::npos) << o.out;
-  EXPECT_EQ(render({"a.obj", "--max-error", "0.5", "--print"}).exit_code, 0);
+  EXPECT_NE(o.out.find("objects.model.model_error=0.5  ("), std::string::npos) << o.out;
+  EXPECT_NE(o.out.find("objects.model: draws 1 of 1 triangles"), std::string::npos) << o.out;
+  const Outcome printed = render({"a.obj", "--max-error", "0.5", "--print"});
+  EXPECT_EQ(nlohmann::json::parse(printed.out).at("objects").at("model").at("model_error"), 0.5);
+  const Outcome colors = render({"a.obj", "--max-error", "0.5", "--max-error-color", "4", "--stats"});
+  EXPECT_NE(colors.out.find("objects.model.file=a.obj  (the meshes of a file are left unchanged"), std::string::npos) << colors.out;
 }
 
 TEST_F(ModelChoices, InfoDistinguishesUnusedAndMissingImages) {

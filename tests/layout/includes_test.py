@@ -62,7 +62,7 @@ ROOMS = {
     "model": [
         ["model", "written_model"],
         ["text/", "used_images"],
-        ["pose/", "geometry/"],
+        ["pose/", "geometry/", "detail/"],
         ["draco_tool/"],
         ["gltf/", "obj/", "ply/", "stl/"],
         ["read_model", "write_model", "up_axis_hint"],
@@ -100,7 +100,7 @@ THIRD_PARTY = {
     "jpeglib.h": "image/jpeg_errors.h",
     "spng.h": "image/png.cpp",
     "tbb/": "core/parallel.cpp",
-    "meshoptimizer.h": "model/gltf/gltf_meshopt.cpp",
+    "meshoptimizer.h": "model/",
     "draco/": "model/draco_tool/",
     "embree": "reference/ray_scene.cpp",
 }

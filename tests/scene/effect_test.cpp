@@ -63,6 +63,7 @@ TEST(Effect, ModelsAcceptAllOtherKeys) {
                                           "a.scale=2,2,2",
                                           "a.up_axis=z",
                                           "a.model_time=1",
+                                          "a.model_error=0.5",
                                           "a.color=1",
                                           "a.shading=phong",
                                           "a.shading=none",

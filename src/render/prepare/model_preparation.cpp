@@ -124,6 +124,17 @@ uint64_t primitive_count(const ModelAsset& asset, const PosedModel& posed) {
   return count;
 }
 
+// Returns true if a part may be simplified: only its outline matters then, and its vertices are those of the file. The outline of a surface
+// with holes depends on its texture coordinates, and facets are meant to be seen.
+bool is_simplifiable(const SceneDescription& scene, const ObjectDescription& o, const Model& model, const PosedMesh& part) {
+  if (o.model_error == 0.0 || part.deformed != nullptr) return false;
+  if (model.meshes[static_cast<std::size_t>(part.mesh)].topology != MeshTopology::triangles) return false;
+  const ModelMaterial& material = material_of(model, part);
+  if (const SurfaceDescription* surface = override_of(scene, o, material.name))
+    return surface->shading == ShadingRate::phong || surface->shading == ShadingRate::none;
+  return material.alpha_mode == AlphaMode::opaque;
+}
+
 }  // namespace
 
 void ModelPreparation::add(int object, const std::string& path, const ObjectDescription& o) {
@@ -137,25 +148,31 @@ void ModelPreparation::add(int object, const std::string& path, const ObjectDesc
   const glm::dmat4 turn = turn_of(o, model->model);
   const bool lit = std::ranges::any_of(posed->meshes, [&](const PosedMesh& part) { return is_lit(scene_, o, model->model, part); });
   materials_.load_images(o, model->model, *posed, lit);
+  SimplifiedObject simplified{.object = object};
   int instance = 0;
   for (const glm::dmat4& place : places) {
     for (const PosedMesh& part : posed->meshes) {
       const std::size_t opaque = draws_.opaque.size(), blended = draws_.blended.size();
-      add_part(object, o, path, model, part, place * turn * part.world_from_mesh);
+      const glm::dmat4 world = place * turn * part.world_from_mesh;
+      const bool simplifiable = is_simplifiable(scene_, o, model->model, part);
+      add_part(object, o, path, model, part,
+               simplifiable ? detail_.indices_of(model, part.mesh, world, o.model_error, simplified) : all_indices(model, part.mesh),
+               world);
       for (PreparedDraw& draw : std::span(draws_.opaque).subspan(opaque)) draw.source.instance = instance;
       for (PreparedDraw& draw : std::span(draws_.blended).subspan(blended)) draw.source.instance = instance;
       ++instance;
     }
   }
+  if (simplified.triangles > 0) draws_.simplified.push_back(simplified);
 }
 
 void ModelPreparation::add_part(int object, const ObjectDescription& o, const std::string& path,
-                                const std::shared_ptr<const ModelAsset>& model, const PosedMesh& part, const glm::dmat4& world) {
+                                const std::shared_ptr<const ModelAsset>& model, const PosedMesh& part,
+                                const std::shared_ptr<const Indices>& indices, const glm::dmat4& world) {
   const auto mesh_index = static_cast<std::size_t>(part.mesh);
   const ModelMesh& mesh = part.deformed != nullptr ? *part.deformed : model->model.meshes[mesh_index];
   if (mesh.positions.empty() || model->indices[mesh_index].size() == 0 || glm::determinant(glm::dmat3(world)) == 0.0) return;
   const ModelMaterial& material = material_of(model->model, part);
-  const std::shared_ptr<const Indices> indices(model, &model->indices[mesh_index]);
   const MeshStreams streams = streams_of(mesh);
   if (mesh.topology != MeshTopology::triangles) {
     const bool colored = !streams.colors.empty() || !material.is_default;

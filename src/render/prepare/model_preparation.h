@@ -12,6 +12,7 @@
 #include "halfspace/render/assets/used_assets.h"
 #include "halfspace/render/assets/warnings.h"
 #include "halfspace/render/prepare/detail_maps.h"
+#include "halfspace/render/prepare/model_detail.h"
 #include "halfspace/render/prepare/model_materials.h"
 #include "halfspace/render/prepare/scene_clusters.h"
 #include "halfspace/render/prepare/scene_draws.h"
@@ -31,7 +32,7 @@ class ModelPreparation {
  public:
   // Keeps references to all arguments.
   ModelPreparation(const SceneDescription& scene, const View& view, ModelMaterials& materials, SceneSurfaces& surfaces, DetailMaps& details,
-                   SceneClusters& clusters, UsedAssets& used, Warnings& warnings, SceneDraws& draws)
+                   SceneClusters& clusters, UsedAssets& used, Warnings& warnings, SceneDraws& draws, const Workers& workers)
       : scene_(scene),
         view_(view),
         materials_(materials),
@@ -40,7 +41,8 @@ class ModelPreparation {
         clusters_(clusters),
         used_(used),
         warnings_(warnings),
-        draws_(draws) {}
+        draws_(draws),
+        detail_(view, used, workers) {}
 
   // object: index in the scene's objects. path: the path of the object, for error messages.
   void add(int object, const std::string& path, const ObjectDescription& o);
@@ -48,7 +50,7 @@ class ModelPreparation {
  private:
   std::shared_ptr<const ModelAsset> model_asset(const ObjectDescription& o, const std::string& where);
   void add_part(int object, const ObjectDescription& o, const std::string& path, const std::shared_ptr<const ModelAsset>& model,
-                const PosedMesh& part, const glm::dmat4& world);
+                const PosedMesh& part, const std::shared_ptr<const Indices>& indices, const glm::dmat4& world);
   void add_replaced_part(int object, const ObjectDescription& o, const std::string& path, const MeshStreams& streams,
                          const std::shared_ptr<const Indices>& indices, const Clusters* clusters, const glm::dmat4& world);
 
@@ -61,6 +63,7 @@ class ModelPreparation {
   UsedAssets& used_;
   Warnings& warnings_;
   SceneDraws& draws_;
+  ModelDetail detail_;
 };
 
 }  // namespace halfspace::HS_LANES

@@ -13,6 +13,7 @@ struct SceneDraws {
   std::vector<PreparedDraw> opaque, blended;  // blended surfaces are drawn after everything opaque
   std::vector<PlacedMesh> meshes;
   std::vector<PlacedSpheres> spheres;
+  std::vector<SimplifiedObject> simplified;
   bool needs_light = false;  // whether a surface has been added that is black without light
 
   void add(PreparedDraw draw) { (draw.state.order_independent ? blended : opaque).push_back(std::move(draw)); }

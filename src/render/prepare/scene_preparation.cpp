@@ -25,7 +25,7 @@ ScenePreparation::ScenePreparation(const SceneDescription& scene, int width, int
       details_(maps_, used_, workers),
       materials_(view_, lights_, environments_, used_, warnings, workers),
       shapes_(scene, view_, lights_, SceneMeshes(maps_, used_, workers), surfaces_, details_, clusters_, draws_),
-      models_(scene, view_, materials_, surfaces_, details_, clusters_, used_, warnings, draws_),
+      models_(scene, view_, materials_, surfaces_, details_, clusters_, used_, warnings, draws_, workers),
       spheres_(scene, view_, lights_, surfaces_, used_, draws_) {}
 
 namespace {
@@ -56,6 +56,7 @@ PreparedScene ScenePreparation::prepare() {
   for (PreparedDraw& draw : draws_.blended) out.draws.push_back(std::move(draw));
   out.meshes = std::move(draws_.meshes);
   out.spheres = std::move(draws_.spheres);
+  out.simplified = std::move(draws_.simplified);
   out.post = scene_.post;
   out.samples = scene_.head.samples;
   out.view = view_;

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "halfspace/model/detail/simplified_mesh.h"
+
+#include <meshoptimizer.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace halfspace::HS_LANES {
+
+// meshoptimizer estimates the error of a vertex by the root of a weighted mean of squared distances to planes. This is not a bound: the
+// largest distance is usually two to four times the estimate. Its computation is serial and uses only addition, multiplication, division
+// and square roots of floats.
+SimplifiedMesh simplified(const OriginalMesh& mesh, int step, const Workers& workers) {
+  const auto& [positions, indices] = mesh.triangles;
+  SimplifiedMesh out;
+  out.indices.resize(indices.size());
+  const auto relative = static_cast<float>(detail_tolerance(0.5, step));
+  out.indices.resize(meshopt_simplify(out.indices.data(), indices.data(), indices.size(), &positions[0].x, positions.size(),
+                                      sizeof(glm::vec3), 0, relative, meshopt_SimplifyLockBorder, nullptr));
+  if (out.indices.empty()) {
+    out.error = std::numeric_limits<double>::infinity();
+    return out;
+  }
+  // The second distance need not be known better than the first, because only the larger one counts.
+  const double resolution = detail_tolerance(mesh.tree.longest_side(), step);
+  const TriangleList list{positions, out.indices};
+  out.error = distance_bound(mesh.triangles, TriangleTree(positions, out.indices), resolution, workers);
+  out.error = std::max(out.error, distance_bound(list, mesh.tree, out.error, workers));
+  return out;
+}
+
+}  // namespace halfspace::HS_LANES

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "halfspace/render/prepare/model_detail.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+
+#include "halfspace/model/detail/simplified_mesh.h"
+
+namespace halfspace::HS_LANES {
+
+namespace {
+
+// With fewer triangles, a mesh takes too little time to matter.
+constexpr std::size_t kMinDetailTriangles = 1024;
+// A mesh with more triangles than this share of all is not worth a second list.
+constexpr double kMaxDetailShare = 0.7;
+
+// The size of a mesh, in its own space. These structs keep the model alive, so that no other mesh gets the address of theirs.
+struct MeshExtent {
+  MeshExtent(std::shared_ptr<const ModelAsset> asset, const ModelMesh& mesh) : model(std::move(asset)) {
+    glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-low);
+    for (const glm::vec3& p : mesh.positions) {
+      low = glm::min(low, glm::dvec3(p));
+      high = glm::max(high, glm::dvec3(p));
+    }
+    center = 0.5 * (low + high);
+    radius = 0.5 * glm::length(high - low);
+    longest_side = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+  }
+
+  std::shared_ptr<const ModelAsset> model;
+  glm::dvec3 center;  // of a ball around the bounding box
+  double radius;
+  double longest_side;
+};
+
+struct ModelOriginal {
+  ModelOriginal(std::shared_ptr<const ModelAsset> asset, const ModelMesh& m) : model(std::move(asset)), mesh({m.positions, m.indices}) {}
+
+  std::shared_ptr<const ModelAsset> model;
+  OriginalMesh mesh;
+};
+
+// A simplified list of triangles of a mesh.
+struct MeshDetail {
+  MeshDetail(std::shared_ptr<const ModelAsset> asset, std::size_t mesh, SimplifiedMesh simple)
+      : model(std::move(asset)),
+        list(std::move(simple.indices)),
+        error(simple.error),
+        indices(list, model->model.meshes[mesh].positions.size()) {}
+
+  std::shared_ptr<const ModelAsset> model;
+  std::vector<uint32_t> list;
+  double error;
+  Indices indices;
+};
+
+// Returns an upper bound on how far a transform moves a point whose preimage moves by 1: the square root of the largest row sum of AᵀA,
+// which is at least its largest eigenvalue. For a rotation with a uniform scale, this is the scale.
+double stretch_of(const glm::dmat4& m) {
+  const glm::dmat3 a(m), squares = glm::transpose(a) * a;
+  double largest = 0.0;
+  for (int i = 0; i < 3; ++i) largest = std::max(largest, std::fabs(squares[0][i]) + std::fabs(squares[1][i]) + std::fabs(squares[2][i]));
+  return std::sqrt(largest);
+}
+
+}  // namespace
+
+std::shared_ptr<const Indices> all_indices(const std::shared_ptr<const ModelAsset>& model, int mesh) {
+  return {model, &model->indices[static_cast<std::size_t>(mesh)]};
+}
+
+std::shared_ptr<const Indices> ModelDetail::indices_of(const std::shared_ptr<const ModelAsset>& model, int mesh_index,
+                                                       const glm::dmat4& world_from_mesh, double error_px, SimplifiedObject& report) {
+  const auto number = static_cast<std::size_t>(mesh_index);
+  const ModelMesh& mesh = model->model.meshes[number];
+  std::shared_ptr<const Indices> all = all_indices(model, mesh_index);
+  const std::size_t triangles = all->size() / 3;
+  report.triangles += triangles;
+  report.drawn += triangles;
+  if (triangles < kMinDetailTriangles || mesh.indices.empty()) return all;
+  const std::string key = recipe("detail", std::to_string(reinterpret_cast<std::uintptr_t>(&mesh)));
+  const auto extent = used_.asset<MeshExtent>(key + "extent", [&] { return MeshExtent(model, mesh); });
+  const double stretch = stretch_of(world_from_mesh);
+  const glm::dvec3 center_ws(world_from_mesh * glm::dvec4(extent->center, 1.0));
+  const double px = stretch * pixels_per_unit(view_, center_ws, extent->radius * stretch), allowed = error_px / px;
+  // With less than a triangle per pixel, pixels take more time than vertices.
+  const double radius_px = extent->radius * px;
+  if (static_cast<double>(triangles) < std::numbers::pi * radius_px * radius_px) return all;
+  const auto make = [&](int step) {
+    const auto original = used_.asset<ModelOriginal>(key + "original", [&] { return ModelOriginal(model, mesh); });
+    return MeshDetail(model, number, simplified(original->mesh, step, workers_));
+  };
+  for (int step = kCoarsestDetail; step <= kFinestDetail; ++step) {
+    if (detail_tolerance(extent->longest_side, step) > allowed) continue;
+    const auto detail = used_.asset<MeshDetail>(key + std::to_string(step), [&] { return make(step); });
+    if (static_cast<double>(detail->list.size()) > kMaxDetailShare * static_cast<double>(mesh.indices.size())) return all;
+    if (!(detail->error <= allowed)) continue;
+    report.drawn -= triangles - detail->list.size() / 3;
+    report.error_px = std::max(report.error_px, detail->error * px);
+    return {detail, &detail->indices};
+  }
+  return all;
+}
+
+}  // namespace halfspace::HS_LANES
