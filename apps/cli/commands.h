@@ -40,6 +40,7 @@ struct RenderArguments {
   bool mpi = false;
   bool naive = false;  ///< draw with the naive pipeline
   bool resume = false;
+  bool no_cache = false;  ///< do not keep simplified meshes on disk
   bool print = false;
   ModelArguments model;
   LimitArguments limits;

@@ -70,6 +70,7 @@ void add_render_command(CLI::App& program) {
   command->add_option("--fps", args->fps, "Frames per second (default 30)")->type_name("N");
   command->add_option("--max-error", args->max_error, "Use the cheapest model with edges within PX px")->type_name("PX");
   command->add_option("--max-error-color", args->max_error_color, "... and with colors within E 8-bit steps")->type_name("E");
+  command->add_flag("--no-cache", args->no_cache, "Keep no simplified meshes in the cache folder")->group(kUnlistedGroup);
   command->add_flag("--resume", args->resume, "Keep pictures that would not change");
   command->add_option("--threads", args->threads, "Threads (default: one per core)")->type_name("N");
   command->add_flag("--stats{text}", args->statistics, "Print times and counts as text or JSON")->option_text("[=json]");

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <utility>
 
+#include "cli/detail_files.h"
 #include "command_line/command_line.h"
 #include "halfspace/core/check.h"
 #include "halfspace/image/atomic_output.h"
@@ -15,6 +16,8 @@
 namespace halfspace {
 
 namespace {
+
+constexpr uint64_t kMaxCacheBytes = uint64_t{256} << 20;
 
 // Throws InputError if the naive pipeline cannot draw the scene.
 void check_naive(const PreparedScene& scene, const SceneDescription& description) {
@@ -99,6 +102,8 @@ void RenderRun::begin(const RenderJob& job) {
   // Frames that were announced for the previous job must not affect this one.
   assets_ =
       assets_ ? std::make_unique<SceneAssets>(*assets_, workers_, print_warning) : std::make_unique<SceneAssets>(workers_, print_warning);
+  if (const std::filesystem::path folder = detail_folder(); !folder.empty() && !options_.arguments.no_cache)
+    assets_->keep_details(std::make_shared<DetailFiles>(folder, kMaxCacheBytes, print_warning));
   // All frames determine the detail of generated maps, so that the pictures do not depend on which process renders them.
   if (options_.frames) {
     expect_frames(

@@ -41,7 +41,7 @@ SceneWithinError SceneAssets::choose_within_error(const SceneDescription& scene,
 
 PreparedScene SceneAssets::prepare(const SceneDescription& scene, int width, int height) {
   const FloatMode float_mode;
-  PreparedScene prepared = ScenePreparation(scene, width, height, minimum_, cache_, warnings_, workers_).prepare();
+  PreparedScene prepared = ScenePreparation(scene, width, height, minimum_, cache_, details_.get(), warnings_, workers_).prepare();
   cache_.remove_unwanted();
   return prepared;
 }
@@ -52,7 +52,7 @@ PreparedScene SceneAssets::prepare_values(SceneDescription scene, int width, int
   scene.head.ambient = Color{glm::dvec3(1.0)};  // no warning that nothing lights the scene
   scene.reflections.on = false;
   scene.background.type = BackgroundType::color;
-  PreparedScene prepared = ScenePreparation(scene, width, height, minimum_, cache_, warnings_, workers_).prepare();
+  PreparedScene prepared = ScenePreparation(scene, width, height, minimum_, cache_, details_.get(), warnings_, workers_).prepare();
   cache_.remove_unwanted(std::array<std::type_index, 3>{typeid(EnvironmentMap), typeid(FilteredEnvironment), typeid(KeptShadowMaps)});
   return prepared;
 }

@@ -10,6 +10,7 @@
 
 #include "halfspace/core/parallel.h"
 #include "halfspace/render/assets/asset_cache.h"
+#include "halfspace/render/assets/detail_cache.h"
 #include "halfspace/render/assets/minimum_sizes.h"
 #include "halfspace/render/assets/warnings.h"
 #include "halfspace/render/error_budget/approximation_choice.h"
@@ -30,7 +31,10 @@ class SceneAssets {
 
   /// Shares the assets of `other`. Both can then be used by different threads. Frames that were announced to `other` are ignored.
   SceneAssets(const SceneAssets& other, const Workers& workers, std::function<void(const std::string&)> warn)
-      : workers_(workers), warnings_(std::move(warn)), cache_(other.cache_) {}
+      : workers_(workers), warnings_(std::move(warn)), cache_(other.cache_), details_(other.details_) {}
+
+  /// Keeps the simplified meshes of model files in `cache` as well. By default, they are made again by each process.
+  void keep_details(std::shared_ptr<DetailCache> cache) { details_ = std::move(cache); }
 
   /// Provides the contents of a model file that has already been read, so that `prepare` does not read it again.
   void add_model(const std::filesystem::path& file, std::shared_ptr<const ModelAsset> model);
@@ -59,6 +63,7 @@ class SceneAssets {
   const Workers& workers_;
   Warnings warnings_;
   AssetCache cache_;
+  std::shared_ptr<DetailCache> details_;
   MinimumSizes minimum_;
 };
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "halfspace/core/parallel.h"
@@ -39,5 +40,8 @@ inline double detail_tolerance(double size, int step) { return size / static_cas
 /// Vertices on borders stay, so that meshes which share a border still meet. Where several vertices have the same position, as on seams of
 /// texture coordinates and on sharp edges, both sides change in the same way. A mesh without gaps therefore has none afterwards.
 SimplifiedMesh simplified(const OriginalMesh& mesh, int step, const Workers& workers);
+
+/// Returns a text that changes with the results of simplified().
+std::string detail_version();
 
 }  // namespace halfspace::HS_LANES

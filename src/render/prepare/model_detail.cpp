@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "halfspace/model/detail/simplified_mesh.h"
 
@@ -73,6 +74,18 @@ std::shared_ptr<const Indices> all_indices(const std::shared_ptr<const ModelAsse
   return {model, &model->indices[static_cast<std::size_t>(mesh)]};
 }
 
+SimplifiedMesh ModelDetail::simplified_mesh(const std::shared_ptr<const ModelAsset>& model, const ModelMesh& mesh, const std::string& key,
+                                            int step) {
+  const TriangleList triangles{mesh.positions, mesh.indices};
+  if (cache_ != nullptr) {
+    if (std::optional<SimplifiedMesh> found = cache_->find(triangles, step)) return std::move(*found);
+  }
+  const auto original = used_.asset<ModelOriginal>(key + "original", [&] { return ModelOriginal(model, mesh); });
+  SimplifiedMesh made = simplified(original->mesh, step, workers_);
+  if (cache_ != nullptr) cache_->store(triangles, step, made);
+  return made;
+}
+
 std::shared_ptr<const Indices> ModelDetail::indices_of(const std::shared_ptr<const ModelAsset>& model, int mesh_index,
                                                        const glm::dmat4& world_from_mesh, double error_px, SimplifiedObject& report) {
   const auto number = static_cast<std::size_t>(mesh_index);
@@ -88,15 +101,12 @@ std::shared_ptr<const Indices> ModelDetail::indices_of(const std::shared_ptr<con
   const glm::dvec3 center_ws(world_from_mesh * glm::dvec4(extent->center, 1.0));
   const double px = stretch * pixels_per_unit(view_, center_ws, extent->radius * stretch), allowed = error_px / px;
   // With less than a triangle per pixel, pixels take more time than vertices.
-  const double radius_px = extent->radius * px;
-  if (static_cast<double>(triangles) < std::numbers::pi * radius_px * radius_px) return all;
-  const auto make = [&](int step) {
-    const auto original = used_.asset<ModelOriginal>(key + "original", [&] { return ModelOriginal(model, mesh); });
-    return MeshDetail(model, number, simplified(original->mesh, step, workers_));
-  };
+  const double side_px = extent->longest_side * px;
+  if (static_cast<double>(triangles) < side_px * side_px) return all;
   for (int step = kCoarsestDetail; step <= kFinestDetail; ++step) {
     if (detail_tolerance(extent->longest_side, step) > allowed) continue;
-    const auto detail = used_.asset<MeshDetail>(key + std::to_string(step), [&] { return make(step); });
+    const auto detail = used_.asset<MeshDetail>(key + std::to_string(step),
+                                                [&] { return MeshDetail(model, number, simplified_mesh(model, mesh, key, step)); });
     if (static_cast<double>(detail->list.size()) > kMaxDetailShare * static_cast<double>(mesh.indices.size())) return all;
     if (!(detail->error <= allowed)) continue;
     report.drawn -= triangles - detail->list.size() / 3;

@@ -5,8 +5,10 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
+#include "halfspace/render/assets/detail_cache.h"
 #include "halfspace/render/assets/model_asset.h"
 #include "halfspace/render/assets/used_assets.h"
 #include "halfspace/render/prepared_scene.h"
@@ -19,16 +21,20 @@ std::shared_ptr<const Indices> all_indices(const std::shared_ptr<const ModelAsse
 
 class ModelDetail {
  public:
-  // Keeps references to all arguments.
-  ModelDetail(const View& view, UsedAssets& used, const Workers& workers) : view_(view), used_(used), workers_(workers) {}
+  // Keeps references to all arguments. cache: null if simplified meshes are not kept.
+  ModelDetail(const View& view, UsedAssets& used, DetailCache* cache, const Workers& workers)
+      : view_(view), used_(used), cache_(cache), workers_(workers) {}
 
   // Returns the triangles of a mesh with which its outline is off by at most error_px, or all of them. Adds them to the report.
   std::shared_ptr<const Indices> indices_of(const std::shared_ptr<const ModelAsset>& model, int mesh, const glm::dmat4& world_from_mesh,
                                             double error_px, SimplifiedObject& report);
 
  private:
+  SimplifiedMesh simplified_mesh(const std::shared_ptr<const ModelAsset>& model, const ModelMesh& mesh, const std::string& key, int step);
+
   const View& view_;
   UsedAssets& used_;
+  DetailCache* cache_;
   const Workers& workers_;
 };
 

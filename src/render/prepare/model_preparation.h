@@ -32,7 +32,8 @@ class ModelPreparation {
  public:
   // Keeps references to all arguments.
   ModelPreparation(const SceneDescription& scene, const View& view, ModelMaterials& materials, SceneSurfaces& surfaces, DetailMaps& details,
-                   SceneClusters& clusters, UsedAssets& used, Warnings& warnings, SceneDraws& draws, const Workers& workers)
+                   SceneClusters& clusters, UsedAssets& used, Warnings& warnings, SceneDraws& draws, DetailCache* cache,
+                   const Workers& workers)
       : scene_(scene),
         view_(view),
         materials_(materials),
@@ -42,7 +43,7 @@ class ModelPreparation {
         used_(used),
         warnings_(warnings),
         draws_(draws),
-        detail_(view, used, workers) {}
+        detail_(view, used, cache, workers) {}
 
   // object: index in the scene's objects. path: the path of the object, for error messages.
   void add(int object, const std::string& path, const ObjectDescription& o);

@@ -11,7 +11,7 @@
 namespace halfspace::HS_LANES {
 
 ScenePreparation::ScenePreparation(const SceneDescription& scene, int width, int height, const MinimumSizes& minimum, AssetCache& cache,
-                                   Warnings& warnings, const Workers& workers)
+                                   DetailCache* details, Warnings& warnings, const Workers& workers)
     : scene_(scene),
       warnings_(warnings),
       workers_(workers),
@@ -25,7 +25,7 @@ ScenePreparation::ScenePreparation(const SceneDescription& scene, int width, int
       details_(maps_, used_, workers),
       materials_(view_, lights_, environments_, used_, warnings, workers),
       shapes_(scene, view_, lights_, SceneMeshes(maps_, used_, workers), surfaces_, details_, clusters_, draws_),
-      models_(scene, view_, materials_, surfaces_, details_, clusters_, used_, warnings, draws_, workers),
+      models_(scene, view_, materials_, surfaces_, details_, clusters_, used_, warnings, draws_, details, workers),
       spheres_(scene, view_, lights_, surfaces_, used_, draws_) {}
 
 namespace {

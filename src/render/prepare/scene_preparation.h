@@ -25,8 +25,8 @@ namespace halfspace::HS_LANES {
 class ScenePreparation {
  public:
   // Keeps references to all arguments.
-  ScenePreparation(const SceneDescription& scene, int width, int height, const MinimumSizes& minimum, AssetCache& cache, Warnings& warnings,
-                   const Workers& workers);
+  ScenePreparation(const SceneDescription& scene, int width, int height, const MinimumSizes& minimum, AssetCache& cache,
+                   DetailCache* details, Warnings& warnings, const Workers& workers);
 
   // Returns the prepared scene. Must be called only once.
   PreparedScene prepare();
