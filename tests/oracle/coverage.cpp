@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "oracle/arithmetic.h"
+#include "oracle/smooth_area.h"
 
 namespace halfspace::oracle {
 
@@ -72,6 +73,7 @@ bool line_covers(const WindowTriangle& t, int64_t x, int64_t y) {
 }  // namespace
 
 bool covers(const WindowTriangle& t, const Point& at) {
+  if (!t.smooth.empty()) return smooth_area(t.smooth, at.x >> 8, at.y >> 8) > 0.0f;
   if (t.is_line) return line_covers(t, at.x >> 8, at.y >> 8);
   if (t.is_point) return at.x >= t.low.x && at.x < t.high.x && at.y >= t.low.y && at.y < t.high.y;
   for (std::size_t i = 0; i < 3; ++i) {

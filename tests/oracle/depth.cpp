@@ -12,7 +12,7 @@ namespace halfspace::oracle {
 float depth_sum(const WindowTriangle& t, const DepthState& state, float e1, float e2) {
   const float high = std::max(state.range_near, state.range_far);
   float low = std::min(state.range_near, state.range_far);
-  if (t.is_line) low = clamped(t.z0, low, high);
+  if (t.is_line || !t.smooth.empty()) low = clamped(t.z0, low, high);
   return clamped(std::fma(e1, t.z_step1, std::fma(e2, t.z_step2, t.z0)), low, clamped(t.z_max, low, high));
 }
 
@@ -25,7 +25,7 @@ std::pair<float, float> float_determinants(const WindowTriangle& t, const Point&
 
 float tested_depth(const WindowTriangle& t, const DepthState& state, const Point& at) {
   if (t.is_point) return depth_sum(t, state, 0.0f, 0.0f);
-  if (!t.is_line && is_small(t)) {
+  if (!t.is_line && t.smooth.empty() && is_small(t)) {
     const auto& c = t.corner;
     const int64_t dx = at.x - c[0].x, dy = at.y - c[0].y;
     const int64_t e1 = cross(dx, dy, c[2].x - c[0].x, c[2].y - c[0].y);

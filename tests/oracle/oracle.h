@@ -6,10 +6,12 @@
 // incremental evaluation, deferred shading or depth bounds.
 //
 // This header has the class that draws. Its stages are in the other files of this folder, in the order of the pipeline: shader_call,
-// primitives (with transform, clip and triangle_setup), coverage, interpolation, depth, depth_stencil, blend and framebuffer.
+// primitives (with transform, clip and triangle_setup), coverage (with smooth_area), interpolation, depth, depth_stencil, blend and
+// framebuffer.
 //
 // If a result depends on the order of float operations, the oracle follows the specifications in shading/pixel.h (weights and components),
-// raster/visibility/visibility.h and raster/pipeline/pipeline_data.h (depth) and raster/primitives/clip.h (clipping).
+// raster/visibility/visibility.h and raster/pipeline/pipeline_data.h (depth), raster/primitives/clip.h (clipping) and
+// raster/pipeline/smooth_area.h (smooth primitives).
 #pragma once
 
 #include <array>
@@ -18,6 +20,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "halfspace/raster/draw_state.h"
@@ -86,8 +89,9 @@ std::vector<std::vector<uint32_t>> patches_of(const std::vector<uint32_t>& indic
 
 class Renderer {
  public:
-  /// Draws into the framebuffer, which must outlive the renderer.
-  explicit Renderer(Framebuffer& target, bool supersample = false) : target_(target), supersample_(supersample) {}
+  /// Draws into the layers of a target, which have the same size and formats, and must outlive the renderer.
+  explicit Renderer(std::span<Framebuffer> layers, bool supersample = false)
+      : layers_(layers), target_(layers.data()), supersample_(supersample) {}
 
   template <class S>
   void draw(const S& shader, const Input<S>& input, const DrawState& state);
@@ -100,7 +104,12 @@ class Renderer {
   template <class S>
   void emit(const S& shader, const DrawState& state, const std::vector<const ShadedVertex*>& vertices, int32_t primitive, int32_t instance);
   template <class S>
-  void draw_primitive(const S& shader, const DrawState& state, const std::array<const ShadedVertex*, 3>& v);
+  void draw_primitive(const S& shader, DrawState state, const std::array<const ShadedVertex*, 3>& v);
+
+  // Returns whether the condition of a draw is true, which depends only on the draws before.
+  bool condition_holds(const DrawState& state) const;
+  // Selects the layer and the viewport that a primitive is drawn into. Returns false if they do not exist.
+  bool select_layer(const ShadedVertex& provoking, DrawState& state);
 
   using FragmentFunction = std::function<FragmentResult(const WindowTriangle&, const Surface&, const Place&)>;
 
@@ -130,7 +139,8 @@ class Renderer {
   bool tests_pass(const DrawState& state, bool front, const Sample& s, double z);
   void write_colors(const DrawState& state, const Sample& s, const std::vector<glm::vec4>& colors);
 
-  Framebuffer& target_;
+  std::span<Framebuffer> layers_;
+  Framebuffer* target_;  // the layer of the current primitive
   bool supersample_;
   Counts counts_;
 };
@@ -149,6 +159,10 @@ Framebuffer post(const Framebuffer& from, const F& function, ColorFormat format)
 
 template <class S>
 void Renderer::draw(const S& shader, const Input<S>& input, const DrawState& state) {
+  // Stages that emit primitives run in any case. The vertices of a conditional draw without primitives are not shaded.
+  constexpr bool kEmits = HasTessellationLayout<S> || HasGeometryLayout<S> || kGivesLayer<S>;
+  const auto has_primitives = [&] { return !assemble(selected(input.indices, state), input.restart_at(), state).empty(); };
+  if (!kEmits && state.condition && !(condition_holds(state) && has_primitives())) return;
   for (uint32_t instance = 0; instance < state.instances; ++instance) draw_instance(shader, input, state, instance);
 }
 
@@ -227,10 +241,13 @@ void Renderer::emit(const S& shader, const DrawState& state, const std::vector<c
 }
 
 template <class S>
-void Renderer::draw_primitive(const S& shader, const DrawState& state, const std::array<const ShadedVertex*, 3>& v) {
+void Renderer::draw_primitive(const S& shader, DrawState state, const std::array<const ShadedVertex*, 3>& v) {
   using V = typename S::template Varyings<float>;
   using P = PrimitiveOf<S, float>;
   const ShaderFacts facts = detail::facts_of<S>();
+  if (!condition_holds(state)) return;
+  target_ = layers_.data();
+  if (kGivesLayer<S> && !select_layer(*v[state.provoking == ProvokingVertex::first ? 0 : 2], state)) return;
   P face{};
   if constexpr (HasPrimitive<S>) {
     face =

@@ -10,6 +10,7 @@
 
 #include "oracle/arithmetic.h"
 #include "oracle/clip.h"
+#include "oracle/smooth_area.h"
 #include "oracle/transform.h"
 #include "oracle/triangle_setup.h"
 
@@ -160,7 +161,7 @@ std::vector<WindowTriangle> Renderer::window_points(const DrawState& state, cons
     ++counts_.culled_outside;
     return {};
   }
-  const Transform f = make_transform(state, target_.width(), target_.height(), target_.samples());
+  const Transform f = make_transform(state, target_->width(), target_->height(), target_->samples());
   const auto place = [](double ndc, float half, float center) {
     return std::llrint(std::fmin(std::fmax((ndc * static_cast<double>(half) + static_cast<double>(center)) * 256.0, -0x1p28), 0x1p28));
   };
@@ -191,12 +192,12 @@ std::vector<WindowTriangle> Renderer::window_points(const DrawState& state, cons
     return {};
   }
   // The rectangle must intersect the sample bounding box of a drawable pixel.
-  const Box allowed = allowed_pixels(target_, state);
+  const Box allowed = allowed_pixels(*target_, state);
   WindowTriangle closed = t;
   closed.is_point = false;
   closed.corner[0] = {t.low.x, t.low.y, 0, 0, {}};
   closed.corner[1] = closed.corner[2] = {t.high.x - 1, t.high.y - 1, 0, 0, {}};
-  if (intersect(covered_box(closed, target_.samples()), allowed).empty()) {
+  if (intersect(covered_box(closed, target_->samples()), allowed).empty()) {
     ++counts_.culled_no_sample;
     return {};
   }
@@ -209,7 +210,7 @@ std::vector<WindowTriangle> Renderer::window_line(const DrawState& state, const 
                                                   bool front) {
   const int64_t dx = b.x - a.x, dy = b.y - a.y;
   if (dx == 0 && dy == 0) return {};
-  if (target_.samples() == 1) {
+  if (target_->samples() == 1) {
     WindowTriangle t;
     t.is_line = true;
     t.from = {a.x, a.y};
@@ -225,6 +226,7 @@ std::vector<WindowTriangle> Renderer::window_line(const DrawState& state, const 
     t.area = dx * dx + dy * dy;
     t.z0 = near.z;
     t.z_max = far.z;
+    if (is_smooth(state)) t.smooth = smooth_line(near, far, state.line_width);
     t.z_step1 = static_cast<float>((static_cast<double>(far.z) - static_cast<double>(near.z)) / static_cast<double>(t.area));
     return {t};
   }
@@ -240,7 +242,7 @@ std::vector<WindowTriangle> Renderer::window_line(const DrawState& state, const 
   for (const std::array<Corner, 3>& half :
        {std::array{moved(a, -1), moved(b, -1), moved(b, 1)}, {moved(a, -1), moved(b, 1), moved(a, 1)}}) {
     auto [fate, piece] =
-        make_window_triangle(state, allowed_pixels(target_, state), target_.depth_format(), target_.samples(), half, 0, front);
+        make_window_triangle(state, allowed_pixels(*target_, state), target_->depth_format(), target_->samples(), half, 0, front);
     piece.flat = flat;
     if (fate == Fate::drawn) halves.push_back(std::move(piece));
   }
@@ -264,7 +266,7 @@ std::vector<WindowTriangle> Renderer::window_outline(const DrawState& state, std
       const auto size = [&](std::size_t k) { return std::abs(orient2d(corners[0], corners[k - 1], corners[k])); };
       if (size(i) > size(largest)) largest = i;
     }
-    const float offset = outline_offset(state.offset, target_.depth_format(), {corners[0], corners[largest - 1], corners[largest]});
+    const float offset = outline_offset(state.offset, target_->depth_format(), {corners[0], corners[largest - 1], corners[largest]});
     for (Corner& c : corners) c.z += offset;
   }
   std::vector<WindowTriangle> out;
@@ -310,7 +312,7 @@ std::vector<WindowTriangle> Renderer::window_triangles(const DrawState& state, c
     ++counts_.culled_outside;
     return {};
   }
-  const Transform transform = make_transform(state, target_.width(), target_.height(), target_.samples());
+  const Transform transform = make_transform(state, target_->width(), target_->height(), target_->samples());
   const std::size_t provoking = state.provoking == ProvokingVertex::first ? 0 : 2;
   std::vector<Corner> corners;
   std::vector<int> vertices{0, 1, 2};
@@ -343,12 +345,12 @@ std::vector<WindowTriangle> Renderer::window_triangles(const DrawState& state, c
   if (line) return window_line(state, corners[0], corners[1], flat, true);
   if (state.polygon_mode != PolygonMode::fill) return window_outline(state, corners, vertices, v, flat);
 
-  const Box allowed = allowed_pixels(target_, state);
+  const Box allowed = allowed_pixels(*target_, state);
   const bool clipped = corners.size() != 3 || corners_are_cut;
   std::vector<WindowTriangle> pieces;
   Fate last = Fate::drawn;
   for (const std::array<Corner, 3>& c : clipped ? fan(corners) : std::vector<std::array<Corner, 3>>{{corners[0], corners[1], corners[2]}}) {
-    auto [fate, piece] = make_window_triangle(state, allowed, target_.depth_format(), target_.samples(), c, clipped ? 0 : provoking);
+    auto [fate, piece] = make_window_triangle(state, allowed, target_->depth_format(), target_->samples(), c, clipped ? 0 : provoking);
     if (fate == Fate::drawn) pieces.push_back(std::move(piece));
     last = fate;
   }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <vector>
 
@@ -23,6 +24,12 @@ void take_vertex(const PerVertex<float, N, M>& v, ShadedVertex& out) {
   out.point_size = v.point_size;
   out.clip_distances.assign(v.clip_distance.begin(), v.clip_distance.end());
   out.cull_distances.assign(v.cull_distance.begin(), v.cull_distance.end());
+}
+template <std::size_t N, std::size_t M>
+void take_vertex(const LayeredVertex<float, N, M>& v, ShadedVertex& out) {
+  take_vertex(PerVertex<float, N, M>{v.position, v.point_size, v.clip_distance, v.cull_distance}, out);
+  out.layer = v.layer;
+  out.viewport = v.viewport;
 }
 inline void take_vertex(const PointSpriteVertex<float>& v, ShadedVertex& out) {
   out.pos_clip = {0.0f, 0.0f, v.depth, v.drawn ? 1.0f : -1.0f};
@@ -79,6 +86,10 @@ std::vector<std::vector<ShadedVertex>> call_geometry(const S& shader, const std:
       const float* const culls = row + 5 + kClipDistances<S>;
       v.clip_distances.assign(row + 5, culls);
       v.cull_distances.assign(culls, culls + kCullDistances<S>);
+      if constexpr (kGivesLayer<S>) {
+        v.layer = std::bit_cast<int32_t>(culls[kCullDistances<S>]);
+        v.viewport = std::bit_cast<int32_t>(culls[kCullDistances<S> + 1]);
+      }
     }
     v.varyings.assign(row + 4 + extra, row + Out::kRow);
     strips.back().push_back(v);

@@ -25,6 +25,7 @@ struct ShadedVertex {
   glm::vec4 pos_clip{};
   float point_size = 1.0f;
   std::vector<float> clip_distances, cull_distances;
+  int32_t layer = 0, viewport = 0;
   bool has_bounds = false;  ///< if set, low and high (NDC) are used instead of the size
   glm::vec2 low{}, high{};
   std::vector<float> varyings;

@@ -6,6 +6,7 @@
 
 #include "oracle/arithmetic.h"
 #include "oracle/coverage.h"
+#include "oracle/smooth_area.h"
 
 namespace halfspace::oracle {
 
@@ -87,6 +88,8 @@ std::pair<Fate, WindowTriangle> make_window_triangle(const DrawState& state, con
   t.front = is_front_facing(state, counter_clockwise);
   if (faces_front) t.front = *faces_front;
   if (!faces_front && culls_face(state.cull, t.front)) return {Fate::wrong_face, t};
+  const bool smooth = samples == 1 && is_smooth(state);
+  if (smooth) t.smooth = smooth_triangle(c);
   if (intersect(covered_box(t, samples), allowed).empty()) return {Fate::no_sample, t};
   if (!counter_clockwise) {
     std::swap(c[1], c[2]);
@@ -96,7 +99,8 @@ std::pair<Fate, WindowTriangle> make_window_triangle(const DrawState& state, con
   // submitted vertex.
   const auto nearest = std::min_element(c.begin(), c.end(), [](const Corner& a, const Corner& b) { return a.z < b.z; });
   std::rotate(c.begin(), nearest, c.end());
-  if (samples == 1 && covers_none_of_few(t, intersect(covered_box(t, samples), allowed))) return {Fate::no_sample, t};
+  if (smooth) t.smooth = smooth_triangle(c);
+  if (samples == 1 && !smooth && covers_none_of_few(t, intersect(covered_box(t, samples), allowed))) return {Fate::no_sample, t};
   const double dz1 = static_cast<double>(c[1].z) - static_cast<double>(c[0].z);
   const double dz2 = static_cast<double>(c[2].z) - static_cast<double>(c[0].z);
   const float offset = faces_front || !state.offset.fill ? 0.0f : polygon_offset(state.offset, format, t, dz1, dz2);

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "oracle/smooth_area.h"
+
 namespace halfspace::oracle {
 
 Point center_of(int x, int y) { return {int64_t{x} * 256 + 128, int64_t{y} * 256 + 128}; }
@@ -61,6 +63,7 @@ Box allowed_pixels(const Framebuffer& target, const DrawState& state) {
 }
 
 Box covered_box(const WindowTriangle& t, int samples) {
+  if (!t.smooth.empty()) return smooth_box(t.smooth);
   if (t.is_line) {
     const int64_t margin = t.width / 2 + 3;
     const auto [xl, xh] = std::minmax(t.from.x, t.to.x);

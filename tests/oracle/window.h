@@ -44,6 +44,7 @@ struct WindowTriangle {
   bool is_point = false;  ///< a point or sprite at vertex 0 that covers the rectangle from low to high (exclusive)
   Point low, high;
   PointOrigin origin = PointOrigin::upper_left;
+  std::vector<glm::dvec2> smooth;  ///< if not empty, the polygon that a smooth line or triangle covers (smooth_area.h)
 };
 
 /// A rectangle of pixels.

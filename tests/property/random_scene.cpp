@@ -228,6 +228,12 @@ Rect random_rect(int width, int height, Random& random) {
   return {x, y, w, random.between(1, height)};
 }
 
+// Returns numbers that neither change the following ones of `random` nor depend on them in a simple way.
+Random other_numbers(const Random& random) {
+  Random copy(random);
+  return Random(uint64_t{copy.bits()} * 0x9e3779b97f4a7c15u);
+}
+
 BlendState random_blend(Random& random) {
   if (random.once_in(4)) return {};
   BlendState b = random_equations(random, kBlendFactors);
@@ -259,6 +265,16 @@ bool can_combine_codes(const Scene& scene, const DrawState& s) {
   return true;
 }
 
+// Adds a condition, often on the query of a draw before.
+void add_condition(const Scene& scene, Random random, DrawState& s) {
+  if (scene.layers > 1 || !random.once_in(3)) return;
+  auto query = static_cast<uint32_t>(random.below(3));
+  for (const SceneDraw& d : scene.draws) {
+    if (d.state.query && random.once_in(2)) query = *d.state.query;
+  }
+  if (s.query != query) s.condition = DrawCondition{query, random.once_in(2)};
+}
+
 void add_operations(const Scene& scene, bool dual_sources, Random& random, DrawState& s) {
   if (!random.once_in(3)) {
     s.stencil.emplace();
@@ -285,6 +301,7 @@ void add_operations(const Scene& scene, bool dual_sources, Random& random, DrawS
   if (random.once_in(6)) s.sample_coverage = {random.real(0.0f, 1.0f), random.once_in(2)};
   if (random.once_in(4) && can_combine_codes(scene, s)) s.logic_op = static_cast<LogicOp>(random.below(16));
   if (random.once_in(3)) s.query = static_cast<uint32_t>(random.below(3));
+  add_condition(scene, other_numbers(random), s);
 }
 
 // Returns a random depth state. With most of them, fragments can pass against the cleared depth.
@@ -304,12 +321,6 @@ DepthState random_depth(float clear_value, Random& random) {
   return d;
 }
 
-// Returns numbers that neither change the following ones of `random` nor depend on them in a simple way.
-Random other_numbers(const Random& random) {
-  Random copy(random);
-  return Random(uint64_t{copy.bits()} * 0x9e3779b97f4a7c15u);
-}
-
 // State that was added later. It leaves the other random numbers as they are.
 void add_later_state(const Random& random, DrawState& s) {
   Random copy = other_numbers(random);
@@ -325,6 +336,8 @@ void add_later_state(const Random& random, DrawState& s) {
     const float a = copy.real(0.0f, 1.0f), b = copy.real(0.0f, 1.0f);
     s.depth_bounds = StoredDepthRange{std::min(a, b), copy.once_in(2) ? 1.0f : std::max(a, b)};
   }
+  s.polygon_smooth = copy.once_in(10);
+  s.line_smooth = copy.once_in(4);
 }
 
 DrawState random_state(const Scene& scene, Theme theme, Random& random) {
@@ -378,21 +391,24 @@ void fill_sample(int sample, Random& random, oracle::Framebuffer& f) {
   }
 }
 
-// Fills the images that the pass loads. Only the first sample changes the random numbers of the rest of the scene.
+// Fills the images that the pass loads. Only the first sample and layer changes the random numbers of the rest of the scene.
 void fill_images(Scene& s, Random& random) {
   std::vector<ColorFormat> formats{s.color.format};
   for (const ColorTarget& c : s.more_colors) formats.push_back(c.format);
-  oracle::Framebuffer f(s.width, s.height, formats, s.depth.format, s.samples);
+  const auto add = [&](const std::vector<std::byte>& bytes, int samples, std::vector<std::byte>& to) {
+    to.insert(to.end(), bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(bytes.size()) / s.samples * samples);
+  };
+  s.more_before.resize(s.more_colors.size());
+  const oracle::Framebuffer empty(s.width, s.height, formats, s.depth.format, s.samples);
+  oracle::Framebuffer f = empty;
   fill_sample(0, random, f);
   Random more = random;
-  for (int sample = 1; sample < s.samples; ++sample) fill_sample(sample, more, f);
-  const auto stored = [&](std::vector<std::byte> bytes, int samples) {
-    bytes.resize(bytes.size() / static_cast<std::size_t>(s.samples) * static_cast<std::size_t>(samples));
-    return bytes;
-  };
-  s.color_before = stored(f.color_bytes[0], s.color.samples);
-  for (std::size_t i = 0; i < s.more_colors.size(); ++i) s.more_before.push_back(stored(f.color_bytes[i + 1], s.more_colors[i].samples));
-  s.depth_before = stored(f.depth_bytes, s.depth.samples);
+  for (int layer = 0; layer < s.layers; ++layer) {
+    for (int sample = layer == 0 ? 1 : 0; sample < s.samples; ++sample) fill_sample(sample, more, f);
+    add(f.color_bytes[0], s.color.samples, s.color_before);
+    for (std::size_t i = 0; i < s.more_colors.size(); ++i) add(f.color_bytes[i + 1], s.more_colors[i].samples, s.more_before[i]);
+    add(f.depth_bytes, s.depth.samples, s.depth_before);
+  }
 }
 
 // Draws into views, and stores all samples, without changing the random numbers of the rest of the scene.
@@ -535,6 +551,40 @@ SceneDraw random_primitives(bool depth_only, const Geometry& g, const DrawState&
   }
 }
 
+// Returns the viewports of a draw whose shader chooses among them. The last ones that it chooses do not exist.
+std::shared_ptr<const ViewportArray> random_viewports(const Scene& scene, Random& random) {
+  ViewportArray viewports;
+  for (int i = random.between(1, 3); i > 0; --i) {
+    IndexedViewport& v = viewports.emplace_back();
+    if (random.once_in(2)) v.viewport = random_rect(scene.width, scene.height, random);
+    if (random.once_in(4)) v.scissor = random_rect(scene.width, scene.height, random);
+    if (random.once_in(3)) v.range_near = random.real(0.0f, 1.0f);
+  }
+  return std::make_shared<const ViewportArray>(std::move(viewports));
+}
+
+// Returns a draw that chooses layers and viewports in its vertex or geometry function.
+SceneDraw layered_draw(const Scene& scene, const Geometry& g, DrawState state, Random& random) {
+  using In = GeometryInputPrimitive;
+  using Out = GeometryOutputPrimitive;
+  std::shared_ptr<const ViewportArray> viewports;
+  if (!random.once_in(3)) viewports = random_viewports(scene, random);
+  state.viewports = viewports.get();
+  const auto triangles = {Topology::triangles, Topology::triangle_strip, Topology::triangle_fan};
+  SceneDraw d;
+  switch (random.below(6)) {
+    case 0:
+      d = primitives_draw(GeometryShader<In::triangles, Out::triangle_strip>{}, "triangles to layers", g, state, random, triangles);
+      break;
+    case 1: d = primitives_draw(GeometryShader<In::triangles, Out::line_strip>{}, "lines in layers", g, state, random, triangles); break;
+    case 2: d = primitives_draw(GeometryShader<In::triangles, Out::points>{}, "points in layers", g, state, random, triangles); break;
+    case 3: d = primitives_draw(LayerShader{}, "LayerShader", g, state, random, {Topology::line_strip, Topology::points}); break;
+    default: d = primitives_draw(LayerShader{}, "LayerShader", g, state, random, triangles); break;
+  }
+  d.viewports = viewports;
+  return d;
+}
+
 SceneDraw random_geometry(const Scene& scene, const Geometry& g, DrawState state, Random& random) {
   using In = GeometryInputPrimitive;
   using Out = GeometryOutputPrimitive;
@@ -542,6 +592,7 @@ SceneDraw random_geometry(const Scene& scene, const Geometry& g, DrawState state
   if (random.once_in(4)) state.polygon_mode = random.pick({PolygonMode::line, PolygonMode::point});
   if (random.once_in(3)) state.point_size = random.pick({3.7f, 16.0f});
   if (random.once_in(3)) add_operations(scene, false, random, state);
+  if (Random copy = other_numbers(random); copy.once_in(3)) return layered_draw(scene, g, state, copy);
   const auto triangles = {Topology::triangles, Topology::triangle_strip, Topology::triangle_fan};
   const auto adjacent = {Topology::triangles_adjacency, Topology::triangle_strip_adjacency};
   const auto lines = {Topology::lines, Topology::line_strip, Topology::line_loop};
@@ -742,6 +793,7 @@ Scene random_scene(Theme theme, uint64_t seed) {
   s.depth.clear_value = random.pick({0.0f, 0.0f, 0.4f, 1.0f, 1.0f, 1.0f});
   const bool many_points = (theme == Theme::points || theme == Theme::lines) && random.once_in(theme == Theme::points ? 2 : 4);
   if (theme == Theme::operations || theme == Theme::samples || many_points) add_attachments(theme, depth_only, random, s);
+  if (theme == Theme::geometry) s.layers = other_numbers(random).pick({1, 1, 2, 3});
   vary_images(random, s);
   if (random.once_in(4)) {
     fill_images(s, random);
@@ -753,6 +805,7 @@ Scene random_scene(Theme theme, uint64_t seed) {
     s.post_format = random_color_format(random);
     s.has_color_image = s.color.load == LoadOp::load || random.once_in(2);
   }
+  if (s.layers > 1) s.post_format = ColorFormat::none, s.has_color_image = true;
   s.has_depth_image = s.depth.load == LoadOp::load || !random.once_in(5);
 
   const int draws = theme == Theme::many_draws ? random.between(8, 30) : random.between(1, 4);

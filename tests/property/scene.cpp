@@ -20,7 +20,7 @@ std::size_t pixels_of(const Scene& s) { return static_cast<std::size_t>(s.width)
 
 template <class Target>
 std::size_t image_bytes(const Scene& s, const Target& target) {
-  return pixels_of(s) * static_cast<std::size_t>(bytes_per_pixel(target.format)) * static_cast<std::size_t>(target.samples);
+  return pixels_of(s) * static_cast<std::size_t>(bytes_per_pixel(target.format)) * static_cast<std::size_t>(target.samples * s.layers);
 }
 
 // Returns the value of a component, for messages and for finding the worst pixel.
@@ -70,7 +70,7 @@ std::string compare(const char* name, const Scene& scene, const std::vector<std:
   const auto width = static_cast<std::size_t>(scene.width);
   const std::size_t place = worst % pixels_of(scene);
   out << name << ": " << differing << " of " << expected.size() / pixel_bytes << " pixels differ; worst, window (" << place % width << ", "
-      << static_cast<std::size_t>(scene.height) - 1 - place / width << "), image of sample " << worst / pixels_of(scene) << ":";
+      << static_cast<std::size_t>(scene.height) - 1 - place / width << "), image of sample or layer " << worst / pixels_of(scene) << ":";
   for (std::size_t k = 0; k < components; ++k) out << ' ' << value_at(expected, worst * components + k, size, is_float);
   out << " expected, got";
   for (std::size_t k = 0; k < components; ++k) out << ' ' << value_at(actual, worst * components + k, size, is_float);
@@ -112,7 +112,7 @@ class Surrounded {
     const TexelView top_first = view_.flipped();
     target.data = top_first.data;
     target.row_pitch = top_first.row_pitch;
-    target.sample_pitch = top_first.layer_pitch;
+    (target.layers > 1 ? target.layer_pitch : target.sample_pitch) = top_first.layer_pitch;
   }
 
   // Copies the texels back. Returns true if nothing was written around them.
@@ -205,6 +205,20 @@ Rect viewport_of(const Scene& scene, const DrawState& state) {
           static_cast<int>(std::ceil(v.width)), static_cast<int>(std::ceil(std::fabs(v.height)))};
 }
 
+namespace {
+
+// Makes a target refer to its image.
+template <class Target>
+void set_image(const Scene& s, std::vector<std::byte>& bytes, Target& target) {
+  bytes.resize(image_bytes(s, target));
+  target.data = bytes.data();
+  target.width = s.width, target.height = s.height;
+  target.layers = s.layers;
+  target.layer_pitch = static_cast<std::ptrdiff_t>(bytes.size()) / s.layers;
+}
+
+}  // namespace
+
 PassResult run_pass(const Scene& scene, const PassOptions& options, int threads) {
   PassResult r;
   Pictures& p = r.pictures;
@@ -212,17 +226,13 @@ PassResult run_pass(const Scene& scene, const PassOptions& options, int threads)
   DepthTarget depth = scene.depth;
   if (scene.has_color_image) {
     p.color = scene.color_before;
-    p.color.resize(image_bytes(scene, color));
-    color.data = p.color.data();
-    color.width = scene.width, color.height = scene.height;
+    set_image(scene, p.color, color);
   } else {
     color.store = StoreOp::dont_care;
   }
   if (scene.has_depth_image) {
     p.depth = scene.depth_before;
-    p.depth.resize(image_bytes(scene, depth));
-    depth.data = p.depth.data();
-    depth.width = scene.width, depth.height = scene.height;
+    set_image(scene, p.depth, depth);
     depth.store = StoreOp::store;
   }
   std::vector<ColorTarget> colors{color};
@@ -230,9 +240,7 @@ PassResult run_pass(const Scene& scene, const PassOptions& options, int threads)
   p.more.resize(scene.more_colors.size());
   for (std::size_t i = 0; i < scene.more_colors.size(); ++i) {
     colors.push_back(scene.more_colors[i]);
-    p.more[i].resize(image_bytes(scene, colors.back()));
-    colors.back().data = p.more[i].data();
-    colors.back().width = scene.width, colors.back().height = scene.height;
+    set_image(scene, p.more[i], colors.back());
   }
   std::vector<Surrounded> views;
   if (scene.in_views) {
@@ -242,6 +250,7 @@ PassResult run_pass(const Scene& scene, const PassOptions& options, int threads)
   PassOptions all_options = options;
   all_options.samples = scene.samples;
   all_options.supersample = scene.supersample;
+  all_options.layers = scene.layers;
   Pass pass(scene.width, scene.height, colors, depth, all_options);
   if (scene.post_format != ColorFormat::none) {
     p.post.resize(pixels_of(scene) * static_cast<std::size_t>(bytes_per_pixel(scene.post_format)));
@@ -255,18 +264,24 @@ PassResult run_pass(const Scene& scene, const PassOptions& options, int threads)
   return r;
 }
 
-OracleResult run_oracle(const Scene& scene) {
+namespace {
+
+std::vector<ColorTarget> colors_of(const Scene& scene) {
   std::vector<ColorTarget> colors{scene.color};
   colors.insert(colors.end(), scene.more_colors.begin(), scene.more_colors.end());
-  std::vector<ColorFormat> formats;
-  for (const ColorTarget& c : colors) formats.push_back(c.format);
-  oracle::Framebuffer target(scene.width, scene.height, formats, scene.depth.format, scene.samples);
-  const auto fill = [&](std::vector<std::byte>& bytes, const std::vector<std::byte>& before) {  // every sample gets its pixel's value
-    for (std::size_t i = 0; !before.empty() && i < bytes.size(); ++i) bytes[i] = before[i % before.size()];
+  return colors;
+}
+
+// Clears a layer or fills it with its part of the contents before the pass.
+void load_layer(const Scene& scene, int layer, oracle::Framebuffer& target) {
+  const auto fill = [&](std::vector<std::byte>& bytes, const std::vector<std::byte>& before) {
+    const std::size_t size = before.size() / static_cast<std::size_t>(scene.layers), begin = size * static_cast<std::size_t>(layer);
+    for (std::size_t i = 0; size != 0 && i < bytes.size(); ++i) bytes[i] = before[begin + i % size];  // all samples that are not stored
   };
   fill(target.depth_bytes, scene.depth_before);
   if (scene.depth.load == LoadOp::clear) target.clear_depth(scene.depth.clear_value);
   if (stencil_load_of(scene.depth) == LoadOp::clear) target.clear_stencil(scene.depth.stencil_clear_value);
+  const std::vector<ColorTarget> colors = colors_of(scene);
   for (std::size_t i = 0; i < colors.size(); ++i) {
     if (colors[i].load == LoadOp::clear) {
       target.clear_color(i, colors[i].clear_value);
@@ -274,16 +289,37 @@ OracleResult run_oracle(const Scene& scene) {
       fill(target.color_bytes[i], i == 0 ? scene.color_before : scene.more_before[i - 1]);
     }
   }
-  oracle::Renderer renderer(target, scene.supersample);
+}
+
+void append_layer(const Scene& scene, const oracle::Framebuffer& target, Pictures& to) {
+  const auto append = [](std::vector<std::byte>& bytes, const std::vector<std::byte>& more) {
+    bytes.insert(bytes.end(), more.begin(), more.end());
+  };
+  const oracle::Framebuffer seen = target.resolved();
+  const std::vector<ColorTarget> colors = colors_of(scene);
+  const auto color_of = [&](std::size_t i) { return (colors[i].samples > 1 ? target : seen).color_bytes[i]; };
+  if (scene.post_format != ColorFormat::none) append(to.post, oracle::post(seen, Curve{}, scene.post_format).color_bytes[0]);
+  if (scene.has_color_image) append(to.color, color_of(0));
+  if (scene.has_depth_image) append(to.depth, (scene.depth.samples > 1 ? target : seen).depth_bytes);
+  to.more.resize(scene.more_colors.size());
+  for (std::size_t i = 1; i < colors.size(); ++i) append(to.more[i - 1], color_of(i));
+}
+
+}  // namespace
+
+OracleResult run_oracle(const Scene& scene) {
+  std::vector<ColorFormat> formats;
+  for (const ColorTarget& c : colors_of(scene)) formats.push_back(c.format);
+  std::vector<oracle::Framebuffer> layers;
+  for (int layer = 0; layer < scene.layers; ++layer) {
+    layers.emplace_back(scene.width, scene.height, formats, scene.depth.format, scene.samples);
+    load_layer(scene, layer, layers.back());
+  }
+  oracle::Renderer renderer(layers, scene.supersample);
   for (const SceneDraw& d : scene.draws) d.reference(renderer);
   OracleResult r;
   r.counts = renderer.counts();
-  const oracle::Framebuffer seen = target.resolved();
-  if (scene.post_format != ColorFormat::none) r.pictures.post = oracle::post(seen, Curve{}, scene.post_format).color_bytes[0];
-  const auto color_of = [&](std::size_t i) { return (colors[i].samples > 1 ? target : seen).color_bytes[i]; };
-  if (scene.has_color_image) r.pictures.color = color_of(0);
-  if (scene.has_depth_image) r.pictures.depth = (scene.depth.samples > 1 ? target : seen).depth_bytes;
-  for (std::size_t i = 1; i < colors.size(); ++i) r.pictures.more.push_back(color_of(i));
+  for (const oracle::Framebuffer& target : layers) append_layer(scene, target, r.pictures);
   return r;
 }
 
@@ -327,7 +363,9 @@ std::string describe(const PassOptions& o, int threads) {
 std::string describe(const Scene& s) {
   std::ostringstream out;
   out << s.width << 'x' << s.height << ' ' << texel_info(s.color.format).name << ' ' << texel_info(s.depth.format).name << ", "
-      << 1 + s.more_colors.size() << " colors, " << s.samples << " samples" << (s.supersample ? ", supersampled" : "") << '\n';
+      << 1 + s.more_colors.size() << " colors, " << s.samples << " samples" << (s.supersample ? ", supersampled" : "");
+  if (s.layers > 1) out << ", " << s.layers << " layers";
+  out << '\n';
   for (const SceneDraw& d : s.draws) {
     const DepthState& z = d.state.depth;
     out << "  " << d.shader << ", " << d.triangles << " triangles (topology " << static_cast<int>(d.state.topology) << ", "
@@ -345,6 +383,10 @@ std::string describe(const Scene& s) {
     print(d.state.viewport);
     print(d.state.scissor);
     if (d.state.clip_origin == ClipOrigin::upper_left) out << ", upper left";
+    if (d.state.query) out << ", query " << *d.state.query;
+    if (d.state.condition) out << ", if " << (d.state.condition->inverted ? "no " : "any ") << d.state.condition->query;
+    if (is_smooth(d.state)) out << ", smooth";
+    if (d.state.viewports != nullptr) out << ", " << d.state.viewports->size() << " viewports";
     if (d.state.depth_bounds) out << ", depth bounds " << d.state.depth_bounds->low << ' ' << d.state.depth_bounds->high;
     out << '\n';
   }

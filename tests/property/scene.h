@@ -22,6 +22,7 @@ struct SceneDraw {
   std::function<void(Pass&)> submit;
   std::function<void(oracle::Renderer&)> reference;
   DrawState state;
+  std::shared_ptr<const ViewportArray> viewports;  ///< those of the state
   std::string shader;
   std::size_t triangles = 0;
 };
@@ -30,10 +31,11 @@ struct Scene {
   int width = 1, height = 1;
   int samples = 1;
   bool supersample = false;
+  int layers = 1;     ///< of the pass and its images; if there are several, images do not store samples, and there is no post step
   ColorTarget color;  ///< run_pass sets the data pointers and the sizes; `samples` may be those of the scene
   DepthTarget depth;
   std::vector<ColorTarget> more_colors;               ///< attachments 1, 2 and 3, which have images
-  std::vector<std::byte> color_before, depth_before;  ///< contents of the images before the pass, of all samples that they store
+  std::vector<std::byte> color_before, depth_before;  ///< contents of the images before the pass, of all samples or layers that they store
   std::vector<std::vector<std::byte>> more_before;
   bool in_views = false;  ///< the pass draws into rectangles of larger images, which store the bottom row first
   std::vector<SceneDraw> draws;

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <limits>
+#include <type_traits>
 
 #include "halfspace/raster/pass.h"
 #include "support/shaders.h"
@@ -336,6 +337,39 @@ struct IntegerShader {
   }
 };
 
+/// Chooses a layer from -1 to 3 and a viewport from 0 to 2, most often 0.
+template <class R, class V>
+void choose_layer(const vec4<R>& a, V& vertex) {
+  vertex.layer = truncate_to_int(a.x * R(3));
+  vertex.viewport = truncate_to_int(a.w * R(1.5f));
+}
+
+/// Chooses layers and viewports by vertex.
+struct LayerShader {
+  template <class R>
+  using Attributes = PositionAndA<R>;
+  template <class R>
+  struct Varyings {
+    vec3<R> color;
+    Flat<R> layer;
+  };
+  template <class R>
+  LayeredVertex<R, 1, 1> vertex(const Attributes<R>& in, Varyings<R>& out) const {
+    LayeredVertex<R, 1, 1> v{.position = in.position};
+    v.point_size = in.a.y * R(9);
+    v.clip_distance = {in.a.z + R(0.75f)};
+    v.cull_distance = {in.a.y};
+    choose_layer(in.a, v);
+    out.color = vec3<R>(in.a.y, in.a.z, in.a.w);
+    out.layer.value = to_real<R>(v.layer) * R(0.125f);
+    return v;
+  }
+  template <class R>
+  Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>& px) const {
+    return {clamped(vec4<R>(in.color, select(px.front_facing, in.layer.value, R(0.75f))), 8.0f)};
+  }
+};
+
 /// A geometry function that drops some primitives and emits strips of several, between its vertices and those of its neighbors.
 template <GeometryInputPrimitive kInput, GeometryOutputPrimitive kOutput>
 struct GeometryShader {
@@ -353,8 +387,9 @@ struct GeometryShader {
     Flat<R> number;
     NoPerspective<R> ramp;
   };
+  static constexpr bool kChoosesLayer = kInput == GeometryInputPrimitive::triangles;
   template <class R>
-  using EmittedVertex = PerVertex<R, 2>;
+  using EmittedVertex = std::conditional_t<kChoosesLayer, LayeredVertex<R, 2>, PerVertex<R, 2>>;
 
   template <class R>
   vec4<R> vertex(const Attributes<R>& in, VertexVaryings<R>& out) const {
@@ -362,7 +397,7 @@ struct GeometryShader {
     return in.position;
   }
   template <class R, std::size_t N>
-  void geometry(const GeometryInput<R, VertexVaryings<R>, N>& in, Emitter<R, Varyings<R>, PerVertex<R, 2>>& out) const {
+  void geometry(const GeometryInput<R, VertexVaryings<R>, N>& in, Emitter<R, Varyings<R>, EmittedVertex<R>>& out) const {
     const R t(0.125f * static_cast<float>(1 + in.invocation));
     const IntOf<R> kind = (in.primitive + in.instance) & IntOf<R>(3);
     for (std::size_t i = 0; i < 2 * N; ++i) {
@@ -373,7 +408,10 @@ struct GeometryShader {
       v.color = vec3<R>(value.x, in.varyings[b].twice, value.z);
       v.number.value = to_real<R>(in.primitive & IntOf<R>(15)) * R(0.0625f);
       v.ramp.value = value.y;
-      const PerVertex<R, 2> vertex{p, value.w * R(9), {value.x + R(0.75f), value.y + R(1)}};
+      EmittedVertex<R> vertex{.position = p};
+      vertex.point_size = value.w * R(9);
+      vertex.clip_distance = {value.x + R(0.75f), value.y + R(1)};
+      if constexpr (kChoosesLayer) choose_layer(value, vertex);
       out.emit(vertex, v, kind != IntOf<R>(static_cast<int32_t>(i % 5)));
       if (i % 4 == 3) out.end_primitive(kind < IntOf<R>(2));
     }

@@ -3,6 +3,9 @@
 // Smooth lines and polygons in passes with one sample per pixel (OpenGL 4.6, sections 14.5.4 and 14.6.6). Input: a primitive. Output: the
 // area of each pixel that it covers. OpenGL allows any approximation of this area; here it is exact up to the rounding of doubles
 // (Sutherland and Hodgman, "Reentrant polygon clipping", CACM 17, 1974).
+//
+// The bits of the result depend on the order of operations: the corners, relative to the lower left one of the pixel, are clipped at the
+// left, right, lower and upper side. The area is the sum of the triangles of a fan from the first corner that is left.
 #pragma once
 
 #include "halfspace/raster/pipeline/pass_context.h"
