@@ -132,4 +132,12 @@ class SampleVariables : public ConformanceOf {};
 TEST_P(SampleVariables, AreThoseOfTheSample) { expect_no_error(); }
 INSTANTIATE_TEST_SUITE_P(Conformance, SampleVariables, testing::ValuesIn(sample_variables_cases()), case_name);
 
+class ConditionalRendering : public ConformanceOf {};
+TEST_P(ConditionalRendering, DrawsIfASampleHasPassed) { expect_no_error(); }
+INSTANTIATE_TEST_SUITE_P(Conformance, ConditionalRendering, testing::ValuesIn(conditional_rendering_cases()), case_name);
+
+class SmoothPrimitives : public ConformanceOf {};
+TEST_P(SmoothPrimitives, AreWeightedByTheirArea) { expect_no_error(); }
+INSTANTIATE_TEST_SUITE_P(Conformance, SmoothPrimitives, testing::ValuesIn(smooth_primitives_cases()), case_name);
+
 }  // namespace halfspace::conformance

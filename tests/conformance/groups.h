@@ -32,6 +32,8 @@ Cases geometry_shading_cases();
 Cases tessellation_cases();
 Cases cull_distance_cases();
 Cases sample_variables_cases();
+Cases conditional_rendering_cases();
+Cases smooth_primitives_cases();
 
 struct Group {
   const char* name;
@@ -61,6 +63,8 @@ inline constexpr Group kGroups[] = {{"FillRules", fill_rules_cases},
                                     {"GeometryShading", geometry_shading_cases},
                                     {"Tessellation", tessellation_cases},
                                     {"CullDistance", cull_distance_cases},
-                                    {"SampleVariables", sample_variables_cases}};
+                                    {"SampleVariables", sample_variables_cases},
+                                    {"ConditionalRendering", conditional_rendering_cases},
+                                    {"SmoothPrimitives", smooth_primitives_cases}};
 
 }  // namespace halfspace::conformance

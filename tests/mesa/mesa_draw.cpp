@@ -2,6 +2,7 @@
 #include "mesa/mesa_draw.h"
 
 #include <array>
+#include <map>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -27,6 +28,7 @@ struct Object {
 using Buffer = Object<&epoxy_glGenBuffers, &epoxy_glDeleteBuffers>;
 using GlTexture = Object<&epoxy_glGenTextures, &epoxy_glDeleteTextures>;
 using Framebuffer = Object<&epoxy_glGenFramebuffers, &epoxy_glDeleteFramebuffers>;
+using Query = Object<&epoxy_glGenQueries, &epoxy_glDeleteQueries>;
 using VertexArray = Object<&epoxy_glGenVertexArrays, &epoxy_glDeleteVertexArrays>;
 
 // ---- shaders -------------------------------------------------------------------------------------------------------
@@ -158,7 +160,16 @@ void draw_all(const TargetSpec& target, const std::vector<MesaDraw>& draws, Mesa
   glDisable(GL_DITHER);
   enable(GL_MULTISAMPLE, true);
   clear(target);
-  for (const MesaDraw& draw : draws) run(draw, target, programs);
+  std::map<uint32_t, Query> queries;  // of one draw each
+  for (const MesaDraw& draw : draws) {
+    const DrawState& s = draw.state;
+    if (s.condition)
+      glBeginConditionalRender(queries.at(s.condition->query).id, s.condition->inverted ? GL_QUERY_WAIT_INVERTED : GL_QUERY_WAIT);
+    if (s.query) glBeginQuery(GL_SAMPLES_PASSED, queries[*s.query].id);
+    run(draw, target, programs);
+    if (s.query) glEndQuery(GL_SAMPLES_PASSED);
+    if (s.condition) glEndConditionalRender();
+  }
 }
 
 }  // namespace

@@ -124,6 +124,8 @@ void set_state(const DrawState& s, const TargetSpec& target) {
   glPointSize(s.point_size);
   glPointParameteri(GL_POINT_SPRITE_COORD_ORIGIN, s.point_origin == PointOrigin::upper_left ? GL_UPPER_LEFT : GL_LOWER_LEFT);
   glLineWidth(s.line_width);
+  enable(GL_LINE_SMOOTH, s.line_smooth);
+  enable(GL_POLYGON_SMOOTH, s.polygon_smooth);
   glPolygonMode(GL_FRONT_AND_BACK, s.polygon_mode == PolygonMode::fill   ? GL_FILL
                                    : s.polygon_mode == PolygonMode::line ? GL_LINE
                                                                          : GL_POINT);

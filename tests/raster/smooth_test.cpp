@@ -3,6 +3,7 @@
 // Tests smooth lines and polygons: the alpha of a pixel is the area that the primitive covers.
 #include "halfspace/core/half.h"
 #include "raster/raster_test.h"
+#include "support/pixel_area.h"
 
 namespace halfspace::raster_test::smooth_test {
 namespace {
@@ -23,41 +24,6 @@ Image<glm::vec4> draw(const std::vector<glm::vec4>& p, const DrawState& state, c
 
 glm::vec4 at(double x, double y) { return {static_cast<float>(x * 2 / kSize - 1), static_cast<float>(y * 2 / kSize - 1), 0.0f, 1.0f}; }
 
-// The area of the part of a triangle in [x, x + 1] × [y, y + 1]: the integral of the length of its intersection with a vertical line, which
-// is a piecewise linear function between the breakpoints. The trapezoidal rule is exact for such functions.
-double exact_area(const std::array<glm::dvec2, 3>& t, int x, int y) {
-  const auto length = [&](double at_x) {
-    double low = 1e9, high = -1e9;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const glm::dvec2 a = t[i], b = t[(i + 1) % 3];
-      if (at_x < std::min(a.x, b.x) || at_x > std::max(a.x, b.x) || a.x == b.x) continue;
-      const double at_y = a.y + (b.y - a.y) * (at_x - a.x) / (b.x - a.x);
-      low = std::min(low, at_y);
-      high = std::max(high, at_y);
-    }
-    return std::max(0.0, std::min(high, y + 1.0) - std::max(low, static_cast<double>(y)));
-  };
-  std::vector<double> breaks{static_cast<double>(x), x + 1.0};
-  const auto add = [&](double b) {
-    if (b > x && b < x + 1.0) breaks.push_back(b);
-  };
-  for (std::size_t i = 0; i < 3; ++i) {
-    const glm::dvec2 a = t[i], b = t[(i + 1) % 3];
-    add(a.x);
-    for (const double side : {static_cast<double>(y), y + 1.0}) {
-      if (a.y != b.y) add(a.x + (b.x - a.x) * (side - a.y) / (b.y - a.y));
-    }
-  }
-  std::sort(breaks.begin(), breaks.end());
-  double area = 0.0;
-  for (std::size_t i = 1; i < breaks.size(); ++i) {
-    // A vertical edge makes the length jump, so the ends are approached from inside.
-    const double a = breaks[i - 1], b = breaks[i], inside = (b - a) * 1e-9;
-    area += (b - a) * 0.5 * (length(a + inside) + length(b - inside));
-  }
-  return area;
-}
-
 TEST(SmoothPolygons, AlphaIsTheExactArea) {
   Random random(3);
   double largest = 0.0;
@@ -72,7 +38,7 @@ TEST(SmoothPolygons, AlphaIsTheExactArea) {
     const Image<glm::vec4> image = draw({at(t[0].x, t[0].y), at(t[1].x, t[1].y), at(t[2].x, t[2].y)}, kSumOfAreas);
     for (int y = 0; y < kSize; ++y) {
       for (int x = 0; x < kSize; ++x)
-        largest = std::max(largest, std::fabs(exact_area(t, x, y) - static_cast<double>(pixel(image, x, y).w)));
+        largest = std::max(largest, std::fabs(area_in_pixel(t, x, y) - static_cast<double>(pixel(image, x, y).w)));
     }
   }
   RecordProperty("largest error", std::to_string(largest));
