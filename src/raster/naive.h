@@ -118,7 +118,7 @@ void rasterize(NaiveTarget<R>& target, const S& shader, const std::array<const V
   std::array<std::size_t, 3> o{0, 1, 2};  // counter-clockwise, smallest depth first
   if (area < 0) std::swap(o[1], o[2]);
   while (p[o[0]].z > std::min(p[o[1]].z, p[o[2]].z)) std::rotate(o.begin(), o.begin() + 1, o.end());
-  const NaiveDepthPlane<R> depth_plane({p[o[0]], p[o[1]], p[o[2]]});
+  const NaiveDepthPlane<R> depth_plane({p[o[0]], p[o[1]], p[o[2]]}, state.offset);
   while (p[o[0]].inv_w > std::min(p[o[1]].inv_w, p[o[2]].inv_w)) std::rotate(o.begin(), o.begin() + 1, o.end());  // smallest 1/w first
   const ScreenPoint<R>&a = p[o[0]], &b = p[o[1]], &c = p[o[2]];
   const auto real = [](int64_t i) { return static_cast<R>(i); };
@@ -163,8 +163,10 @@ void rasterize(NaiveTarget<R>& target, const S& shader, const std::array<const V
       if (kConservativeDepth<S> == ConservativeDepth::less) z = std::min(z, of_triangle);
     }
     const int row = target.depth.height() - 1 - y;
-    if (state.depth.test && !compare(state.depth.compare, z, target.depth.at(x, row))) return;
-    if (state.depth.test && state.depth.write) target.depth.at(x, row) = z;
+    R& stored = target.depth.at(x, row);
+    if (state.depth_bounds && (stored < R(state.depth_bounds->low) || stored > R(state.depth_bounds->high))) return;
+    if (state.depth.test && !compare(state.depth.compare, z, stored)) return;
+    if (state.depth.test && state.depth.write) stored = z;
     if (keep) target.color.at(x, row) = fragment.color;
   });
 }
@@ -173,9 +175,10 @@ void rasterize(NaiveTarget<R>& target, const S& shader, const std::array<const V
 
 /// Draws an indexed triangle list. The vertex function must return a vec4<R>, and the fragment function must return a single color.
 ///
-/// Only these parts of the state are used: first, count, base_vertex, viewport, clip_origin, scissor, cull, front, provoking and depth; in
-/// double, depth.clamp is ignored. There is no tessellation, no geometry function, no blending, no stencil test, no polygon offset, no
-/// instancing and no primitive restart.
+/// Only these parts of the state are used: first, count, base_vertex, viewport, clip_origin, scissor, cull, front, provoking, depth, offset
+/// of filled triangles (in the unit of depths that are floats) and depth_bounds; in double, depth.clamp is ignored. There is no
+/// tessellation, no geometry function, no blending, no stencil test, no smooth primitives, no instancing and no primitive restart. In the
+/// source tree, tests/oracle is a plain scalar renderer that has all of these, in float.
 template <class R, Shader S>
 void draw_naive(NaiveTarget<R>& target, const S& shader, const VertexView& vertices, const Indices& indices, const DrawState& state = {}) {
   const FloatMode float_mode;

@@ -161,18 +161,30 @@ std::vector<Piece<R, V>> clipped(Piece<R, V> t, const Viewport& viewport, const 
 
 // ---- step 5: depth -------------------------------------------------------------------------------------------------
 
+// Polygon offset of a filled triangle, for depths that are floats.
+template <class R>
+float polygon_offset(const DepthOffset& offset, const std::array<ScreenPoint<R>, 3>& p) {
+  if (!has_offset(offset, PolygonMode::fill)) return 0.0f;
+  std::array<ScreenVertex, 3> v;
+  for (std::size_t i = 0; i < 3; ++i)
+    v[i] = {static_cast<int32_t>(p[i].x), static_cast<int32_t>(p[i].y), static_cast<float>(p[i].z), static_cast<float>(p[i].inv_w)};
+  return outline_offset(offset, DepthFormat::d32f, {&v[0], &v[1], &v[2]});
+}
+
 // Depth of a triangle at window positions in 1/256 px. The vertices are counter-clockwise, and the first one has the smallest depth.
 template <class R>
 class NaiveDepthPlane {
  public:
-  explicit NaiveDepthPlane(const std::array<ScreenPoint<R>, 3>& p) : p_(p) {
+  NaiveDepthPlane(const std::array<ScreenPoint<R>, 3>& p, const DepthOffset& offset) : p_(p) {
     const double area = static_cast<double>((p[1].x - p[0].x) * (p[2].y - p[0].y) - (p[1].y - p[0].y) * (p[2].x - p[0].x));
     z_edge1_ = static_cast<R>((static_cast<double>(p[1].z) - static_cast<double>(p[0].z)) / area);
     z_edge2_ = static_cast<R>((static_cast<double>(p[2].z) - static_cast<double>(p[0].z)) / area);
     const auto [x_low, x_high] = std::minmax({p[0].x, p[1].x, p[2].x});
     const auto [y_low, y_high] = std::minmax({p[0].y, p[1].y, p[2].y});
     narrow_ = x_high - x_low <= kNarrowExtent && y_high - y_low <= kNarrowExtent;
-    z_max_ = std::max({p[0].z, p[1].z, p[2].z});
+    const auto by = static_cast<R>(polygon_offset(offset, p));
+    p_[0].z += by;
+    z_max_ = std::max({p[0].z, p[1].z, p[2].z}) + by;
   }
 
   R at(int64_t x, int64_t y) const {
