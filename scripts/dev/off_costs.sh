@@ -3,6 +3,9 @@
 # feature. The x86-64-v3 build is compared with a build from which a patch in tests/off has removed the feature's code path. The difference
 # must be at most 1%.
 #
+# emitted_primitives removes what draws of emitted primitives need in a pass; geometry_stage, tessellation and layers_and_viewports remove
+# what only these stages need. There is no patch for transform feedback: capture() is a function of its own, which no pass calls.
+#
 #   scripts/dev/off_costs.sh [FEATURE...]     default: all patches in tests/off, which takes several minutes
 set -euo pipefail
 cd "$(dirname "$0")/../.."
