@@ -24,7 +24,6 @@ const char* missing_feature(const PreparedDraw& draw) {
   if (s.topology != Topology::triangles) return "strips or fans";
   if (s.polygon_mode != PolygonMode::fill) return "outlines";
   if (s.order_independent || s.blend) return "blending";
-  if (s.offset.slope != 0.0f || s.offset.constant != 0.0f) return "a polygon offset";
   return nullptr;
 }
 
