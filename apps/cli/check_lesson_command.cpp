@@ -25,40 +25,52 @@ namespace fs = std::filesystem;
 
 constexpr const char* kDifferenceEnd = "-difference.png";
 
-// Returns the folder of the solutions, NN.png for lesson NN. The build creates a link to it at this path, and packages contain it.
-fs::path solutions_folder() {
+// Returns a folder with the picture NN.png of lesson NN. The build creates links to the folders at these paths, and packages contain them.
+fs::path pictures_folder(const char* name) {
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  return (program.parent_path() / "../share/halfspace/lessons").lexically_normal();
+  return (program.parent_path() / "../share/halfspace" / name).lexically_normal();
 }
 
-fs::path solution_path(const fs::path& folder, int lesson) { return folder / fmt::format("{:02}.png", lesson); }
+fs::path picture_path(const fs::path& folder, int lesson) { return folder / fmt::format("{:02}.png", lesson); }
 
-// Returns the picture of the solution.
-fs::path solution_of(const std::string& text) {
-  const fs::path folder = solutions_folder();
+// The pictures of a lesson. They have the same size.
+struct LessonPictures {
+  fs::path solution;
+  fs::path start;  // of the program before the exercise; teachers can leave it out
+};
+
+LessonPictures pictures_of(const std::string& text) {
+  const fs::path folder = pictures_folder("lessons");
   int lessons = 0;
-  while (fs::exists(solution_path(folder, lessons + 1))) ++lessons;
+  while (fs::exists(picture_path(folder, lessons + 1))) ++lessons;
   if (lessons == 0) throw InputError(folder.string() + ": no solutions of lessons; expected 01.png and the others of docs/teachers/images");
   const int lesson = parse_number(text);
   if (lesson < 1 || lesson > lessons) throw UsageError(fmt::format("N: '{}'; expected the number of a lesson, 1 to {}", text, lessons));
-  return solution_path(folder, lesson);
+  return {picture_path(folder, lesson), picture_path(pictures_folder("lesson_starts"), lesson)};
 }
 
 // What is known about a picture that was handed in.
 struct Verdict {
   int64_t differing = 0;
+  bool is_start = false;  // it is the picture of the unchanged program
   std::string problem{};  // why it cannot be compared, or empty
   bool passed() const { return problem.empty() && differing == 0; }
+  std::string reason() const {
+    if (!problem.empty()) return problem;
+    return is_start ? "the picture of the unchanged program" : fmt::format("{} pixels differ", differing);
+  }
 };
 
-// Compares a picture. The difference is written to `difference` if the picture differs and the path is not empty.
-Verdict verdict_on(const fs::path& file, const fs::path& solution, const fs::path& difference) {
-  const ComparedImage expected{"the solution", read_image(solution)}, picture = read_compared_image(file.string());
+// Compares a picture. If it is neither the solution nor the start, and the path is not empty, the difference is written to `difference`.
+Verdict verdict_on(const fs::path& file, const LessonPictures& lesson, const fs::path& difference) {
+  const ComparedImage expected{"the solution", read_image(lesson.solution)}, picture = read_compared_image(file.string());
   Image<glm::u8vec4> colors;
-  const Comparison c = compare(expected, picture, &colors);
-  if (c.difference.differing != 0 && !difference.empty()) write_png(difference, colors);
-  return {c.difference.differing};
+  Verdict verdict{compare(expected, picture, &colors).difference.differing};
+  if (verdict.passed()) return verdict;
+  verdict.is_start = fs::exists(lesson.start) && compare({"the start", read_image(lesson.start)}, picture).difference.differing == 0;
+  if (!verdict.is_start && !difference.empty()) write_png(difference, colors);
+  return verdict;
 }
 
 bool is_picture(const fs::path& path) {
@@ -84,21 +96,21 @@ std::vector<fs::path> pictures_in(const fs::path& folder) {
 }
 
 // Prints one line for each picture in the folder. The differences are written to files with the same names in `out`, unless it is empty.
-void check_folder(const fs::path& folder, const fs::path& solution, const fs::path& out) {
+void check_folder(const fs::path& folder, const LessonPictures& lesson, const fs::path& out) {
   const std::vector<fs::path> pictures = pictures_in(folder);
   std::size_t width = 0, passed = 0;
   for (const fs::path& p : pictures) width = std::max(width, printable(p.string()).size());
   for (const fs::path& p : pictures) {
     Verdict verdict;
     try {
-      verdict = verdict_on(folder / p, solution, out.empty() ? out : out / fs::path(p).replace_extension("").concat(kDifferenceEnd));
+      verdict = verdict_on(folder / p, lesson, out.empty() ? out : out / fs::path(p).replace_extension("").concat(kDifferenceEnd));
     } catch (const InputError& error) {
       verdict.problem = error.what();
       if (const std::string place = (folder / p).string() + ": "; verdict.problem.starts_with(place))
         verdict.problem.erase(0, place.size());
     }
-    const std::string reason = verdict.problem.empty() ? fmt::format("{} pixels differ", verdict.differing) : verdict.problem;
-    std::cout << fmt::format("{:<{}}  {}\n", printable(p.string()), width, verdict.passed() ? "pass" : "fail  " + printable(reason));
+    std::cout << fmt::format("{:<{}}  {}\n", printable(p.string()), width,
+                             verdict.passed() ? "pass" : "fail  " + printable(verdict.reason()));
     passed += verdict.passed();
   }
   std::cout << fmt::format("{} of {} passed\n", passed, pictures.size());
@@ -109,15 +121,20 @@ void check_folder(const fs::path& folder, const fs::path& solution, const fs::pa
 }  // namespace
 
 void check_lesson_command(const CheckLessonArguments& args) {
-  const fs::path solution = solution_of(args.lesson), file = args.file;
+  const LessonPictures lesson = pictures_of(args.lesson);
+  const fs::path file = args.file;
   std::error_code error;
   if (fs::is_directory(file, error)) {
-    check_folder(file, solution, args.out);
+    check_folder(file, lesson, args.out);
     return;
   }
   const fs::path difference = args.out.empty() ? file.stem().concat(kDifferenceEnd) : fs::path(args.out);
-  reject_overwriting(difference, {file, solution});
-  const Verdict verdict = verdict_on(file, solution, difference);
+  reject_overwriting(difference, {file, lesson.solution});
+  const Verdict verdict = verdict_on(file, lesson, difference);
+  if (verdict.is_start)
+    throw DifferenceError(
+        fmt::format("{}: this is the picture of the unchanged program; expected that of your solution of the exercise of lesson {}",
+                    args.file, args.lesson));
   if (!verdict.passed())
     throw DifferenceError(fmt::format("{}: {} pixels differ from the solution of lesson {}; {} shows them", args.file, verdict.differing,
                                       args.lesson, difference.string()));

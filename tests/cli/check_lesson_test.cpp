@@ -50,6 +50,23 @@ TEST_F(CheckLesson, CountsThePixelsOfAWrongSolutionAndShowsThem) {
   EXPECT_EQ(run({"check-lesson", "2", "right.png"}).exit_code, 1) << "the solution of another lesson";
 }
 
+TEST_F(CheckLesson, RecognizesThePictureOfTheUnchangedProgram) {
+  fs::create_directory(directory / "class");
+  for (int lesson = 1; lesson <= 24; ++lesson) {
+    const std::string number = std::to_string(lesson);
+    fs::copy_file("docs/tutorial/lessons/images" / fs::path(lesson < 10 ? "0" + number : number).concat(".png"),
+                  directory / "class" / "start.png", fs::copy_options::overwrite_existing);
+    const Outcome o = run({"check-lesson", number, "class/start.png"});
+    EXPECT_EQ(o.exit_code, 1) << number;
+    EXPECT_EQ(o.err,
+              "halfspace: class/start.png: this is the picture of the unchanged program; expected that of your solution of the exercise "
+              "of lesson " +
+                  number + "\n");
+  }
+  EXPECT_EQ(files(), (std::vector<std::string>{"class", "right.png", "wrong.png"})) << "no difference is written";
+  EXPECT_EQ(run({"check-lesson", "24", "class"}).out, "start.png  fail  the picture of the unchanged program\n0 of 1 passed\n");
+}
+
 TEST_F(CheckLesson, PrintsATableForAFolder) {
   fs::create_directories(directory / "class" / "bea");
   fs::rename(directory / "right.png", directory / "class" / "ann.png");
