@@ -37,6 +37,7 @@ constexpr BlendState kErase{.source_color = BlendFactor::zero,
 // Removes everything that only affects the color. Opacity remains.
 void make_black(MetallicMaterial& m) {
   m.unlit = true;
+  m.emissive = glm::vec3(0.0f);
   m.base_color = glm::vec4(0, 0, 0, m.base_color.w);
   for (std::size_t i = 0; i < kMetallicMaps; ++i) {
     if (i != kBaseColorMap && i != kOpacityMap) m.maps[i].map = nullptr;

@@ -59,7 +59,7 @@ void add_bumps(MetallicMaterial& surface, const ObjectDescription& o, const Mode
   const TextureUse& use = material.bump_map;
   const ModelMesh& m = model.meshes[static_cast<std::size_t>(mesh)];
   const ModelTexture& texture = model.textures[static_cast<std::size_t>(use.texture)];
-  if (material.unlit || texture.image < 0 || m.uvs[static_cast<std::size_t>(use.uv_set)].empty()) return;
+  if (texture.image < 0 || m.uvs[static_cast<std::size_t>(use.uv_set)].empty()) return;
   const ModelImage& image = model.images[static_cast<std::size_t>(texture.image)];
   if (!image.has_content()) return;
   const std::string file = o.file.path.string();

@@ -36,18 +36,22 @@ constexpr std::array<TextureUse ModelMaterial::*, kMetallicMaps> kMaps{
     &ModelMaterial::sheen_map,          &ModelMaterial::sheen_color_map,
     &ModelMaterial::sheen_roughness_map};
 
+bool is_lit(const ObjectDescription& o, const ModelMaterial& m) { return !m.unlit && o.surface.shading != ShadingRate::none; }
+
 // Returns whether a map affects the picture. Maps of a coat or sheen that the material does not have are not sampled.
-bool has_effect(std::size_t map, const ModelMaterial& m) {
+bool has_effect(std::size_t map, const ObjectDescription& o, const ModelMaterial& m) {
+  const bool lit = is_lit(o, m);
   switch (map) {
     case kBaseColorMap:
     case kOpacityMap: return true;
+    case kEmissiveMap: return lit || (!m.unlit && m.emissive != glm::vec3(0.0f));
     case kClearcoatMap:
     case kClearcoatRoughnessMap:
-    case kClearcoatNormalMap: return !m.unlit && m.clearcoat > 0.0f;
+    case kClearcoatNormalMap: return lit && m.clearcoat > 0.0f;
     case kSheenMap:
     case kSheenColorMap:
-    case kSheenRoughnessMap: return !m.unlit && m.sheen > 0.0f;
-    default: return !m.unlit;
+    case kSheenRoughnessMap: return lit && m.sheen > 0.0f;
+    default: return lit;
   }
 }
 
@@ -88,7 +92,7 @@ std::vector<std::pair<int, TextureRole>> wanted_images(const ObjectDescription& 
     const ModelMaterial& material = model.materials[static_cast<std::size_t>(part.material)];
     for (std::size_t i = 0; i < kMaps.size(); ++i) {
       const int texture = (material.*kMaps[i]).texture;
-      if (texture < 0 || !has_effect(i, material)) continue;
+      if (texture < 0 || !has_effect(i, o, material)) continue;
       const int image = model.textures[static_cast<std::size_t>(texture)].image;
       const TextureRole role = role_of(kMaps[i]);
       if (image >= 0 && !used.contains(image_recipe(o.file.path, image, role))) wanted.emplace(image, role);
@@ -226,10 +230,10 @@ MetallicMaterial ModelMaterials::metallic_material(const ObjectDescription& o, c
   out.normal_scale = m.normal_scale;
   out.clearcoat_normal_scale = m.clearcoat_normal_scale;
   out.occlusion_strength = m.occlusion_strength;
-  out.emissive = m.emissive;
+  out.emissive = m.unlit ? glm::vec3(0.0f) : m.emissive;
   out.ambient = glm::vec3(lights_.ambient());
   out.alpha_cutoff = m.alpha_cutoff;
-  out.unlit = m.unlit || o.surface.shading == ShadingRate::none;
+  out.unlit = !is_lit(o, m);
   out.blends = m.alpha_mode == AlphaMode::blend || (has_uvs && is_soft_mask(o, model, m));
   out.environment = out.unlit ? nullptr : environments_.light();
   if (!has_uvs) return out;
@@ -237,7 +241,7 @@ MetallicMaterial ModelMaterials::metallic_material(const ObjectDescription& o, c
   int previous_texture = -1;
   for (std::size_t i = 0; i < kMetallicMaps; ++i) {
     const TextureUse& use = m.*kMaps[i];
-    if (use.texture < 0 || !has_effect(i, m)) continue;
+    if (use.texture < 0 || !has_effect(i, o, m)) continue;
     const ModelTexture& texture = model.textures[static_cast<std::size_t>(use.texture)];
     if (texture.image < 0) continue;
     MaterialMap& map = out.maps[i];
@@ -260,7 +264,7 @@ MetallicMaterial ModelMaterials::surface_of(const ObjectDescription& o, const Mo
                                             bool has_uvs) {
   MetallicMaterial surface =
       has_uvs ? metallic_material(o, model, m, true) : metallic_material(o, model, without_converted_maps(model, m), false);
-  const bool bumps = m.bump_map.texture >= 0 && m.normal_map.texture < 0 && o.surface.normal != DetailChoice::none;
+  const bool bumps = m.bump_map.texture >= 0 && m.normal_map.texture < 0 && is_lit(o, m) && o.surface.normal != DetailChoice::none;
   if (bumps) add_bumps(surface, o, model, mesh, m, used_, warnings_);
   return surface;
 }

@@ -75,7 +75,7 @@ struct MetallicMaterial : SurfaceUniforms {
   glm::vec3 emissive{0.0f};
   glm::vec3 ambient{0.0f};  ///< constant light from all directions, in addition to the environment
   float alpha_cutoff = 0.5f;
-  bool unlit = false;                                  ///< the base color is the result
+  bool unlit = false;                                  ///< the result is the base color plus the emitted light
   bool blends = false;                                 ///< the result has the opacity as alpha; otherwise alpha is 1
   const EnvironmentLightBlend* environment = nullptr;  ///< null: none; not owned
   std::array<MaterialMap, kMetallicMaps> maps;
@@ -142,7 +142,7 @@ struct MetallicSurface : MetallicMaterial {
     vec4<R> base(base_color);
     if constexpr (kColors) base = base * in.color;
     base = base * vec4<R>(texels.base_color, texels.opacity);
-    const vec3<R> color = unlit ? vec3<R>(base) : shaded(in, px, texels, vec3<R>(base));
+    const vec3<R> color = unlit ? vec3<R>(base) + emissive * texels.emissive : shaded(in, px, texels, vec3<R>(base));
     const vec4<R> result(color, blends ? clamp(base.w, R(0), R(1)) : R(1));
     if constexpr (masked) {
       return {result, base.w >= R(alpha_cutoff)};
