@@ -67,7 +67,8 @@ PrimitiveKey key_of(const TracedFragment& f) { return {f.draw, f.instance, f.pri
 
 bool is_mesh_triangle(const PreparedScene& scene, const TracedFragment& f) {
   const PreparedDraw& draw = scene.draws[f.draw];
-  return f.round == 0 && draw.source.object >= 0 && !draws_points(draw.state) && !is_lines(draw.state.topology);
+  return f.round == 0 && draw.source.object >= 0 && !draws_points(draw.state) && !is_lines(draw.state.topology) &&
+         !std::holds_alternative<NormalLines>(draw.shader);
 }
 
 // Calls f(fragment) for one fragment of each primitive in a pixel. The fragments of a primitive are next to each other.

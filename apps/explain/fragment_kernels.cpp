@@ -63,6 +63,10 @@ struct ShaderName<ColoredPrimitives> {
   static constexpr const char* text = "colored points or lines";
 };
 template <>
+struct ShaderName<NormalLines> {
+  static constexpr const char* text = "lines of normals";
+};
+template <>
 struct ShaderName<ShadowCatcher> {
   static constexpr const char* text = "floor that only shows shadows";
 };

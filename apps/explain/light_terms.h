@@ -31,6 +31,8 @@ class LightTerms {
       find_sky();
     } else if constexpr (std::same_as<S, ColoredPrimitives>) {
       add("color of the vertices", glm::vec3(out_.color));
+    } else if constexpr (std::same_as<S, NormalLines>) {
+      add("color of the normal", glm::vec3(out_.color));
     } else {
       out_.factors.push_back({"opacity of the shadow", {out_.color.w}});
     }
@@ -99,8 +101,11 @@ class LightTerms {
   }
 
   void find_metallic() {
-    if (shader_.unlit) return add("base color", glm::vec3(out_.color));
     S dark = shader_;
+    if (shader_.unlit) {
+      add_seen("base color", dark, [](S& s) { s.emissive = glm::vec3(0.0f); });
+      return add_seen("emission", dark, [](S& s) { s.base_color = glm::vec4(0.0f, 0.0f, 0.0f, s.base_color.w); });
+    }
     dark.lights = {};
     dark.ambient = dark.emissive = glm::vec3(0.0f);
     dark.environment = nullptr;

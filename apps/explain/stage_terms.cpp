@@ -34,8 +34,8 @@ struct TermFilter {
   template <class S>
   requires std::derived_from<S, MetallicMaterial>
   void operator()(S& s) const {
-    if (s.unlit) return black_unless(TermKind::emitted, s.base_color);
     s.lights = lights;
+    if (s.unlit) black_unless(TermKind::emitted, s.base_color);
     if (!is(TermKind::ambient)) s.ambient = glm::vec3(0.0f);
     if (!is(TermKind::emitted)) s.emissive = glm::vec3(0.0f);
     if (!is(TermKind::reflected)) s.environment = nullptr;
@@ -47,6 +47,7 @@ struct TermFilter {
     if (!is(TermKind::emitted)) s.emissive = glm::vec3(0.0f);
   }
   void operator()(ColoredPrimitives& s) const { black_unless(TermKind::emitted, s.color); }
+  void operator()(NormalLines& s) const { black_unless(TermKind::emitted, s.color); }
   void operator()(ShadowCatcher&) const {}  // only darkens what is behind it
   void operator()(StarSky&) const {}
   void operator()(EnvironmentSky&) const {}
@@ -84,6 +85,7 @@ struct TermsOfShader {
     specular |= s.specular != glm::vec3(0.0f) && s.model != LightModel::lambert;
   }
   void operator()(const ColoredPrimitives&) { emitted = true; }
+  void operator()(const NormalLines&) { emitted = true; }
   void operator()(const ShadowCatcher&) {}
   void operator()(const StarSky&) {}
   void operator()(const EnvironmentSky&) {}

@@ -32,6 +32,8 @@ inline constexpr std::array<std::string_view, 1> kVaryingNames<EnvironmentSky>{"
 template <>
 inline constexpr std::array<std::string_view, 1> kVaryingNames<ColoredPrimitives>{"color"};
 template <>
+inline constexpr std::array<std::string_view, 1> kVaryingNames<NormalLines>{"normal_ws"};
+template <>
 inline constexpr std::array<std::string_view, 2> kVaryingNames<ShadowCatcher>{"position_os", "position_rws"};
 
 }  // namespace halfspace

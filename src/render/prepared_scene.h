@@ -27,6 +27,7 @@
 #include "halfspace/shading/surface/colored_primitives.h"
 #include "halfspace/shading/surface/masked_depth.h"
 #include "halfspace/shading/surface/metallic_surface.h"
+#include "halfspace/shading/surface/normal_lines.h"
 #include "halfspace/shading/surface/shadow_catcher.h"
 #include "halfspace/shading/surface/surface_shader.h"
 
@@ -47,13 +48,13 @@ using SceneShader = std::variant<SurfaceShader<ShadingRate::none, false>, Surfac
                                  MetallicSurface<MetallicStreams::mapped>, MetallicSurface<MetallicStreams::mapped, true>,   //
                                  MetallicSurface<MetallicStreams::detailed>, MetallicSurface<MetallicStreams::detailed, true>,
                                  MetallicSurface<MetallicStreams::full>, MetallicSurface<MetallicStreams::full, true>,  //
-                                 ColoredPrimitives, ShadowCatcher>;
+                                 ColoredPrimitives, NormalLines, ShadowCatcher>;
 
 /// The origin of a draw, for the values of a frame other than its color (render/frame/frame.h).
 struct DrawSource {
-  int object = -1;                    ///< as in FrameImages::object; −1: the background
-  int instance = 0;                   ///< copy · parts of the model + part
-  MeshStreams streams{};              ///< includes streams that the shader does not read; empty for spheres and the background
+  int object = -1;        ///< as in FrameImages::object; −1: the background
+  int instance = 0;       ///< copy · parts of the model + part
+  MeshStreams streams{};  ///< includes streams that the shader does not read; empty for spheres, lines of normals and the background
   glm::dmat4 world_from_object{1.0};  ///< identity for spheres and the background
 };
 

@@ -175,6 +175,7 @@ struct ObjectDescription {
   double height_zero = 0.5;                  ///< map value that leaves the surface undisplaced
   double height_smoothing = 1.0;             ///< standard deviation in texels
   NormalSource normals = NormalSource::pixel;
+  double normal_lines = 0.0;  ///< length in scene units; 0: none
 
   std::string material;  ///< empty: none
   SurfaceDescription surface;

@@ -259,6 +259,8 @@ Section section_of(ObjectDescription& o) {
                                 {.unit = "texels", .low = 0, .high = 64}),
       key<&T::normals>("normals", "Normals of a displaced surface: per pixel, per vertex, or those of the undisplaced surface",
                        {.only = shapes_with("normals")}),
+      key<&T::normal_lines>("normal_lines", "Length of lines that show the vertex normals, drawn by a geometry stage; 0: none",
+                            {.unit = "units", .low = 0, .high = 1e6}),
       key<&T::material>("material", "Name of a material; keys of the object override it; empty: model files keep their own materials"),
       key<&T::parent>("parent", "Name of the object that position, rotation and scale are relative to; empty: none"),
   };

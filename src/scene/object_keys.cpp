@@ -19,6 +19,7 @@ std::string_view mesh_only_key(const ObjectDescription& o) {
   if (s.opacity != 1.0) return "opacity";
   if (s.shading != ShadingRate::phong) return "shading";
   if (s.two_sided) return "two_sided";
+  if (o.normal_lines != 0.0) return "normal_lines";
   if (!is_uniformly_scaled(o.placement)) return "scale";
   return std::ranges::all_of(o.instances, is_uniformly_scaled) ? "" : kInstances;
 }

@@ -11,7 +11,7 @@
 namespace halfspace::HS_LANES {
 
 /// Returns the first of an object's keys that needs a mesh and so cannot be used with Shape::sphere: maps, reflection, per-vertex
-/// or per-triangle lighting, two-sided surfaces, non-uniform scale. Returns an empty string if there is none.
+/// or per-triangle lighting, two-sided surfaces, lines of normals, non-uniform scale. Returns an empty string if there is none.
 std::string_view mesh_only_key(const ObjectDescription& o);
 
 /// Returns true if the object is a model that is drawn with the materials of its file.

@@ -92,7 +92,7 @@ void check(const ObjectDescription& o, const std::string& where) {
   if (const std::string_view key = mesh_only_key(o); o.shape == Shape::sphere && !key.empty()) {
     reject(where + "." + std::string(key),
            std::string("is not supported by the shape sphere, which cannot have maps, a reflection, transparency, two visible sides, ") +
-               "shading other than phong or a non-uniform scale; expected the shape uv_sphere or icosphere");
+               "lines of normals, shading other than phong or a non-uniform scale; expected the shape uv_sphere or icosphere");
   }
   const double thickness = kind.thickness(o);
   if (thickness > 0.0 && is_map(o.height) && std::fabs(o.height_scale) * std::max(o.height_zero, 1.0 - o.height_zero) >= thickness) {

@@ -60,6 +60,8 @@ TEST_F(NaiveOption, ReportsWhatItCannotDraw) {
   expect_refusal(render({"particles", "--set", "samples=1"}), 3, "particles: particles: is drawn with points");
   expect_refusal(render({"moon", "--set", "samples=4"}), 3, "moon: samples: is 4");
   expect_refusal(render({"moon", "--set", "samples=1", "--wireframe"}), 3, "moon: objects.moon: is drawn with outlines");
+  expect_refusal(render({"moon", "--set", "samples=1", "--set", "moon.normal_lines=1"}), 3,
+                 "moon: objects.moon: is drawn with lines of normals");
   std::ofstream(directory / "glass.mtl") << "newmtl glass\nd 0.5\n";
   std::ofstream(directory / "glass.obj") << "mtllib glass.mtl\nusemtl glass\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
   std::ofstream(directory / "glass.json") << R"({"version": 1, "cameras": {"c": {"position": [0, 1, 4]}}, "lights": {"l": {}},

@@ -56,6 +56,11 @@ TEST_F(Wireframe, DoesNotDependOnTheShader) {
   }
 }
 
+TEST_F(Wireframe, LinesOfNormalsAreUnchanged) {
+  const Image<glm::u8vec4> image = picture(R"("cube": {"shape": "cube", "normal_lines": 1})", "--wireframe");
+  EXPECT_GT(pixels_that_are(image, glm::u8vec4(188, 255, 188, 255)), 20) << "sRGB of (0.5, 1, 0.5), the normal of the upper side";
+}
+
 TEST_F(Wireframe, LinesContrastWithTheBackground) {
   const Image<glm::u8vec4> image = picture(R"("cube": {"shape": "cube"})", "--wireframe", R"("background": {"color": 1}, "samples": 1, )");
   EXPECT_GT(pixels_that_are(image, kBlack), 250);

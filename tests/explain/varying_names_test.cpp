@@ -41,6 +41,7 @@ TEST(VaryingNames, MatchTheHeaders) {
   expect_names<StarSky>("environment/star_sky.h");
   expect_names<EnvironmentSky>("environment/environment_sky.h");
   expect_names<ColoredPrimitives>("surface/colored_primitives.h");
+  expect_names<NormalLines>("surface/normal_lines.h");
   expect_names<ShadowCatcher>("surface/shadow_catcher.h");
 }
 

@@ -198,7 +198,7 @@ void shade_points(const S& shader, const PreparedDraw& draw, const glm::dvec2& s
 // Work is counted for the shaders of shapes in scene files, but not for those of model files.
 template <class S>
 constexpr bool kIsCounted = !std::is_same_v<S, StarSky> && !std::is_base_of_v<MetallicMaterial, S> &&
-                            !std::is_same_v<S, ColoredPrimitives> && !std::is_same_v<S, ShadowCatcher>;
+                            !std::is_same_v<S, ColoredPrimitives> && !std::is_same_v<S, NormalLines> && !std::is_same_v<S, ShadowCatcher>;
 
 struct Cost {
   std::set<PerFragment> draws;  // visible draws only

@@ -69,6 +69,7 @@ TEST(Effect, ModelsAcceptAllOtherKeys) {
                                           "a.shading=none",
                                           "a.normal=none",
                                           "a.textured=false",
+                                          "a.normal_lines=0.5",
                                           "a.instances.0.position=1,0,0"};
   EXPECT_EQ(input_error([&] { scene.set(settings); }), "(no error)");
   EXPECT_EQ(SceneFile::parse(scene.print(), "test.json", "/").print(), scene.print()) << "printed scenes contain all keys";

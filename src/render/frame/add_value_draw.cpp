@@ -84,7 +84,8 @@ struct Adder {
     u.color = shader.color;
     add<false>(u);
   }
-  // Skies are behind everything, and floors that only show shadows are blended.
+  // Skies are behind everything, floors that only show shadows are blended, and normals are not surfaces.
+  void operator()(const NormalLines&) const {}
   void operator()(const StarSky&) const {}
   void operator()(const EnvironmentSky&) const {}
   void operator()(const ShadowCatcher&) const {}

@@ -21,8 +21,8 @@ struct ImageRect {
 /// which the scene was prepared, or that of the crop.
 ///
 /// Colors are antialiased as the scene specifies. All other values are those of the surface at the center of a pixel, without filtering.
-/// Only opaque surfaces have them, including the visible parts of masked surfaces. Blended surfaces and floors that only show shadows are
-/// ignored. Positions and distances are in scene units.
+/// Only opaque surfaces have them, including the visible parts of masked surfaces. Blended surfaces, floors that only show shadows and
+/// lines of normals are ignored. Positions and distances are in scene units.
 struct FrameImages {
   Image<glm::u8vec4>* picture = nullptr;        ///< 8-bit display values, as the post section of the scene specifies; straight alpha
   Image<glm::u16vec4>* fine_picture = nullptr;  ///< the same with 16 bits per channel, not dithered

@@ -9,11 +9,11 @@
 
 namespace halfspace::HS_LANES {
 
-/// Whether the naive pipeline can draw with a shader. It cannot draw points.
+/// Whether the naive pipeline can draw with a shader. It cannot draw points, and has no geometry stage.
 template <class S>
-inline constexpr bool kDrawsTriangles = !kGivesPointSprite<S> && !kGivesPointSize<S>;
+inline constexpr bool kDrawsTriangles = !kGivesPointSprite<S> && !kGivesPointSize<S> && !HasGeometryLayout<S>;
 
-/// For each draw, calls shader_of(shader) and draws with the shader that it returns. An HS_CHECK fails for draws of points.
+/// For each draw, calls shader_of(shader) and draws with the shader that it returns. An HS_CHECK fails for other draws.
 template <class R, class F>
 void draw_all_naive(NaiveTarget<R>& target, const PreparedScene& scene, const F& shader_of) {
   for (const PreparedDraw& draw : scene.draws) {
@@ -22,7 +22,7 @@ void draw_all_naive(NaiveTarget<R>& target, const PreparedScene& scene, const F&
           if constexpr (kDrawsTriangles<S>) {
             draw_naive(target, shader_of(shader), draw.vertices, *draw.indices, draw.state);
           } else {
-            HS_CHECK(false, "naive pipeline: the scene draws points; expected triangles or lines");
+            HS_CHECK(false, "naive pipeline: the scene draws points or normals; expected triangles or lines");
           }
         },
         draw.shader);

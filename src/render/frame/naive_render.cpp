@@ -19,6 +19,7 @@ constexpr const char* kNaiveDraws = "expected opaque triangles with one sample p
 // Returns what the naive pipeline does not draw, or null if it draws the draw.
 const char* missing_feature(const PreparedDraw& draw) {
   const DrawState& s = draw.state;
+  if (std::holds_alternative<NormalLines>(draw.shader)) return "lines of normals";
   if (!std::visit([]<class S>(const S&) { return kDrawsTriangles<S>; }, draw.shader) || s.topology == Topology::points) return "points";
   if (is_lines(s.topology)) return "lines";
   if (s.topology != Topology::triangles) return "strips or fans";

@@ -2,11 +2,13 @@
 #include "halfspace/render/prepare/model_preparation.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
 
 #include "halfspace/core/resource_limits.h"
 #include "halfspace/model/gltf/specular_glossiness.h"
+#include "halfspace/render/prepare/normal_lines.h"
 #include "halfspace/render/prepare/scene_background.h"
 #include "halfspace/render/prepare/scene_places.h"
 #include "halfspace/render/prepare/wireframe.h"
@@ -110,7 +112,8 @@ float point_size(std::size_t count, int height_px) {
 bool is_lit(const SceneDescription& scene, const ObjectDescription& o, const Model& model, const PosedMesh& part) {
   const ModelMesh& mesh = part.deformed != nullptr ? *part.deformed : model.meshes[static_cast<std::size_t>(part.mesh)];
   const ModelMaterial& material = material_of(model, part);
-  return mesh.topology == MeshTopology::triangles && !material.unlit && override_of(scene, o, material.name) == nullptr;
+  return mesh.topology == MeshTopology::triangles && !material.unlit && o.surface.shading != ShadingRate::none &&
+         override_of(scene, o, material.name) == nullptr;
 }
 
 // Returns the number of triangles, lines and points of a posed model.
@@ -152,14 +155,18 @@ void ModelPreparation::add(int object, const std::string& path, const ObjectDesc
   int instance = 0;
   for (const glm::dmat4& place : places) {
     for (const PosedMesh& part : posed->meshes) {
-      const std::size_t opaque = draws_.opaque.size(), blended = draws_.blended.size();
+      const std::array counts{draws_.opaque.size(), draws_.blended.size(), draws_.normals.size()};
       const glm::dmat4 world = place * turn * part.world_from_mesh;
       const bool simplifiable = is_simplifiable(scene_, o, model->model, part);
       add_part(object, o, path, model, part,
                simplifiable ? detail_.indices_of(model, part.mesh, world, o.model_error, simplified) : all_indices(model, part.mesh),
                world);
-      for (PreparedDraw& draw : std::span(draws_.opaque).subspan(opaque)) draw.source.instance = instance;
-      for (PreparedDraw& draw : std::span(draws_.blended).subspan(blended)) draw.source.instance = instance;
+      const auto number = [instance](std::vector<PreparedDraw>& draws, std::size_t first) {
+        for (PreparedDraw& draw : std::span(draws).subspan(first)) draw.source.instance = instance;
+      };
+      number(draws_.opaque, counts[0]);
+      number(draws_.blended, counts[1]);
+      number(draws_.normals, counts[2]);
       ++instance;
     }
   }
@@ -186,6 +193,7 @@ void ModelPreparation::add_part(int object, const ObjectDescription& o, const st
     draws_.opaque.back().source = {object, 0, streams, world};
     return;
   }
+  if (o.normal_lines > 0.0) draws_.normals.push_back(normal_lines({object, 0, streams, world}, indices, view_, o.normal_lines));
   const Clusters* const clusters = part.deformed == nullptr ? clusters_.of(indices, streams.positions) : nullptr;
   if (const SurfaceDescription* replacement = override_of(scene_, o, material.name); replacement != nullptr) {
     ObjectDescription replaced = o;

@@ -11,6 +11,7 @@ namespace halfspace::HS_LANES {
 // What the objects and particles of a scene draw.
 struct SceneDraws {
   std::vector<PreparedDraw> opaque, blended;  // blended surfaces are drawn after everything opaque
+  std::vector<PreparedDraw> normals;          // lines of normals are drawn after the opaque surfaces
   std::vector<PlacedMesh> meshes;
   std::vector<PlacedSpheres> spheres;
   std::vector<SimplifiedObject> simplified;

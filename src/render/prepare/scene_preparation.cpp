@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "halfspace/render/prepare/scene_preparation.h"
 
+#include <algorithm>
 #include <chrono>
+#include <iterator>
 
 #include "halfspace/render/prepare/scene_background.h"
 #include "halfspace/render/prepare/scene_meshes.h"
@@ -47,6 +49,7 @@ PreparedScene ScenePreparation::prepare() {
   add_particles();
   PreparedScene out;
   out.clear_color = background_color(scene_.background);
+  std::ranges::move(draws_.normals, std::back_inserter(draws_.opaque));
   if (auto background = background_draw(scene_.background, view_, environments_)) draws_.opaque.push_back(std::move(*background));
   if (scene_.background.type == BackgroundType::transparent) {
     out.transparent = true;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "halfspace/render/prepare/shape_preparation.h"
 
+#include "halfspace/render/prepare/normal_lines.h"
 #include "halfspace/render/prepare/scene_places.h"
 #include "halfspace/render/prepare/surface_draw.h"
 
@@ -21,6 +22,7 @@ void ShapePreparation::add(int object, const std::string& path, const ObjectDesc
     PreparedDraw draw = surface_draw(surface, o.surface.shading, detail, streams, indices);
     draw.source = {object, copy++, streams, world};
     if (clusters != nullptr) draw.state.clusters = ClusterCulling{clusters, surface.clip_from_object};
+    if (o.normal_lines > 0.0) draws_.normals.push_back(normal_lines(draw.source, indices, view_, o.normal_lines));
     draws_.add(std::move(draw));
     draws_.meshes.push_back({mesh->mesh.positions, mesh->mesh.normals, indices, world, surface.two_sided, o.casts_shadow, o.receives_shadow,
                              object, shadow_opacity(surface)});

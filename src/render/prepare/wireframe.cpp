@@ -18,7 +18,8 @@ enum class DrawKind { mesh, sphere, other };
 template <class S>
 constexpr bool kIsSphereShader = std::is_same_v<S, SphereImpostor<false>> || std::is_same_v<S, SphereImpostor<true>>;
 template <class S>
-constexpr bool kIsMeshlessShader = std::is_same_v<S, StarSky> || std::is_same_v<S, EnvironmentSky> || std::is_same_v<S, ColoredPrimitives>;
+constexpr bool kIsMeshlessShader = std::is_same_v<S, StarSky> || std::is_same_v<S, EnvironmentSky> ||
+                                   std::is_same_v<S, ColoredPrimitives> || std::is_same_v<S, NormalLines>;
 
 DrawKind kind_of(const PreparedDraw& draw) {
   return std::visit(
@@ -51,6 +52,8 @@ glm::vec4 line_color(const glm::vec4& background) {
   return luminance > kMiddle ? glm::vec4(0, 0, 0, 1) : glm::vec4(1.0f);
 }
 
+float line_width(const View& view) { return std::max(1.0f, static_cast<float>(view.height_px) / 1080.0f); }
+
 bool make_wireframe(PreparedScene& scene, const SceneDescription& description, HiddenLines hidden) {
   const FloatMode float_mode;
   const auto colors = std::make_shared<const std::array<Palette, 2>>(
@@ -58,7 +61,7 @@ bool make_wireframe(PreparedScene& scene, const SceneDescription& description, H
   scene.assets.push_back(colors);
   DrawState lines = opaque_state(CullMode::none, false), surface = lines;
   lines.polygon_mode = PolygonMode::line;
-  lines.line_width = std::max(1.0f, static_cast<float>(scene.view.height_px) / 1080.0f);
+  lines.line_width = line_width(scene.view);
   surface.offset = kBehindEdges;
   std::vector<PreparedDraw> draws;
   for (const PlacedMesh& mesh : scene.meshes) {
