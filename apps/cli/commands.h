@@ -55,6 +55,7 @@ struct ExplainArguments {
   std::vector<std::string> set;
   std::string camera, shading, time, threads;  ///< see RenderArguments
   std::string pixel;                           ///< default: the pixel with the most fragments
+  std::string lessons;                         ///< see PageOptions; empty: none
   bool text = false, json = false;
   ModelArguments model;
   LimitArguments limits;

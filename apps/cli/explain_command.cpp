@@ -60,6 +60,7 @@ void explain_command(const ExplainArguments& args) {
   const std::optional<glm::ivec2> pixel = parse_pixel(args.pixel, size);
   if (args.text && args.json) throw UsageError("--text and --json cannot be combined; expected at most one of them");
   const bool is_page = !args.text && !args.json;
+  if (!is_page && !args.lessons.empty()) throw UsageError("--lessons applies only to the page; expected it without --text and --json");
   if (!is_page && !args.out.empty()) throw UsageError("-o applies only to the page; expected it without --text and --json");
   const double time = args.time.empty() ? 0.0 : parse_real("--time", args.time, -1e9, 1e9, "-1e9 to 1e9 seconds, for example 2.5");
   const Workers workers(parse_threads(args.threads));
@@ -76,7 +77,7 @@ void explain_command(const ExplainArguments& args) {
     const SceneDescription scene = opened.scene.at(time);
     if (is_page) reject_overwriting(out, input_files(scene, args.scene, models));
     const PreparedScene prepared = prepare_explained(scene, opened.scene, size, assets);
-    const ExplainJob job{scene, prepared, args.scene, pixel, explain_commands(args, time), workers};
+    const ExplainJob job{scene, prepared, args.scene, pixel, explain_commands(args, time), args.lessons, workers};
     output = is_page ? page_of(job) : explained_history(job, args.json);
   }
   if (!is_page) {

@@ -26,6 +26,7 @@ struct ExplainJob {
   std::string title;                ///< the scene as named by the user
   std::optional<glm::ivec2> pixel;  ///< the pixel that the user chose, from the upper left
   ExplainCommands commands;
+  std::string lessons;  ///< address of their folder, or empty
   const Workers& workers;
 };
 

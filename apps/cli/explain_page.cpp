@@ -32,8 +32,8 @@ ExplainCommands explain_commands(const ExplainArguments& args, double seconds) {
 }
 
 std::string page_of(const ExplainJob& job) {
-  return explain_page(job.scene, job.prepared, {job.title, job.commands.explain, job.commands.render, HALFSPACE_VERSION, job.pixel},
-                      job.workers);
+  return explain_page(job.scene, job.prepared,
+                      {job.title, job.commands.explain, job.commands.render, HALFSPACE_VERSION, job.lessons, job.pixel}, job.workers);
 }
 
 }  // namespace halfspace

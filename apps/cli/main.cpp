@@ -98,6 +98,9 @@ void add_explain_command(CLI::App& program) {
   command->add_option("-o,--output", args->out, "Output file (default SCENE.html)")->type_name("PAGE")->check(not_empty());
   command->add_option("--pixel", args->pixel, "Pixel, from the upper left (default: an example; --text, --json: most fragments)")
       ->type_name("X,Y");
+  command->add_option("--lessons", args->lessons, "Address of the folder docs/tutorial/lessons, for links to lessons")
+      ->type_name("ADDRESS")
+      ->check(not_empty());
   command->add_flag("--text", args->text, "Print the history of the pixel as text instead");
   command->add_flag("--json", args->json, "Print the history of the pixel as JSON instead");
   command->add_option("--size", args->size, "Size in pixels (default 640x360)")->type_name("WxH");

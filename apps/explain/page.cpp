@@ -87,6 +87,7 @@ PageJson statistics_json(const PassStatistics& s) {
           {"samples_passed", s.samples_passed},
           {"fragments_shaded", s.fragments_shaded},
           {"layers_merged", s.layers_merged},
+          {"geometry_invocations", s.geometry_invocations},
           {"tiles_touched", s.tiles_touched},
           {"flushes", s.flushes}};
 }
@@ -102,6 +103,7 @@ PageJson frame_json(const PageInput& in, const FrameTrace& trace) {
           {"draws", draws_json(in)},
           {"transforms", transforms_json(in)},
           {"example", example_json(in)},
+          {"emission", emission_json(in)},
           {"outcomes", outcomes_json(in)},
           {"clipped", clip_json(in)},
           {"wire", wireframe_json(in)},
@@ -129,11 +131,8 @@ std::string explain_page(const SceneDescription& description, const PreparedScen
   const FrameTrace trace = trace_frame(scene, workers);
   const Image<glm::vec4> light = straight_light(scene, trace);
   const ValuePictures values = value_pictures(scene, workers);
-  PageJson json{{"scene", options.scene},
-                {"command", options.command},
-                {"render_command", options.render_command},
-                {"title", description.head.title},
-                {"version", options.version}};
+  PageJson json{{"scene", options.scene},          {"command", options.command}, {"render_command", options.render_command},
+                {"title", description.head.title}, {"version", options.version}, {"lessons", options.lessons}};
   visit_set_up_scene(scene, workers, [&](const PassContext& context, int round) {
     if (round > 0) return;  // for a very large scene, the page shows only the triangles of the first round
     const ExampleSearch search({scene, context, trace, values, workers});

@@ -16,6 +16,7 @@ struct PageOptions {
   std::string command;              ///< command that generates this page, without --pixel
   std::string render_command;       ///< command that renders the same picture
   std::string version;              ///< version of the program
+  std::string lessons;              ///< address of the folder of the lessons; empty: the page does not link to them
   std::optional<glm::ivec2> pixel;  ///< example pixel, counted from the upper left; default: see example_pixel.h
 };
 

@@ -47,6 +47,9 @@ PageJson wireframe_json(const PageInput& in);
 PageJson bins_json(const PageInput& in);
 PageJson perspective_json(const PageInput& in);
 
+// page_emission.cpp
+PageJson emission_json(const PageInput& in);  ///< null if no draw has a geometry function
+
 // page_light.cpp
 PageJson terms_json(const PageInput& in);
 PageJson shadow_json(const PageInput& in);

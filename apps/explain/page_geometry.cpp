@@ -216,14 +216,14 @@ PageJson draws_json(const PageInput& in) {
   PageJson json = PageJson::array();
   for (std::size_t i = 0; i < in.scene.draws.size(); ++i) {
     const PreparedDraw& draw = in.scene.draws[i];
-    const Draw& d = in.context.draws[i];
+    const Draw& d = in.context.draws[i];  // of what a geometry function has emitted, if there is one
     json.push_back({{"object", object_name(in.description, draw.source.object)},
                     {"copy", draw.source.instance},
-                    {"kind", draws_points(draw.state)        ? "points"
-                             : is_lines(draw.state.topology) ? "lines"
-                                                             : "triangles"},
+                    {"kind", draws_points(d.state)        ? "points"
+                             : is_lines(d.state.topology) ? "lines"
+                                                          : "triangles"},
                     {"vertices", d.vertex_count},
-                    {"primitives", d.primitive_count * draw.state.instances},
+                    {"primitives", d.primitive_count * d.state.instances},
                     {"cull", kCull[static_cast<std::size_t>(draw.state.cull)]},
                     {"layered", draw.state.order_independent},
                     {"blended", draw.state.blend.has_value()},

@@ -15,6 +15,7 @@ constexpr std::array kRanges{
     QuoteRange{"spaces", "src/shading/surface/surface_shader.h", "return clip_from_object * vec4<R>(in.position_os, R(1));",
                "return clip_from_object"},
     QuoteRange{"spaces", "src/raster/pipeline/window.h", "HS_INLINE WindowVertex<R> window_vertex(", "outcode(v, depth, x, y, z, w)};"},
+    QuoteRange{"geometry", "src/shading/surface/normal_lines.h", "void geometry(const GeometryInput", "out.end_primitive();"},
     QuoteRange{"clipping", "src/raster/primitives/clip.cpp", "const auto keep = [&kept]", "if (!a_in && b_in) keep(cut_edge(b, a));"},
     QuoteRange{"culling", "src/raster/primitives/setup_scalar.cpp", "const int64_t area = e1x * e2y", "return Cull::face;"},
     QuoteRange{"setup", "src/raster/pipeline/edge.h", "int64_t at(int64_t x, int64_t y) const", "int64_t at("},

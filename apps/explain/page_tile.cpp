@@ -14,8 +14,9 @@ namespace halfspace {
 
 namespace {
 
-// A frame can have any number of fragments in a tile. With this limit, the steps add at most about 0.5 MB to the page.
-constexpr std::size_t kMaxTileFragments = 60'000;
+// A frame can have any number of fragments and triangles in a tile. The steps end with the triangle that reaches one of these limits, so
+// they add at most about 1 MB to the page: 0.5 MB for the fragments, and 120 bytes per triangle.
+constexpr std::size_t kMaxTileFragments = 60'000, kMaxTileTriangles = 4'096;
 
 struct TileFragment {
   glm::ivec2 window;  // pixel in window coordinates
@@ -80,11 +81,12 @@ PageJson tile_json(const PageInput& in) {
   const ToneMapping tone = stage_tone(in.scene, in.light, in.workers).tone;
   TileColumns columns;
   PageJson list = PageJson::array();
-  std::size_t listed = 0;
+  const auto starts_triangle = [&](std::size_t i) { return i == 0 || all[i].fragment->id != all[i - 1].fragment->id; };
+  std::size_t listed = 0, triangles_left_out = 0;
   for (std::size_t i = 0; i < all.size(); ++i) {
     const TracedFragment& f = *all[i].fragment;
-    if (i == 0 || f.id != all[i - 1].fragment->id) {  // the first fragment of a triangle
-      if (i >= kMaxTileFragments || list.size() > std::numeric_limits<uint16_t>::max()) break;
+    if (starts_triangle(i)) {
+      if (i >= kMaxTileFragments || list.size() == kMaxTileTriangles) break;
       list.push_back(triangle_json(in, triangles, f));
     }
     columns.triangle.push_back(static_cast<uint16_t>(list.size() - 1));
@@ -100,11 +102,13 @@ PageJson tile_json(const PageInput& in) {
     columns.blue.push_back(static_cast<uint8_t>(code.z));
     ++listed;
   }
+  for (std::size_t i = listed; i < all.size(); ++i) triangles_left_out += starts_triangle(i);
   const glm::ivec3 clear = tone_steps(in.scene, tone, glm::vec3(in.scene.clear_color)).code;
   return {{"first", {first.x, first.y}},
           {"triangles", list},
           {"fragments", columns.json()},
           {"left_out", all.size() - listed},
+          {"triangles_left_out", triangles_left_out},
           {"clear", {clear.x, clear.y, clear.z}}};
 }
 

@@ -74,7 +74,7 @@ class DetailFinder {
     return {.fragment = f,
             .object = object_name(scene_, draw.source.object),
             .is_front = triangle.source.triangle->is(kFrontFacing),
-            .topology = draw.state.topology,
+            .topology = triangle.draw->state.topology,
             .copy = draw.source.instance,
             .shader = std::move(v.shader),
             .barycentrics = v.barycentrics,

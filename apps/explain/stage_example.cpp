@@ -35,13 +35,13 @@ StageExample stage_example(const PreparedScene& scene, const PassContext& contex
   const StagePrimitive& p = out.primitive;
   const PreparedDraw& draw = scene.draws[p.draw];
   const ShadedVertices& shaded = context.shaded[p.draw];
-  out.corners = corners_of(draw.state);
+  out.corners = corners_of(context.draws[p.draw].state);
   const std::array<uint32_t, 3> slots = slots_of(context, p);
   const std::array<uint32_t, 3> index = Assembly(context.draws[p.draw], p.index).next();
   const std::array<glm::vec4, 3> clip = clip_positions(context, p);
   for (std::size_t k = 0; k < 3; ++k) {
     StageVertex& v = out.vertices[k];
-    v.index = index[k] + static_cast<uint32_t>(draw.state.base_vertex);
+    v.index = index[k] + static_cast<uint32_t>(context.draws[p.draw].state.base_vertex);
     set_positions(scene, draw, v);
     v.clip = clip[k];
     v.ndc = glm::vec3(v.clip) / v.clip.w;

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <filesystem>
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "explain/page.h"
@@ -22,7 +22,8 @@ namespace {
 
 std::string page_of(const std::string& scene, int threads) {
   const PreparedText s(SceneFile::open(scene).at(0.0), 96, 54, threads);
-  return explain_page(s.description, s.prepared, {scene, "halfspace explain " + scene, "halfspace render " + scene, "test", {}}, s.workers);
+  return explain_page(s.description, s.prepared, {scene, "halfspace explain " + scene, "halfspace render " + scene, "test", {}, {}},
+                      s.workers);
 }
 
 // Returns the data of a page.
@@ -34,9 +35,9 @@ nlohmann::json data_of(const std::string& page) {
 
 TEST(Page, HasAllChapters) {
   const std::string page = page_of("earth", 2);
-  for (const char* id : {"frame",    "spaces",        "clipping", "culling", "setup",    "binning", "coverage",   "depth",
-                         "stepping", "interpolation", "varyings", "mips",    "lighting", "shadows", "tone",       "srgb",
-                         "samples",  "layers",        "final",    "history", "overdraw", "times",   "statistics", "results"})
+  for (const char* id : {"frame",    "spaces",        "geometry", "clipping", "culling",  "setup",      "binning", "coverage", "depth",
+                         "stepping", "interpolation", "varyings", "mips",     "lighting", "shadows",    "tone",    "srgb",     "samples",
+                         "layers",   "final",         "history",  "overdraw", "times",    "statistics", "results"})
     EXPECT_NE(page.find("id: \"" + std::string(id) + "\""), std::string::npos) << id;
   EXPECT_EQ(page.find("http://") != std::string::npos, page.find("http://www.w3.org/2000/svg") != std::string::npos);
   EXPECT_EQ(page.find("https://"), std::string::npos) << "the page must not need a network";
@@ -56,8 +57,8 @@ nlohmann::json page_data(const std::string& scene, const std::vector<std::string
   SceneFile file = SceneFile::open(scene);
   file.set(settings);
   const PreparedText s(file.at(0.0), width, height);
-  return data_of(
-      explain_page(s.description, s.prepared, {scene, "halfspace explain " + scene, "halfspace render " + scene, "test", {}}, s.workers));
+  return data_of(explain_page(s.description, s.prepared, {scene, "halfspace explain " + scene, "halfspace render " + scene, "test", {}, {}},
+                              s.workers));
 }
 
 // The formulas of the page start with the light that the frame stores, so they end in the pixel of the picture.
@@ -102,7 +103,7 @@ TEST(Page, TheExamplePixelIsComplete) {
   const FrameTrace trace = trace_frame(s.prepared, s.workers);
   const glm::ivec2 pixel = trace.busiest_pixel();
   ASSERT_GT(trace.at(pixel).size(), 40u);
-  const nlohmann::json history = data_of(explain_page(s.description, s.prepared, {"test", "", "", "test", {}}, s.workers))["history"];
+  const nlohmann::json history = data_of(explain_page(s.description, s.prepared, {"test", "", "", "test", {}, {}}, s.workers))["history"];
   EXPECT_EQ(history["most"], 64);
   EXPECT_EQ(history["details"]["most"][0], 64);
 }
@@ -113,6 +114,37 @@ TEST(Page, TheDetailedPixelsContainTheExamplePixel) {
     EXPECT_EQ(std::ranges::count(pixels, center), 1);
     EXPECT_GE(pixels.size(), 64u * 64u + 80u * 45u - 64u) << "64 pixels of the grid are in the block";
   }
+}
+
+TEST(Page, ShowsWhatAGeometryFunctionEmits) {
+  EXPECT_TRUE(page_data("earth", {}, 48, 27)["emission"].is_null());
+  const nlohmann::json data = page_data("pipeline", {}, 96, 54), &e = data["emission"];
+  ASSERT_EQ(e["draws"].size(), 1u);
+  const auto received = e["draws"][0]["received"].get<uint64_t>();
+  EXPECT_EQ(e["calls"].get<uint64_t>(), received);
+  EXPECT_EQ(e["draws"][0]["emitted"].get<uint64_t>(), 3 * received);
+  EXPECT_EQ(e["example"]["emitted"].size(), 3u);
+  const nlohmann::json& draw = data["draws"][e["draws"][0]["draw"].get<std::size_t>()];
+  EXPECT_EQ(draw["kind"], "lines");
+  EXPECT_EQ(draw["primitives"].get<uint64_t>(), 3 * received);
+}
+
+// A ball of 9000 spheres, each of which covers a pixel of the only tile.
+TEST(Page, StepsOfATileAreLimited) {
+  const PreparedText s(R"({"version": 1, "cameras": {"c": {"position": [0, 0, 9], "target": [0, 0, 0]}}, "lights": {"sun": {}},
+    "particles": {"sprite": "exact", "arrangement": "ball", "count": 9000}})",
+                       64, 64);
+  const nlohmann::json tile = data_of(explain_page(s.description, s.prepared, {"test", "", "", "test", {}, {}}, s.workers))["tile"];
+  const auto number = [&](const char* key) { return tile[key].get<std::size_t>(); };
+  EXPECT_EQ(tile["triangles"].size(), 4096u);
+  EXPECT_GT(number("triangles_left_out"), 1000u);
+  EXPECT_GE(number("left_out"), number("triangles_left_out"));
+  const FrameTrace trace = trace_frame(s.prepared, s.workers);
+  std::size_t fragments = 0;
+  for (int y = 0; y < 64; ++y) {
+    for (int x = 0; x < 64; ++x) fragments += trace.at({x, y}).size();
+  }
+  EXPECT_EQ(tile["fragments"]["count"].get<std::size_t>() + number("left_out"), fragments);
 }
 
 TEST(Page, SmallPicturesAreDetailedCompletely) {
@@ -142,22 +174,28 @@ TEST(Page, QuotesAreTheLinesOfTheSources) {
   }
 }
 
-// The page names lessons by their titles.
-TEST(Page, NamedLessonsExist) {
-  std::string headings;
-  for (const auto& file : std::filesystem::directory_iterator("docs/tutorial/lessons")) {
-    if (file.path().extension() == ".md") headings += read_bytes(file.path()).substr(0, 200);
-  }
-  const std::string page = page_of("earth", 2), key = "lessons: [";
-  int named = 0;
+// Returns the texts in quotation marks of each list of the page that follows `key`.
+std::vector<std::string> names_in(const std::string& page, const std::string& key) {
+  std::vector<std::string> names;
   for (std::size_t at = page.find(key); at != std::string::npos; at = page.find(key, at + 1)) {
     const std::string list = page.substr(at + key.size(), page.find(']', at) - at - key.size());
-    for (std::size_t open = list.find('"'); open != std::string::npos; open = list.find('"', list.find('"', open + 1) + 1), ++named) {
-      const std::string title = list.substr(open + 1, list.find('"', open + 1) - open - 1);
-      EXPECT_NE(headings.find(": " + title + "\n"), std::string::npos) << title;
-    }
+    for (std::size_t open = list.find('"'); open != std::string::npos; open = list.find('"', list.find('"', open + 1) + 1))
+      names.push_back(list.substr(open + 1, list.find('"', open + 1) - open - 1));
   }
-  EXPECT_GT(named, 15);
+  return names;
+}
+
+// The page names lessons by their titles, and the number of a title in its list is that of the lesson's file.
+TEST(Page, NamedLessonsExist) {
+  const std::string page = page_of("earth", 2);
+  const std::vector<std::string> titles = names_in(page, "const LESSONS = ["), named = names_in(page, "lessons: [");
+  ASSERT_EQ(titles.size(), 24u);
+  for (std::size_t i = 0; i < titles.size(); ++i) {
+    const std::string text = read_bytes(fmt::format("docs/tutorial/lessons/{:02}.md", i + 1));
+    EXPECT_EQ(text.substr(0, text.find('\n')), fmt::format("# Lesson {}: {}", i + 1, titles[i]));
+  }
+  EXPECT_GT(named.size(), 15u);
+  for (const std::string& title : named) EXPECT_EQ(std::ranges::count(titles, title), 1) << title;
 }
 
 TEST(Page, PackedBytesAreAPngFile) {

@@ -502,6 +502,53 @@ class Page(unittest.TestCase):
             self.assertRegex(shown, rf"(?m)^{number}\. ")
         self.assertNotIn("does not list", shown)
 
+    def test_the_geometry_stage_shows_what_is_emitted(self):
+        self.assertIn("normal_lines", self.caption("flat", "geometry"), "how to get a geometry stage")
+        text = self.caption("pipeline", "geometry", 2)
+        self.assertIn("3 lines", text)
+        error, lengths, outside, lines, calls = self.run_script("""const pv = multiply(M.clip_from_view, M.view_from_world);
+            const errors = EMITTED.emitted.flatMap(([corner, tip], i) => { const offset = transform(pv, [...EMITTED.received[i].normal.map((v) => v * EMITTED.length), 0]);
+              return tip.clip.map((v, k) => Math.abs(v - corner.clip[k] - offset[k]) / tip.clip[3]); });
+            const all = EMITTED.emitted.flat().map((v) => v.window), lengths = EMITTED.received.map((v) => Math.hypot(...v.normal));
+            return [Math.max(...errors), lengths, all.filter(([x, y]) => x < 0 || y < 0 || x >= W || y >= H).length, EMISSION.draws[0].emitted, EMISSION.calls]""")
+        self.assertLess(error, 1e-6, "floats")
+        for length in lengths:
+            self.assertAlmostEqual(length, 1, 5)
+        self.assertEqual([outside, lines], [0, 3 * calls])
+
+    def test_wireframes_have_a_loupe(self):
+        """The middle of the loupe is what is under the pointer. While the drawing is turned, there is no loupe."""
+        self.open("pipeline", "spaces/2")
+        drawn, empty, hidden = self.run_script("""const canvas = document.querySelector('figure .stage canvas'), lens = document.querySelector('figure .loupe canvas');
+            const r = canvas.getBoundingClientRect(), w = canvas.width, all = canvas.getContext('2d').getImageData(0, 0, w, canvas.height).data;
+            const alpha = (x, y) => all[4 * (y * w + x) + 3], reach = 10, isEmpty = (x, y) => { for (let j = -reach; j <= reach; ++j) for (let i = -reach; i <= reach; ++i) if (alpha(x + i, y + j) > 0) return false; return true; };
+            const point = (x, y, buttons) => canvas.dispatchEvent(new PointerEvent('pointermove', {clientX: r.left + (x + 0.5) / w * r.width, clientY: r.top + (y + 0.5) / canvas.height * r.height, buttons}));
+            const sum = (size) => lens.getContext('2d').getImageData(72 - size / 2, 72 - size / 2, size, size).data.reduce((n, v, i) => n + (i % 4 === 3 ? v : 0), 0);
+            const find = (accepts) => { for (let y = 100; y < 460; ++y) for (let x = 100; x < 900; ++x) if (accepts(x, y)) return [x, y]; };
+            point(...find((x, y) => alpha(x, y) > 160), 0);
+            const drawn = sum(16);
+            point(...find(isEmpty), 0);
+            const empty = sum(144);
+            point(500, 280, 1);
+            return [drawn, empty, document.querySelector('figure .loupe').hidden]""")
+        self.assertGreater(drawn, 0, "a pixel of an edge")
+        self.assertEqual([empty, hidden], [0, True])
+
+    def test_links_to_lessons_need_their_address(self):
+        links = "return [...document.querySelectorAll('.related a')].map((a) => a.href).filter((h) => h.endsWith('.md'))"
+        self.assertIn("docs/tutorial/lessons", self.caption("flat", "depth"))
+        self.assertEqual(self.run_script(links), [])
+        self.pages["linked"] = Path(self.folder.name) / "linked.html"
+        subprocess.run([PROGRAM, "explain", "flat.json", "--size", "32x18", "--lessons", "course/", "-o", self.pages["linked"]], check=True, cwd=self.folder.name)
+        self.open("linked", "depth")
+        self.assertEqual(self.run_script(links), [f"file://{self.folder.name}/course/02.md"])
+
+    def test_a_cut_tile_says_so(self):
+        self.open("panes", "stepping")
+        self.assertEqual(self.run_script("return cutNote()"), "")
+        note = self.run_script("Object.assign(STEPS, {left_out: 5, triangles_left_out: 2}); return cutNote()")
+        self.assertRegex(note, r"the steps end after \d+ triangles with .* fragments; the tile has 2 more with 5 fragments")
+
     def test_arrow_keys_select_a_pixel(self):
         self.open("earth", "depth")
         canvas = self.driver.find_element(By.CSS_SELECTOR, "figure canvas")

@@ -5,6 +5,7 @@
 
 #include "explain/fragment_values.h"
 #include "explain/prepared.h"
+#include "explain/stage_emission.h"
 #include "explain/stage_example.h"
 #include "explain/stage_geometry.h"
 #include "explain/stage_pictures.h"
@@ -40,6 +41,34 @@ TEST(Stages, AVertexPassesThroughAllSpaces) {
       EXPECT_EQ(v.outcode, 0);
     }
   });
+}
+
+// The normals of the square point to the camera. Their lines are half a unit long, of the 20 units between the far and the near plane.
+TEST(Stages, AGeometryFunctionEmitsThreeLinesPerTriangle) {
+  std::string text = kPlane;
+  text.insert(text.rfind("}}}"), R"(, "normal_lines": 0.5)");
+  const PreparedText s(text, 64, 64);
+  const std::vector<StageEmission> emissions = stage_emissions(s.prepared, s.workers);
+  ASSERT_EQ(emissions.size(), 1u);
+  const StageEmission& e = emissions[0];
+  EXPECT_EQ(e.draw, 1u);
+  EXPECT_EQ(e.received.primitive_count(), 2u);
+  EXPECT_EQ(e.emitted.primitive_count(), 6u);
+  EXPECT_EQ(emission_example(e, {64, 64}), std::optional<std::size_t>(0)) << "the triangles have equal areas";
+  for (std::size_t i = 0; i < 2; ++i) {
+    const std::vector<std::size_t> lines = emitted_for(e, i);
+    ASSERT_EQ(lines, (std::vector<std::size_t>{3 * i, 3 * i + 1, 3 * i + 2}));
+    for (std::size_t k = 0; k < 3; ++k) {
+      const glm::vec4 corner = clip_position(e.received, 3 * i + k), start = clip_position(e.emitted, 2 * lines[k]);
+      const glm::vec4 tip = clip_position(e.emitted, 2 * lines[k] + 1);
+      EXPECT_EQ(start, corner);
+      EXPECT_EQ(glm::vec3(tip.x, tip.y, tip.w), glm::vec3(start.x, start.y, start.w));
+      EXPECT_NEAR(tip.z - start.z, 0.5 / 20.0, 1e-6) << "float rounding";
+      const glm::dvec2 at = window_position(e.received, 3 * i + k, {64, 64});
+      EXPECT_NEAR(std::fabs(at.x - 32.0), 16.0, 1e-4) << "a corner of the square";
+      EXPECT_NEAR(std::fabs(at.y - 32.0), 16.0, 1e-4);
+    }
+  }
 }
 
 TEST(Stages, TheTrianglesOfASquareCoverEachPixelOnce) {
@@ -79,7 +108,7 @@ TEST(Stages, BinsHoldTheTrianglesOfTheirTiles) {
 
 // Each primitive is set up separately to find its outcome. The sums must equal the counters of the pass.
 TEST(Stages, OutcomesAddUpToTheStatisticsOfThePass) {
-  for (const char* name : {"earth", "day-night", "particles", "shadow-plane"}) {
+  for (const char* name : {"earth", "day-night", "particles", "shadow-plane", "pipeline"}) {
     const PreparedText s(SceneFile::open(name).at(0.0), 160, 90);
     Image<glm::u8vec4> picture(160, 90);
     const PassStatistics expected = render(s.prepared, picture, s.workers);

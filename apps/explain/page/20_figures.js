@@ -103,6 +103,27 @@ function addLoupe(box, canvas, columns, rows) {
   return box;
 }
 
+// Gives a drawing a loupe that draws the part under the pointer again, magnified. paint(pen, k, isNear): draws with lines of 1/k of their
+// width. isNear(a, b): whether a line from a to b can be in the loupe.
+function addDrawnLoupe(box, canvas, paint) {
+  const size = (2 * LOUPE_REACH + 1) * LOUPE_SCALE, lens = el("canvas", {width: size, height: size}), pen = lens.getContext("2d");
+  const element = el("div", {class: "loupe", "aria-hidden": "true", hidden: true}, lens), hide = () => { element.hidden = true; };
+  canvas.addEventListener("pointermove", (e) => {
+    if (e.buttons !== 0) return hide();  // the drawing is being turned
+    const r = canvas.getBoundingClientRect(), x = (e.clientX - r.left) / r.width * canvas.width, y = (e.clientY - r.top) / r.height * canvas.height;
+    const reach = size / LOUPE_SCALE;
+    pen.setTransform(1, 0, 0, 1, 0, 0);
+    pen.clearRect(0, 0, size, size);
+    pen.setTransform(LOUPE_SCALE, 0, 0, LOUPE_SCALE, size / 2 - x * LOUPE_SCALE, size / 2 - y * LOUPE_SCALE);
+    paint(pen, LOUPE_SCALE, ([ax, ay], [bx, by]) => Math.max(ax, bx) > x - reach && Math.min(ax, bx) < x + reach && Math.max(ay, by) > y - reach && Math.min(ay, by) < y + reach);
+    element.hidden = false;
+    element.classList.toggle("left", x > canvas.width / 2);
+  });
+  canvas.addEventListener("pointerleave", hide);
+  box.append(element);
+  return box;
+}
+
 function placeMark(mark, x, y) {
   mark.style.left = `${(x + 0.5) / W * 100}%`;
   mark.style.top = `${(y + 0.5) / H * 100}%`;

@@ -42,13 +42,24 @@ function stepsOf(c) {
   return el("figure", {}, stage, steps.length > 1 ? el("div", {class: "stepper"}, back, range, next, output) : null, caption);
 }
 
+// The lessons in order: the first one is 01.md.
+const LESSONS = ["A triangle", "Depth", "Perspective", "Rotation, view and look-at", "Projection, w and clipping", "The library", "Texture and mipmaps",
+  "Flat, Gouraud and Phong shading", "Normal and bump maps", "Shadow map and bias", "Point-sprite spheres", "High dynamic range", "SIMD lanes",
+  "Tiles and threads", "The geometry stage", "Tessellation", "Antialiasing", "Blending and order", "A model file", "Render to texture and bloom",
+  "Cube map", "Deferred shading", "Instancing", "Your own renderer"];
+// A link to a lesson if the page knows the address of the lessons (--lessons), otherwise its title.
+function lessonLink(title) {
+  const file = `${String(LESSONS.indexOf(title) + 1).padStart(2, "0")}.md`;
+  return DATA.lessons === "" ? `“${title}”` : el("a", {href: `${DATA.lessons.replace(/\/$/, "")}/${file}`}, title);
+}
+
 // Links to related chapters, and the lessons that build the stage.
 function relatedTo(c) {
   const chapters = (c.related || []).map((id) => CHAPTERS.find((other) => other.id === id));
   const links = chapters.flatMap((other, i) => [i > 0 ? ", " : null, el("a", {href: "#" + other.id, onclick: (e) => { e.preventDefault(); goTo(CHAPTERS.indexOf(other)); }}, other.title)]);
-  const lessons = (c.lessons || []).map((title) => `“${title}”`).join(" and ");
+  const lessons = (c.lessons || []).flatMap((title, i) => [i > 0 ? " and " : null, lessonLink(title)]);
   return el("p", {class: "related"}, ...(links.length > 0 ? ["Related chapters: ", ...links, ". "] : []),
-    lessons ? `Lessons that write this stage in C++ (docs/tutorial/lessons): ${lessons}.` : null);
+    ...(lessons.length > 0 ? [`Lessons that write this stage in C++${DATA.lessons === "" ? " (docs/tutorial/lessons)" : ""}: `, ...lessons, "."] : []));
 }
 
 function turnButtons(index) {

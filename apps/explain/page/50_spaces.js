@@ -123,35 +123,47 @@ function projector(points, width, height) {
 function wireCanvas(label, triangles, lines, example, points = []) {
   const width = 1000, height = 560, {canvas, pen} = canvasFigure(width, height, label);
   const all = [...triangles.flatMap((t) => t.corners), ...lines.flatMap((l) => l.points), ...points, ...(example || [])];
-  const draw = () => {
-    const to = projector(all, width, height);
-    pen.clearRect(0, 0, width, height);
+  let to = null, edges = [];
+  // k: magnification. isNear(a, b): whether a line from a to b has to be drawn.
+  const paint = (pen, k, isNear) => {
     pen.lineJoin = "round";
     const ink = css("--ink");
-    drawEdges(pen, triangles, to, ink);
+    pen.strokeStyle = ink;
+    pen.lineWidth = 1 / k;
+    for (const e of edges) {
+      if (!isNear(...e.ends)) continue;
+      pen.globalAlpha = e.alpha;
+      stroke(pen, ...e.ends);
+    }
     pen.globalAlpha = 0.7;
     pen.fillStyle = ink;
-    for (const p of points) { const [x, y] = to(p); pen.fillRect(x - 1, y - 1, 2, 2); }
+    for (const p of points) { const [x, y] = to(p); pen.fillRect(x - 1 / k, y - 1 / k, 2 / k, 2 / k); }
     pen.globalAlpha = 1;
     for (const l of lines) {
-      pen.setLineDash(l.dash || []);
+      pen.setLineDash((l.dash || []).map((d) => d / k));
       pen.strokeStyle = css(l.color || "--soft");
-      pen.lineWidth = l.width || 1.5;
+      pen.lineWidth = (l.width || 1.5) / k;
       pen.beginPath();
       l.points.map(to).forEach(([x, y], i) => (i ? pen.lineTo(x, y) : pen.moveTo(x, y)));
       pen.stroke();
       pen.setLineDash([]);
-      if (l.name) { const [x, y] = to(l.points[l.points.length - 1]); pen.fillStyle = css(l.color || "--soft"); pen.font = `600 ${narrowWindow.matches ? 34 : 19}px system-ui`; pen.fillText(l.name, x + 7, y + 5); }
+      if (l.name && k === 1) { const [x, y] = to(l.points[l.points.length - 1]); pen.fillStyle = css(l.color || "--soft"); pen.font = `600 ${narrowWindow.matches ? 34 : 19}px system-ui`; pen.fillText(l.name, x + 7, y + 5); }
     }
-    if (example) markExample(pen, example.map(to));
+    if (example) markExample(pen, example.map(to), k);
+  };
+  const draw = () => {
+    to = projector(all, width, height);
+    edges = drawnEdges(triangles, to);
+    pen.clearRect(0, 0, width, height);
+    paint(pen, 1, () => true);
   };
   draggable(canvas, draw);
   draw();
-  return [el("div", {class: "stage"}, canvas), turnControl(draw)];
+  return [addDrawnLoupe(el("div", {class: "stage"}, canvas), canvas, paint), turnControl(draw)];
 }
 
-// Draws each edge of the triangles once. Edges that are farther from the viewer of the drawing are fainter.
-function drawEdges(pen, triangles, to, ink) {
+// Returns each edge of the triangles once: {ends, alpha}. Edges that are farther from the viewer of the drawing are fainter.
+function drawnEdges(triangles, to) {
   const seen = new Set(), edges = [];
   for (const t of triangles) for (const k of [0, 1, 2]) {
     const ends = [t.corners[k], t.corners[(k + 1) % 3]], name = ends.map((p) => p.join()).sort().join(" ");
@@ -161,19 +173,15 @@ function drawEdges(pen, triangles, to, ink) {
   }
   const depths = edges.map(([a, b]) => a[2] + b[2]), low = depths.reduce((m, d) => Math.min(m, d), Infinity), high = depths.reduce((m, d) => Math.max(m, d), -Infinity);
   const dense = Math.max(0.3, Math.min(0.9, 2000 / Math.max(edges.length, 1)));
-  pen.strokeStyle = ink;
-  pen.lineWidth = 1;
-  edges.forEach(([a, b], i) => {
-    pen.globalAlpha = dense * (0.15 + 0.85 * (depths[i] - low) / Math.max(high - low, 1e-9));
-    stroke(pen, a, b);
-  });
+  return edges.map((ends, i) => ({ends, alpha: dense * (0.15 + 0.85 * (depths[i] - low) / Math.max(high - low, 1e-9))}));
 }
 
-function markExample(pen, points) {
-  if (points.length === 3) polygon(pen, points, {fill: css("--accent"), stroke: css("--accent"), width: 2});
+// k: magnification of the pen.
+function markExample(pen, points, k = 1) {
+  if (points.length === 3) polygon(pen, points, {fill: css("--accent"), stroke: css("--accent"), width: 2 / k});
   const [x, y] = points[0];
   pen.strokeStyle = css("--accent");
-  pen.lineWidth = 3;
+  pen.lineWidth = 3 / k;
   pen.beginPath();
   pen.arc(x, y, 14, 0, 7);
   pen.stroke();

@@ -128,13 +128,16 @@ function markStep(pen, t, i) {
   }
 }
 
+// Says that the steps end before the tile is complete.
+const cutNote = () => (STEPS.left_out === 0 ? "" : ` To keep the page small, the steps end after ${plural(STEPS.triangles.length, "triangle")} with ${plural(STEPS.fragments.count, "fragment")}; the tile has ${fmt(STEPS.triangles_left_out)} more with ${plural(STEPS.left_out, "fragment")}.`);
+
 chapter({
   id: "stepping", title: "A tile, step by step", kicker: "Tiles",
   lead: () => "The tile of the example pixel is drawn again, triangle by triangle and pixel by pixel, with the values that were recorded while the renderer drew the frame.",
   absent: () => (STEPS.triangles.length === 0 ? `Nothing is drawn in the tile of the example pixel. A frame with triangles: ${command("halfspace explain pipeline")}.` : null),
   input: () => [`${plural(STEPS.triangles.length, "primitive")} with a fragment in the tile, in submission order`],
-  output: () => [`${plural(STEPS.fragments.count, "recorded fragment")}${STEPS.left_out > 0 ? `; ${fmt(STEPS.left_out)} more were left out, because the page would become too large` : ""}`],
-  steps: () => [{name: "The steps", caption: `The sliders select a triangle of the tile and one of its pixels, row by row from the bottom; the panels show the tile after this step${DATA.samples > 1 ? `, at sample ${SAMPLE} of each pixel` : ""}. The renderer shades opaque surfaces when the visible triangle of each sample is known. A fragment that passed, and was hidden before it was shaded, never got a color; it is gray in the third panel. Transparent layers are blended after the last step, so the third panel does not contain them.`, draw: tileStepper}],
+  output: () => [plural(STEPS.fragments.count, "recorded fragment")],
+  steps: () => [{name: "The steps", caption: `The sliders select a triangle of the tile and one of its pixels, row by row from the bottom; the panels show the tile after this step${DATA.samples > 1 ? `, at sample ${SAMPLE} of each pixel` : ""}. The renderer shades opaque surfaces when the visible triangle of each sample is known. A fragment that passed, and was hidden before it was shaded, never got a color; it is gray in the third panel. Transparent layers are blended after the last step, so the third panel does not contain them.${cutNote()}`, draw: tileStepper}],
   related: ["coverage", "depth", "history"], lessons: ["Depth"],
   exercises: () => [
     {ask: "How many samples would this tile have with 16 samples per pixel?", answer: TILE_W * TILE_H * 16, hint: "Multiply its width, its height and the number of samples per pixel.", why: `${TILE_W} · ${TILE_H} · 16.`},

@@ -92,7 +92,7 @@ const STATISTICS = [
   ["culled_non_finite", "culled: a position or clip distance is infinite or NaN"], ["culled_outside", "culled: outside the view, or nothing is left after clipping"], ["culled_face", "culled because of their facing"],
   ["culled_degenerate", "culled: no area"], ["culled_no_sample", "culled: no sample is covered"], ["clipped", "clipped primitives"], ["triangles_binned", "primitives to draw, including the pieces of clipped ones"],
   ["bin_entries", "pairs of a primitive and a tile that the primitive may overlap"], ["samples_tested", "covered samples, except for those rejected with their block"], ["samples_passed", "samples that passed all tests"],
-  ["fragments_shaded", "runs of a fragment shader; the samples of a pixel can share one"], ["layers_merged", "transparent fragments beyond 8 layers per sample"], ["tiles_touched", "tiles with at least one primitive"], ["flushes", "number of times that the memory for bins or vertices was full"]];
+  ["geometry_invocations", "calls of geometry functions"], ["fragments_shaded", "runs of a fragment shader; the samples of a pixel can share one"], ["layers_merged", "transparent fragments beyond 8 layers per sample"], ["tiles_touched", "tiles with at least one primitive"], ["flushes", "number of times that the memory for bins or vertices was full"]];
 
 chapter({
   id: "statistics", title: "Statistics", kicker: "The whole frame",
