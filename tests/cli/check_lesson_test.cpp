@@ -52,7 +52,7 @@ TEST_F(CheckLesson, CountsThePixelsOfAWrongSolutionAndShowsThem) {
 
 TEST_F(CheckLesson, RecognizesThePictureOfTheUnchangedProgram) {
   fs::create_directory(directory / "class");
-  for (int lesson = 1; lesson <= 24; ++lesson) {
+  for (const int lesson : {1, 13, 24}) {
     const std::string number = std::to_string(lesson);
     fs::copy_file("docs/tutorial/lessons/images" / fs::path(lesson < 10 ? "0" + number : number).concat(".png"),
                   directory / "class" / "start.png", fs::copy_options::overwrite_existing);

@@ -117,16 +117,23 @@ TEST(Page, TheDetailedPixelsContainTheExamplePixel) {
 }
 
 TEST(Page, ShowsWhatAGeometryFunctionEmits) {
-  EXPECT_TRUE(page_data("earth", {}, 48, 27)["emission"].is_null());
-  const nlohmann::json data = page_data("pipeline", {}, 96, 54), &e = data["emission"];
+  const auto data_with = [](const std::string& keys) {
+    const PreparedText s(R"({"version": 1, "cameras": {"c": {"position": [0, 4, 3], "target": [0, 0, 0]}}, "lights": {"sun": {}},
+      "objects": {"a": {"shape": "plane", "size": 2, "segments": 2)" +
+                             keys + "}}}",
+                         64, 36);
+    return data_of(explain_page(s.description, s.prepared, {"test", "", "", "test", {}, {}}, s.workers));
+  };
+  EXPECT_TRUE(data_with("")["emission"].is_null());
+  const nlohmann::json data = data_with(R"(, "normal_lines": 0.1)"), &e = data["emission"];
   ASSERT_EQ(e["draws"].size(), 1u);
-  const auto received = e["draws"][0]["received"].get<uint64_t>();
-  EXPECT_EQ(e["calls"].get<uint64_t>(), received);
-  EXPECT_EQ(e["draws"][0]["emitted"].get<uint64_t>(), 3 * received);
+  EXPECT_EQ(e["calls"], 8);
+  EXPECT_EQ(e["draws"][0]["received"], 8);
+  EXPECT_EQ(e["draws"][0]["emitted"], 24);
   EXPECT_EQ(e["example"]["emitted"].size(), 3u);
-  const nlohmann::json& draw = data["draws"][e["draws"][0]["draw"].get<std::size_t>()];
-  EXPECT_EQ(draw["kind"], "lines");
-  EXPECT_EQ(draw["primitives"].get<uint64_t>(), 3 * received);
+  EXPECT_EQ(data["draws"][0]["kind"], "triangles");
+  EXPECT_EQ(data["draws"][1]["kind"], "lines");
+  EXPECT_EQ(data["draws"][1]["primitives"], 24);
 }
 
 // A ball of 9000 spheres, each of which covers a pixel of the only tile.
