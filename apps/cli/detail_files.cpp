@@ -48,7 +48,7 @@ std::optional<SimplifiedMesh> mesh_in(std::string_view contents, const TriangleL
   if (data.size() != sizeof(double) + count * sizeof(uint32_t) || count % 3 != 0) return std::nullopt;
   simple.indices.resize(count);
   std::memcpy(&simple.error, data.data(), sizeof(double));
-  std::memcpy(simple.indices.data(), data.data() + sizeof(double), count * sizeof(uint32_t));
+  if (count != 0) std::memcpy(simple.indices.data(), data.data() + sizeof(double), count * sizeof(uint32_t));
   const bool in_range = std::ranges::all_of(simple.indices, [&](uint32_t i) { return i < mesh.positions.size(); });
   return in_range && simple.error >= 0.0 ? std::optional(std::move(simple)) : std::nullopt;
 }
@@ -75,14 +75,12 @@ fs::path detail_folder() {
 std::optional<SimplifiedMesh> DetailFiles::find(const TriangleList& mesh, int step) {
   const fs::path file = folder_ / name_of(mesh, step);
   const std::size_t largest = sizeof(double) + mesh.indices.size() * sizeof(uint32_t) + kHashDigits;
+  std::error_code ignored;
+  if (!fs::is_regular_file(file, ignored)) return std::nullopt;
   const std::optional<std::string> contents = read_at_most(file, largest + 1);
   if (!contents) return std::nullopt;
   std::optional<SimplifiedMesh> found = contents->size() <= largest ? mesh_in(*contents, mesh) : std::nullopt;
-  if (!found && !warned_) {
-    warn_(file.string() + ": is damaged; it is replaced");
-    warned_ = true;
-  }
-  std::error_code ignored;
+  if (!found && !warned_.exchange(true)) warn_(file.string() + ": is damaged and is not used");
   if (found) fs::last_write_time(file, fs::file_time_type::clock::now(), ignored);
   return found;
 }

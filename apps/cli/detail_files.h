@@ -3,6 +3,7 @@
 // Simplified meshes in the user's cache folder. Several processes may use the folder at the same time.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -16,7 +17,7 @@ namespace halfspace {
 std::filesystem::path detail_folder();
 
 /// One file per mesh and step. Its name is a hash of the mesh, the step and the version of the simplification. A file that is damaged is
-/// ignored and replaced. Problems with the folder are ignored, because everything in it can be made again.
+/// ignored, and replaced if possible. Problems with the folder are ignored, because everything in it can be made again.
 class DetailFiles : public DetailCache {
  public:
   /// folder: created when it is needed. max_bytes: if all files together are larger, those that were not used for the longest time are
@@ -33,7 +34,7 @@ class DetailFiles : public DetailCache {
   std::filesystem::path folder_;
   uint64_t max_bytes_;
   std::function<void(const std::string&)> warn_;
-  bool warned_ = false;
+  std::atomic<bool> warned_ = false;
 };
 
 }  // namespace halfspace

@@ -104,6 +104,7 @@ void RenderRun::begin(const RenderJob& job) {
       assets_ ? std::make_unique<SceneAssets>(*assets_, workers_, print_warning) : std::make_unique<SceneAssets>(workers_, print_warning);
   if (const std::filesystem::path folder = detail_folder(); !folder.empty() && !options_.arguments.no_cache)
     assets_->keep_details(std::make_shared<DetailFiles>(folder, kMaxCacheBytes, print_warning));
+  assets_->forget_shadow_maps();  // the scene may need their memory
   // All frames determine the detail of generated maps, so that the pictures do not depend on which process renders them.
   if (options_.frames) {
     expect_frames(

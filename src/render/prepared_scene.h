@@ -86,6 +86,8 @@ struct PlacedMesh {
   std::span<const glm::vec2> uvs{};     ///< for `opacity`; empty: (0, 0); not owned
   std::span<const glm::vec4> colors{};  ///< for `opacity`: alpha multiplies it; empty: alpha 1; not owned
   const Clusters* clusters = nullptr;   ///< of `indices`, or null; not owned
+  /// The positions were made for this frame, for example by a skin. Those of other meshes last as long as `indices`.
+  bool deformed = false;
 
   bool mirrored() const { return glm::determinant(glm::dmat3(world_from_object)) < 0.0; }
 };

@@ -2,9 +2,12 @@
 #include "halfspace/render/scene_assets.h"
 
 #include <array>
+#include <optional>
 #include <typeindex>
+#include <utility>
 
 #include "halfspace/core/float_mode.h"
+#include "halfspace/core/resource_limits.h"
 #include "halfspace/render/error_budget/approximation_chooser.h"
 #include "halfspace/render/prepare/model_preparation.h"
 #include "halfspace/render/prepare/scene_environments.h"
@@ -41,9 +44,18 @@ SceneWithinError SceneAssets::choose_within_error(const SceneDescription& scene,
 
 PreparedScene SceneAssets::prepare(const SceneDescription& scene, int width, int height) {
   const FloatMode float_mode;
-  PreparedScene prepared = ScenePreparation(scene, width, height, minimum_, cache_, details_.get(), warnings_, workers_).prepare();
+  const auto prepare_once = [&] {
+    return ScenePreparation(scene, width, height, minimum_, cache_, details_.get(), warnings_, workers_).prepare();
+  };
+  std::optional<PreparedScene> prepared;
+  try {
+    prepared = prepare_once();
+  } catch (const LimitError&) {
+    if (cache_.remove_all<KeptShadowMaps>() == 0) throw;  // otherwise, the memory of the last frame's maps may suffice
+  }
+  if (!prepared) prepared = prepare_once();
   cache_.remove_unwanted();
-  return prepared;
+  return std::move(*prepared);
 }
 
 PreparedScene SceneAssets::prepare_values(SceneDescription scene, int width, int height) {
@@ -53,7 +65,7 @@ PreparedScene SceneAssets::prepare_values(SceneDescription scene, int width, int
   scene.reflections.on = false;
   scene.background.type = BackgroundType::color;
   PreparedScene prepared = ScenePreparation(scene, width, height, minimum_, cache_, details_.get(), warnings_, workers_).prepare();
-  cache_.remove_unwanted(std::array<std::type_index, 3>{typeid(EnvironmentMap), typeid(FilteredEnvironment), typeid(KeptShadowMaps)});
+  cache_.remove_unwanted(std::array<std::type_index, 2>{typeid(EnvironmentMap), typeid(FilteredEnvironment)});
   return prepared;
 }
 

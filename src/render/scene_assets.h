@@ -53,10 +53,10 @@ class SceneAssets {
   PreparedScene prepare(const SceneDescription& scene, int width, int height);
 
   /// The same for a frame without color (render/frame/frame.h). Lights, shadows, reflections and the background are not prepared.
-  /// Environments and shadow maps stay in the cache for later frames.
+  /// Environments stay in the cache for later frames.
   PreparedScene prepare_values(SceneDescription scene, int width, int height);
 
-  /// Removes the shadow maps from the cache, so that the next frame draws them anew, for measurements.
+  /// Removes the shadow maps of the last frame from the cache: for measurements, and before another scene.
   void forget_shadow_maps();
 
  private:

@@ -53,8 +53,10 @@ TEST_F(DetailCacheTest, KeepsThePicture) {
   EXPECT_EQ(render("first.png"), "");
   const std::set<fs::path> written = cached();
   EXPECT_FALSE(written.empty());
+  fs::create_hard_link(*written.begin(), directory / "link");
   EXPECT_EQ(render("second.png"), "");
   EXPECT_EQ(cached(), written);
+  EXPECT_EQ(fs::hard_link_count(*written.begin()), 2u) << "the file was made again instead of being used";
   EXPECT_TRUE(picture("first.png") == picture("off.png"));
   EXPECT_TRUE(picture("second.png") == picture("off.png"));
 }
@@ -94,9 +96,12 @@ TEST_F(DetailCacheTest, OldFilesAreRemovedAboveTheLimit) {
 TEST_F(DetailCacheTest, ProcessesCanShareIt) {
   const std::string run = "(cd " + directory.string() + " && XDG_CACHE_HOME=" + cache.string() +
                           " " HALFSPACE_PROGRAM " render s.json --size 32x32 --max-error 0.5 --threads 1 -o ";
-  std::string command;
-  for (const char* name : {"1.png", "2.png", "3.png", "4.png"}) command += run + name + ") & ";
-  EXPECT_EQ(std::system((command + "wait").c_str()), 0);
+  std::string command, wait;
+  for (const char* name : {"1.png", "2.png", "3.png", "4.png"}) {
+    command += run + name + ") & p" + name[0] + "=$!; ";
+    wait += std::string("wait $p") + name[0] + " && ";
+  }
+  EXPECT_EQ(std::system((command + wait + "true").c_str()), 0);
   render("5.png");
   for (const char* name : {"1.png", "2.png", "3.png", "4.png"}) EXPECT_TRUE(picture(name) == picture("5.png"));
   for (const fs::path& file : cached()) EXPECT_EQ(file.extension(), ".detail") << "a temporary file is left";

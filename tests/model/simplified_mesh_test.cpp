@@ -59,9 +59,16 @@ TEST(TriangleTree, FindsTheNearestOfAllTriangles) {
     const glm::dvec3 p(coordinate(), coordinate(), coordinate());
     double least = INFINITY;
     for (uint32_t t = 0; t < 200; ++t) least = std::min(least, tree.distance_squared(p, t));
-    const TriangleTree::Nearest found = tree.nearest(p, static_cast<uint32_t>(random() % 200));
+    int64_t visits = 1000;
+    const TriangleTree::Nearest found = tree.nearest(p, static_cast<uint32_t>(random() % 200), visits);
     EXPECT_EQ(found.squared, least);
     EXPECT_EQ(tree.distance_squared(p, found.triangle), least);
+    int64_t few = 3;
+    const TriangleTree::Nearest early = tree.nearest(p, 7, few);
+    EXPECT_GE(early.squared, least);
+    EXPECT_LE(early.squared, tree.distance_squared(p, 7));
+    EXPECT_EQ(tree.distance_squared(p, early.triangle), early.squared);
+    EXPECT_EQ(few, 0);
   }
 }
 

@@ -66,6 +66,7 @@ TEST(ApproximationChoice, KeepsTheMeshOfSpheresWithUnevenlyScaledParents) {
 }
 
 TEST(ApproximationChoice, KeepsIntendedSettings) {
+  EXPECT_TRUE(choices(objects(R"("normal_lines": 0.1, "latitudes": 99, "longitudes": 200)"), kHalfPixel).empty()) << "a line per vertex";
   EXPECT_TRUE(choices(objects(R"("shading": "flat", "latitudes": 5, "longitudes": 7)"), kHalfPixel).empty()) << "facets are intended";
   EXPECT_TRUE(choices(objects(R"("shading": "gouraud", "latitudes": 99, "longitudes": 200)"), kHalfPixel).empty())
       << "per-vertex lighting depends on the mesh";

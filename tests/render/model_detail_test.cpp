@@ -93,6 +93,7 @@ TEST(ModelDetail, OutlinesThatItDoesNotKnowStayExact) {
                   }),
             kAll);
   EXPECT_EQ(drawn(R"(, "model_error": 0.5, "material": "flat")"), kAll);
+  EXPECT_EQ(drawn(R"(, "model_error": 0.5, "normal_lines": 0.1)"), kAll);
   EXPECT_LT(drawn(R"(, "model_error": 0.5, "material": "smooth")"), kAll / 4);
   EXPECT_EQ(drawn(kHalfPixelError, [](Model& m) { m.meshes[0].indices.resize(3 * 1000); }), 1000u) << "a small mesh";
 }

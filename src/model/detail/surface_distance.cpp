@@ -11,7 +11,8 @@
 //
 //   max d(p, to) ≤ max(d(a, to), d(b, to), d(c, to)) + L/√3.                                                              (2)
 //
-// A triangle is divided until one of the two bounds is as low as is asked for.
+// A triangle is divided until one of the two bounds is as low as is asked for, or a limit on the work is reached. A distance to any triangle
+// is an upper bound of d, so a search that ends early makes the result higher, never too low.
 #include "halfspace/model/detail/surface_distance.h"
 
 #include <algorithm>
@@ -25,9 +26,12 @@ namespace halfspace::HS_LANES {
 
 namespace {
 
-constexpr int kMaxDivisions = 10;
+constexpr int kMaxDepth = 10;
 constexpr double kSlack = 1.5;
 constexpr std::size_t kBlock = 1024;  // vertices or triangles of a task
+// Nodes of the tree that may be visited per triangle of the finer surface. The limit takes effect if long triangles cross many others; the
+// result is then higher. It applies to each task apart, so that the result does not depend on the threads.
+constexpr int64_t kVisitsPerTriangle = 4096;
 
 struct Corner {
   glm::dvec3 position;
@@ -36,28 +40,29 @@ struct Corner {
 
 class SurfaceDistance {
  public:
-  SurfaceDistance(const TriangleTree& to, double limit) : to_(to), limit_(limit) {}
+  // visits: see TriangleTree::nearest.
+  SurfaceDistance(const TriangleTree& to, double limit, int64_t& visits) : to_(to), limit_(limit), visits_(visits) {}
 
-  // Returns a bound for a triangle, which is divided at most `divisions` times. No bound can be lower than the distance of a corner, so the
-  // limit rises with the distances that are found.
-  double bound(const std::array<Corner, 3>& corners, int divisions) {
+  // Returns a bound for a triangle, which is divided into parts of parts, at most `depth` deep. A bound is rarely lower than the distance
+  // that was found for a corner, so the limit rises with these distances.
+  double bound(const std::array<Corner, 3>& corners, int depth = kMaxDepth) {
     for (const Corner& c : corners) limit_ = std::max(limit_, kSlack * std::sqrt(c.nearest.squared));
     const double whole = undivided_bound(corners);
-    if (whole <= limit_ || divisions == 0) return whole;
+    if (whole <= limit_ || depth == 0 || visits_ <= 0) return whole;
     std::array<Corner, 3> middle;  // middle[i] is opposite to corner i
     for (std::size_t i = 0; i < 3; ++i) {
       const Corner &a = corners[(i + 1) % 3], &b = corners[(i + 2) % 3];
       middle[i].position = 0.5 * (a.position + b.position);
-      middle[i].nearest = to_.nearest(middle[i].position, a.nearest.triangle);
+      middle[i].nearest = to_.nearest(middle[i].position, a.nearest.triangle, visits_);
     }
-    double divided = bound(middle, divisions - 1);
+    double divided = bound(middle, depth - 1);
     for (std::size_t i = 0; i < 3; ++i)
-      divided = std::max(divided, bound({corners[i], middle[(i + 1) % 3], middle[(i + 2) % 3]}, divisions - 1));
+      divided = std::max(divided, bound({corners[i], middle[(i + 1) % 3], middle[(i + 2) % 3]}, depth - 1));
     return std::min(whole, divided);
   }
 
  private:
-  double undivided_bound(const std::array<Corner, 3>& corners) const {
+  double undivided_bound(const std::array<Corner, 3>& corners) {
     double longest = 0.0, farthest = 0.0;
     for (std::size_t i = 0; i < 3; ++i) {
       const glm::dvec3 side = corners[(i + 1) % 3].position - corners[i].position;
@@ -71,7 +76,7 @@ class SurfaceDistance {
     if (by_triangle <= limit_) return by_triangle;
     // A corner may be equally near to several triangles. The one below the center is the best of them.
     const glm::dvec3 center = (corners[0].position + corners[1].position + corners[2].position) / 3.0;
-    return std::min({by_step, by_triangle, distance_to(to_.nearest(center, corners[0].nearest.triangle).triangle, corners)});
+    return std::min({by_step, by_triangle, distance_to(to_.nearest(center, corners[0].nearest.triangle, visits_).triangle, corners)});
   }
 
   // Returns the right side of (1).
@@ -83,6 +88,7 @@ class SurfaceDistance {
 
   const TriangleTree& to_;
   double limit_;
+  int64_t& visits_;
 };
 
 // Calls task(first, end) for blocks of [0, count).
@@ -100,25 +106,29 @@ double distance_bound(const TriangleList& from, const TriangleTree& to, double r
   std::vector<Corner> corners(from.positions.size());
   std::vector<uint8_t> is_used(corners.size(), 0);
   for (const uint32_t i : from.indices) is_used[i] = 1;
+  const std::size_t count = from.indices.size() / 3;
+  const auto share = static_cast<int64_t>(std::max<std::size_t>(1, to.size() / std::max<std::size_t>(count, 1)));
+  const int64_t visits_of_block = kVisitsPerTriangle * static_cast<int64_t>(kBlock) * share;
   for_blocks(corners.size(), workers, [&](std::size_t first, std::size_t end) {
+    int64_t visits = visits_of_block;
     uint32_t hint = 0;  // each block starts with the same one, so that the results do not depend on the threads
     for (std::size_t i = first; i < end; ++i) {
       corners[i].position = glm::dvec3(from.positions[i]);
       if (is_used[i] == 0) continue;
-      corners[i].nearest = to.nearest(corners[i].position, hint);
+      corners[i].nearest = to.nearest(corners[i].position, hint, visits);
       hint = corners[i].nearest.triangle;
     }
   });
   double farthest = 0.0;
   for (const Corner& c : corners) farthest = std::max(farthest, c.nearest.squared);
   const double limit = std::max(kSlack * std::sqrt(farthest), resolution);
-  const std::size_t count = from.indices.size() / 3;
   std::vector<double> bounds(count / kBlock + 1, 0.0);
   for_blocks(count, workers, [&](std::size_t first, std::size_t end) {
     double& bound = bounds[first / kBlock];
+    int64_t visits = visits_of_block;
     for (std::size_t i = first; i < end; ++i) {
       const auto corner = [&](std::size_t k) { return corners[from.indices[3 * i + k]]; };
-      bound = std::max(bound, SurfaceDistance(to, limit).bound({corner(0), corner(1), corner(2)}, kMaxDivisions));
+      bound = std::max(bound, SurfaceDistance(to, limit, visits).bound({corner(0), corner(1), corner(2)}));
     }
   });
   return *std::ranges::max_element(bounds);

@@ -92,7 +92,7 @@ double TriangleTree::distance_squared(const glm::dvec3& p, uint32_t triangle) co
   return std::min({segment_distance_squared(p, a, b), segment_distance_squared(p, b, c), segment_distance_squared(p, c, a)});
 }
 
-TriangleTree::Nearest TriangleTree::nearest(const glm::dvec3& p, uint32_t hint) const {
+TriangleTree::Nearest TriangleTree::nearest(const glm::dvec3& p, uint32_t hint, int64_t& visits) const {
   Nearest best{distance_squared(p, hint), hint};
   struct Entry {
     double squared;
@@ -101,7 +101,7 @@ TriangleTree::Nearest TriangleTree::nearest(const glm::dvec3& p, uint32_t hint) 
   std::array<Entry, kMaxDepth> stack;
   std::size_t size = 0;
   stack[size++] = {box_distance_squared(p, 0), 0};
-  while (size > 0) {
+  for (; size > 0 && visits > 0; --visits) {
     const auto [squared, index] = stack[--size];
     if (squared >= best.squared) continue;
     const Node& node = nodes_[index];

@@ -19,6 +19,7 @@ class TriangleTree {
   /// indices: a list of at least one triangle, all in range. Positions must be finite. Neither is kept.
   TriangleTree(std::span<const glm::vec3> positions, std::span<const uint32_t> indices);
 
+  std::size_t size() const { return triangles_.size(); }  ///< number of triangles
   /// Returns the longest side of the bounding box.
   double longest_side() const;
 
@@ -27,8 +28,9 @@ class TriangleTree {
     uint32_t triangle;  ///< a number for distance_squared()
   };
   /// Returns the nearest triangle. hint: a triangle that is likely to be near; with a good one, the search takes less time. Triangles at
-  /// equal distances are told apart by it.
-  Nearest nearest(const glm::dvec3& p, uint32_t hint = 0) const;
+  /// equal distances are told apart by it. visits: how many nodes may be visited; counted down. When it is used up, the nearest triangle so
+  /// far is returned. A search usually visits less than a hundred nodes.
+  Nearest nearest(const glm::dvec3& p, uint32_t hint, int64_t& visits) const;
 
   /// Returns the square of the distance from a point to a triangle. The distance is exact up to rounding, or too large by less than a
   /// millionth of the longest side if the triangle is so thin that its normal is not reliable.

@@ -82,7 +82,7 @@ WriteTarget queue_target(const QueuedShading& c) {
 
 // Writes the samples of n packets of the queue, which were shaded as packets 0, 1, ... of the output.
 void write_sampled_packets(const Tile& tile, const FragmentOutput& output, const PacketQueue& queue, std::size_t begin, std::size_t n,
-                   const WriteTarget& to) {
+                           const WriteTarget& to) {
   std::array<int, kMaxSamples> shift;
   for (int s = 0; s < tile.samples; ++s) shift[static_cast<std::size_t>(s)] = packet_shift(sample_plane(tile.samples, s, tile.size));
   for (std::size_t i = 0; i < n; ++i) {

@@ -44,10 +44,10 @@ class AssetCache {
     return found;
   }
 
-  /// Removes all assets of a type.
+  /// Removes all assets of a type. Returns their number.
   template <class T>
-  void remove_all() {
-    std::erase_if(entries_, [](const auto& entry) { return entry.second.type == typeid(T); });
+  std::size_t remove_all() {
+    return std::erase_if(entries_, [](const auto& entry) { return entry.second.type == typeid(T); });
   }
 
   /// Removes the assets that were neither found nor added since the last call, except for those of the kept types.

@@ -7,7 +7,8 @@
 
 namespace halfspace::HS_LANES {
 
-/// Keeps simplified meshes longer than SceneAssets does, for example on disk.
+/// Keeps simplified meshes longer than SceneAssets does, for example on disk. Copies of SceneAssets share it, so all functions must be
+/// thread-safe.
 class DetailCache {
  public:
   virtual ~DetailCache() = default;

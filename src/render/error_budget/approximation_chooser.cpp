@@ -133,10 +133,12 @@ namespace {
 ObjectDescription chosen_model(const ObjectDescription& authored, const std::string& path, double edge_px, std::optional<double> color,
                                std::vector<ApproximationChoice>& choices) {
   ObjectDescription o = authored;
-  o.model_error = color ? 0.0 : edge_px;
+  o.model_error = color || o.normal_lines > 0.0 ? 0.0 : edge_px;
   if (o.model_error != authored.model_error) {
     choices.push_back({path + ".model_error", number_text(o.model_error),
-                       color ? "the colors of simplified meshes have no bound" : "meshes may be simplified within this error"});
+                       color                  ? "the colors of simplified meshes have no bound"
+                       : o.normal_lines > 0.0 ? "each vertex has a line"
+                                              : "meshes may be simplified within this error"});
   } else if (color) {
     choices.push_back({path + ".file", o.file.path.filename().string(),
                        "the meshes of a file are left unchanged, because the colors of simplified meshes have no bound", false});
@@ -150,7 +152,7 @@ ObjectDescription chosen_model(const ObjectDescription& authored, const std::str
 ObjectDescription ApproximationChooser::chosen_object(const ObjectDescription& authored, const std::string& path, double edge_px,
                                                       std::optional<double> color, std::vector<ApproximationChoice>& choices) {
   if (authored.shape == Shape::file) return chosen_model(authored, path, edge_px, color, choices);
-  if (is_faceted(authored) || authored.shape == Shape::sphere) return authored;
+  if (is_faceted(authored) || authored.shape == Shape::sphere || authored.normal_lines > 0.0) return authored;
   if (is_ball(authored) && mesh_only_key(authored).empty() && has_uniformly_scaled_ancestors(scene_, authored)) {
     // A sprite takes 0.76 ms, a mesh 0.54 ms with 8 bands and 1.03 ms with 64 bands (study sphere_model).
     ObjectDescription sphere = authored;

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "halfspace/core/resource_limits.h"
 #include "halfspace/model/detail/simplified_mesh.h"
 
 namespace halfspace::HS_LANES {
@@ -38,12 +39,8 @@ struct MeshExtent {
   double longest_side;
 };
 
-struct ModelOriginal {
-  ModelOriginal(std::shared_ptr<const ModelAsset> asset, const ModelMesh& m) : model(std::move(asset)), mesh({m.positions, m.indices}) {}
-
-  std::shared_ptr<const ModelAsset> model;
-  OriginalMesh mesh;
-};
+// Bytes per triangle of a mesh that is simplified: the tree, what building it takes, and the lists of meshoptimizer.
+constexpr uint64_t kSimplifyBytes = 160;
 
 // A simplified list of triangles of a mesh.
 struct MeshDetail {
@@ -74,14 +71,14 @@ std::shared_ptr<const Indices> all_indices(const std::shared_ptr<const ModelAsse
   return {model, &model->indices[static_cast<std::size_t>(mesh)]};
 }
 
-SimplifiedMesh ModelDetail::simplified_mesh(const std::shared_ptr<const ModelAsset>& model, const ModelMesh& mesh, const std::string& key,
-                                            int step) {
+SimplifiedMesh ModelDetail::simplified_mesh(const ModelMesh& mesh, int step, std::optional<OriginalMesh>& original) {
   const TriangleList triangles{mesh.positions, mesh.indices};
   if (cache_ != nullptr) {
     if (std::optional<SimplifiedMesh> found = cache_->find(triangles, step)) return std::move(*found);
   }
-  const auto original = used_.asset<ModelOriginal>(key + "original", [&] { return ModelOriginal(model, mesh); });
-  SimplifiedMesh made = simplified(original->mesh, step, workers_);
+  const MemoryClaim claim(kSimplifyBytes * (mesh.indices.size() / 3), "model_error");
+  if (!original) original.emplace(triangles);
+  SimplifiedMesh made = simplified(*original, step, workers_);
   if (cache_ != nullptr) cache_->store(triangles, step, made);
   return made;
 }
@@ -103,10 +100,11 @@ std::shared_ptr<const Indices> ModelDetail::indices_of(const std::shared_ptr<con
   // With less than a triangle per pixel, pixels take more time than vertices.
   const double side_px = extent->longest_side * px;
   if (static_cast<double>(triangles) < side_px * side_px) return all;
+  std::optional<OriginalMesh> original;
   for (int step = kCoarsestDetail; step <= kFinestDetail; ++step) {
     if (detail_tolerance(extent->longest_side, step) > allowed) continue;
     const auto detail = used_.asset<MeshDetail>(key + std::to_string(step),
-                                                [&] { return MeshDetail(model, number, simplified_mesh(model, mesh, key, step)); });
+                                                [&] { return MeshDetail(model, number, simplified_mesh(mesh, step, original)); });
     if (static_cast<double>(detail->list.size()) > kMaxDetailShare * static_cast<double>(mesh.indices.size())) return all;
     if (!(detail->error <= allowed)) continue;
     report.drawn -= triangles - detail->list.size() / 3;

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,7 +31,8 @@ class ModelDetail {
                                             double error_px, SimplifiedObject& report);
 
  private:
-  SimplifiedMesh simplified_mesh(const std::shared_ptr<const ModelAsset>& model, const ModelMesh& mesh, const std::string& key, int step);
+  // original: made if it is needed.
+  SimplifiedMesh simplified_mesh(const ModelMesh& mesh, int step, std::optional<OriginalMesh>& original);
 
   const View& view_;
   UsedAssets& used_;

@@ -36,8 +36,6 @@ constexpr std::array<TextureUse ModelMaterial::*, kMetallicMaps> kMaps{
     &ModelMaterial::sheen_map,          &ModelMaterial::sheen_color_map,
     &ModelMaterial::sheen_roughness_map};
 
-bool is_lit(const ObjectDescription& o, const ModelMaterial& m) { return !m.unlit && o.surface.shading != ShadingRate::none; }
-
 // Returns whether a map affects the picture. Maps of a coat or sheen that the material does not have are not sampled.
 bool has_effect(std::size_t map, const ObjectDescription& o, const ModelMaterial& m) {
   const bool lit = is_lit(o, m);

@@ -18,6 +18,10 @@
 namespace halfspace::HS_LANES {
 
 // In all functions, `o` is an object of shape `file` that draws `model`.
+
+// Returns whether light affects a material of a model that keeps its own.
+inline bool is_lit(const ObjectDescription& o, const ModelMaterial& m) { return !m.unlit && o.surface.shading != ShadingRate::none; }
+
 class ModelMaterials {
  public:
   // Keeps references to all arguments.

@@ -112,8 +112,7 @@ float point_size(std::size_t count, int height_px) {
 bool is_lit(const SceneDescription& scene, const ObjectDescription& o, const Model& model, const PosedMesh& part) {
   const ModelMesh& mesh = part.deformed != nullptr ? *part.deformed : model.meshes[static_cast<std::size_t>(part.mesh)];
   const ModelMaterial& material = material_of(model, part);
-  return mesh.topology == MeshTopology::triangles && !material.unlit && o.surface.shading != ShadingRate::none &&
-         override_of(scene, o, material.name) == nullptr;
+  return mesh.topology == MeshTopology::triangles && is_lit(o, material) && override_of(scene, o, material.name) == nullptr;
 }
 
 // Returns the number of triangles, lines and points of a posed model.
@@ -128,9 +127,9 @@ uint64_t primitive_count(const ModelAsset& asset, const PosedModel& posed) {
 }
 
 // Returns true if a part may be simplified: only its outline matters then, and its vertices are those of the file. The outline of a surface
-// with holes depends on its texture coordinates, and facets are meant to be seen.
+// with holes depends on its texture coordinates, and facets and lines of normals are meant to be seen.
 bool is_simplifiable(const SceneDescription& scene, const ObjectDescription& o, const Model& model, const PosedMesh& part) {
-  if (o.model_error == 0.0 || part.deformed != nullptr) return false;
+  if (o.model_error == 0.0 || o.normal_lines > 0.0 || part.deformed != nullptr) return false;
   if (model.meshes[static_cast<std::size_t>(part.mesh)].topology != MeshTopology::triangles) return false;
   const ModelMaterial& material = material_of(model, part);
   if (const SurfaceDescription* surface = override_of(scene, o, material.name))
@@ -147,7 +146,8 @@ void ModelPreparation::add(int object, const std::string& path, const ObjectDesc
   const auto posed = std::make_shared<const PosedModel>(pose(model->model, options));
   used_.keep(posed);
   const auto places = places_of(scene_, o);
-  check_primitive_limit(primitive_count(*model, *posed) * std::size(places), o.file.path.string());
+  const uint64_t lines = o.normal_lines > 0.0 ? 3 : 0;  // per primitive
+  check_primitive_limit(primitive_count(*model, *posed) * (1 + lines) * std::size(places), o.file.path.string());
   const glm::dmat4 turn = turn_of(o, model->model);
   const bool lit = std::ranges::any_of(posed->meshes, [&](const PosedMesh& part) { return is_lit(scene_, o, model->model, part); });
   materials_.load_images(o, model->model, *posed, lit);
@@ -200,7 +200,9 @@ void ModelPreparation::add_part(int object, const ObjectDescription& o, const st
     replaced.surface = *replacement;
     // Surface shaders have no vertex colors, so the values of the frame must not contain them either.
     const MeshStreams without_colors{streams.positions, streams.normals, streams.tangents, {}, streams.uvs, {}};
-    return add_replaced_part(object, replaced, path, without_colors, indices, clusters, world);
+    add_replaced_part(object, replaced, path, without_colors, indices, clusters, world);
+    draws_.meshes.back().deformed = part.deformed != nullptr;
+    return;
   }
   MetallicMaterial surface = materials_.surface_of(o, model->model, part.mesh, material, !streams.uvs.empty());
   place_surface(surface, view_, world);
@@ -222,6 +224,7 @@ void ModelPreparation::add_part(int object, const ObjectDescription& o, const st
   }
   PlacedMesh placed{streams.positions, streams.normals, indices, world, material.double_sided, o.casts_shadow, o.receives_shadow, object};
   placed.clusters = clusters;
+  placed.deformed = part.deformed != nullptr;
   if (masked || surface.blends) {
     MaterialMap alpha = surface.maps[kBaseColorMap];
     alpha.channel = {0, 0, 0, 1};

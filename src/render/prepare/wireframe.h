@@ -17,9 +17,8 @@ glm::vec4 line_color(const glm::vec4& background);
 float line_width(const View& view);
 
 /// Replaces the draws of all meshes of a prepared scene with the edges of their triangles. The lines have the color line_color(), without
-/// lighting or shadows. Shadow catchers are omitted. The background, points, lines (also those of
-/// normals) and exact spheres, which have no triangles, are unchanged. Returns true if there are such spheres. description: the scene that
-/// was prepared.
+/// lighting or shadows. Shadow catchers are omitted. The background, points, lines (also those of normals) and exact spheres, which have no
+/// triangles, are unchanged. Returns true if there are such spheres. description: the scene that was prepared.
 bool make_wireframe(PreparedScene& scene, const SceneDescription& description, HiddenLines hidden);
 
 }  // namespace halfspace::HS_LANES

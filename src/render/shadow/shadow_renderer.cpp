@@ -188,13 +188,13 @@ RenderedShadow ShadowRenderer::render(const std::string& name, const LightDescri
   source.mean_radius = is_moment_filter(settings.filter) ? static_cast<int>(std::lround(shadow_.radius)) : 0;
   source.faces = shadow_.faces;
   source.filter = settings.filter;
-  add_casters(scene_, source);
+  source.casters = casters_;
   RenderedShadow out;
   const std::string key = recipe("shadow maps", name);
   std::shared_ptr<const ShadowMaps> maps;
   if (const auto last = used_.take_last<KeptShadowMaps>(key); last != nullptr && have_same_maps(last->source, source)) maps = last->maps;
   if (maps == nullptr) maps = std::make_shared<const ShadowMaps>(rendered_maps(name, source, out.statistics));
-  used_.add(key, std::make_shared<const KeptShadowMaps>(KeptShadowMaps{maps, source, assets_}));
+  used_.add(key, std::make_shared<const KeptShadowMaps>(KeptShadowMaps{maps, source}));
   auto shading_views = std::make_shared<std::vector<ShadowView>>();
   for (std::size_t i = 0; i < maps->depths.size(); ++i) {
     ShadowView& s = shading_views->emplace_back(to_shading(source.views[i], source.size, view_.eye_ws));

@@ -27,7 +27,9 @@ class ShadowRenderer {
   // Keeps references to all arguments. The shadow method must not be `none`.
   ShadowRenderer(const ShadowDescription& shadow, const View& view, const std::vector<PlacedMesh>& meshes,
                  const std::vector<PlacedSpheres>& spheres, UsedAssets& used, const Workers& workers)
-      : shadow_(shadow), view_(view), scene_(shadow_scene(view, meshes, spheres)), assets_(used.used()), used_(used), workers_(workers) {}
+      : shadow_(shadow), view_(view), scene_(shadow_scene(view, meshes, spheres)), used_(used), workers_(workers) {
+    casters_ = std::make_shared<const ShadowCasters>(casters_of(scene_, used.used()));
+  }
 
   // Finds views that cover the visible receivers, and renders the depth of the casters into each view. name: of the light, for error
   // messages and for the cache.
@@ -41,7 +43,7 @@ class ShadowRenderer {
   const ShadowDescription& shadow_;
   const View& view_;
   const ShadowScene scene_;
-  const std::vector<std::shared_ptr<const void>> assets_;  // of the objects
+  std::shared_ptr<const ShadowCasters> casters_;
   UsedAssets& used_;
   const Workers& workers_;
 };
