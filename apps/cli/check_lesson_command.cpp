@@ -129,7 +129,7 @@ void check_lesson_command(const CheckLessonArguments& args) {
     return;
   }
   const fs::path difference = args.out.empty() ? file.stem().concat(kDifferenceEnd) : fs::path(args.out);
-  reject_overwriting(difference, {file, lesson.solution});
+  reject_overwriting(difference, {file, lesson.solution, lesson.start});
   const Verdict verdict = verdict_on(file, lesson, difference);
   if (verdict.is_start)
     throw DifferenceError(

@@ -13,6 +13,7 @@
 #include "command_line/command_line.h"
 #include "command_line/errors.h"
 #include "command_line/scene_arguments.h"
+#include "halfspace/core/text.h"
 #include "halfspace/core/check.h"
 #include "halfspace/image/atomic_output.h"
 #include "halfspace/render/model_file/input_files.h"
@@ -52,6 +53,14 @@ PreparedScene prepare_explained(const SceneDescription& scene, const SceneFile& 
   }
 }
 
+// Throws UsageError if a browser would not read the address as that of files.
+void check_lessons(const std::string& address) {
+  const std::size_t colon = address.find(':');
+  const std::string scheme = colon < address.find('/') ? address.substr(0, colon) : "";
+  if ((scheme.empty() || scheme == "http" || scheme == "https" || scheme == "file") && printable(address) == address) return;
+  throw UsageError("--lessons is '" + address + "'; expected a web address or a path relative to the page, for example ../lessons");
+}
+
 }  // namespace
 
 void explain_command(const ExplainArguments& args) {
@@ -61,6 +70,7 @@ void explain_command(const ExplainArguments& args) {
   if (args.text && args.json) throw UsageError("--text and --json cannot be combined; expected at most one of them");
   const bool is_page = !args.text && !args.json;
   if (!is_page && !args.lessons.empty()) throw UsageError("--lessons applies only to the page; expected it without --text and --json");
+  check_lessons(args.lessons);
   if (!is_page && !args.out.empty()) throw UsageError("-o applies only to the page; expected it without --text and --json");
   const double time = args.time.empty() ? 0.0 : parse_real("--time", args.time, -1e9, 1e9, "-1e9 to 1e9 seconds, for example 2.5");
   const Workers workers(parse_threads(args.threads));

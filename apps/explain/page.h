@@ -13,7 +13,7 @@ namespace halfspace {
 
 struct PageOptions {
   std::string scene;                ///< name or file of the scene, as given by the user
-  std::string command;              ///< command that generates this page, without --pixel
+  std::string command;              ///< command that generates this page, without --pixel and --lessons
   std::string render_command;       ///< command that renders the same picture
   std::string version;              ///< version of the program
   std::string lessons;              ///< address of the folder of the lessons; empty: the page does not link to them

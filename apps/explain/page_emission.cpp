@@ -43,7 +43,8 @@ PageJson emission_json(const PageInput& in) {
                              {"received", e.received.primitive_count()},
                              {"emitted", e.emitted.primitive_count()},
                              {"vertices", e.emitted.vertex_count()}});
-    const std::optional<std::size_t> example = emission_example(e, {in.trace.width, in.trace.height});
+    const bool mirrored = glm::determinant(glm::dmat3(in.scene.draws[e.draw].source.world_from_object)) < 0.0;
+    const std::optional<std::size_t> example = emission_example(e, mirrored, {in.trace.width, in.trace.height});
     if (example && !json.contains("example")) json["example"] = example_json(in, e, *example);
   }
   return json;

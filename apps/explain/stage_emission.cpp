@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "explain/stage_emission.h"
 
-#include <algorithm>
+#include <set>
+#include <utility>
 
 #include "halfspace/core/float_mode.h"
 #include "halfspace/raster/amplify/emit_primitives.h"
@@ -65,17 +66,20 @@ std::vector<std::size_t> emitted_for(const StageEmission& e, std::size_t receive
   return out;
 }
 
-std::optional<std::size_t> emission_example(const StageEmission& e, glm::ivec2 size) {
+std::optional<std::size_t> emission_example(const StageEmission& e, bool mirrored, glm::ivec2 size) {
   std::optional<std::size_t> best;
   double largest = 0.0;
   if (e.received.topology != Topology::triangles) return best;
+  std::set<std::pair<uint32_t, uint32_t>> leaving;  // instances and numbers of primitives for which one outside of the window was emitted
+  for (std::size_t k = 0; k < e.emitted.primitive_count(); ++k) {
+    if (!primitive_is_in_window(e.emitted, k, size)) leaving.emplace(e.emitted.instances[k], e.emitted.numbers[k]);
+  }
   for (std::size_t i = 0; i < e.received.primitive_count(); ++i) {
     if (!primitive_is_in_window(e.received, i, size)) continue;
     const auto at = [&](std::size_t k) { return window_position(e.received, 3 * i + k, size); };
     const glm::dvec2 a = at(1) - at(0), b = at(2) - at(0);
-    const double area = a.x * b.y - a.y * b.x;
-    if (!(area > largest)) continue;
-    if (!std::ranges::all_of(emitted_for(e, i), [&](std::size_t k) { return primitive_is_in_window(e.emitted, k, size); })) continue;
+    const double area = (a.x * b.y - a.y * b.x) * (mirrored ? -1.0 : 1.0);
+    if (!(area > largest) || leaving.contains({e.received.instances[i], e.received.numbers[i]})) continue;
     largest = area;
     best = i;
   }

@@ -26,8 +26,8 @@ glm::dvec2 window_position(const EmittedPrimitives& primitives, std::size_t v, g
 /// Returns the primitives that were emitted for a received one.
 std::vector<std::size_t> emitted_for(const StageEmission& emission, std::size_t received);
 
-/// Returns the received triangle that is largest in the window, if it is front-facing and neither it nor what is emitted for it leaves the
-/// window; nullopt if there is none.
-std::optional<std::size_t> emission_example(const StageEmission& emission, glm::ivec2 size);
+/// Returns the front-facing received triangle that is largest in the window, among those that do not leave the window, and for which
+/// nothing is emitted that does; nullopt if there is none. mirrored: whether the transform of the draw inverts the winding.
+std::optional<std::size_t> emission_example(const StageEmission& emission, bool mirrored, glm::ivec2 size);
 
 }  // namespace halfspace

@@ -95,6 +95,7 @@ TEST_F(CheckLesson, RejectsBadInputWithOneLine) {
   fs::create_directory(directory / "empty");
   std::ofstream(directory / "cut.png") << read_bytes(directory / "right.png").substr(0, 200);
   write_png(directory / "small.png", Image<glm::u8vec4>(4, 4));
+  const std::string start = fs::absolute("docs/tutorial/lessons/images/01.png").string();
   const struct {
     std::vector<std::string> arguments;
     int exit_code;
@@ -108,6 +109,7 @@ TEST_F(CheckLesson, RejectsBadInputWithOneLine) {
       {{"1", "small.png"}, 3, "small.png: size is 4x4; expected 320x240"},
       {{"1", "empty"}, 3, "empty: contains no pictures"},
       {{"1", "wrong.png", "-o", "wrong.png"}, 4, "wrong.png: "},
+      {{"1", "wrong.png", "-o", start}, 4, start},
       {{"1", "wrong.png", "-o", "/proc/d.png"}, 4, "/proc/d.png: "},
   };
   for (const auto& mistake : mistakes) {

@@ -39,6 +39,12 @@ TEST_F(Explain, RejectsPixelsOutsideOfThePicture) {
 TEST_F(Explain, RejectsWrongScenesAndCombinations) {
   EXPECT_EQ(run({"explain", "nothing", "--text"}).exit_code, 3);
   EXPECT_EQ(run({"explain", "earth", "--text", "--json"}).exit_code, 2);
+  for (const char* address : {"javascript:alert(1)//", "data:text/html,x", " https://a.example", "java\nscript:x", "less\xffons"}) {
+    const Outcome o = run({"explain", "earth", "--lessons", address, "-o", "page.html"});
+    EXPECT_EQ(o.exit_code, 2) << address;
+    EXPECT_TRUE(o.err.starts_with("halfspace: --lessons is '")) << o.err;
+    EXPECT_EQ(lines_of(o.err), 1) << o.err;
+  }
   EXPECT_EQ(run({"explain", "earth", "--text", "--shading", "wrong"}).exit_code, 2);
   EXPECT_EQ(run({"explain", "earth", "--text", "--turntable", "3"}).exit_code, 2);
   EXPECT_EQ(run({"explain", "--help-model"}).out.find("--turntable"), std::string::npos);

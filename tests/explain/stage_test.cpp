@@ -54,7 +54,7 @@ TEST(Stages, AGeometryFunctionEmitsThreeLinesPerTriangle) {
   EXPECT_EQ(e.draw, 1u);
   EXPECT_EQ(e.received.primitive_count(), 2u);
   EXPECT_EQ(e.emitted.primitive_count(), 6u);
-  EXPECT_EQ(emission_example(e, {64, 64}), std::optional<std::size_t>(0)) << "the triangles have equal areas";
+  EXPECT_EQ(emission_example(e, false, {64, 64}), std::optional<std::size_t>(0)) << "the triangles have equal areas";
   for (std::size_t i = 0; i < 2; ++i) {
     const std::vector<std::size_t> lines = emitted_for(e, i);
     ASSERT_EQ(lines, (std::vector<std::size_t>{3 * i, 3 * i + 1, 3 * i + 2}));

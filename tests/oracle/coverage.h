@@ -9,8 +9,7 @@
 namespace halfspace::oracle {
 
 /// Returns whether a point is inside. A point on an edge is treated as if it were slightly further to the right and, by a smaller amount,
-/// further up. A smooth primitive
-/// covers the pixels that it overlaps.
+/// further up. A smooth primitive covers the pixels that it overlaps.
 bool covers(const WindowTriangle& t, const Point& at);
 
 /// Returns whether a small triangle covers none of the pixel centers in a box of at most 4 x 4 pixels.

@@ -227,6 +227,8 @@ function visibleDepth() {
 }
 
 const viewToWorld = () => { const i = inverseAffine(M.view_from_world); return (p) => transform(i, p).slice(0, 3); };
+// Whether the example is a primitive that a geometry function emitted.
+const isEmitted = () => EX !== null && EMISSION !== null && EMISSION.draws.some((d) => d.draw === EX.draw);
 const exampleCorners = (to) => (EX && EX.vertices[0].ws ? EX.vertices.map((v) => to(v.ws)).filter((p) => p !== null) : null);
 
 function spaceSteps() {
@@ -311,7 +313,7 @@ const productRows = (m, p, result) => [0, 1, 2].map((r) => `${[0, 1, 2].map((c) 
 chapter({
   id: "spaces", title: "From the mesh to the window", kicker: "Vertex stage",
   lead: () => "The position of a vertex is given in the coordinates of its mesh. Three matrices and one division transform it to the window. The renderer multiplies the matrices once per object, in double precision, and transforms each vertex with the product.",
-  absent: () => (EX === null ? `Nothing is visible at the example pixel of this frame. Try ${command("halfspace explain pipeline")}.` : DATA.wire.count === 0 ? `This frame has no mesh: ${EX.corners === 1 ? "it consists of points, and each point is drawn as a sphere inside a rectangle" : "the background is a single triangle that covers the window"}. A scene with meshes: ${command("halfspace explain pipeline")}.` : null),
+  absent: () => (EX === null ? `Nothing is visible at the example pixel of this frame. Try ${command("halfspace explain pipeline")}.` : DATA.wire.count === 0 ? `This frame has no mesh: ${EX.corners === 1 ? "it consists of points, and each point is drawn as a sphere inside a rectangle" : "the background is a single triangle that covers the window"}. A scene with meshes: ${command("halfspace explain pipeline")}.` : isEmitted() ? `The example pixel shows a line that a geometry function emitted, so its vertices do not come from a mesh. The chapter <a href="#geometry">Geometry stage</a> shows where they come from.` : null),
   input: () => [plural(DATA.statistics.vertices_in, "index", "indices"), plural(DATA.draws.length, "draw with a matrix", "draws, each with a matrix")],
   output: () => [plural(DATA.statistics.vertices_shaded, "shaded vertex", "shaded vertices"), "for each: x and y in 1/256 pixel, depth, 1/w"],
   steps: spaceSteps,

@@ -41,14 +41,14 @@ const lineLength = (line) => Math.hypot(line[1].window[0] - line[0].window[0], l
 
 chapter({
   id: "geometry", title: "Geometry stage", kicker: "Geometry stage",
-  lead: () => "A shader can have a geometry function, which runs between the vertex function and clipping. It receives a whole primitive and emits any number of new ones, also of another kind. Draws without such a function skip this stage.",
+  lead: () => "A shader can have a geometry function, which runs between the vertex function and clipping. It receives a whole primitive and emits new ones, also of another kind, up to a limit that the shader states. Draws without such a function skip this stage.",
   absent: () => (EMISSION === null ? `No shader of this frame has a geometry function. The key <code>normal_lines</code> of an object draws its normals with one, as in the scene pipeline: ${command("halfspace explain pipeline")}.` : null),
   input: () => [plural(emittedText().received, "triangle"), "for each corner: the outputs of the vertex function"],
   output: () => [plural(emittedText().emitted, "line"), "clip-space positions and varyings, as if the vertex function had computed them"],
   steps: () => [
     ...(isWhole() ? [
-      {name: "A triangle before the stage", caption: `Triangle ${fmt(EMITTED.primitive)} of <i>${escapeHtml(EMITTED.object)}</i>. The vertex function has computed the position of its corners in clip space, and their normals in world space.`, draw: () => emissionPicture(false)},
-      {name: "What the function emits for it", caption: `${capital(plural(EMITTED.emitted.length, "line"))}. Each starts at a corner and is ${fmt(EMITTED.length, 4)} units long. Corners that triangles share get equal lines from each of them.`, draw: () => emissionPicture(true)}] : []),
+      {name: "A triangle before the stage", caption: `Triangle ${fmt(EMITTED.primitive)} of <i>${escapeHtml(EMITTED.object)}</i>. The vertex function has computed the position of its corners in clip space, and their normals in world space. In the picture, other objects may hide it.`, draw: () => emissionPicture(false)},
+      {name: "What the function emits for it", caption: `${capital(plural(EMITTED.emitted.length, "line"))}. Each starts at a corner and is ${fmt(EMITTED.length, 4)} units long, unless the corner has no normal. Corners that triangles share get equal lines from each of them.`, draw: () => emissionPicture(true)}] : []),
     {name: "Primitives before and after", caption: `The function ran once for each triangle: ${fmt(EMISSION.calls)} times. From here on, the lines are primitives like all others: they are clipped, set up and sorted into bins.${isWhole() ? "" : " No triangle that this stage receives lies in the window with all of its lines, so the page shows none."}`, draw: emissionCounts},
   ],
   formula: () => (isWhole() ? [emissionFormula()] : []),
@@ -60,7 +60,7 @@ chapter({
       {ask: `A call can emit at most ${EMISSION.max_vertices} vertices. How many vertices could a mesh of 1,250 triangles get?`, answer: 1250 * EMISSION.max_vertices, hint: "The function runs once per triangle.", why: `1250 · ${EMISSION.max_vertices}.`},
       shown === null ? {ask: "A line goes from (10, 20) to (13, 24) in the window. How long is it?", answer: 5, hint: "Use the theorem of Pythagoras.", why: "√(3² + 4²)."}
         : {ask: `In the window, line 0 goes from ${vec(shown[0].window, 5)} to ${vec(shown[1].window, 5)}. How long is it in pixels?`, answer: lineLength(shown), decimals: 1, tolerance: 0.051, hint: "Use the theorem of Pythagoras.", why: `√(${operand(shown[1].window[0] - shown[0].window[0], 4)}² + ${operand(shown[1].window[1] - shown[0].window[1], 4)}²).`},
-      {ask: "How many strips does a function with 12 vertices emit, if each strip is a line from one point to another?", answer: 6, hint: "A line has two ends.", why: "12 / 2. After each pair of vertices, it ends the strip."},
+      {ask: "How many strips does a function emit that emits 12 vertices, if each strip is a line from one point to another?", answer: 6, hint: "A line has two ends.", why: "12 / 2. After each pair of vertices, it ends the strip."},
     ];
   },
 });

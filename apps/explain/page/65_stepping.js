@@ -129,7 +129,7 @@ function markStep(pen, t, i) {
 }
 
 // Says that the steps end before the tile is complete.
-const cutNote = () => (STEPS.left_out === 0 ? "" : ` To keep the page small, the steps end after ${plural(STEPS.triangles.length, "triangle")} with ${plural(STEPS.fragments.count, "fragment")}; the tile has ${fmt(STEPS.triangles_left_out)} more with ${plural(STEPS.left_out, "fragment")}.`);
+const cutNote = () => (STEPS.left_out === 0 ? "" : ` To keep the page small, the steps end after ${plural(STEPS.triangles.length, "primitive")} with ${plural(STEPS.fragments.count, "fragment")}; the tile has ${fmt(STEPS.triangles_left_out)} more with ${plural(STEPS.left_out, "fragment")}.`);
 
 chapter({
   id: "stepping", title: "A tile, step by step", kicker: "Tiles",

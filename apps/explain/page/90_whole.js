@@ -88,7 +88,7 @@ chapter({
 });
 
 const STATISTICS = [
-  ["vertices_in", "submitted indices"], ["vertices_shaded", "distinct vertices, each shaded once"], ["primitives_in", "submitted primitives"],
+  ["vertices_in", "submitted indices"], ["vertices_shaded", "distinct vertices, each shaded once"], ["primitives_in", "primitives that reach clipping: submitted ones, or those that a geometry function emitted for them"],
   ["culled_non_finite", "culled: a position or clip distance is infinite or NaN"], ["culled_outside", "culled: outside the view, or nothing is left after clipping"], ["culled_face", "culled because of their facing"],
   ["culled_degenerate", "culled: no area"], ["culled_no_sample", "culled: no sample is covered"], ["clipped", "clipped primitives"], ["triangles_binned", "primitives to draw, including the pieces of clipped ones"],
   ["bin_entries", "pairs of a primitive and a tile that the primitive may overlap"], ["samples_tested", "covered samples, except for those rejected with their block"], ["samples_passed", "samples that passed all tests"],
