@@ -265,8 +265,8 @@ struct Pixel {
   }
 };
 
-/// Places a pixel of a shader with the varyings V on a triangle, which must outlive it, as must the components. (x, y): window coordinates in
-/// 1/256 px; odd_x, odd_y: 1 in odd columns and rows of pixels, otherwise 0. Sets neither the sample nor the facing nor find_z().
+/// Places a pixel of a shader with the varyings V on a triangle, which must outlive it, as must the components. (x, y): window coordinates
+/// in 1/256 px; odd_x, odd_y: 1 in odd columns and rows of pixels, otherwise 0. Sets neither the sample nor the facing nor find_z().
 template <class V, class R>
 HS_INLINE void place_pixel(Pixel<R>& px, const TriangleLanes<R>& triangle, const ComponentLanes<R, kComponents<V>>& components, R x, R y,
                            R odd_x, R odd_y) {

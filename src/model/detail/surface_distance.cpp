@@ -11,8 +11,8 @@
 //
 //   max d(p, to) ≤ max(d(a, to), d(b, to), d(c, to)) + L/√3.                                                              (2)
 //
-// A triangle is divided until one of the two bounds is as low as is asked for, or a limit on the work is reached. A distance to any triangle
-// is an upper bound of d, so a search that ends early makes the result higher, never too low.
+// A triangle is divided until one of the two bounds is as low as is asked for, or a limit on the work is reached. A distance to any
+// triangle is an upper bound of d, so a search that ends early makes the result higher, never too low.
 #include "halfspace/model/detail/surface_distance.h"
 
 #include <algorithm>

@@ -19,8 +19,9 @@ bool has_maps(const PlacedMesh& m) {
 
 // The indices keep the arrays of a mesh alive, unless it is deformed.
 bool casts_same_shadow(const PlacedMesh& a, const PlacedMesh& b) {
-  return !a.deformed && !b.deformed && same_array(a.positions, b.positions) && a.indices == b.indices && a.world_from_object == b.world_from_object &&
-         a.two_sided == b.two_sided && a.opacity == b.opacity && same_array(a.uvs, b.uvs) && same_array(a.colors, b.colors);
+  return !a.deformed && !b.deformed && same_array(a.positions, b.positions) && a.indices == b.indices &&
+         a.world_from_object == b.world_from_object && a.two_sided == b.two_sided && a.opacity == b.opacity && same_array(a.uvs, b.uvs) &&
+         same_array(a.colors, b.colors);
 }
 
 bool casts_same_shadow(const std::shared_ptr<const Particles>& a, const std::shared_ptr<const Particles>& b) {
