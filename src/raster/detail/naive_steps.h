@@ -165,9 +165,10 @@ std::vector<Piece<R, V>> clipped(Piece<R, V> t, const Viewport& viewport, const 
 template <class R>
 float polygon_offset(const DepthOffset& offset, const std::array<ScreenPoint<R>, 3>& p) {
   if (!has_offset(offset, PolygonMode::fill)) return 0.0f;
+  const auto real = [](R x) { return static_cast<float>(static_cast<double>(x)); };
   std::array<ScreenVertex, 3> v;
   for (std::size_t i = 0; i < 3; ++i)
-    v[i] = {static_cast<int32_t>(p[i].x), static_cast<int32_t>(p[i].y), static_cast<float>(p[i].z), static_cast<float>(p[i].inv_w)};
+    v[i] = {static_cast<int32_t>(p[i].x), static_cast<int32_t>(p[i].y), real(p[i].z), real(p[i].inv_w)};
   return outline_offset(offset, DepthFormat::d32f, {&v[0], &v[1], &v[2]});
 }
 
