@@ -26,7 +26,7 @@ namespace halfspace::HS_LANES {
 
 namespace {
 
-constexpr int kMaxDepth = 10;
+constexpr int kMaxDivisions = 10;
 constexpr double kSlack = 1.5;
 constexpr std::size_t kBlock = 1024;  // vertices or triangles of a task
 // Nodes of the tree that may be visited per triangle of the finer surface. The limit takes effect if long triangles cross many others; the
@@ -45,7 +45,7 @@ class SurfaceDistance {
 
   // Returns a bound for a triangle, which is divided into parts of parts, at most `depth` deep. A bound is rarely lower than the distance
   // that was found for a corner, so the limit rises with these distances.
-  double bound(const std::array<Corner, 3>& corners, int depth = kMaxDepth) {
+  double bound(const std::array<Corner, 3>& corners, int depth = kMaxDivisions) {
     for (const Corner& c : corners) limit_ = std::max(limit_, kSlack * std::sqrt(c.nearest.squared));
     const double whole = undivided_bound(corners);
     if (whole <= limit_ || depth == 0 || visits_ <= 0) return whole;
