@@ -547,7 +547,7 @@ class Page(unittest.TestCase):
         self.open("panes", "stepping")
         self.assertEqual(self.run_script("return cutNote()"), "")
         note = self.run_script("Object.assign(STEPS, {left_out: 5, triangles_left_out: 2}); return cutNote()")
-        self.assertRegex(note, r"the steps end after \d+ triangles with .* fragments; the tile has 2 more with 5 fragments")
+        self.assertRegex(note, r"the steps end after \d+ primitives with .* fragments; the tile has 2 more with 5 fragments")
 
     def test_arrow_keys_select_a_pixel(self):
         self.open("earth", "depth")
