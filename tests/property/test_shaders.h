@@ -344,7 +344,7 @@ void choose_layer(const vec4<R>& a, V& vertex) {
   vertex.viewport = truncate_to_int(a.w * R(1.5f));
 }
 
-/// Chooses layers and viewports by vertex.
+/// Its vertex function writes the layer and the viewport.
 struct LayerShader {
   template <class R>
   using Attributes = PositionAndA<R>;

@@ -11,9 +11,8 @@ namespace halfspace::HS_LANES {
 // Increase the first number if the results of simplified() change.
 std::string detail_version() { return "1 meshoptimizer " + std::to_string(MESHOPTIMIZER_VERSION); }
 
-// meshoptimizer estimates the error of a vertex by the root of a weighted mean of squared distances to planes. This is not a bound: the
-// largest distance is usually two to four times the estimate. Its computation is serial and uses only addition, multiplication, division
-// and square roots of floats.
+// meshoptimizer estimates the error of a vertex by the root of a weighted mean of squared distances to planes, which is not a bound. Its
+// computation is serial and uses only addition, multiplication, division and square roots of floats.
 SimplifiedMesh simplified(const OriginalMesh& mesh, int step, const Workers& workers) {
   const auto& [positions, indices] = mesh.triangles;
   SimplifiedMesh out;

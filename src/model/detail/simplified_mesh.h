@@ -31,7 +31,7 @@ struct SimplifiedMesh {
 /// The coarsest step of simplified(), and the finest.
 inline constexpr int kCoarsestDetail = 1, kFinestDetail = 16;
 
-/// Returns the error that a step aims at; smaller ones are not told apart. size: the longest side of the bounding box of the mesh.
+/// Returns the error that a step aims at. size: the longest side of the bounding box of the mesh.
 inline double detail_tolerance(double size, int step) { return size / static_cast<double>(1 << step); }
 
 /// Removes vertices while the estimated error is at most half of detail_tolerance(), then computes the error. The result depends only on

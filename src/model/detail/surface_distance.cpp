@@ -11,8 +11,8 @@
 //
 //   max d(p, to) ≤ max(d(a, to), d(b, to), d(c, to)) + L/√3.                                                              (2)
 //
-// A triangle is divided until one of the two bounds is as low as is asked for, or a limit on the work is reached. A distance to any
-// triangle is an upper bound of d, so a search that ends early makes the result higher, never too low.
+// SurfaceDistance divides a triangle until one of the two bounds is at most its limit, or until the task has visited too many nodes of the
+// tree. The distance to any triangle is an upper bound of d, so a search that ends early makes the result higher, never too low.
 #include "halfspace/model/detail/surface_distance.h"
 
 #include <algorithm>
@@ -26,11 +26,11 @@ namespace halfspace::HS_LANES {
 
 namespace {
 
-constexpr int kMaxDivisions = 10;
+constexpr int kMaxDivisions = 10;  // of a triangle into four
 constexpr double kSlack = 1.5;
 constexpr std::size_t kBlock = 1024;  // vertices or triangles of a task
-// Nodes of the tree that may be visited per triangle of the finer surface. The limit takes effect if long triangles cross many others; the
-// result is then higher. It applies to each task apart, so that the result does not depend on the threads.
+// Nodes of the tree that a task may visit, per triangle of the finer surface. Long triangles that cross many others reach this number, and
+// their result is then higher. Each task has its own budget, so that the result does not depend on the number of threads.
 constexpr int64_t kVisitsPerTriangle = 4096;
 
 struct Corner {
@@ -43,8 +43,8 @@ class SurfaceDistance {
   // visits: see TriangleTree::nearest.
   SurfaceDistance(const TriangleTree& to, double limit, int64_t& visits) : to_(to), limit_(limit), visits_(visits) {}
 
-  // Returns a bound for a triangle, which is divided into parts of parts, at most `depth` deep. A bound is rarely lower than the distance
-  // that was found for a corner, so the limit rises with these distances.
+  // Returns a bound for a triangle, after at most `depth` divisions of a part. The bound is hardly ever lower than the distance of a
+  // corner, so the limit rises with these distances.
   double bound(const std::array<Corner, 3>& corners, int depth = kMaxDivisions) {
     for (const Corner& c : corners) limit_ = std::max(limit_, kSlack * std::sqrt(c.nearest.squared));
     const double whole = undivided_bound(corners);

@@ -27,9 +27,9 @@ class TriangleTree {
     double squared;     ///< square of the distance
     uint32_t triangle;  ///< a number for distance_squared()
   };
-  /// Returns the nearest triangle. hint: a triangle that is likely to be near; with a good one, the search takes less time. Triangles at
-  /// equal distances are told apart by it. visits: how many nodes may be visited; counted down. When it is used up, the nearest triangle so
-  /// far is returned. A search usually visits less than a hundred nodes.
+  /// Returns the nearest triangle. hint: a triangle that is likely to be near; the search starts with it, and it wins against others at the
+  /// same distance. visits: number of nodes that the function may still visit; it subtracts those that it visits. At 0, it returns the
+  /// nearest triangle that it has found.
   Nearest nearest(const glm::dvec3& p, uint32_t hint, int64_t& visits) const;
 
   /// Returns the square of the distance from a point to a triangle. The distance is exact up to rounding, or too large by less than a
