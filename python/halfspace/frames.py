@@ -8,6 +8,7 @@ import pickle
 import re
 import threading
 import uuid
+import warnings
 from collections import OrderedDict
 from typing import Any, Callable, Dict, Iterable, List, Optional, Sequence, Tuple, Union
 
@@ -37,7 +38,10 @@ def _file_of(pattern: str, frame: Optional[int], digits: int, name: str) -> str:
     return _PLACE.sub(replaced, pattern)
 
 
-def _save(picture: Picture, path: str) -> str:
+def _save(picture: Picture, path: Optional[str]) -> Union[Picture, str]:
+    """Returns the picture, or writes it to the file at path, if one is given, and returns that name."""
+    if path is None:
+        return picture
     folder = os.path.dirname(path)
     if folder:
         os.makedirs(folder, exist_ok=True)
@@ -52,6 +56,7 @@ class _Frames:
                  alpha: bool, out: Optional[str]) -> None:
         self._scene, self._numbers, self._size, self._fps, self._time = scene, numbers, size, fps, time
         self._camera, self._linear, self._alpha, self._out = camera, linear, alpha, out
+        self._digits = max(4, len(str(max(numbers, default=0))))
         self._key = uuid.uuid4().hex
         self._lock, self._core = threading.Lock(), None
 
@@ -65,14 +70,18 @@ class _Frames:
     def render(self, positions: Sequence[int]) -> List[Any]:
         """Returns pictures, or the names of their files. positions: which of the frames."""
         core, (width, height) = self._prepared(), self._size
-        kind, digits = pixel_kind(self._linear, self._alpha), max(4, len(str(max(self._numbers))))
+        kind = pixel_kind(self._linear, self._alpha)
         results: List[Any] = []
         for i in positions:
             time = self._time_of(self._numbers[i])
             view = self._scene._camera(self._camera, width, height, time)
             picture = self._scene._picture(core, width, height, time, view, kind, self._alpha)
-            results.append(picture if self._out is None else _save(picture, _file_of(self._out, self._numbers[i], digits, "")))
+            results.append(_save(picture, self.file(i)))
         return results
+
+    def file(self, i: int) -> Optional[str]:
+        """Returns the name of the file of frame i, if frames are written to files."""
+        return None if self._out is None else _file_of(self._out, self._numbers[i], self._digits, "")
 
     def _time_of(self, number: int) -> float:
         return self._time + number / self._fps
@@ -99,16 +108,18 @@ class _Models:
 
     def render(self, positions: Sequence[int]) -> List[Any]:
         """Returns pictures, the names of their files, or InputErrors and OutputErrors."""
-        return [self._render_one(self._models[i]) for i in positions]
+        return [self._render_one(i) for i in positions]
 
-    def _render_one(self, model: str) -> Any:
+    def file(self, i: int) -> Optional[str]:
+        """Returns the name of the picture of model i, if pictures are written to files."""
+        name = os.path.splitext(os.path.basename(self._models[i]))[0]
+        return None if self._out is None else _file_of(self._out, None, 4, name)
+
+    def _render_one(self, i: int) -> Any:
         try:
             view = {"aspect": self._size[0] / self._size[1], **self._view}
-            picture = Scene.load(model, threads=self._threads, **view).render(self._size, linear=self._linear, alpha=self._alpha)
-            if self._out is None:
-                return picture
-            name = os.path.splitext(os.path.basename(model))[0]
-            return _save(picture, _file_of(self._out, None, 4, name))
+            picture = Scene.load(self._models[i], threads=self._threads, **view).render(self._size, linear=self._linear, alpha=self._alpha)
+            return _save(picture, self.file(i))
         except (_core.InputError, _core.OutputError) as e:
             return e
 
@@ -118,6 +129,14 @@ _jobs_lock = threading.Lock()
 _MAX_JOBS = 4
 
 
+def _clean(job: Any, positions: Sequence[int]) -> None:
+    """Removes temporary files of killed processes from the folders of the pictures. A task that runs again after its worker was killed thus
+    removes what that worker left behind."""
+    files = [job.file(i) for i in positions]
+    for folder in {os.path.dirname(file) for file in files if file is not None}:
+        _core.remove_abandoned_output(folder)
+
+
 def _render(job: Any, positions: Sequence[int]) -> List[Any]:
     """Renders part of a job in a worker, which may have received it before."""
     with _jobs_lock:
@@ -125,7 +144,12 @@ def _render(job: Any, positions: Sequence[int]) -> List[Any]:
         _jobs.move_to_end(job._key)
         while len(_jobs) > _MAX_JOBS:
             _jobs.popitem(last=False)
+    _clean(job, positions)
     return job.render(positions)
+
+
+def _identity(job: Any) -> Any:
+    return job
 
 
 def _is_dask(client: Any) -> bool:
@@ -150,7 +174,11 @@ def _submit(job: Any, count: int, client: Any, batch: Optional[int]) -> List[Any
         raise fail("client", f"is of type {type(client).__name__}", "a dask.distributed.Client or a concurrent.futures.Executor")
     parts = _batches(count, batch, _slots(client))
     if _is_dask(client):
-        sent = client.scatter(job, broadcast=True)  # once per worker
+        # A task of its own: each worker receives its result once, and Dask can repeat it if all workers that have it die. What scatter()
+        # sends would be forgotten after the last frame, and a frame that is lost after that could not be rendered again.
+        with warnings.catch_warnings():
+            warnings.filterwarnings("ignore", "Large object", UserWarning)
+            sent = client.submit(_identity, job, pure=False)
         return [client.submit(_render, sent, part, pure=False) for part in parts]
     return [client.submit(_render, job, part) for part in parts]
 
@@ -170,6 +198,7 @@ def _gathered(futures: List[Any], total: int, progress: Optional[Callable[[int, 
 
 def _local(job: Any, count: int, progress: Optional[Callable[[int, int], Any]]) -> List[Any]:
     results: List[Any] = []
+    _clean(job, range(count))
     for i in range(count):
         results += job.render([i])
         if progress is not None:

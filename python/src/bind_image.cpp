@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Encodes arrays as image files.
+// Encodes arrays as image files, and removes what killed processes left of such files.
 #include <optional>
 
 #include "bindings.h"
+#include "halfspace/image/atomic_output.h"
 #include "halfspace/image/image_io.h"
 #include "halfspace/image/png.h"
 #include "images.h"
@@ -61,6 +62,9 @@ void bind_image(py::module_& m) {
   m.def("encode_codes", &encode_codes, py::arg("codes").noconvert(), py::arg("extension"), py::arg("name"));
   m.def("encode_light", &encode_light, py::arg("light").noconvert(), py::arg("extension"), py::arg("name"));
   m.def("save_light", &save_light, py::arg("path"), py::arg("light").noconvert());
+  m.def(
+      "remove_abandoned_output", [](const std::string& folder) { remove_abandoned_output(folder); },
+      py::call_guard<py::gil_scoped_release>());
 }
 
 }  // namespace halfspace::python

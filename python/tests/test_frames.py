@@ -168,6 +168,19 @@ def test_wrong_arguments():
         halfspace.render_frames(scene, 2, client=concurrent.futures.ThreadPoolExecutor(1), batch=0)
 
 
+@pytest.mark.parametrize("client", [None, concurrent.futures.ThreadPoolExecutor(2)])
+def test_files_of_killed_processes_are_removed(client, tmp_path):
+    scene = rich_scene()
+    abandoned = tmp_path / ".halfspace-1-0.part"
+    abandoned.write_bytes(b"half of a picture")
+    halfspace.render_frames(scene, 2, size=SIZE, out=tmp_path / "{frame}.png", client=client)
+    assert sorted(file.name for file in tmp_path.iterdir()) == ["0000.png", "0001.png"]
+    models = write_models(tmp_path)
+    abandoned.write_bytes(b"half of a picture")
+    halfspace.render_models(models, size=SIZE, out=tmp_path / "{name}.png", client=client)
+    assert not abandoned.exists()
+
+
 @pytest.fixture(scope="module")
 def dask():
     distributed = pytest.importorskip("distributed", reason="Dask is not installed (scripts/install_deps.sh --dask)")
@@ -188,6 +201,17 @@ def test_dask_gives_the_same_frames(dask, tmp_path):
 
 def _worker_pid():
     return os.getpid()
+
+
+@pytest.mark.filterwarnings("ignore")  # of Dask
+def test_results_on_a_killed_worker_of_dask_are_rendered_again(dask):
+    distributed = pytest.importorskip("distributed")
+    scene = rich_scene()
+    futures = halfspace.submit_frames(scene, 6, dask, size=SIZE, batch=1)
+    distributed.wait(futures)
+    os.kill(next(iter(dask.run(_worker_pid).values())), signal.SIGKILL)
+    pictures = [picture for future in futures for picture in future.result(timeout=120)]
+    assert len(pictures) == 6 and all(np.array_equal(a, b) for a, b in zip(pictures, scene.frames(range(6), size=SIZE)))
 
 
 @pytest.mark.filterwarnings("ignore")  # of Dask
