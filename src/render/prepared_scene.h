@@ -104,7 +104,8 @@ struct SimplifiedObject {
   int object = 0;          ///< index in the scene's objects
   uint64_t triangles = 0;  ///< of the file, in all copies
   uint64_t drawn = 0;
-  double error_px = 0.0;  ///< no outline is off by more
+  /// No outline is off by more, in pixels, except that of folds of one-sided surfaces with a border (docs/explanation/max_error.md).
+  double error_px = 0.0;
 };
 
 /// A light, prepared for one image.

@@ -5,9 +5,11 @@
 
 #include <algorithm>
 
+#include "halfspace/render/assets/model_asset.h"
 #include "halfspace/render/frame/frame.h"
 #include "halfspace/render/scene_assets.h"
 #include "halfspace/scene/scene_file.h"
+#include "model/test_meshes.h"
 
 namespace halfspace {
 namespace {
@@ -81,6 +83,30 @@ TEST_F(KeptShadowMaps, MomentsDependOnTheirRadius) {
   frame_with(assets, {"shadow.method=moments", "shadow.radius=2"}, workers);
   const Settings wider = {"shadow.method=moments", "shadow.radius=4"};
   expect_own_picture(frame_with(assets, wider, workers), wider, workers);
+}
+
+// The positions of a deformed mesh are made for each frame, possibly at the address of those of the last one.
+TEST_F(KeptShadowMaps, AreNotKeptForDeformedMeshes) {
+  for (const bool deformed : {false, true}) {
+    Model model;
+    model.meshes.push_back(sphere(20, 10));
+    model.meshes[0].normals = model.meshes[0].positions;
+    model.nodes.emplace_back().meshes = {0};
+    model.scenes.emplace_back().roots = {0};
+    if (deformed) {
+      model.meshes[0].targets.push_back({model.meshes[0].positions, {}, {}});
+      model.nodes[0].morph_weights = {0.5f};
+    }
+    SceneAssets own(workers);
+    own.add_model("/made/in/memory.obj", std::make_shared<const ModelAsset>(std::move(model)));
+    const SceneDescription scene = SceneFile::parse(R"({ "version": 1, "cameras": { "c": { "position": [0, 5, 9], "target": [0, 0, 0] } },
+        "lights": { "sun": { "direction": [1, 2, 1] } }, "shadow": { "method": "hard", "resolution": 256 },
+        "objects": { "a": { "shape": "file", "file": "/made/in/memory.obj" } } })",
+                                                    "test", ".")
+                                       .at(0.0);
+    EXPECT_GT(own.prepare(scene, 96, 72).shadow_statistics.triangles_binned, 0u);
+    EXPECT_EQ(own.prepare(scene, 96, 72).shadow_statistics.triangles_binned > 0, deformed);
+  }
 }
 
 TEST_F(KeptShadowMaps, AreForgottenOnDemand) {
