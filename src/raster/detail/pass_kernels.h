@@ -58,12 +58,11 @@ constexpr ShaderKernels kernels_of() {
   ShaderKernels k;
   if constexpr (kEmitsPrimitives<S>) {
     k.emitting = &kEmittingStages<S>;
-    k.vertex = k.position = copy_emitted_vertices;
+    k.vertex = copy_emitted_vertices;
     if constexpr (HasTessellationLayout<S>) k.patch_vertices = S::tessellation_layout.patch_vertices;
   } else {
     constexpr VertexOutput output = has_varyings ? VertexOutput::all : VertexOutput::all_but_varyings;
     k.vertex = vertex_kernel<S, output>;
-    k.position = vertex_kernel<S, VertexOutput::position>;
   }
   k.gives_point_size = kGivesPointSize<S>;
   k.gives_layer = kGivesLayer<S>;

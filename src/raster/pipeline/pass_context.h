@@ -23,11 +23,10 @@ struct VisibilityBatch;
 
 /// Functions that are compiled for each shader. The rest of the pipeline is shared by all shaders.
 struct ShaderKernels {
-  /// Stages that emit primitives, or null. They run before all others, and the vertex kernels copy the vertices that they have emitted.
+  /// Stages that emit primitives, or null. They run before all others, and the vertex kernel copies the vertices that they have emitted.
   const EmittingStages* emitting = nullptr;
   int patch_vertices = 0;  ///< of Topology::patches
   void (*vertex)(const void* shader, const VertexBatch&) = nullptr;
-  void (*position)(const void* shader, const VertexBatch&) = nullptr;        ///< same as vertex, without varyings
   void (*primitive)(const void* shader, const PrimitiveBatch&) = nullptr;    ///< null: no primitive stage
   void (*visibility)(const void* shader, const VisibilityBatch&) = nullptr;  ///< null: visibility does not depend on the shader
   void (*fragment)(const void* shader, const FragmentBatch&) = nullptr;

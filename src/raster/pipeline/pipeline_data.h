@@ -123,7 +123,7 @@ struct VertexBatch {
   uint32_t slot_base = 0;     ///< the varyings of vertex i are written to row i − slot_base (modulo 2^32)
   int32_t base_vertex = 0;    ///< index + base_vertex is the row in the streams
   int32_t instance = 0;       ///< the same for all vertices
-  float* varyings = nullptr;  ///< null for the position kernel
+  float* varyings = nullptr;  ///< null: varyings are not written
   float* clip = nullptr;      ///< output: clip-space x, y, z and w in four rows of kVertexBatch floats
   /// Output rows, or null: the point size and distances, or the min x, min y, max x and max y of a point sprite.
   float* extra = nullptr;

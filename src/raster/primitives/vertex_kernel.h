@@ -70,7 +70,6 @@ HS_INLINE void store_extra(const PointSpriteVertex<Real>& v, float* rows) {
 
 /// Outputs of a vertex kernel. The others are the point size, distances or point sprite that the vertex function returns.
 enum class VertexOutput : uint8_t {
-  position,
   varyings,          ///< position and varyings
   all_but_varyings,  ///< position and others
   all,
@@ -96,7 +95,7 @@ HS_INLINE auto vertex_values(const Vertex& vertex, const V& varyings) {
 template <class S, VertexOutput output>
 HS_FLATTEN void vertex_kernel(const void* shader, const VertexBatch& batch) {
   constexpr bool with_extra = output == VertexOutput::all || output == VertexOutput::all_but_varyings;
-  constexpr bool with_varyings = output != VertexOutput::position && output != VertexOutput::all_but_varyings;
+  constexpr bool with_varyings = output != VertexOutput::all_but_varyings;
   using Attributes = typename S::template Attributes<Real>;
   using Varyings = VertexVaryingsOf<S, Real>;
   const S& s = *static_cast<const S*>(shader);
@@ -118,6 +117,7 @@ HS_FLATTEN void vertex_kernel(const void* shader, const VertexBatch& batch) {
       const auto values = vertex_values<output>(vertex, out);
       constexpr std::size_t n = std::tuple_size_v<std::remove_const_t<decltype(values)>>;
       if constexpr (n != 0) {
+        if (batch.varyings == nullptr) continue;
         float* row[kLanes];
         for (int k = 0; k < kLanes; ++k)
           row[k] = batch.varyings + static_cast<std::size_t>(static_cast<uint32_t>(lane(ids, k)) - batch.slot_base) * n;

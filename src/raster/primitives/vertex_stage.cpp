@@ -193,7 +193,7 @@ void allocate_vertices(const Draw& draw, ShadedVertices& out) {
 std::array<glm::vec4, 3> clip_positions(const Draw& draw, uint32_t instance, const std::array<uint32_t, 3>& index) {
   alignas(64) std::array<float, 4 * kVertexBatch> rows;
   StreamStorage storage;
-  run_kernel(draw.kernels.position, draw,
+  run_kernel(draw.kernels.vertex, draw,
              {.streams = at_instance(draw.vertices, instance, storage),
               .ids = index.data(),
               .count = 3,
