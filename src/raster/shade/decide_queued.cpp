@@ -23,7 +23,8 @@ struct Decisions {
 template <class Writer>
 class DecidedPackets {
  public:
-  DecidedPackets(const DrawInTile& d, PacketQueue& queue, Writer& writer) : d_(d), queue_(queue), writer_(writer) {}
+  DecidedPackets(const DrawInTile& d, PacketQueue& queue, Writer& writer)
+      : d_(d), queue_(queue), writer_(writer), has_bound_(has_depth_bound(d.draw)) {}
 
   // Finishes n packets of the queue, all samples of each. result(i, lanes) returns the keep mask and the depth of packet i.
   template <class F>
@@ -53,7 +54,7 @@ class DecidedPackets {
     const Draw& draw = d_.draw;
     const DepthFormat format = d_.tile.depth_format;
     const bool replaces = draw.kernels.writes_depth;
-    if (replaces) z = replaced_depth(draw, format, depth, z, mask_from_bits<Mask>(kept));
+    if (replaces) z = replaced_depth(draw, format, depth, z, has_bound_, mask_from_bits<Mask>(kept));
     if constexpr (Writer::kTestsStencil) writer_.begin(triangle_of(d_.context, id));
     if (!writer_.write_decided(id, sample, kept, z) || !writer_.writes_depth()) return;
     const int block = sample.packet / kPacketsPerBlock;
@@ -67,6 +68,7 @@ class DecidedPackets {
   const DrawInTile& d_;
   PacketQueue& queue_;
   Writer& writer_;
+  bool has_bound_;
 };
 
 // Decides the packets of the queue with one call of the visibility function per pixel.

@@ -45,7 +45,7 @@ inline Mask alpha_covers(Real alpha, int samples, int sample) {
 inline Real late_depth(const QueuedShading& c, const FragmentOutput& out, std::size_t i, Real z, Mask mask) {
   if (c.d.mode != VisibilityMode::cover_only) return z;
   if (c.d.draw.kernels.discards) mask = mask & mask_from_bits<Mask>(out.keep[i]);
-  return replaced_depth(c.d.draw, c.d.tile.depth_format, out.depth[i], z, mask);
+  return replaced_depth(c.d.draw, c.d.tile.depth_format, out.depth[i], z, has_depth_bound(c.d.draw), mask);
 }
 
 // Runs the tests that come after the shader on packet i of a batch, with depth z. Returns the lanes to draw; writes depth and stencil.

@@ -77,6 +77,20 @@ class Blocks {
     update_bounds(is_whole);
   }
 
+  // Writes the packets of the block that overlap r, a rectangle in the block. lanes_at(x, y, k): covered lanes of the packet at (x, y).
+  // Does not list the packets first, because nearly all of them have covered samples.
+  template <class LanesAt, class Depth>
+  HS_INLINE void write_overlapping(const TileRect& r, const LanesAt& lanes_at, const Depth& z_at) {
+    for (int y = r.y0 & ~(kPacketHeight - 1); y < r.y1; y += kPacketHeight) {
+      for (int x = r.x0 & ~(kPacketWidth - 1); x < r.x1; x += kPacketWidth) {
+        Lanes lanes{};
+        for (std::size_t k = 0; k < kept().size(); ++k) lanes[kept()[k]] = static_cast<typename Lanes::value_type>(lanes_at(x, y, k));
+        write(packet_at(x, y) - block_ * kPacketsPerBlock, lanes, z_at);
+      }
+    }
+    update_bounds(false);
+  }
+
   // Writes a block that is covered everywhere. z_at: as in write_some().
   template <class Depth>
   HS_INLINE void write_whole(const Depth& z_at) {
@@ -211,15 +225,12 @@ void rasterize_point(const DrawInTile& d, const SampleSet<Writer::kMultisampled>
   Blocks<Writer> blocks(d, samples, t, id, writer);
   for (int by = rect.y0 & ~(kBlockSize - 1); by < rect.y1; by += kBlockSize) {
     for (int bx = rect.x0 & ~(kBlockSize - 1); bx < rect.x1; bx += kBlockSize) {
-      const int x0 = std::max(bx, rect.x0), y0 = std::max(by, rect.y0);
-      const int x1 = std::min(bx + kBlockSize, rect.x1), y1 = std::min(by + kBlockSize, rect.y1);
-      if (!blocks.begin(bx, by, z, (x1 - x0) * (y1 - y0) >= kTestedPixels)) continue;
-      const auto lanes_at = [&](int p, std::size_t k) {
-        const int x = bx + packet_x(p), y = by + packet_y(p);
-        const bool touches = x < x1 && y < y1 && x + kPacketWidth > x0 && y + kPacketHeight > y0;
-        return touches ? bits(inside(covered[blocks.kept()[k]], x, y)) : 0u;
-      };
-      blocks.write_some(lanes_at, [&](std::size_t, int) { return Real(z.low); });
+      const TileRect r{std::max(bx, rect.x0), std::max(by, rect.y0), std::min(bx + kBlockSize, rect.x1),
+                       std::min(by + kBlockSize, rect.y1)};
+      if (!blocks.begin(bx, by, z, r.width() * r.height() >= kTestedPixels)) continue;
+      blocks.write_overlapping(
+          r, [&](int x, int y, std::size_t k) { return bits(inside(covered[blocks.kept()[k]], x, y)); },
+          [&](std::size_t, int) { return Real(z.low); });
     }
   }
 }

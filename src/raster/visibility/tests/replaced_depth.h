@@ -25,10 +25,10 @@ inline bool rejects_by_bound(const Draw& draw) {
 }
 
 /// Returns the depth of fragments of a shader that writes depth, represented as in Tile::depth. own: what the shader returned; z: depth of
-/// the primitive, which is only used if it is a bound; mask: the fragments that are drawn.
-HS_INLINE Real replaced_depth(const Draw& draw, DepthFormat format, Real own, Real z, [[maybe_unused]] Mask mask) {
+/// the primitive, which is only used if it is a bound; has_bound: has_depth_bound(draw); mask: the fragments that are drawn.
+HS_INLINE Real replaced_depth(const Draw& draw, DepthFormat format, Real own, Real z, bool has_bound, [[maybe_unused]] Mask mask) {
   const Real depth = depth_value(format, clamp(own, Real(draw.depth_low), Real(draw.depth_high)));
-  if (!has_depth_bound(draw)) return depth;
+  if (!has_bound) return depth;
   const bool is_greater = draw.kernels.conservative_depth == ConservativeDepth::greater;
   // Pixel::z() can differ from z by the rounding of both. Other formats than d32f are codes.
   [[maybe_unused]] const Real rounding(format == DepthFormat::d32f ? 0x1p-22f : 1.0f);
