@@ -201,16 +201,16 @@ class DrawShading {
 // are independent.
 void shade_pixels(const PassContext& context, Tile& tile, const VisiblePixels& pixels, std::span<ShadingWork> work, DeferredShading& memory,
                   PassStatistics& statistics, TileTrace* trace) {
-  constexpr int max_passes = 8;  // over the work list of a tile with many draws, before the list is sorted
   const auto by_draw = [](const ShadingWork& a, const ShadingWork& b) { return a.draw < b.draw; };
   bool is_sorted = std::ranges::is_sorted(work, by_draw);
-  for (int pass = 0; !work.empty(); ++pass) {
-    if (pass == max_passes && !is_sorted) {
+  while (!work.empty()) {
+    const Draw& draw = *work.front().draw;
+    const std::size_t count = is_sorted ? take_sorted_draw(work, memory.packets) : take_draw(work, memory.packets);
+    // Sorting takes as long as three to four passes over the list.
+    if (!is_sorted && count < work.size() / 8) {
       std::ranges::stable_sort(work, by_draw);
       is_sorted = true;
     }
-    const Draw& draw = *work.front().draw;
-    const std::size_t count = is_sorted ? take_sorted_draw(work, memory.packets) : take_draw(work, memory.packets);
     const std::span<const PacketMask> packets = std::span(memory.packets).first(count);
     statistics.fragments_shaded += pixel_count(packets);
     const DrawStopwatch stopwatch(draw, &DrawTime::shading, statistics);
