@@ -8,8 +8,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <map>
 #include <random>
+#include <string>
 
 #include "halfspace/model/geometry/position_ids.h"
 #include "model/test_meshes.h"
@@ -251,6 +254,20 @@ TEST(SimplifiedMesh, FilesStayWithinTheError) {
       expect_within(left, all, simple.error, name);
     }
   }
+}
+
+// ---- the version of the results ------------------------------------------------------------------------------------
+
+// A cache must not return meshes of another version of the shared library.
+TEST(SimplifiedMesh, VersionContainsTheSizeOfTheLibrary) {
+  std::ifstream maps("/proc/self/maps");
+  std::string path, line;
+  while (path.empty() && std::getline(maps, line)) {
+    const std::size_t start = line.find('/');
+    if (start != std::string::npos && line.find("libmeshoptimizer", start) != std::string::npos) path = line.substr(start);
+  }
+  if (path.empty()) GTEST_SKIP() << "meshoptimizer is not a shared library";
+  EXPECT_NE(detail_version().find(" " + std::to_string(std::filesystem::file_size(path)) + " "), std::string::npos) << detail_version();
 }
 
 }  // namespace

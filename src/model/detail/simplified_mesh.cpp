@@ -1,15 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "halfspace/model/detail/simplified_mesh.h"
 
+#include <dlfcn.h>
 #include <meshoptimizer.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <limits>
 
 namespace halfspace::HS_LANES {
 
+namespace {
+
+// Returns the size and time of the file with the code of meshoptimizer, because a shared library may be newer than the header.
+std::string library_state() {
+  Dl_info library{};
+  struct stat file = {};
+  if (::dladdr(reinterpret_cast<const void*>(&meshopt_simplifyScale), &library) == 0 || ::stat(library.dli_fname, &file) != 0) return "unknown";
+  return std::to_string(file.st_size) + " " + std::to_string(file.st_mtim.tv_sec);
+}
+
+}  // namespace
+
 // Increase the first number if the results of simplified() change.
-std::string detail_version() { return "1 meshoptimizer " + std::to_string(MESHOPTIMIZER_VERSION); }
+std::string detail_version() {
+  static const std::string version = "1 meshoptimizer " + std::to_string(MESHOPTIMIZER_VERSION) + " " + library_state();
+  return version;
+}
 
 // meshoptimizer estimates the error of a vertex by the root of a weighted mean of squared distances to planes, which is not a bound. Its
 // computation is serial and uses only addition, multiplication, division and square roots of floats.
