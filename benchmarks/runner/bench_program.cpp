@@ -117,11 +117,29 @@ nlohmann::ordered_json json_of(const ShadowMapUse& use) {
           {"texels", use.texels},         {"read_texels", use.read_texels}};
 }
 
+template <class T>
+double percent(T part, T all) {
+  return 100.0 * static_cast<double>(part) / static_cast<double>(std::max(all, T{1}));
+}
+
 std::string text_of(const ShadowMapUse& use) {
-  const auto percent = [](int part, int all) { return 100.0 * part / std::max(all, 1); };
   return fmt::format("  reads {:.1f}% of the shadow map's tiles, {:.1f}% of those with casters, {:.1f}% of its texels",
                      percent(use.read_tiles, use.tiles), percent(use.read_filled_tiles, use.filled_tiles),
                      percent(use.read_texels, use.texels));
+}
+
+nlohmann::ordered_json json_of(const GeometryUse& use) {
+  return {{"triangles", use.triangles},
+          {"skipped_triangles", use.skipped_triangles},
+          {"binned_triangles", use.binned_triangles},
+          {"vertices", use.vertices},
+          {"shaded_vertices", use.shaded_vertices}};
+}
+
+std::string text_of(const GeometryUse& use) {
+  return fmt::format("  of {} triangles, skips {:.1f}% as clusters and bins {:.1f}%; shades {:.1f}% of {} vertices", use.triangles,
+                     percent(use.skipped_triangles, use.triangles), percent(use.binned_triangles, use.triangles),
+                     percent(use.shaded_vertices, use.vertices), use.vertices);
 }
 
 std::string text_of(const PictureDifference& d) {
@@ -160,9 +178,13 @@ void report(const BenchProgram& program, const BenchArguments& args, const Workl
             int threads, const FrameTimes& times, std::optional<double> frames_mb) {
   std::optional<PictureErrors> errors;
   std::optional<PictureDifference> difference;
-  std::optional<ShadowMapUse> use;
-  if (!args.check.empty()) difference = difference_from_twin(workload, threads);
-  if (!args.check.empty()) use = workload.shadow_map_use(Workers(threads));
+  std::optional<ShadowMapUse> map_use;
+  std::optional<GeometryUse> geometry_use;
+  if (!args.check.empty()) {
+    difference = difference_from_twin(workload, threads);
+    map_use = workload.shadow_map_use(Workers(threads));
+    geometry_use = workload.geometry_use();
+  }
   if (!args.check.empty() && workload.has_truth()) {
     const WorkloadTruth truth = kept_truth(args.check, kind.name, workload, {size.width, size.height});
     errors = picture_errors(workload.picture(), truth, kDepthTolerance);
@@ -172,11 +194,12 @@ void report(const BenchProgram& program, const BenchArguments& args, const Workl
     if (frames_mb) line["frames_mb"] = *frames_mb;
     if (errors) line["picture"] = json_of(*errors);
     if (difference) line["difference"] = {{"compared", difference->compared}, {"off", difference->off}};
-    if (use) line["shadow_map"] = json_of(*use);
+    if (map_use) line["shadow_map"] = json_of(*map_use);
+    if (geometry_use) line["geometry"] = json_of(*geometry_use);
     std::cout << line.dump() << '\n' << std::flush;
   } else {
     std::cout << row(kind.name, times) << (errors ? text_of(*errors) : "") << (difference ? text_of(*difference) : "")
-              << (use ? text_of(*use) : "") << '\n'
+              << (map_use ? text_of(*map_use) : "") << (geometry_use ? text_of(*geometry_use) : "") << '\n'
               << std::flush;
   }
   if (!args.out.empty()) write_pictures(args.out, kind.name, workload.picture());

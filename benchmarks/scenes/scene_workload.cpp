@@ -59,13 +59,13 @@ class SceneWorkload final : public Workload {
       const std::size_t near = near_objects(*scene_, job.view);
       Pass pass = canvas_.pass();
       for (const std::size_t i : order.first(near)) draw(pass, job, scene_->objects[i]);
-      pass.run(workers);
+      statistics_ = pass.run(workers);
       if (near == order.size()) continue;
       const DepthPyramid pyramid(canvas_.depth_target(), workers);
       job.hidden_by = &pyramid;
       Pass second = canvas_.pass_over();
       for (const std::size_t i : order.subspan(near)) draw(second, job, scene_->objects[i]);
-      second.run(workers);
+      statistics_ += second.run(workers);
     }
   }
 
@@ -83,6 +83,14 @@ class SceneWorkload final : public Workload {
     pass.run(workers);
     return halfspace::shadow_map_use(*lit.picture().depth, glm::dmat4(job.view.clip_from_world), glm::dmat4(job.view.light_from_world),
                                      map_);
+  }
+  std::optional<GeometryUse> geometry_use() const override {
+    GeometryUse use{.triangles = statistics_.primitives_in,
+                    .skipped_triangles = statistics_.culled_cluster,
+                    .shaded_vertices = statistics_.vertices_shaded,
+                    .binned_triangles = statistics_.triangles_binned};
+    for (const std::size_t i : jobs_.back().view.order) use.vertices += meshes_[scene_->objects[i].mesh].used_count();
+    return use;
   }
   bool has_truth() const override { return false; }
   WorkloadTruth truth() const override { return canvas_.truth(); }  // not called, because has_truth() is false
@@ -117,6 +125,7 @@ class SceneWorkload final : public Workload {
   Image<float> map_;
   std::optional<DepthOnDemand> shadow_;  // draws the tiles of map_; empty if all views share the map
   Canvas canvas_;
+  PassStatistics statistics_;  // of the last picture, without its shadow map
 };
 
 std::vector<WorkloadKind> workloads_of(std::span<const SceneRow> rows) {

@@ -35,6 +35,14 @@ struct ShadowMapUse {
   int read_tiles = 0, read_filled_tiles = 0, read_texels = 0;
 };
 
+/// How much of the geometry of the objects that a picture draws is processed.
+struct GeometryUse {
+  uint64_t triangles = 0, vertices = 0;  ///< of the objects; a vertex counts once per object
+  uint64_t skipped_triangles = 0;        ///< in clusters that are outside of the view, face away, or are hidden
+  uint64_t shaded_vertices = 0;
+  uint64_t binned_triangles = 0;  ///< that may cover a sample, hidden or not; a clipped triangle may count several times
+};
+
 /// A workload that has been prepared for one image size. All inputs already exist; a frame allocates only what its passes need.
 class Workload {
  public:
@@ -51,6 +59,8 @@ class Workload {
   virtual std::unique_ptr<Workload> twin() const { return nullptr; }
   /// For the scenes drawn by Halfspace: what the last picture reads of its shadow map. Draws the picture again.
   virtual std::optional<ShadowMapUse> shadow_map_use(const Workers&) const { return std::nullopt; }
+  /// For the scenes drawn by Halfspace: what was processed for the last picture.
+  virtual std::optional<GeometryUse> geometry_use() const { return std::nullopt; }
 };
 
 class WorkloadAssets;

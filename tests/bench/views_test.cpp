@@ -15,6 +15,7 @@
 #include "scenes/sculptures.h"
 #include "scenes/shadow_map_use.h"
 #include "scenes/street_parts.h"
+#include "workloads/workload_assets.h"
 
 namespace halfspace {
 
@@ -150,6 +151,22 @@ TEST(Views, TrianglesAreOrderedByCells) {
     EXPECT_TRUE(quarter / 2 == 0 ? p.z <= 0 : p.z >= 0) << k;
   }
   EXPECT_EQ(next, vertices);
+}
+
+// The camera of `detail` sees the head of a statue with a million triangles, at most half of them from the front.
+TEST(GeometryUse, OfAStatueThatFillsThePicture) {
+  WorkloadAssets assets;
+  const auto detail = std::ranges::find(view_workloads(), "detail", &WorkloadKind::name);
+  const std::unique_ptr<Workload> workload = detail->prepare({192, 108}, assets);
+  workload->frame(Workers(1));
+  const GeometryUse use = workload->geometry_use().value();
+  EXPECT_GT(use.triangles, 900'000u);
+  EXPECT_GT(use.skipped_triangles, use.triangles / 2);
+  EXPECT_GT(use.binned_triangles, 0u);
+  EXPECT_LT(use.binned_triangles, use.triangles - use.skipped_triangles);
+  EXPECT_GT(use.shaded_vertices, 0u);
+  EXPECT_LT(use.shaded_vertices, use.vertices / 2);
+  EXPECT_LT(use.vertices, use.triangles) << "a mesh has about half as many vertices as triangles";
 }
 
 // A picture of 4 x 4 pixels, seen by the light as by the camera, on a map of 256 x 256 texels. The center of the first pixel, at the top
