@@ -18,7 +18,7 @@ namespace halfspace {
 
 namespace {
 
-constexpr uint64_t kScenes = 80, kScenesOfLongTests = 350;
+constexpr uint64_t kScenes = 50, kScenesOfLongTests = 350;
 
 struct Variant {
   PassOptions options;
