@@ -146,8 +146,11 @@ PageJson json_of_lookup(const ShadowLookup& s) {
           {"dx", s.depth_dx},
           {"dy", s.depth_dy},
           {"factor", s.factor},
+          {"filtered", s.filtered},
+          {"terminator", s.terminator},
           {"texels", s.texels},
           {"lit", s.lit},
+          {"weights", s.weights.empty() ? PageJson(nullptr) : PageJson(s.weights)},
           {"side", kShadowSide}};
 }
 

@@ -11,6 +11,7 @@ namespace halfspace {
 
 namespace {
 
+// The quotes of a chapter are in the order in which the renderer takes these steps.
 constexpr std::array kRanges{
     QuoteRange{"spaces", "src/shading/surface/surface_shader.h", "return clip_from_object * vec4<R>(in.position_os, R(1));",
                "return clip_from_object"},
@@ -27,19 +28,20 @@ constexpr std::array kRanges{
     QuoteRange{"coverage", "src/raster/visibility/coverage/blocks.cpp", "const auto lanes_at = [&](int p, std::size_t k)",
                "return seen & ~negative_bits("},
     QuoteRange{"coverage", "src/raster/pipeline/edge.h", "HS_INLINE auto is_top_left(I ex, I ey)", "return ey < I(0)"},
-    QuoteRange{"depth", "src/raster/visibility/coverage/depth_plane.h", "return depth_value(format, clamp(fma(e1, z_edge1",
-               "return depth_value(format, clamp(fma("},
     QuoteRange{"depth", "src/raster/visibility/tests/depth_bounds.h", "case CompareOp::greater: return outcome(",
                "case CompareOp::greater: return"},
+    QuoteRange{"depth", "src/raster/visibility/coverage/depth_plane.h", "return depth_value(format, clamp(fma(e1, z_edge1",
+               "return depth_value(format, clamp(fma("},
     QuoteRange{"interpolation", "src/shading/pixel.h", "const R e0 = difference_of_products(t.e1x - dx", "return {p.p1, p.p2"},
     QuoteRange{"varyings", "src/shading/pixel.h", "HS_INLINE R interpolate(const Weights<R>& w", "return fma(w.p2, delta2"},
-    QuoteRange{"mips", "src/shading/texture/footprint.h", "const R a = fma(ux, ux, uy * uy)", "const R size2 = max("},
     QuoteRange{"mips", "src/shading/texture/footprint.h", "HS_INLINE R squared_scale_factor(", "return max("},
     QuoteRange{"mips", "src/shading/texture/footprint.h", "HS_INLINE R level_of_detail(", "return R(0.5f)"},
+    QuoteRange{"mips", "src/shading/texture/footprint.h", "const R a = fma(ux, ux, uy * uy)", "const R size2 = max("},
     QuoteRange{"lighting", "src/shading/light/lighting.h", "for (const Light& light : lights) {", "sum.specular += light.specular"},
     QuoteRange{"lighting", "src/shading/surface/lit_surface.h", "static HS_INLINE vec3<R> reflected(", "return m[kColor]"},
-    QuoteRange{"shadows", "src/shading/shadow/shadow_view.h", "HS_INLINE R lit(const ShadowCoordinates<R>& p", "return select("},
     QuoteRange{"shadows", "src/shading/shadow/shadow_bias.h", "const R tangent = min(tangent_of(", "automatic_depth_offset(s, tangent)"},
+    QuoteRange{"shadows", "src/shading/shadow/shadow_view.h", "HS_INLINE R lit(const ShadowCoordinates<R>& p", "return select("},
+    QuoteRange{"shadows", "src/shading/shadow/shadow_filter.h", "HS_INLINE R box_pcf(const ShadowView& view", "return sum * R("},
     QuoteRange{"tone", "src/shading/values/tone.h", "HS_INLINE R tone_curve(ToneCurve curve", "case ToneCurve::aces:"},
     QuoteRange{"srgb", "src/core/srgb_curve.h", "static constexpr FixedPower power_of", "return min(select("},
     QuoteRange{"samples", "src/raster/tile/resolve.cpp", "// Returns the mean of `samples` colors.", "for (Real& x : mean)"},
@@ -49,9 +51,9 @@ constexpr std::array kRanges{
                "if (has_post_step) run_post_step("},
     QuoteRange{"history", "src/raster/trace/tile_trace.cpp", "void TileTrace::add(", "f.is_tested = "},
     QuoteRange{"history", "src/raster/trace/tile_trace.cpp", "void TileTrace::set_shaded(", "f.color = color_of("},
-    QuoteRange{"overdraw", "apps/explain/pixel_history.cpp", "uint32_t FrameTrace::count(", "return first"},
     QuoteRange{"overdraw", "src/raster/visibility/tests/depth_bounds.h", "case CompareOp::greater: return outcome(",
                "case CompareOp::greater: return"},
+    QuoteRange{"overdraw", "apps/explain/pixel_history.cpp", "uint32_t FrameTrace::count(", "return first"},
     QuoteRange{"times", "src/raster/loop/tile_worker.cpp", "const auto start = std::chrono", "const std::chrono::duration"},
     QuoteRange{"statistics", "src/raster/statistics.h", "uint64_t vertices_in", "uint64_t flushes"},
 };

@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "halfspace/shading/light/lighting.h"
 #include "halfspace/shading/shadow/shadow_bias.h"
+#include "halfspace/shading/shadow/shadow_filter.h"
 #include "halfspace/shading/shadow/shadow_view.h"
+#include "halfspace/shading/shadow/terminator.h"
 
 namespace halfspace {
 
@@ -22,6 +25,34 @@ void look_around(const ShadowView& view, const ShadowCoordinates<float>& p, Shad
   }
 }
 
+// Returns whether a filter is a weighted sum of the results of lit_by_texel, all of which a lookup shows.
+bool is_weighted_sum(const ShadowSettings& s) {
+  const bool compares = s.filter != ShadowFilter::pcss && s.filter != ShadowFilter::vsm && s.filter != ShadowFilter::moments;
+  return compares && filter_reach(s) <= kShadowReach + 0.5f;
+}
+
+// Returns the weights of the texels around (i, j). The weight of a texel is what the renderer's filter returns if only this texel is lit.
+// The filter therefore looks p up in small maps, in which one texel is empty and all others are nearer to the light than any point.
+std::vector<float> filter_weights(const ShadowView& view, const ShadowSettings& s, ShadowCoordinates<float> p,
+                                  const ShadowReceiver<float>& at, int i, int j) {
+  std::vector<float> depth(kShadowSide * kShadowSide, std::numeric_limits<float>::infinity()), weights;
+  ShadowView map = view;
+  map.size = kShadowSide;
+  map.depth = depth.data();
+  map.block_depths = nullptr;
+  p.x -= static_cast<float>(i - kShadowReach);  // exact
+  p.y -= static_cast<float>(j - kShadowReach);
+  for (int row = kShadowSide - 1; row >= 0; --row) {  // rows are stored from the top
+    for (int column = 0; column < kShadowSide; ++column) {
+      float& texel = depth[static_cast<std::size_t>(row * kShadowSide + column)];
+      texel = 0.0f;
+      weights.push_back(filtered_shadow(map, s, p, at));
+      texel = std::numeric_limits<float>::infinity();
+    }
+  }
+  return weights;
+}
+
 }  // namespace
 
 ShadowLookup shadow_lookup(const Light& light, const glm::vec3& position_rws, const glm::vec3& face_ws, const glm::vec3& normal_ws,
@@ -35,6 +66,7 @@ ShadowLookup shadow_lookup(const Light& light, const glm::vec3& position_rws, co
   const ShadowReceiver<float> at{vec3<float>(position_rws),     vec3<float>(face_ws), vec3<float>(normal_ws), l_ws, window.x, window.y,
                                  vec3<float>(smooth.normal_ws), smooth.height};
   out.factor = shadow_factor(shadow, at);
+  out.terminator = terminator_fraction(dot(smooth_normal(at), l_ws), dot(at.shading_normal_ws, l_ws));
   for (std::size_t v = 0; v < shadow.views.size(); ++v) {
     const ShadowView& view = shadow.views[v];
     const ShadowCoordinates<float> p = biased_coordinates(view, shadow.settings, at);
@@ -49,6 +81,8 @@ ShadowLookup shadow_lookup(const Light& light, const glm::vec3& position_rws, co
     out.i = static_cast<int>(std::floor(p.x));
     out.j = static_cast<int>(std::floor(p.y));
     look_around(view, p, out);
+    out.filtered = filtered_shadow(view, shadow.settings, p, at);
+    if (is_weighted_sum(shadow.settings)) out.weights = filter_weights(view, shadow.settings, p, at, out.i, out.j);
     break;
   }
   return out;

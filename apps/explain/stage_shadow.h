@@ -23,10 +23,15 @@ struct ShadowLookup {
   float depth = 0;                                        ///< reversed window depth of the point, without bias
   float biased = 0;                                       ///< depth with bias
   float depth_dx = 0, depth_dy = 0;                       ///< slope per texel of the plane that texels are compared with
-  float factor = 1;                                       ///< fraction of the light that reaches the point
+  float factor = 1;                                       ///< fraction of the light that reaches the point: filtered · terminator
+  float filtered = 1;                                     ///< result of the filter
+  float terminator = 1;                                   ///< terminator_fraction (shading/shadow/terminator.h)
   int i = 0, j = 0;                                       ///< texel that contains the point
   std::array<float, kShadowSide * kShadowSide> texels{};  ///< depths around (i, j), lowest row first
   std::array<float, kShadowSide * kShadowSide> lit{};     ///< 1 if the texel does not occlude the point
+  /// Weights of these texels: `filtered` is the sum of weight times lit, except for rounding. Empty if the filter is not such a sum, or
+  /// reads texels that are farther away.
+  std::vector<float> weights;
 };
 
 /// The members of ShadowReceiver that describe the smooth surface.

@@ -3,6 +3,10 @@
 // Compares the data of the stages with values computed by hand, and with the pipeline itself.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <numeric>
+#include <string_view>
+
 #include "explain/fragment_values.h"
 #include "explain/prepared.h"
 #include "explain/stage_emission.h"
@@ -346,6 +350,82 @@ TEST(Stages, AShadowLookupFindsTheOccluder) {
   EXPECT_GT(at(0.0f).texels[middle], at(0.0f).biased) << "the lid is nearer to the light";
   EXPECT_EQ(at(3.0f).factor, 1.0f);
   EXPECT_EQ(at(3.0f).lit[middle], 1.0f);
+}
+
+// The floor and the lid of the previous test, with any filter.
+class ShadowedFloor {
+ public:
+  explicit ShadowedFloor(const std::string& shadow)
+      : scene_(R"({"version": 1, "cameras": {"c": {"position": [0, 4, 9], "target": [0, 0, 0]}},
+    "lights": {"sun": {"direction": [0.3, 1, 0.2]}},
+    "objects": {"floor": {"shape": "plane", "size": 8}, "lid": {"shape": "plane", "size": 2, "position": [0, 1, 0]}},
+    "shadow": {"resolution": 512, )" + shadow +
+                   "}}",
+               96, 64) {}
+
+  // smooth: the normal of the vertices, if it is not that of the floor.
+  ShadowLookup at(float x, float z, const glm::vec3& smooth = glm::vec3(0.0f)) const {
+    const glm::vec3 rws = glm::vec3(x, 0.0f, z) - glm::vec3(scene_.prepared.view.eye_ws);
+    return shadow_lookup(scene_.prepared.lights[0].light, rws, {0, 1, 0}, {0, 1, 0}, {20.5f, 30.5f}, {smooth, 0.0f});
+  }
+
+ private:
+  PreparedText scene_;
+};
+
+double weighted_sum(const ShadowLookup& s) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < s.weights.size(); ++i) sum += double{s.weights[i]} * double{s.lit[i]};
+  return sum;
+}
+
+// The sum of weight times lit is the factor; and the weights do not depend on what is lit.
+TEST(Stages, TheWeightsOfAShadowLookupGiveItsFactor) {
+  for (const char* settings :
+       {R"("method": "hard")", R"("method": "bilinear")", R"("method": "pcf3")", R"("method": "pcf3", "bias": "original")",
+        R"("method": "pcf5")", R"("method": "pcf7")", R"("method": "vogel", "radius": 6)"}) {
+    const ShadowedFloor floor(settings);
+    int partial = 0;
+    for (int i = 0; i < 400; ++i) {
+      const ShadowLookup s = floor.at(-1.0f + 0.005f * static_cast<float>(i), 0.013f * static_cast<float>(i % 29));
+      ASSERT_EQ(s.view, 0) << settings;
+      ASSERT_EQ(s.weights.size(), s.lit.size()) << settings;
+      EXPECT_NEAR(std::accumulate(s.weights.begin(), s.weights.end(), 0.0), 1.0, 1e-5) << settings;
+      EXPECT_GE(std::ranges::min(s.weights), 0.0f) << settings;
+      EXPECT_NEAR(weighted_sum(s), s.filtered, 2e-6) << settings;
+      EXPECT_NEAR(weighted_sum(s) * s.terminator, s.factor, 2e-6) << settings;
+      partial += s.factor > 0.0f && s.factor < 1.0f ? 1 : 0;
+    }
+    if (settings != std::string_view(R"("method": "hard")")) EXPECT_GT(partial, 0) << settings;
+  }
+}
+
+// A square of 1 x 1 or 3 x 3 texels around the point, which covers the texels at its sides partially.
+TEST(Stages, TheWeightsOfAShadowLookupAreAreas) {
+  for (const int width : {1, 3}) {
+    const ShadowLookup s = ShadowedFloor(width == 1 ? R"("method": "bilinear")" : R"("method": "pcf3")").at(0.321f, 0.654f);
+    const auto covered = [&](int texel, float middle) {
+      const float low = std::max(static_cast<float>(texel), middle - 0.5f * static_cast<float>(width));
+      return std::max(0.0f, std::min(static_cast<float>(texel) + 1.0f, middle + 0.5f * static_cast<float>(width)) - low);
+    };
+    for (int j = 0; j < kShadowSide; ++j) {
+      for (int i = 0; i < kShadowSide; ++i) {
+        const float area = covered(s.i - kShadowReach + i, s.x) * covered(s.j - kShadowReach + j, s.y);
+        EXPECT_NEAR(s.weights[static_cast<std::size_t>(j * kShadowSide + i)], area / static_cast<float>(width * width), 1e-6);
+      }
+    }
+  }
+}
+
+// Filters that are no sum over the texels shown have no weights. Light that fades where the smooth surface turns away is a factor of its own.
+TEST(Stages, AShadowLookupWithoutWeights) {
+  for (const char* settings : {R"("method": "vsm")", R"("method": "moments")", R"("method": "pcss")", R"("method": "vogel", "radius": 7)"})
+    EXPECT_TRUE(ShadowedFloor(settings).at(0.0f, 0.0f).weights.empty()) << settings;
+  const ShadowLookup s = ShadowedFloor(R"("method": "pcf5")").at(3.0f, 0.0f, glm::normalize(glm::vec3(-1.0f, 0.5f, 0.0f)));
+  EXPECT_EQ(s.filtered, 1.0f);
+  EXPECT_GT(s.terminator, 0.0f);
+  EXPECT_LT(s.terminator, 1.0f);
+  EXPECT_EQ(s.factor, s.filtered * s.terminator);
 }
 
 }  // namespace
