@@ -94,6 +94,26 @@ function withImage(uri, f) {
   IMAGES.set(uri, known);
   if (known.complete && known.naturalWidth > 0) return f(known);
   known.addEventListener("load", () => f(known), {once: true});
+  drawing.pictures.push(new Promise((resolve) => ["load", "error"].forEach((type) => known.addEventListener(type, resolve, {once: true}))));
+}
+
+// A step is being drawn until its pictures are decoded and the browser has painted it. end: when the last step was ready, in the time of
+// events.
+const drawing = {number: 0, isBusy: false, end: 0, pictures: []};
+function drawStep(draw) {
+  const number = ++drawing.number;
+  drawing.isBusy = true;
+  drawing.pictures = [];
+  draw();
+  const isPainted = () => { if (number === drawing.number) Object.assign(drawing, {isBusy: false, end: performance.now()}); };
+  Promise.all(drawing.pictures).then(() => requestAnimationFrame(() => setTimeout(isPainted)));
+}
+// A held arrow key repeats faster than some steps are drawn. Repetitions from that time are ignored: in the queue of the browser, they would
+// change the step after the key was released.
+function dropLateKey(e) {
+  if (!e.repeat || !e.key.startsWith("Arrow") || !(drawing.isBusy || e.timeStamp < drawing.end)) return;
+  e.preventDefault();
+  e.stopPropagation();
 }
 
 // Decodes all pictures of the page.

@@ -33,9 +33,11 @@ function pickable(element, columns, rows, start, pick) {
   return (px, py) => { [x, y] = [px, py]; };
 }
 
-// Shows a picture of the frame with an optional overlay, and calls read(x, y) for the pixel under the pointer.
-function picture(uri, label, {overlay = null, read = pixelRead, click = null, scale = 2} = {}) {
+// Shows a picture of the frame with an optional overlay, and calls read(x, y) for the pixel under the pointer. ringed: a pixel that gets a
+// ring; the caption says which one it is (ringNote).
+function picture(uri, label, {overlay = null, ringed = null, read = pixelRead, click = null, scale = 2} = {}) {
   const {canvas, pen} = canvasFigure(W * scale, H * scale, label);
+  if (ringed) canvas.dataset.ring = ringed.join();
   const box = el("div", {class: "stage"}, canvas);
   const readout = el("div", {class: "readout", "aria-live": "polite"}, "Point at the picture to magnify it and read its values, or focus it and press the arrow keys.");
   const loupe = loupeOf(canvas, W, H);
@@ -45,6 +47,7 @@ function picture(uri, label, {overlay = null, read = pixelRead, click = null, sc
     pen.drawImage(image, 0, 0, W * scale, H * scale);
     loupe.source = image;
     if (overlay) overlay(pen, scale);
+    if (ringed) ring(pen, scale, ringed);
   });
   const pixelOf = (e) => {
     const r = canvas.getBoundingClientRect();

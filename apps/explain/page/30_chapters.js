@@ -27,10 +27,10 @@ const listOf = (title, items) => el("div", {}, el("h4", {}, title), el("ul", {},
 function stepsOf(c) {
   const steps = c.steps();
   const stage = el("div", {class: "step"}), caption = el("figcaption", {"aria-live": "polite"});
-  const range = el("input", {type: "range", min: 1, max: steps.length, value: 1, "aria-label": `Step of chapter “${c.title}”`, oninput: () => goToStep(Number(range.value) - 1, "replace")});
+  const range = el("input", {type: "range", min: 1, max: steps.length, value: 1, "aria-label": `Step of chapter “${c.title}”`, title: "Step of the chapter (keys ← and →)", oninput: () => goToStep(Number(range.value) - 1, "replace")});
   const output = el("output");
-  const back = el("button", {type: "button", "aria-label": "Previous step", onclick: () => move(-1)}, "←");
-  const next = el("button", {type: "button", "aria-label": "Next step", onclick: () => move(1)}, "→");
+  const back = el("button", {type: "button", "aria-label": "Previous step", title: "Previous step (key ←)", onclick: () => move(-1)}, "←");
+  const next = el("button", {type: "button", "aria-label": "Next step", title: "Next step (key →)", onclick: () => move(1)}, "→");
   c.stepCount = steps.length;
   c.showStep = (n) => {
     range.value = n + 1;
@@ -115,7 +115,7 @@ function goTo(index, step = 0, focus = true, how = "push") {
 
 function goToStep(step, how = "push") {
   state.step = step;
-  CHAPTERS[state.chapter].showStep(step);
+  drawStep(() => CHAPTERS[state.chapter].showStep(step));
   setAddress(how);
 }
 
@@ -158,6 +158,7 @@ function startNavigation() {
   narrow.addEventListener("change", fold);
   narrowWindow.addEventListener("change", () => goToStep(state.step, "keep"));
   fold();
+  document.addEventListener("keydown", dropLateKey, true);
   document.addEventListener("keydown", onKey);
   const follow = () => { const [index, step] = addressed(); goTo(index, step, index !== state.chapter, "keep"); };
   addEventListener("popstate", follow);

@@ -14,6 +14,9 @@ async function unpackFrame() {
   FRAME.lods = DATA.mips ? await unpackArray(DATA.mips.values, Float32Array, W * H) : null;
 }
 
+// Says which pixel the ring of a picture marks. why: what it shows, if it is not the example pixel.
+const ringNote = (pixel = PIXEL, why = "") => (pixel.join() === PIXEL.join() ? " The ring marks the example pixel." : ` The ring marks pixel ${px(pixel)}, ${why}.`);
+
 const EX = DATA.example, PIXEL = DATA.pixel, VISIBLE = DATA.visible, SAMPLE = VISIBLE.sample;
 // The triangle after setup that covers the visible sample of the example pixel.
 const TRI = EX && EX.triangles ? EX.triangles[EX.shown] : null;

@@ -75,6 +75,7 @@ function showProgress() {
   document.querySelectorAll("nav .done").forEach((mark, i) => {
     const solved = solvedOf(CHAPTERS[i]);
     mark.textContent = solved > 0 ? `${solved}/${countOf(CHAPTERS[i])}` : "";
+    mark.title = solved > 0 ? `${solved} of ${plural(countOf(CHAPTERS[i]), "exercise")} solved` : "";
   });
 }
 

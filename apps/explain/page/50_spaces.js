@@ -4,11 +4,11 @@ chapter({
   id: "frame", title: "One frame", kicker: "Start",
   lead: () => `This page explains how Halfspace rendered one frame of the scene <b>${escapeHtml(sceneName)}</b>${DATA.title && DATA.title !== sceneName.replace(/\.[^.]*$/, "") ? ` (${escapeHtml(DATA.title)})` : ""} with ${W} × ${H} pixels. All numbers were computed by the renderer for this frame. Follow one ${isTriangle ? "triangle" : "primitive"} from its mesh to the screen.`,
   steps: () => [
-    {name: "The picture", caption: `The ring marks pixel ${px(PIXEL)}, the example of this page. ${DATA.overdraw.most === 0 ? "Nothing is drawn in this frame." : `${plural(FRAME.fragments[PIXEL[1] * W + PIXEL[0]], "fragment competes", "fragments compete")} for it. A fragment is one sample of one primitive${DATA.samples > 1 ? `; this frame has ${DATA.samples} samples per pixel` : ""}. The visible opaque fragment belongs to ${exampleName}.`}`,
-      draw: () => picture(DATA.pictures.final, "The rendered picture, with a ring around the example pixel", {overlay: (pen, s) => ring(pen, s, PIXEL)})},
-    {name: "The primitives", caption: `The opaque surfaces of the picture, with one color per ${KINDS.length === 1 ? KINDS[0] : "primitive"}. The background and transparent surfaces are left out.`,
-      draw: () => picture(DATA.pictures.triangles, "The picture with one color per primitive", {overlay: (pen, s) => ring(pen, s, PIXEL)})},
-    {name: "The pipeline", caption: "The stages of the pipeline in order, with the numbers of this frame. Each tile is drawn by one thread, so pixels need no locks, and the picture does not depend on the number of threads.",
+    {name: "The picture", caption: `The frame as it is displayed. The ring marks pixel ${px(PIXEL)}, the example of this page. ${DATA.overdraw.most === 0 ? "Nothing is drawn in this frame." : `${plural(FRAME.fragments[PIXEL[1] * W + PIXEL[0]], "fragment competes", "fragments compete")} for it. A fragment is one sample of one primitive${DATA.samples > 1 ? `; this frame has ${DATA.samples} samples per pixel` : ""}. The visible opaque fragment belongs to ${exampleName}.`}`,
+      draw: () => picture(DATA.pictures.final, "The rendered picture, with a ring around the example pixel", {ringed: PIXEL})},
+    {name: "The primitives", caption: `The opaque surfaces of the picture, with one color per ${KINDS.length === 1 ? KINDS[0] : "primitive"}. The colors have no other meaning. The background and transparent surfaces are left out.${ringNote()}`,
+      draw: () => picture(DATA.pictures.triangles, "The picture with one color per primitive", {ringed: PIXEL})},
+    {name: "The pipeline", caption: "The stages of the pipeline in order, and how many items each of them outputs in this frame. Each tile is drawn by one thread, so pixels need no locks, and the picture does not depend on the number of threads.",
       draw: () => el("div", {class: "stage"}, pipelineDiagram())},
   ],
   body: () => [
@@ -203,7 +203,7 @@ function draggable(canvas, draw) {
 }
 
 function turnControl(draw) {
-  const range = el("input", {type: "range", min: -180, max: 180, value: Math.round(ORBIT.yaw * 180 / Math.PI), "aria-label": "Rotate the view, in degrees"});
+  const range = el("input", {type: "range", min: -180, max: 180, value: Math.round(ORBIT.yaw * 180 / Math.PI), "aria-label": "Rotate the view, in degrees", title: "Rotate the view (keys ← and →)"});
   range.addEventListener("input", () => { ORBIT.yaw = range.value * Math.PI / 180; draw(); });
   return el("div", {class: "legend"}, el("span", {}, "rotate"), range, el("span", {}, "or drag the picture"));
 }
@@ -231,23 +231,28 @@ const viewToWorld = () => { const i = inverseAffine(M.view_from_world); return (
 const isEmitted = () => EX !== null && EMISSION !== null && EMISSION.draws.some((d) => d.draw === EX.draw);
 const exampleCorners = (to) => (EX && EX.vertices[0].ws ? EX.vertices.map((v) => to(v.ws)).filter((p) => p !== null) : null);
 
+// Says how the drawings mark the example. count: of the vertices that are drawn.
+const exampleCircle = (count) => (count === 3 ? "The example is filled, with a circle around its first vertex." : "The circle marks the example.");
+const wireNote = (corners) => ` Lines that are farther away in the drawing are fainter.${corners ? ` ${exampleCircle(corners.length)}` : ""}`;
+const clipPlot = (p) => { const c = toClip(p); return [c[0], c[1], -c[3]]; };
+
 function spaceSteps() {
   const some = (step) => (step > 1 ? ` A random sample of about one in ${step} primitives is shown.` : "");
   const back = viewToWorld(), object = EX ? DATA.draws[EX.draw].world_from_object : null;
   const toObject = (p) => transform(inverseAffine(object), p).slice(0, 3);
   const size = (list) => Math.max(...list.flatMap((t) => t.corners).flat().map(Math.abs), 0.1);
   return [
-    {name: "Object space", caption: `The mesh of <i>${escapeHtml(EX.object)}</i> in its own coordinates, as it was modeled.${some(DATA.wire.own_step)}`,
+    {name: "Object space", caption: `The mesh of <i>${escapeHtml(EX.object)}</i> in its own coordinates, as it was modeled. Gray lines are the axes.${some(DATA.wire.own_step)}${wireNote(exampleCorners(toObject))}`,
       draw: () => { const own = wireIn(toObject).filter((t) => t.draw === EX.draw); return wireCanvas("Wireframe of the mesh in object space", own, axes(size(own) * 1.2), exampleCorners(toObject)); }},
-    {name: "World space", caption: `Every object is scaled, rotated and moved to its position. The colored lines show the view volume of the camera at ${vec(M.eye, 4)}.${some(Math.max(DATA.wire.step, DATA.wire.own_step))}`,
+    {name: "World space", caption: `Every object is scaled, rotated and moved to its position. The colored lines show the view volume of the camera at ${vec(M.eye, 4)}.${some(Math.max(DATA.wire.step, DATA.wire.own_step))}${wireNote(exampleCorners((p) => p))}`,
       draw: () => wireCanvas("Wireframe of all objects in world space, with the camera", wireIn((p) => p), frustumLines().map((l) => ({...l, points: l.points.map(back)})), exampleCorners((p) => p))},
-    {name: "View space", caption: "The same scene, transformed so that the camera is at the origin and looks along −z. x points to the right and y up.",
+    {name: "View space", caption: `The same scene, transformed so that the camera is at the origin and looks along −z. x points to the right and y up. Gray lines are the axes, and colored lines show the view volume.${wireNote(exampleCorners((p) => toView(p).slice(0, 3)))}`,
       draw: () => wireCanvas("Wireframe in view space, with the camera at the origin", wireIn((p) => toView(p).slice(0, 3)), [...frustumLines(), ...axes(visibleDepth() / 4)], exampleCorners((p) => toView(p).slice(0, 3)))},
-    {name: "Clip space", caption: `Positions have four coordinates. The plot shows x, y and −w. ${M.perspective ? "w is the distance along the view axis, and the visible part is the pyramid |x| ≤ w, |y| ≤ w" : "w is 1 for all vertices in an orthographic view"}.`,
-      draw: () => wireCanvas("Wireframe in clip space, with w as the third axis", wireIn((p) => { const c = toClip(p); return [c[0], c[1], -c[3]]; }), clipCone(), exampleCorners((p) => { const c = toClip(p); return [c[0], c[1], -c[3]]; }))},
-    {name: "Normalized device coordinates", caption: "After the division by w, the view volume is a box: x and y from −1 to 1, depth from 0 (far) to 1 (near). " + (M.perspective ? "Near objects have become larger and distant ones smaller." : "The projection of this frame is orthographic, so w is 1 and the division changes nothing."),
+    {name: "Clip space", caption: `Positions have four coordinates. The plot shows x, y and −w. ${M.perspective ? "w is the distance along the view axis, and the visible part is the pyramid |x| ≤ w, |y| ≤ w" : "w is 1 for all vertices in an orthographic view"}. Colored lines show its edges.${wireNote(exampleCorners(clipPlot))}`,
+      draw: () => wireCanvas("Wireframe in clip space, with w as the third axis", wireIn(clipPlot), clipCone(), exampleCorners(clipPlot))},
+    {name: "Normalized device coordinates", caption: "After the division by w, the view volume is a box: x and y from −1 to 1, depth from 0 (far) to 1 (near). " + (M.perspective ? "Near objects have become larger and distant ones smaller." : "The projection of this frame is orthographic, so w is 1 and the division changes nothing.") + ` Colored lines show the box.${wireNote(exampleCorners((p) => toNdc(toClip(p))))}`,
       draw: () => wireCanvas("Wireframe in normalized device coordinates", wireIn((p) => toNdc(toClip(p))).filter(isInBox), boxLines(), exampleCorners((p) => toNdc(toClip(p))))},
-    {name: "Window space", caption: "The box is scaled to the size of the window, and positions are rounded to 1/256 pixel. From here on, x and y are integers.",
+    {name: "Window space", caption: `The box is scaled to the size of the window, and positions are rounded to 1/256 pixel. From here on, x and y are integers. The wireframe is drawn over the faded picture; lines that are farther from the camera are fainter. ${isClipped ? "The pieces of the example, which was clipped, are filled, each with a circle around its first vertex." : exampleCircle(EX.vertices.length)}`,
       draw: () => picture(DATA.pictures.final, "The picture with the wireframe on top", {overlay: windowWires})},
   ];
 }

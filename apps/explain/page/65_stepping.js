@@ -73,9 +73,9 @@ const stepping = {triangle: EX === null ? 0 : Math.max(0, STEPS.triangles.findIn
 
 // A slider with buttons. change(n) is called with the new value.
 function slider(name, change) {
-  const range = el("input", {type: "range", min: 0, value: 0, "aria-label": name, oninput: () => change(Number(range.value))}), output = el("output");
+  const range = el("input", {type: "range", min: 0, value: 0, "aria-label": name, title: `Select a ${name} (keys ← and →)`, oninput: () => drawStep(() => change(Number(range.value)))}), output = el("output");
   const by = (n) => () => change(Math.min(Number(range.max), Math.max(0, Number(range.value) + n)));
-  const element = el("div", {class: "stepper"}, el("span", {}, name), el("button", {type: "button", "aria-label": `Previous ${name}`, onclick: by(-1)}, "−"), range, el("button", {type: "button", "aria-label": `Next ${name}`, onclick: by(1)}, "+"), output);
+  const element = el("div", {class: "stepper"}, el("span", {}, name), el("button", {type: "button", "aria-label": `Previous ${name}`, title: `Previous ${name} (key ← in the slider)`, onclick: by(-1)}, "−"), range, el("button", {type: "button", "aria-label": `Next ${name}`, title: `Next ${name} (key → in the slider)`, onclick: by(1)}, "+"), output);
   return {element, set: (value, count) => { range.max = Math.max(0, count - 1); range.value = value; output.textContent = `${fmt(count === 0 ? 0 : value + 1)} / ${fmt(count)}`; }};
 }
 
@@ -137,11 +137,11 @@ chapter({
   absent: () => (STEPS.triangles.length === 0 ? `Nothing is drawn in the tile of the example pixel. A frame with triangles: ${command("halfspace explain pipeline")}.` : null),
   input: () => [`${plural(STEPS.triangles.length, "primitive")} with a fragment in the tile, in submission order`],
   output: () => [plural(STEPS.fragments.count, "recorded fragment")],
-  steps: () => [{name: "The steps", caption: `The sliders select a triangle of the tile and one of its pixels, row by row from the bottom; the panels show the tile after this step${DATA.samples > 1 ? `, at sample ${SAMPLE} of each pixel` : ""}. The renderer shades opaque surfaces when the visible triangle of each sample is known. A fragment that passed, and was hidden before it was shaded, never got a color; it is gray in the third panel. Transparent layers are blended after the last step, so the third panel does not contain them.${cutNote()}`, draw: tileStepper}],
+  steps: () => [{name: "The steps", caption: `The sliders select a triangle of the tile and one of its pixels, row by row from the bottom; the panels show the tile after this step${DATA.samples > 1 ? `, at sample ${SAMPLE} of each pixel` : ""}. The first panel shows what became of the fragments of this triangle, in the colors of the list below it; the second the stored depths, where bright is near; the third the colors. A frame marks the last pixel. The renderer shades opaque surfaces when the visible triangle of each sample is known. A fragment that passed, and was hidden before it was shaded, never got a color; it is gray in the third panel. Transparent layers are blended after the last step, so the third panel does not contain them.${cutNote()}`, draw: tileStepper}],
   related: ["coverage", "depth", "history"], lessons: ["Depth"],
   exercises: () => [
     {ask: "How many samples would this tile have with 16 samples per pixel?", answer: TILE_W * TILE_H * 16, hint: "Multiply its width, its height and the number of samples per pixel.", why: `${TILE_W} · ${TILE_H} · 16.`},
     {ask: "How many fragments does a sample of this tile have on average, among those that the page recorded?", answer: STEPS.fragments.count / (TILE_W * TILE_H * DATA.samples), decimals: 2, hint: "See “Output”, and divide.", why: `${fmt(STEPS.fragments.count)} / ${fmt(TILE_W * TILE_H * DATA.samples)}.`},
-    {ask: "Two opaque triangles overlap at a pixel, and the nearer one is drawn first. How many of the two fragments are shaded?", answer: 1, hint: "Predict it, then look for such a pixel.", why: "The farther fragment fails the depth test."},
+    {ask: "Five opaque triangles overlap at a pixel and are drawn from the farthest to the nearest. How many of the five fragments pass the depth test?", answer: 5, hint: "Compare each of them with the depth that is stored before it.", why: "Each is nearer than the one before it. All but the last one are hidden before they are shaded."},
   ],
 });

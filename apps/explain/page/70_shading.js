@@ -59,8 +59,8 @@ chapter({
   input: () => ["edge functions at a sample", "1/w of the three vertices"],
   output: () => ["three weights that add up to 1"],
   steps: () => [
-    {name: "Affine and perspective-correct", caption: `${interpolatedName()} Affine: the weights are the normalized edge functions, so all squares have the same size on the screen. Perspective-correct: the weights are divided by w and normalized. 1/w is ${P.inv_w.map((v) => fmt(v, 4)).join(", ")} at the vertices.`, draw: checkeredPair},
-    {name: "Difference", caption: `The difference of the weights. Along an edge, it is at most ${fmt(P.difference, 3)}: affine interpolation displaces a value by up to ${fmt(P.error, 3)} pixels.`, draw: () => [checkered("difference"), legend("0", fmt(P.difference, 3))]},
+    {name: "Affine and perspective-correct", caption: `${interpolatedName()} Affine: the weights are the normalized edge functions, so all squares have the same size on the screen. Perspective-correct: the weights are divided by w and normalized. 1/w is ${P.inv_w.map((v) => fmt(v, 4)).join(", ")} at the vertices. The squares have ten steps of each weight along an edge.`, draw: checkeredPair},
+    {name: "Difference", caption: `The largest difference of the three weights at each point: dark is none, and bright is the most. Along an edge, it is at most ${fmt(P.difference, 3)}: affine interpolation displaces a value by up to ${fmt(P.error, 3)} pixels.`, draw: () => [checkered("difference"), legend("0", fmt(P.difference, 3))]},
   ],
   formula: () => {
     const m = middle();
@@ -69,11 +69,11 @@ chapter({
   related: ["setup", "varyings"], lessons: ["Perspective"],
   exercises: () => {
     const m = middle().perspective, near = P.inv_w.indexOf(Math.max(...P.inv_w)), far = P.inv_w.indexOf(Math.min(...P.inv_w));
-    const q0 = P.inv_w[near], q1 = P.inv_w[far], isUnique = P.inv_w.filter((q) => q === q0).length === 1;
+    const q0 = P.inv_w[near], q1 = P.inv_w[far];
     return [
       {ask: `What is the perspective-correct weight of vertex ${near} in the middle of the edge from vertex ${near} to vertex ${far} on the screen?`, answer: q0 / (q0 + q1), decimals: 3, hint: "There, two of the linear weights are ½, and the third is 0.", why: `${fmt(q0, 5)} / (${fmt(q0, 5)} + ${fmt(q1, 5)}).`},
       {ask: "By how much is the largest of the three weights at the centroid larger than with affine interpolation?", answer: Math.max(...m) - 1 / 3, decimals: 3, hint: "With affine interpolation, all weights are ⅓.", why: "The vertex nearest to the eye gets the largest weight."},
-      {ask: `Which vertex is ${isUnique ? "nearest to" : "farthest from"} the eye: 0, 1 or 2?`, answer: isUnique ? near : far, hint: `1/w is ${isUnique ? "largest" : "smallest"} there.`, why: "w is the distance along the view axis."},
+      {ask: "How many times as far from the eye as the nearest vertex is the farthest one, measured along the view axis?", answer: q0 / q1, significant: 3, hint: "w is this distance. The first step gives 1/w at the vertices.", why: `${fmt(q0, 5)} / ${fmt(q1, 5)}.`},
     ];
   },
 });
@@ -111,12 +111,12 @@ chapter({
   input: () => ["weights per pixel", "values at three vertices"],
   output: () => ["interpolated values, one lane per pixel", "analytic derivatives, from the plane of the triangle"],
   steps: () => [
-    ["barycentrics", "Barycentric coordinates", "Red, green and blue are the weights of the three vertices."],
+    ["barycentrics", "Barycentric coordinates", "Red, green and blue are the weights of the three vertices of each triangle, from 0 to 1."],
     ["normal", "Normal", `The unit normal used for lighting${DATA.surfaces.relief.length ? `, with the relief from the maps of ${listed(DATA.surfaces.relief)}` : ""}. x, y and z from −1 to 1 are shown as red, green and blue.`],
     ["uv", "Texture coordinates", DATA.surfaces.uv_low.every((v, k) => v === DATA.surfaces.uv_high[k]) ? "No visible surface of this frame has texture coordinates that vary." : `u is red and v is green. u is from ${fmt(DATA.surfaces.uv_low[0], 4)} to ${fmt(DATA.surfaces.uv_high[0], 4)}, and v from ${fmt(DATA.surfaces.uv_low[1], 4)} to ${fmt(DATA.surfaces.uv_high[1], 4)}; the picture shows their fractions.`],
     ["position", "Position in world space", "Red, green and blue are x, y and z, scaled to the range of their values in this frame."],
     ["albedo", "Surface color", `The color before lighting${DATA.mips === null ? ". No opaque surface of this frame has a color map" : ": the color of the material times the color map"}.`],
-  ].map(([key, name, caption]) => ({name, caption, draw: () => picture(DATA.pictures[key], `${name} as colors`, {overlay: (pen, s) => ring(pen, s, PIXEL)})})),
+  ].map(([key, name, caption]) => ({name, caption: caption + ringNote(), draw: () => picture(DATA.pictures[key], `${name} as colors`, {ringed: PIXEL})})),
   formula: () => ["value = a<sub>0</sub> + p<sub>1</sub> · (a<sub>1</sub> − a<sub>0</sub>) + p<sub>2</sub> · (a<sub>2</sub> − a<sub>0</sub>)" + (POSITION ? interpolationFormula() : isPoint ? `\n\n${say("The varyings of a point are constant: all fragments of the rectangle receive the values of its vertex.")}` : "")],
   body: () => [varyingTable()].flat().filter(Boolean),
   related: ["interpolation", "mips", "lighting"], lessons: ["Flat, Gouraud and Phong shading", "Normal and bump maps"],
@@ -150,7 +150,7 @@ chapter({
   input: () => ["texture coordinates and their derivatives"],
   output: () => ["the level of detail, which selects the two mip levels to sample"],
   steps: () => [
-    {name: "Level of detail", caption: `Level 0 is the full texture, and each level has half the width and height of the previous one. ${fmt(DATA.mips.pixels)} pixels use a color map. Point at the picture to read the levels.`, draw: () => [picture(DATA.mips.picture, "The mip level of each pixel as a heat map", {read: (x, y) => `pixel ${px([x, y])}: ${lodAt(x, y) < -50 ? "no color map" : "level " + fmt(lodAt(x, y), 4) + (lodAt(x, y) < 0 ? " (magnified)" : "")}`, overlay: (pen, s) => ring(pen, s, MIP.at)}), legend(DATA.mips.low < 0 ? "magnified" : "level −1", `level ${fmt(DATA.mips.high, 3)}`)].flat()},
+    {name: "Level of detail", caption: `Dark pixels read ${DATA.mips.low < 0 ? "a magnified texture" : "low levels"}, bright ones high levels. Level 0 is the full texture, and each level has half the width and height of the previous one. ${fmt(DATA.mips.pixels)} pixels use a color map; the others are empty. Point at the picture to read the levels.${ringNote(MIP.at, "the first one with a color map, because the example pixel has none")}`, draw: () => [picture(DATA.mips.picture, "The mip level of each pixel as a heat map", {read: (x, y) => `pixel ${px([x, y])}: ${lodAt(x, y) < -50 ? "no color map" : "level " + fmt(lodAt(x, y), 4) + (lodAt(x, y) < 0 ? " (magnified)" : "")}`, ringed: MIP.at}), legend(DATA.mips.low < 0 ? "magnified" : "level −1", `level ${fmt(DATA.mips.high, 3)}`)].flat()},
   ],
   formula: mipFormula,
   related: ["interpolation", "varyings"], lessons: ["Texture and mipmaps"],
@@ -207,9 +207,9 @@ chapter({
   input: () => ["position, normal and material per pixel", plural(DATA.terms.filter((t) => t.name.startsWith("diffuse")).length, "light")],
   output: () => ["linear light, without an upper limit"],
   steps: () => [...TERMS.flatMap((t) => [
-    {name: t.name[0].toUpperCase() + t.name.slice(1), caption: `${mean3(t.mean) > 0 ? `The mean luminance is ${num(mean3(t.mean), 4)}` : "This term is zero in the whole picture"}, and the luminance at the example pixel is ${num(mean3(t.value), 4)}.`, draw: () => picture(t.picture, `The term “${t.name}”`, {overlay: (pen, s) => ring(pen, s, PIXEL)})},
-    ...(t.shadow ? [{name: `Shadow factor of ${t.name.split(", ")[1]}`, caption: `The fraction of this light that reaches the surface: white is all, black is none. Surfaces that face away from the light are transparent in this picture. ${plural(t.shadowed[0], "pixel is", "pixels are")} in full shadow, and ${fmt(t.shadowed[1])} partly in shadow.`, draw: () => picture(t.shadow, `The shadow factor of ${t.name.split(", ")[1]}`, {overlay: (pen, s) => ring(pen, s, PIXEL)})}] : []),
-  ]), {name: "Sum", caption: "The sum of all terms, after exposure, tone curve and encoding, is the final picture.", draw: () => picture(DATA.pictures.final, "The sum of all terms", {overlay: (pen, s) => ring(pen, s, PIXEL)})}],
+    {name: t.name[0].toUpperCase() + t.name.slice(1), caption: `${mean3(t.mean) > 0 ? `The mean luminance is ${num(mean3(t.mean), 4)}` : "This term is zero in the whole picture"}, and the luminance at the example pixel is ${num(mean3(t.value), 4)}. The picture has the same exposure and tone curve as the sum.${ringNote()}`, draw: () => picture(t.picture, `The term “${t.name}”`, {ringed: PIXEL})},
+    ...(t.shadow ? [{name: `Shadow factor of ${t.name.split(", ")[1]}`, caption: `The fraction of this light that reaches the surface: white is all, black is none. Surfaces that face away from the light are transparent in this picture. ${plural(t.shadowed[0], "pixel is", "pixels are")} in full shadow, and ${fmt(t.shadowed[1])} partly in shadow.${ringNote()}`, draw: () => picture(t.shadow, `The shadow factor of ${t.name.split(", ")[1]}`, {ringed: PIXEL})}] : []),
+  ]), {name: "Sum", caption: `The sum of all terms, after exposure, tone curve and encoding, is the final picture.${ringNote()}`, draw: () => picture(DATA.pictures.final, "The sum of all terms", {ringed: PIXEL})}],
   formula: () => [...lightFormulas(), `${say(`color = sum of the terms, at pixel ${px(PIXEL)}${DATA.samples > 1 ? ", as the mean of its samples" : ""}:`)}${TERMS.map((t) => `${t.name.padEnd(22)} ${t.value.map((v) => fmt(v, 5).padStart(11)).join(" ")}`).join("\n")}\n${"sum".padEnd(22)} <b>${sumOf(TERMS.map((t) => t.value)).map((v) => fmt(v, 5).padStart(11)).join(" ")}</b>\n${"stored".padEnd(22)} ${DATA.tone.pixel.light.map((v) => fmt(v, 5).padStart(11)).join(" ")}${say(`The frame stores light as ${DATA.tone.stored_as}, so the last row is rounded.`)}`],
   related: ["shadows", "tone"], lessons: ["Flat, Gouraud and Phong shading"],
   exercises: () => {
@@ -217,7 +217,7 @@ chapter({
     return [
       {ask: `Which term contributes most to the picture: ${TERMS.map((t) => `“${escapeHtml(t.name)}”`).join(", ")}?`, answer: best.name, hint: "Compare the mean luminances.", why: `Its mean luminance is ${fmt(mean3(best.mean), 4)}.`},
       {ask: "What percentage of the luminance at the example pixel comes from its largest term?", answer: sum > 0 ? most / sum * 100 : 0, decimals: 0, hint: "Divide the largest luminance of the steps by their sum.", why: sum > 0 ? `${fmt(most, 4)} / ${fmt(sum, 4)}.` : "The example pixel is black."},
-      {ask: "How many terms does this frame have?", answer: TERMS.length, hint: "Count the rows of the formula.", why: `They are ${listed(TERMS.map((t) => `“${t.name}”`))}.`},
+      {ask: "What is the luminance of the sum of all terms at the example pixel?", answer: sum, significant: 3, hint: "It is 0.2126 · red + 0.7152 · green + 0.0722 · blue of the row “sum”.", why: "The luminance of a sum is the sum of the luminances."},
     ];
   },
 });
@@ -234,21 +234,55 @@ function mapPicture() {
     pen.drawImage(image, 0, 0, 512, 512);
     if (LOOK) ring(pen, 1, [LOOK.x / SHADOW.size * 512, 512 - LOOK.y / SHADOW.size * 512], 22);
   });
+  if (LOOK) canvas.dataset.ring = SHADOW.pixel.join();
   return addLoupe(box, canvas, 512, 512);
 }
 
-// Explains how the pixel of the lookup was chosen if it is not the example pixel.
-function nearestPixel() {
-  if (SHADOW.pixel.join() === PIXEL.join()) return "";
-  return LOOK.factor > 0 && LOOK.factor < 1 ? ", a pixel near the example pixel that is partially in shadow," : ", a pixel near the example pixel that the map covers,";
+// How the pixel of the lookup was chosen if it is not the example pixel.
+const nearestPixel = () => (LOOK.factor > 0 && LOOK.factor < 1 ? "a pixel near the example pixel that is partially in shadow" : "a pixel near the example pixel that the map covers");
+
+// The weights of the texels in the filter, or null if the page has none.
+const WEIGHTS = LOOK && LOOK.weights;
+const texelName = (k) => `(${LOOK.i + k % LOOK.side - (LOOK.side - 1) / 2}, ${LOOK.j + Math.floor(k / LOOK.side) - (LOOK.side - 1) / 2})`;
+const readTexels = () => [...LOOK.lit.keys()].filter((k) => WEIGHTS[k] > 0);
+const weightedSum = () => LOOK.lit.reduce((sum, lit, k) => sum + WEIGHTS[k] * lit, 0);
+const percentOf = (w) => (100 * w < 0.1 ? "<0.1" : fmt(100 * w, 2));
+// Says why texels have no weights.
+const NO_WEIGHTS = {
+  pcss: "With the filter pcss, texels have no fixed weights: how much of the light a texel hides depends on its depth.",
+  vsm: "Texels have no weights, because the filter vsm does not compare them one by one: it estimates the factor from the means of their depths and of the squares of their depths.",
+  moments: "Texels have no weights, because the filter moments does not compare them one by one: it estimates the factor from the means of four powers of their depths.",
+};
+const noWeights = () => NO_WEIGHTS[SHADOW.filter] || `The filter ${SHADOW.filter} also reads texels outside this picture, so that their weights are not shown.`;
+
+function weightsText() {
+  if (!WEIGHTS) return noWeights();
+  const read = readTexels(), hidden = read.filter((k) => !LOOK.lit[k]).length;
+  return `The numbers are the weights in the filter ${SHADOW.filter}, in percent; pale texels have none. Of the ${plural(read.length, "texel")} with a weight, ${fmt(hidden)} ${hidden === 1 ? "occludes" : "occlude"} the point.`;
+}
+
+// The sum of the filter, one line per row of texels.
+function weightFormula() {
+  const n = LOOK.side, read = readTexels(), ordered = (list) => [...new Set(list)].sort((a, b) => a - b);
+  const columns = ordered(read.map((k) => k % n)), rows = ordered(read.map((k) => Math.floor(k / n))).reverse();
+  const cell = (k) => (WEIGHTS[k] === 0 ? "" : LOOK.lit[k] ? `${WEIGHTS[k].toFixed(5)} ` : `(${WEIGHTS[k].toFixed(5)})`).padStart(10);
+  const lines = rows.map((r) => `row ${LOOK.j + r - (n - 1) / 2}`.padEnd(9) + columns.map((c) => cell(r * n + c)).join("") + `  = ${columns.reduce((sum, c) => sum + WEIGHTS[r * n + c] * LOOK.lit[r * n + c], 0).toFixed(5)}`);
+  const fade = LOOK.terminator === 1 ? "" : `\nfilter · fade = ${fmt(weightedSum(), 6)} · ${fmt(LOOK.terminator, 6)} = <b>${fmt(weightedSum() * LOOK.terminator, 6)}</b>${say("The light fades where the interpolated normal of the vertices turns away from the light, but the normal of the map does not.")}`;
+  return `filter = sum of weight · lit\n\n${say("The weights of the texels, row by row from the top. Those of texels that occlude the point are in parentheses: there, lit is 0. The weights add up to 1.")}${lines.join("\n")}\n\nsum of the rows = <b>${fmt(weightedSum(), 6)}</b>${fade}${say(`The renderer computed the factor ${fmt(LOOK.factor, 6)} in floats.`)}`;
 }
 
 function lookupPicture() {
-  const n = LOOK.side, reach = (n - 1) / 2, g = gridPicture(0, 0, n, n, "The texels around the point; gray texels occlude it", (x, y) => ({fill: LOOK.lit[y * n + x] ? "var(--accent-soft)" : "var(--soft)", opacity: LOOK.lit[y * n + x] ? 1 : 0.75}));
+  const n = LOOK.side, reach = (n - 1) / 2, isPale = (k) => WEIGHTS && WEIGHTS[k] === 0, opacity = (k) => (LOOK.lit[k] ? (isPale(k) ? 0.45 : 1) : isPale(k) ? 0.22 : 0.5);
+  const g = gridPicture(0, 0, n, n, `The texels around the point; gray texels occlude it${WEIGHTS ? ". The numbers are their weights in percent" : ""}`, (x, y) => ({fill: LOOK.lit[y * n + x] ? "var(--accent-soft)" : "var(--soft)", opacity: opacity(y * n + x)}));
   const [px, py] = g.to((LOOK.x - LOOK.i + reach) * SUB, (LOOK.y - LOOK.j + reach) * SUB);
   g.root.append(svg("circle", {cx: px, cy: py, r: 6, fill: "var(--accent)", stroke: "var(--ink)", "stroke-width": 1.5}));
-  const readout = el("div", {class: "readout", "aria-live": "polite"}, "Point at a texel to read its depth, or focus the picture and press the arrow keys.");
-  const show = (x, y) => { readout.textContent = `texel (${LOOK.i + x - reach}, ${LOOK.j + y - reach}): depth ${fmt(LOOK.texels[y * n + x], 9)} → ${LOOK.lit[y * n + x] ? "does not occlude" : "occludes"}`; };
+  const readout = el("div", {class: "readout", "aria-live": "polite"}, "Point at a texel to read its values, or focus the picture and press the arrow keys.");
+  if (WEIGHTS) for (const k of readTexels()) {
+    const [a, b] = g.to((k % n + 0.5) * SUB, (Math.floor(k / n) + 0.5) * SUB), size = narrowWindow.matches ? 11 : 12;
+    g.root.append(svg("text", {x: a, y: b + 4, "font-size": size, "text-anchor": "middle"}, document.createTextNode(percentOf(WEIGHTS[k]))));
+  }
+  const weightOf = (k) => (!WEIGHTS ? "" : WEIGHTS[k] === 0 ? ". The filter gives it no weight." : `. Weight · lit = ${fmt(WEIGHTS[k], 5)} · ${LOOK.lit[k]} = ${fmt(WEIGHTS[k] * LOOK.lit[k], 5)}`);
+  const show = (x, y) => { const k = y * n + x; readout.textContent = `texel ${texelName(k)}: depth ${fmt(LOOK.texels[k], 9)} → ${LOOK.lit[k] ? "does not occlude" : "occludes"}${weightOf(k)}`; };
   for (let y = 0; y < n; ++y) for (let x = 0; x < n; ++x) {
     const [a, b] = g.to(x * SUB, (y + 1) * SUB), hit = svg("rect", {x: a, y: b, width: g.size, height: g.size, fill: "transparent"});
     hit.addEventListener("pointermove", () => show(x, y));
@@ -258,6 +292,13 @@ function lookupPicture() {
   return [el("div", {class: "stage"}, g.root), readout];
 }
 
+// Asks for the factor after the occluding texel with the largest weight has become lit or, if there is none, after a lit one occludes.
+function changedTexel() {
+  const read = readTexels(), hidden = read.filter((k) => !LOOK.lit[k]), isLit = hidden.length === 0;
+  const k = (isLit ? read : hidden).reduce((best, other) => (WEIGHTS[other] > WEIGHTS[best] ? other : best)), change = WEIGHTS[k] * LOOK.terminator * (isLit ? -1 : 1);
+  return {ask: `Texel ${texelName(k)} has the weight ${num(WEIGHTS[k], 5)}, and ${isLit ? "does not occlude" : "occludes"} the point. What would the shadow factor be if it ${isLit ? "did" : "did not"}?`, answer: LOOK.factor + change, decimals: 3, tolerance: 0.0006, hint: "Only one term of the sum of the filter changes.", why: `${fmt(LOOK.factor, 5)} ${isLit ? "−" : "+"} ${fmt(Math.abs(change), 5)}.`};
+}
+
 chapter({
   id: "shadows", title: "Shadow map", kicker: "Shading",
   lead: () => "Before the picture is rendered, the scene is rendered as seen from the light, and only depth is stored. The result is the shadow map. A point is in shadow if the map contains something nearer to the light at the same position.",
@@ -265,17 +306,19 @@ chapter({
   input: () => [`${SHADOW.views > 1 ? `${SHADOW.views} maps` : "a map"} of ${SHADOW.size} × ${SHADOW.size} texels`, "the position of each pixel"],
   output: () => ["a factor from 0 (in shadow) to 1 (lit)", `filter: ${SHADOW.filter}`],
   steps: () => [
-    {name: "Seen from the light", caption: `The shadow map of <i>${escapeHtml(SHADOW.light)}</i>${SHADOW.views > 1 ? `, view ${SHADOW.view + 1} of ${SHADOW.views}` : ""}. Bright texels are near the light, and black texels are empty.${LOOK ? " The ring marks the point of the next step." : ""}`, draw: mapPicture},
+    {name: "Seen from the light", caption: `The shadow map of <i>${escapeHtml(SHADOW.light)}</i>${SHADOW.views > 1 ? `, view ${SHADOW.view + 1} of ${SHADOW.views}` : ""}. Bright texels are near the light, and black texels are empty.${LOOK ? ` The ring marks texel (${LOOK.i}, ${LOOK.j}), which pixel ${px(SHADOW.pixel)} reads.` : ""}`, draw: mapPicture},
     ...(LOOK ? [
-      {name: "One pixel", caption: `Pixel ${px(SHADOW.pixel)}${nearestPixel()} reads the map at texel (${LOOK.i}, ${LOOK.j}).`, draw: () => picture(DATA.pictures.final, "The picture, with a ring around the pixel whose shadow is looked up", {overlay: (pen, s) => ring(pen, s, SHADOW.pixel)})},
-      {name: "The texels around the point", caption: `${LOOK.lit.every((l) => l) ? "No texel around the point is nearer to the light than the plane of the surface, so none occludes it." : "Gray texels are nearer to the light than the plane of the surface, so they occlude the point."} The dot marks the point. The filter ${SHADOW.filter} computes a shadow factor of ${num(LOOK.factor, 5)}.`, draw: lookupPicture}] : []),
+      {name: "One pixel", caption: `Its shadow is looked up: the point that it shows is in texel (${LOOK.i}, ${LOOK.j}) of the map.${ringNote(SHADOW.pixel, nearestPixel())}`, draw: () => picture(DATA.pictures.final, "The picture, with a ring around the pixel whose shadow is looked up", {ringed: SHADOW.pixel})},
+      {name: "The texels around the point", caption: `${LOOK.lit.every((l) => l) ? "Each square is a texel. None of them is nearer to the light than the plane of the surface, so none occludes the point." : "Each square is a texel. Gray texels are nearer to the light than the plane of the surface, so they occlude the point; the others do not."} The dot marks the point. ${weightsText()} The shadow factor is ${num(LOOK.factor, 5)}.`, draw: lookupPicture}] : []),
   ],
-  formula: () => (LOOK ? [`texel (${LOOK.i}, ${LOOK.j}), point at (${fmt(LOOK.x, 7)}, ${fmt(LOOK.y, 7)}):\n\n<em>d</em> = depth + bias = ${fmt(LOOK.depth, 8)} + ${fmt(LOOK.biased - LOOK.depth, 4)} = ${fmt(LOOK.biased, 8)}\nplane: ${fmt(LOOK.dx, 4)} per texel to the right, ${fmt(LOOK.dy, 4)} up\n\n${say("lit = <em>d</em> + slope · distance to the center of the texel ≥ depth in the map")}map: ${fmt(LOOK.texels[(LOOK.side * LOOK.side - 1) / 2], 8)} → <b>${LOOK.lit[(LOOK.side * LOOK.side - 1) / 2] ? "lit" : "in shadow"}</b>      after the filter: <b>${fmt(LOOK.factor, 6)}</b>`] : []),
+  formula: () => (LOOK ? [`texel (${LOOK.i}, ${LOOK.j}), point at (${fmt(LOOK.x, 7)}, ${fmt(LOOK.y, 7)}):\n\n<em>d</em> = depth + bias = ${fmt(LOOK.depth, 8)} + ${fmt(LOOK.biased - LOOK.depth, 4)} = ${fmt(LOOK.biased, 8)}\nplane: ${fmt(LOOK.dx, 4)} per texel to the right, ${fmt(LOOK.dy, 4)} up\n\n${say("lit = <em>d</em> + slope · distance to the center of the texel ≥ depth in the map")}map: ${fmt(LOOK.texels[(LOOK.side * LOOK.side - 1) / 2], 8)} → <b>${LOOK.lit[(LOOK.side * LOOK.side - 1) / 2] ? "lit" : "in shadow"}</b>      after the filter: <b>${fmt(LOOK.factor, 6)}</b>`, ...(WEIGHTS ? [weightFormula()] : [])] : []),
   related: ["lighting", "depth"], lessons: ["Shadow map and bias"],
   exercises: () => {
     const texels = {ask: "How many texels does the map have?", answer: SHADOW.size ** 2, hint: "Square its width.", why: `${SHADOW.size} · ${SHADOW.size}.`};
     const ratio = {ask: "How many texels do all maps of the light have per pixel of the picture?", answer: SHADOW.size ** 2 * SHADOW.views / (W * H), decimals: 1, hint: "Divide by the number of pixels.", why: `${SHADOW.views} · ${SHADOW.size}² / (${W} · ${H}).`};
     const bytes = {ask: "How many bytes does the map have, with four bytes per texel?", answer: SHADOW.size ** 2 * 4, hint: "Multiply the number of texels by 4.", why: "Each texel stores one float."};
-    return LOOK ? [{ask: "How many of the texels shown occlude the point?", answer: LOOK.lit.filter((l) => !l).length, hint: `Count the gray ones; ${LOOK.lit.length} texels are shown.`, why: "The depth of each texel is compared separately."}, texels, ratio] : [texels, bytes, ratio];
+    const hidden = LOOK ? LOOK.lit.filter((l) => !l).length : 0;
+    const count = {ask: "How many of the texels shown occlude the point?", answer: hidden, hint: `Count the gray ones; ${LOOK ? LOOK.lit.length : 0} texels are shown.`, why: "The depth of each texel is compared separately."};
+    return [WEIGHTS ? changedTexel() : texels, hidden > 1 ? count : bytes, ratio];
   },
 });

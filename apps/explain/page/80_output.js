@@ -1,6 +1,7 @@
 // From linear light to pixel values: tone curve, sRGB, samples and transparent layers.
 
 const TONE = DATA.tone;
+TONE.highest = Math.max(...TONE.histogram);
 
 function histogramPicture() {
   const list = TONE.histogram, first = list.findIndex((n) => n > 0), last = list.length - 1 - [...list].reverse().findIndex((n) => n > 0);
@@ -48,8 +49,8 @@ chapter({
   input: () => [`linear light per pixel, stored as ${TONE.stored_as}`],
   output: () => ["display light from 0 to 1"],
   steps: () => [
-    {name: "Histogram of the light", caption: `The luminance of all pixels, with ${TONE.bins} bars per stop. ${fmt(TONE.dark)} pixels are darker than 2<sup>${TONE.low}</sup>. The bar that contains the example pixel is highlighted.`, draw: histogramPicture},
-    {name: "Tone curve", caption: `${TONE.curve === "none" ? "Without a curve, values are only clamped to 1. The line looks curved because the horizontal axis is logarithmic." : `The tone curve <i>${TONE.curve}</i>.`} The dots are red, green and blue of the example pixel.`, draw: curvePicture},
+    {name: "Histogram of the light", caption: `The luminance of all pixels: each bar is the number of pixels with a luminance in its range, from dark on the left to bright on the right, with ${TONE.bins} bars per stop. ${fmt(TONE.dark)} pixels are darker than 2<sup>${TONE.low}</sup>. The bar that contains the example pixel is highlighted.`, draw: histogramPicture},
+    {name: "Tone curve", caption: `Light before exposure is to the right, on a logarithmic axis, and display light is up. ${TONE.curve === "none" ? "Without a curve, values are only clamped to 1; the line looks curved because of the axis." : `The tone curve <i>${TONE.curve}</i>.`} The dots are red, green and blue of the example pixel.`, draw: curvePicture},
   ],
   formula: () => {
     const p = TONE.pixel;
@@ -58,9 +59,11 @@ chapter({
   },
   related: ["srgb", "lighting"], lessons: ["High dynamic range"],
   exercises: () => [
-    {ask: "By how many stops does the exposure of this frame change the light?", answer: Math.log2(TONE.exposure), decimals: 2, hint: "A stop doubles the light: take the logarithm to the base 2 of the exposure.", why: `log<sub>2</sub>(${fmt(TONE.exposure, 6)}).`},
+    TONE.exposure === 1 ? {ask: "Which exposure makes the light of a frame three stops brighter than the exposure 1?", answer: 8, hint: "A stop doubles the light.", why: "2 · 2 · 2."}
+      : {ask: "By how many stops does the exposure of this frame change the light?", answer: Math.log2(TONE.exposure), decimals: 2, hint: "A stop doubles the light: take the logarithm to the base 2 of the exposure.", why: `log<sub>2</sub>(${fmt(TONE.exposure, 6)}).`},
     {ask: "The exposure is increased by one stop. What is the exposed light of the example pixel's green channel then?", answer: 2 * TONE.pixel.exposed[1], significant: 3, hint: "Double the second number in the row “· exposure”.", why: `2 · ${fmt(TONE.pixel.exposed[1], 6)}.`},
-    {ask: "What percentage of the pixels is too dark for the histogram?", answer: TONE.dark / (W * H) * 100, decimals: 1, hint: `The frame has ${fmt(W * H)} pixels.`, why: `The luminance of ${fmt(TONE.dark)} pixels is below 2<sup>${TONE.low}</sup>.`},
+    TONE.highest > 0 ? {ask: "What percentage of the pixels is in the highest bar of the histogram?", answer: TONE.highest / (W * H) * 100, decimals: 1, hint: `Point at the bar. The frame has ${fmt(W * H)} pixels.`, why: `${fmt(TONE.highest)} of ${fmt(W * H)}.`}
+      : {ask: "A histogram has 4 bars per stop. How many bars are between the luminances 1/8 and 4?", answer: 20, hint: "How many times does the luminance double?", why: "2<sup>5</sup> = 32, so that there are 5 stops."},
   ],
 });
 
@@ -91,7 +94,7 @@ chapter({
   input: () => ["display light from 0 to 1"],
   output: () => ["three 8-bit values from 0 to 255"],
   steps: () => [
-    {name: "The curve", caption: `${TONE.gamma ? `This scene is encoded with a power function with the exponent 1/${fmt(TONE.gamma)} instead of the sRGB curve.` : "Close to 0, the curve is a straight line; beyond that, it is a power function with the exponent 1/2.4."} The dots are red, green and blue of the example pixel.`, draw: srgbPicture},
+    {name: "The curve", caption: `Linear light is to the right and the encoded value up, both from 0 to 1; the gray line is light that is not encoded. ${TONE.gamma ? `This scene is encoded with a power function with the exponent 1/${fmt(TONE.gamma)} instead of the sRGB curve.` : "Close to 0, the curve is a straight line; beyond that, it is a power function with the exponent 1/2.4."} The dots are red, green and blue of the example pixel.`, draw: srgbPicture},
     {name: "Equal steps", caption: "Above: 16 equal steps of linear light, most of which look almost white. Below: 16 equal steps of the encoded value, which look evenly spaced.", draw: rampPicture},
   ],
   formula: () => [`${TONE.gamma ? `encoded = x<sup>1/${fmt(TONE.gamma)}</sup>` : "encoded = 12.92 x                   if x ≤ 0.0031308\n          1.055 x<sup>1/2.4</sup> − 0.055      otherwise"}\nvalue   = round(255 · encoded)\n\n${say(`at pixel ${px(PIXEL)}:`)}${["red", "green", "blue"].map((n, k) => `${n.padEnd(6)} ${fmt(TONE.pixel.display[k], 6).padStart(10)} → ${fmt(TONE.pixel.encoded[k], 6).padStart(10)} → round(${fmt(255 * TONE.pixel.encoded[k], 6)}) = <b>${TONE.pixel.code[k]}</b>`).join("\n")}${say(TONE.dither ? "This scene is dithered: a pattern determines whether values are rounded up or down." : "This is the pixel of the picture.")}`],
@@ -132,9 +135,9 @@ chapter({
   input: () => [`${DATA.samples} samples per pixel`],
   output: () => ["one color per pixel"],
   steps: () => [
-    {name: "Sample positions", caption: `The positions of the samples in a pixel, on a grid of 16 × 16.${new Set(DATA.sample_positions.map((p) => p[0])).size === DATA.samples && new Set(DATA.sample_positions.map((p) => p[1])).size === DATA.samples ? " No two samples are in the same row or column, so that nearly horizontal and nearly vertical edges get as many steps as possible." : ""}`, draw: patternPicture},
+    {name: "Sample positions", caption: `The square is a pixel, and the numbered dots are the positions of its samples, on a grid of 16 × 16.${new Set(DATA.sample_positions.map((p) => p[0])).size === DATA.samples && new Set(DATA.sample_positions.map((p) => p[1])).size === DATA.samples ? " No two samples are in the same row or column, so that nearly horizontal and nearly vertical edges get as many steps as possible." : ""}`, draw: patternPicture},
     {name: "Colors of the samples", caption: `The block of the example pixel. Each sample is drawn with the color that the renderer stored for it. The outlined pixel is the example.`, draw: sampleColors},
-    ...(isTriangle ? [{name: "Coverage", caption: "The block of the example pixel. The stronger the color of a pixel, the more of its samples the example triangle covers.", draw: sampleCoverage}] : []),
+    ...(isTriangle ? [{name: "Coverage", caption: "The block of the example pixel. The stronger the color of a pixel, the more of its samples the example triangle covers. Gray dots are samples that it does not cover.", draw: sampleCoverage}] : []),
   ],
   formula: () => [`color = (s<sub>0</sub> + … + s<sub>${DATA.samples - 1}</sub>) / ${DATA.samples}\n\n${say(`at pixel ${px(PIXEL)}, in linear light:`)}${["red", "green", "blue"].map((name, k) => `${name.padEnd(6)}(${TONE.samples.map((s) => fmt(s[k], 5)).join(" + ")}) / ${DATA.samples} = ${fmt(meanSample()[k], 6)} → <b>${fmt(TONE.pixel.light[k], 6)}</b>`).join("\n")}${say(`The last number is the mean, rounded to ${TONE.stored_as}.${hasEqualSamples() ? " All samples of this pixel have the same color, so the mean is that color." : ""}`)}`],
   related: ["coverage", "layers"], lessons: ["Antialiasing"],
@@ -175,7 +178,7 @@ chapter({
   absent: () => (LAYERED.length > 0 && LAYERS === null ? `The transparent surfaces of this frame are not visible. Another view may show them: ${command(`${DATA.command} --yaw 120`)}.` : LAYERED.length === 0 ? `No surface of this frame is transparent. A frame with glass: ${command("halfspace explain pipeline")}.` : null),
   input: () => [plural(LAYERED.length, "transparent draw")],
   output: () => [`${plural(DATA.statistics.layers_merged, "merge")} of the two farthest layers of a sample (a sample can store 8 layers)`],
-  steps: () => [{name: "Transparent draws", caption: `These objects are blended over the opaque picture: ${LAYERED.map((d) => `<i>${escapeHtml(d.object)}</i>`).join(", ")}. The ring marks the pixel of the formula, which has ${plural(LAYERS.list.length, "layer")}.`, draw: () => picture(DATA.pictures.final, "The picture with its transparent surfaces", {overlay: (pen, s) => ring(pen, s, LAYERS.pixel)})}],
+  steps: () => [{name: "Transparent draws", caption: `These objects are blended over the opaque picture: ${LAYERED.map((d) => `<i>${escapeHtml(d.object)}</i>`).join(", ")}.${ringNote(LAYERS.pixel, "the first one with the most layers, because the example pixel has none")} The formula blends ${DATA.samples > 1 ? `its sample ${LAYERS.sample}` : "it"}, which has ${plural(LAYERS.list.length, "layer")}.`, draw: () => picture(DATA.pictures.final, "The picture with its transparent surfaces", {ringed: LAYERS.pixel})}],
   formula: layerFormula,
   related: ["depth", "samples"], lessons: ["Blending and order"],
   exercises: () => {

@@ -132,11 +132,14 @@ function historyPanel(x, y, go) {
 }
 
 function pixelForm(go) {
-  const field = (label, max, value) => el("input", {type: "number", min: 0, max, value, "aria-label": label});
+  const field = (label, max, value) => el("input", {type: "number", min: 0, max, value, "aria-label": label, title: label});
   const x = field("x of the pixel, counted from the left", W - 1, PIXEL[0]), y = field("y of the pixel, counted from the top", H - 1, PIXEL[1]);
   const submit = (e) => { e.preventDefault(); go(Math.min(W - 1, Math.max(0, Number(x.value))), Math.min(H - 1, Math.max(0, Number(y.value)))); };
   return {form: el("form", {class: "pixel", onsubmit: submit}, el("span", {}, "x"), x, el("span", {}, "y"), y, el("button", {type: "submit"}, "Show pixel")), set: (px, py) => { x.value = px; y.value = py; }};
 }
+
+// The pixel with the most fragments in the last row of the picture.
+const busiestInLastRow = () => { const row = FRAME.fragments.subarray((H - 1) * W); return [row.indexOf(row.reduce((most, n) => Math.max(most, n), 0)), H - 1]; };
 
 const historyState = {pixel: PIXEL};
 function historyPicture() {
@@ -161,12 +164,12 @@ chapter({
   lead: () => "Click a pixel to see all of its fragments in drawing order, and what the renderer did with each of them. A fragment can be rejected together with its block, fail the depth test, be hidden before it is shaded, or be shaded.",
   input: () => [`${fmt(DATA.overdraw.total)} fragments of the whole frame`],
   output: () => [`${W} × ${H} pixels, whose colors are stored as ${HISTORY.stored_as}`],
-  steps: () => [{name: "Choose a pixel", caption: `This page contains the draw, primitive, depth and outcome of the fragments of all pixels${HISTORY.most < 64 ? `, up to ${HISTORY.most} fragments per pixel` : ""}. ${HISTORY.details.pixels === W * H && HISTORY.details.most.every((n) => n === 64) ? "It contains all values of all of them." : `It contains all values ${HISTORY.details.most.some((n) => n < 64) ? `of up to ${HISTORY.details.most.join(", ")} fragments per pixel for the example pixel, ` : "for "}the 64 × 64 pixels around ${HISTORY.details.most.some((n) => n < 64) ? "it" : "the example pixel"} and ${HISTORY.details.most.some((n) => n < 64) ? "" : "for "}${HISTORY.details.pixels === W * H ? "all other pixels" : "every eighth pixel in x and y"}.`}`, draw: historyPicture}],
+  steps: () => [{name: "Choose a pixel", caption: `The final picture. The ring marks the pixel whose history is listed below: ${px(PIXEL)}, the example of this page, until another one is selected. This page contains the draw, primitive, depth and outcome of the fragments of all pixels${HISTORY.most < 64 ? `, up to ${HISTORY.most} fragments per pixel` : ""}. ${HISTORY.details.pixels === W * H && HISTORY.details.most.every((n) => n === 64) ? "It contains all values of all of them." : `It contains all values ${HISTORY.details.most.some((n) => n < 64) ? `of up to ${HISTORY.details.most.join(", ")} fragments per pixel for the example pixel, ` : "for "}the 64 × 64 pixels around ${HISTORY.details.most.some((n) => n < 64) ? "it" : "the example pixel"} and ${HISTORY.details.most.some((n) => n < 64) ? "" : "for "}${HISTORY.details.pixels === W * H ? "all other pixels" : "every eighth pixel in x and y"}.`}`, draw: historyPicture}],
   body: () => el("div", {id: "history-panel", "aria-live": "polite"}, el("p", {class: "loading"}, "Loading the fragments …")),
   related: ["overdraw", "stepping"], lessons: ["Depth"],
   exercises: () => [
     {ask: "How many fragments more than an average pixel of this frame does the example pixel have?", answer: fragmentsAt(...PIXEL) - DATA.overdraw.total / (W * H), decimals: 1, hint: "Divide the number of all fragments by the number of pixels.", why: `${fmt(fragmentsAt(...PIXEL))} − ${fmt(DATA.overdraw.total / (W * H), 4)}.`},
-    {ask: "How many fragments does the pixel in the lower right corner have?", answer: fragmentsAt(W - 1, H - 1), hint: `Enter the coordinates ${W - 1}, ${H - 1}.`, why: "Its history lists them."},
+    {ask: `How many fragments does pixel ${px(busiestInLastRow())} have?`, answer: fragmentsAt(...busiestInLastRow()), hint: `Enter the coordinates ${busiestInLastRow().join(", ")}.`, why: "Its history lists them."},
     {ask: "What is the x coordinate of the center of the rightmost pixels in OpenGL window coordinates?", answer: W - 0.5, decimals: 1, hint: "Pixel centers are at half-integers.", why: `${W} − 0.5.`},
   ],
 });

@@ -8,12 +8,13 @@ chapter({
   input: () => [plural(DATA.statistics.tiles_touched, "tile with primitives", "tiles with primitives")],
   formula: () => [`picture(x, y) = tile(⌊x / ${TILE}⌋, ⌊(${H} − 1 − y) / ${TILE}⌋)\n\n${say(`Pixel ${px(PIXEL)} comes from tile (${EXTILE}):`)}⌊${PIXEL[0]} / ${TILE}⌋ = <b>${EXTILE[0]}</b>,  ⌊(${H} − 1 − ${PIXEL[1]}) / ${TILE}⌋ = <b>${EXTILE[1]}</b>\nvalue = <b>${TONE.pixel.code.join(", ")}</b>`],
   output: () => [`${W} × ${H} pixels with 8 bits per channel`],
-  steps: () => [{name: "The picture", caption: `Rendered with ${command(DATA.render_command)}.`, draw: () => picture(DATA.pictures.final, "The final picture", {read: (x, y) => `pixel ${px([x, y])}: ${plural(fragmentsAt(x, y), "fragment")}`})}],
+  steps: () => [{name: "The picture", caption: `The 8-bit values of all pixels, as ${command(DATA.render_command)} writes them.`, draw: () => picture(DATA.pictures.final, "The final picture", {read: (x, y) => `pixel ${px([x, y])}: ${plural(fragmentsAt(x, y), "fragment")}`})}],
   related: ["srgb", "history"], lessons: ["Tiles and threads"],
   exercises: () => [
     {ask: "How many bytes does the uncompressed picture have, with one byte each for red, green and blue?", answer: W * H * 3, hint: "A pixel has three bytes.", why: `${W} · ${H} · 3.`},
     {ask: "An image file lists the pixels row by row, from the upper left. How many pixels come before the example pixel?", answer: PIXEL[1] * W + PIXEL[0], hint: `A row has ${W} pixels.`, why: `${PIXEL[1]} · ${W} + ${PIXEL[0]}.`},
-    {ask: "What percentage of the tiles had primitives to draw?", answer: DATA.statistics.tiles_touched / (BINS.columns * BINS.rows) * 100, decimals: 0, hint: "The chapter “Binning into tiles” gives the number of tiles.", why: `${fmt(DATA.statistics.tiles_touched)} of ${fmt(BINS.columns * BINS.rows)} tiles${DATA.statistics.tiles_touched < BINS.columns * BINS.rows ? "; the others were filled with the background color" : ""}.`},
+    DATA.statistics.tiles_touched === BINS.columns * BINS.rows ? {ask: "How many pixels does the tile in the upper right corner of the window have?", answer: (W - (BINS.columns - 1) * TILE) * (H - (BINS.rows - 1) * TILE), hint: `Tiles have ${TILE} × ${TILE} pixels and start at the lower left; the window cuts off the last ones.`, why: `(${W} − ${BINS.columns - 1} · ${TILE}) · (${H} − ${BINS.rows - 1} · ${TILE}).`}
+      : {ask: "What percentage of the tiles had primitives to draw?", answer: DATA.statistics.tiles_touched / (BINS.columns * BINS.rows) * 100, decimals: 0, hint: "The chapter “Binning into tiles” gives the number of tiles.", why: `${fmt(DATA.statistics.tiles_touched)} of ${fmt(BINS.columns * BINS.rows)} tiles; the others were filled with the background color.`},
   ],
 });
 
@@ -25,16 +26,19 @@ chapter({
   input: () => [plural(DATA.overdraw.total, "fragment")],
   output: () => [plural(shadedFragments(), "shaded fragment"), plural(W * H, "pixel")],
   steps: () => [
-    {name: "Fragments per pixel", caption: `A fragment is one sample of one primitive${DATA.samples > 1 ? `, and a pixel has ${DATA.samples} samples` : ""}. The pixels have ${DATA.overdraw.histogram[0] > 0 ? "0" : fmt(DATA.overdraw.least)} to ${fmt(DATA.overdraw.most)} fragments; bright pixels have the most. Point at the picture to read the numbers.`, draw: () => [picture(DATA.overdraw.picture, "Number of fragments per pixel as a heat map", {read: (x, y) => `pixel ${px([x, y])}: ${plural(fragmentsAt(x, y), "fragment")}`, overlay: (pen, s) => ring(pen, s, PIXEL)}), legend("1", fmt(DATA.overdraw.most))].flat()},
-    {name: "Histogram", caption: `The number of pixels for each number of fragments${DATA.overdraw.most > 64 ? "; the last bar is for 64 and more" : ""}.`, draw: () => bars(DATA.overdraw.histogram.map((value, i) => ({value, name: plural(i, "fragment"), label: DATA.overdraw.histogram.length < 25 || i % 8 === 0 ? String(i) : undefined})), "Histogram: number of pixels for each number of fragments", {unit: " pixels"})},
+    {name: "Fragments per pixel", caption: `A fragment is one sample of one primitive${DATA.samples > 1 ? `, and a pixel has ${DATA.samples} samples` : ""}. The pixels have ${DATA.overdraw.histogram[0] > 0 ? "0" : fmt(DATA.overdraw.least)} to ${fmt(DATA.overdraw.most)} fragments; dark pixels have few, and bright ones the most. Point at the picture to read the numbers.${ringNote()}`, draw: () => [picture(DATA.overdraw.picture, "Number of fragments per pixel as a heat map", {read: (x, y) => `pixel ${px([x, y])}: ${plural(fragmentsAt(x, y), "fragment")}`, ringed: PIXEL}), legend("1", fmt(DATA.overdraw.most))].flat()},
+    {name: "Histogram", caption: `Each bar is the number of pixels with as many fragments as the number below it${DATA.overdraw.most > 64 ? "; the last bar is for 64 and more" : ""}.`, draw: () => bars(DATA.overdraw.histogram.map((value, i) => ({value, name: plural(i, "fragment"), label: DATA.overdraw.histogram.length < 25 || i % 8 === 0 ? String(i) : undefined})), "Histogram: number of pixels for each number of fragments", {unit: " pixels"})},
   ],
   formula: () => [`overdraw = fragments / covered pixels = ${fmt(DATA.overdraw.total)} / ${fmt(W * H - DATA.overdraw.histogram[0])} = <b>${fmt(DATA.overdraw.total / Math.max(1, W * H - DATA.overdraw.histogram[0]), 5)}</b>${DATA.samples > 1 ? say(`Divided by ${DATA.samples} samples per pixel: ${fmt(DATA.overdraw.total / Math.max(1, W * H - DATA.overdraw.histogram[0]) / DATA.samples, 3)} surfaces per sample.`) : ""}`],
   related: ["depth", "history"], lessons: ["Depth"],
   exercises: () => {
-    const several = DATA.overdraw.histogram.slice(2).reduce((n, v) => n + v, 0);
+    // The question is about the smallest number that not nearly all pixels reach, and about the most frequent of the other numbers.
+    const pixels = DATA.overdraw.histogram, reach = (n) => pixels.slice(n).reduce((sum, v) => sum + v, 0);
+    const least = Math.max(2, pixels.findIndex((_, n) => n > 1 && reach(n) < 0.9 * W * H)), several = reach(least);
+    const common = pixels.reduce((best, v, n) => (n !== least - 1 && (best < 0 || v > pixels[best]) ? n : best), -1);
     return [
-      {ask: "What percentage of the pixels has at least two fragments?", answer: several / (W * H) * 100, decimals: 1, hint: "Add the bars of the histogram from the third one on.", why: `${fmt(several)} of ${fmt(W * H)} pixels.`},
-      {ask: "What percentage of the pixels has no fragments?", answer: DATA.overdraw.histogram[0] / (W * H) * 100, decimals: 1, hint: "Point at the first bar of the histogram.", why: DATA.overdraw.histogram[0] > 0 ? `${fmt(DATA.overdraw.histogram[0])} pixels show the background color.` : "Every pixel of this frame has a fragment."},
+      {ask: `What percentage of the pixels has at least ${least} fragments?`, answer: several / (W * H) * 100, decimals: 1, hint: "Add the bars of the histogram from this number on.", why: `${fmt(several)} of ${fmt(W * H)} pixels.`},
+      {ask: `What percentage of the pixels has ${common === 64 ? "at least 64 fragments" : `exactly ${plural(common, "fragment")}`}?`, answer: pixels[common] / (W * H) * 100, decimals: 1, hint: "Point at the bar of the histogram.", why: `${fmt(pixels[common])} of ${fmt(W * H)} pixels.`},
       {ask: "What is the ratio of shaded fragments to all fragments?", answer: shadedFragments() / Math.max(1, DATA.overdraw.total), decimals: 2, hint: `${fmt(shadedFragments())} were shaded, and there are ${fmt(DATA.overdraw.total)} in all.`, why: `${fmt(DATA.overdraw.unshaded)} fragments were not shaded.`},
     ];
   },
@@ -73,14 +77,14 @@ chapter({
   output: () => [`${fmt(allTimes, 3)} ms for all timed tiles on one thread`],
   formula: () => { const n = TIMES.filter((t) => t > 0).length; return [`mean = total / tiles = ${fmt(allTimes, 4)} ms / ${fmt(n)} = <b>${fmt(allTimes / Math.max(1, n) * 1000, 4)} µs</b>\nslowest / mean = ${fmt(slowest * 1000, 4)} / ${fmt(allTimes / Math.max(1, n) * 1000, 4)} = <b>${fmt(slowest * n / Math.max(1e-9, allTimes), 4)}</b>`]; },
   steps: () => [
-    {name: "Time per tile", caption: `All tiles together took ${fmt(allTimes, 3)} ms. ${untimedTiles()}`, draw: timePicture},
-    {name: "Time and primitives", caption: "Each dot is a tile. Primitives take time, but so does shading: a tile with a single triangle can be slow if its shader is slow.", draw: timePlot},
+    {name: "Time per tile", caption: `Dark tiles are fast and bright ones slow. All tiles together took ${fmt(allTimes, 3)} ms. ${untimedTiles()}`, draw: timePicture},
+    {name: "Time and primitives", caption: "Each dot is a tile: its number of primitives is to the right, and its time up. Primitives take time, but so does shading: a tile with a single triangle can be slow if its shader is slow.", draw: timePlot},
   ],
   related: ["binning", "statistics"], lessons: ["Tiles and threads"],
   exercises: () => {
-    const timed = TIMES.filter((t) => t > 0), mean = allTimes / Math.max(1, timed.length), slow = timed.filter((t) => t > mean).length;
+    const timed = TIMES.filter((t) => t > 0), mean = allTimes / Math.max(1, timed.length), threads = 8, slow = timed.filter((t) => t > mean).length;
     return [
-      {ask: "What percentage of the tiles of the window was timed?", answer: timed.length / TIMES.length * 100, decimals: 0, hint: `There are ${TIMES.length} tiles. ${untimedTiles()}`, why: `${fmt(timed.length)} of ${fmt(TIMES.length)}; the second step shows a dot for each of them.`},
+      {ask: `How many milliseconds would ${threads} threads take if they shared the work equally?`, answer: allTimes / threads, significant: 2, hint: "The caption of the first step gives the time of one thread.", why: `${fmt(allTimes, 3)} ms / ${threads}. The tiles cannot be shared so evenly, so that it takes longer.`},
       {ask: "What percentage of the total time did the slowest tile take?", answer: slowest / Math.max(allTimes, 1e-9) * 100, decimals: 0, tolerance: 0.6, hint: "Its time is in the legend, and the total is in the caption.", why: "However many threads there are, a frame takes at least as long as its slowest tile."},
       {ask: "How many tiles took longer than the mean?", answer: slow, tolerance: Math.ceil(timed.length / 50), hint: "Count the dots above the mean in the second step.", why: `The mean is ${fmt(mean * 1000, 4)} µs.`},
     ];
@@ -100,7 +104,7 @@ chapter({
   input: () => [plural(DATA.statistics.primitives_in, "primitive")],
   output: () => [plural(DATA.statistics.fragments_shaded, "run of a fragment shader", "runs of a fragment shader")],
   formula: () => { const s = DATA.statistics, culled = s.culled_non_finite + s.culled_outside + s.culled_face + s.culled_degenerate + s.culled_no_sample; return [`${say("Each submitted primitive is culled or drawn:")}primitives_in = culled + drawn\n${fmt(s.primitives_in)} = ${[s.culled_non_finite, s.culled_outside, s.culled_face, s.culled_degenerate, s.culled_no_sample].map((n) => fmt(n)).join(" + ")} + ${fmt(DATA.outcomes[0] + DATA.outcomes[1])} = ${fmt(culled)} + <b>${fmt(s.primitives_in - culled)}</b>\n\nshader runs per pixel = ${fmt(s.fragments_shaded)} / ${fmt(W * H)} = <b>${fmt(s.fragments_shaded / (W * H), 4)}</b>`]; },
-  steps: () => [{name: "From primitives to pixels", caption: "The number of items that each stage of the pipeline outputs.", draw: () => el("div", {class: "stage"}, pipelineDiagram())}],
+  steps: () => [{name: "From primitives to pixels", caption: "The number of items that each stage of the pipeline outputs in this frame, from left to right.", draw: () => el("div", {class: "stage"}, pipelineDiagram())}],
   body: () => [tableOf(["counter", "value", "meaning"], STATISTICS.map(([key, text]) => [`<code>${key}</code>`, DATA.statistics[key], "¶" + text]))],
   related: ["culling", "overdraw"], lessons: ["The library"],
   exercises: () => [
