@@ -31,6 +31,7 @@ try:
     from selenium.webdriver.common.action_chains import ActionChains
     from selenium.webdriver.common.by import By
     from selenium.webdriver.common.keys import Keys
+    from selenium.webdriver.common.print_page_options import PrintOptions
     from selenium.webdriver.support.ui import WebDriverWait
 except ImportError:
     if sys.executable != "/usr/bin/python3" and os.path.exists("/usr/bin/python3"):
@@ -70,8 +71,12 @@ def browser():
     return webdriver.Chrome(options=options, service=Service(DRIVER))
 
 
-def set_window(driver, width, dark=False):
+def set_metrics(driver, width):
     driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {"width": width, "height": 900, "deviceScaleFactor": 1, "mobile": False})
+
+
+def set_window(driver, width, dark=False):
+    set_metrics(driver, width)
     features = [{"name": "prefers-color-scheme", "value": "dark" if dark else "light"}]
     driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": features})
 
@@ -119,6 +124,48 @@ EXERCISES = """() => {
   return {count: document.querySelectorAll('.exercise').length, printed: all.filter(isPrinted).map((x) => x.ask + ' ' + text(x)),
           bad: all.filter((x) => !isRight(x, text(x)) || !isRight(x, text(x).replace('.', ',')) || isRight(x, '-12345.5') || isRight(x, '')).map((x) => x.ask + ' ' + text(x))};
 }"""
+# Returns the controls that only have a symbol or no text at all, and lack a title.
+UNTITLED = """() => [...document.querySelectorAll('button, input')].filter((e) => e.type !== 'text' && !/\\p{L}/u.test(e.textContent) && !/\\p{L}{3}/u.test(e.title))
+  .map((e) => e.outerHTML.slice(0, 120))"""
+# Returns the caption of a step and the pixels that have a ring in its pictures: [pixel as in captions, is it the example, color of the ring].
+RINGS = """() => [document.querySelector('figcaption') ? document.querySelector('figcaption').textContent : '', [...document.querySelectorAll('figure canvas[data-ring]')].map((c) => {
+  const pixel = c.dataset.ring.split(',').map(Number), [x, y] = pixel.map((v) => (v + 0.5) * c.width / W);
+  return [px(pixel), pixel.join() === PIXEL.join(), c.width === 2 * W && x > 12 ? [...c.getContext('2d').getImageData(Math.round(x - 9), Math.round(y), 1, 1).data] : null]; })]"""
+# Words of which the caption of a step has to contain all, because its figure shows them with colors, sizes or positions.
+CAPTIONS = {
+    ("frame", 1): "displayed", ("frame", 2): "one color per", ("frame", 3): "items", ("spaces", 1): "fainter filled axes", ("spaces", 2): "fainter filled volume",
+    ("spaces", 6): "fainter filled faded", ("geometry", 1): "filled numbered", ("geometry", 2): "thick outline", ("geometry", 3): "bars highlighted",
+    ("clipping", 1): "gray right upward", ("clipping", 2): "colored dots new", ("culling", 1): "bars highlighted", ("culling", 2): "outlines",
+    ("setup", 1): "colored gray", ("setup", 2): "highlighted arrow", ("binning", 1): "lines", ("binning", 2): "dark bright number", ("binning", 3): "colored",
+    ("coverage", 1): "strongly faintly gray empty", ("coverage", 2): "thick colored", ("coverage", 3): "colored gray outlined", ("coverage", 4): "colored gray",
+    ("depth", 1): "dark bright logarithmic", ("depth", 2): "dark block", ("depth", 3): "bright block", ("stepping", 1): "first second third panel frame",
+    ("interpolation", 1): "squares", ("interpolation", 2): "dark bright", ("varyings", 1): "red green blue", ("varyings", 2): "red green blue",
+    ("mips", 1): "dark bright", ("lighting", 1): "luminance exposure", ("shadows", 1): "bright black", ("shadows", 3): "gray numbers percent dot",
+    ("tone", 1): "bar left right", ("tone", 2): "right up dots", ("srgb", 1): "right up gray dots", ("srgb", 2): "above below", ("samples", 1): "dots",
+    ("samples", 2): "color outlined", ("samples", 3): "gray dots", ("overdraw", 1): "dark bright", ("overdraw", 2): "bar", ("times", 1): "dark bright",
+    ("times", 2): "dot right up", ("results", 1): "tries"}
+# Parts of the quotes of each chapter with several of them, in the order of the renderer's steps.
+QUOTES = {
+    "spaces": ["clip_from_object", "window_vertex("], "setup": ["at(int64_t x", "z_edge2"], "binning": ["maximum of E", "put_row("],
+    "coverage": ["BlockCoverage block_coverage(", "lanes_at", "is_top_left("], "depth": ["CompareOp::greater", "z_edge1"],
+    "mips": ["squared_scale_factor(", "level_of_detail(", "size2"], "lighting": ["sum.specular", "reflected("],
+    "shadows": ["automatic_depth_offset(", "nearest", "box_pcf("], "layers": ["::add(", "::write("], "history": ["::add(", "::set_shaded("],
+    "overdraw": ["CompareOp::greater", "FrameTrace::count("]}
+# Lays out the printed page in columns of the size of a page of A4 without its margins, which the browser breaks like pages. Returns the number
+# of columns, what is cut, headings that are separated from what follows, and the filled part of each column but the last.
+PAGES = """const main = document.getElementById('main'), W_MM = 178, H_MM = 265, gap = 100;
+Object.assign(main.style, {width: `${W_MM}mm`, height: `${H_MM}mm`, columnWidth: `${W_MM}mm`, columnGap: `${gap}px`, columnFill: 'auto', margin: 0, overflow: 'visible'});
+const box = main.getBoundingClientRect(), of = (r) => Math.round((r.left - box.left) / (box.width + gap) - 0.3);
+const isShown = (e) => e.checkVisibility() && e.getBoundingClientRect().height > 0;
+const rects = (e) => [e, ...e.querySelectorAll('*')].flatMap((d) => [...d.getClientRects()]).filter((r) => r.width > 0 && r.height > 0);
+const columns = (e) => [...new Set(rects(e).map(of))].sort((a, b) => a - b), name = (e) => `${e.closest('article').querySelector('h2').textContent}: ${e.tagName} ${e.className} ${e.textContent.slice(0, 60)}`;
+const all = (selector) => [...main.querySelectorAll(selector)].filter(isShown);
+const cut = all('.head, figure, figcaption, .table, tr, .blank, .formula:not(.long), .fragments > li').filter((e) => rects(e).length > 0 && columns(e).length > 1);
+const next = (e) => { for (let n = e.nextElementSibling; n; n = n.nextElementSibling) if (isShown(n)) return n; return null; };
+const alone = all('h2, h3').filter((h) => next(h) === null || columns(next(h))[0] !== columns(h)[0]);
+const bottoms = [];
+for (const r of all('article > *').flatMap(rects)) bottoms[of(r)] = Math.max(bottoms[of(r)] || 0, (r.bottom - box.top) / box.height);
+return {columns: bottoms.length, cut: cut.map(name), alone: alone.map(name), filled: [...bottoms].slice(0, -1).map((b) => b || 0), long: all('.formula.long').length};"""
 # Returns the number of pixels with a sample that one of the triangles covers.
 COUNT_OF_PIXELS = """(pieces) => {
   const pixels = new Set();
@@ -179,10 +226,12 @@ class Page(unittest.TestCase):
         for name in TOURED:
             self.open(name)
             seen = {}
-            for chapter, step, look in self.tour(f"() => [({PICTURE})(), ({NAMELESS})(), ({EXERCISES})()]"):
-                picture, nameless, exercises = look
+            for chapter, step, look in self.tour(f"() => [({PICTURE})(), ({NAMELESS})(), ({EXERCISES})(), ({RINGS})(), ({UNTITLED})()]"):
+                picture, nameless, exercises, (caption, rings), untitled = look
                 where = f"{name}, {chapter}, step {step}"
                 self.assertEqual(nameless, [], f"{where}: a control or picture has no name")
+                self.assertEqual(untitled, [], f"{where}: a control with a symbol has no title")
+                self.check_rings(where, caption, rings)
                 if "note" in exercises:
                     self.assertIn("halfspace explain", exercises["note"], where)
                     continue
@@ -190,6 +239,127 @@ class Page(unittest.TestCase):
                 self.assertNotIn(picture, seen.setdefault(chapter, []), f"{where} shows what was shown before")
                 seen[chapter].append(picture)
             self.assertEqual(self.errors(), [], name)
+
+    def check_rings(self, where, caption, rings):
+        """A caption mentions a ring if there is one, and names its pixel if that is not the example."""
+        for pixel, is_example, color in rings:
+            self.assertIn("ring marks" if is_example else f"pixel {pixel}", caption, where)
+            self.assertIn(color, (None, [255, 255, 255, 255]), f"{where}: the ring is white")
+        if not rings and not re.search(r", (history), ", where):
+            self.assertNotIn("ring marks", caption, where)
+
+    def test_a_ring_on_another_pixel_is_explained(self):
+        self.open("pipeline")
+        for chapter, step, data in (("mips", 1, "MIP.at"), ("layers", 1, "LAYERS.pixel"), ("shadows", 1, "SHADOW.pixel"), ("shadows", 2, "SHADOW.pixel")):
+            own = self.run_script(f"return {data}")
+            caption, rings = self.run_script(f"const c = CHAPTERS.findIndex((c) => c.id === '{chapter}'); {data} = [W - 20, 7]; goTo(c, {step - 1}); return ({RINGS})()")
+            self.assertEqual([(pixel, is_example) for pixel, is_example, _ in rings], [("(300, 7) [300, 172]", False)], chapter)
+            self.check_rings(chapter, caption, rings)
+            self.run_script(f"{data} = {json.dumps(own)}")
+
+    def test_captions_say_what_is_shown(self):
+        self.open("pipeline")
+        found = set()
+        for chapter, step, (caption, _) in self.tour(RINGS):
+            name, text = caption.split(". ", 1)
+            self.assertGreater(len(text), 60, f"{chapter}, step {step}: {caption}")
+            for word in CAPTIONS.get((chapter, step), "").split():
+                self.assertIn(word, caption.lower(), f"{chapter}, step {step}")
+            found.add((chapter, step))
+        self.assertEqual(set(CAPTIONS) - found, set())
+
+    def test_quotes_are_in_the_order_of_the_steps(self):
+        self.open("earth")
+        quotes = {chapter: list_of for chapter, list_of in self.run_script("return DATA.quotes").items() if len(list_of) > 1}
+        self.assertEqual(set(quotes), set(QUOTES))
+        for chapter, parts in QUOTES.items():
+            self.assertEqual([part for part, quote in zip(parts, quotes[chapter]) if part not in quote["text"]], [], chapter)
+            self.assertEqual(len(quotes[chapter]), len(parts), chapter)
+
+    def test_no_answer_of_pipeline_is_trivial(self):
+        """No answer is 0, 1, all, or a number of the caption next to it."""
+        self.pages["default"] = Path(self.folder.name) / "default.html"
+        subprocess.run([PROGRAM, "explain", "pipeline", "-o", self.pages["default"]], check=True, cwd=self.folder.name)
+        for name in ("default", "pipeline"):
+            self.open(name)
+            for chapter, number, ask, text in self.run_script("return CHAPTERS.flatMap((c) => (c.exercises ? c.exercises() : []).map((x, i) => [c.id, i + 1, plainText(x.ask), roundedAnswer(x)]))"):
+                if not re.fullmatch(r"-?[\d.e+-]+", text):
+                    continue  # a name
+                self.assertNotIn(float(text), (0, 1), f"{name}, {chapter} {number}: {ask}")
+                if "percentage" in ask:
+                    self.assertLess(float(text), 100, f"{name}, {chapter} {number}: {ask}")
+
+    def test_repetitions_of_a_held_key_do_not_queue(self):
+        """Repetitions are ignored from the beginning of a drawing until it is painted, also those that are delivered later."""
+        self.open("pipeline", "lighting")
+        self.wait_for_pictures()
+        steps = self.driver.execute_async_script("""const done = arguments[0], steps = [], note = () => steps.push(state.step);
+            const key = (repeat) => new KeyboardEvent('keydown', {key: 'ArrowRight', repeat, bubbles: true, cancelable: true}), press = (e) => document.body.dispatchEvent(e);
+            const ready = async () => { while (drawing.isBusy) await new Promise((next) => setTimeout(next, 5)); };
+            (async () => {
+              await ready();
+              note();
+              press(key(false));
+              const late = key(true);
+              for (let i = 0; i < 5; ++i) press(key(true));
+              note();
+              await ready();
+              await new Promise((next) => setTimeout(next, 20));
+              press(late);
+              note();
+              press(key(true));
+              note();
+              press(key(false));  // pressed again, while the step is drawn
+              note();
+              done(steps);
+            })()""")
+        self.assertEqual(steps, [0, 1, 1, 2, 3])
+        slider = self.run_script("""const range = document.querySelector('.stepper input'), e = new KeyboardEvent('keydown', {key: 'ArrowRight', repeat: true, bubbles: true, cancelable: true});
+            goToStep(0); range.dispatchEvent(e); return e.defaultPrevented""")
+        self.assertTrue(slider, "the slider gets no repetition while its step is drawn")
+
+    def test_weights_of_the_shadow_lookup_give_its_factor(self):
+        scenes = {"pipeline": "pcf5", "day-night": "pcf3"}
+        for method in ("hard", "bilinear", "vogel", "vsm", "pcss"):
+            scenes[f"knot-{method}"] = method
+            self.pages[f"knot-{method}"] = Path(self.folder.name) / f"knot-{method}.html"
+            subprocess.run([PROGRAM, "explain", "shadow-knot", "--size", "96x54", "--set", f"shadow.method={method}", "-o", self.pages[f"knot-{method}"]], check=True, cwd=self.folder.name)
+        for name, method in scenes.items():
+            text = self.caption(name, "shadows", 3)
+            filter_name, look = self.run_script("return [SHADOW.filter, LOOK]")
+            self.assertEqual(filter_name, method)
+            self.assertAlmostEqual(look["filtered"] * look["terminator"], look["factor"], 6, name)
+            if method in ("vsm", "pcss"):
+                self.assertIsNone(look["weights"], name)
+                self.assertIn("exels have no", text, name)
+                self.assertNotIn("sum of the rows", text, name)
+                continue
+            weights, lit = look["weights"], look["lit"]
+            self.assertAlmostEqual(sum(weights), 1, 5, name)
+            self.assertAlmostEqual(sum(w * l for w, l in zip(weights, lit)) * look["terminator"], look["factor"], 5, name)
+            # The formula: the rows add up to the sum, and the sum is the factor.
+            formula = self.run_script("return [...document.querySelectorAll('.formula')].pop().textContent")
+            rows = re.findall(r"(?m)row \d+ (.*)  = (\d\.\d{5})$", formula)
+            total = float(re.search(r"sum of the rows = (\S+)", formula).group(1).replace("e−", "e-"))
+            for cells, row in rows:
+                shown = [float(v) for v in re.findall(r"(?<![(\d.])\d\.\d{5}", cells)]
+                self.assertAlmostEqual(sum(shown), float(row), delta=1e-5 * (len(shown) + 1), msg=name)
+            self.assertAlmostEqual(sum(float(row) for _, row in rows), total, delta=1e-5 * (len(rows) + 1), msg=name)
+            self.assertEqual(len(re.findall(r"\d\.\d{5}", " ".join(cells for cells, _ in rows))), sum(w > 0 for w in weights), name)
+            self.assertEqual(formula.count("("), sum(w > 0 and l == 0 for w, l in zip(weights, lit)), name)
+            self.assertAlmostEqual(total * look["terminator"], look["factor"], 5, name)
+            # The picture: a number in each texel with a weight. Rounded to two digits, they add up to about 100 %.
+            numbers = self.run_script("return [...document.querySelectorAll('figure svg text')].map((t) => t.textContent)")
+            self.assertEqual(len(numbers), sum(w > 0 for w in weights), name)
+            self.assertAlmostEqual(sum(float(n.replace("<", "")) for n in numbers), 100, delta=2, msg=name)
+            self.driver.find_element(By.CSS_SELECTOR, "figure svg").send_keys(Keys.ARROW_RIGHT)
+            self.assertRegex(self.driver.find_element(By.CLASS_NAME, "readout").text, r"depth .*(Weight · lit = \S+ · [01] = |gives it no weight)", name)
+        partial = {name: self.factor_of(name) for name in ("pipeline", "day-night", "knot-bilinear")}
+        self.assertTrue(any(0 < factor < 1 for factor in partial.values()), partial)
+
+    def factor_of(self, name):
+        self.open(name, "shadows")
+        return self.run_script("return LOOK.factor")
 
     def test_steps_fit_and_are_readable_on_a_phone(self):
         for name in SCENES if LONG else ["day-night"]:
@@ -353,13 +523,43 @@ class Page(unittest.TestCase):
         self.assertEqual(shown, expected)
 
     # Tries again, because the browser gives up after 10 s, which is too short next to other tests.
-    def printed_page(self):
+    def printed_page(self, options=None):
         for _ in range(4):
             try:
-                return self.driver.print_page()
+                return self.driver.print_page(options)
             except TimeoutException:
                 pass
-        return self.driver.print_page()
+        return self.driver.print_page(options)
+
+    def test_printed_pages_are_full_and_cut_nothing(self):
+        """Figures, tables, exercises and the beginnings of chapters are whole, no heading is separated from what follows, and no page is
+        nearly empty: what follows did not fit, and nothing that is kept together is taller than half a page."""
+        a4 = PrintOptions()
+        a4.page_width, a4.page_height = 21.0, 29.7
+        for name in ("pipeline", "empty"):
+            self.open(name)
+            self.driver.execute_async_script("const done = arguments[0]; window.print = () => {}; printAll().then(done)")
+            count = len(re.findall(rb"/Type\s*/Page\b(?!s)", base64.b64decode(self.printed_page(a4))))
+            try:
+                self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "print"})
+                set_metrics(self.driver, 673)  # 178 mm
+                pages = self.run_script(PAGES)
+            finally:
+                self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": ""})
+            self.assertEqual([pages["cut"], pages["alone"]], [[], []], name)
+            self.assertGreater(min(pages["filled"]), 0.45, f"{name}: {pages['filled']}")
+            self.assertLessEqual(abs(pages["columns"] - count), 1, f"{name}: {count} pages")
+            self.assertLess(count, len(self.chapters()) * 3, name)
+            self.run_script("showOne()")
+
+    def test_long_formulas_may_break(self):
+        self.open("pipeline", "lighting")
+        classes = self.run_script("""const c = CHAPTERS[state.chapter], own = c.formula;
+            c.formula = () => [Array(25).fill('x = 1').join('\\n'), Array(24).fill('x = 1').join('\\n'), 'x'.repeat(70 * 25)];
+            const shown = [...printed(c).querySelectorAll('.formula')].map((f) => f.className);
+            c.formula = own;
+            return shown""")
+        self.assertEqual(classes, ["formula long", "formula", "formula long"])
 
     def test_the_whole_page_can_be_printed(self):
         self.open("pipeline", "depth/2")
