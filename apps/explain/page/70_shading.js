@@ -261,14 +261,16 @@ function weightsText() {
   return `The numbers are the weights in the filter ${SHADOW.filter}, in percent; pale texels have none. Of the ${plural(read.length, "texel")} with a weight, ${fmt(hidden)} ${hidden === 1 ? "occludes" : "occlude"} the point.`;
 }
 
+// How the factor follows from the result of the filter: empty if they are the same.
+const fadeFormula = (filtered) => (LOOK.terminator === 1 ? "" : `${say("The light also fades, because the shading normal faces the light more than the smooth surface does:")}factor = filter · fade = ${fmt(filtered, 6)} · ${fmt(LOOK.terminator, 6)} = <b>${fmt(filtered * LOOK.terminator, 6)}</b>`);
+
 // The sum of the filter, one line per row of texels.
 function weightFormula() {
   const n = LOOK.side, read = readTexels(), ordered = (list) => [...new Set(list)].sort((a, b) => a - b);
   const columns = ordered(read.map((k) => k % n)), rows = ordered(read.map((k) => Math.floor(k / n))).reverse();
   const cell = (k) => (WEIGHTS[k] === 0 ? "" : LOOK.lit[k] ? `${WEIGHTS[k].toFixed(5)} ` : `(${WEIGHTS[k].toFixed(5)})`).padStart(10);
   const lines = rows.map((r) => `row ${LOOK.j + r - (n - 1) / 2}`.padEnd(9) + columns.map((c) => cell(r * n + c)).join("") + `  = ${columns.reduce((sum, c) => sum + WEIGHTS[r * n + c] * LOOK.lit[r * n + c], 0).toFixed(5)}`);
-  const fade = LOOK.terminator === 1 ? "" : `\nfilter · fade = ${fmt(weightedSum(), 6)} · ${fmt(LOOK.terminator, 6)} = <b>${fmt(weightedSum() * LOOK.terminator, 6)}</b>${say("The light fades where the interpolated normal of the vertices turns away from the light, but the normal of the map does not.")}`;
-  return `filter = sum of weight · lit\n\n${say("The weights of the texels, row by row from the top. Those of texels that occlude the point are in parentheses: there, lit is 0. The weights add up to 1.")}${lines.join("\n")}\n\nsum of the rows = <b>${fmt(weightedSum(), 6)}</b>${fade}${say(`The renderer computed the factor ${fmt(LOOK.factor, 6)} in floats.`)}`;
+  return `filter = sum of weight · lit\n\n${say("The weights of the texels, row by row from the top. Those of texels that occlude the point are in parentheses: there, lit is 0. The weights add up to 1.")}${lines.join("\n")}\n\nsum of the rows = <b>${fmt(weightedSum(), 6)}</b>${fadeFormula(weightedSum())}${say(`The renderer computed the factor ${fmt(LOOK.factor, 6)} in floats.`)}`;
 }
 
 function lookupPicture() {
@@ -311,7 +313,7 @@ chapter({
       {name: "One pixel", caption: `Its shadow is looked up: the point that it shows is in texel (${LOOK.i}, ${LOOK.j}) of the map.${ringNote(SHADOW.pixel, nearestPixel())}`, draw: () => picture(DATA.pictures.final, "The picture, with a ring around the pixel whose shadow is looked up", {ringed: SHADOW.pixel})},
       {name: "The texels around the point", caption: `${LOOK.lit.every((l) => l) ? "Each square is a texel. None of them is nearer to the light than the plane of the surface, so none occludes the point." : "Each square is a texel. Gray texels are nearer to the light than the plane of the surface, so they occlude the point; the others do not."} The dot marks the point. ${weightsText()} The shadow factor is ${num(LOOK.factor, 5)}.`, draw: lookupPicture}] : []),
   ],
-  formula: () => (LOOK ? [`texel (${LOOK.i}, ${LOOK.j}), point at (${fmt(LOOK.x, 7)}, ${fmt(LOOK.y, 7)}):\n\n<em>d</em> = depth + bias = ${fmt(LOOK.depth, 8)} + ${fmt(LOOK.biased - LOOK.depth, 4)} = ${fmt(LOOK.biased, 8)}\nplane: ${fmt(LOOK.dx, 4)} per texel to the right, ${fmt(LOOK.dy, 4)} up\n\n${say("lit = <em>d</em> + slope · distance to the center of the texel ≥ depth in the map")}map: ${fmt(LOOK.texels[(LOOK.side * LOOK.side - 1) / 2], 8)} → <b>${LOOK.lit[(LOOK.side * LOOK.side - 1) / 2] ? "lit" : "in shadow"}</b>      after the filter: <b>${fmt(LOOK.factor, 6)}</b>`, ...(WEIGHTS ? [weightFormula()] : [])] : []),
+  formula: () => (LOOK ? [`texel (${LOOK.i}, ${LOOK.j}), point at (${fmt(LOOK.x, 7)}, ${fmt(LOOK.y, 7)}):\n\n<em>d</em> = depth + bias = ${fmt(LOOK.depth, 8)} + ${fmt(LOOK.biased - LOOK.depth, 4)} = ${fmt(LOOK.biased, 8)}\nplane: ${fmt(LOOK.dx, 4)} per texel to the right, ${fmt(LOOK.dy, 4)} up\n\n${say("lit = <em>d</em> + slope · distance to the center of the texel ≥ depth in the map")}map: ${fmt(LOOK.texels[(LOOK.side * LOOK.side - 1) / 2], 8)} → <b>${LOOK.lit[(LOOK.side * LOOK.side - 1) / 2] ? "lit" : "in shadow"}</b>      after the filter: <b>${fmt(LOOK.filtered, 6)}</b>`, ...(WEIGHTS ? [weightFormula()] : [fadeFormula(LOOK.filtered)].filter(Boolean))] : []),
   related: ["lighting", "depth"], lessons: ["Shadow map and bias"],
   exercises: () => {
     const texels = {ask: "How many texels does the map have?", answer: SHADOW.size ** 2, hint: "Square its width.", why: `${SHADOW.size} · ${SHADOW.size}.`};
@@ -319,6 +321,6 @@ chapter({
     const bytes = {ask: "How many bytes does the map have, with four bytes per texel?", answer: SHADOW.size ** 2 * 4, hint: "Multiply the number of texels by 4.", why: "Each texel stores one float."};
     const hidden = LOOK ? LOOK.lit.filter((l) => !l).length : 0;
     const count = {ask: "How many of the texels shown occlude the point?", answer: hidden, hint: `Count the gray ones; ${LOOK ? LOOK.lit.length : 0} texels are shown.`, why: "The depth of each texel is compared separately."};
-    return [WEIGHTS ? changedTexel() : texels, hidden > 1 ? count : bytes, ratio];
+    return [WEIGHTS && readTexels().length > 1 ? changedTexel() : texels, hidden > 1 ? count : bytes, ratio];
   },
 });
