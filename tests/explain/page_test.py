@@ -864,7 +864,9 @@ class Page(unittest.TestCase):
         self.check_setup_depth("floor")
         self.assertIn("the page follows the piece", self.run_script("return document.querySelector('article').textContent"))
         coverage, area, pixel = self.run_script("const of = (id, i) => CHAPTERS.find((c) => c.id === id).exercises()[i].answer; return [of('coverage', 0), of('setup', 1), of('spaces', 1)]")
-        self.assertEqual(coverage, self.run_script("return DATA.choice.covered"))
+        columns, rows, covered_pixels = self.run_script("""const boxes = EX.triangles.map((t) => t.box), of = (f, k) => f(...boxes.map((b) => b[k]));
+            return [of(Math.max, 2) - of(Math.min, 0), of(Math.max, 3) - of(Math.min, 1), DATA.choice.covered]""")
+        self.assertAlmostEqual(coverage, 100 * covered_pixels / (columns * rows))
         self.assertEqual(area, self.run_script("return area2(TRI)"))
         self.assertLess(-1, pixel)
         self.assertLess(pixel, 320)

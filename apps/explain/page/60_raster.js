@@ -193,6 +193,8 @@ function sharedPicture() {
   return el("div", {class: "stage"}, g.root);
 }
 
+// The size of the rectangle of pixels around all pieces of the example.
+const boxSize = () => [0, 1].map((k) => Math.max(...EX.triangles.map((t) => t.box[k + 2])) - Math.min(...EX.triangles.map((t) => t.box[k])));
 const inBlock = () => { let n = 0; const [x0, y0] = WINDOW.map(blockOf); for (let y = y0; y < y0 + 8; ++y) for (let x = x0; x < x0 + 8; ++x) n += covers(TRI, x, y); return n; };
 
 chapter({
@@ -210,7 +212,8 @@ chapter({
   formula: () => (isPoint ? [pointRectangle(), `${say(`${sampleName === "the center" ? "The center" : `Sample ${SAMPLE}`} of pixel ${px(PIXEL)}:`)}${fmt(TRI.x[0])} ≤ ${fmt(sampleX(WINDOW[0]))} ≤ ${fmt(TRI.x[1])}  and  ${fmt(TRI.y[0])} ≤ ${fmt(sampleY(WINDOW[1]))} ≤ ${fmt(TRI.y[1])} → <b>covered</b>${say("The shader then discards the fragments of the rectangle that are outside the sphere.")}`] : isTriangle ? [`covered = E<sub>0</sub> ≥ bias<sub>0</sub>  and  E<sub>1</sub> ≥ bias<sub>1</sub>  and  E<sub>2</sub> ≥ bias<sub>2</sub>\n\n${say(`at ${sampleName} of pixel ${px(PIXEL)}:`)}${TRI.edges.map((e, i) => `E<sub>${i}</sub> = ${fmt(edgesAtPixel()[i])} ≥ ${e.bias} → <b>${edgesAtPixel()[i] >= e.bias}</b>`).join("\n")}\n\n${say("bias = 0 if the edge goes down (e<sub>y</sub> &lt; 0), or to the right (e<sub>y</sub> = 0, e<sub>x</sub> &gt; 0); otherwise 1")}`] : []),
   related: ["setup", "samples", "stepping"], lessons: ["A triangle", "SIMD lanes"],
   exercises: () => [
-    {ask: `${DATA.samples === 1 ? "How many pixel centers" : "Of how many pixels"} does ${exampleName} cover${DATA.samples === 1 ? "" : " at least one sample"}?`, answer: EX.covered, hint: `Count the filled pixels. The ${isTriangle ? "triangle" : "primitive"} may extend beyond the block that is shown; the chapter “One frame” gives the number of pixels.`, why: isTriangle ? `The renderer counted them with the exact edge functions${EX.triangles.length > 1 ? ` of all ${EX.triangles.length} pieces` : ""}.` : isPoint ? "They are the pixels with a sample inside the rectangle of the point." : "The renderer counted the pixels with a sample inside the line."},
+    isPoint ? {ask: `${DATA.samples === 1 ? "How many pixel centers" : "Of how many pixels"} does ${exampleName} cover${DATA.samples === 1 ? "" : " at least one sample"}?`, answer: EX.covered, hint: "Count the filled pixels. The point may extend beyond the block that is shown.", why: "They are the pixels with a sample inside the rectangle of the point."}
+      : {ask: `The rectangle of pixels around ${exampleName} has ${boxSize().join(" × ")} pixels. ${DATA.samples === 1 ? "Of what percentage of them is the center" : "What percentage of them has a sample that is"} covered?`, answer: EX.covered / (boxSize()[0] * boxSize()[1]) * 100, decimals: 0, hint: "The chapter “One frame” gives the number of covered pixels.", why: `${fmt(EX.covered)} of ${fmt(boxSize()[0] * boxSize()[1])}. The renderer counted them${isTriangle ? ` with the exact edge functions${EX.triangles.length > 1 ? ` of all ${EX.triangles.length} pieces` : ""}` : ""}.`},
     {ask: "How many pixels of the block in the “Packets” step are covered?", answer: inBlock(), hint: "Count the filled pixels in that step.", why: "At most 64 are possible."},
     {ask: "How many packets would a block of 8 × 8 pixels have if a register held 16 floats?", answer: 4, hint: "A packet has one pixel per float.", why: `64 / 16. In this build, a block has 64 / ${DATA.build.lanes} packets.`},
   ],
