@@ -84,7 +84,7 @@ def set_window(driver, width, dark=False):
 # Calls look(chapter, step) for every step of every chapter, and returns the results.
 TOUR = """
 const done = arguments[arguments.length - 1], look = LOOK, results = [];
-const pause = () => new Promise((resolve) => setTimeout(() => requestAnimationFrame(resolve), 25));
+const pause = async () => { do await new Promise((resolve) => setTimeout(() => requestAnimationFrame(resolve), 25)); while (drawing.isBusy); };
 (async () => {
   for (let chapter = 0; chapter < CHAPTERS.length; ++chapter) {
     for (let step = 0; step === 0 || step < CHAPTERS[chapter].stepCount; ++step) {
@@ -252,7 +252,9 @@ class Page(unittest.TestCase):
         self.open("pipeline")
         for chapter, step, data in (("mips", 1, "MIP.at"), ("layers", 1, "LAYERS.pixel"), ("shadows", 1, "SHADOW.pixel"), ("shadows", 2, "SHADOW.pixel")):
             own = self.run_script(f"return {data}")
-            caption, rings = self.run_script(f"const c = CHAPTERS.findIndex((c) => c.id === '{chapter}'); {data} = [W - 20, 7]; goTo(c, {step - 1}); return ({RINGS})()")
+            self.run_script(f"{data} = [W - 20, 7]; goTo(CHAPTERS.findIndex((c) => c.id === '{chapter}'), {step - 1})")
+            WebDriverWait(self.driver, 10).until(lambda d: d.execute_script("return !drawing.isBusy"))
+            caption, rings = self.run_script(f"return ({RINGS})()")
             self.assertEqual([(pixel, is_example) for pixel, is_example, _ in rings], [("(300, 7) [300, 172]", False)], chapter)
             self.check_rings(chapter, caption, rings)
             self.run_script(f"{data} = {json.dumps(own)}")
