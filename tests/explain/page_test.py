@@ -160,7 +160,7 @@ const isShown = (e) => e.checkVisibility() && e.getBoundingClientRect().height >
 const rects = (e) => [e, ...e.querySelectorAll('*')].flatMap((d) => [...d.getClientRects()]).filter((r) => r.width > 0 && r.height > 0);
 const columns = (e) => [...new Set(rects(e).map(of))].sort((a, b) => a - b), name = (e) => `${e.closest('article').querySelector('h2').textContent}: ${e.tagName} ${e.className} ${e.textContent.slice(0, 60)}`;
 const all = (selector) => [...main.querySelectorAll(selector)].filter(isShown);
-const cut = all('.head, figure, figcaption, .table, tr, .blank, .formula:not(.long), .fragments > li').filter((e) => rects(e).length > 0 && columns(e).length > 1);
+const cut = all('.head, figure, figcaption, .table:not(.fragments *), tr, .blank, .formula:not(.long), summary').filter((e) => rects(e).length > 0 && columns(e).length > 1);
 const next = (e) => { for (let n = e.nextElementSibling; n; n = n.nextElementSibling) if (isShown(n)) return n; return null; };
 const alone = all('h2, h3').filter((h) => next(h) === null || columns(next(h))[0] !== columns(h)[0]);
 const bottoms = [];
