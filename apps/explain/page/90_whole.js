@@ -84,8 +84,8 @@ chapter({
   exercises: () => {
     const timed = TIMES.filter((t) => t > 0), mean = allTimes / Math.max(1, timed.length), threads = 8, slow = timed.filter((t) => t > mean).length;
     return [
-      {ask: `How many milliseconds would ${threads} threads take if they shared the work equally?`, answer: allTimes / threads, significant: 2, hint: "The caption of the first step gives the time of one thread.", why: `${fmt(allTimes, 3)} ms / ${threads}. The tiles cannot be shared so evenly, so that it takes longer.`},
-      {ask: "What percentage of the total time did the slowest tile take?", answer: slowest / Math.max(allTimes, 1e-9) * 100, decimals: 0, tolerance: 0.6, hint: "Its time is in the legend, and the total is in the caption.", why: "However many threads there are, a frame takes at least as long as its slowest tile."},
+      {ask: `How many milliseconds would ${threads} threads take if they shared the work equally?`, answer: allTimes / threads, significant: 2, hint: "The caption of the first step gives the time of one thread.", why: `${fmt(allTimes, 3)} ms / ${threads}. However many threads there are, a frame takes at least as long as its slowest tile: ${fmt(slowest, 3)} ms.`},
+      {ask: "How many frames per second could one thread render if a frame took only the time of these tiles?", answer: 1000 / Math.max(allTimes, 1e-9), significant: 2, hint: "A second has 1000 milliseconds.", why: `1000 / ${fmt(allTimes, 3)}. Vertices, setup and output take time as well.`},
       {ask: "How many tiles took longer than the mean?", answer: slow, tolerance: Math.ceil(timed.length / 50), hint: "Count the dots above the mean in the second step.", why: `The mean is ${fmt(mean * 1000, 4)} µs.`},
     ];
   },
