@@ -280,8 +280,8 @@ function lookupPicture() {
   g.root.append(svg("circle", {cx: px, cy: py, r: 6, fill: "var(--accent)", stroke: "var(--ink)", "stroke-width": 1.5}));
   const readout = el("div", {class: "readout", "aria-live": "polite"}, "Point at a texel to read its values, or focus the picture and press the arrow keys.");
   if (WEIGHTS) for (const k of readTexels()) {
-    const [a, b] = g.to((k % n + 0.5) * SUB, (Math.floor(k / n) + 0.5) * SUB), size = narrowWindow.matches ? 11 : 12;
-    g.root.append(svg("text", {x: a, y: b + 4, "font-size": size, "text-anchor": "middle"}, document.createTextNode(percentOf(WEIGHTS[k]))));
+    const [a, b] = g.to((k % n + 0.5) * SUB, (Math.floor(k / n) + 0.5) * SUB), size = narrowWindow.matches ? 11 : 12, aside = k === (n * n - 1) / 2 ? (py < b ? 9 : -9) : 0;  // not under the dot
+    g.root.append(svg("text", {x: a, y: b + 4 + aside, "font-size": size, "text-anchor": "middle"}, document.createTextNode(percentOf(WEIGHTS[k]))));
   }
   const weightOf = (k) => (!WEIGHTS ? "" : WEIGHTS[k] === 0 ? ". The filter gives it no weight." : `. Weight · lit = ${fmt(WEIGHTS[k], 5)} · ${LOOK.lit[k]} = ${fmt(WEIGHTS[k] * LOOK.lit[k], 5)}`);
   const show = (x, y) => { const k = y * n + x; readout.textContent = `texel ${texelName(k)}: depth ${fmt(LOOK.texels[k], 9)} → ${LOOK.lit[k] ? "does not occlude" : "occludes"}${weightOf(k)}`; };
