@@ -140,7 +140,7 @@ CAPTIONS = {
     ("coverage", 1): "strongly faintly gray empty", ("coverage", 2): "thick colored", ("coverage", 3): "colored gray outlined", ("coverage", 4): "colored gray",
     ("depth", 1): "dark bright logarithmic", ("depth", 2): "dark block", ("depth", 3): "bright block", ("stepping", 1): "first second third panel frame",
     ("interpolation", 1): "squares", ("interpolation", 2): "dark bright", ("varyings", 1): "red green blue", ("varyings", 2): "red green blue",
-    ("mips", 1): "dark bright", ("lighting", 1): "luminance exposure", ("shadows", 1): "bright black", ("shadows", 3): "gray numbers percent dot",
+    ("mips", 1): "dark bright", ("lighting", 1): "luminance displayed", ("shadows", 1): "bright black", ("shadows", 3): "gray numbers percent dot",
     ("tone", 1): "bar left right", ("tone", 2): "right up dots", ("srgb", 1): "right up gray dots", ("srgb", 2): "above below", ("samples", 1): "dots",
     ("samples", 2): "color outlined", ("samples", 3): "gray dots", ("overdraw", 1): "dark bright", ("overdraw", 2): "bar", ("times", 1): "dark bright",
     ("times", 2): "dot right up", ("results", 1): "tries"}

@@ -359,8 +359,8 @@ class ShadowedFloor {
       : scene_(R"({"version": 1, "cameras": {"c": {"position": [0, 4, 9], "target": [0, 0, 0]}},
     "lights": {"sun": {"direction": [0.3, 1, 0.2]}},
     "objects": {"floor": {"shape": "plane", "size": 8}, "lid": {"shape": "plane", "size": 2, "position": [0, 1, 0]}},
-    "shadow": {"resolution": 512, )" + shadow +
-                   "}}",
+    "shadow": {"resolution": 512, )" +
+                   shadow + "}}",
                96, 64) {}
 
   // smooth: the normal of the vertices, if it is not that of the floor.
@@ -417,7 +417,8 @@ TEST(Stages, TheWeightsOfAShadowLookupAreAreas) {
   }
 }
 
-// Filters that are no sum over the texels shown have no weights. Light that fades where the smooth surface turns away is a factor of its own.
+// Filters that are no sum over the texels shown have no weights. Light that fades where the smooth surface turns away is a factor of its
+// own.
 TEST(Stages, AShadowLookupWithoutWeights) {
   for (const char* settings : {R"("method": "vsm")", R"("method": "moments")", R"("method": "pcss")", R"("method": "vogel", "radius": 7)"})
     EXPECT_TRUE(ShadowedFloor(settings).at(0.0f, 0.0f).weights.empty()) << settings;
