@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Reference implementation of the opaque pipeline as a plain loop, in the order used by the OpenGL specification. For each triangle: shade
-// three vertices, clip, divide by w, visit every pixel of the bounding box, interpolate, shade, test depth.
+// three vertices, clip, divide by w, visit every pixel of the bounding box, interpolate, shade, test depth. If the shader has tessellation,
+// a patch is divided into triangles after its vertices are shaded; if it has a geometry function, that replaces each triangle by others.
 //
 // With R = float, this is a slow but readable equivalent of the tile-based pipeline: it calls the same formulas for snapping, clipping,
 // depth and interpolation, and its output is bit-identical. With R = double, it is the accuracy reference: vertex positions, interpolation,
-// texture filtering and shading use double precision. Coverage is computed on the same 1/256 px grid.
+// texture filtering and shading use double precision. Coverage is computed on the same 1/256 px grid, and patches are divided in the same
+// way, for levels that are rounded to float.
 #pragma once
 
 #include <algorithm>
@@ -18,6 +20,7 @@
 #include "halfspace/core/image.h"
 #include "halfspace/raster/detail/draw_input.h"
 #include "halfspace/raster/detail/draw_placement.h"
+#include "halfspace/raster/detail/naive_stages.h"
 #include "halfspace/raster/detail/naive_steps.h"
 #include "halfspace/raster/detail/stream_match.h"
 #include "halfspace/raster/draw_state.h"
@@ -53,17 +56,18 @@ A attributes_of(const VertexView& view, std::size_t index) {
   }
   return from_components<A, R>(in);
 }
-template <class R, class S, class V = typename S::template Varyings<R>>
+template <class R, class S, class V = VertexVaryingsOf<S, R>>
 Vertex<R, V> shade_vertex(const S& shader, const VertexView& view, std::size_t index) {
-  Vertex<R, V> v{};
+  V varyings{};
   const auto in = attributes_of<typename S::template Attributes<R>, R>(view, index);
-  v.pos_clip = call_vertex<S, R>(shader, in, {static_cast<int32_t>(index), 0}, v.varyings);
-  return v;
+  const auto result = call_vertex<S, R>(shader, in, {static_cast<int32_t>(index), 0}, varyings);
+  return vertex_of<R>(result, varyings);
 }
 
-// Steps 2 and 3, clipping and the transform to window coordinates, are in detail/naive_steps.h.
+// Steps 2 and 3, tessellation and the geometry function, are in detail/naive_stages.h.
+// Steps 4 and 5, clipping and the transform to window coordinates, are in detail/naive_steps.h.
 
-// Step 4: visit every pixel whose center is inside the triangle, or on an edge that owns its samples under the fill rule.
+// Step 6: visit every pixel whose center is inside the triangle, or on an edge that owns its samples under the fill rule.
 template <class F>
 void for_each_covered(std::array<std::array<int64_t, 2>, 3> p, const Rect& bounds, F pixel) {
   const auto edge = [&](std::size_t a, std::size_t b, int64_t x, int64_t y) {
@@ -107,7 +111,7 @@ void use_planes(const std::array<ScreenPoint<float>, 3>& p, const std::array<std
   }
 }
 
-// Step 5: interpolate, shade and depth-test the pixels of one triangle. See shading/pixel.h for the formulas.
+// Step 7: interpolate, shade and depth-test the pixels of one triangle. See shading/pixel.h for the formulas.
 template <class R, class S, class V>
 void rasterize(NaiveTarget<R>& target, const S& shader, const std::array<const Vertex<R, V>*, 3>& in, const PrimitiveOf<S, R>& face,
                const std::array<ScreenPoint<R>, 3>& p, const Rect& bounds, const DrawState& state, const V& provoking) {
@@ -173,17 +177,25 @@ void rasterize(NaiveTarget<R>& target, const S& shader, const std::array<const V
 
 }  // namespace naive
 
-/// Draws an indexed triangle list. The vertex function must return a vec4<R>, and the fragment function must return a single color.
+/// Draws an indexed list of triangles or, if the shader has tessellation, of patches. An incomplete primitive at the end is not drawn.
+///
+/// The shader can have clip and cull distances, tessellation into triangles (TessellationDomain::triangles or quads, without point_mode),
+/// and a geometry function that receives triangles and emits triangle strips. The fragment function must return a single color. Shaders
+/// with other layouts, and those that give vertices a layer or the bounds of a point, or read primitive IDs, do not compile. Point sizes
+/// are ignored.
 ///
 /// Only these parts of the state are used: first, count, base_vertex, viewport, clip_origin, scissor, cull, front, provoking, depth, offset
 /// of filled triangles (in the unit of depths that are floats) and depth_bounds; in double, depth.clamp is ignored. There is no
-/// tessellation, no geometry function, no blending, no stencil test, no smooth primitives, no instancing and no primitive restart. In the
-/// source tree, tests/oracle is a plain scalar renderer that has all of these, in float.
+/// blending, no stencil test, no smooth primitives, no instancing and no primitive restart. In the source tree, tests/oracle is a plain
+/// scalar renderer that has all of these, in float.
 template <class R, Shader S>
 void draw_naive(NaiveTarget<R>& target, const S& shader, const VertexView& vertices, const Indices& indices, const DrawState& state = {}) {
   const FloatMode float_mode;
   static_assert(!kUsesPrimitiveId<S>, "draw_naive() does not support primitive ids");
-  static_assert(!HasGeometryLayout<S> && !HasTessellationLayout<S>, "draw_naive() supports neither geometry functions nor tessellation");
+  static_assert(!kGivesLayer<S> && !kGivesPointSprite<S>, "draw_naive() supports neither layers of vertices nor bounds of points");
+  static_assert(naive::divides_into_triangles<S>(), "draw_naive() supports only tessellation into triangles, not into lines or points");
+  static_assert(naive::emits_triangles<S>(), "draw_naive() supports only geometry functions from triangles to triangle strips");
+  constexpr std::size_t corners = naive::vertices_per_primitive<S>();
   using V = typename S::template Varyings<R>;
   const std::shared_ptr<const Indices> list = detail::view_indices(indices, vertices.vertex_count, state);
   HS_CHECK(!vertices.has_instance_streams, "draw_naive: a stream has one row per instance; expected one row per vertex in all streams");
@@ -199,14 +211,20 @@ void draw_naive(NaiveTarget<R>& target, const S& shader, const VertexView& verti
   const Rect bounds = detail::drawable_rect(rect, state.scissor, target.color.width(), target.color.height(), SampleSpan{});
   const std::size_t provoking = state.provoking == ProvokingVertex::first ? 0 : 2;
   const auto vertex_at = [&](std::size_t i) { return static_cast<std::size_t>(int64_t{(*list)[i]} + state.base_vertex); };
-  for (std::size_t i = 0; i + 2 < list->size(); i += 3) {
-    std::array<naive::Vertex<R, V>, 3> whole;
-    for (std::size_t k = 0; k < 3; ++k) whole[k] = naive::shade_vertex<R>(shader, vertices, vertex_at(i + k));
+  const auto draw_triangle = [&](const naive::TriangleOf<R, V>& whole) {
     PrimitiveOf<S, R> face{};
     if constexpr (HasPrimitive<S>) face = shader.primitive(whole[0].varyings, whole[1].varyings, whole[2].varyings);
-    for (const std::array<naive::Vertex<R, V>, 3>& piece : naive::clipped(whole, viewport, state.depth, provoking)) {
+    for (const naive::TriangleOf<R, V>& piece : naive::clipped(whole, viewport, state.depth, provoking)) {
       const std::array<naive::ScreenPoint<R>, 3> p{piece[0].window, piece[1].window, piece[2].window};
       naive::rasterize(target, shader, {&piece[0], &piece[1], &piece[2]}, face, p, bounds, state, whole[provoking].varyings);
+    }
+  };
+  for (std::size_t i = 0; i < list->size() / corners; ++i) {
+    const auto number = static_cast<int32_t>(i);
+    std::array<naive::Vertex<R, VertexVaryingsOf<S, R>>, corners> primitive;
+    for (std::size_t k = 0; k < corners; ++k) primitive[k] = naive::shade_vertex<R>(shader, vertices, vertex_at(i * corners + k));
+    for (const auto& triangle : naive::divided<R>(shader, primitive, number)) {
+      for (const naive::TriangleOf<R, V>& whole : naive::emitted<R>(shader, triangle, number, provoking == 0)) draw_triangle(whole);
     }
   }
 }

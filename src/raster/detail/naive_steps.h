@@ -8,13 +8,14 @@
 #include <array>
 #include <cmath>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "halfspace/raster/pipeline/window.h"
 #include "halfspace/raster/primitives/clip.h"
 #include "halfspace/raster/primitives/setup_scalar.h"
 #include "halfspace/raster/primitives/vertex_stage.h"
-#include "halfspace/shading/contract.h"
+#include "halfspace/shading/vertex_traits.h"
 
 namespace halfspace::HS_LANES::naive {
 
@@ -28,30 +29,60 @@ struct ScreenPoint {
   R z, inv_w;
 };
 
+// Largest number of clip and of cull distances of a vertex.
+inline constexpr std::size_t kMaxDistances = 8;
+
 template <class R, class V>
 struct Vertex {
   vec4<R> pos_clip;
   V varyings;
-  ScreenPoint<R> window;
+  ScreenPoint<R> window;                                          // after step 5
+  std::array<R, kMaxDistances> clip_distance{}, cull_distance{};  // 0 if the shader does not have them, which has no effect
 };
+template <class R, class V>
+using TriangleOf = std::array<Vertex<R, V>, 3>;
 
-// ---- step 2: clip --------------------------------------------------------------------------------------------------
+// Returns a vertex with the values of a vertex or an evaluation function. result: what the function returns.
+template <class R, class P, class V>
+Vertex<R, V> vertex_of(const P& result, const V& varyings) {
+  Vertex<R, V> v{position_of(result), varyings, {}};
+  if constexpr (requires { result.clip_distance; }) {
+    static_assert(detail::kClipDistancesIn<P> <= kMaxDistances && detail::kCullDistancesIn<P> <= kMaxDistances);
+    std::copy(result.clip_distance.begin(), result.clip_distance.end(), v.clip_distance.begin());
+    std::copy(result.cull_distance.begin(), result.cull_distance.end(), v.cull_distance.begin());
+  }
+  return v;
+}
+
+// ---- step 4: cull distances and clipping ---------------------------------------------------------------------------
+
+// Returns true if one of the distances is negative at all vertices, so that the triangle is not drawn.
+template <class R>
+bool is_beyond(const std::array<R, kMaxDistances>& a, const std::array<R, kMaxDistances>& b, const std::array<R, kMaxDistances>& c) {
+  for (std::size_t k = 0; k < kMaxDistances; ++k) {
+    if (a[k] < R(0) && b[k] < R(0) && c[k] < R(0)) return true;
+  }
+  return false;
+}
 
 template <class R, class V>
 Vertex<R, V> mix(const Vertex<R, V>& a, const Vertex<R, V>& b, R t) {
   auto x = to_components<R>(a.varyings);
   const auto y = to_components<R>(b.varyings);
   for (std::size_t i = 0; i < x.size(); ++i) x[i] += t * (y[i] - x[i]);
-  return {a.pos_clip + (b.pos_clip - a.pos_clip) * t, from_components<V, R>(x), {}};
+  Vertex<R, V> v{a.pos_clip + (b.pos_clip - a.pos_clip) * t, from_components<V, R>(x), {}};
+  for (std::size_t k = 0; k < kMaxDistances; ++k) v.clip_distance[k] = a.clip_distance[k] + t * (b.clip_distance[k] - a.clip_distance[k]);
+  return v;
 }
 
-// Clips a convex polygon against the plane distance(pos_clip) = 0, keeping the side where distance >= 0.
+// Clips a convex polygon against the plane distance(vertex) = 0, keeping the side where distance >= 0.
 template <class R, class V, class Distance>
-std::vector<Vertex<R, V>> clip(const std::vector<Vertex<R, V>>& polygon, Distance distance) {
+std::vector<Vertex<R, V>> clip(std::vector<Vertex<R, V>> polygon, Distance distance) {
+  if (std::all_of(polygon.begin(), polygon.end(), [&](const auto& v) { return distance(v) >= 0; })) return polygon;
   std::vector<Vertex<R, V>> kept;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const auto &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
-    const R da = distance(a.pos_clip), db = distance(b.pos_clip);
+    const R da = distance(a), db = distance(b);
     if (da >= 0) kept.push_back(a);
     if (da >= 0 && db < 0) kept.push_back(mix(a, b, da / (da - db)));
     if (da < 0 && db >= 0) kept.push_back(mix(b, a, db / (db - da)));
@@ -59,7 +90,7 @@ std::vector<Vertex<R, V>> clip(const std::vector<Vertex<R, V>>& polygon, Distanc
   return kept;
 }
 
-// ---- step 3: divide by w and transform to window coordinates --------------------------------------------------------
+// ---- step 5: divide by w and transform to window coordinates --------------------------------------------------------
 
 // Positions are snapped to the 1/256 px grid.
 template <class R>
@@ -74,12 +105,9 @@ ScreenPoint<R> to_window(const vec4<R>& p, const Viewport& v, const DepthState& 
   }
 }
 
-template <class R, class V>
-using Piece = std::array<Vertex<R, V>, 3>;
-
 // Clips a triangle and returns the remaining polygon, with window coordinates.
 template <class V>
-std::vector<Vertex<float, V>> clipped_polygon(const Piece<float, V>& t, const Viewport& viewport, const DepthState& depth,
+std::vector<Vertex<float, V>> clipped_polygon(const TriangleOf<float, V>& t, const Viewport& viewport, const DepthState& depth,
                                               std::size_t provoking) {
   std::array<glm::vec4, 3> pos_clip;
   std::array<std::array<float, kComponents<V>>, 3> rows;
@@ -87,7 +115,8 @@ std::vector<Vertex<float, V>> clipped_polygon(const Piece<float, V>& t, const Vi
     pos_clip[k] = glm::vec4(t[k].pos_clip.x, t[k].pos_clip.y, t[k].pos_clip.z, t[k].pos_clip.w);
     rows[k] = to_components<float>(t[k].varyings);
   }
-  const ClipPolygon polygon = clip_triangle(viewport, depth, pos_clip);
+  const ClipDistances distances{{t[0].clip_distance.data(), t[1].clip_distance.data(), t[2].clip_distance.data()}, kMaxDistances};
+  const ClipPolygon polygon = clip_triangle(viewport, depth, pos_clip, distances);
   const std::array<double, 3> w{static_cast<double>(pos_clip[0].w), static_cast<double>(pos_clip[1].w), static_cast<double>(pos_clip[2].w)};
   std::vector<Vertex<float, V>> kept;
   for (int i = 0; i < polygon.count; ++i) {
@@ -108,37 +137,49 @@ std::vector<Vertex<float, V>> clipped_polygon(const Piece<float, V>& t, const Vi
 inline constexpr double kReach = 0x1p19;
 
 template <class R, class V>
-std::vector<Vertex<R, V>> clipped_polygon(const Piece<R, V>& t, const Viewport& viewport, const DepthState& depth, std::size_t) {
+std::vector<Vertex<R, V>> clipped_polygon(const TriangleOf<R, V>& t, const Viewport& viewport, const DepthState& depth, std::size_t) {
   const R near_w = depth.clip == ClipDepth::negative_one_to_one ? R(1) : R(0);
   std::vector<Vertex<R, V>> polygon(t.begin(), t.end());
-  polygon = clip(polygon, [](const vec4<R>& p) { return p.w - R(kMinW); });
-  polygon = clip(polygon, [&](const vec4<R>& p) { return p.z + near_w * p.w; });
-  polygon = clip(polygon, [](const vec4<R>& p) { return p.w - p.z; });
+  const auto clip_at = [&](auto distance) {
+    polygon = clip(std::move(polygon), [&](const Vertex<R, V>& v) { return distance(v.pos_clip); });
+  };
+  clip_at([](const vec4<R>& p) { return p.w - R(kMinW); });
+  clip_at([&](const vec4<R>& p) { return p.z + near_w * p.w; });
+  clip_at([](const vec4<R>& p) { return p.w - p.z; });
   // Keeps window coordinates in the range of snap(), and products of their differences in the range of int64.
   const R reach_x = R(kReach) / R(viewport.half_width), reach_y = R(kReach) / R(std::fabs(viewport.half_height));
-  polygon = clip(polygon, [&](const vec4<R>& p) { return reach_x * p.w - p.x; });
-  polygon = clip(polygon, [&](const vec4<R>& p) { return reach_x * p.w + p.x; });
-  polygon = clip(polygon, [&](const vec4<R>& p) { return reach_y * p.w - p.y; });
-  polygon = clip(polygon, [&](const vec4<R>& p) { return reach_y * p.w + p.y; });
+  clip_at([&](const vec4<R>& p) { return reach_x * p.w - p.x; });
+  clip_at([&](const vec4<R>& p) { return reach_x * p.w + p.x; });
+  clip_at([&](const vec4<R>& p) { return reach_y * p.w - p.y; });
+  clip_at([&](const vec4<R>& p) { return reach_y * p.w + p.y; });
+  for (std::size_t k = 0; k < kMaxDistances; ++k)
+    polygon = clip(std::move(polygon), [k](const Vertex<R, V>& v) { return v.clip_distance[k]; });
   for (Vertex<R, V>& v : polygon) v.window = to_window(v.pos_clip, viewport, depth);
   return polygon;
 }
 
 // Clips a triangle and returns the remaining triangles as a fan, with window coordinates.
 template <class R, class V>
-std::vector<Piece<R, V>> clipped(Piece<R, V> t, const Viewport& viewport, const DepthState& depth, std::size_t provoking) {
+std::vector<TriangleOf<R, V>> clipped(TriangleOf<R, V> t, const Viewport& viewport, const DepthState& depth, std::size_t provoking) {
+  if (is_beyond(t[0].clip_distance, t[1].clip_distance, t[2].clip_distance)) return {};
+  if (is_beyond(t[0].cull_distance, t[1].cull_distance, t[2].cull_distance)) return {};
   Fan fan;
   std::vector<Vertex<R, V>> polygon;
   if constexpr (kIsFloat<R>) {
     Outcode any = 0, all = kOutView;
+    bool is_cut = false;
     for (Vertex<R, V>& v : t) {
       const WindowVertex<R> w = window_vertex<R>(viewport, depth, v.pos_clip.x, v.pos_clip.y, v.pos_clip.z, v.pos_clip.w);
       v.window = {w.x, w.y, w.z, w.inv_w};
       any |= static_cast<Outcode>(w.outcode);
       all &= static_cast<Outcode>(w.outcode);
+      for (std::size_t k = 0; k < kMaxDistances; ++k) {
+        if (!std::isfinite(v.clip_distance[k]) || !std::isfinite(v.cull_distance[k])) any |= kOutNonFinite;
+        is_cut |= v.clip_distance[k] < 0.0f;
+      }
     }
     if ((any & kOutNonFinite) != 0 || all != 0) return {};
-    if ((any & kOutNeedsClip) == 0) return {t};
+    if ((any & kOutNeedsClip) == 0 && !is_cut) return {t};
     polygon = clipped_polygon(t, viewport, depth, provoking);
     std::vector<ClipVertex> corners;
     for (const Vertex<R, V>& v : polygon)
@@ -147,10 +188,10 @@ std::vector<Piece<R, V>> clipped(Piece<R, V> t, const Viewport& viewport, const 
   } else {
     polygon = clipped_polygon(t, viewport, depth, provoking);
   }
-  std::vector<Piece<R, V>> pieces;
+  std::vector<TriangleOf<R, V>> pieces;
   const std::size_t n = polygon.size();
   for (std::size_t k = 2; k < n; ++k) {
-    const Piece<R, V> piece{polygon[fan.apex], polygon[(fan.apex + k - 1) % n], polygon[(fan.apex + k) % n]};
+    const TriangleOf<R, V> piece{polygon[fan.apex], polygon[(fan.apex + k - 1) % n], polygon[(fan.apex + k) % n]};
     const ScreenPoint<R>&a = piece[0].window, &b = piece[1].window, &c = piece[2].window;
     const int64_t area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
     if (kIsFloat<R> && area != 0 && (area > 0) != fan.counter_clockwise) continue;  // a self-intersecting sliver; see fan_of
@@ -159,7 +200,7 @@ std::vector<Piece<R, V>> clipped(Piece<R, V> t, const Viewport& viewport, const 
   return pieces;
 }
 
-// ---- step 5: depth -------------------------------------------------------------------------------------------------
+// ---- step 7: depth -------------------------------------------------------------------------------------------------
 
 // Polygon offset of a filled triangle, for depths that are floats.
 template <class R>
@@ -167,8 +208,7 @@ float polygon_offset(const DepthOffset& offset, const std::array<ScreenPoint<R>,
   if (!has_offset(offset, PolygonMode::fill)) return 0.0f;
   const auto real = [](R x) { return static_cast<float>(static_cast<double>(x)); };
   std::array<ScreenVertex, 3> v;
-  for (std::size_t i = 0; i < 3; ++i)
-    v[i] = {static_cast<int32_t>(p[i].x), static_cast<int32_t>(p[i].y), real(p[i].z), real(p[i].inv_w)};
+  for (std::size_t i = 0; i < 3; ++i) v[i] = {static_cast<int32_t>(p[i].x), static_cast<int32_t>(p[i].y), real(p[i].z), real(p[i].inv_w)};
   return outline_offset(offset, DepthFormat::d32f, {&v[0], &v[1], &v[2]});
 }
 

@@ -9,7 +9,7 @@
 
 namespace halfspace::HS_LANES {
 
-/// Whether the naive pipeline can draw with a shader. It cannot draw points, and has no geometry stage.
+/// Whether the naive pipeline can draw with a shader. It cannot draw points, nor the lines that the geometry functions of scenes emit.
 template <class S>
 inline constexpr bool kDrawsTriangles = !kGivesPointSprite<S> && !kGivesPointSize<S> && !HasGeometryLayout<S>;
 
