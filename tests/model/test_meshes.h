@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <numbers>
 
+#include "halfspace/core/trig_double.h"
 #include "halfspace/model/model.h"
 
 namespace halfspace {
@@ -41,6 +42,18 @@ inline ModelMesh sphere(uint32_t columns, uint32_t rows) {
     }
     mesh.indices.insert(mesh.indices.end(), {at(rows - 1, c), last, at(rows - 1, d)});
   }
+  return mesh;
+}
+
+/// A stone with knobs around the origin: a sphere() whose radius varies from 0.75 to 1.25. The normals are the positions, because only the
+/// outline matters.
+inline ModelMesh stone(uint32_t columns, uint32_t rows) {
+  ModelMesh mesh = sphere(columns, rows);
+  for (glm::vec3& p : mesh.positions) {
+    const auto wave = [](float turns, float x) { return static_cast<float>(sincos_turns(std::fabs(turns * x)).cos); };
+    p *= 1.0f + 0.2f * wave(0.7f, p.x) * wave(0.9f, p.y) + 0.05f * wave(2.0f, p.y) * wave(2.5f, p.z);
+  }
+  mesh.normals = mesh.positions;
   return mesh;
 }
 

@@ -4,9 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <cmath>
 
-#include "halfspace/core/trig_double.h"
 #include "halfspace/reference/silhouettes.h"
 #include "halfspace/render/assets/model_asset.h"
 #include "halfspace/render/scene_assets.h"
@@ -19,16 +17,10 @@ namespace {
 
 constexpr int kModelWidth = 96, kModelHeight = 54, kModelFiner = 8;
 
-// A stone with knobs: two copies of one mesh, of which one is stretched and turned.
+// Two copies of one mesh, of which one is stretched and turned.
 std::shared_ptr<const ModelAsset> stones() {
   Model model;
-  ModelMesh mesh = sphere(80, 40);
-  for (glm::vec3& p : mesh.positions) {
-    const auto wave = [&](float turns, float x) { return static_cast<float>(sincos_turns(std::fabs(turns * x)).cos); };
-    p *= 1.0f + 0.2f * wave(0.7f, p.x) * wave(0.9f, p.y) + 0.05f * wave(2.0f, p.y) * wave(2.5f, p.z);
-  }
-  mesh.normals = mesh.positions;  // the color does not matter
-  model.meshes.push_back(mesh);
+  model.meshes.push_back(stone(80, 40));
   for (const double x : {-1.5, 1.5}) {
     ModelNode& node = model.nodes.emplace_back();
     node.transform.translation = {x, 0.0, 0.0};
@@ -87,7 +79,7 @@ TEST(ModelError, ModelsAreExactByDefault) {
   const PreparedScene prepared = assets.prepare(scene_of_stones(R"("position": [1, 2, 14])"), kModelWidth, kModelHeight);
   EXPECT_TRUE(prepared.simplified.empty());
   ASSERT_EQ(prepared.meshes.size(), 2u);
-  EXPECT_EQ(prepared.meshes[0].indices->size(), sphere(80, 40).indices.size());
+  EXPECT_EQ(prepared.meshes[0].indices->size(), stone(80, 40).indices.size());
 }
 
 }  // namespace
