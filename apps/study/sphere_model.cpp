@@ -28,17 +28,17 @@ constexpr const char* kPointSprite =
     R"("particles": {{ "sprite": "{}", "count": 1, "arrangement": "grid", "radius": 1, "color": 1.8181818,
                     "diffuse": 0.7, "specular": 0.5, "shininess": 40 }})";
 
-struct Model {
+struct SphereModel {
   std::string name, group, keys;
   double triangles, chord;
 };
 
-Model of_mesh(const std::string& name, const std::string& group, const std::string& keys, const Mesh& mesh) {
+SphereModel of_mesh(const std::string& name, const std::string& group, const std::string& keys, const Mesh& mesh) {
   return {name, group, fmt::format(kMesh, keys), static_cast<double>(mesh.indices.size() / 3), deepest_chord(mesh, 1.0)};
 }
 
-std::vector<Model> models(bool quick) {
-  std::vector<Model> list;
+std::vector<SphereModel> models(bool quick) {
+  std::vector<SphereModel> list;
   for (const int n : quick ? std::vector{8, 32} : std::vector{8, 16, 32, 64, 128, 256, 512})
     list.push_back(of_mesh(fmt::format("UV {}", n), "UV sphere",
                            fmt::format(R"("shape": "uv_sphere", "latitudes": {}, "longitudes": {})", n, 2 * n), uv_sphere(n, 2 * n, 1.0f)));
@@ -64,7 +64,7 @@ Study study_sphere_model(const StudyOptions& options, const Workers& workers) {
       .truth = {"the sphere with one ray per pixel, in double", 0.0, "largest difference from long double"},
   };
   SphereTruth truth{};
-  for (const Model& model : models(options.quick)) {
+  for (const SphereModel& model : models(options.quick)) {
     const SceneDescription scene = SceneFile::parse(fmt::format(kModelScene, model.keys), "study", ".").description();
     const View view = make_view(scene.cameras.front().second, size, size);
     if (truth.light.empty()) {

@@ -50,7 +50,8 @@ std::vector<StudyEntry> studies() {
           {"raster_vs_rays", study_raster_vs_rays},
           {"specular", study_specular},
           {"tone", study_tone},
-          {"max_error", study_max_error}};
+          {"max_error", study_max_error},
+          {"levels_of_detail", study_levels_of_detail}};
 }
 
 }  // namespace halfspace
