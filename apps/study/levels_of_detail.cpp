@@ -87,12 +87,23 @@ std::shared_ptr<const ModelAsset> ring_model(int bands, int sectors, const Worke
 // A frame of the ring with its errors' inputs, drawn in the same run as its times were measured.
 struct RingFrame {
   Image<glm::u8vec4> picture;
+  Image<glm::u8vec4> base_colors{};      // without lighting
   Image<int> objects{}, fine_objects{};  // seen_objects, also at kFinerOutline times the resolution
   double triangles = 0.0;
   double bound_px = 0.0;  // computed by the program; 0 for the exact mesh
   double first_ms = 0.0;  // the first frame, which makes the simplified mesh
   Timing time{};          // of later frames
 };
+
+Image<glm::u8vec4> base_colors_of(const PreparedScene& scene, const Workers& workers) {
+  Image<glm::vec3> albedo(scene.view.width_px, scene.view.height_px);
+  FrameImages images;
+  images.albedo = &albedo;
+  render_frame(scene, images, workers);
+  Image<glm::vec4> light(albedo.width(), albedo.height());
+  std::ranges::transform(albedo.texels(), light.data(), [](const glm::vec3& c) { return glm::vec4(c, 1.0f); });
+  return codes_of(light);
+}
 
 class RingView {
  public:
@@ -118,6 +129,7 @@ class RingView {
     draw();
     out.first_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     out.time = time_of(draw, options_);
+    out.base_colors = base_colors_of(prepared, workers_);
     out.objects = seen_objects(prepared, 1, workers_);
     out.fine_objects = seen_objects(prepared, kFinerOutline, workers_);
     out.triangles = static_cast<double>(prepared.meshes.front().indices->size() / 3);
@@ -139,6 +151,7 @@ Variant variant_of(const std::string& camera, double model_error, RingFrame fram
   v.parameters = {{"model_error", model_error}, {"triangles", frame.triangles}};
   v.error = inside.mean;
   v.measures = {{"p99", inside.p99},
+                {"base_color", inside_error({frame.base_colors, frame.objects}, {exact.base_colors, exact.objects}).mean},
                 {"outline_px", silhouette_distance(frame.fine_objects, exact.fine_objects, kFinerOutline).max},
                 {"bound_px", frame.bound_px},
                 {"differing_pixels", static_cast<double>(inside.differing)},
