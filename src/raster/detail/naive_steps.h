@@ -56,11 +56,11 @@ Vertex<R, V> vertex_of(const P& result, const V& varyings) {
 
 // ---- step 4: cull distances and clipping ---------------------------------------------------------------------------
 
-// Returns true if one of the distances is negative at all vertices, so that the triangle is not drawn.
-template <class R>
-bool is_beyond(const std::array<R, kMaxDistances>& a, const std::array<R, kMaxDistances>& b, const std::array<R, kMaxDistances>& c) {
+// Returns true if a cull distance is negative at all vertices, so that the triangle is not drawn.
+template <class R, class V>
+bool is_culled_by_distance(const TriangleOf<R, V>& t) {
   for (std::size_t k = 0; k < kMaxDistances; ++k) {
-    if (a[k] < R(0) && b[k] < R(0) && c[k] < R(0)) return true;
+    if (t[0].cull_distance[k] < R(0) && t[1].cull_distance[k] < R(0) && t[2].cull_distance[k] < R(0)) return true;
   }
   return false;
 }
@@ -158,11 +158,10 @@ std::vector<Vertex<R, V>> clipped_polygon(const TriangleOf<R, V>& t, const Viewp
   return polygon;
 }
 
-// Clips a triangle and returns the remaining triangles as a fan, with window coordinates.
+// Culls a triangle by its distances, clips it, and returns the remaining triangles as a fan, with window coordinates.
 template <class R, class V>
 std::vector<TriangleOf<R, V>> clipped(TriangleOf<R, V> t, const Viewport& viewport, const DepthState& depth, std::size_t provoking) {
-  if (is_beyond(t[0].clip_distance, t[1].clip_distance, t[2].clip_distance)) return {};
-  if (is_beyond(t[0].cull_distance, t[1].cull_distance, t[2].cull_distance)) return {};
+  if (is_culled_by_distance<R, V>(t)) return {};
   Fan fan;
   std::vector<Vertex<R, V>> polygon;
   if constexpr (kIsFloat<R>) {
