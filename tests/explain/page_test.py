@@ -373,7 +373,7 @@ class Page(unittest.TestCase):
     def test_answers_can_be_typed(self):
         self.open("earth", "frame")
         form = self.driver.find_element(By.CSS_SELECTOR, ".exercise form")
-        for text, expected in (("57 600", "right"), ("57601", "wrong")):
+        for text, expected in (("230 400", "right"), ("230401", "wrong")):
             field = form.find_element(By.TAG_NAME, "input")
             field.clear()
             field.send_keys(text + Keys.ENTER)
@@ -483,7 +483,7 @@ class Page(unittest.TestCase):
         form.find_element(By.TAG_NAME, "input").send_keys("-1" + Keys.ENTER)
         form.find_elements(By.TAG_NAME, "button")[1].click()
         self.assertIn(self.run_script("return roundedAnswer(CHAPTERS[0].exercises()[1])"), form.find_element(By.CLASS_NAME, "verdict").text)
-        for text in ("57.600", "57601"):  # the right answer is kept
+        for text in ("230.400", "230401"):  # the right answer is kept
             self.exercise_form().find_element(By.TAG_NAME, "input").clear()
             self.exercise_form().find_element(By.TAG_NAME, "input").send_keys(text + Keys.ENTER)
         self.open("earth", "frame")
@@ -495,7 +495,7 @@ class Page(unittest.TestCase):
         rows = list(csv.DictReader(io.StringIO(self.run_script("return resultsAsCsv()").lstrip("\ufeff"), newline="")))
         self.assertEqual(len(rows), self.run_script("return CHAPTERS.reduce((n, c) => n + countOf(c), 0)"))
         self.assertEqual([rows[0][k] for k in ("student", "chapter", "given", "expected", "right", "tries", "revealed")],
-                         ['Zoë, "Z"', "One frame", "57.600", "57600", "yes", "2", "no"])
+                         ['Zoë, "Z"', "One frame", "230.400", "230400", "yes", "2", "no"])
         self.assertEqual([rows[1][k] for k in ("given", "right", "tries", "revealed")], ["-1", "no", "1", "yes"])
         self.assertEqual(self.run_script("return csvCell('=1+1')"), "'=1+1", "no cell is a formula")
         self.run_script("localStorage.clear()")
@@ -505,7 +505,7 @@ class Page(unittest.TestCase):
         added = self.driver.execute_cdp_cmd("Page.addScriptToEvaluateOnNewDocument", {"source": script})
         try:
             self.open("earth", "frame")
-            self.exercise_form().find_element(By.TAG_NAME, "input").send_keys("57600" + Keys.ENTER)
+            self.exercise_form().find_element(By.TAG_NAME, "input").send_keys("230400" + Keys.ENTER)
             self.assertIn("right", self.exercise_form().find_element(By.CLASS_NAME, "verdict").get_attribute("class"))
             self.run_script("goTo(CHAPTERS.findIndex((c) => c.id === 'results'))")
             self.assertIn("refuses to store", self.driver.find_element(By.TAG_NAME, "article").text)

@@ -22,7 +22,7 @@ chapter({
   exercises: () => {
     const s = DATA.statistics, culled = s.culled_non_finite + s.culled_outside + s.culled_face + s.culled_degenerate + s.culled_no_sample;
     return [
-      {ask: "How many samples does this frame have, over all pixels?", answer: W * H * DATA.samples, hint: "Multiply the width, the height and the number of samples per pixel.", why: `${W} · ${H} · ${DATA.samples}.`},
+      {ask: "How many samples would this frame have with twice the width and twice the height, over all pixels?", answer: 4 * W * H * DATA.samples, hint: "Multiply the new width, the new height and the number of samples per pixel.", why: `${2 * W} · ${2 * H} · ${DATA.samples}.`},
       {ask: "How many fragments does a pixel have on average?", answer: DATA.overdraw.total / (W * H), decimals: 2, hint: `The frame has ${fmt(DATA.overdraw.total)} fragments.`, why: `${fmt(DATA.overdraw.total)} fragments for ${fmt(W * H)} pixels.`},
       {ask: "What percentage of the submitted primitives never reached a tile?", answer: culled / Math.max(1, s.primitives_in) * 100, decimals: 0, hint: "The chapter “Culling” shows the number for each reason.", why: `${fmt(culled)} of ${fmt(s.primitives_in)} were culled.`},
     ];

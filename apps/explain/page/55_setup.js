@@ -189,9 +189,9 @@ chapter({
   },
   related: ["coverage", "depth"], lessons: ["A triangle"],
   exercises: () => {
-    const at = edgesAtPixel(), i = TRI.edges.findIndex((e) => e.ey !== 0), e = TRI.edges[i], name = `E${"₀₁₂"[i]}`;
+    const at = edgesAtPixel(), i = TRI.edges.findIndex((e) => e.ey !== 0), e = TRI.edges[i], name = `E${"₀₁₂"[i]}`, right = at.includes(at[i] - e.ey * SUB) ? 2 : 1;
     return [
-      {ask: `What is ${name} at ${sampleName} of the pixel to the right of the example pixel, before the fill rule?`, answer: at[i] - e.ey * SUB, hint: "x increases by 256; only the second product changes.", why: `${fmt(at[i])} − ${operand(e.ey)} · 256.`},
+      {ask: `What is ${name} at ${sampleName} of the ${right === 1 ? "pixel" : "second pixel"} to the right of the example pixel, before the fill rule?`, answer: at[i] - e.ey * SUB * right, hint: `x increases by ${SUB * right}; only the second product changes.`, why: `${fmt(at[i])} − ${operand(e.ey)} · ${SUB * right}.`},
       {ask: `What is E₀ + E₁ + E₂ at ${sampleName} of the example pixel?`, answer: at[0] + at[1] + at[2], hint: "It is the same at every point of the plane.", why: `The sum is twice the area of the triangle${isClipped ? ", here of the piece," : ""} at every point.`},
       {ask: `What is the barycentric weight of v1 at ${sampleName} of the example pixel, without perspective?`, answer: at[1] / area2(TRI), decimals: 3, hint: "Divide E₁ by the sum from the previous exercise.", why: "The values of the edge functions are unnormalized barycentric coordinates."},
     ];

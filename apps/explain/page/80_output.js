@@ -5,7 +5,7 @@ TONE.highest = Math.max(...TONE.histogram);
 
 function histogramPicture() {
   const list = TONE.histogram, first = list.findIndex((n) => n > 0), last = list.length - 1 - [...list].reverse().findIndex((n) => n > 0);
-  if (first < 0) return el("div", {class: "stage"}, svgFigure(720, 60, "All pixels are black", svg("text", {x: 360, y: 35, "text-anchor": "middle", "font-size": 15}, document.createTextNode("All pixels are black."))));
+  if (first < 0) return el("div", {class: "stage"}, svgFigure(figureWidth(), 60, "All pixels are black", svg("text", {x: figureWidth() / 2, y: 35, "text-anchor": "middle", "font-size": 15}, document.createTextNode("All pixels are black."))));
   const from = Math.max(0, first - 4), shown = list.slice(from, last + 5);
   const label = (bin) => (bin % (TONE.bins * 2) === 0 ? stopName(TONE.low + bin / TONE.bins) : undefined);
   return bars(shown.map((value, i) => ({value, name: binName(from + i), label: label(from + i), marked: isExampleBin(from + i)})), `Histogram of the luminance of all pixels, with ${TONE.bins} bars per stop`, {unit: " pixels"});
