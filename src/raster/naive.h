@@ -2,7 +2,8 @@
 //
 // Reference implementation of the opaque pipeline as a plain loop, in the order used by the OpenGL specification. For each triangle: shade
 // three vertices, clip, divide by w, visit every pixel of the bounding box, interpolate, shade, test depth. If the shader has tessellation,
-// a patch is divided into triangles after its vertices are shaded; if it has a geometry function, that replaces each triangle by others.
+// a patch is divided into triangles after its vertices are shaded; if it has a geometry function, it replaces each triangle with those that
+// it emits.
 //
 // With R = float, this is a slow but readable equivalent of the tile-based pipeline: it calls the same formulas for snapping, clipping,
 // depth and interpolation, and its output is bit-identical. With R = double, it is the accuracy reference: vertex positions, interpolation,
@@ -177,7 +178,8 @@ void rasterize(NaiveTarget<R>& target, const S& shader, const std::array<const V
 
 }  // namespace naive
 
-/// Draws an indexed list of triangles or, if the shader has tessellation, of patches. An incomplete primitive at the end is not drawn.
+/// Draws an indexed list of triangles or, if the shader has tessellation, of patches, for any DrawState::topology. An incomplete primitive
+/// at the end is not drawn.
 ///
 /// The shader can have clip and cull distances, tessellation into triangles (TessellationDomain::triangles or quads, without point_mode),
 /// and a geometry function that receives triangles and emits triangle strips. The fragment function must return a single color. Shaders
@@ -191,6 +193,7 @@ void rasterize(NaiveTarget<R>& target, const S& shader, const std::array<const V
 template <class R, Shader S>
 void draw_naive(NaiveTarget<R>& target, const S& shader, const VertexView& vertices, const Indices& indices, const DrawState& state = {}) {
   const FloatMode float_mode;
+  static_assert(require_shader<S>());
   static_assert(!kUsesPrimitiveId<S>, "draw_naive() does not support primitive ids");
   static_assert(!kGivesLayer<S> && !kGivesPointSprite<S>, "draw_naive() supports neither layers of vertices nor bounds of points");
   static_assert(naive::divides_into_triangles<S>(), "draw_naive() supports only tessellation into triangles, not into lines or points");

@@ -25,7 +25,7 @@ constexpr std::size_t vertices_per_primitive() {
   }
 }
 
-// Whether the shader S has only stages with these layouts: patches are divided into triangles, and triangles become triangle strips.
+// Whether patches, if the shader has any, are divided into triangles.
 template <class S>
 constexpr bool divides_into_triangles() {
   if constexpr (!HasTessellationLayout<S>) {
@@ -34,6 +34,7 @@ constexpr bool divides_into_triangles() {
     return S::tessellation_layout.domain != TessellationDomain::isolines && !S::tessellation_layout.point_mode;
   }
 }
+// Whether the geometry function, if the shader has one, receives triangles and emits triangle strips.
 template <class S>
 constexpr bool emits_triangles() {
   if constexpr (!HasGeometryLayout<S>) {

@@ -29,15 +29,14 @@ struct ScreenPoint {
   R z, inv_w;
 };
 
-// Largest number of clip and of cull distances of a vertex.
-inline constexpr std::size_t kMaxDistances = 8;
+inline constexpr std::size_t kDistances = kMaxDistances;
 
 template <class R, class V>
 struct Vertex {
   vec4<R> pos_clip;
   V varyings;
-  ScreenPoint<R> window;                                          // after step 5
-  std::array<R, kMaxDistances> clip_distance{}, cull_distance{};  // 0 if the shader does not have them, which has no effect
+  ScreenPoint<R> window;                                       // after step 5
+  std::array<R, kDistances> clip_distance{}, cull_distance{};  // 0 if the shader does not have them, which has no effect
 };
 template <class R, class V>
 using TriangleOf = std::array<Vertex<R, V>, 3>;
@@ -47,7 +46,6 @@ template <class R, class P, class V>
 Vertex<R, V> vertex_of(const P& result, const V& varyings) {
   Vertex<R, V> v{position_of(result), varyings, {}};
   if constexpr (requires { result.clip_distance; }) {
-    static_assert(detail::kClipDistancesIn<P> <= kMaxDistances && detail::kCullDistancesIn<P> <= kMaxDistances);
     std::copy(result.clip_distance.begin(), result.clip_distance.end(), v.clip_distance.begin());
     std::copy(result.cull_distance.begin(), result.cull_distance.end(), v.cull_distance.begin());
   }
@@ -59,7 +57,7 @@ Vertex<R, V> vertex_of(const P& result, const V& varyings) {
 // Returns true if a cull distance is negative at all vertices, so that the triangle is not drawn.
 template <class R, class V>
 bool is_culled_by_distance(const TriangleOf<R, V>& t) {
-  for (std::size_t k = 0; k < kMaxDistances; ++k) {
+  for (std::size_t k = 0; k < kDistances; ++k) {
     if (t[0].cull_distance[k] < R(0) && t[1].cull_distance[k] < R(0) && t[2].cull_distance[k] < R(0)) return true;
   }
   return false;
@@ -71,7 +69,7 @@ Vertex<R, V> mix(const Vertex<R, V>& a, const Vertex<R, V>& b, R t) {
   const auto y = to_components<R>(b.varyings);
   for (std::size_t i = 0; i < x.size(); ++i) x[i] += t * (y[i] - x[i]);
   Vertex<R, V> v{a.pos_clip + (b.pos_clip - a.pos_clip) * t, from_components<V, R>(x), {}};
-  for (std::size_t k = 0; k < kMaxDistances; ++k) v.clip_distance[k] = a.clip_distance[k] + t * (b.clip_distance[k] - a.clip_distance[k]);
+  for (std::size_t k = 0; k < kDistances; ++k) v.clip_distance[k] = a.clip_distance[k] + t * (b.clip_distance[k] - a.clip_distance[k]);
   return v;
 }
 
@@ -115,7 +113,8 @@ std::vector<Vertex<float, V>> clipped_polygon(const TriangleOf<float, V>& t, con
     pos_clip[k] = glm::vec4(t[k].pos_clip.x, t[k].pos_clip.y, t[k].pos_clip.z, t[k].pos_clip.w);
     rows[k] = to_components<float>(t[k].varyings);
   }
-  const ClipDistances distances{{t[0].clip_distance.data(), t[1].clip_distance.data(), t[2].clip_distance.data()}, kMaxDistances};
+  const ClipDistances distances{{t[0].clip_distance.data(), t[1].clip_distance.data(), t[2].clip_distance.data()},
+                                static_cast<int>(kDistances)};
   const ClipPolygon polygon = clip_triangle(viewport, depth, pos_clip, distances);
   const std::array<double, 3> w{static_cast<double>(pos_clip[0].w), static_cast<double>(pos_clip[1].w), static_cast<double>(pos_clip[2].w)};
   std::vector<Vertex<float, V>> kept;
@@ -152,16 +151,24 @@ std::vector<Vertex<R, V>> clipped_polygon(const TriangleOf<R, V>& t, const Viewp
   clip_at([&](const vec4<R>& p) { return reach_x * p.w + p.x; });
   clip_at([&](const vec4<R>& p) { return reach_y * p.w - p.y; });
   clip_at([&](const vec4<R>& p) { return reach_y * p.w + p.y; });
-  for (std::size_t k = 0; k < kMaxDistances; ++k)
+  for (std::size_t k = 0; k < kDistances; ++k)
     polygon = clip(std::move(polygon), [k](const Vertex<R, V>& v) { return v.clip_distance[k]; });
   for (Vertex<R, V>& v : polygon) v.window = to_window(v.pos_clip, viewport, depth);
   return polygon;
 }
 
+// Returns true if all distances are finite. A triangle with another one is not drawn.
+template <class R, class V>
+bool has_finite_distances(const Vertex<R, V>& v) {
+  const auto is_finite = [](R x) { return std::isfinite(x); };
+  return std::all_of(v.clip_distance.begin(), v.clip_distance.end(), is_finite) &&
+         std::all_of(v.cull_distance.begin(), v.cull_distance.end(), is_finite);
+}
+
 // Culls a triangle by its distances, clips it, and returns the remaining triangles as a fan, with window coordinates.
 template <class R, class V>
 std::vector<TriangleOf<R, V>> clipped(TriangleOf<R, V> t, const Viewport& viewport, const DepthState& depth, std::size_t provoking) {
-  if (is_culled_by_distance<R, V>(t)) return {};
+  if (!std::all_of(t.begin(), t.end(), has_finite_distances<R, V>) || is_culled_by_distance<R, V>(t)) return {};
   Fan fan;
   std::vector<Vertex<R, V>> polygon;
   if constexpr (kIsFloat<R>) {
@@ -172,10 +179,7 @@ std::vector<TriangleOf<R, V>> clipped(TriangleOf<R, V> t, const Viewport& viewpo
       v.window = {w.x, w.y, w.z, w.inv_w};
       any |= static_cast<Outcode>(w.outcode);
       all &= static_cast<Outcode>(w.outcode);
-      for (std::size_t k = 0; k < kMaxDistances; ++k) {
-        if (!std::isfinite(v.clip_distance[k]) || !std::isfinite(v.cull_distance[k])) any |= kOutNonFinite;
-        is_cut |= v.clip_distance[k] < 0.0f;
-      }
+      for (const float distance : v.clip_distance) is_cut |= distance < 0.0f;
     }
     if ((any & kOutNonFinite) != 0 || all != 0) return {};
     if ((any & kOutNeedsClip) == 0 && !is_cut) return {t};
