@@ -206,7 +206,7 @@ void shade_pixels(const PassContext& context, Tile& tile, const VisiblePixels& p
   while (!work.empty()) {
     const Draw& draw = *work.front().draw;
     const std::size_t count = is_sorted ? take_sorted_draw(work, memory.packets) : take_draw(work, memory.packets);
-    // Sorting takes as long as three to four passes over the list.
+    // More than eight passes are probably left. Sorting takes as long as three to four.
     if (!is_sorted && count < work.size() / 8) {
       std::ranges::stable_sort(work, by_draw);
       is_sorted = true;

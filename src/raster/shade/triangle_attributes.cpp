@@ -102,14 +102,16 @@ PlaneAnchor plane_anchor_of(const TriangleSource& s, const PlaneCell& cell) {
 }
 
 Real packet_depth(Real x, Real y, const PacketTriangleIds& packet) noexcept {
-  const Real x_sub = x * Real(kSubPixels), y_sub = y * Real(kSubPixels);
   Real z(0.0f);
+  if (packet.lanes == 0) return z;
+  const Real x_sub = x * Real(kSubPixels), y_sub = y * Real(kSubPixels);
+  const auto first_id = [&](uint32_t lanes) { return packet.ids == nullptr ? packet.uniform_id : packet.ids[std::countr_zero(lanes)]; };
+  const Draw& draw = draw_of(*packet.context, first_id(packet.lanes));  // the same for all lanes
   for (uint32_t rest = packet.lanes; rest != 0;) {
-    const TriangleId id = packet.ids == nullptr ? packet.uniform_id : packet.ids[std::countr_zero(rest)];
+    const TriangleId id = first_id(rest);
     const Mask shows = packet.ids == nullptr ? Mask(true) : load<Int>(packet.ids) == Int(std::bit_cast<int32_t>(id));
     rest &= ~bits(shows);
     const Triangle& t = triangle_of(*packet.context, id);
-    const Draw& draw = draw_of(*packet.context, id);
     const auto edge = [](int32_t to, int32_t from) { return Real(static_cast<float>(to - from)); };
     const Real dx = x_sub - Real(static_cast<float>(t.x[0])), dy = y_sub - Real(static_cast<float>(t.y[0]));
     const Real e1 = difference_of_products(dx, edge(t.y[2], t.y[0]), dy, edge(t.x[2], t.x[0]));

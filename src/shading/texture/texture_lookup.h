@@ -81,7 +81,7 @@ struct TextureLookup {
   glm::ivec3 offset{0};
   int stride = texel_info(table.format).bytes / texel_unit(table.format);
   bool has_border = uses_border(table, sampler);
-  Value border = texels.border(clamped_border(sampler.border_color, table.format));
+  Value border = has_border ? texels.border(clamped_border(sampler.border_color, table.format)) : Value{};
 
   static bool uses_border(const TextureTable& table, const Sampler& sampler) {
     if (is_cube(table.kind)) return false;
