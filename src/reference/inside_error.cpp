@@ -11,8 +11,13 @@ namespace halfspace::HS_LANES {
 
 InsideError inside_error(const PictureOfObjects& picture, const PictureOfObjects& truth) {
   const std::size_t count = truth.objects.texels().size();
-  for (const std::size_t other : {picture.objects.texels().size(), picture.colors.texels().size(), truth.colors.texels().size()})
-    HS_CHECK(other == count, "inside_error: the images have different sizes; expected the same size");
+  const auto check_size = [&](const auto& image) {
+    HS_CHECK(image.width() == truth.objects.width() && image.height() == truth.objects.height(),
+             "inside_error: the images have different sizes; expected the same size");
+  };
+  check_size(picture.objects);
+  check_size(picture.colors);
+  check_size(truth.colors);
   InsideError error;
   int64_t sum = 0;
   std::array<int64_t, 256> pixels{};  // number of inside pixels by their largest difference

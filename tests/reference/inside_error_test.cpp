@@ -39,5 +39,11 @@ TEST(InsideError, OfEqualPicturesIsZero) {
   }
 }
 
+TEST(InsideErrorDeathTest, SizesMustBeEqual) {
+  const Image<glm::u8vec4> colors(4, 2);
+  const Image<int> objects(4, 2), turned(2, 4);
+  EXPECT_DEATH(inside_error({colors, objects}, {colors, turned}), "different sizes");
+}
+
 }  // namespace
 }  // namespace halfspace

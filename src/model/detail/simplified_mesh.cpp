@@ -7,16 +7,20 @@
 
 #include <algorithm>
 #include <limits>
+#include <string_view>
 
 namespace halfspace::HS_LANES {
 
 namespace {
 
-// Returns the size and time of the file with the code of meshoptimizer, because a shared library may be newer than the header.
+// Returns the size and time of the shared library of meshoptimizer, which may be newer than its header. Code that was linked into a program
+// is as old as the header.
 std::string library_state() {
   Dl_info library{};
   struct stat file = {};
-  if (::dladdr(reinterpret_cast<const void*>(&meshopt_simplifyScale), &library) == 0 || ::stat(library.dli_fname, &file) != 0) return "unknown";
+  if (::dladdr(reinterpret_cast<const void*>(&meshopt_simplifyScale), &library) == 0) return "";
+  const std::string_view path = library.dli_fname;  // of a program, what it was started as
+  if (path.find("libmeshoptimizer") == path.npos || ::stat(library.dli_fname, &file) != 0) return "";
   return std::to_string(file.st_size) + " " + std::to_string(file.st_mtim.tv_sec);
 }
 
