@@ -40,7 +40,7 @@ std::vector<float> filter_weights(const ShadowView& view, const ShadowSettings& 
   map.size = kShadowSide;
   map.depth = depth.data();
   map.block_depths = nullptr;
-  p.x -= static_cast<float>(i - kShadowReach);  // exact
+  p.x -= static_cast<float>(i - kShadowReach);  // exact, except near the left and lower borders of the map, where p grows and is rounded
   p.y -= static_cast<float>(j - kShadowReach);
   for (int row = kShadowSide - 1; row >= 0; --row) {  // rows are stored from the top
     for (int column = 0; column < kShadowSide; ++column) {

@@ -84,7 +84,7 @@ std::shared_ptr<const ModelAsset> ring_model(int bands, int sectors, const Worke
   return std::make_shared<const ModelAsset>(std::move(model));
 }
 
-// A frame of the ring with its errors' inputs, drawn in the same run as its times were measured.
+// A frame of the ring, and what its errors are computed from; drawn in the run that measures its times.
 struct RingFrame {
   Image<glm::u8vec4> picture;
   Image<glm::u8vec4> base_colors{};      // without lighting

@@ -177,7 +177,7 @@ def _submit(job: Any, count: int, client: Any, batch: Optional[int]) -> List[Any
         # A task of its own: each worker receives its result once, and Dask can repeat it if all workers that have it die. What scatter()
         # sends would be forgotten after the last frame, and a frame that is lost after that could not be rendered again.
         with warnings.catch_warnings():
-            warnings.filterwarnings("ignore", "Large object", UserWarning)
+            warnings.filterwarnings("ignore", "Large object|Sending large graph", UserWarning)
             sent = client.submit(_identity, job, pure=False)
         return [client.submit(_render, sent, part, pure=False) for part in parts]
     return [client.submit(_render, job, part) for part in parts]
