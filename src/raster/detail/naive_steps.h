@@ -160,7 +160,7 @@ std::vector<Vertex<R, V>> clipped_polygon(const TriangleOf<R, V>& t, const Viewp
 // Returns true if all distances are finite. A triangle with another one is not drawn.
 template <class R, class V>
 bool has_finite_distances(const Vertex<R, V>& v) {
-  const auto is_finite = [](R x) { return std::isfinite(x); };
+  const auto is_finite = [](R x) { return std::isfinite(static_cast<double>(x)); };
   return std::all_of(v.clip_distance.begin(), v.clip_distance.end(), is_finite) &&
          std::all_of(v.cull_distance.begin(), v.cull_distance.end(), is_finite);
 }
