@@ -29,7 +29,7 @@ struct ScreenPoint {
   R z, inv_w;
 };
 
-inline constexpr std::size_t kDistances = kMaxDistances;
+inline constexpr std::size_t kDistances = kMaxDistances;  // clip distances of a vertex, and cull distances
 
 template <class R, class V>
 struct Vertex {
