@@ -40,8 +40,9 @@ std::vector<StageEmission> stage_emissions(const PreparedScene& scene, const Wor
       const EmittingStages* const stages = draws[i].kernels.emitting;
       if (stages == nullptr || stages->geometry == nullptr) continue;
       PassStatistics statistics;
-      out.push_back({static_cast<uint32_t>(i), assemble_primitives(draws[i], stages->vertex, stages->varying_count, workers),
-                     emit_primitives(draws[i], workers, statistics)});
+      EmittedPrimitives received = emit_vertices(draws[i], stages->vertex, stages->varying_count, workers);
+      assemble_primitives(draws[i], received, workers);
+      out.push_back({static_cast<uint32_t>(i), std::move(received), emit_primitives(draws[i], workers, statistics)});
     }
     return PassStatistics{};
   });

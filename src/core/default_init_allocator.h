@@ -4,6 +4,7 @@
 #include <memory>
 #include <new>
 #include <utility>
+#include <vector>
 
 #include "halfspace/core/namespace.h"
 
@@ -30,5 +31,8 @@ struct DefaultInitAllocator : std::allocator<T> {
     }
   }
 };
+
+template <class T>
+using DefaultInitVector = std::vector<T, DefaultInitAllocator<T>>;
 
 }  // namespace halfspace::HS_LANES

@@ -20,8 +20,10 @@ EmittedPrimitives capture_primitives(const ShaderKernels& kernels, KeptShader sh
   draw.vertex_count = draw.indices->used_count() * state.instances;
   count_primitives(draw);
   PassStatistics statistics;
-  return kernels.emitting != nullptr ? emit_primitives(draw, workers, statistics)
-                                     : assemble_primitives(draw, kernels.vertex, kernels.varying_count, workers);
+  if (kernels.emitting != nullptr) return emit_primitives(draw, workers, statistics);
+  EmittedPrimitives primitives = emit_vertices(draw, kernels.vertex, kernels.varying_count, workers);
+  assemble_primitives(draw, primitives, workers);
+  return primitives;
 }
 
 }  // namespace halfspace::HS_LANES::detail

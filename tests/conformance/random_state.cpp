@@ -129,6 +129,22 @@ Drawing random_drawing(const Picture& p, Random& r, bool first) {
   return d;
 }
 
+// Adds smooth primitives, and conditions on the queries of draws before, to the draws of a picture.
+void add_later_state(Picture& p, Random random) {
+  std::vector<uint32_t> queries;
+  for (Drawing& d : p.draws) {
+    DrawState& s = d.state;
+    s.line_smooth = random.once_in(6);
+    s.polygon_smooth = random.once_in(10);
+    const int number = random.below(3);
+    if (!queries.empty() && random.once_in(2)) {
+      const uint32_t query = queries[static_cast<std::size_t>(number) % queries.size()];
+      if (s.query != query) s.condition = DrawCondition{query, random.once_in(2)};
+    }
+    if (s.query) queries.push_back(*s.query);
+  }
+}
+
 // Drops the primitives whose number has the value `which` in bit k.
 void drop_primitives(Picture& p, int k, int which) {
   for (Drawing& d : p.draws) {
@@ -165,6 +181,7 @@ std::vector<std::function<void(Picture&)>> simplifications() {
   each([](DrawState& s) { s.color_mask = {}, s.offset = {}, s.query.reset(); });
   each([](DrawState& s) { s.sample_shading = s.alpha_to_coverage = false, s.sample_mask = ~0u; });
   each([](DrawState& s) { s.polygon_mode = PolygonMode::fill, s.instances = 1; });
+  each([](DrawState& s) { s.line_smooth = s.polygon_smooth = false, s.condition.reset(); });
   all.push_back([](Picture& p) {
     for (Drawing& d : p.draws) {
       if (p.colors.size() == 1 && d.kind != Kind::two_colors) d.kind = Kind::color;  // not with two colors: blending may need both
@@ -179,7 +196,7 @@ std::vector<std::function<void(Picture&)>> simplifications() {
       if (i < p.draws.size() && p.draws.size() > 1) p.draws.erase(p.draws.begin() + static_cast<std::ptrdiff_t>(i));
     });
   }
-  return all;  // 50
+  return all;  // 54
 }
 
 }  // namespace
@@ -216,6 +233,7 @@ Picture random_picture(const RandomState& state) {
   p.clear_stencil = static_cast<uint8_t>(r.pick({0, 0, 1, 0x80}));
   const int draws = r.between(1, 4);
   for (int i = 0; i < draws; ++i) p.draws.push_back(random_drawing(p, r, i == 0));
+  add_later_state(p, other_numbers(r));
   const auto simplify = simplifications();
   for (std::size_t i = 0; i < simplify.size(); ++i) {
     if (state.simplified >> i & 1) simplify[i](p);

@@ -228,12 +228,6 @@ Rect random_rect(int width, int height, Random& random) {
   return {x, y, w, random.between(1, height)};
 }
 
-// Returns numbers that neither change the following ones of `random` nor depend on them in a simple way.
-Random other_numbers(const Random& random) {
-  Random copy(random);
-  return Random(uint64_t{copy.bits()} * 0x9e3779b97f4a7c15u);
-}
-
 BlendState random_blend(Random& random) {
   if (random.once_in(4)) return {};
   BlendState b = random_equations(random, kBlendFactors);

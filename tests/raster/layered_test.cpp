@@ -51,6 +51,35 @@ struct EveryInstance : SmoothColorShader {
   }
 };
 
+// All vertices of an instance are in one layer. The color shows the numbers of the primitive and the instance.
+struct WholeInstances : SmoothColorShader {
+  std::array<int32_t, 12> numbers{};  // of the instances
+  template <class R>
+  LayeredVertex<R> vertex(const Attributes<R>& in, const VertexId<R>& id, Varyings<R>& out) const {
+    out.color = in.color;
+    return {EveryLayer<false>::moved(in.position, id.instance), IntOf<R>(numbers[static_cast<std::size_t>(id.instance)])};
+  }
+  template <class R>
+  Fragment<R> fragment(const Varyings<R>& in, const PrimitiveId<R>& id, const Pixel<R>&) const {
+    return {vec4<R>(to_real<R>(id.primitive), to_real<R>(id.instance), in.color.x, id.barycentrics.y)};
+  }
+};
+// One instance of it.
+struct OneInstance : WholeInstances {
+  int32_t instance = 0;
+  template <class R>
+  vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
+    out.color = in.color;
+    return EveryLayer<false>::moved(in.position, instance);
+  }
+  template <class R>
+  Fragment<R> fragment(const Varyings<R>& in, const PrimitiveId<R>& id, const Pixel<R>& px) const {
+    Fragment<R> f = WholeInstances::fragment<R>(in, id, px);
+    f.color.y = R(static_cast<float>(instance));
+    return f;
+  }
+};
+
 struct Moved : SmoothColorShader {
   int layer = 0;
   template <class R>
@@ -127,6 +156,42 @@ TEST(Layers, EachIsThePictureOfAPassOfItsOwn) {
       EXPECT_TRUE(std::equal(color.begin(), color.end(), colors.begin() + begin)) << layer;
       EXPECT_TRUE(std::equal(depth.begin(), depth.end(), depths.begin() + begin)) << layer;
     }
+  }
+}
+
+// With strips, vertices that are not used, restarts, and instances that are not drawn.
+TEST(Layers, WholeInstancesAreDrawsOfTheirOwn) {
+  constexpr int kLayers = 3;
+  const std::array<int32_t, 12> numbers{0, 0, 2, -1, 2, 1, 1, 3, 0, 2, 2, 1};
+  const Vertices v = random_vertices(37, 200);
+  std::vector<uint16_t> indices;
+  for (std::size_t i = 0; i < 300; ++i) indices.push_back(i % 50 == 49 ? 0xffff : static_cast<uint16_t>(3 + (i * 7) % 150));
+  const Indices list(indices, v.positions.size(), PrimitiveRestart::on);
+  DrawState state{.topology = Topology::triangle_strip, .instances = 12};
+  WholeInstances shader;
+  shader.numbers = numbers;
+  std::vector<glm::vec4> colors(std::size_t{kWidth} * kHeight * kLayers);
+  constexpr auto kPixel = static_cast<std::ptrdiff_t>(sizeof(glm::vec4));
+  const auto target = [&](auto* data, int layers) {
+    return TexelView{TexelFormat::rgba32f, reinterpret_cast<std::byte*>(data), kWidth, kHeight, layers,
+                     kPixel * kWidth,      kPixel * kWidth * kHeight};
+  };
+  Pass pass(kWidth, kHeight, layered_color_target(target(colors.data(), kLayers)), {}, {.layers = kLayers});
+  pass.draw(shader, v.view(), list, state);
+  const PassStatistics s = pass.run(two_workers());
+  EXPECT_EQ(s.vertices_in, 12u * (300 - 6));
+  state.instances = 1;
+  for (int layer = 0; layer < kLayers; ++layer) {
+    std::vector<glm::vec4> expected(std::size_t{kWidth} * kHeight);
+    Pass single(kWidth, kHeight, color_target(target(expected.data(), 1)), {});
+    for (int i = 0; i < 12; ++i) {
+      OneInstance one;
+      one.instance = i;
+      if (numbers[static_cast<std::size_t>(i)] == layer) single.draw(one, v.view(), list, state);
+    }
+    single.run(one_worker());
+    EXPECT_TRUE(std::equal(expected.begin(), expected.end(), colors.begin() + static_cast<std::ptrdiff_t>(expected.size()) * layer))
+        << layer;
   }
 }
 

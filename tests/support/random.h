@@ -39,6 +39,12 @@ class Random : public SplitMix64 {
   }
 };
 
+/// Returns numbers that neither change the following ones of `random` nor depend on them in a simple way.
+inline Random other_numbers(const Random& random) {
+  Random copy(random);
+  return Random(uint64_t{copy.bits()} * 0x9e3779b97f4a7c15u);
+}
+
 /// Returns a vector of random direction and length.
 inline glm::dvec3 random_vector(std::mt19937& random) {
   std::normal_distribution<double> normal;

@@ -2,6 +2,7 @@
 #include "halfspace/raster/amplify/emit_primitives.h"
 
 #include <algorithm>
+#include <cstring>
 
 #include "halfspace/raster/amplify/emitting_stages.h"
 #include "halfspace/raster/amplify/run_geometry.h"
@@ -15,7 +16,8 @@ namespace {
 
 constexpr std::size_t kVerticesPerTask = 8 * kVertexBatch;
 constexpr std::size_t kPrimitivesPerTask = 128;  // so that what a task emits is usually smaller than what malloc maps anew
-constexpr std::size_t kPatchesPerTask = 16;      // a patch can be divided into 8192 triangles
+constexpr std::size_t kAssembledPerTask = 4096;
+constexpr std::size_t kPatchesPerTask = 16;  // a patch can be divided into 8192 triangles
 
 ClipVertices shade_all_vertices(const Draw& draw, VertexKernel kernel, int varying_count, const Workers& workers) {
   ClipVertices vertices;
@@ -30,8 +32,8 @@ ClipVertices shade_all_vertices(const Draw& draw, VertexKernel kernel, int varyi
 
 // Vertices, numbers and instances of some primitives.
 struct PrimitiveList {
-  std::vector<uint32_t> slots;
-  std::vector<int32_t> primitives, instances;
+  DefaultInitVector<uint32_t> slots;
+  DefaultInitVector<int32_t> primitives, instances;
 
   PrimitiveRows rows(const VertexRows& vertices) const {
     return {vertices, slots.data(), primitives.data(), instances.data(), static_cast<int>(primitives.size())};
@@ -41,13 +43,13 @@ struct PrimitiveList {
 // Returns primitives [begin, end) of a draw, counted over all instances, with `corners` vertices each. next: returns the indices of the
 // next primitive.
 template <class Next>
-PrimitiveList primitives_of(const Draw& draw, const ClipVertices& vertices, std::size_t corners, std::size_t begin, std::size_t end,
-                            const Next& next) {
+PrimitiveList primitives_of(const Draw& draw, std::size_t corners, std::size_t begin, std::size_t end, const Next& next) {
+  const uint32_t first_vertex = draw.indices->first_vertex(), slots = draw.indices->end_vertex() - first_vertex;
   PrimitiveList out;
   for (std::size_t p = begin; p < end;) {
     const std::size_t instance = p / draw.primitive_count, first = p % draw.primitive_count;
     const std::size_t count = std::min(end - p, draw.primitive_count - first);
-    const uint32_t slot_base = vertices.first - static_cast<uint32_t>(instance) * vertices.count;
+    const uint32_t slot_base = first_vertex - static_cast<uint32_t>(instance) * slots;
     Assembly assembly(draw, static_cast<uint32_t>(first));
     for (std::size_t i = 0; i < count; ++i) {
       const auto indices = next(assembly);
@@ -79,8 +81,8 @@ EmittedPrimitives tessellate_patches(const Draw& draw, const ClipVertices& verti
   const TessellationStage& stage = *stages.tessellation;
   return emit_in_parts(workers, primitives_in(draw), kPatchesPerTask, static_cast<std::size_t>(stage.row), topology_of(stage.options),
                        [&](std::size_t begin, std::size_t end) {
-                         const PrimitiveList patches = primitives_of(draw, vertices, static_cast<std::size_t>(stage.patch_vertices), begin,
-                                                                     end, [](Assembly& a) { return a.next_patch(); });
+                         const PrimitiveList patches = primitives_of(draw, static_cast<std::size_t>(stage.patch_vertices), begin, end,
+                                                                     [](Assembly& a) { return a.next_patch(); });
                          return run_tessellation(stage, draw.shader.get(), patches.rows(rows_of(vertices, stages.varying_count)));
                        });
 }
@@ -93,7 +95,7 @@ EmittedPrimitives emit_from_primitives(const Draw& draw, const ClipVertices& ver
   return emit_in_parts(workers, primitives_in(draw), kPrimitivesPerTask, static_cast<std::size_t>(stage.row),
                        topology_of(stage.layout.output), [&](std::size_t begin, std::size_t end) {
                          const PrimitiveList list =
-                             primitives_of(draw, vertices, corners, begin, end, [](Assembly& a) { return a.next_with_adjacency(); });
+                             primitives_of(draw, corners, begin, end, [](Assembly& a) { return a.next_with_adjacency(); });
                          return run_geometry(stage, draw.shader.get(), list.rows(rows_of(vertices, stages.varying_count)), first_provokes);
                        });
 }
@@ -122,48 +124,14 @@ Topology list_topology(Topology t) {
   return is_lines(t) ? Topology::lines : Topology::triangles;
 }
 
-// Emits the primitives of a draw as they are, with vertices of their own.
-EmittedPrimitives assemble_from(const Draw& draw, const ClipVertices& vertices, int values, const Workers& workers) {
-  const Topology topology = list_topology(draw.state.topology);
-  const std::size_t row = 4 + static_cast<std::size_t>(values);
-  if (primitives_in(draw) == 0) return no_primitives(row, topology);
-  const VertexRows from = rows_of(vertices, values);
-  return emit_in_parts(workers, primitives_in(draw), kPrimitivesPerTask, row, topology, [&](std::size_t begin, std::size_t end) {
-    EmittedPrimitives out = no_primitives(row, topology);
-    PrimitiveList list = primitives_of(draw, vertices, out.vertices_per_primitive(), begin, end, [](Assembly& a) { return a.next(); });
-    for (const uint32_t slot : list.slots) {
-      out.indices.push_back(static_cast<uint32_t>(out.indices.size()));
-      out.rows.insert(out.rows.end(), from.position(slot), from.position(slot) + 4);
-      out.rows.insert(out.rows.end(), from.varying(slot), from.varying(slot) + values);
-    }
-    out.numbers = std::move(list.primitives);
-    out.instances = std::move(list.instances);
-    return out;
-  });
-}
-
 }  // namespace
-
-void EmittedPrimitives::append(EmittedPrimitives&& o) {
-  const std::size_t first = vertex_count();
-  HS_CHECK_OP(first + o.vertex_count(), <, std::size_t{1} << 32,
-              "Pass::run: the stages of a draw emit too many vertices; expected fewer than 2^32");
-  rows.insert(rows.end(), o.rows.begin(), o.rows.end());
-  for (const uint32_t i : o.indices) indices.push_back(static_cast<uint32_t>(first) + i);
-  numbers.insert(numbers.end(), o.numbers.begin(), o.numbers.end());
-  instances.insert(instances.end(), o.instances.begin(), o.instances.end());
-  o = {};
-}
 
 EmittedPrimitives emit_primitives(const Draw& draw, const Workers& workers, PassStatistics& statistics) {
   const EmittingStages& stages = *draw.kernels.emitting;
   const ClipVertices vertices = shade_all_vertices(draw, stages.vertex, stages.varying_count, workers);
-  statistics.vertices_in += (draw.indices->size() - draw.indices->restarts().size()) * draw.state.instances;
-  statistics.vertices_shaded += draw.vertex_count;
   const auto count_geometry = [&](std::size_t primitives) {
     statistics.geometry_invocations += primitives * static_cast<std::size_t>(stages.geometry->layout.invocations);
   };
-  if (stages.tessellation == nullptr && stages.geometry == nullptr) return assemble_from(draw, vertices, stages.varying_count, workers);
   if (stages.tessellation == nullptr) {
     count_geometry(primitives_in(draw));
     return emit_from_primitives(draw, vertices, workers);
@@ -176,8 +144,35 @@ EmittedPrimitives emit_primitives(const Draw& draw, const Workers& workers, Pass
   return emit_from_patches(draw, divided, workers);
 }
 
-EmittedPrimitives assemble_primitives(const Draw& draw, VertexKernel kernel, int values, const Workers& workers) {
-  return assemble_from(draw, shade_all_vertices(draw, kernel, values, workers), values, workers);
+EmittedPrimitives emit_vertices(const Draw& draw, VertexKernel kernel, int values, const Workers& workers) {
+  const ClipVertices vertices = shade_all_vertices(draw, kernel, values, workers);
+  const std::size_t count = std::size_t{vertices.count} * draw.state.instances, others = static_cast<std::size_t>(values), row = 4 + others;
+  EmittedPrimitives out = no_primitives(row, list_topology(draw.state.topology));
+  out.rows.resize(count * row);
+  workers.for_each(static_cast<int>((count + kVerticesPerTask - 1) / kVerticesPerTask), [&](int task) {
+    const std::size_t begin = static_cast<std::size_t>(task) * kVerticesPerTask;
+    for (std::size_t slot = begin; slot < std::min(begin + kVerticesPerTask, count); ++slot) {
+      // Not assignments, because slots without an index are uninitialized.
+      std::memcpy(&out.rows[slot * row], &vertices.positions[slot], 4 * sizeof(float));
+      std::memcpy(&out.rows[slot * row] + 4, vertices.varyings.get() + slot * others, others * sizeof(float));
+    }
+  });
+  return out;
+}
+
+void assemble_primitives(const Draw& draw, EmittedPrimitives& vertices, const Workers& workers) {
+  EmittedPrimitives primitives = emit_in_parts(
+      workers, primitives_in(draw), kAssembledPerTask, vertices.row, vertices.topology, [&](std::size_t begin, std::size_t end) {
+        EmittedPrimitives out = no_primitives(vertices.row, vertices.topology);
+        PrimitiveList list = primitives_of(draw, out.vertices_per_primitive(), begin, end, [](Assembly& a) { return a.next(); });
+        out.indices = std::move(list.slots);
+        out.numbers = std::move(list.primitives);
+        out.instances = std::move(list.instances);
+        return out;
+      });
+  vertices.indices = std::move(primitives.indices);
+  vertices.numbers = std::move(primitives.numbers);
+  vertices.instances = std::move(primitives.instances);
 }
 
 std::array<VertexStream, 3> streams_of(const EmittedPrimitives& primitives, const ShaderKernels& kernels) {

@@ -35,7 +35,7 @@ struct PrimitiveRows {
 /// Strips of vertices that a geometry function has emitted. A vertex is a row of values: clip-space position, extra values if there are any
 /// (kExtraValues in geometry_stage.h), varyings.
 struct EmittedStrips {
-  std::vector<float> rows;
+  DefaultInitVector<float> rows;
   std::vector<uint32_t> sizes;  ///< number of vertices of each strip
   std::vector<int> sources;     ///< number in PrimitiveRows of the primitive of each strip
 };
@@ -77,6 +77,9 @@ struct EmittingStages {
   int varying_count;                                       ///< values of these outputs per vertex, without the position
   const TessellationStage* tessellation;
   const GeometryStage* geometry;
+  void (*layer)(const void* shader, const VertexBatch&);  ///< VertexOutput::layer, if only the vertex function chooses the layer
+
+  bool emit_primitives() const { return tessellation != nullptr || geometry != nullptr; }
 };
 
 /// The vertex kernel of draws of emitted vertices. It copies the rows of the streams of streams_of() (emit_primitives.h).

@@ -8,7 +8,7 @@ namespace halfspace::HS_LANES {
 namespace {
 
 // Appends the primitives of a strip of `size` vertices.
-void append_strip(uint32_t first, uint32_t size, Topology topology, bool first_provokes, std::vector<uint32_t>& indices) {
+void append_strip(uint32_t first, uint32_t size, Topology topology, bool first_provokes, DefaultInitVector<uint32_t>& indices) {
   const uint32_t corners = topology == Topology::points ? 1 : topology == Topology::lines ? 2 : 3;
   for (uint32_t k = 0; k + corners <= size; ++k) {
     const uint32_t i = first + k;

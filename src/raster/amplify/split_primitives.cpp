@@ -7,31 +7,106 @@
 
 namespace halfspace::HS_LANES {
 
-std::vector<PrimitivePart> split_primitives(const EmittedPrimitives& primitives, const SplitOptions& options) {
-  std::vector<PrimitivePart> parts;
-  std::map<std::pair<int32_t, int32_t>, std::size_t> open;  // the part to which primitives of a layer and viewport are added
-  std::map<int32_t, int32_t> last_viewport;                 // of each layer
+namespace {
+
+constexpr std::size_t kSplitPerTask = 4096;
+
+Destination destination_of(const EmittedPrimitives& primitives, std::size_t vertex, const SplitOptions& options) {
+  const float* const row = primitives.rows.data() + primitives.row * vertex;
+  return {options.layers == 1 ? 0 : std::bit_cast<int32_t>(row[options.place]), std::bit_cast<int32_t>(row[options.place + 1])};
+}
+
+// Consecutive primitives of the same layer and viewport. Runs keep the search for a part from taking time for each primitive.
+struct Run {
+  Destination to;
+  std::size_t begin, end;
+};
+
+// Returns the runs of primitives [begin, end), without those that no layer or viewport receives.
+std::vector<Run> runs_of(const EmittedPrimitives& primitives, const SplitOptions& options, std::size_t begin, std::size_t end) {
   const std::size_t corners = primitives.vertices_per_primitive();
   const std::size_t provoking = options.first_provokes ? 0 : corners - 1;
-  for (std::size_t i = 0; i < primitives.indices.size(); i += corners) {
-    const float* const row = primitives.rows.data() + primitives.row * primitives.indices[i + provoking];
-    const int32_t layer = options.layers == 1 ? 0 : std::bit_cast<int32_t>(row[options.place]);
-    const auto viewport = std::bit_cast<int32_t>(row[options.place + 1]);
-    if (layer < 0 || layer >= options.layers || viewport < 0 || viewport >= options.viewports) continue;
-    const bool changes = options.viewports_overlap && last_viewport.contains(layer) && last_viewport[layer] != viewport;
-    last_viewport[layer] = viewport;
-    const auto [at, is_new] = open.try_emplace({layer, viewport}, parts.size());
-    if (is_new || changes) {
-      at->second = parts.size();
-      parts.push_back({layer, viewport, {}, {}, {}});
-    }
-    PrimitivePart& to = parts[at->second];
-    to.numbers.push_back(primitives.numbers[i / corners]);
-    to.instances.push_back(primitives.instances[i / corners]);
-    to.indices.insert(to.indices.end(), primitives.indices.begin() + static_cast<std::ptrdiff_t>(i),
-                      primitives.indices.begin() + static_cast<std::ptrdiff_t>(i + corners));
+  std::vector<Run> runs;
+  for (std::size_t i = begin; i < end; ++i) {
+    const Destination to = destination_of(primitives, primitives.indices[i * corners + provoking], options);
+    if (!options.is_drawn(to)) continue;
+    if (!runs.empty() && runs.back().to == to && runs.back().end == i)
+      ++runs.back().end;
+    else
+      runs.push_back({to, i, i + 1});
   }
+  return runs;
+}
+
+template <class T>
+DefaultInitVector<T> values_of(const std::vector<Run>& runs, const DefaultInitVector<T>& from, std::size_t per_primitive) {
+  std::size_t count = 0;
+  for (const Run& r : runs) count += r.end - r.begin;
+  DefaultInitVector<T> values;
+  values.reserve(count * per_primitive);
+  for (const Run& r : runs) values.insert(values.end(), from.data() + r.begin * per_primitive, from.data() + r.end * per_primitive);
+  return values;
+}
+
+}  // namespace
+
+std::vector<PrimitivePart> split_primitives(const EmittedPrimitives& primitives, const SplitOptions& options, const Workers& workers) {
+  const std::size_t count = primitives.primitive_count();
+  std::vector<std::vector<Run>> found((count + kSplitPerTask - 1) / kSplitPerTask);
+  workers.for_each(static_cast<int>(found.size()), [&](int i) {
+    const std::size_t begin = static_cast<std::size_t>(i) * kSplitPerTask;
+    found[static_cast<std::size_t>(i)] = runs_of(primitives, options, begin, std::min(begin + kSplitPerTask, count));
+  });
+  std::vector<PrimitivePart> parts;
+  std::vector<std::vector<Run>> runs;                       // of each part
+  std::map<std::pair<int32_t, int32_t>, std::size_t> open;  // the part to which primitives of a layer and viewport are added
+  std::map<int32_t, int32_t> last_viewport;                 // of each layer
+  for (const std::vector<Run>& list : found) {
+    for (const Run& r : list) {
+      const auto [layer, viewport] = r.to;
+      const bool changes = options.viewports_overlap && last_viewport.contains(layer) && last_viewport[layer] != viewport;
+      last_viewport[layer] = viewport;
+      const auto [at, is_new] = open.try_emplace({layer, viewport}, parts.size());
+      if (is_new || changes) {
+        at->second = parts.size();
+        parts.push_back({.layer = layer, .viewport = viewport, .indices = {}, .numbers = {}, .instances = {}});
+        runs.emplace_back();
+      }
+      runs[at->second].push_back(r);
+    }
+  }
+  workers.for_each(static_cast<int>(parts.size()), [&](int i) {
+    PrimitivePart& part = parts[static_cast<std::size_t>(i)];
+    const std::vector<Run>& from = runs[static_cast<std::size_t>(i)];
+    part.indices = values_of(from, primitives.indices, primitives.vertices_per_primitive());
+    part.numbers = values_of(from, primitives.numbers, 1);
+    part.instances = values_of(from, primitives.instances, 1);
+  });
   return parts;
+}
+
+std::optional<std::vector<InstanceRun>> split_instances(const Draw& draw, VertexKernel layer, const SplitOptions& options,
+                                                        const Workers& workers) {
+  const uint32_t instances = draw.state.instances;
+  std::vector<std::optional<Destination>> to(instances);
+  const auto find = [&](uint32_t i) {
+    to[i] = common_destination(draw, layer, i);
+    if (options.layers == 1 && to[i]) to[i]->layer = 0;
+  };
+  if (instances == 0) return std::nullopt;
+  find(0);
+  if (!to[0]) return std::nullopt;  // usually like all others
+  workers.for_each(static_cast<int>(instances) - 1, [&](int i) { find(static_cast<uint32_t>(i) + 1); });
+  std::vector<InstanceRun> runs;
+  for (uint32_t i = 0; i < instances; ++i) {
+    if (!to[i]) return std::nullopt;
+    if (!options.is_drawn(*to[i])) continue;
+    if (!runs.empty() && runs.back().to == *to[i] && runs.back().first + runs.back().count == i)
+      ++runs.back().count;
+    else
+      runs.push_back({*to[i], i, 1});
+  }
+  return runs;
 }
 
 }  // namespace halfspace::HS_LANES

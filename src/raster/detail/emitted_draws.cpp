@@ -13,9 +13,9 @@ namespace halfspace::HS_LANES::detail {
 namespace {
 
 // Returns a draw that refers to the shader of another one.
-Draw draw_like(const Draw& source, std::shared_ptr<const Indices> indices, const VertexStreams& vertices, const DrawState& state,
-               const DrawPlacement& placement) {
-  Draw d(source.kernels, {source.shader.get(), [](const void*) {}}, std::move(indices), vertices, state, placement);
+Draw draw_like(const Draw& source, const ShaderKernels& kernels, std::shared_ptr<const Indices> indices, const VertexStreams& vertices,
+               const DrawState& state, const DrawPlacement& placement) {
+  Draw d(kernels, {source.shader.get(), [](const void*) {}}, std::move(indices), vertices, state, placement);
   d.deferred = source.deferred;
   d.writes_color = source.writes_color;
   d.layer_group = source.layer_group;
@@ -52,22 +52,41 @@ EmittedDraws::EmittedDraws(PassContext& context, const Attachments& attachments,
   }
 }
 
-EmittedDraws::Emitted EmittedDraws::emit(const Draw& draw, int layers, const Workers& workers, PassStatistics& statistics) const {
-  Emitted out{emit_primitives(draw, workers, statistics), {}};
-  const ShaderKernels& kernels = draw.kernels;
+SplitOptions EmittedDraws::split_options(const Draw& draw, int layers) const {
   const ViewportArray* const viewports = draw.state.viewports;
-  if (!kernels.gives_layer) {
-    EmittedPrimitives& all = out.primitives;
-    out.parts.push_back({0, 0, std::exchange(all.indices, {}), std::exchange(all.numbers, {}), std::exchange(all.instances, {})});
+  // The layer is after the position, the point size and the distances.
+  return {.place = 5 + static_cast<std::size_t>(draw.kernels.clip_distance_count + draw.kernels.cull_distance_count),
+          .first_provokes = draw.state.provoking == ProvokingVertex::first,
+          .layers = layers,
+          .viewports = viewports != nullptr ? static_cast<int32_t>(viewports->size()) : 1,
+          .viewports_overlap = viewports != nullptr && viewports_overlap(*viewports, context_)};
+}
+
+EmittedDraws::Emitted EmittedDraws::emit(const Draw& draw, int layers, const Workers& workers, PassStatistics& statistics) const {
+  const EmittingStages& stages = *draw.kernels.emitting;
+  statistics.vertices_in += (draw.indices->size() - draw.indices->restarts().size()) * draw.state.instances;
+  statistics.vertices_shaded += draw.vertex_count;
+  Emitted out;
+  if (stages.emit_primitives()) {
+    out.primitives = emit_primitives(draw, workers, statistics);
   } else {
-    // After the position, the point size and the distances.
-    const SplitOptions options{.place = 5 + static_cast<std::size_t>(kernels.clip_distance_count + kernels.cull_distance_count),
-                               .first_provokes = draw.state.provoking == ProvokingVertex::first,
-                               .layers = layers,
-                               .viewports = viewports != nullptr ? static_cast<int32_t>(viewports->size()) : 1,
-                               .viewports_overlap = viewports != nullptr && viewports_overlap(*viewports, context_)};
-    out.parts = split_primitives(out.primitives, options);
+    if (auto runs = split_instances(draw, stages.layer, split_options(draw, layers), workers)) {
+      out.runs = std::move(*runs);
+      return out;
+    }
+    out.primitives = emit_vertices(draw, stages.vertex, stages.varying_count, workers);
+    assemble_primitives(draw, out.primitives, workers);
   }
+  EmittedPrimitives& all = out.primitives;
+  if (draw.kernels.gives_layer)
+    out.parts = split_primitives(all, split_options(draw, layers), workers);
+  else
+    out.parts.push_back({0, 0, std::exchange(all.indices, {}), std::exchange(all.numbers, {}), std::exchange(all.instances, {})});
+  out.indices.resize(out.parts.size());
+  workers.for_each(static_cast<int>(out.parts.size()), [&](int i) {
+    const auto part = static_cast<std::size_t>(i);
+    out.indices[part] = std::make_shared<const Indices>(std::span<const uint32_t>(out.parts[part].indices), all.vertex_count());
+  });
   return out;
 }
 
@@ -76,34 +95,49 @@ void EmittedDraws::set_layer(int layer) {
   for (std::size_t i = 0; i < sources_.size(); ++i) {
     const Draw& source = sources_[i];
     if (source.kernels.emitting != nullptr) {
-      for (const PrimitivePart& part : emitted_[i].parts) {
-        if (part.layer == layer && !part.indices.empty()) add_part(source, emitted_[i].primitives, part);
+      const Emitted& emitted = emitted_[i];
+      for (const InstanceRun& run : emitted.runs) {
+        if (run.to.layer == layer) add_instances(source, run);
+      }
+      for (std::size_t part = 0; part < emitted.parts.size(); ++part) {
+        if (emitted.parts[part].layer == layer && !emitted.parts[part].indices.empty()) add_part(source, emitted, part);
       }
     } else if (layer == 0 || source.is_clear) {
-      context_.draws.push_back(draw_like(source, source.indices, source.vertices, source.state, source));
+      context_.draws.push_back(draw_like(source, source.kernels, source.indices, source.vertices, source.state, source));
     }
   }
 }
 
-void EmittedDraws::add_part(const Draw& source, const EmittedPrimitives& primitives, const PrimitivePart& part) {
-  DrawState state = source.state;
-  state.topology = primitives.topology;
-  state.base_vertex = 0;
-  state.instances = 1;
+void EmittedDraws::add_draw(const Draw& source, const ShaderKernels& kernels, std::shared_ptr<const Indices> indices,
+                            const VertexStreams& vertices, DrawState state, int32_t viewport) {
   if (state.viewports != nullptr) {
-    const IndexedViewport& v = (*state.viewports)[static_cast<std::size_t>(part.viewport)];
+    const IndexedViewport& v = (*state.viewports)[static_cast<std::size_t>(viewport)];
     state.viewport = v.viewport;
     state.scissor = v.scissor;
     state.depth.range_near = v.range_near;
     state.depth.range_far = v.range_far;
   }
-  std::pmr::memory_resource& memory = *context_.arena;
-  const std::array<VertexStream, 3>& streams = keep(streams_of(primitives, source.kernels), memory);
-  context_.draws.push_back(draw_like(source, std::make_shared<const Indices>(std::span(part.indices), primitives.vertex_count()),
-                                     {streams, false, false}, keep(state, memory),
+  context_.draws.push_back(draw_like(source, kernels, std::move(indices), vertices, keep(state, *context_.arena),
                                      place_draw(state, context_, attachments_, supersample_)));
+  context_.draws.back().is_emitted = true;
+}
+
+void EmittedDraws::add_instances(const Draw& source, const InstanceRun& run) {
+  DrawState state = source.state;
+  state.instances = run.count;
+  add_draw(source, *source.kernels.one_layer, source.indices, source.vertices, state, run.to.viewport);
+  context_.draws.back().first_instance = run.first;
+}
+
+void EmittedDraws::add_part(const Draw& source, const Emitted& emitted, std::size_t number) {
+  const PrimitivePart& part = emitted.parts[number];
+  DrawState state = source.state;
+  state.topology = emitted.primitives.topology;
+  state.base_vertex = 0;
+  state.instances = 1;
+  const std::array<VertexStream, 3>& streams = keep(streams_of(emitted.primitives, source.kernels), *context_.arena);
+  add_draw(source, source.kernels, emitted.indices[number], {streams, false, false}, state, part.viewport);
   Draw& d = context_.draws.back();
-  d.is_emitted = true;
   d.primitive_numbers = part.numbers.data();
   d.primitive_instances = part.instances.data();
 }

@@ -3,6 +3,7 @@
 // The draws of a pass with emitting stages or layers, layer by layer. Draws with emitting stages become draws of what these emit.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "halfspace/raster/amplify/emitted_primitives.h"
@@ -23,13 +24,20 @@ class EmittedDraws {
   void set_layer(int layer);
 
  private:
+  // What a draw has emitted: runs of instances, or primitives.
   struct Emitted {
+    std::vector<InstanceRun> runs;
     EmittedPrimitives primitives;
     std::vector<PrimitivePart> parts;
+    std::vector<std::shared_ptr<const Indices>> indices;  // of each part
   };
 
+  SplitOptions split_options(const Draw& draw, int layers) const;
   Emitted emit(const Draw& draw, int layers, const Workers& workers, PassStatistics& statistics) const;
-  void add_part(const Draw& source, const EmittedPrimitives& primitives, const PrimitivePart& part);
+  void add_draw(const Draw& source, const ShaderKernels& kernels, std::shared_ptr<const Indices> indices, const VertexStreams& vertices,
+                DrawState state, int32_t viewport);
+  void add_instances(const Draw& source, const InstanceRun& run);
+  void add_part(const Draw& source, const Emitted& emitted, std::size_t part);
 
   PassContext& context_;
   const Attachments& attachments_;

@@ -43,24 +43,22 @@ inline constexpr EmittingStages kEmittingStages = [] {
   constexpr bool only_layers = !HasTessellationLayout<S> && !HasGeometryLayout<S>;
   constexpr VertexOutput output = only_layers ? VertexOutput::whole_row : VertexOutput::varyings;
   constexpr std::size_t extra = only_layers ? kExtraValues<VertexOf<S>> : 0;
-  EmittingStages stages{vertex_kernel<S, output>, static_cast<int>(extra + kComponents<VertexVaryingsOf<S, float>>), nullptr, nullptr};
+  EmittingStages stages{vertex_kernel<S, output>, static_cast<int>(extra + kComponents<VertexVaryingsOf<S, float>>), nullptr, nullptr,
+                        nullptr};
+  if constexpr (only_layers && kGivesLayer<S>) stages.layer = vertex_kernel<S, VertexOutput::layer>;
   if constexpr (HasTessellationLayout<S>) stages.tessellation = &kTessellationStage<S>;
   if constexpr (HasGeometryLayout<S>) stages.geometry = &kGeometryStage<S>;
   return stages;
 }();
 
-/// Returns the kernels of a shader. Kernels for functions that do not exist, or that the draw ignores, are null.
+/// Returns the kernels of a shader without emitting stages. Kernels for functions that do not exist, or that the draw ignores, are null.
 template <class S, DrawKind kind>
-constexpr ShaderKernels kernels_of() {
+constexpr ShaderKernels drawing_kernels() {
   using V = typename S::template Varyings<float>;
   // Do not compute varyings that no function reads.
   constexpr bool has_varyings = kind == DrawKind::color || HasVisibilityFunction<S>;
   ShaderKernels k;
-  if constexpr (kEmitsPrimitives<S>) {
-    k.emitting = &kEmittingStages<S>;
-    k.vertex = copy_emitted_vertices;
-    if constexpr (HasTessellationLayout<S>) k.patch_vertices = S::tessellation_layout.patch_vertices;
-  } else {
+  if constexpr (!HasTessellationLayout<S> && !HasGeometryLayout<S>) {
     constexpr VertexOutput output = has_varyings ? VertexOutput::all : VertexOutput::all_but_varyings;
     k.vertex = vertex_kernel<S, output>;
   }
@@ -106,7 +104,19 @@ constexpr ShaderKernels kernels_of() {
   return k;
 }
 template <class S, DrawKind kind>
-inline constexpr ShaderKernels kKernels = kernels_of<S, kind>();
+inline constexpr ShaderKernels kDrawingKernels = drawing_kernels<S, kind>();
+/// All kernels of a shader.
+template <class S, DrawKind kind>
+inline constexpr ShaderKernels kKernels = [] {
+  ShaderKernels k = kDrawingKernels<S, kind>;
+  if constexpr (kEmitsPrimitives<S>) {
+    k.emitting = &kEmittingStages<S>;
+    if constexpr (kEmittingStages<S>.layer != nullptr) k.one_layer = &kDrawingKernels<S, kind>;
+    k.vertex = copy_emitted_vertices;
+    if constexpr (HasTessellationLayout<S>) k.patch_vertices = S::tessellation_layout.patch_vertices;
+  }
+  return k;
+}();
 
 /// Copies the shader to memory that outlives the call.
 template <class S>

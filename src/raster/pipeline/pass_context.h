@@ -25,6 +25,9 @@ struct VisibilityBatch;
 struct ShaderKernels {
   /// Stages that emit primitives, or null. They run before all others, and the vertex kernel copies the vertices that they have emitted.
   const EmittingStages* emitting = nullptr;
+  /// If these stages are only a vertex function that chooses the layer: the kernels of its instances of which all vertices have the same
+  /// one.
+  const ShaderKernels* one_layer = nullptr;
   int patch_vertices = 0;  ///< of Topology::patches
   void (*vertex)(const void* shader, const VertexBatch&) = nullptr;
   void (*primitive)(const void* shader, const PrimitiveBatch&) = nullptr;    ///< null: no primitive stage
@@ -92,7 +95,7 @@ struct Draw : DrawPlacement {
 
   // These are set when the draw is added.
   bool is_clear = false;      ///< applies to all layers
-  bool is_emitted = false;    ///< the vertices are those that the emitting stages have emitted
+  bool is_emitted = false;    ///< by the emitting stages of another draw, which have counted their vertices
   bool deferred = false;      ///< shaded after visibility, once per visible pixel; otherwise shaded immediately, in order
   bool writes_color = false;  ///< writes any channel of any attachment
   /// Order-independent draws with the same number are sorted together: the number of preceding draws that write color in another way.
@@ -101,8 +104,9 @@ struct Draw : DrawPlacement {
   std::size_t vertex_count = 0;  ///< vertices used by the indices, for all instances
   uint32_t primitive_count = 0;  ///< per instance
   std::vector<IndexRun> runs{};  ///< runs with at least one primitive; empty if there are no restarts
+  uint32_t first_instance = 0;   ///< number of the first instance, for the shader and its streams
 
-  /// If is_emitted: the number and the instance of the submitted primitive that each primitive comes from.
+  /// Null, or, if is_emitted: the number and the instance of the submitted primitive that each primitive comes from.
   const int32_t* primitive_numbers = nullptr;
   const int32_t* primitive_instances = nullptr;
 

@@ -236,7 +236,7 @@ struct DrawRange {
 /// Up to a few thousand submitted primitives on their way through clipping, setup and binning. Written by one task, then only read.
 struct Chunk {
   std::vector<DrawRange> ranges;
-  std::vector<Triangle, DefaultInitAllocator<Triangle>> triangles;
+  DefaultInitVector<Triangle> triangles;
   std::vector<ClipVertex> clip_vertices;
   std::vector<float> clip_varyings;
   /// Number, in its draw, of the primitive from which each triangle was created. Only set for the triangles of draws for which

@@ -35,8 +35,10 @@ void write_ids(const PassContext& context, const Chunk& chunk, const DrawRange& 
   const DrawState& state = draw.state;
   const bool has_second = !draws_points(state), has_third = has_second && !is_lines(state.topology);
   for_each_triangle(context, chunk, range, end, [&](uint32_t primitive, const std::array<uint32_t, 3>& vertex) {
-    row[kIdPrimitive] = draw.is_emitted ? std::bit_cast<float>(draw.primitive_numbers[primitive]) : std::bit_cast<float>(primitive);
-    row[kIdInstance] = draw.is_emitted ? std::bit_cast<float>(draw.primitive_instances[primitive]) : std::bit_cast<float>(range.instance);
+    const bool is_listed = draw.primitive_numbers != nullptr;
+    row[kIdPrimitive] = is_listed ? std::bit_cast<float>(draw.primitive_numbers[primitive]) : std::bit_cast<float>(primitive);
+    row[kIdInstance] =
+        is_listed ? std::bit_cast<float>(draw.primitive_instances[primitive]) : std::bit_cast<float>(draw.first_instance + range.instance);
     row[kIdSecond] = std::bit_cast<float>(has_second ? vertex[1] : kNoSlot);
     row[kIdThird] = std::bit_cast<float>(has_third ? vertex[2] : kNoSlot);
     row += kIdRow;

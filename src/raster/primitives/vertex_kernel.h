@@ -68,11 +68,22 @@ HS_INLINE void store_extra(const PointSpriteVertex<Real>& v, float* rows) {
   store(rows + 3 * kVertexBatch, v.high.y);
 }
 
+template <std::size_t N, std::size_t M>
+HS_INLINE void store_extra(const LayeredVertex<Real, N, M>& v, float* rows) {
+  store_extra(PerVertex<Real, N, M>{v.position, v.point_size, v.clip_distance, v.cull_distance}, rows);
+}
+template <std::size_t N, std::size_t M>
+HS_INLINE void store_layer(const LayeredVertex<Real, N, M>& v, float* rows) {
+  store(rows, as_real(v.layer));
+  store(rows + kVertexBatch, as_real(v.viewport));
+}
+
 /// Outputs of a vertex kernel. The others are the point size, distances or point sprite that the vertex function returns.
 enum class VertexOutput : uint8_t {
   varyings,          ///< position and varyings
   all_but_varyings,  ///< position and others
   all,
+  layer,     ///< position, and the layer and the viewport in two rows of VertexBatch::extra
   whole_row  ///< the position, and a row of the other values of an EmittedStrips instead of the varyings
 };
 
@@ -95,7 +106,7 @@ HS_INLINE auto vertex_values(const Vertex& vertex, const V& varyings) {
 template <class S, VertexOutput output>
 HS_FLATTEN void vertex_kernel(const void* shader, const VertexBatch& batch) {
   constexpr bool with_extra = output == VertexOutput::all || output == VertexOutput::all_but_varyings;
-  constexpr bool with_varyings = output != VertexOutput::all_but_varyings;
+  constexpr bool with_varyings = output != VertexOutput::all_but_varyings && output != VertexOutput::layer;
   using Attributes = typename S::template Attributes<Real>;
   using Varyings = VertexVaryingsOf<S, Real>;
   const S& s = *static_cast<const S*>(shader);
@@ -113,6 +124,7 @@ HS_FLATTEN void vertex_kernel(const void* shader, const VertexBatch& batch) {
     if constexpr (with_extra && !std::is_same_v<std::remove_const_t<decltype(vertex)>, vec4<Real>>) {
       if (batch.extra != nullptr) store_extra(vertex, batch.extra + begin);
     }
+    if constexpr (output == VertexOutput::layer) store_layer(vertex, batch.extra + begin);
     if constexpr (with_varyings) {
       const auto values = vertex_values<output>(vertex, out);
       constexpr std::size_t n = std::tuple_size_v<std::remove_const_t<decltype(values)>>;

@@ -2,6 +2,7 @@
 #include "halfspace/raster/primitives/vertex_stage.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <utility>
@@ -116,16 +117,16 @@ void for_each_batch(VertexKernel kernel, const Draw& draw, std::size_t begin, st
   const std::size_t per_instance = draw.indices->used_count();
   StreamStorage storage;
   for (std::size_t b = begin; b < end;) {
-    const auto instance = static_cast<uint32_t>(b / per_instance);
+    const auto instance = static_cast<uint32_t>(b / per_instance), number = draw.first_instance + instance;
     const std::size_t local = b % per_instance;
     VertexBatch batch = outputs;
-    batch.streams = at_instance(draw.vertices, instance, storage);
+    batch.streams = at_instance(draw.vertices, number, storage);
     batch.ids = used.empty() ? nullptr : used.data() + local;
     batch.first = first + static_cast<uint32_t>(local);
     batch.count = static_cast<int>(std::min<std::size_t>(kVertexBatch, std::min(end - b, per_instance - local)));
     batch.slot_base = first - instance * slots;
     batch.base_vertex = draw.state.base_vertex;
-    batch.instance = static_cast<int32_t>(instance);
+    batch.instance = static_cast<int32_t>(number);
     b += static_cast<std::size_t>(batch.count);
     run_kernel(kernel, draw, batch);
     f(batch);
@@ -193,12 +194,13 @@ void allocate_vertices(const Draw& draw, ShadedVertices& out) {
 std::array<glm::vec4, 3> clip_positions(const Draw& draw, uint32_t instance, const std::array<uint32_t, 3>& index) {
   alignas(64) std::array<float, 4 * kVertexBatch> rows;
   StreamStorage storage;
+  const uint32_t number = draw.first_instance + instance;
   run_kernel(draw.kernels.vertex, draw,
-             {.streams = at_instance(draw.vertices, instance, storage),
+             {.streams = at_instance(draw.vertices, number, storage),
               .ids = index.data(),
               .count = 3,
               .base_vertex = draw.state.base_vertex,
-              .instance = static_cast<int32_t>(instance),
+              .instance = static_cast<int32_t>(number),
               .clip = rows.data()});
   std::array<glm::vec4, 3> out;
   for (std::size_t i = 0; i < 3; ++i) out[i] = {rows[i], rows[kVertexBatch + i], rows[2 * kVertexBatch + i], rows[3 * kVertexBatch + i]};
@@ -256,6 +258,23 @@ void shade_clip_vertices(const Draw& draw, VertexKernel kernel, std::size_t begi
       out.positions[slot_of(batch, i)] = {p[0], p[kVertexBatch], p[2 * kVertexBatch], p[3 * kVertexBatch]};
     }
   });
+}
+
+std::optional<Destination> common_destination(const Draw& draw, VertexKernel kernel, uint32_t instance) {
+  alignas(64) std::array<float, 4 * kVertexBatch> clip;
+  alignas(64) std::array<float, 2 * kVertexBatch> extra;
+  const std::size_t used = draw.indices->used_count(), begin = instance * used;
+  const VertexBatch outputs{.varyings = nullptr, .clip = clip.data(), .extra = extra.data()};
+  std::optional<Destination> common;
+  bool is_common = used != 0;
+  for_each_batch(kernel, draw, begin, begin + used, 0, outputs, [&](const VertexBatch& batch) {
+    for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) {
+      const Destination d{std::bit_cast<int32_t>(extra[i]), std::bit_cast<int32_t>(extra[kVertexBatch + i])};
+      if (!common) common = d;
+      is_common &= d == *common;
+    }
+  });
+  return is_common ? common : std::nullopt;
 }
 
 }  // namespace halfspace::HS_LANES

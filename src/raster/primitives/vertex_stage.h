@@ -4,6 +4,8 @@
 // 1/256 px, outcodes and varyings. Each vertex that an instance uses is shaded once.
 #pragma once
 
+#include <optional>
+
 #include "halfspace/raster/pipeline/pass_context.h"
 
 namespace halfspace::HS_LANES {
@@ -30,6 +32,14 @@ std::size_t shaded_bytes(const Draw& draw);
 
 /// Allocates memory for all vertices that the draw uses.
 void allocate_vertices(const Draw& draw, ShadedVertices& out);
+
+/// What a vertex sends its primitive to.
+struct Destination {
+  int32_t layer, viewport;
+  friend bool operator==(const Destination&, const Destination&) = default;
+};
+/// Runs a kernel with VertexOutput::layer for an instance. Returns the layer and the viewport of its vertices if they are all the same.
+std::optional<Destination> common_destination(const Draw& draw, VertexKernel kernel, uint32_t instance);
 
 /// Runs the vertex function for three vertices of an instance and returns their clip-space positions. index: as in the index list of the
 /// draw.

@@ -17,9 +17,9 @@ struct AnyTexture {
 };
 
 /// A lookup in layer 0 of a texture, for any sampler.
-template <class R>
+template <class R, class Texels>
 struct AnyLookup {
-  const detail::TextureLookup<R, detail::AllChannels<R>>& lookup;
+  const detail::TextureLookup<R, Texels>& lookup;
 
   HS_INLINE vec4<R> operator()(const vec2<R>& uv, const detail::LevelChoice<R>& levels) const {
     return lookup(detail::LevelPlace<R>{vec3<R>(uv, R(0.0f)), IntOf<R>(0)}, levels);
@@ -28,11 +28,11 @@ struct AnyLookup {
 };
 
 /// Not inlined, so that common lookups do not pay for its variables.
-template <class R, class Function>
+template <class R, class Texels, class Function>
 __attribute__((noinline)) vec4<R> with_any_lookup(const AnyTexture& texture, const Sampler& sampler, const Function& function) {
-  const detail::AllChannels<R> texels;
-  const detail::TextureLookup<R, detail::AllChannels<R>> lookup{texture.base, texture.table, sampler, texels};
-  return function(AnyLookup<R>{lookup});
+  const Texels texels;
+  const detail::TextureLookup<R, Texels> lookup{texture.base, texture.table, sampler, texels};
+  return function(AnyLookup<R, Texels>{lookup});
 }
 
 }  // namespace
@@ -49,7 +49,12 @@ HS_INLINE vec4<R> Texture2D::with_lookup(const Sampler& sampler, const Function&
       default: return function(CommonLookup<vec4<R>, TexelFormat::srgb8a8, R>{*this, sampler});
     }
   }
-  return with_any_lookup<R>({reinterpret_cast<const std::byte*>(texels_.data()), table_}, sampler, function);
+  const AnyTexture any{reinterpret_cast<const std::byte*>(texels_.data()), table_};
+  switch (format_) {
+    case TexelFormat::rgba8: return with_any_lookup<R, detail::FourBytes<R, TexelFormat::rgba8>>(any, sampler, function);
+    case TexelFormat::srgb8a8: return with_any_lookup<R, detail::FourBytes<R, TexelFormat::srgb8a8>>(any, sampler, function);
+    default: return with_any_lookup<R, detail::AllChannels<R>>(any, sampler, function);
+  }
 }
 
 template <class R>

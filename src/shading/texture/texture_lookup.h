@@ -111,13 +111,14 @@ struct TextureLookup {
 
   HS_INLINE TexelReader<R> reader(const TextureLevel& level) const { return {table.format, base + level.offset}; }
 
-  Value texel(const TexelReader<R>& from, I index, MaskOf<R> inside) const {
+  HS_INLINE Value texel(const TexelReader<R>& from, I index, MaskOf<R> inside) const {
     const Value v = texels(from, index);
     return has_border ? select(inside, texels.to_linear(from, v), border) : v;
   }
 
   /// Filters within a layer. layer: the index of its first texel.
-  Value in_layer(const TextureLevel& l, const AxisTaps<R>& x, const AxisTaps<R>& y, I layer, MaskOf<R> inside, bool single) const {
+  HS_INLINE Value in_layer(const TextureLevel& l, const AxisTaps<R>& x, const AxisTaps<R>& y, I layer, MaskOf<R> inside,
+                           bool single) const {
     const TexelReader<R> from = reader(l);
     const I row0 = layer + y.first * I(l.row_pitch), row1 = layer + y.second * I(l.row_pitch);
     const I column0 = x.first * I(stride), column1 = x.second * I(stride);
@@ -168,11 +169,22 @@ struct TextureLookup {
   }
   HS_INLINE static I cube_face_of(I layer) { return layer - truncate_to_int((to_real<R>(layer) + R(0.5f)) * R(1.0f / 6.0f)) * I(6); }
 
+  /// Reads the nearest texel of one level. Not for cubes and volumes.
+  HS_INLINE Value nearest_texel(const TextureLevel& l, const LevelPlace<R>& at) const {
+    const TexelAxis columns = axis_of(l.width, sampler.wrap_s),
+                    rows = axis_of(l.height, has_rows(table.kind) ? sampler.wrap_t : Wrap::clamp);
+    const I x = texel_at(wrapped_at(at.st.x, columns, offset.x), columns), y = texel_at(wrapped_at(at.st.y, rows, offset.y), rows);
+    const I index = at.layer * I(l.layer_pitch) + clamped_index<R>(y, l.height) * I(l.row_pitch) + clamped_index<R>(x, l.width) * I(stride);
+    const auto inside = [](I i, const TexelAxis& axis) { return axis.wrap == Wrap::border ? is_inside<R>(i, axis.size) : MaskOf<R>(true); };
+    return texel(reader(l), index, inside(x, columns) && inside(y, rows));
+  }
+
   /// Filters one level, linearly or to the nearest texel.
   Value filter(const LevelPlace<R>& at, int level, MaskOf<R> nearest) const {
     const TextureLevel& l = table.level[static_cast<std::size_t>(level)];
     const bool single = all(nearest);
     if (is_cube(table.kind)) return in_cube(l, at, nearest, single);
+    if (single && table.kind != TextureKind::three_d) return nearest_texel(l, at);
     const AxisTaps<R> x = taps_at(at.st.x, axis_of(l.width, sampler.wrap_s), offset.x, nearest),
                       y = taps_at(at.st.y, axis_of(l.height, has_rows(table.kind) ? sampler.wrap_t : Wrap::clamp), offset.y, nearest);
     const I pitch(l.layer_pitch);
@@ -205,6 +217,15 @@ struct AllChannels {
   using Value = vec4<R>;
   Value operator()(const TexelReader<R>& from, IntOf<R> i) const { return from(i); }
   HS_INLINE Value to_linear(const TexelReader<R>& from, const Value& v) const { return from.to_linear(v); }
+  HS_INLINE Value border(const glm::vec4& color) const { return {R(color.x), R(color.y), R(color.z), R(color.w)}; }
+};
+
+/// Reads all channels of an 8-bit format, which is known at compile time.
+template <class R, TexelFormat format>
+struct FourBytes {
+  using Value = vec4<R>;
+  HS_INLINE Value operator()(const TexelReader<R>& from, IntOf<R> i) const { return decode_rgba8<Value, format, R>(from.word(i)); }
+  HS_INLINE Value to_linear(const TexelReader<R>&, const Value& v) const { return rgba8_to_linear<format>(v); }
   HS_INLINE Value border(const glm::vec4& color) const { return {R(color.x), R(color.y), R(color.z), R(color.w)}; }
 };
 
