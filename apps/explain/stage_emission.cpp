@@ -40,9 +40,8 @@ std::vector<StageEmission> stage_emissions(const PreparedScene& scene, const Wor
       const EmittingStages* const stages = draws[i].kernels.emitting;
       if (stages == nullptr || stages->geometry == nullptr) continue;
       PassStatistics statistics;
-      EmittedPrimitives received = emit_vertices(draws[i], stages->vertex, stages->varying_count, workers);
-      assemble_primitives(draws[i], received, workers);
-      out.push_back({static_cast<uint32_t>(i), std::move(received), emit_primitives(draws[i], workers, statistics)});
+      out.push_back({static_cast<uint32_t>(i), assemble_primitives(draws[i], stages->vertex, stages->varying_count, workers),
+                     emit_primitives(draws[i], workers, statistics)});
     }
     return PassStatistics{};
   });

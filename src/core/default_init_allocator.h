@@ -4,7 +4,6 @@
 #include <memory>
 #include <new>
 #include <utility>
-#include <vector>
 
 #include "halfspace/core/namespace.h"
 
@@ -31,8 +30,5 @@ struct DefaultInitAllocator : std::allocator<T> {
     }
   }
 };
-
-template <class T>
-using DefaultInitVector = std::vector<T, DefaultInitAllocator<T>>;
 
 }  // namespace halfspace::HS_LANES

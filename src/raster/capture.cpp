@@ -20,10 +20,8 @@ EmittedPrimitives capture_primitives(const ShaderKernels& kernels, KeptShader sh
   draw.vertex_count = draw.indices->used_count() * state.instances;
   count_primitives(draw);
   PassStatistics statistics;
-  if (kernels.emitting != nullptr) return emit_primitives(draw, workers, statistics);
-  EmittedPrimitives primitives = emit_vertices(draw, kernels.vertex, kernels.varying_count, workers);
-  assemble_primitives(draw, primitives, workers);
-  return primitives;
+  return kernels.emitting != nullptr ? emit_primitives(draw, workers, statistics)
+                                     : assemble_primitives(draw, kernels.vertex, kernels.varying_count, workers);
 }
 
 }  // namespace halfspace::HS_LANES::detail

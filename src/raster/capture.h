@@ -36,7 +36,7 @@ namespace detail {
 template <class S>
 inline constexpr ShaderKernels kCaptureKernels = [] {
   ShaderKernels k;
-  if constexpr (kEmitsPrimitives<S>) {
+  if constexpr (HasTessellationLayout<S> || HasGeometryLayout<S>) {
     k.emitting = &kEmittingStages<S>;
     if constexpr (HasTessellationLayout<S>) k.patch_vertices = S::tessellation_layout.patch_vertices;
   } else {

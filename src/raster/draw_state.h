@@ -237,8 +237,8 @@ struct IndexedViewport {
   std::optional<Rect> scissor{};           ///< default: no scissor test
   float range_near = 0.0f, range_far = 1.0f;
 };
-/// The viewports of a draw: 1 to kMaxViewports. If the pixels that two of them can change overlap, each change of the viewport from one
-/// primitive to the next costs as much as a draw.
+/// The viewports of a draw: 1 to kMaxViewports. Each change of the viewport from one instance to the next costs as much as a draw, and each
+/// change from one primitive to the next, if the pixels that two viewports can change overlap.
 using ViewportArray = std::vector<IndexedViewport>;
 inline constexpr std::size_t kMaxViewports = 16;
 

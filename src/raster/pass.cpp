@@ -161,6 +161,7 @@ void PassState::add_draw(const ShaderKernels& kernels, KeptShader shader, const 
   const DrawState& kept = equal != nullptr ? equal->state : keep(state, memory());
   Draw& d = context_.draws.emplace_back(kernels, std::move(shader), std::move(indices),
                                         keep_streams(vertices, state.base_instance, memory()), kept, placement);
+  d.number = static_cast<uint32_t>(context_.draws.size() - 1);
   d.vertex_count = d.indices->used_count() * state.instances;
   count_primitives(d);
   if (state.clusters) check_clusters(d);

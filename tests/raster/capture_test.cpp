@@ -30,6 +30,14 @@ struct MovedShader {
 };
 using Moved = MovedShader::Varyings<float>;
 
+// The same with a layer, which a capture does not contain.
+struct LayeredShader : MovedShader {
+  template <class R>
+  LayeredVertex<R, 1> vertex(const Attributes<R>& in, const VertexId<R>& id, Varyings<R>& out) const {
+    return {.position = MovedShader::vertex(in, id, out), .layer = id.vertex, .clip_distance = {R(1)}};
+  }
+};
+
 // Draws what was captured of MovedShader.
 struct CapturedShader {
   template <class R>
@@ -88,6 +96,20 @@ TEST(Capture, ReturnsPositionsAndVaryingsOfTheVertexFunction) {
 }
 
 // OpenGL 4.6, section 13.3.2 and table 13.2: strips, loops and fans become lists.
+TEST(Capture, LayersHaveNoEffect) {
+  Random random(4);
+  const Vertices v = random_vertices(random, 30);
+  const DrawState state{.instances = 2};
+  const auto captured = capture(LayeredShader{}, v.view(), two_workers(), state);
+  const auto expected = capture(MovedShader{}, v.view(), one_worker(), state);
+  EXPECT_EQ(captured.positions, expected.positions);
+  ASSERT_EQ(captured.varyings.size(), 60u);
+  for (std::size_t i = 0; i < 60; ++i) {
+    EXPECT_EQ(captured.varyings[i].color, expected.varyings[i].color);
+    EXPECT_EQ(captured.varyings[i].vertex.value, expected.varyings[i].vertex.value);
+  }
+}
+
 TEST(Capture, ResolvesStripsLoopsAndFans) {
   Random random(4);
   const Vertices v = random_vertices(random, 8);

@@ -2,7 +2,7 @@
 #include "halfspace/raster/amplify/emit_primitives.h"
 
 #include <algorithm>
-#include <cstring>
+#include <span>
 
 #include "halfspace/raster/amplify/emitting_stages.h"
 #include "halfspace/raster/amplify/run_geometry.h"
@@ -14,7 +14,6 @@ namespace halfspace::HS_LANES {
 
 namespace {
 
-constexpr std::size_t kVerticesPerTask = 8 * kVertexBatch;
 constexpr std::size_t kPrimitivesPerTask = 128;  // so that what a task emits is usually smaller than what malloc maps anew
 constexpr std::size_t kAssembledPerTask = 4096;
 constexpr std::size_t kPatchesPerTask = 16;  // a patch can be divided into 8192 triangles
@@ -32,8 +31,8 @@ ClipVertices shade_all_vertices(const Draw& draw, VertexKernel kernel, int varyi
 
 // Vertices, numbers and instances of some primitives.
 struct PrimitiveList {
-  DefaultInitVector<uint32_t> slots;
-  DefaultInitVector<int32_t> primitives, instances;
+  CacheLineVector<uint32_t> slots;
+  CacheLineVector<int32_t> primitives, instances;
 
   PrimitiveRows rows(const VertexRows& vertices) const {
     return {vertices, slots.data(), primitives.data(), instances.data(), static_cast<int>(primitives.size())};
@@ -124,6 +123,25 @@ Topology list_topology(Topology t) {
   return is_lines(t) ? Topology::lines : Topology::triangles;
 }
 
+// Returns a row for each slot, with the position before the other values. Rows that no index refers to are uninitialized.
+CacheLineVector<float> rows_by_slot(const Draw& draw, VertexKernel kernel, std::size_t values, const Workers& workers) {
+  const ClipVertices vertices = shade_all_vertices(draw, kernel, static_cast<int>(values), workers);
+  const std::size_t per_instance = draw.indices->used_count(), row = 4 + values;
+  const std::span<const uint32_t> used = draw.indices->used();
+  CacheLineVector<float> rows(std::size_t{vertices.count} * draw.state.instances * row);
+  workers.for_each(static_cast<int>((draw.vertex_count + kVerticesPerTask - 1) / kVerticesPerTask), [&](int task) {
+    const std::size_t begin = static_cast<std::size_t>(task) * kVerticesPerTask;
+    for (std::size_t i = begin; i < std::min(begin + kVerticesPerTask, draw.vertex_count); ++i) {
+      const std::size_t place = i % per_instance;
+      const std::size_t slot = i / per_instance * vertices.count + (used.empty() ? place : used[place] - vertices.first);
+      float* const to = rows.data() + slot * row;
+      std::copy_n(&vertices.positions[slot].x, 4, to);
+      std::copy_n(vertices.varyings.get() + slot * values, values, to + 4);
+    }
+  });
+  return rows;
+}
+
 }  // namespace
 
 EmittedPrimitives emit_primitives(const Draw& draw, const Workers& workers, PassStatistics& statistics) {
@@ -144,35 +162,20 @@ EmittedPrimitives emit_primitives(const Draw& draw, const Workers& workers, Pass
   return emit_from_patches(draw, divided, workers);
 }
 
-EmittedPrimitives emit_vertices(const Draw& draw, VertexKernel kernel, int values, const Workers& workers) {
-  const ClipVertices vertices = shade_all_vertices(draw, kernel, values, workers);
-  const std::size_t count = std::size_t{vertices.count} * draw.state.instances, others = static_cast<std::size_t>(values), row = 4 + others;
-  EmittedPrimitives out = no_primitives(row, list_topology(draw.state.topology));
-  out.rows.resize(count * row);
-  workers.for_each(static_cast<int>((count + kVerticesPerTask - 1) / kVerticesPerTask), [&](int task) {
-    const std::size_t begin = static_cast<std::size_t>(task) * kVerticesPerTask;
-    for (std::size_t slot = begin; slot < std::min(begin + kVerticesPerTask, count); ++slot) {
-      // Not assignments, because slots without an index are uninitialized.
-      std::memcpy(&out.rows[slot * row], &vertices.positions[slot], 4 * sizeof(float));
-      std::memcpy(&out.rows[slot * row] + 4, vertices.varyings.get() + slot * others, others * sizeof(float));
-    }
-  });
-  return out;
-}
-
-void assemble_primitives(const Draw& draw, EmittedPrimitives& vertices, const Workers& workers) {
-  EmittedPrimitives primitives = emit_in_parts(
-      workers, primitives_in(draw), kAssembledPerTask, vertices.row, vertices.topology, [&](std::size_t begin, std::size_t end) {
-        EmittedPrimitives out = no_primitives(vertices.row, vertices.topology);
+EmittedPrimitives assemble_primitives(const Draw& draw, VertexKernel kernel, int values, const Workers& workers) {
+  const std::size_t row = 4 + static_cast<std::size_t>(values);
+  const Topology topology = list_topology(draw.state.topology);
+  EmittedPrimitives all =
+      emit_in_parts(workers, primitives_in(draw), kAssembledPerTask, row, topology, [&](std::size_t begin, std::size_t end) {
+        EmittedPrimitives out = no_primitives(row, topology);
         PrimitiveList list = primitives_of(draw, out.vertices_per_primitive(), begin, end, [](Assembly& a) { return a.next(); });
         out.indices = std::move(list.slots);
         out.numbers = std::move(list.primitives);
         out.instances = std::move(list.instances);
         return out;
       });
-  vertices.indices = std::move(primitives.indices);
-  vertices.numbers = std::move(primitives.numbers);
-  vertices.instances = std::move(primitives.instances);
+  all.rows = rows_by_slot(draw, kernel, static_cast<std::size_t>(values), workers);
+  return all;
 }
 
 std::array<VertexStream, 3> streams_of(const EmittedPrimitives& primitives, const ShaderKernels& kernels) {

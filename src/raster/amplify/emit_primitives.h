@@ -15,15 +15,12 @@
 
 namespace halfspace::HS_LANES {
 
-/// Runs the vertex function of a draw, tessellation and the geometry function, of which it has at least one, for all its primitives. Adds
-/// to the counters of the latter two.
+/// Runs the vertex function of a draw, and tessellation, the geometry function or both. Adds to the counters of these two.
 EmittedPrimitives emit_primitives(const Draw& draw, const Workers& workers, PassStatistics& statistics);
 
-/// Runs a vertex kernel for a draw. Returns its vertices without primitives, in the order of their slots (ShadedVertices). A row has a
-/// position and the values of the kernel; rows that no index refers to are uninitialized.
-EmittedPrimitives emit_vertices(const Draw& draw, VertexKernel kernel, int values, const Workers& workers);
-/// Adds the primitives of the draw to its vertices. Vertices that several primitives share remain shared.
-void assemble_primitives(const Draw& draw, EmittedPrimitives& vertices, const Workers& workers);
+/// Runs a vertex kernel for a draw, and assembles its primitives. A row has a position and the values of the kernel. Vertices that several
+/// primitives share remain shared.
+EmittedPrimitives assemble_primitives(const Draw& draw, VertexKernel kernel, int values, const Workers& workers);
 
 /// Returns the streams of emitted vertices for copy_emitted_vertices() (emitting_stages.h): positions, other values and varyings. The rows
 /// must stay valid.

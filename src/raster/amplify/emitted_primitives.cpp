@@ -13,7 +13,7 @@ struct Place {
 };
 
 template <class T>
-void copy_to(DefaultInitVector<T>& to, std::size_t begin, const DefaultInitVector<T>& from) {
+void copy_to(CacheLineVector<T>& to, std::size_t begin, const CacheLineVector<T>& from) {
   std::ranges::copy(from, to.begin() + static_cast<std::ptrdiff_t>(begin));
 }
 
@@ -27,12 +27,12 @@ EmittedPrimitives joined(std::vector<EmittedPrimitives> parts, std::size_t row, 
     end = {end.value + p.rows.size(), end.index + p.indices.size(), end.primitive + p.numbers.size()};
   }
   HS_CHECK_OP(end.value / row, <, std::size_t{1} << 32, "Pass::run: the stages of a draw emit too many vertices; expected fewer than 2^32");
-  EmittedPrimitives all{.rows = DefaultInitVector<float>(end.value),
+  EmittedPrimitives all{.rows = CacheLineVector<float>(end.value),
                         .row = row,
                         .topology = topology,
-                        .indices = DefaultInitVector<uint32_t>(end.index),
-                        .numbers = DefaultInitVector<int32_t>(end.primitive),
-                        .instances = DefaultInitVector<int32_t>(end.primitive)};
+                        .indices = CacheLineVector<uint32_t>(end.index),
+                        .numbers = CacheLineVector<int32_t>(end.primitive),
+                        .instances = CacheLineVector<int32_t>(end.primitive)};
   workers.for_each(static_cast<int>(parts.size()), [&](int i) {
     const EmittedPrimitives part = std::move(parts[static_cast<std::size_t>(i)]);
     const Place& place = places[static_cast<std::size_t>(i)];

@@ -6,18 +6,18 @@
 #include <algorithm>
 #include <vector>
 
-#include "halfspace/core/default_init_allocator.h"
+#include "halfspace/core/cache_line_allocator.h"
 #include "halfspace/core/parallel.h"
 #include "halfspace/raster/draw_state.h"
 
 namespace halfspace::HS_LANES {
 
 struct EmittedPrimitives {
-  DefaultInitVector<float> rows;                  ///< one row per vertex, as in EmittedStrips
-  std::size_t row = 0;                            ///< values per row
-  Topology topology = Topology::points;           ///< points, lines or triangles
-  DefaultInitVector<uint32_t> indices;            ///< one, two or three per primitive
-  DefaultInitVector<int32_t> numbers, instances;  ///< of the submitted primitive or patch that each primitive comes from
+  CacheLineVector<float> rows;                  ///< one row per vertex, as in EmittedStrips
+  std::size_t row = 0;                          ///< values per row
+  Topology topology = Topology::points;         ///< points, lines or triangles
+  CacheLineVector<uint32_t> indices;            ///< one, two or three per primitive
+  CacheLineVector<int32_t> numbers, instances;  ///< of the submitted primitive or patch that each primitive comes from
 
   std::size_t vertex_count() const { return rows.size() / row; }
   std::size_t vertices_per_primitive() const { return topology == Topology::points ? 1 : topology == Topology::lines ? 2 : 3; }

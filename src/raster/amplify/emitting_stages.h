@@ -35,7 +35,7 @@ struct PrimitiveRows {
 /// Strips of vertices that a geometry function has emitted. A vertex is a row of values: clip-space position, extra values if there are any
 /// (kExtraValues in geometry_stage.h), varyings.
 struct EmittedStrips {
-  DefaultInitVector<float> rows;
+  CacheLineVector<float> rows;
   std::vector<uint32_t> sizes;  ///< number of vertices of each strip
   std::vector<int> sources;     ///< number in PrimitiveRows of the primitive of each strip
 };
@@ -70,16 +70,14 @@ struct GeometryStage {
   int row;  ///< values of an emitted vertex
 };
 
-/// The stages of a shader before those that its draw would have without them. If the two last ones are null, primitives are emitted as they
-/// are, and their vertices have the values of EmittedStrips.
+/// The stages of a shader before those that its draw would have without them. If there are neither tessellation
+/// nor a geometry function, primitives are emitted as they are, and their vertices have the values of EmittedStrips.
 struct EmittingStages {
   void (*vertex)(const void* shader, const VertexBatch&);  ///< the vertex function, with the outputs that the next stage reads
   int varying_count;                                       ///< values of these outputs per vertex, without the position
   const TessellationStage* tessellation;
   const GeometryStage* geometry;
-  void (*layer)(const void* shader, const VertexBatch&);  ///< VertexOutput::layer, if only the vertex function chooses the layer
-
-  bool emit_primitives() const { return tessellation != nullptr || geometry != nullptr; }
+  void (*layer)(const void* shader, const VertexBatch&);  ///< VertexOutput::layer; null unless only the vertex function chooses it
 };
 
 /// The vertex kernel of draws of emitted vertices. It copies the rows of the streams of streams_of() (emit_primitives.h).

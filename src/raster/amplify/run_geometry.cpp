@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "halfspace/raster/amplify/run_geometry.h"
 
+#include <algorithm>
+
 #include "halfspace/raster/primitives/primitive_assembly.h"
 
 namespace halfspace::HS_LANES {
@@ -8,7 +10,7 @@ namespace halfspace::HS_LANES {
 namespace {
 
 // Appends the primitives of a strip of `size` vertices.
-void append_strip(uint32_t first, uint32_t size, Topology topology, bool first_provokes, DefaultInitVector<uint32_t>& indices) {
+void append_strip(uint32_t first, uint32_t size, Topology topology, bool first_provokes, CacheLineVector<uint32_t>& indices) {
   const uint32_t corners = topology == Topology::points ? 1 : topology == Topology::lines ? 2 : 3;
   for (uint32_t k = 0; k + corners <= size; ++k) {
     const uint32_t i = first + k;
@@ -26,11 +28,17 @@ void append_strip(uint32_t first, uint32_t size, Topology topology, bool first_p
 
 EmittedPrimitives run_geometry(const GeometryStage& stage, const void* shader, const PrimitiveRows& primitives, bool first_provokes) {
   EmittedStrips strips;
+  constexpr int kExpectedVertices = 8;  // most functions emit a few vertices per primitive, even if they may emit many
+  strips.rows.reserve(static_cast<std::size_t>(primitives.count * std::min(stage.layout.max_vertices, kExpectedVertices) * stage.row));
   stage.geometry(shader, primitives, strips);
   EmittedPrimitives out;
   out.topology = topology_of(stage.layout.output);
   out.row = static_cast<std::size_t>(stage.row);
   out.rows = std::move(strips.rows);
+  const std::size_t vertices = out.vertex_count();  // not fewer than primitives
+  out.indices.reserve(vertices * out.vertices_per_primitive());
+  out.numbers.reserve(vertices);
+  out.instances.reserve(vertices);
   uint32_t first = 0;
   for (std::size_t i = 0; i < strips.sizes.size(); ++i) {
     append_strip(first, strips.sizes[i], out.topology, first_provokes, out.indices);

@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "halfspace/raster/amplify/split_primitives.h"
 
+#include <algorithm>
+#include <atomic>
 #include <bit>
 #include <map>
-#include <utility>
+#include <span>
 
 namespace halfspace::HS_LANES {
 
 namespace {
 
 constexpr std::size_t kSplitPerTask = 4096;
+// Instances with fewer vertices are listed as primitives, because many of them would be many draws.
+constexpr std::size_t kMinInstanceVertices = 8;
 
 Destination destination_of(const EmittedPrimitives& primitives, std::size_t vertex, const SplitOptions& options) {
   const float* const row = primitives.rows.data() + primitives.row * vertex;
@@ -39,10 +43,10 @@ std::vector<Run> runs_of(const EmittedPrimitives& primitives, const SplitOptions
 }
 
 template <class T>
-DefaultInitVector<T> values_of(const std::vector<Run>& runs, const DefaultInitVector<T>& from, std::size_t per_primitive) {
+CacheLineVector<T> values_of(const std::vector<Run>& runs, const CacheLineVector<T>& from, std::size_t per_primitive) {
   std::size_t count = 0;
   for (const Run& r : runs) count += r.end - r.begin;
-  DefaultInitVector<T> values;
+  CacheLineVector<T> values;
   values.reserve(count * per_primitive);
   for (const Run& r : runs) values.insert(values.end(), from.data() + r.begin * per_primitive, from.data() + r.end * per_primitive);
   return values;
@@ -58,18 +62,18 @@ std::vector<PrimitivePart> split_primitives(const EmittedPrimitives& primitives,
     found[static_cast<std::size_t>(i)] = runs_of(primitives, options, begin, std::min(begin + kSplitPerTask, count));
   });
   std::vector<PrimitivePart> parts;
-  std::vector<std::vector<Run>> runs;                       // of each part
-  std::map<std::pair<int32_t, int32_t>, std::size_t> open;  // the part to which primitives of a layer and viewport are added
-  std::map<int32_t, int32_t> last_viewport;                 // of each layer
+  std::vector<std::vector<Run>> runs;        // of each part
+  std::map<Destination, std::size_t> open;   // the part to which primitives of a layer and viewport are added
+  std::map<int32_t, int32_t> last_viewport;  // of each layer
   for (const std::vector<Run>& list : found) {
     for (const Run& r : list) {
-      const auto [layer, viewport] = r.to;
-      const bool changes = options.viewports_overlap && last_viewport.contains(layer) && last_viewport[layer] != viewport;
-      last_viewport[layer] = viewport;
-      const auto [at, is_new] = open.try_emplace({layer, viewport}, parts.size());
+      const auto last = last_viewport.find(r.to.layer);
+      const bool changes = options.viewports_overlap && last != last_viewport.end() && last->second != r.to.viewport;
+      last_viewport[r.to.layer] = r.to.viewport;
+      const auto [at, is_new] = open.try_emplace(r.to, parts.size());
       if (is_new || changes) {
         at->second = parts.size();
-        parts.push_back({.layer = layer, .viewport = viewport, .indices = {}, .numbers = {}, .instances = {}});
+        parts.push_back({r.to, {}, {}, {}});
         runs.emplace_back();
       }
       runs[at->second].push_back(r);
@@ -87,24 +91,30 @@ std::vector<PrimitivePart> split_primitives(const EmittedPrimitives& primitives,
 
 std::optional<std::vector<InstanceRun>> split_instances(const Draw& draw, VertexKernel layer, const SplitOptions& options,
                                                         const Workers& workers) {
-  const uint32_t instances = draw.state.instances;
-  std::vector<std::optional<Destination>> to(instances);
-  const auto find = [&](uint32_t i) {
-    to[i] = common_destination(draw, layer, i);
-    if (options.layers == 1 && to[i]) to[i]->layer = 0;
-  };
-  if (instances == 0) return std::nullopt;
-  find(0);
-  if (!to[0]) return std::nullopt;  // usually like all others
-  workers.for_each(static_cast<int>(instances) - 1, [&](int i) { find(static_cast<uint32_t>(i) + 1); });
+  check_vertex_count(draw);
+  const std::size_t vertices = draw.indices->used_count();
+  if (vertices < kMinInstanceVertices) return std::nullopt;
+  const std::size_t per_instance = (vertices + kVerticesPerTask - 1) / kVerticesPerTask;
+  std::vector<std::optional<Destination>> found(draw.state.instances * per_instance);  // of each task
+  std::atomic<bool> is_mixed = false;
+  workers.for_each(static_cast<int>(found.size()), [&](int i) {
+    if (is_mixed.load(std::memory_order_relaxed)) return;
+    const auto task = static_cast<std::size_t>(i);
+    const std::size_t first = task / per_instance * vertices, begin = task % per_instance * kVerticesPerTask;
+    found[task] = common_destination(draw, layer, first + begin, first + std::min(begin + kVerticesPerTask, vertices), options.layers > 1);
+    if (!found[task]) is_mixed.store(true, std::memory_order_relaxed);
+  });
+  if (is_mixed) return std::nullopt;
   std::vector<InstanceRun> runs;
-  for (uint32_t i = 0; i < instances; ++i) {
-    if (!to[i]) return std::nullopt;
-    if (!options.is_drawn(*to[i])) continue;
-    if (!runs.empty() && runs.back().to == *to[i] && runs.back().first + runs.back().count == i)
+  for (uint32_t i = 0; i < draw.state.instances; ++i) {
+    const std::span of_instance = std::span(found).subspan(i * per_instance, per_instance);
+    const Destination to = *of_instance[0];
+    if (std::ranges::count(of_instance, to) != std::ssize(of_instance)) return std::nullopt;
+    if (!options.is_drawn(to)) continue;
+    if (!runs.empty() && runs.back().to == to && runs.back().first + runs.back().count == i)
       ++runs.back().count;
     else
-      runs.push_back({*to[i], i, 1});
+      runs.push_back({to, i, 1});
   }
   return runs;
 }

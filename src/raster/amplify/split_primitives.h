@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Distributes emitted primitives to the layers of the targets and to the viewports of a draw.
+// Distributes the primitives or the instances of a draw to the layers of the targets and to its viewports.
 #pragma once
 
 #include <optional>
@@ -13,9 +13,9 @@ namespace halfspace::HS_LANES {
 
 /// Primitives of one layer and one viewport, in order.
 struct PrimitivePart {
-  int32_t layer = 0, viewport = 0;
-  DefaultInitVector<uint32_t> indices;
-  DefaultInitVector<int32_t> numbers, instances;  ///< as in EmittedPrimitives
+  Destination to;
+  CacheLineVector<uint32_t> indices;
+  CacheLineVector<int32_t> numbers, instances;  ///< as in EmittedPrimitives
 };
 
 /// What split_primitives() needs to know about a draw and its pass.

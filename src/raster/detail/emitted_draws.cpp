@@ -19,6 +19,7 @@ Draw draw_like(const Draw& source, const ShaderKernels& kernels, std::shared_ptr
   d.deferred = source.deferred;
   d.writes_color = source.writes_color;
   d.layer_group = source.layer_group;
+  d.number = source.number;
   d.vertex_count = d.indices->used_count() * state.instances;
   count_primitives(d);
   return d;
@@ -67,21 +68,19 @@ EmittedDraws::Emitted EmittedDraws::emit(const Draw& draw, int layers, const Wor
   statistics.vertices_in += (draw.indices->size() - draw.indices->restarts().size()) * draw.state.instances;
   statistics.vertices_shaded += draw.vertex_count;
   Emitted out;
-  if (stages.emit_primitives()) {
+  if (stages.layer == nullptr) {
     out.primitives = emit_primitives(draw, workers, statistics);
+  } else if (auto runs = split_instances(draw, stages.layer, split_options(draw, layers), workers)) {
+    out.runs = std::move(*runs);
+    return out;
   } else {
-    if (auto runs = split_instances(draw, stages.layer, split_options(draw, layers), workers)) {
-      out.runs = std::move(*runs);
-      return out;
-    }
-    out.primitives = emit_vertices(draw, stages.vertex, stages.varying_count, workers);
-    assemble_primitives(draw, out.primitives, workers);
+    out.primitives = assemble_primitives(draw, stages.vertex, stages.varying_count, workers);
   }
   EmittedPrimitives& all = out.primitives;
   if (draw.kernels.gives_layer)
     out.parts = split_primitives(all, split_options(draw, layers), workers);
   else
-    out.parts.push_back({0, 0, std::exchange(all.indices, {}), std::exchange(all.numbers, {}), std::exchange(all.instances, {})});
+    out.parts.push_back({{}, std::exchange(all.indices, {}), std::exchange(all.numbers, {}), std::exchange(all.instances, {})});
   out.indices.resize(out.parts.size());
   workers.for_each(static_cast<int>(out.parts.size()), [&](int i) {
     const auto part = static_cast<std::size_t>(i);
@@ -100,7 +99,7 @@ void EmittedDraws::set_layer(int layer) {
         if (run.to.layer == layer) add_instances(source, run);
       }
       for (std::size_t part = 0; part < emitted.parts.size(); ++part) {
-        if (emitted.parts[part].layer == layer && !emitted.parts[part].indices.empty()) add_part(source, emitted, part);
+        if (emitted.parts[part].to.layer == layer && !emitted.parts[part].indices.empty()) add_part(source, emitted, part);
       }
     } else if (layer == 0 || source.is_clear) {
       context_.draws.push_back(draw_like(source, source.kernels, source.indices, source.vertices, source.state, source));
@@ -136,7 +135,7 @@ void EmittedDraws::add_part(const Draw& source, const Emitted& emitted, std::siz
   state.base_vertex = 0;
   state.instances = 1;
   const std::array<VertexStream, 3>& streams = keep(streams_of(emitted.primitives, source.kernels), *context_.arena);
-  add_draw(source, source.kernels, emitted.indices[number], {streams, false, false}, state, part.viewport);
+  add_draw(source, source.kernels, emitted.indices[number], {streams, false, false}, state, part.to.viewport);
   Draw& d = context_.draws.back();
   d.primitive_numbers = part.numbers.data();
   d.primitive_instances = part.instances.data();

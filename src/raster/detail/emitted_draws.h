@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The draws of a pass with emitting stages or layers, layer by layer. Draws with emitting stages become draws of what these emit.
+// The draws of a pass with emitting stages or layers, layer by layer. Draws with emitting stages become draws of what these emit. If only
+// the vertex function chooses layers, instances that have a single one are drawn as they are.
 #pragma once
 
 #include <memory>

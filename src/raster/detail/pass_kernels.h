@@ -33,8 +33,7 @@ enum class DrawKind : uint8_t {
 template <class S>
 inline constexpr bool kDecidesVisibility = kDiscards<S> || kWritesDepth<S>;
 
-/// Whether stages of the shader emit primitives. If only the vertex function chooses a layer, its primitives are emitted as they are, so
-/// that those of a layer become a draw.
+/// Whether stages of the shader emit primitives, or its vertex function chooses a layer, so that the primitives of a layer become draws.
 template <class S>
 inline constexpr bool kEmitsPrimitives = HasTessellationLayout<S> || HasGeometryLayout<S> || kGivesLayer<S>;
 /// These stages.
@@ -51,7 +50,8 @@ inline constexpr EmittingStages kEmittingStages = [] {
   return stages;
 }();
 
-/// Returns the kernels of a shader without emitting stages. Kernels for functions that do not exist, or that the draw ignores, are null.
+/// Returns the kernels of the stages after the emitting ones, and of the vertex function if there are none. Kernels for functions that do
+/// not exist, or that the draw ignores, are null.
 template <class S, DrawKind kind>
 constexpr ShaderKernels drawing_kernels() {
   using V = typename S::template Varyings<float>;

@@ -39,9 +39,12 @@ class TraceTiles : public TileRunner {
       for (TracedFragment& f : tile.fragments) {
         const Chunk& chunk = context.chunks[chunk_of(f.id)];
         const DrawRange& range = chunk.ranges[chunk.triangles[index_in_chunk(f.id)].range()];
-        f.draw = range.draw;
-        f.instance = context.draws[range.draw].first_instance + range.instance;
-        f.primitive = primitives[chunk_of(f.id)][index_in_chunk(f.id)].primitive;
+        const Draw& draw = context.draws[range.draw];
+        const uint32_t primitive = primitives[chunk_of(f.id)][index_in_chunk(f.id)].primitive;
+        const PrimitiveNumber number = submitted_primitive(draw, range.instance, primitive);
+        f.draw = draw.number;
+        f.instance = number.instance;
+        f.primitive = number.primitive;
       }
     }
   }
@@ -104,7 +107,7 @@ void TriangleInspector::find(TriangleId id, InspectedTriangle& out) const {
   find_triangle(context_, id, out.source);
   out.draw = &context_.draws[range.draw];
   out.primitive = submitted.primitive;
-  out.instance = out.draw->first_instance + range.instance;
+  out.instance = range.instance;
   out.slot = submitted.vertex;
   const uint32_t slot_base = shaded.first - range.instance * shaded.count;
   for (std::size_t i = 0; i < 3; ++i) out.index[i] = out.slot[i] + slot_base;

@@ -12,7 +12,6 @@ namespace halfspace::HS_LANES {
 
 namespace {
 
-constexpr std::size_t kVerticesPerTask = 8 * kVertexBatch;
 // Number of primitives per chunk. The first chunks are small, so that all threads have work in a small pass. Later chunks grow with the
 // number of preceding primitives: since each tile has to visit all chunks, a large pass should have few of them.
 constexpr uint64_t kSmallestChunk = 2048;

@@ -25,8 +25,7 @@ struct VisibilityBatch;
 struct ShaderKernels {
   /// Stages that emit primitives, or null. They run before all others, and the vertex kernel copies the vertices that they have emitted.
   const EmittingStages* emitting = nullptr;
-  /// If these stages are only a vertex function that chooses the layer: the kernels of its instances of which all vertices have the same
-  /// one.
+  /// Kernels for instances whose vertices all have the same layer and viewport. Null unless only the vertex function chooses them.
   const ShaderKernels* one_layer = nullptr;
   int patch_vertices = 0;  ///< of Topology::patches
   void (*vertex)(const void* shader, const VertexBatch&) = nullptr;
@@ -95,7 +94,7 @@ struct Draw : DrawPlacement {
 
   // These are set when the draw is added.
   bool is_clear = false;      ///< applies to all layers
-  bool is_emitted = false;    ///< by the emitting stages of another draw, which have counted their vertices
+  bool is_emitted = false;    ///< created from a draw with emitting stages; its vertices are already counted
   bool deferred = false;      ///< shaded after visibility, once per visible pixel; otherwise shaded immediately, in order
   bool writes_color = false;  ///< writes any channel of any attachment
   /// Order-independent draws with the same number are sorted together: the number of preceding draws that write color in another way.
@@ -105,6 +104,7 @@ struct Draw : DrawPlacement {
   uint32_t primitive_count = 0;  ///< per instance
   std::vector<IndexRun> runs{};  ///< runs with at least one primitive; empty if there are no restarts
   uint32_t first_instance = 0;   ///< number of the first instance, for the shader and its streams
+  uint32_t number = 0;           ///< of the draw that was added to the pass
 
   /// Null, or, if is_emitted: the number and the instance of the submitted primitive that each primitive comes from.
   const int32_t* primitive_numbers = nullptr;
@@ -122,6 +122,15 @@ struct Draw : DrawPlacement {
         covers_by_shader(is_multisampled && kernels.writes_sample_mask),
         is_smooth(!is_multisampled && HS_LANES::is_smooth(state)) {}
 };
+
+/// The submitted primitive that a primitive of a draw comes from.
+struct PrimitiveNumber {
+  uint32_t primitive, instance;
+};
+inline PrimitiveNumber submitted_primitive(const Draw& draw, uint32_t instance, uint32_t primitive) {
+  if (draw.primitive_numbers == nullptr) return {primitive, draw.first_instance + instance};
+  return {static_cast<uint32_t>(draw.primitive_numbers[primitive]), static_cast<uint32_t>(draw.primitive_instances[primitive])};
+}
 
 /// Returns true if all offsets into the draw's vertex arrays fit in the 32-bit indices of a gather.
 inline bool can_gather(const ShadedVertices& v, const Draw& draw) {

@@ -110,6 +110,13 @@ struct ClipVertices {
   Buffer<float> varyings;
 };
 
+/// The layer and the viewport that a vertex chooses.
+struct Destination {
+  int32_t layer = 0, viewport = 0;
+  friend bool operator==(const Destination&, const Destination&) = default;
+  friend auto operator<=>(const Destination&, const Destination&) = default;
+};
+
 // ---- vertex stage → vertex kernels ------------------------------------------------------------------------------
 
 /// Maximum number of vertices per call of a vertex kernel.
@@ -124,7 +131,7 @@ struct VertexBatch {
   int32_t base_vertex = 0;    ///< index + base_vertex is the row in the streams
   int32_t instance = 0;       ///< the same for all vertices
   float* varyings = nullptr;  ///< null: varyings are not written
-  float* clip = nullptr;      ///< output: clip-space x, y, z and w in four rows of kVertexBatch floats
+  float* clip = nullptr;      ///< output: clip-space x, y, z and w in four rows of kVertexBatch floats; unused by VertexOutput::layer
   /// Output rows, or null: the point size and distances, or the min x, min y, max x and max y of a point sprite.
   float* extra = nullptr;
   bool is_converted = false;  ///< row i of the streams belongs to vertex i of the batch, not to the vertex with that index
@@ -236,7 +243,7 @@ struct DrawRange {
 /// Up to a few thousand submitted primitives on their way through clipping, setup and binning. Written by one task, then only read.
 struct Chunk {
   std::vector<DrawRange> ranges;
-  DefaultInitVector<Triangle> triangles;
+  std::vector<Triangle, DefaultInitAllocator<Triangle>> triangles;
   std::vector<ClipVertex> clip_vertices;
   std::vector<float> clip_varyings;
   /// Number, in its draw, of the primitive from which each triangle was created. Only set for the triangles of draws for which

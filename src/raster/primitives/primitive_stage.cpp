@@ -35,10 +35,9 @@ void write_ids(const PassContext& context, const Chunk& chunk, const DrawRange& 
   const DrawState& state = draw.state;
   const bool has_second = !draws_points(state), has_third = has_second && !is_lines(state.topology);
   for_each_triangle(context, chunk, range, end, [&](uint32_t primitive, const std::array<uint32_t, 3>& vertex) {
-    const bool is_listed = draw.primitive_numbers != nullptr;
-    row[kIdPrimitive] = is_listed ? std::bit_cast<float>(draw.primitive_numbers[primitive]) : std::bit_cast<float>(primitive);
-    row[kIdInstance] =
-        is_listed ? std::bit_cast<float>(draw.primitive_instances[primitive]) : std::bit_cast<float>(draw.first_instance + range.instance);
+    const PrimitiveNumber number = submitted_primitive(draw, range.instance, primitive);
+    row[kIdPrimitive] = std::bit_cast<float>(number.primitive);
+    row[kIdInstance] = std::bit_cast<float>(number.instance);
     row[kIdSecond] = std::bit_cast<float>(has_second ? vertex[1] : kNoSlot);
     row[kIdThird] = std::bit_cast<float>(has_third ? vertex[2] : kNoSlot);
     row += kIdRow;

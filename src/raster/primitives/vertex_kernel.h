@@ -83,7 +83,7 @@ enum class VertexOutput : uint8_t {
   varyings,          ///< position and varyings
   all_but_varyings,  ///< position and others
   all,
-  layer,     ///< position, and the layer and the viewport in two rows of VertexBatch::extra
+  layer,     ///< the layer and the viewport in two rows of VertexBatch::extra, without the position
   whole_row  ///< the position, and a row of the other values of an EmittedStrips instead of the varyings
 };
 
@@ -119,8 +119,10 @@ HS_FLATTEN void vertex_kernel(const void* shader, const VertexBatch& batch) {
     const VertexId<Real> id{ids + batch.base_vertex, batch.instance};
     const Int rows = batch.is_converted ? lane_index : id.vertex;
     const auto vertex = call_vertex<S, Real>(s, load_attributes<Attributes>(batch.streams, rows), id, out);
-    const vec4<Real> clip = position_of(vertex);
-    for (int k = 0; k < 4; ++k) store(batch.clip + k * kVertexBatch + begin, clip[k]);
+    if constexpr (output != VertexOutput::layer) {
+      const vec4<Real> clip = position_of(vertex);
+      for (int k = 0; k < 4; ++k) store(batch.clip + k * kVertexBatch + begin, clip[k]);
+    }
     if constexpr (with_extra && !std::is_same_v<std::remove_const_t<decltype(vertex)>, vec4<Real>>) {
       if (batch.extra != nullptr) store_extra(vertex, batch.extra + begin);
     }

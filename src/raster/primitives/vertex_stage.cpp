@@ -92,7 +92,7 @@ __attribute__((noinline)) void run_on_converted(VertexKernel kernel, const void*
     part.count = std::min(kConvertedBatch, batch.count - begin);
     if (part.ids != nullptr) part.ids += begin;
     part.first += static_cast<uint32_t>(begin);
-    part.clip += begin;
+    if (part.clip != nullptr) part.clip += begin;
     if (part.extra != nullptr) part.extra += begin;
     for (uint32_t i = 0; i < static_cast<uint32_t>(part.count); ++i)
       vertices[i] = (part.ids != nullptr ? part.ids[i] : part.first + i) + static_cast<uint32_t>(batch.base_vertex);
@@ -138,8 +138,8 @@ std::size_t slot_of(const VertexBatch& batch, int i) {
   return std::size_t{(batch.ids != nullptr ? batch.ids[i] : batch.first + static_cast<uint32_t>(i)) - batch.slot_base};
 }
 
-void check_vertex_count(std::size_t n) {
-  HS_CHECK_OP(n, <, std::size_t{1} << 32, "Pass::draw: too many vertices; expected fewer than 2^32 over all instances");
+std::size_t slots_of(const Draw& draw) {
+  return (draw.indices->end_vertex() - draw.indices->first_vertex()) * std::size_t{draw.state.instances};
 }
 
 }  // namespace
@@ -167,8 +167,12 @@ Viewport make_viewport(const ViewportRect& r, const DepthState& depth, ClipOrigi
   return v;
 }
 
+void check_vertex_count(const Draw& draw) {
+  HS_CHECK_OP(slots_of(draw), <, std::size_t{1} << 32, "Pass::draw: too many vertices; expected fewer than 2^32 over all instances");
+}
+
 std::size_t shaded_bytes(const Draw& draw) {
-  const std::size_t n = (draw.indices->end_vertex() - draw.indices->first_vertex()) * std::size_t{draw.state.instances};
+  const std::size_t n = slots_of(draw);
   const auto floats =
       static_cast<std::size_t>(draw.kernels.varying_count + draw.kernels.clip_distance_count + draw.kernels.cull_distance_count);
   return n * (sizeof(ScreenVertex) + sizeof(Outcode) + floats * sizeof(float) + (draws_points(draw.state) ? sizeof(PointSpriteRect) : 0));
@@ -178,8 +182,8 @@ void allocate_vertices(const Draw& draw, ShadedVertices& out) {
   out.first = draw.indices->first_vertex();
   out.count = draw.indices->end_vertex() - out.first;
   out.varying_count = draw.kernels.varying_count;
-  const std::size_t n = out.count * std::size_t{draw.state.instances};
-  check_vertex_count(n);
+  check_vertex_count(draw);
+  const std::size_t n = slots_of(draw);
   out.screen.reset(n);
   out.outcodes.reset(n);
   out.any_outcode = 0;
@@ -243,8 +247,8 @@ Outcode shade_vertices(const Draw& draw, std::size_t begin, std::size_t end, Sha
 void allocate_clip_vertices(const Draw& draw, int varying_count, ClipVertices& out) {
   out.first = draw.indices->first_vertex();
   out.count = draw.indices->end_vertex() - out.first;
-  const std::size_t n = out.count * std::size_t{draw.state.instances};
-  check_vertex_count(n);
+  check_vertex_count(draw);
+  const std::size_t n = slots_of(draw);
   out.positions.reset(n);
   out.varyings.reset(n * static_cast<std::size_t>(varying_count) + kRowSlack);
 }
@@ -260,16 +264,13 @@ void shade_clip_vertices(const Draw& draw, VertexKernel kernel, std::size_t begi
   });
 }
 
-std::optional<Destination> common_destination(const Draw& draw, VertexKernel kernel, uint32_t instance) {
-  alignas(64) std::array<float, 4 * kVertexBatch> clip;
+std::optional<Destination> common_destination(const Draw& draw, VertexKernel kernel, std::size_t begin, std::size_t end, bool has_layers) {
   alignas(64) std::array<float, 2 * kVertexBatch> extra;
-  const std::size_t used = draw.indices->used_count(), begin = instance * used;
-  const VertexBatch outputs{.varyings = nullptr, .clip = clip.data(), .extra = extra.data()};
   std::optional<Destination> common;
-  bool is_common = used != 0;
-  for_each_batch(kernel, draw, begin, begin + used, 0, outputs, [&](const VertexBatch& batch) {
+  bool is_common = true;
+  for_each_batch(kernel, draw, begin, end, 0, {.varyings = nullptr, .clip = nullptr, .extra = extra.data()}, [&](const VertexBatch& batch) {
     for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) {
-      const Destination d{std::bit_cast<int32_t>(extra[i]), std::bit_cast<int32_t>(extra[kVertexBatch + i])};
+      const Destination d{has_layers ? std::bit_cast<int32_t>(extra[i]) : 0, std::bit_cast<int32_t>(extra[kVertexBatch + i])};
       if (!common) common = d;
       is_common &= d == *common;
     }

@@ -27,19 +27,21 @@ void shade_clip_vertices(const Draw& draw, VertexKernel kernel, std::size_t begi
 /// Allocates memory for all vertices that the draw uses, with varying_count values each.
 void allocate_clip_vertices(const Draw& draw, int varying_count, ClipVertices& out);
 
+/// Number of vertices that one task shades.
+inline constexpr std::size_t kVerticesPerTask = 8 * kVertexBatch;
+
+/// Fails if the draw has too many vertices for slots.
+void check_vertex_count(const Draw& draw);
+
 /// Returns the memory that allocate_vertices() needs for a draw, in bytes.
 std::size_t shaded_bytes(const Draw& draw);
 
 /// Allocates memory for all vertices that the draw uses.
 void allocate_vertices(const Draw& draw, ShadedVertices& out);
 
-/// What a vertex sends its primitive to.
-struct Destination {
-  int32_t layer, viewport;
-  friend bool operator==(const Destination&, const Destination&) = default;
-};
-/// Runs a kernel with VertexOutput::layer for an instance. Returns the layer and the viewport of its vertices if they are all the same.
-std::optional<Destination> common_destination(const Draw& draw, VertexKernel kernel, uint32_t instance);
+/// Runs a kernel with VertexOutput::layer for vertices [begin, end) of the same list, at least one, all of one instance. Returns the layer
+/// and the viewport that they choose if all choose the same. has_layers: the pass has several layers; otherwise, the layer is 0.
+std::optional<Destination> common_destination(const Draw& draw, VertexKernel kernel, std::size_t begin, std::size_t end, bool has_layers);
 
 /// Runs the vertex function for three vertices of an instance and returns their clip-space positions. index: as in the index list of the
 /// draw.

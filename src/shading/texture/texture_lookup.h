@@ -176,7 +176,9 @@ struct TextureLookup {
     const I x = texel_at(wrapped_at(at.st.x, columns, offset.x), columns), y = texel_at(wrapped_at(at.st.y, rows, offset.y), rows);
     const I index = at.layer * I(l.layer_pitch) + clamped_index<R>(y, l.height) * I(l.row_pitch) + clamped_index<R>(x, l.width) * I(stride);
     const auto inside = [](I i, const TexelAxis& axis) { return axis.wrap == Wrap::border ? is_inside<R>(i, axis.size) : MaskOf<R>(true); };
-    return texel(reader(l), index, inside(x, columns) && inside(y, rows));
+    const MaskOf<R> is_texel = inside(x, columns) && inside(y, rows);
+    if (has_border && !any(is_texel)) return border;
+    return texel(reader(l), index, is_texel);
   }
 
   /// Filters one level, linearly or to the nearest texel.
@@ -191,7 +193,7 @@ struct TextureLookup {
     if (table.kind != TextureKind::three_d) {
       // Large areas outside the image are common, for example around a decal.
       if (has_border && !any((x.first_inside || x.second_inside) && (y.first_inside || y.second_inside))) return border;
-      return in_layer(l, x, y, at.layer * pitch, MaskOf<R>(true), single);
+      return in_layer(l, x, y, at.layer * pitch, MaskOf<R>(true), false);
     }
     const AxisTaps<R> z = taps_at(at.st.z, axis_of(l.depth, sampler.wrap_r), offset.z, nearest);
     const Value front = in_layer(l, x, y, z.first * pitch, z.first_inside, single);
@@ -222,11 +224,10 @@ struct AllChannels {
 
 /// Reads all channels of an 8-bit format, which is known at compile time.
 template <class R, TexelFormat format>
-struct FourBytes {
+struct FourBytes : AllChannels<R> {
   using Value = vec4<R>;
   HS_INLINE Value operator()(const TexelReader<R>& from, IntOf<R> i) const { return decode_rgba8<Value, format, R>(from.word(i)); }
   HS_INLINE Value to_linear(const TexelReader<R>&, const Value& v) const { return rgba8_to_linear<format>(v); }
-  HS_INLINE Value border(const glm::vec4& color) const { return {R(color.x), R(color.y), R(color.z), R(color.w)}; }
 };
 
 /// Reads the result of a comparison of a reference with red: 1 if it passes, else 0.
