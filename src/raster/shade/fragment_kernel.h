@@ -39,6 +39,16 @@ HS_INLINE PacketTriangleIds triangle_ids_of(const PacketBatch& batch, int n) {
   return {batch.context, batch.ids + static_cast<std::size_t>(packet.packet) * kLanes, kNoTriangle, packet.lanes};
 }
 
+/// Pixel::find_z and find_sample_mask of two packets. Pure functions, so that kernels which need no depth do not compute it.
+__attribute__((pure)) inline FragmentReal depth_in_packets(const Pixel<FragmentReal>& px) noexcept {
+  const auto& of = *static_cast<const std::array<PacketTriangleIds, 2>*>(px.z_source);
+  return {packet_depth(px.x.low, px.y.low, of[0]), packet_depth(px.x.high, px.y.high, of[1])};
+}
+__attribute__((pure)) inline IntOf<FragmentReal> sample_mask_in_packets(const Pixel<FragmentReal>& px) noexcept {
+  const auto& of = *static_cast<const std::array<PacketTriangleIds, 2>*>(px.z_source);
+  return {packet_sample_mask(px.x.low, px.y.low, of[0]), packet_sample_mask(px.x.high, px.y.high, of[1])};
+}
+
 /// Sets up the Pixel of two packets of a batch and interpolates their varyings. ids: triangles for Pixel::z() and Pixel::sample_mask().
 template <class S, std::size_t N, std::size_t P, bool with_id>
 HS_INLINE typename S::template Varyings<FragmentReal> begin_packets(const PacketBatch& batch, const PacketPixels& pixels,
@@ -51,14 +61,8 @@ HS_INLINE typename S::template Varyings<FragmentReal> begin_packets(const Packet
   const SamplePosition& at = batch.position;
   place_pixel<V>(px, t.lanes, t.components, to_real<R>(ix * kSubPixels + at.x), to_real<R>(iy * kSubPixels + at.y), to_real<R>(ix & I(1)),
                  to_real<R>(iy & I(1)));
-  px.find_z = [](const Pixel<R>& pixel) {
-    const auto& of = *static_cast<const std::array<PacketTriangleIds, 2>*>(pixel.z_source);
-    return R(packet_depth(pixel.x.low, pixel.y.low, of[0]), packet_depth(pixel.x.high, pixel.y.high, of[1]));
-  };
-  px.find_sample_mask = [](const Pixel<R>& pixel) {
-    const auto& of = *static_cast<const std::array<PacketTriangleIds, 2>*>(pixel.z_source);
-    return I(packet_sample_mask(pixel.x.low, pixel.y.low, of[0]), packet_sample_mask(pixel.x.high, pixel.y.high, of[1]));
-  };
+  px.find_z = depth_in_packets;
+  px.find_sample_mask = sample_mask_in_packets;
   px.z_source = &ids;
   px.sample = batch.sample;
   px.samples = batch.context->samples;
