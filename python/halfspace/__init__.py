@@ -22,7 +22,7 @@ from ._files import DifferenceError, compare, export, info
 from ._one_call import render
 from ._options import RenderWarning
 from .camera import Camera
-from .frames import render_frames, render_models, submit_frames
+from .frames import render_frames, render_models, submit_frames, submit_models
 from .labels import LABELS, NO_ID
 from .material import Material, Texture, srgb
 from .mesh import Mesh
@@ -49,4 +49,4 @@ def set_tool_folder(folder: "str | _os.PathLike[str]") -> None:
 
 __all__ = ["LABELS", "NO_ID", "Camera", "DifferenceError", "InputError", "Material", "Mesh", "Model", "OutputError", "Picture", "RenderWarning",
            "Scene", "Texture", "compare", "draw", "export", "info", "render", "render_frames", "render_models", "scenes", "set_tool_folder",
-           "srgb", "submit_frames"]
+           "srgb", "submit_frames", "submit_models"]

@@ -3,9 +3,11 @@
 
 from __future__ import annotations
 
+import concurrent.futures
 import os
 import pickle
 import re
+import tempfile
 import threading
 import uuid
 import warnings
@@ -148,8 +150,44 @@ def _render(job: Any, positions: Sequence[int]) -> List[Any]:
     return job.render(positions)
 
 
+def _render_from(file: str, key: str, positions: Sequence[int]) -> List[Any]:
+    """The same for a job in a file, which each worker reads once."""
+    with _jobs_lock:
+        job = _jobs.get(key)
+    if job is None:
+        with open(file, "rb") as stream:
+            job = pickle.load(stream)
+    return _render(job, positions)
+
+
 def _identity(job: Any) -> Any:
     return job
+
+
+def _submit_by_file(job: Any, client: Any, parts: List[range]) -> List[Any]:
+    """Gives a job to processes of this machine in a temporary file, which is removed after the last batch."""
+    handle, file = tempfile.mkstemp(prefix="halfspace-", suffix=".job")
+    left = len(parts)
+    lock = threading.Lock()
+
+    def ended(_: Any) -> None:
+        nonlocal left
+        with lock:
+            left -= 1
+            is_last = left == 0
+        if is_last:
+            os.unlink(file)
+
+    try:
+        with open(handle, "wb") as stream:
+            pickle.dump(job, stream)
+        futures = [client.submit(_render_from, file, job._key, part) for part in parts]
+    except BaseException:
+        os.unlink(file)
+        raise
+    for future in futures:
+        future.add_done_callback(ended)
+    return futures
 
 
 def _is_dask(client: Any) -> bool:
@@ -180,6 +218,8 @@ def _submit(job: Any, count: int, client: Any, batch: Optional[int]) -> List[Any
             warnings.filterwarnings("ignore", "Large object|Sending large graph", UserWarning)
             sent = client.submit(_identity, job, pure=False)
         return [client.submit(_render, sent, part, pure=False) for part in parts]
+    if isinstance(client, concurrent.futures.ProcessPoolExecutor) and parts:
+        return _submit_by_file(job, client, parts)
     return [client.submit(_render, job, part) for part in parts]
 
 
@@ -258,8 +298,8 @@ def render_frames(scene: Union[Scene, Path], frames: Union[int, Iterable[int]], 
     frames: how many frames, or the frame numbers, for example range(0, 20000, 10).
     out: names of the files: "frames/{frame}.png" or "frames/%05d.png". Missing folders are created. Workers write the files, so they must
         share a file system with the reader of the files.
-    client: a dask.distributed.Client or a concurrent.futures.Executor, whose workers render. The scene is sent to each worker of Dask once,
-        and to an Executor with each batch. The default is this process.
+    client: a dask.distributed.Client or a concurrent.futures.Executor, whose workers render. Each worker of Dask and each process of a
+        ProcessPoolExecutor receives the scene once, other executors with each batch. The default is this process.
     size, fps, time, camera, linear, alpha: as in Scene.frames(). The threads of each worker are those of the scene: with one process per
         core, use Scene.load(..., threads=1).
     batch: number of frames per task. The default gives each worker about eight tasks.
@@ -270,6 +310,28 @@ def render_frames(scene: Union[Scene, Path], frames: Union[int, Iterable[int]], 
     if client is None:
         return _local(job, count, progress)
     return _gathered(_submit(job, count, client, batch), count, progress)
+
+
+def _models_job(models: Iterable[Path], out: Optional[Path], size: Size, linear: bool, alpha: bool, threads: Optional[int],
+                view: Dict[str, Any]) -> Tuple[_Models, int]:
+    names = [_check.path("models", model) for model in _check.items("models", models, "a sequence of files")]
+    pattern = _checked_out(out, "{name}")
+    if pattern is not None:
+        owners: Dict[str, str] = {}
+        for name in names:
+            file = _file_of(pattern, None, 4, os.path.splitext(os.path.basename(name))[0])
+            if owners.setdefault(file, name) != name:
+                raise fail("models", f"has '{owners[file]}' and '{name}', which have the same output file, {file}", "different names")
+    count = None if threads is None else _check.threads(threads, _core.cores())
+    return _Models(names, _check.size(size), view, bool(linear), bool(alpha), pattern, count), len(names)
+
+
+def submit_models(models: Iterable[Path], client: Any, *, out: Optional[Path] = None, size: Size = (640, 480), linear: bool = False,
+                  alpha: bool = False, threads: Optional[int] = None, batch: Optional[int] = None, **view: Any) -> List[Any]:
+    """Gives the models of render_models() to `client` and returns its futures, one per batch of models. Each future yields a list, in which
+    a model that cannot be rendered is its InputError or OutputError. Use the functions of the engine for progress and cancellation."""
+    job, count = _models_job(models, out, size, linear, alpha, threads, view)
+    return _submit(job, count, client, batch)
 
 
 def render_models(models: Iterable[Path], *, out: Optional[Path] = None, client: Any = None, size: Size = (640, 480), linear: bool = False,
@@ -284,17 +346,8 @@ def render_models(models: Iterable[Path], *, out: Optional[Path] = None, client:
     """
     _check.callback("progress", progress)
     _check.choice("errors", errors, ("raise", "return"))
-    names = [_check.path("models", model) for model in _check.items("models", models, "a sequence of files")]
-    pattern = _checked_out(out, "{name}")
-    if pattern is not None:
-        owners: Dict[str, str] = {}
-        for name in names:
-            file = _file_of(pattern, None, 4, os.path.splitext(os.path.basename(name))[0])
-            if owners.setdefault(file, name) != name:
-                raise fail("models", f"has '{owners[file]}' and '{name}', which have the same output file, {file}", "different names")
-    count = None if threads is None else _check.threads(threads, _core.cores())
-    job = _Models(names, _check.size(size), view, bool(linear), bool(alpha), pattern, count)
-    results = _local(job, len(names), progress) if client is None else _gathered(_submit(job, len(names), client, batch), len(names), progress)
+    job, count = _models_job(models, out, size, linear, alpha, threads, view)
+    results = _local(job, count, progress) if client is None else _gathered(_submit(job, count, client, batch), count, progress)
     for result in results:
         if errors == "raise" and isinstance(result, Exception):
             raise result

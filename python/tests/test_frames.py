@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
-"""render_frames(), submit_frames() and render_models(), in this process, with executors and with Dask."""
+"""render_frames(), render_models(), submit_frames() and submit_models(), in this process, with executors and with Dask."""
 
 import concurrent.futures
 import multiprocessing
 import os
 import pickle
 import signal
+import tempfile
 import time
 from pathlib import Path
 
@@ -113,6 +114,20 @@ def test_executors_give_the_same_frames(tmp_path):
             assert [len(f.result()) for f in futures] == [3, 2]
 
 
+def test_processes_receive_a_scene_once(tmp_path, monkeypatch):
+    """The scene is pickled once for all batches, into a file that is removed."""
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    pickled = []
+    state_of = halfspace.frames._Frames.__getstate__
+    monkeypatch.setattr(halfspace.frames._Frames, "__getstate__", lambda job: pickled.append(job) or state_of(job))
+    with concurrent.futures.ProcessPoolExecutor(2, mp_context=multiprocessing.get_context("forkserver")) as executor:
+        futures = halfspace.submit_frames(rich_scene(), 6, executor, size=SIZE, batch=1)
+        assert len(list(tmp_path.iterdir())) == 1
+        assert [len(future.result()) for future in futures] == [1] * 6
+    assert len(pickled) == 1
+    assert list(tmp_path.iterdir()) == []
+
+
 def test_an_exception_of_progress_cancels_the_rest(tmp_path):
     def stop(done, total):
         raise RuntimeError("enough")
@@ -151,6 +166,17 @@ def test_a_model_that_fails_costs_its_own_picture(tmp_path):
     with pytest.raises(halfspace.InputError, match="broken.obj"):
         halfspace.render_models(models, size=SIZE, out=tmp_path / "{name}.png")
     assert (tmp_path / "d.png").exists()
+
+
+def test_submitted_models_are_futures(tmp_path):
+    models = write_models(tmp_path)
+    for executor in executors():
+        with executor:
+            futures = halfspace.submit_models([*models, tmp_path / "broken.obj"], executor, size=SIZE, threads=1, batch=2, yaw=10)
+            results = [result for future in futures for result in future.result()]
+        assert len(futures) == 3 and isinstance(results[4], halfspace.InputError), type(executor)
+        for model, picture in zip(models, results):
+            assert np.array_equal(picture, halfspace.render(model, size=SIZE, yaw=10))
 
 
 def test_wrong_arguments():
@@ -195,8 +221,11 @@ def test_dask_gives_the_same_frames(dask, tmp_path):
     expected = list(scene.frames(range(6), size=SIZE))
     given = halfspace.render_frames(scene, range(6), size=SIZE, client=dask, batch=1)
     assert all(np.array_equal(a, b) for a, b in zip(given, expected))
-    pictures = halfspace.render_models(write_models(tmp_path), size=SIZE, client=dask, threads=1)
+    models = write_models(tmp_path)
+    pictures = halfspace.render_models(models, size=SIZE, client=dask, threads=1)
     assert np.array_equal(pictures[2], halfspace.render(tmp_path / "c.obj", size=SIZE))
+    submitted = [picture for future in halfspace.submit_models(models, dask, size=SIZE, threads=1) for picture in future.result()]
+    assert all(np.array_equal(a, b) for a, b in zip(submitted, pictures))
 
 
 def _worker_pid():

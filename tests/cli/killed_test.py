@@ -4,9 +4,10 @@
 
   killed_test.py BUILD [COUNT]
 
-Ranks of MPI, shards and lists are killed (SIGKILL) at random moments until COUNT processes were killed (default 6). After each, the command is
-repeated with --resume. The pictures must then be those of an undisturbed run, without partial files. Exits with 77, which CTest reports as
-skipped, if the program was built without MPI. Dask is tested by python/tests/test_frames.py.
+Ranks of MPI, shards, lists and workers of Dask are killed (SIGKILL) at random moments until COUNT processes were killed (default 6). After
+each, complete files must be those of an undisturbed run. The command is then repeated with --resume, except that Dask itself renders the frames
+of a killed worker again. The pictures must then be those of an undisturbed run, without partial files. Exits with 77, which CTest reports as
+skipped, if the program was built without MPI.
 """
 
 import hashlib
@@ -24,9 +25,46 @@ MPIRUN = ["mpirun", "--allow-run-as-root", "--oversubscribe", "--bind-to", "none
 FRAMES = ["moon", "--size", "96x54", "--frames", "0..59"]
 
 
+# Renders the frames with two workers of Dask into the folder of the first argument. Prints the processes of the workers.
+DASK = """
+import os, sys, distributed, halfspace
+if __name__ == "__main__":
+    with distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None, silence_logs=50) as cluster:
+        with distributed.Client(cluster) as client:
+            print(*client.run(os.getpid).values(), flush=True)
+            halfspace.render_frames("moon", 60, size=(96, 54), out=sys.argv[1] + "/{frame}.png", client=client, batch=1)
+"""
+
+
 def hashes(folder):
     """The contents of all files of a folder."""
-    return {p.name: hashlib.sha256(p.read_bytes()).hexdigest() for p in sorted(folder.iterdir())}
+    return {p.name: hashlib.sha256(p.read_bytes()).hexdigest() for p in sorted(folder.iterdir())} if folder.exists() else {}
+
+
+def damaged(folder, want):
+    """The complete files of a folder that are not as expected."""
+    return [name for name, content in hashes(folder).items() if not name.endswith(".part") and content != want.get(name)]
+
+
+def python_with_dask(build):
+    """A command that runs Python with Dask and Halfspace, or None."""
+    environment = {**os.environ, "PYTHONPATH": str(build / "python"), "HALFSPACE_PROGRAM": str(build / "bin" / "halfspace")}
+    for python in (sys.executable, "/usr/bin/python3"):
+        if subprocess.run([python, "-c", "import distributed, halfspace"], env=environment, stderr=subprocess.DEVNULL).returncode == 0:
+            return python, environment
+    return None
+
+
+def run_dask(dask, script, folder, delay=None):
+    """Renders the frames with Dask. Kills a worker after a while if `delay` is given."""
+    python, environment = dask
+    process = subprocess.Popen([python, str(script), str(folder)], env=environment, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+    workers = [int(pid) for pid in process.stdout.readline().split()]
+    if delay is not None:
+        time.sleep(delay)
+        if process.poll() is None:
+            os.kill(random.choice(workers), signal.SIGKILL)
+    assert process.wait(timeout=120) == 0, "rendering with Dask failed"
 
 
 def write_models(folder):
@@ -93,21 +131,38 @@ def main():
             start = time.time()
             subprocess.run(render(arguments, kind, place), check=True, stderr=subprocess.DEVNULL)
             expected[kind] = (hashes(folder / kind), time.time() - start)
+        names = list(engines)
+        dask, script = python_with_dask(build), folder / "frames.py"
+        if dask is None:
+            assert "HALFSPACE_NO_SKIPS" not in os.environ, "Dask or the Python module is missing (scripts/install_deps.sh --dask)"
+            print("without Dask, which is not installed")
+        else:
+            script.write_text(DASK)
+            start = time.time()
+            run_dask(dask, script, folder / "dask")
+            # Files that the Python module writes have no fingerprint.
+            expected["dask"] = (hashes(folder / "dask"), time.time() - start)
+            names.append("dask")
         killed, resumed = 0, 0
         for attempt in range(20 * count):
             if killed == count:
                 break
-            engine = list(engines)[attempt % len(engines)]
-            want, seconds = expected["list" if engine.startswith("list") else "frames"]
-            out = f"killed-{attempt}"
-            killed += kill_one(program, engines[engine](out), random.uniform(0.1, 0.4 + seconds))
-            complete = len(hashes(folder / out)) if (folder / out).exists() else 0
-            for command in engines[engine](out):
-                subprocess.run(command, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, timeout=120)
-            got = hashes(folder / out)
+            engine = names[attempt % len(names)]
+            want, seconds = expected["list" if engine.startswith("list") else "dask" if engine == "dask" else "frames"]
+            out = folder / f"killed-{attempt}"
+            if engine == "dask":
+                run_dask(dask, script, out, random.uniform(0.0, 1.0))
+                killed += 1
+            else:
+                commands = engines[engine](out.name)
+                killed += kill_one(program, commands, random.uniform(0.1, 0.4 + seconds))
+                assert not damaged(out, want), f"{engine}: {damaged(out, want)} are damaged"
+                resumed += len(hashes(out)) < len(want)
+                for command in commands:
+                    subprocess.run(command, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, timeout=120)
+            got = hashes(out)
             assert got == want, f"{engine}: {sorted(set(got) ^ set(want))} missing or too many, {[n for n in got if got[n] != want.get(n)]} differ"
-            resumed += complete < len(want)
-            shutil.rmtree(folder / out)
+            shutil.rmtree(out)
         assert killed == count, f"only {killed} processes could be killed"
         print(f"{killed} processes killed, {resumed} runs continued with pictures missing: all pictures as expected, 0 partial files")
     return 0
