@@ -17,7 +17,7 @@ benchmark_packages=(libvulkan1)
 dask_packages=(python3-distributed)
 mpi_packages=(libopenmpi-dev openmpi-bin)
 test_packages=("${dask_packages[@]}" "${mpi_packages[@]}" patch python3-jsonschema python3-matplotlib python3-pytest python3-pip python3-setuptools python3-wheel libgtest-dev
-  libbenchmark-dev libegl-dev libepoxy-dev libgl1-mesa-dri qemu-user universal-ctags)
+  libbenchmark-dev libegl-dev libepoxy-dev libgl1-mesa-dri qemu-user universal-ctags ffmpeg)
 document_packages=(doxygen man-db)
 view_packages=(libsdl2-dev libimgui-dev libx11-dev fonts-dejavu-core)
 gui_test_packages=(chromium chromium-driver python3-selenium xvfb openbox wmctrl xdotool imagemagick)
