@@ -77,10 +77,8 @@ void RenderRun::render(const RenderJob& job, const NextIndex& next, JobCounts& c
       begin(job);
       if (options_.has_fingerprints()) fingerprint = fingerprint_of(job, assets_->minimum_sizes());
     }
-    if (fingerprint) {
-      clean(files.picture.parent_path());
-      files.text.fingerprint = picture_fingerprint(job, *fingerprint, *i);
-    }
+    if (!options_.format.to_standard_output) clean(files.picture.parent_path());
+    if (fingerprint) files.text.fingerprint = picture_fingerprint(job, *fingerprint, *i);
     const auto start = std::chrono::steady_clock::now();
     const bool kept = options_.arguments.resume && keeps(files);
     if (!kept) {

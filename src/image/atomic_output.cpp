@@ -91,7 +91,7 @@ int write_all(int fd, std::span<const std::byte> bytes) {
 
 constexpr std::string_view kPrefix = ".halfspace-", kSuffix = ".part";
 
-// A process holds a lock on its temporary file until it has written it. The number of a process would not show whether it still runs: in a
+// A process holds a lock on its temporary file until it has renamed it. The number of a process would not show whether it still runs: in a
 // container, it is usually 1.
 bool lock(int fd) { return ::flock(fd, LOCK_EX | LOCK_NB) == 0; }
 
@@ -167,6 +167,8 @@ void write_file(const std::filesystem::path& path, std::span<const std::byte> by
   if (fd < 0) fail_errno(path, errno);
   int error = write_all(fd, bytes);
   if (error == 0 && status && ::fchmod(fd, status->st_mode & 07777) != 0) error = errno;
+  const Descriptor locked{
+      ::fcntl(fd, F_DUPFD_CLOEXEC, 0)};  // keeps the lock until the file has its name; other processes remove files that are not locked
   if (::close(fd) != 0 && error == 0) error = errno;  // some file systems report a full disk only here
   if (error == 0 && ::rename(unfinished_name, target.c_str()) != 0) error = errno;
   if (error != 0) ::unlink(unfinished_name);

@@ -105,6 +105,19 @@ TEST_F(Streams, AClosedPipeEndsQuietly) {
   EXPECT_EQ(read_bytes(directory / "out.txt").size(), 1000u);
 }
 
+// Also single pictures and animations, which have no fingerprint.
+TEST_F(Streams, FilesReplaceWhatKilledProcessesLeft) {
+  const fs::path abandoned = directory / ".halfspace-1-1.part";
+  for (const std::vector<std::string>& output : {std::vector<std::string>{"-o", "a.png"}, {"-o", "a.gif", "--frames", "0..1"}}) {
+    write_bytes(abandoned, "half of a picture");
+    std::vector<std::string> words{"render", "moon", "--size", "33x20"};
+    words.insert(words.end(), output.begin(), output.end());
+    const Outcome o = run(words);
+    EXPECT_EQ(o.exit_code, 0) << o.err;
+    EXPECT_FALSE(fs::exists(abandoned)) << output[1];
+  }
+}
+
 TEST_F(Streams, RefuseTransparencyThatTheyCannotStore) {
   for (const char* format : {"rgb24", "y4m"}) {
     const Outcome o = run(
