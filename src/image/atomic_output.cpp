@@ -167,8 +167,8 @@ void write_file(const std::filesystem::path& path, std::span<const std::byte> by
   if (fd < 0) fail_errno(path, errno);
   int error = write_all(fd, bytes);
   if (error == 0 && status && ::fchmod(fd, status->st_mode & 07777) != 0) error = errno;
-  const Descriptor locked{
-      ::fcntl(fd, F_DUPFD_CLOEXEC, 0)};  // keeps the lock until the file has its name; other processes remove files that are not locked
+  // Keeps the lock until the file has its name: other processes remove files that are not locked.
+  const Descriptor locked{::fcntl(fd, F_DUPFD_CLOEXEC, 0)};
   if (::close(fd) != 0 && error == 0) error = errno;  // some file systems report a full disk only here
   if (error == 0 && ::rename(unfinished_name, target.c_str()) != 0) error = errno;
   if (error != 0) ::unlink(unfinished_name);
