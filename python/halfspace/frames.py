@@ -3,11 +3,10 @@
 
 from __future__ import annotations
 
-import concurrent.futures
 import os
 import pickle
 import re
-import tempfile
+import sys
 import threading
 import uuid
 import warnings
@@ -166,6 +165,8 @@ def _identity(job: Any) -> Any:
 
 def _submit_by_file(job: Any, client: Any, parts: List[range]) -> List[Any]:
     """Gives a job to processes of this machine in a temporary file, which is removed after the last batch."""
+    import tempfile
+
     handle, file = tempfile.mkstemp(prefix="halfspace-", suffix=".job")
     left = len(parts)
     lock = threading.Lock()
@@ -194,6 +195,11 @@ def _is_dask(client: Any) -> bool:
     return hasattr(client, "scatter") and hasattr(client, "submit")
 
 
+def _is_process_pool(client: Any) -> bool:
+    module = sys.modules.get("concurrent.futures.process")  # imported if there is such a pool
+    return module is not None and isinstance(client, module.ProcessPoolExecutor)
+
+
 def _slots(client: Any) -> int:
     """Returns how many tasks an engine runs at the same time, or a guess."""
     if _is_dask(client):
@@ -218,7 +224,7 @@ def _submit(job: Any, count: int, client: Any, batch: Optional[int]) -> List[Any
             warnings.filterwarnings("ignore", "Large object|Sending large graph", UserWarning)
             sent = client.submit(_identity, job, pure=False)
         return [client.submit(_render, sent, part, pure=False) for part in parts]
-    if isinstance(client, concurrent.futures.ProcessPoolExecutor) and parts:
+    if _is_process_pool(client) and parts:
         return _submit_by_file(job, client, parts)
     return [client.submit(_render, job, part) for part in parts]
 
