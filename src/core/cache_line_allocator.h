@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Zero-initialized memory for images and textures.
+// Zero-initialized memory for images, textures and other large arrays.
 #pragma once
 
 #include <cstddef>
@@ -40,6 +40,7 @@ struct CacheLineAllocator {
   friend bool operator==(const CacheLineAllocator&, const CacheLineAllocator&) { return true; }
 };
 
+/// A vector that does not write new elements when it is resized.
 template <class T>
 using CacheLineVector = std::vector<T, CacheLineAllocator<T>>;
 

@@ -50,15 +50,20 @@ def damaged(folder, want):
 
 
 def run_dask(dask, script, folder, delay=None):
-    """Renders the frames with Dask. Kills a worker after a while if `delay` is given."""
+    """Renders the frames with Dask. Kills a worker after a while if `delay` is given. Returns whether one was killed before the end."""
     python, environment = dask
     process = subprocess.Popen([python, str(script), str(folder)], env=environment, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
     workers = [int(pid) for pid in process.stdout.readline().split()]
+    killed = False
     if delay is not None:
         time.sleep(delay)
-        if process.poll() is None:
+        try:
             os.kill(random.choice(workers), signal.SIGKILL)
+            killed = True
+        except ProcessLookupError:
+            pass  # all frames were rendered before
     assert process.wait(timeout=120) == 0, "rendering with Dask failed"
+    return killed
 
 
 def write_models(folder):
@@ -144,8 +149,7 @@ def main():
             want, seconds = expected["list" if engine.startswith("list") else "dask" if engine == "dask" else "frames"]
             out = folder / f"killed-{attempt}"
             if engine == "dask":
-                run_dask(dask, script, out, random.uniform(0.0, 1.0))
-                killed += 1
+                killed += run_dask(dask, script, out, random.uniform(0.0, 1.0))
             else:
                 commands = engines[engine](out.name)
                 killed += kill_one(program, commands, random.uniform(0.1, 0.4 + seconds))

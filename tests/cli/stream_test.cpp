@@ -106,7 +106,7 @@ TEST_F(Streams, AClosedPipeEndsQuietly) {
 }
 
 // Also single pictures and animations, which have no fingerprint.
-TEST_F(Streams, FilesReplaceWhatKilledProcessesLeft) {
+TEST_F(Streams, EveryFileRemovesThoseOfKilledProcesses) {
   const fs::path abandoned = directory / ".halfspace-1-1.part";
   for (const std::vector<std::string>& output : {std::vector<std::string>{"-o", "a.png"}, {"-o", "a.gif", "--frames", "0..1"}}) {
     write_bytes(abandoned, "half of a picture");

@@ -96,7 +96,9 @@ struct TexelReader {
   }
 
   Value operator()(I i) const {
-    if (format == TexelFormat::rgba8 || format == TexelFormat::srgb8a8) return four_bytes(word(i));  // by far the most common
+    // By far the most common formats.
+    if (format == TexelFormat::rgba8) return decode_rgba8<Value, TexelFormat::rgba8, R>(word(i));
+    if (format == TexelFormat::srgb8a8) return decode_rgba8<Value, TexelFormat::srgb8a8, R>(word(i));
     const TexelInfo& info = texel_info(format);
     Value v(R(0.0f), R(0.0f), R(0.0f), R(1.0f));
     if (info.kind == TexelKind::depth) {
@@ -127,12 +129,6 @@ struct TexelReader {
   }
 
  private:
-  HS_INLINE Value four_bytes(I texel) const {
-    const I red = texel & I(255), green = (texel >> 8) & I(255), blue = (texel >> 16) & I(255);
-    const R alpha = to_real<R>((texel >> 24) & I(255));
-    if (format == TexelFormat::rgba8) return {to_real<R>(red), to_real<R>(green), to_real<R>(blue), alpha};
-    return {srgb_to_linear<R>(red), srgb_to_linear<R>(green), srgb_to_linear<R>(blue), alpha};
-  }
   HS_INLINE R filtered_unit(const TexelInfo& info, I code, int k) const {
     switch (info.kind) {
       case TexelKind::srgb: return k == 3 ? to_real<R>(code) : srgb_to_linear<R>(code);
