@@ -28,12 +28,12 @@ const MpiFunctions* load() {
 
 }  // namespace
 
-MpiQueue::MpiQueue() : functions_(load()), place_(functions_->start(available_cpus().count)) {}
+MpiQueue::MpiQueue() : functions_(load()), place_(functions_->start(cgroup_cpus().value_or(0))) {}
 
 MpiQueue::~MpiQueue() { functions_->end(); }
 
-std::optional<int> MpiQueue::next() {
-  const int number = functions_->next();
+std::optional<int> MpiQueue::next(const PictureCounts& own) {
+  const int number = functions_->next(own);
   return number < 0 ? std::nullopt : std::optional(number);
 }
 

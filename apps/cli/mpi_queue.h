@@ -23,9 +23,10 @@ class MpiQueue {
 
   /// Begins to hand out 0 … total − 1.
   void begin(int total) { functions_->begin(total); }
-  /// Returns the next number, or nothing after the last one.
-  std::optional<int> next();
-  int others_done() const { return functions_->others_done(); }
+  /// Returns the next number, or nothing after the last one. own: what this rank has done.
+  std::optional<int> next(const PictureCounts& own);
+  /// Returns what all other ranks have done (MpiFunctions::others).
+  PictureCounts others() const { return functions_->others(); }
   /// Returns whether the results of all ranks have arrived.
   bool is_finished() const { return is_finished_; }
   /// Sends the result of this rank to rank 0, and there passes the results of all other ranks to `receive`.

@@ -50,33 +50,27 @@ ProgressStyle progress_style(const RenderArguments& args) {
   return args.verbose ? ProgressStyle::lines : ProgressStyle::bar;
 }
 
-// Where a run gets its work from, and what became of it: of this process, or of all ranks.
-struct Work {
-  NextIndex next;
-  int64_t total = 0;  // numbers of this process or, on rank 0, of all
-  MpiQueue* mpi = nullptr;
-};
-
-// Returns the shard of `count` scenes or frames, or what the queue of MPI hands out.
-Work work_of(const RenderOptions& options, int count, MpiQueue* mpi) {
-  if (mpi == nullptr) return {indices_of(count, options.shard), options.shard.share_of(count)};
-  mpi->begin(count);
-  return {[mpi] { return mpi->next(); }, count, mpi};
+// Shows the progress of this process or, on rank 0, of all ranks. count: scenes or frames of all processes.
+Progress make_progress(const RenderOptions& options, int count, const MpiQueue* mpi) {
+  const ProgressStyle style = progress_style(options.arguments);
+  const int64_t pictures = options.is_list() ? options.pictures_per_scene() : 1;
+  if (mpi == nullptr) return Progress(style, options.shard.share_of(count) * pictures);
+  const bool is_shown = style != ProgressStyle::bar || mpi->place().rank == 0;
+  return Progress(is_shown ? style : ProgressStyle::none, count * pictures, [mpi] { return mpi->others(); });
 }
 
-Progress make_progress(const RenderOptions& options, const Work& work, int pictures_per_number) {
-  ProgressStyle style = progress_style(options.arguments);
-  if (work.mpi == nullptr) return Progress(style, work.total * pictures_per_number);
-  if (style == ProgressStyle::bar && work.mpi->place().rank != 0) style = ProgressStyle::none;
-  return Progress(style, work.total * pictures_per_number,
-                  [mpi = work.mpi, pictures_per_number] { return int64_t{mpi->others_done()} * pictures_per_number; });
+// Returns the scenes or frames of the shard, or what the queue of MPI hands out.
+NextIndex next_index(const RenderOptions& options, int count, MpiQueue* mpi, const Progress& progress) {
+  if (mpi == nullptr) return indices_of(count, options.shard);
+  mpi->begin(count);
+  return [mpi, &progress] { return mpi->next(progress.own()); };
 }
 
 // Collects the results of all ranks. Returns false on all but rank 0.
-bool collect(const Work& work, RunResults& results) {
-  if (work.mpi == nullptr) return true;
-  work.mpi->finish(results.text(), [&](const std::string& other) { results.add(other); });
-  return work.mpi->place().rank == 0;
+bool collect(MpiQueue* mpi, RunResults& results) {
+  if (mpi == nullptr) return true;
+  mpi->finish(results.text(), [&](const std::string& other) { results.add(other); });
+  return mpi->place().rank == 0;
 }
 
 void print_statistics(const RenderOptions& o, RenderReport report, const std::string& scene, const std::filesystem::path& output) {
@@ -94,13 +88,13 @@ void print_statistics(const RenderOptions& o, RenderReport report, const std::st
 }
 
 void render_scenes(const RenderOptions& options, MpiQueue* mpi) {
-  const Work work = work_of(options, static_cast<int>(options.scenes.size()), mpi);
-  Progress progress = make_progress(options, work, options.pictures_per_scene());
+  const int count = static_cast<int>(options.scenes.size());
+  Progress progress = make_progress(options, count, mpi);
   RunResults results;
   RenderRun run(options, progress, results.resumed());
-  render_list(options, work.next, run, results, progress);
+  render_list(options, next_index(options, count, mpi, progress), run, results, progress);
   if (run.report().spheres_without_wireframe) print_warning(kNoWireframe);
-  if (!collect(work, results)) return;
+  if (!collect(mpi, results)) return;
   if (options.arguments.resume) print_note(results.resumed().line());
   print_statistics(options, run.report(), fmt::format("{} scenes", results.scenes()), options.out.empty() ? "-" : options.out);
   if (!options.arguments.report.empty()) {
@@ -121,20 +115,20 @@ void render_scene(const RenderOptions& options, MpiQueue* mpi) {
     return;
   }
   const double read_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-  const Work work = work_of(options, options.pictures_per_scene(), mpi);
-  Progress progress = make_progress(options, work, 1);
+  const int count = options.pictures_per_scene();
+  Progress progress = make_progress(options, count, mpi);
   RunResults results;
   RenderRun run(options, progress, results.resumed());
   if (!options.frames && !options.arguments.quiet) stage.emplace("rendering " + job.out.string());
   JobCounts counts;
-  run.render(job, work.next, counts);
+  run.render(job, next_index(options, count, mpi, progress), counts);
   stage.reset();
   RenderReport report = run.report();
   report.read_ms = read_ms;
   if (const std::string advice = advice_for_empty_pictures(job, report); !advice.empty())
     print_warning("nothing is visible in the picture; try " + advice);
   if (report.spheres_without_wireframe) print_warning(kNoWireframe);
-  if (!collect(work, results)) return;
+  if (!collect(mpi, results)) return;
   if (options.arguments.resume) print_note(results.resumed().line());
   print_statistics(options, std::move(report), job.name, job.out);
 }

@@ -13,8 +13,6 @@ namespace halfspace {
 
 namespace {
 
-constexpr const char* kSoftwareName = "Halfspace ";  // begins the name of the program in the files that it writes
-
 // Throws UsageError if the background is transparent and the format cannot store transparency.
 void check_alpha(const SceneFile& scene, const RenderOptions& options) {
   if (scene.description().background.type != BackgroundType::transparent || options.format.stores_alpha()) return;
@@ -38,15 +36,6 @@ void protect_from_others(const RenderOptions& options, const std::string& scene,
     if (options.outputs.contains(std::filesystem::absolute(input).lexically_normal()))
       throw OutputError(scene + ": reads " + input.string() + ", which this command writes; expected another output file");
   }
-}
-
-// Throws OutputError if a picture of a list would replace a file that this program did not write. It could be a texture of a later scene,
-// whose files are not known yet.
-void protect_other_files(const RenderOptions& options, const std::filesystem::path& picture) {
-  std::error_code error;
-  if (!options.is_list() || !options.has_fingerprints() || !std::filesystem::is_regular_file(picture, error)) return;
-  if (!read_image_text(picture).software.starts_with(kSoftwareName))
-    throw OutputError(picture.string() + ": exists, and this program did not write it; expected another output file");
 }
 
 }  // namespace
@@ -93,15 +82,17 @@ void protect_inputs(const RenderJob& job, const std::filesystem::path& picture) 
   files.push_back(picture);
   for (const std::filesystem::path& file : files) {
     reject_overwriting(file, job.inputs);
-    protect_other_files(job.options, file);
+    // It could be a texture of a later scene of the list, whose files are not known yet.
+    if (job.options.is_list() && job.options.has_fingerprints()) check_own_image(file);
   }
 }
 
 void protect_inputs(const RenderJob& job) {
   if (!job.pattern) return protect_inputs(job, job.out);
+  if (job.options.is_list()) return;  // the folder would be read once per scene; each picture is checked before it is rendered
   for (const int frame : job.pattern->existing_frames()) {
     const int i = (frame - job.options.frames->first) / job.options.frames->step;
-    if (job.options.is_list() || job.options.shard.contains(i)) protect_inputs(job, picture_of(job, i));
+    if (job.options.shard.contains(i)) protect_inputs(job, picture_of(job, i));
   }
 }
 

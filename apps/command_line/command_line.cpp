@@ -33,6 +33,8 @@ extern "C" void on_signal(int signal) {
 }
 
 void handle_signals() {
+  // Programs that were started with SIGPIPE ignored would report an error when the reader of their output has enough.
+  std::signal(SIGPIPE, SIG_DFL);
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     struct sigaction old = {};
     if (::sigaction(signal, nullptr, &old) != 0 || old.sa_handler == SIG_IGN) continue;  // keep signals ignored by nohup or the shell

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "command_line/progress.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
@@ -22,9 +23,19 @@ std::atomic<bool> line_shown = false;
 static_assert(std::atomic<bool>::is_always_lock_free);
 
 // Returns the width of the terminal, or 80 if it is unknown.
-int terminal_columns() {
+int terminal_columns(int terminal) {
   winsize size = {};
-  return ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
+  return ::ioctl(terminal, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
+}
+
+// Returns standard error or, with `or_parent`, that of the parent, whichever is a terminal first; −1 if none is.
+int find_terminal(bool or_parent) {
+  if (::isatty(STDERR_FILENO) == 1) return STDERR_FILENO;
+  if (!or_parent) return -1;
+  const int fd = ::open(fmt::format("/proc/{}/fd/{}", ::getppid(), STDERR_FILENO).c_str(), O_WRONLY | O_NOCTTY | O_CLOEXEC | O_NONBLOCK);
+  if (fd < 0 || ::isatty(fd) == 1) return fd;
+  ::close(fd);
+  return -1;
 }
 
 // Formats a duration as "1:05" or "2:00:07".
@@ -49,61 +60,69 @@ void clear_progress() noexcept {
 
 void show_progress_line(const std::string& text) {
   // A line that wraps could not be overwritten.
-  std::fputs(("\r\033[K" + text.substr(0, static_cast<std::size_t>(std::max(terminal_columns() - 1, 0)))).c_str(), stderr);
+  std::fputs(("\r\033[K" + text.substr(0, static_cast<std::size_t>(std::max(terminal_columns(STDERR_FILENO) - 1, 0)))).c_str(), stderr);
   std::fflush(stderr);
   line_shown = true;
 }
 
-Progress::Progress(ProgressStyle style, int64_t total, std::function<int64_t()> others)
-    : style_(style), total_(total), others_(std::move(others)), start_(std::chrono::steady_clock::now()) {
-  if (style == ProgressStyle::bar && (total < 2 || ::isatty(STDERR_FILENO) != 1)) style_ = ProgressStyle::none;
+Progress::Progress(ProgressStyle style, int64_t total, std::function<PictureCounts()> others)
+    : style_(style),
+      total_(total),
+      others_(std::move(others)),
+      terminal_(style == ProgressStyle::bar && total > 1 ? find_terminal(others_ != nullptr) : -1),
+      start_(std::chrono::steady_clock::now()) {
+  if (style == ProgressStyle::bar && terminal_ < 0) style_ = ProgressStyle::none;
   if (style_ == ProgressStyle::bar) show_bar();
 }
 
-Progress::~Progress() { clear_progress(); }
+Progress::~Progress() {
+  clear_progress();
+  if (terminal_ >= 0 && terminal_ != STDERR_FILENO) ::close(terminal_);
+}
 
 void Progress::skip(int64_t pictures) {
-  own_ += pictures;
-  kept_ += pictures;
+  own_.done += pictures;
+  own_.kept += pictures;
 }
 
 void Progress::advance(bool kept, const std::string& file, std::chrono::steady_clock::duration spent) {
-  ++own_;
-  kept_ += kept ? 1 : 0;
-  done_ = own_ + (others_ ? others_() : 0);
+  ++own_.done;
+  own_.kept += kept ? 1 : 0;
+  const PictureCounts others = others_ ? others_() : PictureCounts{};
+  all_ = {own_.done + others.done, own_.kept + others.kept};
   if (style_ == ProgressStyle::bar) show_bar();
   const double ms = std::chrono::duration<double, std::milli>(spent).count();
   if (style_ == ProgressStyle::lines)
-    std::fputs(fmt::format("{}/{}  {}  {}\n", done_, total_, printable(file), kept ? "kept" : fmt::format("{:.1f} ms", ms)).c_str(),
+    std::fputs(fmt::format("{}/{}  {}  {}\n", all_.done, total_, printable(file), kept ? "kept" : fmt::format("{:.1f} ms", ms)).c_str(),
                stderr);
   if (style_ != ProgressStyle::json) return;
   std::fputs(fmt::format("{{\"done\": {}, \"total\": {}, \"file\": {}, \"kept\": {}, \"ms\": {:.1f}, \"per_second\": {:.3g}, "
                          "\"seconds_left\": {:.1f}}}\n",
-                         done_, total_, json_string(file), kept, ms, pictures_per_second(), seconds_left())
+                         all_.done, total_, json_string(file), kept, ms, pictures_per_second(), seconds_left())
                  .c_str(),
              stderr);
 }
 
 double Progress::pictures_per_second() const {
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  return seconds > 0.0 ? static_cast<double>(done_ - kept_) / seconds : 0.0;
+  return seconds > 0.0 ? static_cast<double>(all_.done - all_.kept) / seconds : 0.0;
 }
 
 double Progress::seconds_left() const {
   const double rate = pictures_per_second();
-  return rate > 0.0 ? static_cast<double>(total_ - done_) / rate : 0.0;
+  return rate > 0.0 ? static_cast<double>(total_ - all_.done) / rate : 0.0;
 }
 
 void Progress::show_bar() const {
-  std::string text = fmt::format(" {}/{}", done_, total_);
-  if (done_ > kept_)
+  std::string text = fmt::format(" {}/{}", all_.done, total_);
+  if (all_.done > all_.kept)
     text += fmt::format("  {:.3g}/s  {} left", pictures_per_second(), time_text(static_cast<int>(std::min(seconds_left() + 0.5, 1e9))));
   // A line that wraps could not be overwritten, so the bar is shortened if necessary.
   constexpr int kWidest = 30;
-  const int width = std::min(kWidest, terminal_columns() - 3 - static_cast<int>(text.size()));
+  const int width = std::min(kWidest, terminal_columns(terminal_) - 3 - static_cast<int>(text.size()));
   std::string line = "\r\033[K";
   if (width > 0) {
-    const auto filled = static_cast<std::size_t>(width * done_ / total_);
+    const auto filled = static_cast<std::size_t>(width * all_.done / total_);
     line += '[';
     line.append(filled, '#').append(static_cast<std::size_t>(width) - filled, '.');
     line += ']';

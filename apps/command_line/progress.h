@@ -8,21 +8,24 @@
 #include <functional>
 #include <string>
 
+#include "command_line/picture_counts.h"
+
 namespace halfspace {
 
 /// How the progress of a run is shown on standard error.
 enum class ProgressStyle {
   none,
-  bar,    ///< the finished pictures and the remaining time, if there are several pictures and standard error is a terminal
-  lines,  ///< one line per picture
+  bar,    ///< the finished pictures of all processes and the remaining time, if there are several pictures and a terminal
+  lines,  ///< one line per picture of this process
   json    ///< the same, each line a JSON object
 };
 
 /// Shows the progress of a run of several pictures.
 class Progress {
  public:
-  /// others: returns how many pictures other processes have finished; may be empty.
-  Progress(ProgressStyle style, int64_t total, std::function<int64_t()> others = {});
+  /// total: the pictures of all processes. others: returns what other processes have done; may be empty. If it is not, the bar is also
+  /// shown if standard error is not a terminal, but that of the parent is: mpirun passes on what its ranks write.
+  Progress(ProgressStyle style, int64_t total, std::function<PictureCounts()> others = {});
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
@@ -33,6 +36,9 @@ class Progress {
   /// file, spent: the picture and its time, for lines.
   void advance(bool kept = false, const std::string& file = {}, std::chrono::steady_clock::duration spent = {});
 
+  /// Returns what this process has done.
+  const PictureCounts& own() const { return own_; }
+
  private:
   void show_bar() const;
   double pictures_per_second() const;  // 0: unknown
@@ -40,8 +46,9 @@ class Progress {
 
   ProgressStyle style_;
   int64_t total_;
-  int64_t own_ = 0, kept_ = 0, done_ = 0;  // of this process; own pictures that were kept; of all processes
-  std::function<int64_t()> others_;
+  PictureCounts own_, all_;  // of this process; of all processes
+  std::function<PictureCounts()> others_;
+  int terminal_;  // file descriptor, or −1
   std::chrono::steady_clock::time_point start_;
 };
 

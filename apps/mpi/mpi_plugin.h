@@ -8,25 +8,26 @@
 
 #include <cstddef>
 
+#include "command_line/picture_counts.h"
+
 namespace halfspace {
 
 struct MpiPlace {
   int rank = 0;
-  /// Threads for this rank: the CPUs that its node allows, divided among the ranks of the node that share them.
-  int threads = 1;
+  int threads = 1;  ///< for this rank (threads_of_rank())
   int cpus = 1;  ///< CPUs to which this rank is bound
 };
 
 /// Functions of the plugin. They are called by one thread.
 struct MpiFunctions {
-  /// Initializes MPI. cpu_limit: the number of CPUs that this process may use, at least 1.
-  MpiPlace (*start)(int cpu_limit);
+  /// Initializes MPI. quota: the CPUs that the control groups of this process allow, or 0 if there is no quota.
+  MpiPlace (*start)(int quota);
   /// Begins to hand out work. Must be called by all ranks with the same total.
   void (*begin)(int total);
-  /// Returns the next number, or −1 after the last one.
-  int (*next)();
-  /// On rank 0, returns how many numbers the other ranks have finished. A rank that asks for its next number early counts as one further.
-  int (*others_done)();
+  /// Returns the next number, or −1 after the last one. own: what this rank has done, which it tells the others.
+  int (*next)(PictureCounts own);
+  /// Returns what all other ranks had done when they last asked for a number. Ranks other than 0 learn it when they ask themselves.
+  PictureCounts (*others)();
   /// Sends a text to rank 0, and there waits for the texts of all other ranks and passes each to receive(context, text, size).
   void (*finish)(const char* text, std::size_t size, void (*receive)(void*, const char*, std::size_t), void* context);
   /// Ends MPI. Must be called by all ranks.

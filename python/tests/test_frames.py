@@ -168,6 +168,17 @@ def test_a_model_that_fails_costs_its_own_picture(tmp_path):
     assert (tmp_path / "d.png").exists()
 
 
+def test_pictures_of_models_replace_no_file_of_others(tmp_path):
+    models = write_models(tmp_path)[:2]
+    texture = tmp_path / "a.png"
+    texture.write_bytes(b"\x89PNG of another program")
+    before = texture.read_bytes()
+    results = halfspace.render_models(models, size=SIZE, out=tmp_path / "{name}.png", errors="return")
+    assert isinstance(results[0], halfspace.OutputError) and "a.png: exists, and this program did not write it" in str(results[0])
+    assert texture.read_bytes() == before
+    assert halfspace.render_models(models[1:], size=SIZE, out=tmp_path / "{name}.png") == [results[1]], "its own picture is replaced"
+
+
 def test_submitted_models_are_futures(tmp_path):
     models = write_models(tmp_path)
     for executor in executors():
@@ -232,13 +243,21 @@ def _worker_pid():
     return os.getpid()
 
 
+def kill_a_worker(client):
+    """Kills one of two workers. Tasks of Dask 2022.12 that wait when the last worker dies are never run, even by workers that start later."""
+    pids = client.run(_worker_pid)
+    assert len(pids) == 2
+    os.kill(next(iter(pids.values())), signal.SIGKILL)
+
+
 @pytest.mark.filterwarnings("ignore")  # of Dask
 def test_results_on_a_killed_worker_of_dask_are_rendered_again(dask):
     distributed = pytest.importorskip("distributed")
     scene = rich_scene()
+    dask.wait_for_workers(2)
     futures = halfspace.submit_frames(scene, 6, dask, size=SIZE, batch=1)
     distributed.wait(futures)
-    os.kill(next(iter(dask.run(_worker_pid).values())), signal.SIGKILL)
+    kill_a_worker(dask)
     pictures = [picture for future in futures for picture in future.result(timeout=120)]
     assert len(pictures) == 6 and all(np.array_equal(a, b) for a, b in zip(pictures, scene.frames(range(6), size=SIZE)))
 
@@ -248,10 +267,10 @@ def test_a_killed_worker_of_dask_loses_nothing(dask, tmp_path):
     """The tasks of a killed worker run again on others."""
     scene = halfspace.Scene.load("moon", threads=1)
     halfspace.render_frames(scene, 12, size=SIZE, out=tmp_path / "one" / "{frame}.png")
+    dask.wait_for_workers(2)
     futures = halfspace.submit_frames(scene, 12, dask, size=SIZE, out=tmp_path / "dask" / "{frame}.png", batch=1)
-    victim = next(iter(dask.run(_worker_pid).values()))
     time.sleep(0.2)
-    os.kill(victim, signal.SIGKILL)
+    kill_a_worker(dask)
     names = [name for future in futures for name in future.result(timeout=120)]
     assert [os.path.basename(name) for name in names] == [f"{i:04}.png" for i in range(12)]
     for i in range(12):

@@ -1,14 +1,17 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Measures what each way of docs/howto/scale.md costs, and prints a table in Markdown.
+"""Measures what each way of docs/howto/scale.md costs, and prints a table in Markdown and a line about lists of models.
 
-  PYTHONPATH=BUILD/python scripts/bench/engine_overhead.py BUILD [FRAMES]
+  PYTHONPATH=BUILD/python scripts/bench/engine_overhead.py BUILD [FRAMES [MODELS]]
 
 Renders small frames with two workers of one thread each: FRAMES (default 200; a tenth of them with one process per frame) and twice as many.
 The difference gives the time per frame, and what remains is the time to start. The overhead is the time per frame and worker, minus that of one
 process with one thread. Engines that are not installed are left out.
+
+Then renders a list of MODELS models (default 1000) with 256 quads each at 256x256 in one process, and a tenth of them with one process each.
 """
 
+import math
 import shutil
 import subprocess
 import sys
@@ -69,8 +72,38 @@ def engines(program, folder):
     yield "Python, Dask", 2, dask
 
 
+def write_model(path, number):
+    """Writes a wavy square of 16 x 16 quads."""
+    with open(path, "w") as out:
+        for i in range(17 * 17):
+            out.write(f"v {i % 17} {i // 17} {math.sin(i + number):.6f}\n")
+        for i in range(16 * 16):
+            corner = i // 16 * 17 + i % 16 + 1
+            out.write(f"f {corner} {corner + 1} {corner + 18} {corner + 17}\n")
+
+
+def seconds_of(work):
+    start = time.perf_counter()
+    work()
+    return time.perf_counter() - start
+
+
+def compare_lists(program, folder, count):
+    """Prints the times of one process for a list of models and of one process per model."""
+    models = [f"{folder}/model{i}.obj" for i in range(count)]
+    for i, model in enumerate(models):
+        write_model(model, i)
+    render = [program, "render", "--size", "256x256"]
+    one = seconds_of(lambda: run([*render, *models, "-o", f"{folder}/one-{{name}}.png"]))
+    some = models[:max(count // 10, 1)]
+    each = seconds_of(lambda: [run([*render, model, "-o", f"{folder}/each-{Path(model).stem}.png"]) for model in some])
+    each *= count / len(some)
+    print(f"\n{count} models: {one:.1f} s in one process, {each:.1f} s in {count} processes (from {len(some)}), {each / one:.1f} times as long")
+
+
 def main():
     program, count = str(Path(sys.argv[1]).resolve() / "bin" / "halfspace"), int(sys.argv[2]) if len(sys.argv) > 2 else 200
+    models = int(sys.argv[3]) if len(sys.argv) > 3 else 1000
     with tempfile.TemporaryDirectory(prefix="halfspace-") as folder:
         print("| engine | start, s | ms per frame | overhead, ms per frame and worker |\n|---|---:|---:|---:|")
         base = 0.0
@@ -78,13 +111,12 @@ def main():
             frames = max(count // 10, 1) if "per frame" in name else count
             best = {}
             for n in ROUNDS * [frames, 2 * frames]:
-                start = time.perf_counter()
-                work(n)
-                best[n] = min(best.get(n, 1e9), time.perf_counter() - start)
+                best[n] = min(best.get(n, 1e9), seconds_of(lambda: work(n)))
             per_frame = (best[2 * frames] - best[frames]) / frames
             base = base or per_frame
             overhead = "" if name == "one process" else f"{1e3 * (workers * per_frame - base):.2f}"
             print(f"| {name} | {max(best[frames] - frames * per_frame, 0.0):.2f} | {1e3 * per_frame:.2f} | {overhead} |", flush=True)
+        compare_lists(program, folder, models)
 
 
 if __name__ == "__main__":

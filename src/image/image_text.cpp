@@ -198,6 +198,12 @@ bool is_whole_image(const std::filesystem::path& path) {
   return format == "hdr" && is_whole_radiance(file);
 }
 
+void check_own_image(const std::filesystem::path& path) {
+  std::error_code error;
+  if (std::filesystem::is_regular_file(path, error) && !read_image_text(path).software.starts_with(kSoftwareName))
+    throw OutputError(path.string() + ": exists, and this program did not write it; expected another output file");
+}
+
 std::string text_lines(const ImageText& text) {
   std::string lines;
   for (const auto& [label, value] : {std::pair(kFingerprintLabel, &text.fingerprint), std::pair(kSoftwareLabel, &text.software),

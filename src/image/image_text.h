@@ -22,6 +22,12 @@ ImageText read_image_text(const std::filesystem::path& path);
 /// by the number of bytes that is stored with the text. Damage in the middle is not found.
 bool is_whole_image(const std::filesystem::path& path);
 
+/// Begins ImageText::software of the pictures that programs of Halfspace write; the version follows.
+inline constexpr std::string_view kSoftwareName = "Halfspace ";
+
+/// Throws OutputError if a file exists that is not a picture of these programs. It could be a texture.
+void check_own_image(const std::filesystem::path& path);
+
 /// Returns the text as lines "Fingerprint: …", "Software: …" and "Comment: …", without those that are empty. JPEG files have them as a
 /// comment (marker COM), TIFF files as ImageDescription, and Radiance files after the first line.
 std::string text_lines(const ImageText& text);

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // `render --mpi`: the processes of mpirun share scenes or frames.
+#include <algorithm>
 #include <nlohmann/json.hpp>
+#include <regex>
+#include <sstream>
 
 #include "cli/cli_run.h"
+#include "mpi/rank_threads.h"
 #include "support/sanitized.h"
 
 namespace halfspace {
@@ -44,6 +48,35 @@ TEST_F(Mpi, RanksGiveTheFilesOfOneProcess) {
   }
 }
 
+TEST_F(Mpi, EachRankCountsThePicturesOfAllRanks) {
+  const Outcome o = mpirun(2, "moon --size 48x27 --frames 0..19 -o m.png --progress json");
+  EXPECT_EQ(o.exit_code, 0) << o.err;
+  std::istringstream lines(o.err);
+  int last = 0, pictures = 0;
+  for (std::string line; std::getline(lines, line); ++pictures) {
+    const nlohmann::json picture = nlohmann::json::parse(line);
+    EXPECT_EQ(picture.at("total"), 20);
+    last = std::max(last, picture.at("done").get<int>());
+  }
+  EXPECT_EQ(pictures, 20);
+  // Each rank knows what the other had done when it asked for its own picture: the last line counts at least all but the other's last two.
+  EXPECT_GE(last, 18);
+  EXPECT_LE(last, 20);
+}
+
+TEST_F(Mpi, OneBarCountsThePicturesOfAllRanks) {
+  // `script` gives mpirun a terminal. The ranks write to a pipe, which mpirun reads.
+  const std::string command = "cd " + directory.string() + " && script -qec '" + kMpirun +
+                              " --oversubscribe --bind-to none -n 2 " HALFSPACE_PROGRAM " render moon --size 48x27 --frames 0..19 -o m.png --mpi' " +
+                              "/dev/null > " + (root / "out").string() + " 2>&1";
+  EXPECT_EQ(std::system(command.c_str()), 0);
+  const std::string shown = read_bytes(root / "out");
+  const std::regex bar("\\[#*\\.*\\] ([0-9]+)/20  [0-9.]+/s  [0-9:]+ left");
+  int last = 0;
+  for (std::sregex_iterator found(shown.begin(), shown.end(), bar), end; found != end; ++found) last = std::stoi((*found)[1]);
+  EXPECT_GE(last, 18) << shown;
+}
+
 TEST_F(Mpi, RanksShareAList) {
   std::string list;
   for (const char* name : {"a", "b", "c", "d", "e"}) {
@@ -79,6 +112,21 @@ TEST_F(Mpi, ARankWithTooFewCpusWarns) {
   EXPECT_EQ(std::system(command.c_str()), 0);
   EXPECT_NE(read_bytes(root / "err").find("rank 0 is bound to 1 CPU, but has 2 threads; expected mpirun --bind-to none"),
             std::string::npos);
+}
+
+TEST(MpiThreads, RanksShareTheCpusOfTheirNode) {
+  EXPECT_EQ(threads_of_rank({.own = 8, .sum = 8, .all = 8, .ranks = 1}, 0), 8);
+  EXPECT_EQ(threads_of_rank({.own = 8, .sum = 32, .all = 8, .ranks = 4}, 0), 2) << "not bound";
+  EXPECT_EQ(threads_of_rank({.own = 2, .sum = 8, .all = 8, .ranks = 4}, 0), 2) << "bound";
+  EXPECT_EQ(threads_of_rank({.own = 1, .sum = 4, .all = 2, .ranks = 4}, 0), 1) << "more ranks than CPUs";
+}
+
+TEST(MpiThreads, RanksShareTheQuotaOfTheirNode) {
+  EXPECT_EQ(threads_of_rank({.own = 64, .sum = 64, .all = 64, .ranks = 1}, 4), 4);
+  EXPECT_EQ(threads_of_rank({.own = 64, .sum = 256, .all = 64, .ranks = 4}, 4), 1) << "not bound";
+  EXPECT_EQ(threads_of_rank({.own = 16, .sum = 64, .all = 64, .ranks = 4}, 4), 1) << "bound";
+  EXPECT_EQ(threads_of_rank({.own = 16, .sum = 64, .all = 64, .ranks = 4}, 2), 1) << "less than one CPU per rank";
+  EXPECT_EQ(threads_of_rank({.own = 2, .sum = 8, .all = 8, .ranks = 4}, 100), 2) << "more than the node has";
 }
 
 }  // namespace

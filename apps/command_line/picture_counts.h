@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+namespace halfspace {
+
+/// How far a process has come with its pictures.
+struct PictureCounts {
+  int64_t done = 0;  ///< rendered, kept or left out
+  int64_t kept = 0;  ///< those of them that were not rendered, so that they say nothing about the time of others
+};
+
+}  // namespace halfspace
