@@ -22,7 +22,7 @@ const MpiFunctions* load() {
   void* library = ::dlopen(plugin.c_str(), RTLD_NOW | RTLD_GLOBAL);
   if (library == nullptr) throw UsageError(std::string("--mpi: cannot be loaded (") + ::dlerror() + "); expected the libraries of OpenMPI");
   const void* functions = ::dlsym(library, "halfspace_mpi_functions");
-  if (functions == nullptr) throw UsageError("--mpi: " + plugin.string() + " is not of this version; expected that of this build");
+  if (functions == nullptr) throw UsageError("--mpi: " + plugin.string() + " is not the plugin for --mpi; expected that of this build");
   return static_cast<const MpiFunctions*>(functions);
 }
 

@@ -50,7 +50,7 @@ ProgressStyle progress_style(const RenderArguments& args) {
   return args.verbose ? ProgressStyle::lines : ProgressStyle::bar;
 }
 
-// Shows the progress of this process or, on rank 0, of all ranks. count: scenes or frames of all processes.
+// Shows the progress of this process or, with MPI, of all ranks; only rank 0 shows a bar. count: scenes or frames of all processes.
 Progress make_progress(const RenderOptions& options, int count, const MpiQueue* mpi) {
   const ProgressStyle style = progress_style(options.arguments);
   const int64_t pictures = options.is_list() ? options.pictures_per_scene() : 1;

@@ -41,7 +41,7 @@ PictureFiles files_of(const RenderJob& job, int i);
 /// Throws OutputError if one of the files of a picture is a file that the scene reads, or, in a list, a file of another program.
 void protect_inputs(const RenderJob& job, const std::filesystem::path& picture);
 
-/// Like protect_inputs, for all pictures, so that a long animation does not fail at its last frame.
+/// The same for all pictures, so that a long animation does not fail at its last frame. Leaves out a list with frames.
 void protect_inputs(const RenderJob& job);
 
 }  // namespace halfspace

@@ -3,12 +3,8 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
-#include <fstream>
-#include <set>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 #include "cli/build_commit.h"
 #include "cli/file_hash.h"
@@ -21,28 +17,8 @@ namespace halfspace {
 
 namespace {
 
-// Returns the files of this program that are mapped as code, in ascending order: the program and, depending on the build, its libraries.
-std::vector<std::filesystem::path> own_code() {
-  const std::filesystem::path program = "/proc/self/exe";  // can be opened even if the file has been replaced
-  std::error_code error;
-  const std::filesystem::path name = std::filesystem::read_symlink(program, error);
-  std::set<std::filesystem::path> files = {program};
-  std::ifstream maps("/proc/self/maps");
-  for (std::string line; std::getline(maps, line);) {  // address, rights, offset, device, inode, and the path after spaces
-    const std::size_t slash = line.find('/');
-    if (slash == std::string::npos || line.find(" r-xp ") > slash) continue;
-    const std::filesystem::path file = line.substr(slash);
-    if (file != name && file.filename().string().find("halfspace") != std::string::npos) files.insert(file);
-  }
-  return {files.begin(), files.end()};
-}
-
-// Identifies the program. Without a commit, the contents of its files do.
-const std::string& build() {
-  static const std::string kBuild = std::string(HALFSPACE_VERSION) + "-" +
-                                    (build_commit() == std::string_view("unknown") ? hash_of_files(own_code()) : build_commit());
-  return kBuild;
-}
+// Identifies the program.
+std::string build() { return std::string(HALFSPACE_VERSION) + "-" + build_commit(); }
 
 // Returns the word after "NAME ", or an empty text.
 std::string_view part_of(std::string_view fingerprint, std::string_view name) {

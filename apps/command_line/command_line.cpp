@@ -33,11 +33,11 @@ extern "C" void on_signal(int signal) {
 }
 
 void handle_signals() {
-  // Programs that were started with SIGPIPE ignored would report an error when the reader of their output has enough.
-  std::signal(SIGPIPE, SIG_DFL);
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) {
     struct sigaction old = {};
-    if (::sigaction(signal, nullptr, &old) != 0 || old.sa_handler == SIG_IGN) continue;  // keep signals ignored by nohup or the shell
+    if (::sigaction(signal, nullptr, &old) != 0) continue;
+    // Signals that nohup or the shell ignore stay ignored, except that a program whose reader has enough always ends without a message.
+    if (old.sa_handler == SIG_IGN && signal != SIGPIPE) continue;
     struct sigaction action = {};
     action.sa_handler = on_signal;
     action.sa_flags = static_cast<int>(SA_RESETHAND);

@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/ioctl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -28,10 +29,13 @@ int terminal_columns(int terminal) {
   return ::ioctl(terminal, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
 }
 
-// Returns standard error or, with `or_parent`, that of the parent, whichever is a terminal first; −1 if none is.
+// Returns standard error if it is a terminal. With `or_parent`, if it is a pipe or socket, returns that of the parent if that is a terminal.
+// Otherwise, returns −1.
 int find_terminal(bool or_parent) {
   if (::isatty(STDERR_FILENO) == 1) return STDERR_FILENO;
-  if (!or_parent) return -1;
+  struct stat status = {};
+  const bool is_passed_on = ::fstat(STDERR_FILENO, &status) == 0 && (S_ISFIFO(status.st_mode) || S_ISSOCK(status.st_mode));
+  if (!or_parent || !is_passed_on) return -1;
   const int fd = ::open(fmt::format("/proc/{}/fd/{}", ::getppid(), STDERR_FILENO).c_str(), O_WRONLY | O_NOCTTY | O_CLOEXEC | O_NONBLOCK);
   if (fd < 0 || ::isatty(fd) == 1) return fd;
   ::close(fd);

@@ -31,7 +31,8 @@ struct Queue {
   std::thread server;
   std::vector<std::string> results;  // of the other ranks; written by the server
   std::mutex mutex;
-  int next = 0, total = 0;            // on rank 0, under the mutex
+  int total = 0;                      // set before the server starts
+  int next = 0;                       // on rank 0, under the mutex
   std::vector<PictureCounts> counts;  // likewise, of each rank when it last asked
   PictureCounts others;               // on the other ranks, from the last reply
 };

@@ -31,33 +31,38 @@ class Texture(Immutable):
         float16, and is read-only.
     filter: "nearest", "bilinear", or one with mip levels: "trilinear", "nearest_mipmap_nearest", "bilinear_mipmap_nearest" or
         "nearest_mipmap_linear" (OpenGL's minification filters).
+    mag: "nearest" or "bilinear", for texels that are larger than a pixel. The default is "nearest" if the name of `filter` begins with
+        "nearest", and otherwise "bilinear".
     wrap: "repeat", "mirrored", "clamp" or "mirrored_clamp", or a pair of them for u and v. The member is a pair.
     anisotropy: maximum number of probes along an elongated footprint, 1 to 16.
     """
 
-    __slots__ = ("texels", "filter", "wrap", "anisotropy", "_sampler")
+    __slots__ = ("texels", "filter", "mag", "wrap", "anisotropy", "_sampler")
     texels: np.ndarray
     filter: str
+    mag: str
     wrap: Tuple[str, str]
     anisotropy: int
 
-    def __init__(self, texels: Any, *, filter: str = "trilinear", wrap: Union[str, Tuple[str, str]] = "repeat", anisotropy: int = 8) -> None:
+    def __init__(self, texels: Any, *, filter: str = "trilinear", mag: Optional[str] = None,
+                 wrap: Union[str, Tuple[str, str]] = "repeat", anisotropy: int = 8) -> None:
         checked = _check.texels("texels", texels)
         pair = tuple(wrap) if isinstance(wrap, (tuple, list)) else (wrap, wrap)
         if len(pair) != 2:
             raise fail("wrap", f"is {wrap!r}", "a word or a pair of words")
         wraps = [getattr(_core.Wrap, _check.choice("wrap", w, _WRAPS)) for w in pair]
         chosen = getattr(_core.Filter, _check.choice("filter", filter, _FILTERS))
+        magnification = ("nearest" if filter.startswith("nearest") else "bilinear") if mag is None else _check.choice("mag", mag, _FILTERS[:2])
         probes = _check.integer("anisotropy", anisotropy, 1, 16)
-        self._set(texels=_check.read_only(checked, texels), filter=filter, wrap=pair, anisotropy=probes,
-                  _sampler=_core.Sampler(chosen, wraps[0], wraps[1], probes))
+        self._set(texels=_check.read_only(checked, texels), filter=filter, mag=magnification, wrap=pair, anisotropy=probes,
+                  _sampler=_core.Sampler(chosen, getattr(_core.Filter, magnification), wraps[0], wraps[1], probes))
 
     def _restore(self, members: Any) -> None:
         self.__init__(**members)  # type: ignore[misc]
 
     @classmethod
-    def _of_file(cls, texels: np.ndarray, filter: Any, wrap_u: Any, wrap_v: Any, anisotropy: int) -> "Texture":
-        return cls(texels, filter=filter.name, wrap=(wrap_u.name, wrap_v.name), anisotropy=anisotropy)
+    def _of_file(cls, texels: np.ndarray, filter: Any, mag: Any, wrap_u: Any, wrap_v: Any, anisotropy: int) -> "Texture":
+        return cls(texels, filter=filter.name, mag=mag.name, wrap=(wrap_u.name, wrap_v.name), anisotropy=anisotropy)
 
 
 def _texture(name: str, value: Any) -> Texture:

@@ -146,10 +146,10 @@ void bind_sampler(py::module_& m) {
       .value("mirrored", Wrap::mirrored)
       .value("clamp", Wrap::clamp)
       .value("mirrored_clamp", Wrap::mirrored_clamp);
-  py::class_<Sampler>(m, "Sampler").def(py::init([](Filter filter, Wrap wrap_s, Wrap wrap_t, int anisotropy) {
+  py::class_<Sampler>(m, "Sampler").def(py::init([](Filter min, Filter mag, Wrap wrap_s, Wrap wrap_t, int anisotropy) {
     Sampler s;
-    s.mag = reads_nearest_texel(filter) ? Filter::nearest : Filter::bilinear;
-    s.min = filter;
+    s.mag = mag;
+    s.min = min;
     s.wrap_s = wrap_s;
     s.wrap_t = wrap_t;
     s.anisotropy = anisotropy;

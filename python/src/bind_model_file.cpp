@@ -98,7 +98,7 @@ py::dict arrays_of(const Model& part) {
   return arrays;
 }
 
-// Returns the texels, the filter, the wrap modes and the anisotropy of a texture, or None if there is none or it cannot be read. Texels
+// Returns the texels, the filters, the wrap modes and the anisotropy of a texture, or None if there is none or it cannot be read. Texels
 // with 8 bits are returned as they are, all others as numbers.
 py::object texture_of(const Model& model, const ModelMaterial& m, TextureUse ModelMaterial::*map, const std::string& file) {
   const TextureUse& use = m.*map;
@@ -113,7 +113,7 @@ py::object texture_of(const Model& model, const ModelMaterial& m, TextureUse Mod
   }
   const auto array = std::visit([](auto& t) -> py::array { return array_of(std::move(t)); }, texels);
   const Sampler& s = model.textures[static_cast<std::size_t>(use.texture)].sampler;
-  return py::make_tuple(array, s.min, s.wrap_s, s.wrap_t, s.anisotropy);
+  return py::make_tuple(array, s.min, s.mag, s.wrap_s, s.wrap_t, s.anisotropy);
 }
 
 py::tuple color_of(const glm::vec3& c) { return py::make_tuple(c.x, c.y, c.z); }

@@ -171,7 +171,7 @@ def test_a_model_that_fails_costs_its_own_picture(tmp_path):
 def test_pictures_of_models_replace_no_file_of_others(tmp_path):
     models = write_models(tmp_path)[:2]
     texture = tmp_path / "a.png"
-    texture.write_bytes(b"\x89PNG of another program")
+    texture.write_bytes(halfspace.render("shapes", size=(8, 8))._repr_png_().replace(b"Software\0Halfspace", b"Software\0Otherpict"))
     before = texture.read_bytes()
     results = halfspace.render_models(models, size=SIZE, out=tmp_path / "{name}.png", errors="return")
     assert isinstance(results[0], halfspace.OutputError) and "a.png: exists, and this program did not write it" in str(results[0])
@@ -244,7 +244,7 @@ def _worker_pid():
 
 
 def kill_a_worker(client):
-    """Kills one of two workers. Tasks of Dask 2022.12 that wait when the last worker dies are never run, even by workers that start later."""
+    """Kills one of two workers. If the last one died, Dask 2022.12 would lose the tasks that wait (docs/howto/scale.md)."""
     pids = client.run(_worker_pid)
     assert len(pids) == 2
     os.kill(next(iter(pids.values())), signal.SIGKILL)

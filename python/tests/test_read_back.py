@@ -2,6 +2,7 @@
 """Meshes, materials and scenes can be read: members, shapes, model files, keys, names and lights."""
 
 import copy
+import json
 import pickle
 
 import numpy as np
@@ -11,6 +12,7 @@ import halfspace
 from conftest import QUAD, sphere
 
 SIZE = (64, 48)
+CORNERS = [[0, 0], [1, 0], [1, 1], [0, 1]]  # texture coordinates of QUAD
 CUBE_OBJ = "".join(f"v {x} {y} {z}\n" for x in (0, 1) for y in (0, 1) for z in (0, 1)) + (
     "f 1 2 4 3\nf 5 7 8 6\nf 1 5 6 2\nf 3 4 8 7\nf 1 3 7 5\nf 2 6 8 4\n")
 
@@ -69,7 +71,7 @@ def test_the_properties_of_a_material_can_be_read_but_not_changed():
     assert (material.metallic, material.roughness, material.ior, material.clearcoat) == (0.25, 0.75, 1.25, 0.5)
     assert material.unlit is True and material.double_sided is False and material.base_color_texture is texture
     assert material.occlusion_texture is None and np.array_equal(material.normal_texture.texels[..., :3], texels)
-    assert (texture.filter, texture.wrap, texture.anisotropy) == ("nearest", ("clamp", "repeat"), 4)
+    assert (texture.filter, texture.mag, texture.wrap, texture.anisotropy) == ("nearest", "nearest", ("clamp", "repeat"), 4)
     with pytest.raises(AttributeError, match="^Material.metallic: cannot be changed; expected a new Material$"):
         material.metallic = 1
     with pytest.raises(AttributeError, match="^Texture.filter: cannot be changed"):
@@ -315,3 +317,41 @@ def test_objects_of_a_scene_file_can_be_removed():
     assert scene.objects == []
     with pytest.raises(halfspace.InputError, match=r"no object 'ball' in this scene; expected add\(\) first"):
         scene.remove("ball")
+
+
+def test_the_filters_of_a_file_can_be_read(tmp_path):
+    """Each number of glTF, also a magnification filter that does not follow from the other one."""
+    numbers = {9728: "nearest", 9729: "bilinear", 9984: "nearest_mipmap_nearest", 9985: "bilinear_mipmap_nearest",
+               9986: "nearest_mipmap_linear", 9987: "trilinear"}
+    texels = np.arange(12, dtype=np.uint8).reshape(2, 2, 3)
+    scene = halfspace.Scene(lighting="none")
+    scene.add(halfspace.Mesh(*QUAD, uvs=CORNERS, material=halfspace.Material(base_color_texture=texels)))
+    scene.export(tmp_path / "m.gltf")
+    file = json.loads((tmp_path / "m.gltf").read_text())
+    for small, filter in numbers.items():
+        for large, mag in list(numbers.items())[:2]:
+            file["samplers"] = [{"minFilter": small, "magFilter": large}]
+            file["textures"][0]["sampler"] = 0
+            (tmp_path / "n.gltf").write_text(json.dumps(file))
+            texture = halfspace.Model.load(tmp_path / "n.gltf").meshes[0].material.base_color_texture
+            assert (texture.filter, texture.mag) == (filter, mag)
+            assert pickle.loads(pickle.dumps(texture)).mag == mag
+
+
+def test_the_default_magnification_follows_the_other_filter():
+    texels = np.zeros((2, 2), np.uint8)
+    assert halfspace.Texture(texels).mag == "bilinear"
+    assert halfspace.Texture(texels, filter="nearest_mipmap_linear").mag == "nearest"
+    with pytest.raises(halfspace.InputError, match="^mag: is 'trilinear'"):
+        halfspace.Texture(texels, mag="trilinear")
+
+
+def test_the_magnification_filter_shows_whole_texels():
+    texels = np.array([[0, 255], [255, 0]], np.uint8)
+    levels = []
+    for mag in ("nearest", "bilinear"):
+        material = halfspace.Material(unlit=True, base_color_texture=halfspace.Texture(texels, mag=mag, wrap="clamp"))
+        scene = halfspace.Scene(lighting="none")
+        scene.add(halfspace.Mesh(*QUAD, uvs=CORNERS, material=material))
+        levels.append(len(np.unique(scene.render((64, 64), camera=scene.fit()))))
+    assert levels[0] < 8 and levels[1] > 20  # samples at the edges of texels mix two values

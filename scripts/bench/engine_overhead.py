@@ -98,7 +98,8 @@ def compare_lists(program, folder, count):
     some = models[:max(count // 10, 1)]
     each = seconds_of(lambda: [run([*render, model, "-o", f"{folder}/each-{Path(model).stem}.png"]) for model in some])
     each *= count / len(some)
-    print(f"\n{count} models: {one:.1f} s in one process, {each:.1f} s in {count} processes (from {len(some)}), {each / one:.1f} times as long")
+    print(f"\n{count} models: {one:.1f} s in one process, {each:.1f} s in {count} processes (measured with {len(some)}), "
+          f"{each / one:.1f} times as long")
 
 
 def main():

@@ -292,7 +292,7 @@ void PassState::set_post_step(PostStep post) {
            "Pass::post: the target cannot store colors; expected a format that is neither integers, a depth format nor rgb9_e5");
   check_target(post.target, context_.width, context_.height, 1, 1);
   for (const ColorTarget& c : attachments_.colors) {
-    if (c.format != ColorFormat::none && c.store == StoreOp::store) check_overlap(c, post.target);
+    if (c.format != ColorFormat::none && is_stored(c)) check_overlap(c, post.target);
   }
   attachments_.post = std::move(post);
 }

@@ -64,8 +64,8 @@ struct ColorTarget {
 };
 
 /// Depth attachment with values in [0, 1]. Pixels are uint16_t for d16, uint32_t for d24 (0 to 2^24 − 1), float for d32f, uint32_t for
-/// d24s8 (depth · 2^8 + stencil) and DepthStencil for d32fs8. data, size, pitches, samples and layers are the same as in ColorTarget. Depth
-/// and stencil are stored together.
+/// d24s8 (depth · 2^8 + stencil) and DepthStencil for d32fs8. data, size, pitches, samples and layers are the same as in ColorTarget. If
+/// only one of depth and stencil is stored, the other one is undefined in the image after the pass.
 struct DepthTarget {
   DepthFormat format = DepthFormat::none;
   std::byte* data = nullptr;
@@ -79,11 +79,18 @@ struct DepthTarget {
   StoreOp store = StoreOp::dont_care;
   float clear_value = 1.0f;
   uint8_t stencil_clear_value = 0;
-  std::optional<LoadOp> stencil_load{};  ///< of the stencil; default: `load`
+  std::optional<LoadOp> stencil_load{};    ///< of the stencil; default: `load`
+  std::optional<StoreOp> stencil_store{};  ///< of the stencil; default: `store`
 };
 
 /// Returns what happens to the stencil of a target at the start of a pass.
 constexpr LoadOp stencil_load_of(const DepthTarget& target) { return target.stencil_load.value_or(target.load); }
+
+/// Return whether a pass writes to the image of a target.
+constexpr bool is_stored(const ColorTarget& target) { return target.store == StoreOp::store; }
+constexpr bool is_stored(const DepthTarget& target) {
+  return target.store == StoreOp::store || (has_stencil(target.format) && target.stencil_store == StoreOp::store);
+}
 
 namespace detail {
 

@@ -200,7 +200,7 @@ enum class ConservativeDepth : uint8_t {
   any,
   greater,   ///< the same or greater (depth_greater)
   less,      ///< the same or less (depth_less)
-  unchanged  ///< the same (depth_unchanged)
+  unchanged  ///< the same (depth_unchanged): what the shader returns is not used
 };
 
 /// Return type of visibility functions: the part of a DepthFragment that determines visibility.

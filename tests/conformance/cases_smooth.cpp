@@ -135,7 +135,7 @@ Cases smooth_primitives_cases() {
     }
   }
   for (const auto& [name, topology] : {std::pair("triangle", Topology::triangles), {"line", Topology::lines}}) {
-    for (const uint64_t seed : {77, 78, 79}) {
+    for (const uint64_t seed : {77u, 78u, 79u}) {
       cases.push_back({"depth_of_" + std::string(name) + "_" + std::to_string(seed),
                        [=, t = topology] {
                          Picture p = smooth(t, fill, 2.5f, scattered(size, t == Topology::lines ? 2 : 3, seed), ProvokingVertex::last);

@@ -140,4 +140,8 @@ class SmoothPrimitives : public ConformanceOf {};
 TEST_P(SmoothPrimitives, AreWeightedByTheirArea) { expect_no_error(); }
 INSTANTIATE_TEST_SUITE_P(Conformance, SmoothPrimitives, testing::ValuesIn(smooth_primitives_cases()), case_name);
 
+class ViewportArrays : public ConformanceOf {};
+TEST_P(ViewportArrays, DrawsPrimitivesIntoTheirViewports) { expect_no_error(); }
+INSTANTIATE_TEST_SUITE_P(Conformance, ViewportArrays, testing::ValuesIn(viewport_array_cases()), case_name);
+
 }  // namespace halfspace::conformance

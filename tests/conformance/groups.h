@@ -34,6 +34,7 @@ Cases cull_distance_cases();
 Cases sample_variables_cases();
 Cases conditional_rendering_cases();
 Cases smooth_primitives_cases();
+Cases viewport_array_cases();
 
 struct Group {
   const char* name;
@@ -65,6 +66,7 @@ inline constexpr Group kGroups[] = {{"FillRules", fill_rules_cases},
                                     {"CullDistance", cull_distance_cases},
                                     {"SampleVariables", sample_variables_cases},
                                     {"ConditionalRendering", conditional_rendering_cases},
-                                    {"SmoothPrimitives", smooth_primitives_cases}};
+                                    {"SmoothPrimitives", smooth_primitives_cases},
+                                    {"ViewportArrays", viewport_array_cases}};
 
 }  // namespace halfspace::conformance

@@ -72,6 +72,7 @@ SceneDraw draw_of(const Drawing& d) {
     case Kind::sample_mask_in: return draw_of(SampleMaskInShader{}, "sample_mask_in", d);
     case Kind::sample_mask: return draw_of(SampleMaskShader{{}, static_cast<int32_t>(d.value)}, "sample_mask", d);
     case Kind::geometry: return geometry_draw_of(d, std::make_index_sequence<kGeometryLayouts.size()>());
+    case Kind::viewport: return draw_of(ViewportShader{}, "viewport", d);
     case Kind::four_colors: break;
   }
   return draw_of(ColorsShader<4>{}, "four_colors", d);

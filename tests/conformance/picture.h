@@ -31,7 +31,8 @@ enum class Kind : uint8_t {
   cull,
   sample_inputs,
   sample_mask_in,
-  sample_mask
+  sample_mask,
+  viewport
 };
 
 /// Output of `color`: its varying with one of four interpolation qualifiers.
@@ -51,7 +52,7 @@ enum TextureMode { kByDerivatives, kByLevel };
 struct Vertex {
   glm::vec4 pos_clip;
   glm::vec4 color{1.0f};
-  glm::vec4 extra{0.0f};  ///< clip and cull distances, point size, texture coordinates or an offset, depending on the shader
+  glm::vec4 extra{0.0f};  ///< clip and cull distances, point size, texture coordinates, an offset or a viewport, depending on the shader
 };
 
 struct Drawing {
@@ -68,6 +69,7 @@ struct Drawing {
   Sampler sampler{};
   TessellationLayout tessellation{};  ///< of `tessellation`: one of kTessellationLayouts
   GeometryLayout geometry{};          ///< of `geometry`: one of kGeometryLayouts, with up to kGeometryVertices vertices
+  std::shared_ptr<const ViewportArray> viewports{};  ///< of `viewport`, which `state` refers to
   DrawState state{};
 };
 

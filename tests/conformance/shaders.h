@@ -95,6 +95,19 @@ struct CullShader {
   }
 };
 
+/// The viewport of `extra`.
+struct ViewportShader : VertexColor {
+  template <class R>
+  LayeredVertex<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
+    out.color = in.color;
+    return {.position = in.pos_clip, .viewport = truncate_to_int(in.extra.x), .point_size = R(3.0f)};
+  }
+  template <class R>
+  Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>&) const {
+    return {in.color};
+  }
+};
+
 /// The number or the position of the sample.
 struct SampleInputsShader : VertexColor {
   static constexpr bool per_sample = true;

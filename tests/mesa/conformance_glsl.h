@@ -9,6 +9,20 @@ inline constexpr const char* kShared = R"(#version 450 core
     uniform float mode;
     uniform float value;
     )";
+inline constexpr const char* kViewportShared = R"(#version 450 core
+    #extension GL_ARB_shader_viewport_layer_array : require
+    )";
+inline constexpr const char* kViewportVertex = R"(
+    layout(location = 0) in vec4 pos_clip;
+    layout(location = 1) in vec4 in_color;
+    layout(location = 2) in vec4 extra;
+    out vec4 color;
+    void main() {
+      color = in_color;
+      gl_Position = pos_clip;
+      gl_PointSize = 3.0;
+      gl_ViewportIndex = int(extra.x);
+    })";
 inline constexpr const char* kVertex = R"(
     layout(location = 0) in vec4 pos_clip;
     layout(location = 1) in vec4 in_color;

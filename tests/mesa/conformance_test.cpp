@@ -51,6 +51,7 @@ Glsl glsl_of(Kind kind) {
     case Kind::texture: return {kVertex, kTextureFragment};
     case Kind::instance: return {kInstanceVertex, kPlainFragment};
     case Kind::cull: return {kCullVertex, kPlainFragment};
+    case Kind::viewport: return {kViewportVertex, kPlainFragment};
     case Kind::sample_inputs: return {kVertex, kSampleInputsFragment};
     case Kind::sample_mask_in: return {kVertex, kSampleMaskInFragment};
     case Kind::sample_mask: return {kVertex, kSampleMaskFragment};
@@ -85,7 +86,7 @@ MesaDraw mesa_draw_of(const Drawing& d) {
   const auto [vertex, fragment] = glsl_of(d.kind);
   VertexStream extra = stream(d.vertices, &conformance::Vertex::extra);
   if (!d.rows.empty()) extra = per_instance(stream(d.rows), d.divisor);
-  MesaDraw m{kShared,
+  MesaDraw m{d.kind == Kind::viewport ? kViewportShared : kShared,
              vertex,
              fragment,
              [&d](const UniformSetter& set) {
@@ -97,7 +98,7 @@ MesaDraw mesa_draw_of(const Drawing& d) {
              d.indices,
              d.state,
              d.restart,
-             d.kind == Kind::point || d.kind == Kind::clip || d.kind == Kind::cull,
+             d.kind == Kind::point || d.kind == Kind::clip || d.kind == Kind::cull || d.kind == Kind::viewport,
              d.kind == Kind::clip   ? 4
              : d.kind == Kind::cull ? 2
                                     : 0,
@@ -149,7 +150,9 @@ const char* not_comparable(const conformance::Picture& p) {
       return "only 8-bit RGBA textures can be uploaded";
     if (draws_points(s) && (d.kind == Kind::clip || d.kind == Kind::cull || !std::all_of(d.vertices.begin(), d.vertices.end(), is_inside)))
       return "Mesa clips points by their center";
-    if (p.samples > 1 && s.scissor) return "llvmpipe's scissor passes samples of pixels next to the rectangle";
+    const auto has_scissor = [](const IndexedViewport& v) { return v.scissor.has_value(); };
+    const bool has_scissors = s.viewports != nullptr && std::ranges::any_of(*s.viewports, has_scissor);
+    if (p.samples > 1 && (s.scissor || has_scissors)) return "llvmpipe's scissor passes samples of pixels next to the rectangle";
   }
   return nullptr;
 }

@@ -105,9 +105,25 @@ void set_depth_state(const DepthState& d) {
   glDepthRangef(d.range_near, d.range_far);
 }
 
+// Sets the viewports with their scissors and depth ranges. Must be called after the functions that set these for all viewports.
+void set_viewports(const DrawState& s, const TargetSpec& target) {
+  const ViewportRect all = Rect{0, 0, target.width, target.height};
+  if (s.viewports == nullptr) {
+    const ViewportRect v = s.viewport.value_or(all);
+    return glViewportIndexedf(0, v.x, v.y, v.width, v.height);
+  }
+  for (GLuint i = 0; i < s.viewports->size(); ++i) {
+    const IndexedViewport& indexed = (*s.viewports)[i];
+    const ViewportRect v = indexed.viewport.value_or(all);
+    glViewportIndexedf(i, v.x, v.y, v.width, v.height);
+    glDepthRangeIndexed(i, static_cast<double>(indexed.range_near), static_cast<double>(indexed.range_far));
+    if (!indexed.scissor) continue;
+    glEnablei(GL_SCISSOR_TEST, i);
+    glScissorIndexed(i, indexed.scissor->x, indexed.scissor->y, indexed.scissor->width, indexed.scissor->height);
+  }
+}
+
 void set_state(const DrawState& s, const TargetSpec& target) {
-  const ViewportRect v = s.viewport ? *s.viewport : Rect{0, 0, target.width, target.height};
-  glViewportIndexedf(0, v.x, v.y, v.width, v.height);
   glClipControl(s.clip_origin == ClipOrigin::upper_left ? GL_UPPER_LEFT : GL_LOWER_LEFT,
                 s.depth.clip == ClipDepth::zero_to_one ? GL_ZERO_TO_ONE : GL_NEGATIVE_ONE_TO_ONE);
   enable(GL_SCISSOR_TEST, s.scissor.has_value());
@@ -117,6 +133,7 @@ void set_state(const DrawState& s, const TargetSpec& target) {
   glFrontFace(s.front == Winding::counter_clockwise ? GL_CCW : GL_CW);
   glProvokingVertex(s.provoking == ProvokingVertex::last ? GL_LAST_VERTEX_CONVENTION : GL_FIRST_VERTEX_CONVENTION);
   set_depth_state(s.depth);
+  set_viewports(s, target);
   set_stencil_state(s.stencil);
   set_sample_state(s);
   enable(GL_POLYGON_OFFSET_FILL, s.offset.slope != 0.0f || s.offset.constant != 0.0f);

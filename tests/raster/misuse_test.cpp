@@ -179,6 +179,9 @@ TEST_F(MisuseTest, StateThatHasNoEffectIsRefused) {
   };
   EXPECT_NE(target_message(rgba32f_target(image)).find("neither loaded nor stored"), std::string::npos);
   EXPECT_NE(target_message(d32f_target(depth)).find("neither loaded nor stored"), std::string::npos);
+  DepthTarget without_stencil = d32f_target(depth);
+  without_stencil.stencil_store = StoreOp::store;  // of a format that has none
+  EXPECT_NE(target_message(without_stencil).find("neither loaded nor stored"), std::string::npos);
   DepthTarget loaded = d32f_target(depth);
   loaded.load = LoadOp::load;
   EXPECT_EQ(target_message(loaded), "");

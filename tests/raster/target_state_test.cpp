@@ -239,6 +239,29 @@ TEST(LoadStore, DepthAndStencilAreLoadedApart) {
   }
 }
 
+TEST(LoadStore, DepthAndStencilAreStoredApart) {
+  const StencilFace sets{.pass = StencilOp::replace, .reference = 9};
+  for (const bool draws : {false, true}) {
+    for (const bool stores_depth : {false, true}) {
+      Image<DepthStencil> image(kEdge, kEdge);
+      std::fill_n(image.data(), kEdge * kEdge, DepthStencil{0.25f, 7});
+      DepthTarget target = d32fs8_target(image);
+      target.store = stores_depth ? StoreOp::store : StoreOp::dont_care;
+      target.stencil_store = stores_depth ? StoreOp::dont_care : StoreOp::store;
+      target.clear_value = 0.75f;
+      target.stencil_clear_value = draws ? 3 : 9;
+      Pass pass(kEdge, kEdge, ColorTarget{}, target);
+      if (draws) pass.draw_depth(PositionShader{}, whole_target(), {.stencil = StencilState{sets, sets}});  // at depth 1/2
+      pass.run(one_worker());
+      // The other part of the image is undefined.
+      for (const DepthStencil& texel : image.texels()) {
+        const bool is_stored_part_right = stores_depth ? texel.depth == (draws ? 0.5f : 0.75f) : texel.stencil == 9;
+        ASSERT_TRUE(is_stored_part_right) << draws << stores_depth << ": " << texel.depth << ' ' << texel.stencil;
+      }
+    }
+  }
+}
+
 TEST(LoadStore, TheUnusedBitsOfDepthsAreIgnored) {
   Image<uint32_t> depths(kEdge, kEdge);
   std::fill_n(depths.data(), kEdge * kEdge, 0xff000001u);  // code 1, nearer than the quad at depth 1/2

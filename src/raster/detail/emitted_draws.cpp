@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "halfspace/raster/amplify/emit_primitives.h"
+#include "halfspace/raster/amplify/emitting_stages.h"
 #include "halfspace/raster/detail/draw_placement.h"
 #include "halfspace/raster/pipeline/draw_stopwatch.h"
 #include "halfspace/raster/primitives/primitive_assembly.h"

@@ -29,10 +29,10 @@ inline constexpr int kMaxLayers = 2048;
 /// needed.
 template <class Target>
 void check_target(const Target& target, int width, int height, int samples, int layers) {
-  HS_CHECK(target.data != nullptr || (!loads(target) && target.store == StoreOp::dont_care),
+  HS_CHECK(target.data != nullptr || (!loads(target) && !is_stored(target)),
            "target: it has no image, but is loaded or stored; expected an image, or clear and dont_care");
   if (target.data == nullptr) return;
-  HS_CHECK(loads(target) || target.store == StoreOp::store,
+  HS_CHECK(loads(target) || is_stored(target),
            "target: its image is neither loaded nor stored; expected StoreOp::store, or no image");
   HS_CHECK_OP(target.width, ==, width, "target: its image has another width than the pass; expected an image of the size of the pass");
   HS_CHECK_OP(target.height, ==, height, "target: its image has another height than the pass; expected an image of the size of the pass");
@@ -49,8 +49,8 @@ void check_target(const Target& target, int width, int height, int samples, int 
 /// Checks that no target is stored to memory of another one that is loaded or stored.
 template <class A, class B>
 void check_overlap(const A& a, const B& b) {
-  const auto is_used = [](const auto& target) { return target.data != nullptr && (target.store == StoreOp::store || loads(target)); };
-  if (!is_used(a) || !is_used(b) || (a.store != StoreOp::store && b.store != StoreOp::store)) return;
+  const auto is_used = [](const auto& target) { return target.data != nullptr && (is_stored(target) || loads(target)); };
+  if (!is_used(a) || !is_used(b) || (!is_stored(a) && !is_stored(b))) return;
   HS_CHECK(!overlap(target_texels(a), target_texels(b)),
            "Pass: two targets use the same memory, and one of them is stored; expected an image of its own for each target");
 }

@@ -23,7 +23,7 @@ namespace {
 // Returns true if a target is stored in its image between flushes. Otherwise it has a spill buffer.
 template <class Target>
 bool keeps_in_image(const PassContext& context, const Target& target) {
-  return target.data != nullptr && target.store == StoreOp::store && target.samples == context.samples;
+  return target.data != nullptr && is_stored(target) && target.samples == context.samples;
 }
 
 // Returns where a target is stored between flushes: in its image, or in the spill buffer if it has one.

@@ -68,7 +68,7 @@ void fill_layers(T value, const TexelView& image, const PixelBounds& pixels) {
 }  // namespace
 
 void fill_color(const ColorTarget& target, const PixelBounds& pixels, const PacketColor& color) {
-  if (target.store == StoreOp::dont_care || target.data == nullptr) return;
+  if (!is_stored(target) || target.data == nullptr) return;
   const PixelBytes pixel = encode_pixel(target.format, color);
   const auto fill = [&]<class T>(T value) {
     std::memcpy(&value, pixel.data(), sizeof(T));
@@ -88,7 +88,7 @@ void fill_color(const ColorTarget& target, const PixelBounds& pixels, const Pack
 }
 
 void fill_depth(const DepthTarget& target, const PixelBounds& pixels) {
-  if (target.store == StoreOp::dont_care || target.data == nullptr) return;
+  if (!is_stored(target) || target.data == nullptr) return;
   const float clear = depth_value(depth_part(target.format), std::clamp(target.clear_value, 0.0f, 1.0f));
   with_codec(target.format, [&]<class C>(C) { fill_layers(C::store(clear, target.stencil_clear_value), target_texels(target), pixels); });
 }

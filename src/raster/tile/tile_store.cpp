@@ -94,7 +94,7 @@ void store_half_planes(const TexelView& image, const Tile& tile, const ColorBuff
 }  // namespace
 
 void store_color(const ColorTarget& target, const Tile& tile, const ColorBuffer& color) {
-  if (target.format == ColorFormat::none || target.store == StoreOp::dont_care || target.data == nullptr) return;
+  if (target.format == ColorFormat::none || !is_stored(target) || target.data == nullptr) return;
   const TexelView image = target_texels(target);
   if (target.format == ColorFormat::rgba16f) return store_half_planes(image, tile, color);
   if (word_planes(target.format) != 0 && !has_word_channels(target.format)) return store_texels(image, tile, color);
@@ -107,7 +107,7 @@ void store_color(const ColorTarget& target, const Tile& tile, const ColorBuffer&
 }
 
 void store_depth(const DepthTarget& target, const Tile& tile) {
-  if (target.format == DepthFormat::none || target.store == StoreOp::dont_care || target.data == nullptr) return;
+  if (target.format == DepthFormat::none || !is_stored(target) || target.data == nullptr) return;
   const TexelView image = target_texels(target);
   if (target.format == DepthFormat::d32f)  // stored as in the tile
     return store_words(tile, image, reinterpret_cast<const std::byte*>(tile.depth.data()));
