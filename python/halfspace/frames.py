@@ -122,8 +122,10 @@ class _Models:
             if file is not None:
                 _core.check_own_image(file)  # it could be a texture of another model
             view = {"aspect": self._size[0] / self._size[1], **self._view}
-            picture = Scene.load(self._models[i], threads=self._threads, **view).render(self._size, linear=self._linear, alpha=self._alpha)
-            return _save(picture, file)
+            scene = Scene.load(self._models[i], threads=self._threads, **view)
+            if file is not None:
+                scene._core.protect_inputs(file)
+            return _save(scene.render(self._size, linear=self._linear, alpha=self._alpha), file)
         except (_core.InputError, _core.OutputError) as e:
             return e
 
@@ -348,8 +350,8 @@ def render_models(models: Iterable[Path], *, out: Optional[Path] = None, client:
                   progress: Optional[Callable[[int, int], Any]] = None, **view: Any) -> List[Any]:
     """Renders one picture of each model file or scene, and returns a list of Pictures or, with `out`, of file names.
 
-    models: the files.   out: names of the pictures: "thumbnails/{name}.png". A file that is not a picture of Halfspace is not replaced; that
-        is an OutputError of its model.   client, batch, progress: as in render_frames().
+    models: the files.   out: names of the pictures: "thumbnails/{name}.png". A file that is not a picture of Halfspace, or that the model
+        reads, is not replaced; that is an OutputError of the model.   client, batch, progress: as in render_frames().
     threads: of each model. The default is one per core; with a client that runs several tasks per machine, use 1.
     errors: "raise" raises the first InputError or OutputError after all other models are rendered; "return" puts each error into the list.
     view: arguments of Scene.load() such as yaw and background.

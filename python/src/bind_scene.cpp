@@ -199,6 +199,7 @@ void bind_scene(py::module_& m) {
       .def("cameras", &SceneCore::cameras, Release())
       .def("print", &SceneCore::print, Release())
       .def("export_to", &SceneCore::export_to, Release())
+      .def("protect_inputs", &SceneCore::protect_inputs, Release())
       .def(
           "provide",
           [](SceneCore& scene, const std::string& file, std::shared_ptr<ModelAsset> model) { scene.provide(file, std::move(model)); },

@@ -8,6 +8,7 @@
 
 #include "halfspace/core/check.h"
 #include "halfspace/render/export/export_files.h"
+#include "halfspace/render/model_file/input_files.h"
 #include "halfspace/render/prepare/scene_places.h"
 #include "halfspace/render/scene_assets.h"
 #include "halfspace/scene/scene_paths.h"
@@ -194,6 +195,13 @@ void SceneCore::export_to(const std::string& out) {
   for (const auto& [file, model] : state_.models) assets.add_model(file, model);
   ExportSource source = export_source(state_.description({}), state_.scene.source(), assets, format, state_.models);
   write_files(out, exported_files(std::move(source), out, format, warner()));
+}
+
+void SceneCore::protect_inputs(const std::string& out) {
+  const std::lock_guard lock(mutex_);
+  ReadModels models;
+  for (const auto& [file, model] : state_.models) models.try_emplace({file, model->allow_outside}, model);
+  reject_overwriting(out, input_files(state_.description({}), state_.scene.source(), models));
 }
 
 void SceneCore::provide(const std::string& file, std::shared_ptr<const ModelAsset> model) {

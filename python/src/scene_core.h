@@ -83,6 +83,8 @@ class SceneCore {
 
   /// Writes the scene at time 0 as a model file. The extension of `out` must be that of a model format.
   void export_to(const std::string& out);
+  /// Throws OutputError if the output is a file that the scene reads.
+  void protect_inputs(const std::string& out);
 
   /// Provides the model for objects with this file name.
   void provide(const std::string& file, std::shared_ptr<const ModelAsset> model);

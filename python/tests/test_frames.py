@@ -177,6 +177,15 @@ def test_pictures_of_models_replace_no_file_of_others(tmp_path):
     assert isinstance(results[0], halfspace.OutputError) and "a.png: exists, and this program did not write it" in str(results[0])
     assert texture.read_bytes() == before
     assert halfspace.render_models(models[1:], size=SIZE, out=tmp_path / "{name}.png") == [results[1]], "its own picture is replaced"
+    # A texture that Halfspace made is protected from its own model.
+    texture.unlink()
+    halfspace.render("shapes", size=(8, 8)).save(texture)
+    before = texture.read_bytes()
+    (tmp_path / "a.mtl").write_text("newmtl m\nmap_Kd a.png\n")
+    models[0].write_text("mtllib a.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n")
+    with pytest.raises(halfspace.OutputError, match="a.png: is read by this command"):
+        halfspace.render_models(models[:1], size=SIZE, out=tmp_path / "{name}.png")
+    assert texture.read_bytes() == before
 
 
 def test_submitted_models_are_futures(tmp_path):
