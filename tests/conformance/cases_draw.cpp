@@ -77,6 +77,75 @@ void add_clears(Cases& cases) {
   }
 }
 
+// A quad that writes color, depth and stencil, which a clear then replaces in part, in the middle of the pass.
+constexpr glm::vec4 kUnder{0.25f, 0.5f, 0.75f, 1.0f}, kOver{0.75f, 0.125f, 0.5f, 0.25f};
+constexpr uint8_t kUnderStencil = 0xa5;
+
+Picture cleared_in_part(const ClearValues& values, ColorFormat format, int samples) {
+  Picture p;
+  p.width = p.height = 16;
+  p.colors = {format};
+  p.samples = samples;
+  Drawing quad;
+  add_rectangle(quad, p, {0.0, 0.0, 16.0, 16.0}, kUnder, 0.5f);  // depth 3/4
+  const StencilFace face{.pass = StencilOp::replace, .reference = kUnderStencil};
+  quad.state.stencil = StencilState{face, face};
+  p.draws.push_back(std::move(quad));
+  Drawing nothing;
+  nothing.vertices.resize(3);  // no area
+  nothing.clear = values;
+  p.draws.push_back(std::move(nothing));
+  return p;
+}
+
+std::string partly_cleared(const Picture& p, const Seen& seen) {
+  const ClearValues& values = *p.draws[1].clear;
+  const std::array<bool, 4> written{values.mask.r, values.mask.g, values.mask.b, values.mask.a};
+  const bool has_codes = p.colors[0] == ColorFormat::rgba8 || p.colors[0] == ColorFormat::srgb8a8;
+  return for_each_pixel(seen, [&](int x, int y) -> std::string {
+    const Rect r = values.rect.value_or(Rect{0, 0, p.width, p.height});
+    const bool inside = x >= r.x && x < r.x + r.width && y >= r.y && y < r.y + r.height;
+    glm::dvec4 color(kUnder);
+    for (int k = 0; k < 4; ++k) {
+      if (inside && values.colors[0] && written[static_cast<std::size_t>(k)]) color[k] = static_cast<double>((*values.colors[0])[k]);
+      if (p.colors[0] == ColorFormat::srgb8a8 && k < 3) color[k] = 1.055 * std::pow(color[k], 1.0 / 2.4) - 0.055;
+    }
+    const double depth = inside && values.depth ? static_cast<double>(*values.depth) : 0.75;
+    const int mask = inside && values.stencil ? values.stencil_mask : 0;
+    const int stencil = (kUnderStencil & ~mask) | (values.stencil.value_or(0) & mask);
+    if (seen.depth(x, y) != depth) return "depth " + std::to_string(seen.depth(x, y)) + ", expected " + std::to_string(depth);
+    if (seen.stencil(x, y) != stencil) return "stencil " + std::to_string(seen.stencil(x, y)) + ", expected " + std::to_string(stencil);
+    // The values are exact in floats and halfs; 8-bit values are rounded.
+    return expect_near(color, seen.color(x, y), has_codes ? kHalfCode : 0.0);
+  });
+}
+
+void add_partial_clears(Cases& cases) {
+  const auto add = [&](const std::string& name, const ClearValues& values, ColorFormat format, int samples, bool may_be_constant) {
+    cases.push_back({name, [=] { return cleared_in_part(values, format, samples); }, partly_cleared, may_be_constant});
+  };
+  constexpr std::pair<const char*, ColorMask> kMasks[] = {{"all", {}},
+                                                          {"red", {true, false, false, false}},
+                                                          {"green_alpha", {false, true, false, true}},
+                                                          {"not_green", {true, false, true, true}},
+                                                          {"none", {false, false, false, false}}};
+  for (const bool scissored : {false, true}) {
+    const std::optional<Rect> rect = scissored ? std::optional(Rect{3, 2, 9, 20}) : std::nullopt;
+    const std::string prefix = scissored ? "scissored_" : "";
+    for (const auto& [format_name, format] : kColors) {
+      for (const auto& [mask_name, mask] : kMasks) {
+        add(prefix + "masked_color_" + format_name + "_" + mask_name, {.rect = rect, .colors = {kOver}, .mask = mask}, format,
+            format == ColorFormat::rgba8 ? 4 : 1, true);
+      }
+    }
+    const ClearValues depth{.rect = rect, .depth = 0.125f};
+    add(prefix + "depth", depth, ColorFormat::rgba8, 1, true);
+    for (const uint8_t mask : {uint8_t{0xff}, uint8_t{0x0f}, uint8_t{0x81}})
+      add(prefix + "masked_stencil_" + std::to_string(mask), {.rect = rect, .stencil = uint8_t{0x3c}, .stencil_mask = mask},
+          ColorFormat::rgba8, mask == 0x0f ? 4 : 1, true);
+  }
+}
+
 // ---- instances -----------------------------------------------------------------------------------------------------
 
 // Draws a 2 px wide column for each instance, starting at the left. `rows` contains their green values, one row per `divisor` instances.
@@ -233,6 +302,7 @@ void add_restarts(Cases& cases) {
 Cases clears_cases() {
   Cases cases;
   add_clears(cases);
+  add_partial_clears(cases);
   return cases;
 }
 

@@ -78,6 +78,14 @@ SceneDraw draw_of(const Drawing& d) {
   return draw_of(ColorsShader<4>{}, "four_colors", d);
 }
 
+SceneDraw draw_of(const ClearValues& values) {
+  SceneDraw clear;
+  clear.shader = "clear";
+  clear.submit = [values](Pass& pass) { pass.clear(values); };
+  clear.reference = [values](oracle::Renderer& renderer) { renderer.clear(values); };
+  return clear;
+}
+
 Scene scene_of(const Picture& p) {
   Scene s;
   s.width = p.width;
@@ -89,7 +97,10 @@ Scene scene_of(const Picture& p) {
   s.more_colors.erase(s.more_colors.begin());
   s.depth = {.format = p.depth, .clear_value = p.clear_depth, .stencil_clear_value = p.clear_stencil};
   s.has_depth_image = p.depth != DepthFormat::none;
-  for (const Drawing& d : p.draws) s.draws.push_back(draw_of(d));
+  for (const Drawing& d : p.draws) {
+    if (d.clear) s.draws.push_back(draw_of(*d.clear));
+    s.draws.push_back(draw_of(d));
+  }
   return s;
 }
 

@@ -6,6 +6,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -71,6 +72,7 @@ struct Drawing {
   GeometryLayout geometry{};          ///< of `geometry`: one of kGeometryLayouts, with up to kGeometryVertices vertices
   std::shared_ptr<const ViewportArray> viewports{};  ///< of `viewport`, which `state` refers to
   DrawState state{};
+  std::optional<ClearValues> clear{};  ///< executed before the draw
 };
 
 struct Picture {

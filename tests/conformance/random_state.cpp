@@ -129,7 +129,20 @@ Drawing random_drawing(const Picture& p, Random& r, bool first) {
   return d;
 }
 
-// Adds smooth primitives, and conditions on the queries of draws before, to the draws of a picture.
+ClearValues random_clear(const Picture& p, Random& random) {
+  ClearValues values;
+  if (!random.once_in(3)) values.rect = random_rect(p, random);
+  for (std::size_t i = 0; i < p.colors.size(); ++i) {
+    if (!random.once_in(3)) values.colors[i] = {random.real(0, 1), random.real(0, 1), random.real(0, 1), random.real(0, 1)};
+  }
+  if (random.once_in(2)) values.mask = random_mask(random);
+  if (p.depth != DepthFormat::none && random.once_in(2)) values.depth = random.pick({0.0f, 0.5f, 1.0f});
+  if (has_stencil(p.depth) && random.once_in(2)) values.stencil = static_cast<uint8_t>(random.pick({0, 1, 0x80, 0xa5}));
+  values.stencil_mask = static_cast<uint8_t>(random.pick({0xff, 0xff, 3, 0xf0}));
+  return values;
+}
+
+// Adds clears, smooth primitives, and conditions on the queries of draws before, to the draws of a picture.
 void add_later_state(Picture& p, Random random) {
   std::vector<uint32_t> queries;
   for (Drawing& d : p.draws) {
@@ -142,6 +155,10 @@ void add_later_state(Picture& p, Random random) {
       if (s.query != query) s.condition = DrawCondition{query, random.once_in(2)};
     }
     if (s.query) queries.push_back(*s.query);
+    if (random.once_in(8)) {
+      d.clear = random_clear(p, random);
+      if (random.once_in(2)) d.clear->condition = s.condition;
+    }
   }
 }
 
@@ -166,13 +183,14 @@ std::vector<std::function<void(Picture&)>> simplifications() {
   for (int k = 0; k < 5; ++k) {
     for (int which = 0; which < 2; ++which) all.push_back([=](Picture& p) { drop_primitives(p, k, which); });
   }
-  const auto each = [&](auto change) {  // for each draw
+  const auto each_drawing = [&](auto change) {
     for (std::size_t i = 0; i < 4; ++i) {
       all.push_back([=](Picture& p) {
-        if (i < p.draws.size()) change(p.draws[i].state);
+        if (i < p.draws.size()) change(p.draws[i]);
       });
     }
   };
+  const auto each = [&](auto change) { each_drawing([=](Drawing& d) { change(d.state); }); };
   each([](DrawState& s) { s.blend.reset(); });
   each([](DrawState& s) { s.stencil.reset(); });
   each([](DrawState& s) { s.depth = {}; });
@@ -182,6 +200,7 @@ std::vector<std::function<void(Picture&)>> simplifications() {
   each([](DrawState& s) { s.sample_shading = s.alpha_to_coverage = false, s.sample_mask = ~0u; });
   each([](DrawState& s) { s.polygon_mode = PolygonMode::fill, s.instances = 1; });
   each([](DrawState& s) { s.line_smooth = s.polygon_smooth = false, s.condition.reset(); });
+  each_drawing([](Drawing& d) { d.clear.reset(); });
   all.push_back([](Picture& p) {
     for (Drawing& d : p.draws) {
       if (p.colors.size() == 1 && d.kind != Kind::two_colors) d.kind = Kind::color;  // not with two colors: blending may need both
@@ -196,7 +215,7 @@ std::vector<std::function<void(Picture&)>> simplifications() {
       if (i < p.draws.size() && p.draws.size() > 1) p.draws.erase(p.draws.begin() + static_cast<std::ptrdiff_t>(i));
     });
   }
-  return all;  // 54
+  return all;  // 58
 }
 
 }  // namespace

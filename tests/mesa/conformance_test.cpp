@@ -105,7 +105,8 @@ MesaDraw mesa_draw_of(const Drawing& d) {
              d.kind == Kind::geometry ? geometry_glsl_of(d.geometry) : nullptr,
              d.kind == Kind::tessellation ? control_glsl_of(d.tessellation) : nullptr,
              d.kind == Kind::tessellation ? evaluation_glsl_of(d.tessellation) : nullptr,
-             d.tessellation.patch_vertices};
+             d.tessellation.patch_vertices,
+             d.clear};
   for (uint32_t i = 0; d.indices.empty() && i < d.vertices.size(); ++i) m.indices.push_back(i);
   return m;
 }
@@ -152,7 +153,7 @@ const char* not_comparable(const conformance::Picture& p) {
       return "Mesa clips points by their center";
     const auto has_scissor = [](const IndexedViewport& v) { return v.scissor.has_value(); };
     const bool has_scissors = s.viewports != nullptr && std::ranges::any_of(*s.viewports, has_scissor);
-    if (p.samples > 1 && (s.scissor || has_scissors)) return "llvmpipe's scissor passes samples of pixels next to the rectangle";
+    if (p.samples > 1 && (s.scissor || has_scissors || (d.clear && d.clear->rect))) return "llvmpipe's scissor passes samples of pixels next to the rectangle";
   }
   return nullptr;
 }

@@ -154,6 +154,19 @@ void clear(const TargetSpec& target) {
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
 }
 
+// Clears a part of the bound framebuffer.
+void clear(const ClearValues& values) {
+  enable(GL_SCISSOR_TEST, values.rect.has_value());
+  if (values.rect) glScissor(values.rect->x, values.rect->y, values.rect->width, values.rect->height);
+  glColorMask(values.mask.r, values.mask.g, values.mask.b, values.mask.a);
+  glDepthMask(GL_TRUE);
+  glStencilMask(values.stencil_mask);
+  if (values.colors[0]) glClearBufferfv(GL_COLOR, 0, &values.colors[0]->x);
+  if (values.depth) glClearBufferfv(GL_DEPTH, 0, &*values.depth);
+  const GLint stencil = values.stencil.value_or(0);
+  if (values.stencil) glClearBufferiv(GL_STENCIL, 0, &stencil);
+}
+
 // Draws to the bound framebuffer.
 void draw_all(const TargetSpec& target, const std::vector<MesaDraw>& draws, MesaPrograms& programs) {
   enable(GL_FRAMEBUFFER_SRGB, target.format == ColorFormat::srgb8a8);
@@ -163,8 +176,15 @@ void draw_all(const TargetSpec& target, const std::vector<MesaDraw>& draws, Mesa
   std::map<uint32_t, Query> queries;  // of one draw each
   for (const MesaDraw& draw : draws) {
     const DrawState& s = draw.state;
-    if (s.condition)
-      glBeginConditionalRender(queries.at(s.condition->query).id, s.condition->inverted ? GL_QUERY_WAIT_INVERTED : GL_QUERY_WAIT);
+    const auto begin = [&](const DrawCondition& c) {
+      glBeginConditionalRender(queries.at(c.query).id, c.inverted ? GL_QUERY_WAIT_INVERTED : GL_QUERY_WAIT);
+    };
+    if (draw.clear) {
+      if (draw.clear->condition) begin(*draw.clear->condition);
+      clear(*draw.clear);
+      if (draw.clear->condition) glEndConditionalRender();
+    }
+    if (s.condition) begin(*s.condition);
     if (s.query) glBeginQuery(GL_SAMPLES_PASSED, queries[*s.query].id);
     run(draw, target, programs);
     if (s.query) glEndQuery(GL_SAMPLES_PASSED);

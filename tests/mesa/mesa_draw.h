@@ -6,10 +6,12 @@
 #include <array>
 #include <functional>
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "halfspace/core/image.h"
 #include "halfspace/raster/draw_state.h"
+#include "halfspace/raster/pass.h"
 #include "halfspace/raster/target.h"
 #include "halfspace/raster/vertex_input.h"
 #include "halfspace/shading/texture/texture.h"
@@ -73,6 +75,7 @@ struct MesaDraw {
   const char* control_glsl = nullptr;   ///< null: no tessellation
   const char* evaluation_glsl = nullptr;
   int patch_vertices = 3;
+  std::optional<ClearValues> clear{};  ///< executed before the draw
 };
 
 /// Cache of linked programs, kept between images. Must be destroyed before the context.

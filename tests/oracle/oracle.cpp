@@ -21,6 +21,38 @@ bool Renderer::condition_holds(const DrawState& state) const {
   return passed != state.condition->inverted;
 }
 
+void Renderer::clear(const ClearValues& values) {
+  DrawState state;
+  state.condition = values.condition;
+  if (!condition_holds(state)) return;
+  for (Framebuffer& target : layers_) {
+    const Rect all{0, 0, target.width(), target.height()}, r = values.rect ? intersect(*values.rect, all) : all;
+    for (int y = r.y; y < r.y + r.height; ++y) {
+      for (int x = r.x; x < r.x + r.width; ++x) {
+        for (int number = 0; number < target.samples(); ++number) clear_sample(values, target, {x, y, number});
+      }
+    }
+  }
+}
+
+void Renderer::clear_sample(const ClearValues& values, Framebuffer& target, const Sample& s) {
+  ++counts_.samples_passed;
+  const std::array<bool, 4> written{values.mask.r, values.mask.g, values.mask.b, values.mask.a};
+  for (std::size_t i = 0; i < target.color_formats().size(); ++i) {
+    if (!values.colors[i] || target.color_formats()[i] == ColorFormat::none) continue;
+    glm::vec4 color = target.color(i, s);
+    for (int k = 0; k < 4; ++k) {
+      if (written[static_cast<std::size_t>(k)]) color[k] = (*values.colors[i])[k];
+    }
+    target.set_color(i, s, color);
+  }
+  if (values.depth) target.set_depth(s, target.depth_value(*values.depth));
+  if (values.stencil) {
+    const int mask = values.stencil_mask;
+    target.set_stencil(s, static_cast<uint8_t>((target.stencil(s) & ~mask) | (*values.stencil & mask)));
+  }
+}
+
 bool Renderer::select_layer(const ShadedVertex& provoking, DrawState& state) {
   const auto layer = static_cast<std::size_t>(layers_.size() == 1 ? 0 : provoking.layer);
   const auto viewport = static_cast<std::size_t>(provoking.viewport);  // a negative one becomes a large number

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The oracle is an independent implementation of the whole pipeline with the simplest possible loops. Tests compare it with the tile path
-// byte for byte. It supports the full draw state. It shares only type definitions with src/raster (draw_state.h, target.h), and the shader
+// byte for byte. It supports the full draw state. It shares only type definitions with src/raster (draw_state.h, pass.h, target.h), and the shader
 // interface with src/shading. It processes one pixel, one triangle and one fragment at a time, in order, without lanes, tiles, bins,
 // incremental evaluation, deferred shading or depth bounds.
 //
@@ -24,6 +24,7 @@
 #include <vector>
 
 #include "halfspace/raster/draw_state.h"
+#include "halfspace/raster/pass.h"
 #include "halfspace/raster/target.h"
 #include "halfspace/shading/shader_traits.h"
 #include "oracle/framebuffer.h"
@@ -96,6 +97,9 @@ class Renderer {
   template <class S>
   void draw(const S& shader, const Input<S>& input, const DrawState& state);
 
+  /// Sets a part of all layers, as Pass::clear(). The samples count as passed.
+  void clear(const ClearValues& values);
+
   const Counts& counts() const { return counts_; }
 
  private:
@@ -105,6 +109,8 @@ class Renderer {
   void emit(const S& shader, const DrawState& state, const std::vector<const ShadedVertex*>& vertices, int32_t primitive, int32_t instance);
   template <class S>
   void draw_primitive(const S& shader, DrawState state, const std::array<const ShadedVertex*, 3>& v);
+
+  void clear_sample(const ClearValues& values, Framebuffer& target, const Sample& s);
 
   // Returns whether the condition of a draw is true, which depends only on the draws before.
   bool condition_holds(const DrawState& state) const;
