@@ -29,8 +29,8 @@ int terminal_columns(int terminal) {
   return ::ioctl(terminal, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
 }
 
-// Returns standard error if it is a terminal. With `or_parent`, if it is a pipe or socket, returns that of the parent if that is a terminal.
-// Otherwise, returns −1.
+// Returns standard error if it is a terminal. With `or_parent`, if it is a pipe or socket, returns that of the parent if that is a
+// terminal. Otherwise, returns −1.
 int find_terminal(bool or_parent) {
   if (::isatty(STDERR_FILENO) == 1) return STDERR_FILENO;
   struct stat status = {};

@@ -15,7 +15,7 @@ namespace halfspace {
 struct MpiPlace {
   int rank = 0;
   int threads = 1;  ///< for this rank (threads_of_rank())
-  int cpus = 1;  ///< CPUs to which this rank is bound
+  int cpus = 1;     ///< CPUs to which this rank is bound
 };
 
 /// Functions of the plugin. They are called by one thread.

@@ -184,7 +184,8 @@ void bind_scene(py::module_& m) {
   py::enum_<PixelKind>(m, "PixelKind").value("rgb", PixelKind::rgb).value("rgba", PixelKind::rgba).value("light", PixelKind::light);
   py::class_<SceneCore, std::shared_ptr<SceneCore>>(m, "Scene")
       .def_static("open", &open)
-      .def_static("parse", &parse, Release(), py::arg(), py::arg(), py::arg(), py::arg("camera_names") = std::map<std::string, std::string>())
+      .def_static("parse", &parse, Release(), py::arg(), py::arg(), py::arg(),
+                  py::arg("camera_names") = std::map<std::string, std::string>())
       .def_property_readonly("camera_names", &SceneCore::camera_names)
       .def("copy", &SceneCore::copy, Release())
       .def("set", &SceneCore::set, Release())

@@ -68,8 +68,8 @@ struct Drawing {
   uint32_t divisor = 1;
   std::shared_ptr<const Texture2D> texture{};
   Sampler sampler{};
-  TessellationLayout tessellation{};  ///< of `tessellation`: one of kTessellationLayouts
-  GeometryLayout geometry{};          ///< of `geometry`: one of kGeometryLayouts, with up to kGeometryVertices vertices
+  TessellationLayout tessellation{};                 ///< of `tessellation`: one of kTessellationLayouts
+  GeometryLayout geometry{};                         ///< of `geometry`: one of kGeometryLayouts, with up to kGeometryVertices vertices
   std::shared_ptr<const ViewportArray> viewports{};  ///< of `viewport`, which `state` refers to
   DrawState state{};
   std::optional<ClearValues> clear{};  ///< executed before the draw

@@ -82,7 +82,8 @@ GeometricErrors errors_of_random_vectors(int count) {
 
 TEST(GlslAccuracy, FunctionsAreWithinTheirErrorBounds) {
   // The bounds leave at least a tenth above the largest errors found for 2, 3 and 4 components: 1.38, 1.77, 2.76, 2.73, 3.61 and 18.4. The
-  // vectors are the same with the same standard library. The bound of mix(), of which 2.71 was found, follows from three roundings per term.
+  // vectors are the same with the same standard library. The bound of mix(), of which 2.71 was found, follows from three roundings per
+  // term.
   constexpr int kVectors = 200000;
   const GeometricErrors two = errors_of_random_vectors<2>(kVectors), three = errors_of_random_vectors<3>(kVectors);
   const GeometricErrors four = errors_of_random_vectors<4>(kVectors);

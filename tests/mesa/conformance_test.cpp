@@ -153,7 +153,8 @@ const char* not_comparable(const conformance::Picture& p) {
       return "Mesa clips points by their center";
     const auto has_scissor = [](const IndexedViewport& v) { return v.scissor.has_value(); };
     const bool has_scissors = s.viewports != nullptr && std::ranges::any_of(*s.viewports, has_scissor);
-    if (p.samples > 1 && (s.scissor || has_scissors || (d.clear && d.clear->rect))) return "llvmpipe's scissor passes samples of pixels next to the rectangle";
+    if (p.samples > 1 && (s.scissor || has_scissors || (d.clear && d.clear->rect)))
+      return "llvmpipe's scissor passes samples of pixels next to the rectangle";
   }
   return nullptr;
 }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The oracle is an independent implementation of the whole pipeline with the simplest possible loops. Tests compare it with the tile path
-// byte for byte. It supports the full draw state. It shares only type definitions with src/raster (draw_state.h, pass.h, target.h), and the shader
-// interface with src/shading. It processes one pixel, one triangle and one fragment at a time, in order, without lanes, tiles, bins,
-// incremental evaluation, deferred shading or depth bounds.
+// byte for byte. It supports the full draw state. It shares only type definitions with src/raster (draw_state.h, pass.h, target.h), and
+// the shader interface with src/shading. It processes one pixel, one triangle and one fragment at a time, in order, without lanes, tiles,
+// bins, incremental evaluation, deferred shading or depth bounds.
 //
 // This header has the class that draws. Its stages are in the other files of this folder, in the order of the pipeline: shader_call,
 // primitives (with transform, clip and triangle_setup), coverage (with smooth_area), interpolation, depth, depth_stencil, blend and

@@ -32,8 +32,7 @@ void check_target(const Target& target, int width, int height, int samples, int 
   HS_CHECK(target.data != nullptr || (!loads(target) && !is_stored(target)),
            "target: it has no image, but is loaded or stored; expected an image, or clear and dont_care");
   if (target.data == nullptr) return;
-  HS_CHECK(loads(target) || is_stored(target),
-           "target: its image is neither loaded nor stored; expected StoreOp::store, or no image");
+  HS_CHECK(loads(target) || is_stored(target), "target: its image is neither loaded nor stored; expected StoreOp::store, or no image");
   HS_CHECK_OP(target.width, ==, width, "target: its image has another width than the pass; expected an image of the size of the pass");
   HS_CHECK_OP(target.height, ==, height, "target: its image has another height than the pass; expected an image of the size of the pass");
   HS_CHECK(target.samples == 1 || target.samples == samples,
