@@ -6,7 +6,7 @@
 # emitted_primitives removes what draws of emitted primitives need in a pass; geometry_stage, tessellation and layers_and_viewports remove
 # what only these stages need. There is no patch for transform feedback: capture() is a function of its own, which no pass calls.
 #
-#   scripts/dev/off_costs.sh [FEATURE...]     default: all patches in tests/off, which takes several minutes
+#   scripts/dev/off_costs.sh [FEATURE...]     default: all patches in tests/off, which takes about an hour on two cores
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 command -v valgrind > /dev/null || { echo "off_costs.sh: valgrind is missing (Debian and Ubuntu: valgrind)" >&2; exit 1; }
@@ -19,10 +19,15 @@ for feature in "$@"; do
   [ -f "tests/off/$feature.patch" ] || { echo "off_costs.sh: no feature '$feature'; expected one of: $(cd tests/off && echo *.patch)" >&2; exit 2; }
 done
 
-# Patches a copy of the tree. Its file times are preserved, so that only files changed by a patch are rebuilt.
-rm -rf "$tree"
+# Patches a copy of the tree. Only files that differ are copied, also those that an interrupted run has left patched, so that only they are
+# compiled again.
 mkdir -p "$tree"
-git ls-files -z | tar --null -T - -c | tar -x -C "$tree"
+git ls-files -z | while IFS= read -r -d '' file; do
+  [ ! -L "$file" ] && cmp -s "$file" "$tree/$file" && continue
+  mkdir -p "$tree/$(dirname "$file")"
+  cp -P --remove-destination "$file" "$tree/$file"
+done
+comm -13 <(git ls-files | sort) <(cd "$tree" && find . -type f -printf '%P\n' | sort) | while IFS= read -r file; do rm "$tree/$file"; done
 build_program() {
   cmake --build "$build" --target halfspace > "$build/build.log" 2>&1 || { grep -E 'error|FAILED' "$build/build.log" | head -20 >&2; exit 1; }
 }
@@ -34,11 +39,12 @@ build_program
 
 # A globe with a color map and a highlight, but no shadow, normal map, reflection, HDR, multisampling or blending.
 instructions() {
-  valgrind --tool=callgrind --callgrind-out-file=/dev/null --collect-atstart=no --toggle-collect='halfspace::Pass::run(*' \
+  valgrind --tool=callgrind --callgrind-out-file=/dev/null --collect-atstart=no --toggle-collect='halfspace::*Pass::run(*' \
     "$build/bin/halfspace" render earth --size 640x360 --threads 1 -o "$build/picture.png" \
     --set earth.normal=none --set surface.width=512 2>&1 | sed -n 's/.*Collected : //p'
 }
 whole=$(instructions)
+[ "${whole:-0}" -gt 0 ] || { echo "off_costs.sh: callgrind found no call of Pass::run()" >&2; exit 1; }
 cp "$build/picture.png" "$build/whole.png"
 echo "whole         $whole instructions"
 
