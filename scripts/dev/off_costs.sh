@@ -32,9 +32,10 @@ build_program() {
   cmake --build "$build" --target halfspace > "$build/build.log" 2>&1 || { grep -E 'error|FAILED' "$build/build.log" | head -20 >&2; exit 1; }
 }
 mkdir -p "$build"
-# Without Embree, the program has neither validation nor studies, which would be compiled again for each patch.
+# Without Embree, the program has neither validation nor studies, which would be compiled again for each patch. A patch can leave functions
+# that nothing calls.
 cmake -S "$tree" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DHALFSPACE_ARCH=x86-64-v3 -DHALFSPACE_BUILD_BENCHMARKS=OFF \
-  -DHALFSPACE_WITH_EMBREE=OFF > /dev/null
+  -DHALFSPACE_WITH_EMBREE=OFF -DHALFSPACE_WERROR=OFF > /dev/null
 build_program
 
 # A globe with a color map and a highlight, but no shadow, normal map, reflection, HDR, multisampling or blending.
