@@ -307,8 +307,8 @@ def render_frames(scene: Union[Scene, Path], frames: Union[int, Iterable[int]], 
     scene: a Scene, of which later changes have no effect, or the name of a shipped scene, a scene file or a model file. The whole model is
         in view at the times of all frames; its first animation plays.
     frames: how many frames, or the frame numbers, for example range(0, 20000, 10).
-    out: names of the files: "frames/{frame}.png" or "frames/%05d.png". Missing folders are created. Workers write the files, so they must
-        share a file system with the reader of the files.
+    out: names of the files: "frames/{frame}.png" or "frames/%05d.png". Missing folders are created, and existing files replaced.
+        Workers write the files, so they must share a file system with the reader of the files.
     client: a dask.distributed.Client or a concurrent.futures.Executor, whose workers render. Each worker of Dask and each process of a
         ProcessPoolExecutor receives the scene once, other executors with each batch. The default is this process.
     size, fps, time, camera, linear, alpha: as in Scene.frames(). The threads of each worker are those of the scene: with one process per

@@ -201,6 +201,7 @@ void SceneCore::protect_inputs(const std::string& out) {
   const std::lock_guard lock(mutex_);
   ReadModels models;
   for (const auto& [file, model] : state_.models) models.try_emplace({file, model->allow_outside}, model);
+  models = read_models(state_.scene, std::move(models));
   reject_overwriting(out, input_files(state_.description({}), state_.scene.source(), models));
 }
 

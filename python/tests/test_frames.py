@@ -183,8 +183,12 @@ def test_pictures_of_models_replace_no_file_of_others(tmp_path):
     before = texture.read_bytes()
     (tmp_path / "a.mtl").write_text("newmtl m\nmap_Kd a.png\n")
     models[0].write_text("mtllib a.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n")
-    with pytest.raises(halfspace.OutputError, match="a.png: is read by this command"):
-        halfspace.render_models(models[:1], size=SIZE, out=tmp_path / "{name}.png")
+    scene = tmp_path / "scene" / "a.json"
+    scene.parent.mkdir()
+    scene.write_text('{"version": 1, "objects": {"part": {"shape": "file", "file": "../a.obj", "allow_outside": true}}}')
+    for source in (models[0], scene):
+        with pytest.raises(halfspace.OutputError, match="a.png: is read by this command"):
+            halfspace.render_models([source], size=SIZE, out=tmp_path / "{name}.png")
     assert texture.read_bytes() == before
 
 

@@ -199,7 +199,11 @@ std::vector<std::function<void(Picture&)>> simplifications() {
   each([](DrawState& s) { s.color_mask = {}, s.offset = {}, s.query.reset(); });
   each([](DrawState& s) { s.sample_shading = s.alpha_to_coverage = false, s.sample_mask = ~0u; });
   each([](DrawState& s) { s.polygon_mode = PolygonMode::fill, s.instances = 1; });
-  each([](DrawState& s) { s.line_smooth = s.polygon_smooth = false, s.condition.reset(); });
+  each_drawing([](Drawing& d) {
+    d.state.line_smooth = d.state.polygon_smooth = false;
+    d.state.condition.reset();
+    if (d.clear) d.clear->condition.reset();
+  });
   each_drawing([](Drawing& d) { d.clear.reset(); });
   all.push_back([](Picture& p) {
     for (Drawing& d : p.draws) {

@@ -133,8 +133,10 @@ const char* not_comparable(const conformance::Picture& p) {
     const bool lines = is_lines(s.topology) || s.polygon_mode == PolygonMode::line;
     const bool in_perspective = std::any_of(d.vertices.begin(), d.vertices.end(), [](const auto& v) { return v.pos_clip.w != 1.0f; });
     if (p.samples == 1 && is_smooth(s)) return "OpenGL leaves the areas of smooth primitives to the implementation";
-    if (s.condition && std::ranges::count(p.draws, s.condition->query, [](const Drawing& o) { return o.state.query.value_or(~0u); }) != 1)
-      return "a query of OpenGL counts the draws of one scope";
+    for (const std::optional<DrawCondition>& c : {s.condition, d.clear ? d.clear->condition : std::nullopt}) {
+      if (c && std::ranges::count(p.draws, c->query, [](const Drawing& o) { return o.state.query.value_or(~0u); }) != 1)
+        return "a query of OpenGL counts the draws of one scope";
+    }
     if (s.alpha_to_coverage) return "OpenGL does not specify which samples an alpha value covers";
     if (p.samples > 1 && (s.sample_shading || d.mode == conformance::kCentroid))
       return "OpenGL does not specify the position at which a sample or centroid is shaded";

@@ -13,14 +13,18 @@ namespace halfspace::HS_LANES {
 ReadModels read_models(const OpenedScene& opened) {
   ReadModels models;
   if (opened.model != nullptr) models.try_emplace({opened.model_file, opened.model->allow_outside}, opened.model);
-  for (const auto& [name, object] : opened.scene.description().objects) {
+  return read_models(opened.scene, std::move(models));
+}
+
+ReadModels read_models(const SceneFile& scene, ReadModels models) {
+  for (const auto& [name, object] : scene.description().objects) {
     const std::pair key(object.file.path, object.allow_outside);
     if (object.shape != Shape::file || !object.visible || models.contains(key)) continue;
     try {
       models.emplace(key, std::make_shared<const ModelAsset>(read_model(object.file.path, {.allow_outside = object.allow_outside}),
                                                              object.allow_outside));
     } catch (const InputError& e) {
-      throw InputError(fmt::format("{}: objects.{}.file: {}", opened.scene.source(), name, e.what()));
+      throw InputError(fmt::format("{}: objects.{}.file: {}", scene.source(), name, e.what()));
     }
   }
   return models;

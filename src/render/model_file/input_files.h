@@ -20,6 +20,8 @@ using ReadModels = std::map<std::pair<std::filesystem::path, bool>, std::shared_
 
 /// Reads the models of all visible objects of a scene, except the one that was read when the scene was opened. Throws InputError.
 ReadModels read_models(const OpenedScene& opened);
+/// Reads the models that `models` does not contain, and returns all.
+ReadModels read_models(const SceneFile& scene, ReadModels models);
 
 /// Provides the models to `assets`, so that they are not read again.
 void add_models(SceneAssets& assets, const ReadModels& models);
