@@ -8,7 +8,7 @@ namespace halfspace {
 /// How far a process has come with its pictures.
 struct PictureCounts {
   int64_t done = 0;  ///< rendered, kept or left out
-  int64_t kept = 0;  ///< those of them that were not rendered, so that they say nothing about the time of others
+  int64_t kept = 0;  ///< of these, those that were not rendered; rates and estimates do not count them
 };
 
 }  // namespace halfspace

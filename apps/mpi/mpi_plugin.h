@@ -26,7 +26,7 @@ struct MpiFunctions {
   void (*begin)(int total);
   /// Returns the next number, or −1 after the last one. own: what this rank has done, which it tells the others.
   int (*next)(PictureCounts own);
-  /// Returns what all other ranks had done when they last asked for a number. Ranks other than 0 learn it when they ask themselves.
+  /// Returns the counts that all other ranks sent with their last requests. Ranks other than 0 receive them with each number.
   PictureCounts (*others)();
   /// Sends a text to rank 0, and there waits for the texts of all other ranks and passes each to receive(context, text, size).
   void (*finish)(const char* text, std::size_t size, void (*receive)(void*, const char*, std::size_t), void* context);

@@ -202,6 +202,7 @@ void SceneCore::protect_inputs(const std::string& out) {
   ReadModels models;
   for (const auto& [file, model] : state_.models) models.try_emplace({file, model->allow_outside}, model);
   models = read_models(state_.scene, std::move(models));
+  add_models(assets_, models);  // they are not read again
   reject_overwriting(out, input_files(state_.description({}), state_.scene.source(), models));
 }
 

@@ -174,7 +174,7 @@ def test_pictures_of_models_replace_no_file_of_others(tmp_path):
     texture.write_bytes(halfspace.render("shapes", size=(8, 8))._repr_png_().replace(b"Software\0Halfspace", b"Software\0Otherpict"))
     before = texture.read_bytes()
     results = halfspace.render_models(models, size=SIZE, out=tmp_path / "{name}.png", errors="return")
-    assert isinstance(results[0], halfspace.OutputError) and "a.png: exists, and this program did not write it" in str(results[0])
+    assert isinstance(results[0], halfspace.OutputError) and "a.png: exists, and Halfspace did not write it" in str(results[0])
     assert texture.read_bytes() == before
     assert halfspace.render_models(models[1:], size=SIZE, out=tmp_path / "{name}.png") == [results[1]], "its own picture is replaced"
     # A texture that Halfspace made is protected from its own model.

@@ -201,7 +201,7 @@ bool is_whole_image(const std::filesystem::path& path) {
 void check_own_image(const std::filesystem::path& path) {
   std::error_code error;
   if (std::filesystem::is_regular_file(path, error) && !read_image_text(path).software.starts_with(kSoftwareName))
-    throw OutputError(path.string() + ": exists, and this program did not write it; expected another output file");
+    throw OutputError(path.string() + ": exists, and Halfspace did not write it; expected another output file");
 }
 
 std::string text_lines(const ImageText& text) {

@@ -158,7 +158,7 @@ TEST_F(Lists, TexturesOfLaterScenesAreNotReplaced) {
   const std::string texture = read_bytes(directory / "c.png");
   const Outcome o = render({"c.obj", "a.obj", "b.obj", "-o", "{name}.png"});
   EXPECT_EQ(o.exit_code, 3);
-  EXPECT_NE(o.err.find("c.png: exists, and this program did not write it"), std::string::npos) << o.err;
+  EXPECT_NE(o.err.find("c.png: exists, and Halfspace did not write it"), std::string::npos) << o.err;
   EXPECT_EQ(read_bytes(directory / "c.png"), texture);
   EXPECT_TRUE(fs::exists(directory / "b.png"));
 }
