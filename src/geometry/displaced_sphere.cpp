@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "halfspace/core/check.h"
+#include "halfspace/core/float_mode.h"
 #include "halfspace/core/trig_double.h"
 #include "halfspace/geometry/double_vectors.h"
 #include "halfspace/geometry/shapes.h"
@@ -27,25 +28,38 @@ glm::dvec3 slopes_of(const HeightSample& s, const Relief& r, double sin_pi_v) {
   return {east, north, 1.0 + height_of(s, r) / r.radius};
 }
 
+// Returns a vertex that is not at a pole.
+SurfaceVertex displaced_vertex(const HeightField& field, const Relief& relief, const SinCosDouble& pi_v, double u, double v) {
+  const SphereFrame frame = sphere_frame(sincos_turns(u), pi_v);
+  const HeightSample sample = field.at(u, v);
+  const glm::dvec3 slopes = slopes_of(sample, relief, pi_v.sin);
+  return {rounded((relief.radius + height_of(sample, relief)) * frame.normal),
+          rounded(unit(slopes.z * frame.normal - slopes.x * frame.east - slopes.y * frame.north)),
+          // P'u / 2πrs, normalized.
+          glm::vec4(rounded(unit(slopes.z * frame.east + slopes.x * frame.normal)), 1.0f)};
+}
+
 void displace_row(Mesh& mesh, const SphereRow& row, const HeightField& field, const Relief& relief, ReliefNormals normals) {
   const SinCosDouble pi_v = sincos_turns(0.5 * row.v);
   for (int j = 0; j < row.count; ++j) {
     const std::size_t vertex = static_cast<std::size_t>(row.first + j);
-    const SphereFrame frame = sphere_frame(sincos_turns(row.u(j)), pi_v);
-    const HeightSample sample = field.at(row.u(j), row.v);
-    mesh.positions[vertex] = rounded((relief.radius + height_of(sample, relief)) * frame.normal);
+    const SurfaceVertex displaced = displaced_vertex(field, relief, pi_v, row.u(j), row.v);
+    mesh.positions[vertex] = displaced.position;
     if (normals == ReliefNormals::undisplaced) continue;
-    const glm::dvec3 slopes = slopes_of(sample, relief, pi_v.sin);
-    mesh.normals[vertex] = rounded(unit(slopes.z * frame.normal - slopes.x * frame.east - slopes.y * frame.north));
-    // P'u / 2πrs, normalized.
-    mesh.tangents[vertex] = glm::vec4(rounded(unit(slopes.z * frame.east + slopes.x * frame.normal)), 1.0f);
+    mesh.normals[vertex] = displaced.normal;
+    mesh.tangents[vertex] = displaced.tangent;
   }
 }
 
-void displace_pole(Mesh& mesh, const SphereRow& row, const HeightField& field, const Relief& relief) {
+// Returns the distance of a pole from the center: the mean over `columns` vertices at (j + 1/2) / columns.
+double pole_radius(const HeightField& field, const Relief& relief, double v, int columns) {
   double sum = 0;
-  for (int j = 0; j < row.count; ++j) sum += height_of(field.at(row.u(j), row.v), relief);
-  const double y = relief.radius + sum / row.count;
+  for (int j = 0; j < columns; ++j) sum += height_of(field.at((j + 0.5) / columns, v), relief);
+  return relief.radius + sum / columns;
+}
+
+void displace_pole(Mesh& mesh, const SphereRow& row, const HeightField& field, const Relief& relief) {
+  const double y = pole_radius(field, relief, row.v, row.count);
   for (int j = 0; j < row.count; ++j) {
     mesh.positions[static_cast<std::size_t>(row.first + j)] = rounded({0.0, row.v == 0.0 ? y : -y, 0.0});
   }
@@ -66,6 +80,22 @@ Mesh displaced_uv_sphere(int latitudes, int longitudes, float radius, const Heig
     }
   });
   return mesh;
+}
+
+DisplacedSphere::DisplacedSphere(const HeightField& field, double radius, double height_scale, double zero_level)
+    : field_(field), radius_(radius), height_scale_(height_scale), zero_level_(zero_level) {
+  const FloatMode float_mode;
+  HS_CHECK_OP(radius, >, 0.0, "DisplacedSphere: the radius is not positive; expected more than 0");
+  const Relief relief{radius, height_scale, zero_level};
+  north_ = pole_radius(field, relief, 0.0, field.width());
+  south_ = pole_radius(field, relief, 1.0, field.width());
+}
+
+SurfaceVertex DisplacedSphere::at(double u, double v) const {
+  const SinCosDouble pi_v = sincos_turns(0.5 * v);
+  if (v > 0.0 && v < 1.0) return displaced_vertex(field_, {radius_, height_scale_, zero_level_}, pi_v, u, v);
+  const SphereFrame frame = sphere_frame(sincos_turns(u), pi_v);
+  return {rounded({0.0, v == 0.0 ? north_ : -south_, 0.0}), rounded(frame.normal), glm::vec4(rounded(frame.east), 1.0f)};
 }
 
 glm::dvec3 slopes_at(const HeightField& field, double u, double v, double radius, double height_scale, double zero_level) {

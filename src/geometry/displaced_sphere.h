@@ -22,6 +22,7 @@
 #include "halfspace/core/parallel.h"
 #include "halfspace/geometry/height_field.h"
 #include "halfspace/geometry/mesh.h"
+#include "halfspace/geometry/parametric_surface.h"
 
 namespace halfspace::HS_LANES {
 
@@ -34,6 +35,19 @@ enum class ReliefNormals { displaced, undisplaced };
 /// bit-identical. The field should be filtered to `longitudes` columns.
 Mesh displaced_uv_sphere(int latitudes, int longitudes, float radius, const HeightField& field, double height_scale, double zero_level,
                          const Workers& workers, ReliefNormals normals = ReliefNormals::displaced);
+
+/// The surface of displaced_uv_sphere at any resolution. (u, v) are the coordinates of uv_sphere. At a pole, u determines the tangent frame,
+/// and the height is the mean over the columns of the field. The field must outlive this object; radius > 0, and r + g must stay positive.
+class DisplacedSphere : public ParametricSurface {
+ public:
+  DisplacedSphere(const HeightField& field, double radius, double height_scale, double zero_level);
+  SurfaceVertex at(double u, double v) const override;
+
+ private:
+  const HeightField& field_;
+  double radius_, height_scale_, zero_level_;
+  double north_, south_;  ///< distances of the poles from the center
+};
 
 /// Computes an equirectangular map of (g_east, g_north, 1 + g/r, 0) at the texel centers, with the terms of the formula above.
 /// Slopes are dimensionless, positive where the ground rises towards the east or north. Pass a field filtered to `width`; it must
