@@ -39,7 +39,7 @@ PreparedScene prepare(const RenderJob& job, double seconds, SceneAssets& assets,
     report.models.clear();
     for (const SimplifiedObject& s : prepared.simplified) {
       const auto& [name, object] = scene.objects[static_cast<std::size_t>(s.object)];
-      report.models.push_back({name, object.model_error, s});
+      report.models.push_back({name, object.shape == Shape::file ? object.model_error : object.mesh_error, s});
     }
     if (o.wireframe) report.spheres_without_wireframe |= make_wireframe(prepared, scene, *o.wireframe);
     if (o.arguments.naive) check_naive(prepared, scene);

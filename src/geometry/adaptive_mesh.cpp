@@ -2,94 +2,162 @@
 #include "halfspace/geometry/adaptive_mesh.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
-
-#include "halfspace/core/check.h"
-#include "halfspace/core/float_mode.h"
+#include <memory>
+#include <numeric>
+#include <optional>
 
 namespace halfspace::HS_LANES {
 
 namespace {
 
-double length_of(const glm::dvec3& v) { return std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z); }
+constexpr int kCells = MeasuredSquare::kCells, kHalf = kCells / 2;
+constexpr GridVertex kCenter{kHalf, kHalf};
+constexpr std::array<GridVertex, 4> kCorners{{{0, 0}, {kCells, 0}, {0, kCells}, {kCells, kCells}}};  // in the order of the quarters
 
-double distance(const glm::vec3& a, const glm::vec3& b) { return length_of(glm::dvec3(a) - glm::dvec3(b)); }
+// A side of a square: its middle, its ends and the quarters at it.
+struct Side {
+  GridVertex middle;
+  std::array<std::size_t, 2> corners;
+};
+constexpr std::array<Side, 4> kSides{{{{kHalf, 0}, {0, 1}}, {{0, kHalf}, {0, 2}}, {{kCells, kHalf}, {1, 3}}, {{kHalf, kCells}, {2, 3}}}};
 
-// Twice the signed area of a triangle of grid vertices.
-int cross(GridVertex a, GridVertex b, GridVertex c) { return (b.i - a.i) * (c.j - a.j) - (b.j - a.j) * (c.i - a.i); }
+double distance(const glm::vec3& a, const glm::vec3& b) { return glm::length(glm::dvec3(a) - glm::dvec3(b)); }
 
-float rounded_up(double x) {
-  const auto f = static_cast<float>(x);
-  return static_cast<double>(f) < x ? std::nextafter(f, std::numeric_limits<float>::infinity()) : f;
+uint64_t key_of(const SquarePlace& p) {
+  return (static_cast<uint64_t>(p.depth) << 32) | (static_cast<uint64_t>(p.y) << 16) | static_cast<uint64_t>(p.x);
 }
 
 }  // namespace
 
-PatchErrors::PatchErrors(const ParametricSurface& surface, const PatchGrid& grid, int patch, int level) : level_(level) {
-  const FloatMode float_mode;
-  HS_CHECK_OP(level, >=, 2, "PatchErrors: the level is too low; expected at least 2");
-  HS_CHECK_OP(level, <=, 10, "PatchErrors: the level is too high; expected at most 10");
-  const int n = cells();
-  positions_.reserve(index({n, n}) + 1);
-  glm::dvec3 sum(0.0);
-  for (int j = 0; j <= n; ++j) {
-    for (int i = 0; i <= n; ++i) {
-      positions_.push_back(surface.at(grid.u(patch, i, level), grid.v(patch, j, level)).position);
-      sum += glm::dvec3(positions_.back());
+// Measures a patch as far as a view needs, and finds the vertices that bisect its triangles.
+class AdaptiveSurface::SplitFinder {
+ public:
+  SplitFinder(const ParametricSurface& surface, const PatchGrid& grid, Squares& measured, const ViewedError& viewed, int patch)
+      : surface_(surface), grid_(grid), measured_(measured), viewed_(viewed), root_{{.patch = patch}, nullptr, {}, false} {
+    measure(root_);
+    leaves_ = {&root_};
+  }
+
+  // Marks the squares of the last division that are too coarse. Returns their number.
+  std::size_t mark() {
+    for (Square* s : leaves_) {
+      const MeasuredSquare& m = *s->measured;
+      const double finest = m.finest_error() + unseen(*s);
+      s->is_coarse = viewed_.of(m.center(), m.radius() + finest, finest) > viewed_.allowed;
+    }
+    return static_cast<std::size_t>(std::ranges::count_if(leaves_, [](const Square* s) { return s->is_coarse; }));
+  }
+
+  // Divides the marked squares.
+  void divide() {
+    std::vector<Square*> quarters;
+    for (Square* s : leaves_) {
+      if (!s->is_coarse) continue;
+      s->quarters = std::make_unique<std::array<Square, 4>>();
+      for (int q = 0; q < 4; ++q) {
+        Square& quarter = (*s->quarters)[static_cast<std::size_t>(q)];
+        quarter.place = s->place.quarter(q);
+        measure(quarter);
+        quarters.push_back(&quarter);
+      }
+    }
+    leaves_ = std::move(quarters);
+  }
+
+  // Finds the vertices. depth: of the deepest square of all patches.
+  void find(int depth) {
+    depth_ = depth;
+    visit(root_);
+  }
+
+  const std::vector<GridVertex>& splits() const { return splits_; }
+  double error() const { return error_; }  // the largest viewed error of the triangles that are not bisected
+
+ private:
+  struct Square {
+    SquarePlace place;
+    const MeasuredSquare* measured = nullptr;
+    std::unique_ptr<std::array<Square, 4>> quarters;  // null if it is not divided
+    bool is_coarse = false;
+  };
+
+  void measure(Square& s) { s.measured = &measured_.try_emplace(key_of(s.place), surface_, grid_, s.place).first->second; }
+
+  double unseen(const Square& s) const { return viewed_.unseen((grid_.columns * kCells) << s.place.depth); }
+
+  // Returns the error of the halves of a square, not less than that of their parts.
+  double error_of(const Square& s) const {
+    double error = s.measured->error(kCenter);
+    if (s.quarters == nullptr) return error + unseen(s);
+    for (const Square& q : *s.quarters) error = std::max(error, error_of(q));
+    return error;
+  }
+
+  // Returns the error of the triangle between the center and a side of a square that is divided.
+  double error_at(const Square& s, const Side& side) const {
+    const auto& [a, b] = side.corners;
+    return std::max({s.measured->error(side.middle), error_of((*s.quarters)[a]), error_of((*s.quarters)[b])});
+  }
+
+  // Returns true if the triangles that a vertex bisects must be bisected. outer: their other vertices.
+  template <std::size_t n>
+  bool must_split(const Square& s, GridVertex v, const std::array<GridVertex, n>& outer, double error, double& viewed) {
+    const glm::vec3& center = s.measured->position(v);
+    double radius = 0.0;
+    for (const GridVertex o : outer) radius = std::max(radius, distance(center, s.measured->position(o)));
+    viewed = viewed_.of(glm::dvec3(center), radius + error, error);
+    if (!(viewed > viewed_.allowed)) {
+      error_ = std::max(error_, viewed);
+      return false;
+    }
+    const int shift = depth_ - s.place.depth;
+    splits_.push_back({(s.place.x * kCells + v.i) << shift, (s.place.y * kCells + v.j) << shift});
+    return true;
+  }
+
+  void visit(const Square& s) {
+    if (s.quarters == nullptr) {
+      for (const int half : {0, 1}) visit(s, square_half(half, kCells, s.place.is_falling()));
+      return;
+    }
+    double viewed = 0.0;
+    if (!must_split(s, kCenter, kCorners, error_of(s), viewed)) return;
+    std::array<bool, 4> is_split{};  // quarters
+    for (const Side& side : kSides) {
+      const auto& [a, b] = side.corners;
+      if (must_split(s, side.middle, std::array{kCenter, kCorners[a], kCorners[b]}, error_at(s, side), viewed))
+        is_split[a] = is_split[b] = true;
+    }
+    for (std::size_t q = 0; q < 4; ++q) {
+      if (is_split[q]) visit((*s.quarters)[q]);
     }
   }
-  center_ = sum / static_cast<double>(positions_.size());
-  for (const glm::vec3& p : positions_) radius_ = std::max(radius_, length_of(glm::dvec3(p) - center_));
-  errors_.resize(positions_.size());
-  for (const int half : {0, 1}) measure(patch_half(half, n));
-}
 
-// Returns the error of a triangle, at least that of its parts, and stores it at the vertex that bisects the triangle.
-double PatchErrors::measure(const GridTriangle& t) {
-  if (!t.can_split()) return 0.0;
-  const double parts = std::max(measure(t.first()), measure(t.second())), own = deviation(t);
-  const GridVertex v = t.split();
-  float& error = errors_[index(v)];
-  error = std::max(error, rounded_up(std::max(own, parts)));
-  if (std::abs(cross(t.apex, t.b, t.c)) == 4) finest_error_ = std::max(finest_error_, rounded_up(own));
-  return std::max(own, parts);
-}
-
-// Returns the largest distance between a vertex of the grid in a triangle and the point of the triangle with the same (u, v).
-double PatchErrors::deviation(const GridTriangle& t) const {
-  const glm::dvec3 apex(position(t.apex)), to_b = glm::dvec3(position(t.b)) - apex, to_c = glm::dvec3(position(t.c)) - apex;
-  const int area = cross(t.apex, t.b, t.c), sign = area < 0 ? -1 : 1;
-  const auto [i0, i1] = std::minmax({t.apex.i, t.b.i, t.c.i});
-  const auto [j0, j1] = std::minmax({t.apex.j, t.b.j, t.c.j});
-  double largest = 0.0;
-  for (int j = j0; j <= j1; ++j) {
-    for (int i = i0; i <= i1; ++i) {
-      const int b = sign * cross(t.apex, {i, j}, t.c), c = sign * cross(t.apex, t.b, {i, j});  // barycentric coordinates, times the area
-      if (b < 0 || c < 0 || b + c > sign * area) continue;
-      const double weight = 1.0 / (sign * area);
-      const glm::dvec3 flat = apex + (b * weight) * to_b + (c * weight) * to_c, off = glm::dvec3(position({i, j})) - flat;
-      largest = std::max(largest, off.x * off.x + off.y * off.y + off.z * off.z);
+  void visit(const Square& s, const GridTriangle& t) {
+    double viewed = 0.0;
+    if (!must_split(s, t.split(), std::array{t.apex, t.b, t.c}, s.measured->error(t.split()) + unseen(s), viewed)) return;
+    if (!t.first().can_split()) {
+      error_ = std::max(error_, 0.5 * viewed);
+      return;
     }
+    visit(s, t.first());
+    visit(s, t.second());
   }
-  return std::sqrt(largest);
-}
+
+  const ParametricSurface& surface_;
+  const PatchGrid& grid_;
+  Squares& measured_;
+  const ViewedError& viewed_;
+  Square root_;
+  std::vector<Square*> leaves_;  // of the last division
+  int depth_ = 0;
+  std::vector<GridVertex> splits_;
+  double error_ = 0.0;
+};
 
 namespace {
-
-// Collects the vertices of a patch that bisect triangles.
-void find_splits(const PatchErrors& patch, const GridTriangle& t, const SplitTest& must_split, std::vector<GridVertex>& splits) {
-  if (!t.can_split()) return;
-  const GridVertex v = t.split();
-  const glm::vec3& center = patch.position(v);
-  const double error = static_cast<double>(patch.error(v));
-  const double radius = error + std::max({distance(center, patch.position(t.apex)), distance(center, patch.position(t.b)),
-                                          distance(center, patch.position(t.c))});
-  if (!must_split(glm::dvec3(center), radius, error)) return;
-  splits.push_back(v);
-  find_splits(patch, t.first(), must_split, splits);
-  find_splits(patch, t.second(), must_split, splits);
-}
 
 // Makes the part of the mesh that belongs to a patch.
 class PatchMesher {
@@ -101,7 +169,7 @@ class PatchMesher {
     mesh_ = {};
     used_.clear();
     patch_ = patch;
-    for (const int half : {0, 1}) add(patch_half(half, 1 << level_));
+    for (const int half : {0, 1}) add(square_half(half, 1 << level_, true));
     for (const std::size_t v : used_) numbers_[v] = kNone;
     return std::move(mesh_);
   }
@@ -164,29 +232,47 @@ Mesh joined(const std::vector<Mesh>& parts) {
 
 }  // namespace
 
-Mesh adaptive_mesh(const ParametricSurface& surface, const PatchGrid& grid, std::span<const std::shared_ptr<const PatchErrors>> patches,
-                   const SplitTest& must_split, const Workers& workers) {
-  HS_CHECK_OP(static_cast<int>(patches.size()), ==, grid.patches(),
-              "adaptive_mesh: a patch is missing; expected one per patch of the grid");
-  std::vector<std::vector<GridVertex>> splits(patches.size());
-  workers.for_each(grid.patches(), [&](int p) {
-    const PatchErrors& patch = *patches[static_cast<std::size_t>(p)];
-    for (const int half : {0, 1}) find_splits(patch, patch_half(half, patch.cells()), must_split, splits[static_cast<std::size_t>(p)]);
-  });
-  int level = 0;
-  for (const auto& patch : patches) level = std::max(level, patch->level());
-  GridVertices vertices(grid, level);
-  for (int p = 0; p < grid.patches(); ++p) {
-    const int scale = level - patches[static_cast<std::size_t>(p)]->level();
-    for (const GridVertex v : splits[static_cast<std::size_t>(p)]) vertices.add(p, {v.i << scale, v.j << scale});
+AdaptiveMesh AdaptiveSurface::mesh(const ViewedError& viewed, const Workers& workers) {
+  const auto count = [](std::size_t sum, const Squares& s) { return sum + s.size(); };
+  if (std::accumulate(squares_.begin(), squares_.end(), std::size_t{0}, count) > kMaxSquares) {
+    for (Squares& s : squares_) s.clear();
   }
-  std::vector<Mesh> parts(patches.size());
-  const int tasks = std::min(grid.patches(), 4 * workers.threads());
-  workers.for_each(tasks, [&](int task) {
-    PatchMesher mesher(surface, grid, vertices, level);
-    for (int p = task; p < grid.patches(); p += tasks) parts[static_cast<std::size_t>(p)] = mesher.mesh_of(p);
+  const int patches = grid_.patches();
+  std::vector<std::optional<SplitFinder>> finders(squares_.size());
+  std::vector<std::size_t> coarse(squares_.size());
+  const auto for_each_finder = [&](const auto& task) { workers.for_each(patches, [&](int p) { task(static_cast<std::size_t>(p)); }); };
+  for_each_finder([&](std::size_t p) {
+    finders[p].emplace(surface_, grid_, squares_[p], viewed, static_cast<int>(p));
+    coarse[p] = finders[p]->mark();
   });
-  return joined(parts);
+  int depth = 0;
+  std::size_t needed = squares_.size();
+  for (; depth < kMaxDepth; ++depth) {
+    const std::size_t more = 4 * std::accumulate(coarse.begin(), coarse.end(), std::size_t{0});
+    if (more == 0 || needed + more > kMaxSquares) break;
+    needed += more;
+    for_each_finder([&](std::size_t p) {
+      finders[p]->divide();
+      coarse[p] = finders[p]->mark();
+    });
+  }
+  for_each_finder([&](std::size_t p) { finders[p]->find(depth); });
+
+  const int level = depth + MeasuredSquare::kLevel;
+  GridVertices vertices(grid_, level);
+  AdaptiveMesh out{{}, 0.0, grid_.columns << level};
+  for (std::size_t p = 0; p < finders.size(); ++p) {
+    for (const GridVertex v : finders[p]->splits()) vertices.add(static_cast<int>(p), v);
+    out.error = std::max(out.error, finders[p]->error());
+  }
+  std::vector<Mesh> parts(squares_.size());
+  const int tasks = std::min(patches, 4 * workers.threads());
+  workers.for_each(tasks, [&](int task) {
+    PatchMesher mesher(surface_, grid_, vertices, level);
+    for (int p = task; p < patches; p += tasks) parts[static_cast<std::size_t>(p)] = mesher.mesh_of(p);
+  });
+  out.mesh = joined(parts);
+  return out;
 }
 
 }  // namespace halfspace::HS_LANES

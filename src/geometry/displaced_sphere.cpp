@@ -82,20 +82,55 @@ Mesh displaced_uv_sphere(int latitudes, int longitudes, float radius, const Heig
   return mesh;
 }
 
-DisplacedSphere::DisplacedSphere(const HeightField& field, double radius, double height_scale, double zero_level)
-    : field_(field), radius_(radius), height_scale_(height_scale), zero_level_(zero_level) {
+SphereSurface::SphereSurface(const HeightField* field, double radius, double height_scale, double zero_level, ReliefNormals normals)
+    : field_(field),
+      radius_(radius),
+      height_scale_(height_scale),
+      zero_level_(zero_level),
+      normals_(normals),
+      north_(radius),
+      south_(radius) {
   const FloatMode float_mode;
-  HS_CHECK_OP(radius, >, 0.0, "DisplacedSphere: the radius is not positive; expected more than 0");
+  HS_CHECK_OP(radius, >, 0.0, "SphereSurface: the radius is not positive; expected more than 0");
+  if (field == nullptr) return;
   const Relief relief{radius, height_scale, zero_level};
-  north_ = pole_radius(field, relief, 0.0, field.width());
-  south_ = pole_radius(field, relief, 1.0, field.width());
+  north_ = pole_radius(*field, relief, 0.0, field->width());
+  south_ = pole_radius(*field, relief, 1.0, field->width());
 }
 
-SurfaceVertex DisplacedSphere::at(double u, double v) const {
+// Returns the distance of a point from the center.
+double SphereSurface::distance_at(double u, double v) const {
+  if (v == 0.0) return north_;
+  if (v == 1.0) return south_;
+  return field_ == nullptr ? radius_ : radius_ + height_of(field_->at(u, v), {radius_, height_scale_, zero_level_});
+}
+
+SurfaceVertex SphereSurface::at(double u, double v) const {
   const SinCosDouble pi_v = sincos_turns(0.5 * v);
-  if (v > 0.0 && v < 1.0) return displaced_vertex(field_, {radius_, height_scale_, zero_level_}, pi_v, u, v);
+  if (field_ != nullptr && normals_ == ReliefNormals::displaced && v != 0.0 && v != 1.0)
+    return displaced_vertex(*field_, {radius_, height_scale_, zero_level_}, pi_v, u, v);
   const SphereFrame frame = sphere_frame(sincos_turns(u), pi_v);
-  return {rounded({0.0, v == 0.0 ? north_ : -south_, 0.0}), rounded(frame.normal), glm::vec4(rounded(frame.east), 1.0f)};
+  return {rounded(distance_at(u, v) * frame.normal), rounded(frame.normal), glm::vec4(rounded(frame.east), 1.0f)};
+}
+
+void SphereSurface::positions(std::span<const double> u, std::span<const double> v, std::span<glm::vec3> out) const {
+  std::vector<SinCosDouble> turns;
+  std::vector<HeightTaps> taps;
+  for (const double x : u) {
+    turns.push_back(sincos_turns(x));
+    if (field_ != nullptr) taps.push_back(field_->taps(x));
+  }
+  std::vector<HeightSample> samples(taps.size());
+  for (std::size_t j = 0; j < v.size(); ++j) {
+    const SinCosDouble pi_v = sincos_turns(0.5 * v[j]);
+    const bool is_displaced = field_ != nullptr && v[j] != 0.0 && v[j] != 1.0;
+    if (is_displaced) field_->at(taps, v[j], samples);
+    for (std::size_t i = 0; i < u.size(); ++i) {
+      const double distance =
+          is_displaced ? radius_ + height_of(samples[i], {radius_, height_scale_, zero_level_}) : distance_at(u[i], v[j]);
+      out[j * u.size() + i] = rounded(distance * sphere_frame(turns[i], pi_v).normal);
+    }
+  }
 }
 
 glm::dvec3 slopes_at(const HeightField& field, double u, double v, double radius, double height_scale, double zero_level) {

@@ -36,16 +36,22 @@ enum class ReliefNormals { displaced, undisplaced };
 Mesh displaced_uv_sphere(int latitudes, int longitudes, float radius, const HeightField& field, double height_scale, double zero_level,
                          const Workers& workers, ReliefNormals normals = ReliefNormals::displaced);
 
-/// The surface of displaced_uv_sphere at any resolution. (u, v) are the coordinates of uv_sphere. At a pole, u determines the tangent frame,
-/// and the height is the mean over the columns of the field. The field must outlive this object; radius > 0, and r + g must stay positive.
-class DisplacedSphere : public ParametricSurface {
+/// The surface of uv_sphere or displaced_uv_sphere at any resolution. (u, v) are the coordinates of uv_sphere. At a pole, u determines the
+/// tangent frame, and the height is the mean over the columns of the field.
+class SphereSurface : public ParametricSurface {
  public:
-  DisplacedSphere(const HeightField& field, double radius, double height_scale, double zero_level);
+  /// field: null if the sphere is not displaced; otherwise it must outlive this object. radius > 0, and r + g must stay positive.
+  SphereSurface(const HeightField* field, double radius, double height_scale, double zero_level,
+                ReliefNormals normals = ReliefNormals::displaced);
   SurfaceVertex at(double u, double v) const override;
+  void positions(std::span<const double> u, std::span<const double> v, std::span<glm::vec3> out) const override;
 
  private:
-  const HeightField& field_;
+  double distance_at(double u, double v) const;
+
+  const HeightField* field_;
   double radius_, height_scale_, zero_level_;
+  ReliefNormals normals_;
   double north_, south_;  ///< distances of the poles from the center
 };
 

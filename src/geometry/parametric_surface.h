@@ -4,6 +4,7 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <span>
 
 #include "halfspace/core/namespace.h"
 
@@ -15,11 +16,13 @@ struct SurfaceVertex {
   glm::vec4 tangent;
 };
 
-/// A surface over (u, v) in [0, 1]². Results depend only on the arguments, bit for bit. Functions can be called from any thread.
+/// A surface over (u, v) in [0, 1]². Results depend only on (u, v), bit for bit. Functions can be called from any thread.
 class ParametricSurface {
  public:
   virtual ~ParametricSurface() = default;
   virtual SurfaceVertex at(double u, double v) const = 0;
+  /// Computes the positions of at() at all pairs of u and v, row by row; one row per v.
+  virtual void positions(std::span<const double> u, std::span<const double> v, std::span<glm::vec3> out) const = 0;
 };
 
 }  // namespace halfspace::HS_LANES

@@ -51,10 +51,11 @@ struct PatchGrid {
   double v(int patch, int j, int level) const { return static_cast<double>(((patch / columns) << level) + j) / (rows << level); }
 };
 
-/// The south-western (number 0) or north-eastern (1) half of a patch with n cells per side.
-inline GridTriangle patch_half(int number, int n) {
-  if (number == 0) return {{0, n}, {n, n}, {0, 0}};
-  return {{n, 0}, {0, 0}, {n, n}};
+/// One of the two halves of a square with n cells per side, number 0 or 1. falling: the diagonal between them runs from the north-west to
+/// the south-east, as in patches; otherwise from the north-east to the south-west.
+inline GridTriangle square_half(int number, int n, bool falling) {
+  if (falling) return number == 0 ? GridTriangle{{0, n}, {n, n}, {0, 0}} : GridTriangle{{n, 0}, {0, 0}, {n, n}};
+  return number == 0 ? GridTriangle{{0, 0}, {0, n}, {n, 0}} : GridTriangle{{n, n}, {n, 0}, {0, n}};
 }
 
 /// A set of vertices that contains the parents of its members. The corners of the patches are always members.

@@ -99,10 +99,10 @@ struct PlacedSpheres {
   int object = -1;  ///< index in the scene's objects; −1: particles
 };
 
-/// What has been simplified of a model file.
+/// What has been simplified of a model file, or adapted to the view.
 struct SimplifiedObject {
   int object = 0;          ///< index in the scene's objects
-  uint64_t triangles = 0;  ///< of the file, in all copies
+  uint64_t triangles = 0;  ///< of the file, in all copies; of a mesh that is everywhere as fine as its finest part
   uint64_t drawn = 0;
   /// No outline is off by more, in pixels, except that of folds of one-sided surfaces with a border (docs/explanation/max_error.md).
   double error_px = 0.0;
@@ -127,7 +127,7 @@ struct PreparedScene {
   std::vector<PlacedMesh> meshes;  ///< meshes of all objects that are drawn
   std::vector<PlacedSpheres> spheres;
   std::vector<PreparedLight> lights;
-  std::vector<SimplifiedObject> simplified;  ///< objects with ObjectDescription::model_error
+  std::vector<SimplifiedObject> simplified;  ///< objects with ObjectDescription::model_error or mesh_error
   PassStatistics shadow_statistics;          ///< sum over the passes that rendered shadow maps
   double images_ms = 0.0;                    ///< time to decode images of models
   std::vector<std::shared_ptr<const void>> assets;

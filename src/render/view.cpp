@@ -174,6 +174,13 @@ double silhouette_pixels_per_unit(const View& v, const glm::dvec3& center_ws, do
   return focal_px(v) * (1.0 + farthest * farthest) / tangent_length;
 }
 
+double turned_pixels_per_unit(const View& v, const glm::dvec3& center_ws, double radius) {
+  if (is_orthographic(v)) return pixels_per_unit(v, center_ws, radius);
+  // A point at distance d in the image has a depth of at least d / √(1 + tan²).
+  const double nearest = std::max(v.near, glm::distance(center_ws, v.eye_ws) - radius);
+  return focal_px(v) * (1.0 + corner_tangent_squared(v)) / nearest;
+}
+
 bool is_outside(const View& v, const glm::dvec3& center_ws, double radius) {
   const glm::dvec4 w = row_of(v.clip_from_world, 3);
   for (const int axis : {0, 1}) {

@@ -153,6 +153,7 @@ struct ObjectDescription {
   double tube = 0.25;
   double length = 2.0;
   int latitudes = 64, longitudes = 128;
+  double mesh_error = 0.0;  ///< allowed distance of an adaptive mesh from the surface, in pixels; 0: latitudes and longitudes
   int level = 5;
   double size = 2.0;
   int segments = 1;

@@ -52,7 +52,7 @@ double half_size(const Object& o) { return 0.5 * o.size; }
 constexpr ShapeKind kKinds[]{
     {.shape = Shape::uv_sphere,
      .name = "uv_sphere",
-     .keys = "radius latitudes longitudes normals",
+     .keys = "radius latitudes longitudes mesh_error normals",
      .is_ring = false,
      .has_flat_faces = false,
      .is_sphere_mesh = true,

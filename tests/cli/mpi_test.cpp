@@ -16,7 +16,8 @@ namespace halfspace {
 namespace {
 
 // OpenMPI does not free everything at exit.
-constexpr const char* kMpirun = kSanitized ? "ASAN_OPTIONS=detect_leaks=0 mpirun --allow-run-as-root" : "mpirun --allow-run-as-root";
+constexpr const char* kMpirun =
+    kSanitized ? "ASAN_OPTIONS=detect_leaks=0 TSAN_OPTIONS=detect_deadlocks=0 mpirun --allow-run-as-root" : "mpirun --allow-run-as-root";
 
 class Mpi : public Cli {
  protected:

@@ -9,6 +9,7 @@
 #include "geometry/rough_map.h"
 #include "halfspace/core/trig_double.h"
 #include "halfspace/geometry/displaced_sphere.h"
+#include "halfspace/geometry/shapes.h"
 #include "support/workers.h"
 
 namespace halfspace {
@@ -22,13 +23,23 @@ const HeightField& bumpy_field() {
   return field;
 }
 
-const DisplacedSphere& bumpy_ball() {
-  static const DisplacedSphere sphere(bumpy_field(), kBallSize, kBumpScale, kBumpZero);
+const SphereSurface& bumpy_ball() {
+  static const SphereSurface sphere(&bumpy_field(), kBallSize, kBumpScale, kBumpZero);
   return sphere;
 }
 
+// Surfaces that have no faster way to compute many positions.
+class PointwiseSurface : public ParametricSurface {
+ public:
+  void positions(std::span<const double> u, std::span<const double> v, std::span<glm::vec3> out) const override {
+    for (std::size_t j = 0; j < v.size(); ++j) {
+      for (std::size_t i = 0; i < u.size(); ++i) out[j * u.size() + i] = at(u[i], v[j]).position;
+    }
+  }
+};
+
 // A height over the unit square.
-class Sheet : public ParametricSurface {
+class Sheet : public PointwiseSurface {
  public:
   explicit Sheet(double (*height)(double, double)) : height_(height) {}
   SurfaceVertex at(double u, double v) const override { return {glm::vec3(glm::dvec3(u, -v, height_(u, v))), {0, 0, 1}, {1, 0, 0, 1}}; }
@@ -38,7 +49,7 @@ class Sheet : public ParametricSurface {
 };
 
 // A ring around the z axis, closed along u and v.
-class Ring : public ParametricSurface {
+class Ring : public PointwiseSurface {
  public:
   SurfaceVertex at(double u, double v) const override {
     const SinCosDouble a = sincos_turns(u), b = sincos_turns(v);
@@ -47,102 +58,97 @@ class Ring : public ParametricSurface {
   }
 };
 
-using Patches = std::vector<std::shared_ptr<const PatchErrors>>;
+double exact_error(const glm::dvec3&, double, double error) { return error; }
 
-Patches patches_of(const ParametricSurface& s, const PatchGrid& grid, const std::function<int(int)>& level) {
-  Patches out;
-  for (int p = 0; p < grid.patches(); ++p) out.push_back(std::make_shared<const PatchErrors>(s, grid, p, level(p)));
-  return out;
+// An error from 0 to 7 that depends on the bits of the center, as if at random.
+double random_error(uint32_t seed, const glm::dvec3& center) {
+  uint32_t hash = seed;
+  for (int k = 0; k < 3; ++k) hash = (hash ^ static_cast<uint32_t>(static_cast<int>(center[k] * 65536.0))) * 2654435761u;
+  return static_cast<double>(hash >> 29);
 }
 
-Mesh mesh_of(const ParametricSurface& s, const PatchGrid& grid, int level, const SplitTest& test) {
-  return adaptive_mesh(s, grid, patches_of(s, grid, [&](int) { return level; }), test, two_workers());
+AdaptiveMesh adapted(const ParametricSurface& s, const PatchGrid& grid, const ViewedError& viewed) {
+  return AdaptiveSurface(s, grid).mesh(viewed, two_workers());
 }
 
-SplitTest errors_above(double allowed) {
-  return [=](const glm::dvec3&, double, double error) { return error > allowed; };
+const Sheet& bowl() {
+  static const Sheet sheet([](double u, double v) { return u * u + v * v; });
+  return sheet;
 }
 
-// A test that decides by the bits of the center, as if at random.
-SplitTest random_splits(uint32_t seed, uint32_t of_eight) {
-  return [=](const glm::dvec3& center, double, double) {
-    uint32_t hash = seed;
-    for (int k = 0; k < 3; ++k) hash = (hash ^ static_cast<uint32_t>(static_cast<int>(center[k] * 65536.0))) * 2654435761u;
-    return hash >> 29 < of_eight;
-  };
-}
-
-TEST(AdaptiveMesh, FlatPatchesStayWhole) {
-  const Sheet sheet([](double, double) { return 0.0; });
-  const Mesh m = mesh_of(sheet, {.columns = 3, .rows = 2}, 4, errors_above(1e-6));
-  EXPECT_EQ(m.indices.size(), 3u * 2 * 6);
-  EXPECT_EQ(m.positions.size(), 4u * 6);
-}
-
-TEST(AdaptiveMesh, SplittingEverythingGivesTheWholeGrid) {
-  const Sheet sheet([](double, double) { return 0.0; });
-  const Mesh m = mesh_of(sheet, {.columns = 3, .rows = 2}, 4, [](const glm::dvec3&, double, double) { return true; });
-  EXPECT_EQ(m.indices.size(), 3u * 2 * 6 * 16 * 16);
-}
-
-// A paraboloid: the middle of a hypotenuse (du, dv) is (du² + dv²)/4 below its chord, and this is the largest deviation in the triangle. In
-// a triangle with legs h, the hypotenuse is √2 h long.
-TEST(AdaptiveMesh, ErrorsOfAParaboloidAreItsChordErrors) {
-  const Sheet bowl([](double u, double v) { return u * u + v * v; });
-  const PatchErrors patch(bowl, {}, 0, 5);
-  for (int s = 0; s < 5; ++s) {
-    const int h = 1 << s;
-    const double squared = std::pow(h / 32.0, 2);
-    // The tolerance is for positions rounded to float: 2^-24 of at most 2, three times.
-    EXPECT_NEAR(static_cast<double>(patch.error({h, h})), 2 * 4 * squared / 4, 4e-7) << "center of a square, step " << h;
-    EXPECT_NEAR(static_cast<double>(patch.error({h, 2 * h})), 4 * squared / 4, 4e-7) << "middle of a side, step " << h;
+// A paraboloid: the middle of a hypotenuse (du, dv) is (du² + dv²)/4 below its chord, and this is the largest deviation in the triangle.
+TEST(MeasuredSquare, ErrorsOfAParaboloidAreItsChordErrors) {
+  const MeasuredSquare whole(bowl(), {}, {}), quarter(bowl(), {}, SquarePlace{}.quarter(2));
+  for (int h = 1; h < 16; h *= 2) {
+    const double squared = std::pow(2.0 * h / 16.0, 2);  // of the side that the vertex bisects
+    // The tolerance is for positions rounded to float: three times 2^-24 of at most 2.
+    EXPECT_NEAR(whole.error({h, h}), 2 * squared / 4, 4e-7) << "center of a square, step " << h;
+    EXPECT_NEAR(quarter.error({h, 16 - h}), squared / 4 / 2, 4e-7) << "center of a square of a quarter, step " << h;
+    if (h < 8) {
+      EXPECT_NEAR(whole.error({h, 2 * h}), squared / 4, 4e-7) << "middle of a side, step " << h;
+    }
   }
-  EXPECT_NEAR(static_cast<double>(patch.finest_error()), 2 * 4 * std::pow(1 / 32.0, 2) / 4, 4e-7);
+  EXPECT_NEAR(whole.finest_error(), std::pow(2.0 / 16.0, 2) / 4, 4e-7);
 }
 
 // Only one vertex is high. Every triangle around it has its error.
-TEST(AdaptiveMesh, EveryVertexOfTheGridCounts) {
-  const Sheet spike([](double u, double v) { return u == 5.0 / 32 && v == 11.0 / 32 ? 1.0 : 0.0; });
-  const PatchErrors patch(spike, {}, 0, 5);
+TEST(MeasuredSquare, EveryVertexOfTheGridCounts) {
+  const Sheet spike([](double u, double v) { return u == 5.0 / 16 && v == 11.0 / 16 ? 1.0 : 0.0; });
+  const MeasuredSquare square(spike, {}, {});
   const GridVertex spiked{5, 11};
   const auto side = [spiked](GridVertex a, GridVertex b) { return (b.i - a.i) * (spiked.j - a.j) - (b.j - a.j) * (spiked.i - a.i); };
   int around = 0;
   const std::function<void(const GridTriangle&)> check = [&](const GridTriangle& t) {
     if (!t.can_split() || t.apex == spiked || t.b == spiked || t.c == spiked) return;
     if (side(t.apex, t.b) > 0 || side(t.b, t.c) > 0 || side(t.c, t.apex) > 0) return;  // counter-clockwise if v points down
-    EXPECT_GE(patch.error(t.split()), 1.0f);
+    EXPECT_GE(square.error(t.split()), 1.0);
     ++around;
     check(t.first());
     check(t.second());
   };
-  for (const int half : {0, 1}) check(patch_half(half, 32));
-  EXPECT_GE(around, 8);
-  EXPECT_EQ(patch.error({28, 28}), 0.0f);
+  for (const int half : {0, 1}) check(square_half(half, 16, true));
+  EXPECT_GE(around, 6);
+  EXPECT_EQ(square.error({14, 14}), 0.0);
+}
+
+TEST(AdaptiveMesh, FlatPatchesStayWhole) {
+  const Sheet sheet([](double, double) { return 0.0; });
+  const AdaptiveMesh m = adapted(sheet, {.columns = 3, .rows = 2}, {exact_error, 1e-6});
+  EXPECT_EQ(m.mesh.indices.size(), 3u * 2 * 6);
+  EXPECT_EQ(m.mesh.positions.size(), 4u * 6);
+  EXPECT_EQ(m.columns, 3 * 16);
+}
+
+// In a paraboloid, all triangles of a size have the same error.
+TEST(AdaptiveMesh, TrianglesOfAParaboloidHaveOneSize) {
+  for (const int level : {2, 4, 5, 7}) {
+    const double allowed = 1.01 * 2 * std::pow(0.5, 2 * level) / 4;  // just above the error of halves of squares with sides of 2^-level
+    const AdaptiveMesh m = adapted(bowl(), {}, {exact_error, allowed});
+    EXPECT_EQ(m.mesh.indices.size(), std::size_t{6} << (2 * level));
+    EXPECT_NEAR(m.error, allowed / 1.01, 4e-7);
+  }
 }
 
 TEST(AdaptiveMesh, HasNoCracksForAnyChoice) {
   for (uint32_t seed = 1; seed <= 12; ++seed) {
     SCOPED_TRACE(seed);
-    // Patches at different levels; 6 of 8 triangles are bisected, so that some branches end at each depth.
-    const auto level = [&](int p) { return 2 + static_cast<int>((static_cast<uint32_t>(p) * 2654435761u * seed) >> 30); };
-    const Mesh sphere = adaptive_mesh(bumpy_ball(), kBall, patches_of(bumpy_ball(), kBall, level), random_splits(seed, 6), two_workers());
-    expect_closed(sphere);
-    const PatchGrid grid{.columns = 5, .rows = 3, .closed_u = true, .closed_v = true};
-    const Mesh ring = adaptive_mesh(Ring(), grid, patches_of(Ring(), grid, level), random_splits(seed, 6), two_workers());
-    expect_closed(ring);
+    // The error is random; of 16 triangles, 1 to 7 are not bisected, so that branches end at each depth.
+    const ViewedError viewed{
+        [=](const glm::dvec3& center, double radius, double) { return radius > 0.1 ? random_error(seed, center) + 0.5 : 0.0; },
+        seed % 3 == 0 ? 3.0 : 1.0};
+    expect_closed(adapted(bumpy_ball(), kBall, viewed).mesh);
+    expect_closed(adapted(Ring(), {.columns = 5, .rows = 3, .closed_u = true, .closed_v = true}, viewed).mesh);
   }
 }
 
-TEST(AdaptiveMesh, TrianglesFaceOutward) { expect_outward(mesh_of(bumpy_ball(), kBall, 5, errors_above(0.01))); }
+TEST(AdaptiveMesh, TrianglesFaceOutward) { expect_outward(adapted(bumpy_ball(), kBall, {exact_error, 0.01}).mesh); }
 
-// The error of a triangle is measured at the vertices of the grid. Between them, the surface deviates by at most its own chord error in
-// a cell, a quarter of the error of triangles with two cells.
+// Between the vertices of the grid, the surface deviates by at most its own chord error in a cell. It is measured here as the error of the
+// finest squares.
 TEST(AdaptiveMesh, NoPointIsOffByMoreThanTheAllowedError) {
-  const Patches patches = patches_of(bumpy_ball(), kBall, [](int) { return 6; });
-  double cell = 0.0;
-  for (const auto& p : patches) cell = std::max(cell, 0.25 * static_cast<double>(p->finest_error()));
   for (const double allowed : {0.1, 0.02, 0.005}) {
-    const Mesh m = adaptive_mesh(bumpy_ball(), kBall, patches, errors_above(allowed), two_workers());
+    const AdaptiveMesh adaptive = adapted(bumpy_ball(), kBall, {exact_error, allowed});
+    const Mesh& m = adaptive.mesh;
     double largest = 0.0;
     for (std::size_t i = 0; i < m.indices.size(); i += 3) {
       const Corner a = corner(m, i), b = corner(m, i + 1), c = corner(m, i + 2);
@@ -156,42 +162,90 @@ TEST(AdaptiveMesh, NoPointIsOffByMoreThanTheAllowedError) {
         }
       }
     }
-    EXPECT_LE(largest, allowed + cell);
+    EXPECT_LE(adaptive.error, allowed);
+    // A square may be left whole at 1.25 of the allowed error, because a peak of the surface is between two vertices.
+    EXPECT_LE(largest, 1.25 * allowed);
     EXPECT_GE(largest, 0.5 * allowed) << "the mesh is finer than necessary";
-    EXPECT_LT(m.indices.size() / 3, 2u * 32 * 64 * 64 / 4) << "the whole grid has four times as many triangles at least";
   }
+}
+
+// A peak between the vertices of the coarsest grid is found if the caller says that something may be there.
+TEST(AdaptiveMesh, FindsWhatMayBeUnseen) {
+  const Sheet peak([](double u, double v) { return u == 21.0 / 64 && v == 33.0 / 64 ? 1.0 : 0.0; });
+  const ViewedError blind{exact_error, 0.1}, careful{exact_error, 0.1, [](int columns) { return columns < 64 ? 1.0 : 0.0; }};
+  EXPECT_EQ(adapted(peak, {}, blind).mesh.indices.size(), 6u);
+  const Mesh m = adapted(peak, {}, careful).mesh;
+  EXPECT_TRUE(std::ranges::any_of(m.positions, [](const glm::vec3& p) { return p.z == 1.0f; }));
+  EXPECT_LT(m.indices.size(), 3u * 2 * 64 * 64 / 8) << "only the surroundings are fine";
+}
+
+TEST(AdaptiveMesh, ReportsTheErrorAtItsLimit) {
+  const AdaptiveMesh m = adapted(bowl(), {}, {exact_error, 1e-9});
+  const int cells = 16 << AdaptiveSurface::kMaxDepth;
+  EXPECT_EQ(m.columns, cells);
+  EXPECT_EQ(m.mesh.indices.size(), std::size_t{6} * static_cast<std::size_t>(cells * cells));
+  // Half the error of triangles with a hypotenuse of two cells, which is measured with positions rounded to float.
+  EXPECT_NEAR(m.error, 0.5 * std::pow(2.0 / cells, 2) / 4, 2e-7);
 }
 
 // Only what is near a point is fine.
 TEST(AdaptiveMesh, IsFineOnlyWhereNeeded) {
   const glm::dvec3 eye(0.0, 0.0, 2.2);
-  const Mesh m = mesh_of(bumpy_ball(), kBall, 6, [&](const glm::dvec3& center, double radius, double error) {
-    return error > 0.02 * std::pow(std::max(0.1, glm::length(center - eye) - radius), 2);
-  });
+  const ViewedError viewed{[&](const glm::dvec3& center, double radius, double error) {
+                             return error / std::pow(std::max(0.1, glm::length(center - eye) - radius), 2);
+                           },
+                           0.02};
+  const Mesh m = adapted(bumpy_ball(), kBall, viewed).mesh;
   std::size_t near = 0, far = 0;
   for (std::size_t i = 0; i < m.indices.size(); i += 3) ++(corner(m, i).position.z > 0 ? near : far);
   EXPECT_GT(near, 4 * far);
   expect_closed(m);
 }
 
-TEST(AdaptiveMesh, IsTheSameForAnyNumberOfThreads) {
-  const Patches patches = patches_of(bumpy_ball(), kBall, [](int p) { return 3 + p % 3; });
-  const Mesh one = adaptive_mesh(bumpy_ball(), kBall, patches, errors_above(0.01), Workers(1));
-  const Mesh five = adaptive_mesh(bumpy_ball(), kBall, patches, errors_above(0.01), Workers(5));
-  EXPECT_EQ(one.positions, five.positions);
-  EXPECT_EQ(one.normals, five.normals);
-  EXPECT_EQ(one.uvs, five.uvs);
-  EXPECT_EQ(one.indices, five.indices);
+void expect_equal(const Mesh& a, const Mesh& b) {
+  EXPECT_EQ(a.positions, b.positions);
+  EXPECT_EQ(a.normals, b.normals);
+  EXPECT_EQ(a.tangents, b.tangents);
+  EXPECT_EQ(a.uvs, b.uvs);
+  EXPECT_EQ(a.indices, b.indices);
 }
 
-// The vertices of displaced_uv_sphere are points of DisplacedSphere.
-TEST(AdaptiveMesh, ADisplacedSphereHasTheVerticesOfItsMesh) {
+TEST(AdaptiveMesh, DependsOnNeitherThreadsNorEarlierViews) {
+  AdaptiveSurface used(bumpy_ball(), kBall);
+  const ViewedError coarse{exact_error, 0.05}, fine{exact_error, 0.004};
+  const Mesh one = used.mesh(coarse, Workers(1)).mesh;
+  used.mesh(fine, Workers(1));
+  expect_equal(used.mesh(coarse, Workers(1)).mesh, one);
+  expect_equal(AdaptiveSurface(bumpy_ball(), kBall).mesh(coarse, Workers(5)).mesh, one);
+}
+
+// The vertices of displaced_uv_sphere are points of SphereSurface.
+TEST(SphereSurface, HasTheVerticesOfTheMesh) {
   const Mesh m = displaced_uv_sphere(8, 16, static_cast<float>(kBallSize), bumpy_field(), kBumpScale, kBumpZero, two_workers());
   for (std::size_t i = 16; i + 16 < m.positions.size(); ++i) {  // without the poles
     const SurfaceVertex v = bumpy_ball().at(static_cast<double>(m.uvs[i].x), static_cast<double>(m.uvs[i].y));
     EXPECT_EQ(v.position, m.positions[i]);
     EXPECT_EQ(v.normal, m.normals[i]);
     EXPECT_EQ(v.tangent, m.tangents[i]);
+  }
+  const Mesh smooth = uv_sphere(8, 16, 2.0f);
+  const SphereSurface sphere(nullptr, 2.0, 0.0, 0.0);
+  for (std::size_t i = 16; i + 16 < smooth.positions.size(); ++i)
+    EXPECT_EQ(sphere.at(static_cast<double>(smooth.uvs[i].x), static_cast<double>(smooth.uvs[i].y)).position, smooth.positions[i]);
+}
+
+TEST(SphereSurface, PositionsAreThoseOfSinglePoints) {
+  const std::array<double, 5> u{0.0, 0.1, 0.5, 0.77, 1.0};
+  const std::array<double, 4> v{0.0, 0.3, 0.9, 1.0};
+  const SphereSurface smooth(nullptr, 2.0, 0.0, 0.0);
+  const SphereSurface tilted(&bumpy_field(), kBallSize, kBumpScale, kBumpZero, ReliefNormals::undisplaced);
+  for (const SphereSurface* s : {&bumpy_ball(), &smooth, &tilted}) {
+    std::array<glm::vec3, 20> positions;
+    s->positions(u, v, positions);
+    for (std::size_t j = 0; j < v.size(); ++j) {
+      for (std::size_t i = 0; i < u.size(); ++i) EXPECT_EQ(positions[j * u.size() + i], s->at(u[i], v[j]).position);
+    }
+    for (const double w : v) EXPECT_EQ(s->at(0.0, w).position, s->at(1.0, w).position) << "seam";
   }
 }
 

@@ -117,18 +117,6 @@ Presence presence_of(const SceneDescription& scene, const ObjectDescription& o, 
   return p;
 }
 
-}  // namespace
-
-std::shared_ptr<const ReliefDetail> ApproximationChooser::relief_detail(const ObjectDescription& o, const std::string& path) {
-  if (!is_map(o.height)) return nullptr;
-  const MapUse use = maps_.use_of(o.height, o);
-  return used_.asset<ReliefDetail>(
-      recipe("detail", static_cast<int>(use.texture.source), use.texture.file.path.string(), use.width, o.height_smoothing),
-      [&] { return ReliefDetail(*maps_.heights(use, path + ".height"), o.height_smoothing, workers_); });
-}
-
-namespace {
-
 // The meshes of a file are simplified when the scene is prepared.
 ObjectDescription chosen_model(const ObjectDescription& authored, const std::string& path, double edge_px, std::optional<double> color,
                                std::vector<ApproximationChoice>& choices) {
@@ -148,6 +136,12 @@ ObjectDescription chosen_model(const ObjectDescription& authored, const std::str
 
 }  // namespace
 
+// Returns true for a displaced sphere whose picture depends on its mesh only by the places of its points.
+bool is_shaded_by_place(const ObjectDescription& o) {
+  return o.shape == Shape::uv_sphere && is_map(o.height) && o.normals == NormalSource::pixel && o.normal_lines == 0.0 &&
+         (o.surface.shading == ShadingRate::phong || o.surface.shading == ShadingRate::none);
+}
+
 // `authored` must be an element of the scene's objects, because width_for finds it by its address.
 ObjectDescription ApproximationChooser::chosen_object(const ObjectDescription& authored, const std::string& path, double edge_px,
                                                       std::optional<double> color, std::vector<ApproximationChoice>& choices) {
@@ -160,9 +154,16 @@ ObjectDescription ApproximationChooser::chosen_object(const ObjectDescription& a
     choices.push_back({path + ".shape", "sphere", "ray traced per pixel: exact, without a mesh"});
     return sphere;
   }
+  if (is_shaded_by_place(authored) && !color) {
+    ObjectDescription adaptive = authored;
+    adaptive.mesh_error = edge_px;
+    if (adaptive.mesh_error != authored.mesh_error)
+      choices.push_back({path + ".mesh_error", number_text(edge_px), "the mesh adapts to the view"});
+    return adaptive;
+  }
   const ShapeKind& kind = kind_of(authored);
   const Presence presence = presence_of(scene_, authored, view_, scene_.shadow.method != ShadowMethod::none && authored.casts_shadow);
-  const std::shared_ptr<const ReliefDetail> detail = presence.is_seen ? relief_detail(authored, path) : nullptr;
+  const std::shared_ptr<const ReliefDetail> detail = presence.is_seen ? maps_.relief_detail(authored, path + ".height") : nullptr;
   const auto off_px = [&](const ObjectDescription& o) {
     const double relief = detail == nullptr ? 0.0 : std::fabs(o.height_scale) * detail->error(kind.columns(o));
     return (chord_error(o) + relief) * presence.px_per_unit;

@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "halfspace/geometry/relief_detail.h"
 #include "halfspace/render/assets/used_assets.h"
 #include "halfspace/render/error_budget/approximation_choice.h"
 #include "halfspace/render/prepare/scene_maps.h"
@@ -28,7 +27,6 @@ class ApproximationChooser {
  private:
   ObjectDescription chosen_object(const ObjectDescription& authored, const std::string& path, double edge_px, std::optional<double> color,
                                   std::vector<ApproximationChoice>& choices);
-  std::shared_ptr<const ReliefDetail> relief_detail(const ObjectDescription& o, const std::string& path);
 
   const SceneDescription& scene_;
   const View& view_;

@@ -21,7 +21,8 @@ DetailMap DetailMaps::slopes_of(const Relief& relief, const ObjectDescription& o
                      TexelFormat::rgba16f, &workers_);
   });
   d.map = map.get();
-  d.mesh_level = static_cast<uint8_t>(std::bit_width(static_cast<unsigned>(std::max(1, width / o.longitudes))) - 1);
+  const int texels = o.mesh_error > 0.0 ? 1 : std::max(1, width / o.longitudes);  // per triangle; adaptive triangles show the finest slopes
+  d.mesh_level = static_cast<uint8_t>(std::bit_width(static_cast<unsigned>(texels)) - 1);
   d.sampler = make_sampler(maps_.use_of(o.height, o).texture);
   d.sampler.wrap_t = Wrap::clamp;
   return d;

@@ -202,4 +202,12 @@ std::shared_ptr<const HeightField> SceneMaps::height_field(const MapUse& use, co
                                   [&] { return HeightField(*map, o.height_smoothing, workers_, edges); });
 }
 
+std::shared_ptr<const ReliefDetail> SceneMaps::relief_detail(const ObjectDescription& o, const std::string& where) {
+  if (!is_map(o.height)) return nullptr;
+  const MapUse use = use_of(o.height, o);
+  return used_.asset<ReliefDetail>(
+      recipe("detail", static_cast<int>(use.texture.source), use.texture.file.path.string(), use.width, o.height_smoothing),
+      [&] { return ReliefDetail(*heights(use, where), o.height_smoothing, workers_); });
+}
+
 }  // namespace halfspace::HS_LANES

@@ -9,6 +9,7 @@
 
 #include "halfspace/core/image.h"
 #include "halfspace/geometry/height_field.h"
+#include "halfspace/geometry/relief_detail.h"
 #include "halfspace/procedural/earth.h"
 #include "halfspace/procedural/moon.h"
 #include "halfspace/procedural/patterns.h"
@@ -52,6 +53,8 @@ class SceneMaps {
   std::shared_ptr<const Texture2D> data_texture(const MapUse& use, TextureRole role, const std::string& where);
   std::shared_ptr<const Image<float>> heights(const MapUse& use, const std::string& where);
   std::shared_ptr<const HeightField> height_field(const MapUse& use, const ObjectDescription& o, const std::string& where);
+  // Returns what the height map of an object loses on coarser meshes, or null if there is no map.
+  std::shared_ptr<const ReliefDetail> relief_detail(const ObjectDescription& o, const std::string& where);
   std::shared_ptr<const MoonMaps> moon_maps(int width);
 
  private:

@@ -26,7 +26,8 @@ ScenePreparation::ScenePreparation(const SceneDescription& scene, int width, int
       surfaces_(scene, view_, lights_, maps_, environments_, warnings),
       details_(maps_, used_, workers),
       materials_(view_, lights_, environments_, used_, warnings, workers),
-      shapes_(scene, view_, lights_, SceneMeshes(maps_, used_, workers), surfaces_, details_, clusters_, draws_),
+      shapes_(scene, view_, lights_, SceneMeshes(maps_, used_, workers), AdaptiveMeshes(view_, maps_, used_, workers), surfaces_, details_,
+              clusters_, draws_),
       models_(scene, view_, materials_, surfaces_, details_, clusters_, used_, warnings, draws_, details, workers),
       spheres_(scene, view_, lights_, surfaces_, used_, draws_) {}
 

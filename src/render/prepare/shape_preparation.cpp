@@ -7,9 +7,20 @@
 
 namespace halfspace::HS_LANES {
 
+std::shared_ptr<const MeshAsset> ShapePreparation::mesh_of(int object, const std::string& path, const ObjectDescription& o,
+                                                           const Relief& relief, const std::vector<glm::dmat4>& places) {
+  if (o.mesh_error == 0.0) return meshes_.mesh_of(o, relief);
+  const bool casts = o.casts_shadow && scene_.shadow.method != ShadowMethod::none;
+  const std::shared_ptr<const FittedMesh> fitted = adaptive_.mesh_of(o, relief, places, casts, path);
+  draws_.simplified.push_back(fitted->report);
+  draws_.simplified.back().object = object;
+  return {fitted, &fitted->asset};
+}
+
 void ShapePreparation::add(int object, const std::string& path, const ObjectDescription& o) {
   const Relief relief = meshes_.relief_of(o, path);
-  const std::shared_ptr<const MeshAsset> mesh = meshes_.mesh_of(o, relief);
+  const std::vector<glm::dmat4> places = places_of(scene_, o);
+  const std::shared_ptr<const MeshAsset> mesh = mesh_of(object, path, o, relief, places);
   const std::shared_ptr<const Indices> indices(mesh, &mesh->indices);
   if (o.shape == Shape::plane && o.shadow_only) return add_shadow_catcher(object, o, *mesh, indices);
   LitSurface surface = surfaces_.surface_of(o, path);
@@ -17,7 +28,7 @@ void ShapePreparation::add(int object, const std::string& path, const ObjectDesc
   const MeshStreams streams{mesh->mesh.positions, mesh->mesh.normals, mesh->mesh.tangents, {}, mesh->mesh.uvs, {}};
   const Clusters* const clusters = clusters_.of(indices, mesh->mesh.positions);
   int copy = 0;
-  for (const glm::dmat4& world : places_of(scene_, o)) {
+  for (const glm::dmat4& world : places) {
     place_surface(surface, view_, world);
     PreparedDraw draw = surface_draw(surface, o.surface.shading, detail, streams, indices);
     draw.source = {object, copy++, streams, world};

@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include "halfspace/render/prepare/adaptive_meshes.h"
 #include "halfspace/render/prepare/detail_maps.h"
 #include "halfspace/render/prepare/scene_clusters.h"
 #include "halfspace/render/prepare/scene_draws.h"
@@ -20,11 +21,12 @@ class ShapePreparation {
  public:
   // Keeps references to all arguments except the meshes.
   ShapePreparation(const SceneDescription& scene, const View& view, const SceneLights& lights, const SceneMeshes& meshes,
-                   SceneSurfaces& surfaces, DetailMaps& details, SceneClusters& clusters, SceneDraws& draws)
+                   const AdaptiveMeshes& adaptive, SceneSurfaces& surfaces, DetailMaps& details, SceneClusters& clusters, SceneDraws& draws)
       : scene_(scene),
         view_(view),
         lights_(lights),
         meshes_(meshes),
+        adaptive_(adaptive),
         surfaces_(surfaces),
         details_(details),
         clusters_(clusters),
@@ -34,12 +36,15 @@ class ShapePreparation {
   void add(int object, const std::string& path, const ObjectDescription& o);
 
  private:
+  std::shared_ptr<const MeshAsset> mesh_of(int object, const std::string& path, const ObjectDescription& o, const Relief& relief,
+                                           const std::vector<glm::dmat4>& places);
   void add_shadow_catcher(int object, const ObjectDescription& o, const MeshAsset& mesh, const std::shared_ptr<const Indices>& indices);
 
   const SceneDescription& scene_;
   const View& view_;
   const SceneLights& lights_;
   SceneMeshes meshes_;
+  AdaptiveMeshes adaptive_;
   SceneSurfaces& surfaces_;
   DetailMaps& details_;
   SceneClusters& clusters_;
