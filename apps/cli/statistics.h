@@ -11,7 +11,7 @@
 
 namespace halfspace {
 
-/// What model_error has simplified.
+/// What model_error or mesh_error has simplified.
 struct SimplifiedModel {
   std::string name;  ///< of the object
   double allowed_px = 0.0;

@@ -165,6 +165,14 @@ TEST(PixelsPerUnit, MatchTheMotionOfAnOutline) {
     EXPECT_NEAR(silhouette_pixels_per_unit(view, {x, 0, 0}, 1.0), moved, 1e-3 * moved) << x;  // forward difference, first order in the step
     EXPECT_GT(pixels_per_unit(view, {x, 0, 0}, 1.0), moved) << x;
   }
+  // In the corner of the image, the bound by distance is the motion of a point; at the center, the bound by depth is.
+  const glm::dvec3 corner = glm::normalize(view.ray_ws + view.ray_x_ws + view.ray_y_ws), at = camera.position + 4.0 * corner;
+  const double moved = 450.0 / view.tan_y * std::sqrt(1.0 + view.tan_x * view.tan_x + view.tan_y * view.tan_y) /
+                       glm::dot(at - camera.position, view.forward_ws);
+  EXPECT_NEAR(turned_pixels_per_unit(view, at, 0.0), moved, 1e-9 * moved);
+  EXPECT_NEAR(pixels_per_unit(view, at, 0.0), moved, 1e-9 * moved);
+  EXPECT_GT(turned_pixels_per_unit(view, {0, 0, 0}, 1.0), pixels_per_unit(view, {0, 0, 0}, 1.0));
+  EXPECT_LT(turned_pixels_per_unit(view, {5, 0, 5}, 1.0), pixels_per_unit(view, {5, 0, 5}, 1.0)) << "beside the eye";
   EXPECT_FALSE(is_outside(view, {0, 0, 0}, 1.0));
   EXPECT_TRUE(is_outside(view, {20, 0, 0}, 1.0));
   EXPECT_FALSE(is_outside(view, {20, 0, 0}, 19.0));

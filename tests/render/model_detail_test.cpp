@@ -31,9 +31,9 @@ std::shared_ptr<const ModelAsset> sphere_model(const EditModel& edit) {
 }
 
 // The sphere is about 20 px high.
-constexpr const char* kFar = R"("position": [0, 0, 20], "fov": 45)";
+constexpr const char* kFarCamera = R"("position": [0, 0, 20], "fov": 45)";
 
-PreparedScene prepared_sphere(const std::string& keys, const EditModel& edit, const std::string& camera = kFar) {
+PreparedScene prepared_sphere(const std::string& keys, const EditModel& edit, const std::string& camera = kFarCamera) {
   const std::string text = R"({"version": 1, "ambient": 1, "cameras": {"c": {)" + camera + R"(}},
       "materials": {"flat": {"shading": "flat"}, "smooth": {}},
       "objects": {"a": {"shape": "file", "file": "/made/in/memory.obj")" +
@@ -45,7 +45,7 @@ PreparedScene prepared_sphere(const std::string& keys, const EditModel& edit, co
 
 // Returns the number of triangles that are drawn.
 std::size_t drawn(
-    const std::string& keys, const EditModel& edit = [](Model&) {}, const std::string& camera = kFar) {
+    const std::string& keys, const EditModel& edit = [](Model&) {}, const std::string& camera = kFarCamera) {
   const PreparedScene scene = prepared_sphere(keys, edit, camera);
   EXPECT_EQ(scene.draws[0].indices, scene.meshes[0].indices) << "shadows";
   return scene.draws[0].indices->size() / 3;

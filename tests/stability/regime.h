@@ -12,7 +12,7 @@
 
 namespace halfspace::stability {
 
-/// The subject of a test. Rows are numbered as in the table, 1 to 32; a row can have several tests.
+/// The subject of a test. Rows are numbered as in the table, 1 to 34; a row can have several tests.
 struct Regime {
   int row;
   const char* failure;  ///< what goes wrong

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Spheres whose mesh adapts to the view (mesh_error). tests/geometry/adaptive_mesh_test.cpp tests the meshes themselves,
+// tests/reference/max_error_test.cpp compares outlines.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "halfspace/render/frame/frame.h"
+#include "halfspace/render/scene_assets.h"
+#include "halfspace/scene/scene_file.h"
+#include "support/workers.h"
+
+namespace halfspace {
+namespace {
+
+using Settings = std::vector<std::string>;
+
+// A moon with a radius of 1 and mountains of up to 0.01, seen from z = 3.
+SceneDescription adaptive_moon(const Settings& settings) {
+  SceneFile file = SceneFile::parse(R"({ "version": 1,
+    "cameras": { "main": { "position": [0, 0, 3], "fov": 40 } },
+    "lights": { "sun": { "type": "directional", "direction": [1, 0.2, 0.5] } },
+    "textures": { "relief": { "source": "moon_height", "width": 512, "wrap_t": "clamp" } },
+    "objects": { "moon": { "shape": "uv_sphere", "height": "relief", "height_scale": 0.02, "mesh_error": 0.1, "instances": [{}] } } })",
+                                    "test", ".");
+  file.set(settings);
+  return file.at(0.0);
+}
+
+struct AdaptedMoon {
+  std::size_t triangles;
+  SimplifiedObject report;
+  PreparedScene scene;
+};
+
+AdaptedMoon adapted_moon(const Settings& settings, int width = 320, int height = 180) {
+  SceneAssets assets(two_workers());
+  PreparedScene scene = assets.prepare(adaptive_moon(settings), width, height);
+  return {scene.draws[0].indices->size() / 3, scene.simplified.at(0), std::move(scene)};
+}
+
+TEST(AdaptiveMeshes, DependOnTheAllowedErrorAndTheDistance) {
+  const AdaptedMoon tenth = adapted_moon({});
+  EXPECT_EQ(tenth.report.drawn, tenth.triangles);
+  EXPECT_EQ(tenth.scene.meshes[0].indices, tenth.scene.draws[0].indices) << "shadows";
+  EXPECT_LE(tenth.report.error_px, 0.1);
+  EXPECT_LT(tenth.triangles, tenth.report.triangles / 4);
+  EXPECT_GT(adapted_moon({"moon.mesh_error=0.025"}).triangles, 2 * tenth.triangles);
+  EXPECT_LT(adapted_moon({"main.position=0,0,12"}).triangles, tenth.triangles / 4);
+  EXPECT_GT(adapted_moon({}, 640, 360).triangles, 3 * tenth.triangles / 2);
+}
+
+TEST(AdaptiveMeshes, ReplaceTheRegularMesh) {
+  SceneAssets assets(two_workers());
+  const PreparedScene regular = assets.prepare(adaptive_moon({"moon.mesh_error=0"}), 320, 180);
+  EXPECT_TRUE(regular.simplified.empty());
+  EXPECT_EQ(regular.draws[0].indices->size(), 6u * 128 * 63);
+  EXPECT_EQ(adapted_moon({"moon.latitudes=4", "moon.longitudes=8"}).triangles, adapted_moon({}).triangles);
+}
+
+TEST(AdaptiveMeshes, CopiesAreFineEnough) {
+  const std::size_t one = adapted_moon({"main.position=0,0,12"}).triangles;
+  const AdaptedMoon two = adapted_moon({"main.position=0,0,12", "moon.instances.0.position=0,0,9"});
+  EXPECT_GT(two.triangles, 2 * one) << "the copy is seen from 3 radii";
+  EXPECT_LE(two.report.error_px, 0.1);
+}
+
+// What is behind the horizon or outside of the view is coarse. It is finer if it can cast shadows.
+TEST(AdaptiveMeshes, AreCoarseWhereNothingIsSeen) {
+  const auto far_side = [](const AdaptedMoon& m) {
+    const std::span<const glm::vec3> positions = m.scene.meshes[0].positions;
+    return std::ranges::count_if(positions, [](const glm::vec3& p) { return p.z < -0.3f; });
+  };
+  const auto near_side = [](const AdaptedMoon& m) {
+    const std::span<const glm::vec3> positions = m.scene.meshes[0].positions;
+    return std::ranges::count_if(positions, [](const glm::vec3& p) { return p.z > 0.3f; });
+  };
+  const AdaptedMoon dark = adapted_moon({}), shaded = adapted_moon({"shadow.method=hard"});
+  EXPECT_LT(4 * far_side(dark), near_side(dark));
+  EXPECT_GT(far_side(shaded), far_side(dark));
+  EXPECT_LT(far_side(shaded), near_side(shaded));
+  EXPECT_EQ(near_side(dark), near_side(shaded));
+  const AdaptedMoon away = adapted_moon({"main.target=0,0,9"});
+  EXPECT_LE(away.triangles, 2u * 32 * 16);
+  EXPECT_GT(far_side(adapted_moon({"moon.opacity=0.5"})), 2 * far_side(dark)) << "a translucent sphere hides nothing";
+}
+
+TEST(AdaptiveMeshes, SpheresWithoutReliefAdaptAsWell) {
+  const AdaptedMoon smooth = adapted_moon({"moon.height=0"}), near = adapted_moon({"moon.height=0", "main.position=0,0,1.01"});
+  EXPECT_LE(smooth.report.error_px, 0.1);
+  EXPECT_LE(near.report.error_px, 0.1);
+  EXPECT_GT(near.report.triangles, 16 * smooth.report.triangles) << "the finest part is near the eye";
+  EXPECT_LT(near.triangles, near.report.triangles / 16);
+}
+
+// The mesh of a view does not change because another view was drawn before, so that all processes make the same pictures.
+TEST(AdaptiveMeshes, DoNotDependOnEarlierFrames) {
+  SceneAssets used(two_workers());
+  for (const char* position : {"main.position=0,0,1.2", "main.position=0,0,8", "main.position=0,0,3"}) {
+    const PreparedScene scene = used.prepare(adaptive_moon({position}), 160, 90);
+    Image<glm::u8vec4> ours(160, 90), alone(160, 90);
+    render(scene, ours, two_workers());
+    render(adapted_moon({position}, 160, 90).scene, alone, Workers(5));
+    EXPECT_EQ(ours, alone) << position;
+  }
+}
+
+// The same view has the same mesh, so that shadow maps are kept.
+TEST(AdaptiveMeshes, AreKeptWhileTheViewIsTheSame) {
+  SceneAssets assets(two_workers());
+  const auto mesh = [&](const Settings& settings) { return assets.prepare(adaptive_moon(settings), 160, 90).meshes[0].indices; };
+  const auto first = mesh({});
+  EXPECT_EQ(mesh({"sun.direction=0,1,1"}), first);
+  EXPECT_NE(mesh({"main.position=0,0.01,3"}), first);
+}
+
+TEST(AdaptiveMeshes, AreChosenForAnAllowedErrorOnlyWhereShadingDoesNotDependOnThem) {
+  const auto chosen = [](const Settings& settings, const AllowedError& allowed) {
+    SceneAssets assets(two_workers());
+    return assets.choose_within_error(adaptive_moon(settings), 160, 90, allowed).scene.objects[0].second;
+  };
+  EXPECT_EQ(chosen({"moon.mesh_error=0"}, {0.25, {}}).mesh_error, 0.25);
+  EXPECT_EQ(chosen({"moon.mesh_error=0", "moon.normals=vertex"}, {0.25, {}}).mesh_error, 0.0);
+  EXPECT_EQ(chosen({"moon.mesh_error=0", "moon.shading=gouraud"}, {0.25, {}}).mesh_error, 0.0);
+  EXPECT_EQ(chosen({"moon.mesh_error=0", "moon.normal_lines=0.1"}, {0.25, {}}).mesh_error, 0.0);
+  EXPECT_EQ(chosen({"moon.mesh_error=0"}, {0.25, 8.0}).mesh_error, 0.0);
+  EXPECT_EQ(chosen({"moon.mesh_error=0", "moon.height=0"}, {0.25, {}}).mesh_error, 0.0);
+}
+
+}  // namespace
+}  // namespace halfspace
