@@ -50,6 +50,16 @@ void add_face(SurfaceMesh& mesh, double h, const Face& face, int segments, bool 
 
 }  // namespace
 
+MeshPoint plane_point(double size, double u, double v) {
+  MeshPoint p{};
+  p.uv = {u, v};
+  p.position = {size * (u - 0.5), 0.0, size * (v - 0.5)};
+  p.du = {size, 0.0, 0.0};
+  p.dv = {0.0, 0.0, size};
+  p.normal = {0.0, 1.0, 0.0};
+  return p;
+}
+
 Mesh plane(float size, int segments, const Displacement* displacement) {
   const FloatMode float_mode;
   HS_CHECK_OP(size, >, 0.0f, "plane or cube: the size is not positive; expected more than 0");

@@ -147,6 +147,20 @@ Mesh cone(float radius, float length, int bands, int sectors, const Displacement
   return mesh.take();
 }
 
+MeshPoint torus_point(double radius, double tube, double u, double v) {
+  const Meridian m = meridian(u);
+  const SinCosDouble b = sincos_turns(v);
+  MeshPoint p{};
+  p.uv = {u, v};
+  p.normal = -b.cos * m.out + b.sin * kUp;
+  p.normal_du = -b.cos * m.out_du;
+  p.normal_dv = kTurn * (b.sin * m.out + b.cos * kUp);
+  p.position = radius * m.out + tube * p.normal;
+  p.du = radius * m.out_du + tube * p.normal_du;
+  p.dv = tube * p.normal_dv;
+  return p;
+}
+
 Mesh torus(float radius, float tube, int bands, int sectors, const Displacement* displacement) {
   const FloatMode float_mode;
   HS_CHECK_OP(tube, >, 0.0f, "torus: the radius of the tube is not positive; expected more than 0");
@@ -154,22 +168,7 @@ Mesh torus(float radius, float tube, int bands, int sectors, const Displacement*
   check_counts(bands, sectors, 3);
   const double r = static_cast<double>(radius), t = static_cast<double>(tube);
   SurfaceMesh mesh(displacement);
-  for (int i = 0; i <= bands; ++i) {
-    const double v = static_cast<double>(i) / bands;
-    const SinCosDouble b = sincos_turns(v);
-    add_row(mesh, sectors, [&](double u) {
-      const Meridian m = meridian(u);
-      MeshPoint p{};
-      p.uv = {u, v};
-      p.normal = -b.cos * m.out + b.sin * kUp;
-      p.normal_du = -b.cos * m.out_du;
-      p.normal_dv = kTurn * (b.sin * m.out + b.cos * kUp);
-      p.position = r * m.out + t * p.normal;
-      p.du = r * m.out_du + t * p.normal_du;
-      p.dv = t * p.normal_dv;
-      return p;
-    });
-  }
+  for (int i = 0; i <= bands; ++i) add_row(mesh, sectors, [&](double u) { return torus_point(r, t, u, static_cast<double>(i) / bands); });
   mesh.add_grid(0, sectors, bands);
   return mesh.take();
 }

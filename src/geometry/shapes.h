@@ -88,4 +88,10 @@ Mesh plane(float size, int segments = 1, const Displacement* displacement = null
 /// edges of each face, over a fraction kFadeWidth of its width.
 Mesh cube(float size, int segments = 1, const Displacement* displacement = nullptr);
 
+/// Points of plane(), torus() and torus_knot() at any (u, v) in [0, 1]², for surfaces that are tessellated in another way (PointSurface).
+/// On the tori, opposite edges of the square have the same positions, bit for bit.
+MeshPoint plane_point(double size, double u, double v);
+MeshPoint torus_point(double radius, double tube, double u, double v);
+MeshPoint torus_knot_point(double radius, double tube, double u, double v);
+
 }  // namespace halfspace::HS_LANES

@@ -11,7 +11,24 @@ namespace {
 
 double length_of(const glm::dvec3& v) { return std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z); }
 
+SurfaceVertex rounded_vertex(const glm::dvec3& position, const glm::dvec3& normal, const glm::dvec3& tangent) {
+  return {rounded(position), rounded(normal), glm::vec4(rounded(tangent), 1.0f)};
+}
+
 }  // namespace
+
+SurfaceVertex vertex_of(const MeshPoint& p, const Displacement* displacement) {
+  if (displacement == nullptr) return rounded_vertex(p.position, p.normal, p.du / length_of(p.du));
+  const HeightSample h = displacement->field->at(p.uv.x, p.uv.y);
+  const double whole = displacement->scale * (h.value - displacement->zero);
+  const double g = p.fade.value * whole;
+  const double gu = p.fade.value * displacement->scale * h.du + p.fade.du * whole;
+  const double gv = p.fade.value * displacement->scale * h.dv + p.fade.dv * whole;
+  const glm::dvec3 du = p.du + g * p.normal_du + gu * p.normal;
+  const glm::dvec3 dv = p.dv + g * p.normal_dv + gv * p.normal;
+  const glm::dvec3 normal = glm::cross(dv, du);
+  return rounded_vertex(p.position + g * p.normal, normal / length_of(normal), du / length_of(du));
+}
 
 FadeStep fade_in(double x) {
   const double s = x / kFadeWidth;
@@ -24,25 +41,16 @@ double SurfaceMesh::height_at(const MeshPoint& p) const {
   return p.fade.value * displacement_->scale * (displacement_->field->at(p.uv.x, p.uv.y).value - displacement_->zero);
 }
 
-int SurfaceMesh::add(const MeshPoint& p) {
-  if (displacement_ == nullptr) return add_vertex(p.position, p.normal, p.du / length_of(p.du), p.uv);
-  const HeightSample h = displacement_->field->at(p.uv.x, p.uv.y);
-  const double whole = displacement_->scale * (h.value - displacement_->zero);
-  const double g = p.fade.value * whole;
-  const double gu = p.fade.value * displacement_->scale * h.du + p.fade.du * whole;
-  const double gv = p.fade.value * displacement_->scale * h.dv + p.fade.dv * whole;
-  const glm::dvec3 du = p.du + g * p.normal_du + gu * p.normal;
-  const glm::dvec3 dv = p.dv + g * p.normal_dv + gv * p.normal;
-  const glm::dvec3 normal = glm::cross(dv, du);
-  return add_vertex(p.position + g * p.normal, normal / length_of(normal), du / length_of(du), p.uv);
+int SurfaceMesh::add(const MeshPoint& p) { return add_vertex(vertex_of(p, displacement_), p.uv); }
+
+int SurfaceMesh::add_pole(const MeshPoint& p, double g) {
+  return add_vertex(rounded_vertex(p.position + g * p.normal, p.normal, p.tangent), p.uv);
 }
 
-int SurfaceMesh::add_pole(const MeshPoint& p, double g) { return add_vertex(p.position + g * p.normal, p.normal, p.tangent, p.uv); }
-
-int SurfaceMesh::add_vertex(const glm::dvec3& position, const glm::dvec3& normal, const glm::dvec3& tangent, const glm::dvec2& uv) {
-  mesh_.positions.push_back(rounded(position));
-  mesh_.normals.push_back(rounded(normal));
-  mesh_.tangents.emplace_back(rounded(tangent), 1.0f);
+int SurfaceMesh::add_vertex(const SurfaceVertex& vertex, const glm::dvec2& uv) {
+  mesh_.positions.push_back(vertex.position);
+  mesh_.normals.push_back(vertex.normal);
+  mesh_.tangents.push_back(vertex.tangent);
   mesh_.uvs.emplace_back(uv);
   return static_cast<int>(mesh_.positions.size()) - 1;
 }

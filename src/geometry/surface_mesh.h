@@ -15,6 +15,7 @@
 
 #include "halfspace/geometry/height_field.h"
 #include "halfspace/geometry/mesh.h"
+#include "halfspace/geometry/parametric_surface.h"
 
 namespace halfspace::HS_LANES {
 
@@ -48,6 +49,9 @@ struct MeshPoint {
   Fade fade{};                              ///< factor of g; zero at edges between faces, so that no cracks open there
 };
 
+/// Returns a vertex of a surface, displaced if displacement is not null.
+SurfaceVertex vertex_of(const MeshPoint& p, const Displacement* displacement);
+
 /// Collects the vertices and triangles of a surface.
 class SurfaceMesh {
  public:
@@ -69,7 +73,7 @@ class SurfaceMesh {
   Mesh take() { return std::move(mesh_); }
 
  private:
-  int add_vertex(const glm::dvec3& position, const glm::dvec3& normal, const glm::dvec3& tangent, const glm::dvec2& uv);
+  int add_vertex(const SurfaceVertex& vertex, const glm::dvec2& uv);
 
   const Displacement* displacement_;
   Mesh mesh_;

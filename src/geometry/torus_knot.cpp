@@ -45,7 +45,25 @@ Along along(double radius, double u) {
   return a;
 }
 
+// The point at the angle of b around the tube.
+MeshPoint around(const Along& a, double tube, const SinCosDouble& b, const glm::dvec2& uv) {
+  constexpr double turn = 2.0 * std::numbers::pi;
+  MeshPoint p{};
+  p.uv = uv;
+  p.normal = b.cos * a.n + b.sin * a.b;
+  p.normal_du = b.cos * a.n_du + b.sin * a.b_du;
+  p.normal_dv = turn * (b.cos * a.b - b.sin * a.n);
+  p.position = a.point + tube * p.normal;
+  p.du = a.tangent_length + tube * p.normal_du;
+  p.dv = tube * p.normal_dv;
+  return p;
+}
+
 }  // namespace
+
+MeshPoint torus_knot_point(double radius, double tube, double u, double v) {
+  return around(along(radius, u == 1.0 ? 0.0 : u), tube, sincos_turns(v == 1.0 ? 0.0 : v), {u, v});
+}
 
 Mesh torus_knot(float radius, float tube, int bands, int sectors, const Displacement* displacement) {
   const FloatMode float_mode;
@@ -53,23 +71,15 @@ Mesh torus_knot(float radius, float tube, int bands, int sectors, const Displace
   HS_CHECK_OP(radius, >, tube, "torus_knot: the tube closes the hole; expected a radius larger than that of the tube");
   HS_CHECK_OP(bands, >=, 3, "torus_knot: too few bands; expected at least 3");
   HS_CHECK_OP(sectors, >=, 3, "torus_knot: too few sectors; expected at least 3");
-  const double t = static_cast<double>(tube), turn = 2.0 * std::numbers::pi;
+  const double t = static_cast<double>(tube);
   std::vector<Along> curve;
   for (int j = 0; j <= sectors; ++j) curve.push_back(along(static_cast<double>(radius), static_cast<double>(j % sectors) / sectors));
   SurfaceMesh mesh(displacement);
   for (int i = 0; i <= bands; ++i) {
     const SinCosDouble b = sincos_turns(static_cast<double>(i % bands) / bands);
     for (int j = 0; j <= sectors; ++j) {
-      const Along& a = curve[static_cast<std::size_t>(j)];
-      MeshPoint p{};
-      p.uv = {static_cast<double>(j) / sectors, static_cast<double>(i) / bands};
-      p.normal = b.cos * a.n + b.sin * a.b;
-      p.normal_du = b.cos * a.n_du + b.sin * a.b_du;
-      p.normal_dv = turn * (b.cos * a.b - b.sin * a.n);
-      p.position = a.point + t * p.normal;
-      p.du = a.tangent_length + t * p.normal_du;
-      p.dv = t * p.normal_dv;
-      mesh.add(p);
+      const glm::dvec2 uv(static_cast<double>(j) / sectors, static_cast<double>(i) / bands);
+      mesh.add(around(curve[static_cast<std::size_t>(j)], t, b, uv));
     }
   }
   mesh.add_grid(0, sectors, bands);

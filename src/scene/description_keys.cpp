@@ -227,7 +227,7 @@ Section section_of(ObjectDescription& o) {
                          {.low = 2, .high = 8192, .only = shapes_with("latitudes")}),
       key<&T::longitudes>("longitudes", "Number of sectors around the axis", {.low = 3, .high = 16384, .only = shapes_with("longitudes")}),
       key<&T::mesh_error>(
-          "mesh_error", "Distance by which the mesh may be off in the image; the mesh then adapts to the view. 0: latitudes and longitudes",
+          "mesh_error", "Distance by which the mesh may be off in the image; the mesh then adapts to the view. 0: a regular mesh",
           {.unit = "px", .low = 0, .high = 100, .only = shapes_with("mesh_error")}),
       key<&T::level>("level", "Number of times each triangle is split into four", {.low = 0, .high = 8, .only = shapes_with("level")}),
       key<&T::size>("size", "Edge length", {.unit = "units", .low = kTiny, .high = 1e6, .only = shapes_with("size")}),

@@ -7,8 +7,8 @@
 
 #include "geometry/mesh_checks.h"
 #include "geometry/rough_map.h"
-#include "halfspace/core/trig_double.h"
 #include "halfspace/geometry/displaced_sphere.h"
+#include "halfspace/geometry/point_surface.h"
 #include "halfspace/geometry/shapes.h"
 #include "support/workers.h"
 
@@ -28,35 +28,17 @@ const SphereSurface& bumpy_ball() {
   return sphere;
 }
 
-// Surfaces that have no faster way to compute many positions.
-class PointwiseSurface : public ParametricSurface {
- public:
-  void positions(std::span<const double> u, std::span<const double> v, std::span<glm::vec3> out) const override {
-    for (std::size_t j = 0; j < v.size(); ++j) {
-      for (std::size_t i = 0; i < u.size(); ++i) out[j * u.size() + i] = at(u[i], v[j]).position;
-    }
-  }
-};
-
 // A height over the unit square.
-class Sheet : public PointwiseSurface {
- public:
-  explicit Sheet(double (*height)(double, double)) : height_(height) {}
-  SurfaceVertex at(double u, double v) const override { return {glm::vec3(glm::dvec3(u, -v, height_(u, v))), {0, 0, 1}, {1, 0, 0, 1}}; }
-
- private:
-  double (*height_)(double, double);
-};
-
-// A ring around the z axis, closed along u and v.
-class Ring : public PointwiseSurface {
- public:
-  SurfaceVertex at(double u, double v) const override {
-    const SinCosDouble a = sincos_turns(u), b = sincos_turns(v);
-    const double r = 2.0 - 0.5 * b.cos;
-    return {glm::vec3(glm::dvec3(r * a.cos, 0.5 * b.sin, -r * a.sin) + 0.0), {0, 1, 0}, {1, 0, 0, 1}};
-  }
-};
+PointSurface sheet_of(double (*height)(double u, double v)) {
+  const auto point = [height](double u, double v) {
+    MeshPoint p{};
+    p.position = {u, -v, height(u, v)};
+    p.du = {1, 0, 0};
+    p.normal = {0, 0, 1};
+    return p;
+  };
+  return {point, std::nullopt};
+}
 
 double exact_error(const glm::dvec3&, double, double error) { return error; }
 
@@ -71,8 +53,8 @@ AdaptiveMesh adapted(const ParametricSurface& s, const PatchGrid& grid, const Vi
   return AdaptiveSurface(s, grid).mesh(viewed, two_workers());
 }
 
-const Sheet& bowl() {
-  static const Sheet sheet([](double u, double v) { return u * u + v * v; });
+const PointSurface& bowl() {
+  static const PointSurface sheet = sheet_of([](double u, double v) { return u * u + v * v; });
   return sheet;
 }
 
@@ -93,7 +75,7 @@ TEST(MeasuredSquare, ErrorsOfAParaboloidAreItsChordErrors) {
 
 // Only one vertex is high. Every triangle around it has its error.
 TEST(MeasuredSquare, EveryVertexOfTheGridCounts) {
-  const Sheet spike([](double u, double v) { return u == 5.0 / 16 && v == 11.0 / 16 ? 1.0 : 0.0; });
+  const PointSurface spike = sheet_of([](double u, double v) { return u == 5.0 / 16 && v == 11.0 / 16 ? 1.0 : 0.0; });
   const MeasuredSquare square(spike, {}, {});
   const GridVertex spiked{5, 11};
   const auto side = [spiked](GridVertex a, GridVertex b) { return (b.i - a.i) * (spiked.j - a.j) - (b.j - a.j) * (spiked.i - a.i); };
@@ -112,7 +94,7 @@ TEST(MeasuredSquare, EveryVertexOfTheGridCounts) {
 }
 
 TEST(AdaptiveMesh, FlatPatchesStayWhole) {
-  const Sheet sheet([](double, double) { return 0.0; });
+  const PointSurface sheet = sheet_of([](double, double) { return 0.0; });
   const AdaptiveMesh m = adapted(sheet, {.columns = 3, .rows = 2}, {exact_error, 1e-6});
   EXPECT_EQ(m.mesh.indices.size(), 3u * 2 * 6);
   EXPECT_EQ(m.mesh.positions.size(), 4u * 6);
@@ -137,7 +119,9 @@ TEST(AdaptiveMesh, HasNoCracksForAnyChoice) {
         [=](const glm::dvec3& center, double radius, double) { return radius > 0.1 ? random_error(seed, center) + 0.5 : 0.0; },
         seed % 3 == 0 ? 3.0 : 1.0};
     expect_closed(adapted(bumpy_ball(), kBall, viewed).mesh);
-    expect_closed(adapted(Ring(), {.columns = 5, .rows = 3, .closed_u = true, .closed_v = true}, viewed).mesh);
+    expect_closed(adapted(PointSurface([](double u, double v) { return torus_point(2.0, 0.5, u, v); }, {}),
+                          {.columns = 5, .rows = 3, .closed_u = true, .closed_v = true}, viewed)
+                      .mesh);
   }
 }
 
@@ -171,7 +155,7 @@ TEST(AdaptiveMesh, NoPointIsOffByMoreThanTheAllowedError) {
 
 // A peak between the vertices of the coarsest grid is found if the caller says that something may be there.
 TEST(AdaptiveMesh, FindsWhatMayBeUnseen) {
-  const Sheet peak([](double u, double v) { return u == 21.0 / 64 && v == 33.0 / 64 ? 1.0 : 0.0; });
+  const PointSurface peak = sheet_of([](double u, double v) { return u == 21.0 / 64 && v == 33.0 / 64 ? 1.0 : 0.0; });
   const ViewedError blind{exact_error, 0.1}, careful{exact_error, 0.1, [](int columns) { return columns < 64 ? 1.0 : 0.0; }};
   EXPECT_EQ(adapted(peak, {}, blind).mesh.indices.size(), 6u);
   const Mesh m = adapted(peak, {}, careful).mesh;
@@ -247,6 +231,39 @@ TEST(SphereSurface, PositionsAreThoseOfSinglePoints) {
     }
     for (const double w : v) EXPECT_EQ(s->at(0.0, w).position, s->at(1.0, w).position) << "seam";
   }
+}
+
+// The points of a surface at the texture coordinates of a mesh are the vertices of the mesh.
+void expect_vertices(const PointSurface& surface, const Mesh& mesh) {
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    const SurfaceVertex v = surface.at(static_cast<double>(mesh.uvs[i].x), static_cast<double>(mesh.uvs[i].y));
+    EXPECT_EQ(v.position, mesh.positions[i]);
+    EXPECT_EQ(v.normal, mesh.normals[i]);
+    EXPECT_EQ(v.tangent, mesh.tangents[i]);
+  }
+}
+
+TEST(PointSurface, HasTheVerticesOfTheMesh) {
+  const HeightField tiled(rough_map(16, 8, 5), 0.7, two_workers(), MapEdges::torus);
+  const HeightField sheet(rough_map(16, 8, 5), 0.7, two_workers(), MapEdges::sheet);
+  const Displacement on_torus{&tiled, 0.05, 0.5}, on_sheet{&sheet, 0.05, 0.5};
+  const auto ring = [](double u, double v) { return torus_point(1.0, 0.25, u, v); };
+  const auto knot = [](double u, double v) { return torus_knot_point(1.0, 0.25, u, v); };
+  const auto square = [](double u, double v) { return plane_point(2.0, u, v); };
+  expect_vertices({ring, {}}, torus(1.0f, 0.25f, 8, 16));
+  expect_vertices({ring, on_torus}, torus(1.0f, 0.25f, 8, 16, &on_torus));
+  expect_vertices({knot, {}}, torus_knot(1.0f, 0.25f, 8, 64));
+  expect_vertices({knot, on_torus}, torus_knot(1.0f, 0.25f, 8, 64, &on_torus));
+  expect_vertices({square, {}}, plane(2.0f, 16));
+  expect_vertices({square, on_sheet}, plane(2.0f, 16, &on_sheet));
+}
+
+TEST(AdaptiveMesh, KnotsAreClosed) {
+  const HeightField tiled(rough_map(64, 8, 5), 0.7, two_workers(), MapEdges::torus);
+  const PointSurface knot([](double u, double v) { return torus_knot_point(1.0, 0.2, u, v); }, Displacement{&tiled, 0.05, 0.5});
+  const Mesh m = adapted(knot, {.columns = 96, .rows = 8, .closed_u = true, .closed_v = true}, {exact_error, 0.004}).mesh;
+  expect_closed(m);
+  expect_outward(m);
 }
 
 }  // namespace

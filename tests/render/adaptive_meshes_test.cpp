@@ -94,6 +94,29 @@ TEST(AdaptiveMeshes, SpheresWithoutReliefAdaptAsWell) {
   EXPECT_LT(near.triangles, near.report.triangles / 16);
 }
 
+// A landscape is coarse behind the eye.
+TEST(AdaptiveMeshes, OtherShapesAdaptAsWell) {
+  SceneFile file = SceneFile::parse(R"({ "version": 1, "ambient": 1,
+    "cameras": { "main": { "position": [0, 0.3, 0], "target": [0, 0.1, -1], "fov": 40 } },
+    "textures": { "relief": { "source": "rock_height", "width": 256 } },
+    "objects": { "a": { "shape": "plane", "size": 2, "height": "relief", "height_scale": 0.1, "mesh_error": 0.5, "tiles_u": 3 } } })",
+                                    "test", ".");
+  SceneAssets assets(two_workers());
+  const PreparedScene land = assets.prepare(file.at(0.0), 320, 180);
+  EXPECT_LE(land.simplified.at(0).error_px, 0.5);
+  EXPECT_LT(land.simplified[0].drawn, land.simplified[0].triangles / 4);
+  const std::span<const glm::vec3> positions = land.meshes[0].positions;
+  const auto behind = std::ranges::count_if(positions, [](const glm::vec3& p) { return p.z > 0.0f; });
+  EXPECT_LT(4 * behind, std::ssize(positions));
+  EXPECT_EQ(std::ranges::max(land.draws[0].source.streams.uvs, {}, &glm::vec2::x).x, 3.0f) << "tiles_u";
+  for (const char* shape : {"torus", "torus_knot"}) {
+    file.set(Settings{std::string("a.shape=") + shape, "a.height=0", "main.position=0,0,5"});
+    const PreparedScene ring = assets.prepare(file.at(0.0), 320, 180);
+    EXPECT_LE(ring.simplified.at(0).error_px, 0.5) << shape;
+    EXPECT_LT(ring.simplified[0].drawn, ring.simplified[0].triangles) << shape;
+  }
+}
+
 // The mesh of a view does not change because another view was drawn before, so that all processes make the same pictures.
 TEST(AdaptiveMeshes, DoNotDependOnEarlierFrames) {
   SceneAssets used(two_workers());

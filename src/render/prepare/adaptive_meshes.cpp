@@ -3,15 +3,40 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "halfspace/core/resource_limits.h"
 #include "halfspace/geometry/displaced_sphere.h"
+#include "halfspace/geometry/point_surface.h"
+#include "halfspace/geometry/shapes.h"
 
 namespace halfspace::HS_LANES {
 
 namespace {
 
-constexpr PatchGrid kGrid{.columns = 32, .rows = 16, .closed_u = true, .closed_v = false};
+// Patches are about square on a shape of default size.
+PatchGrid grid_of(Shape shape) {
+  switch (shape) {
+    case Shape::plane: return {.columns = 8, .rows = 8, .closed_u = false, .closed_v = false};
+    case Shape::torus: return {.columns = 40, .rows = 8, .closed_u = true, .closed_v = true};
+    case Shape::torus_knot: return {.columns = 96, .rows = 8, .closed_u = true, .closed_v = true};
+    default: return {.columns = 32, .rows = 16, .closed_u = true, .closed_v = false};
+  }
+}
+
+std::unique_ptr<const ParametricSurface> surface_of(const ObjectDescription& o, const HeightField* field) {
+  if (o.shape == Shape::uv_sphere) {
+    const ReliefNormals normals = o.normals == NormalSource::undisplaced ? ReliefNormals::undisplaced : ReliefNormals::displaced;
+    return std::make_unique<SphereSurface>(field, o.radius, o.height_scale, o.height_zero, normals);
+  }
+  std::optional<Displacement> displacement;
+  if (field != nullptr) displacement = Displacement{field, o.height_scale, o.height_zero};
+  const auto make = [&](auto point) { return std::make_unique<PointSurface>(point, displacement); };
+  if (o.shape == Shape::plane) return make([size = o.size](double u, double v) { return plane_point(size, u, v); });
+  const double radius = o.radius, tube = o.tube;
+  if (o.shape == Shape::torus) return make([=](double u, double v) { return torus_point(radius, tube, u, v); });
+  return make([=](double u, double v) { return torus_knot_point(radius, tube, u, v); });
+}
 
 // What is outside of the view or behind the horizon is seen only by its shadow. Its error may be this many times as large.
 constexpr double kUnseenFactor = 4.0;
@@ -35,7 +60,7 @@ bool is_hidden(const glm::dvec4& eye, const glm::dvec3& center, double radius, d
   return along - radius > horizon && angle + std::asin(radius / to_ball) < half_angle;
 }
 
-// The copies of a sphere in the view. All lengths are in object space.
+// The copies of an object in the view. All lengths are in object space.
 class Copies {
  public:
   // solid: radius of a sphere inside of the surface that hides what is behind it; 0: none.
@@ -78,23 +103,22 @@ class Copies {
   std::vector<Copy> copies_;
 };
 
-// Returns the radius of a sphere inside of an opaque object, in object space.
-double solid_radius(const ObjectDescription& o) { return o.surface.opacity < 1.0 ? 0.0 : o.radius - relief_height(o); }
+// Returns the radius of a sphere that an opaque object contains, in object space, or 0.
+double solid_radius(const ObjectDescription& o) {
+  return o.shape != Shape::uv_sphere || o.surface.opacity < 1.0 ? 0.0 : o.radius - relief_height(o);
+}
 
-// A sphere and what has been measured of it.
-class MeasuredSphere {
+// The surface of an object and what has been measured of it.
+class MeasuredSurface {
  public:
-  MeasuredSphere(const ObjectDescription& o, const Relief& relief)
-      : field_(relief.field),
-        surface_(field_.get(), o.radius, o.height_scale, o.height_zero,
-                 o.normals == NormalSource::undisplaced ? ReliefNormals::undisplaced : ReliefNormals::displaced),
-        adaptive_(surface_, kGrid) {}
+  MeasuredSurface(const ObjectDescription& o, std::shared_ptr<const HeightField> field)
+      : field_(std::move(field)), surface_(surface_of(o, field_.get())), adaptive_(*surface_, grid_of(o.shape)) {}
 
   AdaptiveMesh mesh(const ViewedError& viewed, const Workers& workers) const { return adaptive_.mesh(viewed, workers); }
 
  private:
   std::shared_ptr<const HeightField> field_;
-  SphereSurface surface_;
+  std::unique_ptr<const ParametricSurface> surface_;
   mutable AdaptiveSurface adaptive_;  // measuring more does not change results
 };
 
@@ -108,12 +132,13 @@ std::string matrix_recipe(const glm::dmat4& m) {
 
 std::shared_ptr<const FittedMesh> AdaptiveMeshes::mesh_of(const ObjectDescription& o, const Relief& relief,
                                                           const std::vector<glm::dmat4>& places, bool casts, const std::string& where) {
-  const std::string surface_recipe = recipe("adaptive sphere", o.radius, relief.recipe, static_cast<int>(o.normals));
-  std::string words =
-      surface_recipe + recipe(o.mesh_error, casts ? 1 : 0, view_.width_px, view_.height_px) + matrix_recipe(view_.clip_from_world);
+  const std::string surface_recipe =
+      recipe("adaptive surface", static_cast<int>(o.shape), o.radius, o.tube, o.size, relief.recipe, static_cast<int>(o.normals));
+  std::string words = surface_recipe + recipe(o.mesh_error, casts ? 1 : 0, o.tiles_u, o.tiles_v, view_.width_px, view_.height_px) +
+                      matrix_recipe(view_.clip_from_world);
   for (const glm::dmat4& world : places) words += matrix_recipe(world);
-  if (!used_.contains(surface_recipe)) used_.add(surface_recipe, std::make_shared<const MeasuredSphere>(o, relief));
-  const auto sphere = used_.existing<MeasuredSphere>(surface_recipe);
+  if (!used_.contains(surface_recipe)) used_.add(surface_recipe, std::make_shared<const MeasuredSurface>(o, relief.field));
+  const auto surface = used_.existing<MeasuredSurface>(surface_recipe);
   const std::shared_ptr<const ReliefDetail> detail = maps_.relief_detail(o, where + ".height");
   return used_.asset<FittedMesh>(words, [&] {
     const MemoryClaim claim(AdaptiveSurface::kMaxBytes, where + ".mesh_error");
@@ -122,9 +147,12 @@ std::shared_ptr<const FittedMesh> AdaptiveMeshes::mesh_of(const ObjectDescriptio
     viewed.of = [&](const glm::dvec3& center, double radius, double error) { return error * copies.px_per_unit(center, radius); };
     viewed.allowed = o.mesh_error;
     if (detail != nullptr) viewed.unseen = [&](int columns) { return std::fabs(o.height_scale) * detail->error(columns); };
-    AdaptiveMesh mesh = sphere->mesh(viewed, workers_);
-    const auto columns = static_cast<uint64_t>(mesh.columns);
-    const SimplifiedObject report{.triangles = columns * columns, .drawn = mesh.mesh.indices.size() / 3, .error_px = mesh.error};
+    AdaptiveMesh mesh = surface->mesh(viewed, workers_);
+    for (glm::vec2& uv : mesh.mesh.uvs) uv *= glm::vec2(o.tiles_u, o.tiles_v);
+    const PatchGrid grid = grid_of(o.shape);
+    const auto columns = static_cast<uint64_t>(mesh.columns),
+               rows = columns / static_cast<uint64_t>(grid.columns) * static_cast<uint64_t>(grid.rows);
+    const SimplifiedObject report{.triangles = 2 * columns * rows, .drawn = mesh.mesh.indices.size() / 3, .error_px = mesh.error};
     return FittedMesh(std::move(mesh.mesh), report);
   });
 }

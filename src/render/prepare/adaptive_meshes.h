@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Meshes of spheres that adapt to the view (mesh_error, docs/explanation/max_error.md).
+// Meshes of generated shapes that adapt to the view (mesh_error, docs/explanation/max_error.md).
 #pragma once
 
 #include <memory>
@@ -30,8 +30,8 @@ class AdaptiveMeshes {
   AdaptiveMeshes(const View& view, SceneMaps& maps, UsedAssets& used, const Workers& workers)
       : view_(view), maps_(maps), used_(used), workers_(workers) {}
 
-  // Returns the mesh of a uv_sphere in which every copy is off by at most mesh_error pixels. places: the world-from-object transforms of
-  // its copies. casts: it casts shadows. where: the path of the object, for error messages.
+  // Returns the mesh of a uv_sphere, plane, torus or torus_knot in which every copy is off by at most mesh_error pixels. places: the
+  // world-from-object transforms of its copies. casts: it casts shadows. where: the path of the object, for error messages.
   std::shared_ptr<const FittedMesh> mesh_of(const ObjectDescription& o, const Relief& relief, const std::vector<glm::dmat4>& places,
                                             bool casts, const std::string& where);
 
