@@ -51,7 +51,8 @@ std::vector<StudyEntry> studies() {
           {"specular", study_specular},
           {"tone", study_tone},
           {"max_error", study_max_error},
-          {"levels_of_detail", study_levels_of_detail}};
+          {"levels_of_detail", study_levels_of_detail},
+          {"adaptive_tessellation", study_adaptive_tessellation}};
 }
 
 }  // namespace halfspace

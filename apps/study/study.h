@@ -91,6 +91,7 @@ Study study_normals(const StudyOptions& options, const Workers& workers);
 Study study_raster_vs_rays(const StudyOptions& options, const Workers& workers);
 Study study_max_error(const StudyOptions& options, const Workers& workers);
 Study study_levels_of_detail(const StudyOptions& options, const Workers& workers);
+Study study_adaptive_tessellation(const StudyOptions& options, const Workers& workers);
 Study study_specular(const StudyOptions& options, const Workers& workers);
 
 }  // namespace halfspace
