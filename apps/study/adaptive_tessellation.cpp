@@ -23,7 +23,7 @@ namespace halfspace {
 
 namespace {
 
-// The ground is 0.9977 to 1.0021 radii from the center.
+// On the near side, the ground is 0.9978 to 1.0020 radii from the center.
 constexpr const char* kMoonScene = R"({
   "version": 1, "ambient": 0.02,
   "cameras": { "flight": { "fov": 40 } },
