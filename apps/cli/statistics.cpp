@@ -56,8 +56,8 @@ std::string text_report(const RenderReport& r) {
   for (const Count& c : kCounts) text += line_of(c, r.counts);
   for (const ApproximationChoice& c : r.choices) text += fmt::format("{}={}  ({})\n", c.key, c.value, c.why);
   for (const SimplifiedModel& m : r.models)
-    text += fmt::format("objects.{}: draws {} of {} triangles, at most {:.3f} px off; {} px are allowed\n", m.name, m.counts.drawn,
-                        m.counts.triangles, m.counts.error_px, m.allowed_px);
+    text += fmt::format("objects.{}: draws {} of {} triangles, {} {:.3f} px off; {} px are allowed\n", m.name, m.counts.drawn,
+                        m.counts.triangles, m.counts.is_estimate ? "about" : "at most", m.counts.error_px, m.allowed_px);
   return text;
 }
 

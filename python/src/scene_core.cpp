@@ -182,7 +182,7 @@ std::string SceneCore::print() const {
 std::optional<std::array<glm::dvec3, 2>> SceneCore::bounds() {
   const std::lock_guard lock(mutex_);
   if (bounds_known_) return bounds_;
-  Shot shot{.camera = CameraDescription{}, .color = false};  // any camera: nothing is culled
+  Shot shot{.camera = CameraDescription{}, .color = false, .regular_meshes = true};  // any camera: nothing is culled
   bounds_ = bounds_of(state_.prepare(shot, {16, 16}, assets_));
   bounds_known_ = true;
   return bounds_;
@@ -240,6 +240,7 @@ std::vector<std::string> SceneCore::take_warnings() {
 SceneDescription SceneCore::State::description(const Shot& shot) const {
   SceneDescription description = scene.at(shot.time);
   for (auto& [name, object] : description.objects) {
+    if (shot.regular_meshes) object.mesh_error = 0.0;
     const auto found = places.find(name);
     if (found == places.end()) continue;
     object.instances.clear();

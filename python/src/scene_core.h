@@ -37,6 +37,7 @@ struct Shot {
   std::optional<CameraDescription> camera{};  ///< replaces the camera of the scene
   bool transparent = false;                   ///< alpha is 0 where nothing is drawn, and the background is omitted
   bool color = true;                          ///< false: no color is needed, see SceneAssets::prepare_values
+  bool regular_meshes = false;                ///< mesh_error has no effect, because its meshes depend on the camera
 };
 
 /// A mutex for which a thread that already holds it does not wait. This happens in a signal handler of Python that uses the scene that its

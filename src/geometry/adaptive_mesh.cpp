@@ -8,6 +8,9 @@
 #include <numeric>
 #include <optional>
 
+#include "halfspace/core/check.h"
+#include "halfspace/core/resource_limits.h"
+
 namespace halfspace::HS_LANES {
 
 namespace {
@@ -22,8 +25,6 @@ struct Side {
   std::array<std::size_t, 2> corners;
 };
 constexpr std::array<Side, 4> kSides{{{{kHalf, 0}, {0, 1}}, {{0, kHalf}, {0, 2}}, {{kCells, kHalf}, {1, 3}}, {{kHalf, kCells}, {2, 3}}}};
-
-double distance(const glm::vec3& a, const glm::vec3& b) { return glm::length(glm::dvec3(a) - glm::dvec3(b)); }
 
 uint64_t key_of(const SquarePlace& p) {
   return (static_cast<uint64_t>(p.depth) << 32) | (static_cast<uint64_t>(p.y) << 16) | static_cast<uint64_t>(p.x);
@@ -44,7 +45,7 @@ class AdaptiveSurface::SplitFinder {
   std::size_t mark() {
     for (Square* s : leaves_) {
       const MeasuredSquare& m = *s->measured;
-      const double finest = m.finest_error() + unseen(*s);
+      const double finest = m.finest_error() + between(*s);
       s->is_coarse = viewed_.of(m.center(), m.radius() + finest, finest) > viewed_.allowed;
     }
     return static_cast<std::size_t>(std::ranges::count_if(leaves_, [](const Square* s) { return s->is_coarse; }));
@@ -85,12 +86,19 @@ class AdaptiveSurface::SplitFinder {
 
   void measure(Square& s) { s.measured = &measured_.try_emplace(key_of(s.place), surface_, grid_, s.place).first->second; }
 
-  double unseen(const Square& s) const { return viewed_.unseen((grid_.columns * kCells) << s.place.depth); }
+  // Returns how far the surface may be from the triangles of the cells of a square: what its quarters measure there, or what may be between
+  // the vertices if it is not divided.
+  double between(const Square& s) const {
+    if (s.quarters == nullptr) return viewed_.between((grid_.columns * kCells) << s.place.depth, (grid_.rows * kCells) << s.place.depth);
+    double largest = 0.0;
+    for (const Square& q : *s.quarters) largest = std::max(largest, q.measured->coarse_cell_error() + between(q));
+    return largest;
+  }
 
   // Returns the error of the halves of a square, not less than that of their parts.
   double error_of(const Square& s) const {
-    double error = s.measured->error(kCenter);
-    if (s.quarters == nullptr) return error + unseen(s);
+    double error = s.measured->error(kCenter) + between(s);
+    if (s.quarters == nullptr) return error;
     for (const Square& q : *s.quarters) error = std::max(error, error_of(q));
     return error;
   }
@@ -98,16 +106,16 @@ class AdaptiveSurface::SplitFinder {
   // Returns the error of the triangle between the center and a side of a square that is divided.
   double error_at(const Square& s, const Side& side) const {
     const auto& [a, b] = side.corners;
-    return std::max({s.measured->error(side.middle), error_of((*s.quarters)[a]), error_of((*s.quarters)[b])});
+    return std::max({s.measured->error(side.middle) + between(s), error_of((*s.quarters)[a]), error_of((*s.quarters)[b])});
   }
 
   // Returns true if the triangles that a vertex bisects must be bisected. outer: their other vertices.
   template <std::size_t n>
   bool must_split(const Square& s, GridVertex v, const std::array<GridVertex, n>& outer, double error, double& viewed) {
-    const glm::vec3& center = s.measured->position(v);
+    const glm::dvec3 center(s.measured->position(v));
     double radius = 0.0;
-    for (const GridVertex o : outer) radius = std::max(radius, distance(center, s.measured->position(o)));
-    viewed = viewed_.of(glm::dvec3(center), radius + error, error);
+    for (const GridVertex o : outer) radius = std::max(radius, glm::distance(center, glm::dvec3(s.measured->position(o))));
+    viewed = viewed_.of(center, radius + error, error);
     if (!(viewed > viewed_.allowed)) {
       error_ = std::max(error_, viewed);
       return false;
@@ -137,7 +145,7 @@ class AdaptiveSurface::SplitFinder {
 
   void visit(const Square& s, const GridTriangle& t) {
     double viewed = 0.0;
-    if (!must_split(s, t.split(), std::array{t.apex, t.b, t.c}, s.measured->error(t.split()) + unseen(s), viewed)) return;
+    if (!must_split(s, t.split(), std::array{t.apex, t.b, t.c}, s.measured->error(t.split()) + between(s), viewed)) return;
     if (!t.first().can_split()) {
       error_ = std::max(error_, 0.5 * viewed);
       return;
@@ -217,29 +225,48 @@ void append(std::vector<T>& to, const std::vector<T>& from) {
   to.insert(to.end(), from.begin(), from.end());
 }
 
-Mesh joined(const std::vector<Mesh>& parts) {
+// Releases the parts.
+Mesh joined(std::vector<Mesh> parts) {
   Mesh out;
+  std::size_t vertices = 0, indices = 0;
   for (const Mesh& part : parts) {
+    vertices += part.positions.size();
+    indices += part.indices.size();
+  }
+  out.positions.reserve(vertices);
+  out.normals.reserve(vertices);
+  out.tangents.reserve(vertices);
+  out.uvs.reserve(vertices);
+  out.indices.reserve(indices);
+  for (Mesh& part : parts) {
     const auto first = static_cast<uint32_t>(out.positions.size());
     append(out.positions, part.positions);
     append(out.normals, part.normals);
     append(out.tangents, part.tangents);
     append(out.uvs, part.uvs);
     for (const uint32_t i : part.indices) out.indices.push_back(first + i);
+    part = {};
   }
   return out;
 }
 
+std::size_t sum_of(const std::vector<std::size_t>& counts) { return std::accumulate(counts.begin(), counts.end(), std::size_t{0}); }
+
 }  // namespace
 
-AdaptiveMesh AdaptiveSurface::mesh(const ViewedError& viewed, const Workers& workers) {
-  const auto count = [](std::size_t sum, const Squares& s) { return sum + s.size(); };
-  if (std::accumulate(squares_.begin(), squares_.end(), std::size_t{0}, count) > kMaxSquares) {
+AdaptiveSurface::AdaptiveSurface(const ParametricSurface& surface, const PatchGrid& grid)
+    : surface_(surface), grid_(grid), squares_(static_cast<std::size_t>(grid.patches())) {
+  HS_CHECK(grid.columns >= 1 && grid.rows >= 1, "AdaptiveSurface: the grid is empty; expected at least one column and one row");
+}
+
+AdaptiveMesh AdaptiveSurface::mesh(const ViewedError& viewed, const Workers& workers, const std::string& place) {
+  const auto add_size = [](std::size_t n, const Squares& s) { return n + s.size(); };
+  if (std::accumulate(squares_.begin(), squares_.end(), std::size_t{0}, add_size) > kMaxSquares) {
     for (Squares& s : squares_) s.clear();
   }
   const int patches = grid_.patches();
   std::vector<std::optional<SplitFinder>> finders(squares_.size());
-  std::vector<std::size_t> coarse(squares_.size());
+  std::vector<std::size_t> coarse(squares_.size()), splits(squares_.size());
   const auto for_each_finder = [&](const auto& task) { workers.for_each(patches, [&](int p) { task(static_cast<std::size_t>(p)); }); };
   for_each_finder([&](std::size_t p) {
     finders[p].emplace(surface_, grid_, squares_[p], viewed, static_cast<int>(p));
@@ -248,30 +275,38 @@ AdaptiveMesh AdaptiveSurface::mesh(const ViewedError& viewed, const Workers& wor
   int depth = 0;
   std::size_t needed = squares_.size();
   for (; depth < kMaxDepth; ++depth) {
-    const std::size_t more = 4 * std::accumulate(coarse.begin(), coarse.end(), std::size_t{0});
+    const std::size_t more = 4 * sum_of(coarse);
     if (more == 0 || needed + more > kMaxSquares) break;
     needed += more;
+    const MemoryClaim claim(sizeof(MeasuredSquare) * more, place);
     for_each_finder([&](std::size_t p) {
       finders[p]->divide();
       coarse[p] = finders[p]->mark();
     });
   }
-  for_each_finder([&](std::size_t p) { finders[p]->find(depth); });
+  for_each_finder([&](std::size_t p) {
+    finders[p]->find(depth);
+    splits[p] = finders[p]->splits().size();
+  });
 
   const int level = depth + MeasuredSquare::kLevel;
   GridVertices vertices(grid_, level);
-  AdaptiveMesh out{{}, 0.0, grid_.columns << level};
+  AdaptiveMesh out{{}, 0.0, grid_.columns << level, grid_.rows << level};
   for (std::size_t p = 0; p < finders.size(); ++p) {
     for (const GridVertex v : finders[p]->splits()) vertices.add(static_cast<int>(p), v);
     out.error = std::max(out.error, finders[p]->error());
+    finders[p].reset();
   }
+  // A vertex bisects at most two triangles. The parts and the mesh exist at the same time.
+  constexpr std::size_t kSplitBytes = 2 * (sizeof(SurfaceVertex) + sizeof(glm::vec2) + 2 * 3 * sizeof(uint32_t));
+  const MemoryClaim claim(kSplitBytes * sum_of(splits), place);
   std::vector<Mesh> parts(squares_.size());
   const int tasks = std::min(patches, 4 * workers.threads());
   workers.for_each(tasks, [&](int task) {
     PatchMesher mesher(surface_, grid_, vertices, level);
     for (int p = task; p < patches; p += tasks) parts[static_cast<std::size_t>(p)] = mesher.mesh_of(p);
   });
-  out.mesh = joined(parts);
+  out.mesh = joined(std::move(parts));
   return out;
 }
 

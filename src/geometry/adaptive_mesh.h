@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <string>
 #include <vector>
 
 #include "halfspace/core/parallel.h"
@@ -26,34 +27,36 @@ struct ViewedError {
   /// Must not decrease with the error or the radius. A pure function; called from several threads.
   std::function<double(const glm::dvec3& center, double radius, double error)> of;
   double allowed = 0.0;  ///< triangles with a larger viewed error are bisected
-  /// Returns how far the surface may be from its values at a grid with this number of columns between u = 0 and 1, for example because of
-  /// peaks between them. Added to all errors. Must not increase with the number.
-  std::function<double(int columns)> unseen = [](int) { return 0.0; };
+  /// Returns how far the surface may be from a grid with these numbers of columns and rows between its vertices. Added to all errors. Must
+  /// not increase with the numbers.
+  std::function<double(int columns, int rows)> between = [](int, int) { return 0.0; };
 };
 
 struct AdaptiveMesh {
   Mesh mesh;
-  /// The largest viewed error of a triangle. It exceeds the allowed one if the surface would have to be measured more finely than its
-  /// limits permit; then, for the smallest triangles, it is estimated as half the error of a triangle of twice the size.
+  /// The largest viewed error of a triangle. It exceeds the allowed one if the surface would have to be measured more finely than the
+  /// limits of AdaptiveSurface permit; then, for the smallest triangles, it is estimated as half the error of a triangle of twice the size.
   double error = 0.0;
-  int columns = 0;  ///< of a regular grid that is as fine as the finest square
+  int columns = 0, rows = 0;  ///< of a regular grid that is as fine as the finest square
 };
 
 /// A surface and the squares of it that have been measured for earlier views.
 class AdaptiveSurface {
  public:
-  /// The surface must outlive this object.
-  AdaptiveSurface(const ParametricSurface& surface, const PatchGrid& grid)
-      : surface_(surface), grid_(grid), squares_(static_cast<std::size_t>(grid.patches())) {}
+  /// The surface must outlive this object. The grid has at least one column and one row.
+  AdaptiveSurface(const ParametricSurface& surface, const PatchGrid& grid);
+  AdaptiveSurface(const AdaptiveSurface&) = delete;
+  AdaptiveSurface& operator=(const AdaptiveSurface&) = delete;
 
   /// A patch has at least 16 cells per side, and at most 2^kMaxDepth times as many.
   static constexpr int kMaxDepth = 5;
-  /// Squares are not divided further if this number is exceeded. They take kMaxBytes.
-  static constexpr std::size_t kMaxSquares = 40000, kMaxBytes = kMaxSquares * sizeof(MeasuredSquare);
+  /// Squares are not divided further if a view would need more than this number. Squares of earlier views are kept up to the same number.
+  static constexpr std::size_t kMaxSquares = 40000;
 
   /// Returns the mesh for a view: the same for any number of threads, and whatever has been measured before. Vertices of the edges between
-  /// patches are repeated, bit for bit. One thread at a time.
-  AdaptiveMesh mesh(const ViewedError& viewed, const Workers& workers);
+  /// patches are repeated, bit for bit. One thread at a time. Throws LimitError, whose message begins with `place`, if the memory is not
+  /// available.
+  AdaptiveMesh mesh(const ViewedError& viewed, const Workers& workers, const std::string& place);
 
  private:
   class SplitFinder;

@@ -190,6 +190,11 @@ HeightField::HeightField(const Image<float>& map, double smoothing, const Worker
   });
 }
 
+std::pair<double, double> HeightField::range() const {
+  const auto [low, high] = std::ranges::minmax(texels_.texels());
+  return {static_cast<double>(base_) + static_cast<double>(low), static_cast<double>(base_) + static_cast<double>(high)};
+}
+
 HeightTaps HeightField::taps(double u) const {
   const double x = (edges_ == MapEdges::sheet ? u : u - std::floor(u)) * width() - 0.5;
   const double left = std::floor(x);

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "halfspace/core/image.h"
@@ -42,6 +43,9 @@ class HeightField {
 
   int width() const { return texels_.width(); }
   int height() const { return texels_.height(); }
+
+  /// Returns the lowest and the highest texel. All heights are between them.
+  std::pair<double, double> range() const;
 
   /// Returns the height at any u and at v in [−1, 2]. Where u is periodic, the results for u and u + 1 are bit-identical if both numbers
   /// are exact, such as 0 and 1. The same applies to v and v + 1 on a torus.

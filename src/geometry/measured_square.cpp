@@ -12,8 +12,6 @@ namespace {
 // Twice the signed area of a triangle of grid vertices.
 int cross(GridVertex a, GridVertex b, GridVertex c) { return (b.i - a.i) * (c.j - a.j) - (b.j - a.j) * (c.i - a.i); }
 
-double squared_length(const glm::dvec3& v) { return v.x * v.x + v.y * v.y + v.z * v.z; }
-
 float rounded_up(double x) {
   const auto f = static_cast<float>(x);
   return static_cast<double>(f) < x ? std::nextafter(f, std::numeric_limits<float>::infinity()) : f;
@@ -30,7 +28,7 @@ MeasuredSquare::MeasuredSquare(const ParametricSurface& surface, const PatchGrid
   }
   surface.positions(u, v, positions_);
   for (const glm::vec3& p : positions_) center_ += glm::dvec3(p) / static_cast<double>(kVertices);
-  for (const glm::vec3& p : positions_) radius_ = std::max(radius_, std::sqrt(squared_length(glm::dvec3(p) - center_)));
+  for (const glm::vec3& p : positions_) radius_ = std::max(radius_, glm::distance(glm::dvec3(p), center_));
   for (const int half : {0, 1}) measure(square_half(half, kCells, place.is_falling()));
 }
 
@@ -41,6 +39,7 @@ double MeasuredSquare::measure(const GridTriangle& t) {
   float& error = errors_[index(t.split())];
   error = std::max(error, rounded_up(std::max(own, parts)));
   if (!t.first().can_split()) finest_error_ = std::max(finest_error_, rounded_up(own));
+  if (std::abs(cross(t.apex, t.b, t.c)) == 4) coarse_cell_error_ = std::max(coarse_cell_error_, rounded_up(own));
   return std::max(own, parts);
 }
 
@@ -57,7 +56,8 @@ double MeasuredSquare::deviation(const GridTriangle& t) const {
       const int b = sign * cross(t.apex, {i, j}, t.c), c = sign * cross(t.apex, t.b, {i, j});  // barycentric coordinates, times the area
       if (b < 0 || c < 0 || b + c > sign * area) continue;
       const glm::dvec3 flat = apex + (b * unit) * to_b + (c * unit) * to_c;
-      largest = std::max(largest, squared_length(glm::dvec3(position({i, j})) - flat));
+      const glm::dvec3 off = glm::dvec3(position({i, j})) - flat;
+      largest = std::max(largest, glm::dot(off, off));
     }
   }
   return std::sqrt(largest);

@@ -2,9 +2,9 @@
 //
 // The errors of the triangles of a square of an adaptive mesh, measured at the vertices of a regular grid.
 //
-// The error of a triangle is the largest distance between a point of the surface and the point of the triangle with the same (u, v). No
-// point of the surface is farther from the triangles of a mesh than their error, no point of the mesh farther from the surface, and
-// textures are displaced by no more.
+// The error of a triangle is the largest distance between a point of the surface and the point of the triangle with the same (u, v). It
+// bounds the distance between the surface and the triangle in both directions, and how far textures are displaced. Here, only the vertices
+// of the grid count as points of the surface.
 #pragma once
 
 #include <array>
@@ -38,6 +38,9 @@ class MeasuredSquare {
   double error(GridVertex v) const { return static_cast<double>(errors_[index(v)]); }
   /// Returns the largest error of the triangles whose hypotenuse is two cells long. Smaller triangles cannot be bisected.
   double finest_error() const { return static_cast<double>(finest_error_); }
+  /// Returns the largest error of the triangles whose legs are two cells long: halves of the cells of the square of which this is a
+  /// quarter.
+  double coarse_cell_error() const { return static_cast<double>(coarse_cell_error_); }
   /// A ball around the vertices.
   const glm::dvec3& center() const { return center_; }
   double radius() const { return radius_; }
@@ -50,7 +53,7 @@ class MeasuredSquare {
   static constexpr std::size_t kVertices = (kCells + 1) * (kCells + 1);
   std::array<glm::vec3, kVertices> positions_;  // row by row
   std::array<float, kVertices> errors_{};
-  float finest_error_ = 0.0f;
+  float finest_error_ = 0.0f, coarse_cell_error_ = 0.0f;
   glm::dvec3 center_{};
   double radius_ = 0.0;
 };

@@ -106,6 +106,7 @@ struct SimplifiedObject {
   uint64_t drawn = 0;
   /// No outline is off by more, in pixels, except that of folds of one-sided surfaces with a border (docs/explanation/max_error.md).
   double error_px = 0.0;
+  bool is_estimate = false;  ///< error_px is not a bound, because a surface is known at the vertices of a grid only
 };
 
 /// A light, prepared for one image.

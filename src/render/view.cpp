@@ -174,6 +174,14 @@ double silhouette_pixels_per_unit(const View& v, const glm::dvec3& center_ws, do
   return focal_px(v) * (1.0 + farthest * farthest) / tangent_length;
 }
 
+// The square root of the largest row sum of AᵀA, which is at least its largest eigenvalue.
+double stretch_of(const glm::dmat4& m) {
+  const glm::dmat3 a(m), squares = glm::transpose(a) * a;
+  double largest = 0.0;
+  for (int i = 0; i < 3; ++i) largest = std::max(largest, std::fabs(squares[0][i]) + std::fabs(squares[1][i]) + std::fabs(squares[2][i]));
+  return std::sqrt(largest);
+}
+
 double turned_pixels_per_unit(const View& v, const glm::dvec3& center_ws, double radius) {
   if (is_orthographic(v)) return pixels_per_unit(v, center_ws, radius);
   // A point at distance d in the image has a depth of at least d / √(1 + tan²).

@@ -54,6 +54,10 @@ double pixel_width(const View& view, const glm::dvec3& position_rws);
 double pixels_per_unit(const View& view, const glm::dvec3& center_ws, double radius);
 double silhouette_pixels_per_unit(const View& view, const glm::dvec3& center_ws, double radius);
 
+/// Returns an upper bound on how far a transform moves a point whose preimage moves by 1. For a rotation with a uniform scale, this is the
+/// scale.
+double stretch_of(const glm::dmat4& transform);
+
 /// Returns the bound of pixels_per_unit for those points of the ball that would be in the image if the camera turned towards them. It
 /// depends on their distance from the eye only. For points that are in the image, the smaller of both bounds holds.
 double turned_pixels_per_unit(const View& view, const glm::dvec3& center_ws, double radius);

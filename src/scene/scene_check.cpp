@@ -179,7 +179,7 @@ void check_mesh_limits(const Named<ObjectDescription>& objects, const std::strin
     if (!o.visible) continue;
     const int64_t count = std::max<int64_t>(1, static_cast<int64_t>(o.instances.size()));
     copies += count;
-    vertices += kind_of(o).vertices(o) * count;
+    if (o.mesh_error == 0.0) vertices += kind_of(o).vertices(o) * count;
   }
   if (copies > kMaxCopies) reject(source, fmt::format("objects: {} objects including instances; expected at most {}", copies, kMaxCopies));
   if (vertices > kMaxDrawnVertices) {

@@ -15,7 +15,7 @@
 namespace halfspace {
 namespace {
 
-// OpenMPI does not free everything at exit.
+// OpenMPI does not free everything at exit, and takes two of its own locks in both orders.
 constexpr const char* kMpirun =
     kSanitized ? "ASAN_OPTIONS=detect_leaks=0 TSAN_OPTIONS=detect_deadlocks=0 mpirun --allow-run-as-root" : "mpirun --allow-run-as-root";
 

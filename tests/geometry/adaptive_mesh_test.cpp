@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 
 #include "geometry/mesh_checks.h"
 #include "geometry/rough_map.h"
@@ -50,7 +53,7 @@ double random_error(uint32_t seed, const glm::dvec3& center) {
 }
 
 AdaptiveMesh adapted(const ParametricSurface& s, const PatchGrid& grid, const ViewedError& viewed) {
-  return AdaptiveSurface(s, grid).mesh(viewed, two_workers());
+  return AdaptiveSurface(s, grid).mesh(viewed, two_workers(), "test");
 }
 
 const PointSurface& bowl() {
@@ -114,7 +117,7 @@ TEST(AdaptiveMesh, TrianglesOfAParaboloidHaveOneSize) {
 TEST(AdaptiveMesh, HasNoCracksForAnyChoice) {
   for (uint32_t seed = 1; seed <= 12; ++seed) {
     SCOPED_TRACE(seed);
-    // The error is random; of 16 triangles, 1 to 7 are not bisected, so that branches end at each depth.
+    // The error is random: 0.5 to 7.5. One or three of eight triangles are not bisected, so that branches end at each depth.
     const ViewedError viewed{
         [=](const glm::dvec3& center, double radius, double) { return radius > 0.1 ? random_error(seed, center) + 0.5 : 0.0; },
         seed % 3 == 0 ? 3.0 : 1.0};
@@ -147,16 +150,16 @@ TEST(AdaptiveMesh, NoPointIsOffByMoreThanTheAllowedError) {
       }
     }
     EXPECT_LE(adaptive.error, allowed);
-    // A square may be left whole at 1.25 of the allowed error, because a peak of the surface is between two vertices.
+    // Errors are measured at vertices. Between them, the surface may be farther off: here, by a quarter of the allowed error at most.
     EXPECT_LE(largest, 1.25 * allowed);
     EXPECT_GE(largest, 0.5 * allowed) << "the mesh is finer than necessary";
   }
 }
 
 // A peak between the vertices of the coarsest grid is found if the caller says that something may be there.
-TEST(AdaptiveMesh, FindsWhatMayBeUnseen) {
+TEST(AdaptiveMesh, FindsWhatMayBeBetweenTheVertices) {
   const PointSurface peak = sheet_of([](double u, double v) { return u == 21.0 / 64 && v == 33.0 / 64 ? 1.0 : 0.0; });
-  const ViewedError blind{exact_error, 0.1}, careful{exact_error, 0.1, [](int columns) { return columns < 64 ? 1.0 : 0.0; }};
+  const ViewedError blind{exact_error, 0.1}, careful{exact_error, 0.1, [](int columns, int) { return columns < 64 ? 1.0 : 0.0; }};
   EXPECT_EQ(adapted(peak, {}, blind).mesh.indices.size(), 6u);
   const Mesh m = adapted(peak, {}, careful).mesh;
   EXPECT_TRUE(std::ranges::any_of(m.positions, [](const glm::vec3& p) { return p.z == 1.0f; }));
@@ -186,6 +189,15 @@ TEST(AdaptiveMesh, IsFineOnlyWhereNeeded) {
   expect_closed(m);
 }
 
+// If a view needs more squares than the limit, no square is divided at the depth that would exceed it.
+TEST(AdaptiveMesh, StopsAtTheLimitOfSquares) {
+  AdaptiveSurface surface(bowl(), {.columns = 32, .rows = 16});
+  const AdaptiveMesh m = surface.mesh({exact_error, 0.0}, two_workers(), "test");
+  EXPECT_EQ(m.columns, 32 * 16 * 4);  // 512 * (1 + 4 + 16) squares; 512 * 64 more would exceed 40,000
+  EXPECT_GT(m.error, 0.0);
+  EXPECT_EQ(surface.mesh({exact_error, 0.1}, two_workers(), "test").mesh.indices.size(), 3u * 2 * 512) << "after the limit";
+}
+
 void expect_equal(const Mesh& a, const Mesh& b) {
   EXPECT_EQ(a.positions, b.positions);
   EXPECT_EQ(a.normals, b.normals);
@@ -197,10 +209,10 @@ void expect_equal(const Mesh& a, const Mesh& b) {
 TEST(AdaptiveMesh, DependsOnNeitherThreadsNorEarlierViews) {
   AdaptiveSurface used(bumpy_ball(), kBall);
   const ViewedError coarse{exact_error, 0.05}, fine{exact_error, 0.004};
-  const Mesh one = used.mesh(coarse, Workers(1)).mesh;
-  used.mesh(fine, Workers(1));
-  expect_equal(used.mesh(coarse, Workers(1)).mesh, one);
-  expect_equal(AdaptiveSurface(bumpy_ball(), kBall).mesh(coarse, Workers(5)).mesh, one);
+  const Mesh one = used.mesh(coarse, Workers(1), "test").mesh;
+  used.mesh(fine, Workers(1), "test");
+  expect_equal(used.mesh(coarse, Workers(1), "test").mesh, one);
+  expect_equal(AdaptiveSurface(bumpy_ball(), kBall).mesh(coarse, Workers(5), "test").mesh, one);
 }
 
 // The vertices of displaced_uv_sphere are points of SphereSurface.

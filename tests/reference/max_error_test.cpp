@@ -41,6 +41,7 @@ bool is_smooth(const ObjectDescription& o) { return o.surface.shading != Shading
 // Replaces every smooth object with the finest possible mesh, and particles with exact spheres. Flat-shaded facets are kept.
 SceneDescription finest(SceneDescription scene) {
   for (auto& [name, o] : scene.objects) {
+    o.mesh_error = 0.0;
     if (!is_smooth(o) || ((o.shape == Shape::plane || o.shape == Shape::cube) && !is_map(o.height))) continue;
     o = with_parts(o, std::min(kind_of(o).max_parts, is_map(o.height) ? 1536 : 512), true);
   }

@@ -5,10 +5,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <thread>
 
 #include "halfspace/render/frame/frame.h"
 #include "halfspace/render/scene_assets.h"
 #include "halfspace/scene/scene_file.h"
+#include "support/errors.h"
 #include "support/workers.h"
 
 namespace halfspace {
@@ -120,13 +123,47 @@ TEST(AdaptiveMeshes, OtherShapesAdaptAsWell) {
 // The mesh of a view does not change because another view was drawn before, so that all processes make the same pictures.
 TEST(AdaptiveMeshes, DoNotDependOnEarlierFrames) {
   SceneAssets used(two_workers());
-  for (const char* position : {"main.position=0,0,1.2", "main.position=0,0,8", "main.position=0,0,3"}) {
-    const PreparedScene scene = used.prepare(adaptive_moon({position}), 160, 90);
+  for (const char* setting : {"main.position=0,0,1.2", "main.position=0,0,8", "main.position=0,0,3", "moon.opacity=0.5",
+                              "moon.casts_shadow=false", "main.type=orthographic", "moon.scale=1,2,1", "moon.mesh_error=1"}) {
+    const PreparedScene scene = used.prepare(adaptive_moon({"shadow.method=hard", setting}), 160, 90);
     Image<glm::u8vec4> ours(160, 90), alone(160, 90);
     render(scene, ours, two_workers());
-    render(adapted_moon({position}, 160, 90).scene, alone, Workers(5));
-    EXPECT_EQ(ours, alone) << position;
+    const AdaptedMoon own = adapted_moon({"shadow.method=hard", setting}, 160, 90);
+    render(own.scene, alone, Workers(5));
+    EXPECT_EQ(scene.draws[0].indices->size(), 3 * own.triangles) << setting;
+    EXPECT_EQ(ours, alone) << setting;
   }
+}
+
+// Copies of the assets share what has been measured, and may be used by several threads.
+TEST(AdaptiveMeshes, ThreadsMayShareASurface) {
+  SceneAssets first(two_workers());
+  first.prepare(adaptive_moon({"main.position=0,0,4"}), 160, 90);
+  std::array<std::size_t, 4> drawn{};
+  std::vector<std::thread> threads;
+  for (std::size_t i = 0; i < drawn.size(); ++i) {
+    threads.emplace_back([&, i] {
+      const Workers workers(2);
+      SceneAssets own(first, workers, {});
+      drawn[i] = own.prepare(adaptive_moon({}), 160, 90).draws[0].indices->size();
+    });
+  }
+  for (std::thread& t : threads) t.join();
+  for (const std::size_t count : drawn) EXPECT_EQ(count, 3 * adapted_moon({}, 160, 90).triangles);
+}
+
+// Where the near plane cuts the front of a sphere off, its inside is seen.
+TEST(AdaptiveMeshes, AreFineInsideOfASphereThatIsCut) {
+  const Settings whole{"moon.two_sided=true"}, cut{"moon.two_sided=true", "main.near=3"};
+  EXPECT_GT(adapted_moon(cut).triangles, adapted_moon(whole).triangles);
+}
+
+TEST(AdaptiveMeshes, LimitTheTrianglesOfAllCopies) {
+  SceneDescription scene = adaptive_moon({"moon.mesh_error=0.01"});
+  scene.objects[0].second.instances.resize(30000);
+  SceneAssets assets(two_workers());
+  EXPECT_TRUE(
+      reports(input_error([&] { assets.prepare(scene, 320, 180); }), "objects.moon.mesh_error: ", {"30000 copies", "larger error"}));
 }
 
 // The same view has the same mesh, so that shadow maps are kept.
@@ -143,12 +180,13 @@ TEST(AdaptiveMeshes, AreChosenForAnAllowedErrorOnlyWhereShadingDoesNotDependOnTh
     SceneAssets assets(two_workers());
     return assets.choose_within_error(adaptive_moon(settings), 160, 90, allowed).scene.objects[0].second;
   };
-  EXPECT_EQ(chosen({"moon.mesh_error=0"}, {0.25, {}}).mesh_error, 0.25);
-  EXPECT_EQ(chosen({"moon.mesh_error=0", "moon.normals=vertex"}, {0.25, {}}).mesh_error, 0.0);
-  EXPECT_EQ(chosen({"moon.mesh_error=0", "moon.shading=gouraud"}, {0.25, {}}).mesh_error, 0.0);
-  EXPECT_EQ(chosen({"moon.mesh_error=0", "moon.normal_lines=0.1"}, {0.25, {}}).mesh_error, 0.0);
-  EXPECT_EQ(chosen({"moon.mesh_error=0"}, {0.25, 8.0}).mesh_error, 0.0);
-  EXPECT_EQ(chosen({"moon.mesh_error=0", "moon.height=0"}, {0.25, {}}).mesh_error, 0.0);
+  EXPECT_EQ(chosen({"moon.mesh_error=0"}, {0.02, {}}).mesh_error, 0.02);
+  EXPECT_EQ(chosen({}, {0.25, {}}).mesh_error, 0.0) << "a small regular mesh is enough";
+  // The error of the scene is replaced also where a regular mesh is chosen.
+  for (const char* setting : {"moon.normals=vertex", "moon.shading=gouraud", "moon.height=0", "main.target=0,0,9"})
+    EXPECT_EQ(chosen({"moon.mesh_error=5", setting}, {0.02, {}}).mesh_error, 0.0) << setting;
+  EXPECT_EQ(chosen({"moon.mesh_error=5"}, {0.02, 8.0}).mesh_error, 0.0);
+  EXPECT_EQ(chosen({"moon.mesh_error=5", "moon.normal_lines=0.1"}, {0.02, {}}).mesh_error, 5.0) << "kept, like all such meshes";
 }
 
 }  // namespace

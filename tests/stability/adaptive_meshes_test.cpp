@@ -107,13 +107,13 @@ TEST(Stability, AdaptiveMeshesDoNotPop) {
     before = std::move(scene);
     common_before = std::move(common_scene);
   }
-  // Both meshes are within the error in this view: the older one was so in a view from a little farther away, a tenth at most. Outlines are
-  // measured to 1/8 px.
+  // Both meshes are within the error in their views. In the new one, the outline of the older mesh is up to 1.18 times as large: the length
+  // of a tangent to the moon falls from 1.474 to 1.249 radii in the last step. Outlines are measured to 1/8 px.
   record_and_check({34, "popping of adaptive meshes",
                     "the camera approaches the moon from 8 to 1.6 radii in 16 frames, mesh_error 0.25 px; a regular mesh with twice the "
                     "latitudes at half the distance vs. triangles chosen by their error",
                     "largest distance, in pixels, between the outlines of a frame with its own mesh and with that of the frame before"},
-                   common, 0.75, ours, 2.12 * kAllowed + 1.0 / kMoonFiner);
+                   common, 0.75, ours, 2.18 * kAllowed + 1.0 / kMoonFiner);
 }
 
 }  // namespace

@@ -117,6 +117,16 @@ Presence presence_of(const SceneDescription& scene, const ObjectDescription& o, 
   return p;
 }
 
+// With fewer vertices, a regular mesh is drawn in less time than an adaptive one is made.
+constexpr int64_t kMinAdaptiveVertices = 1 << 17;
+constexpr std::size_t kMaxAdaptiveCopies = 64;
+
+// Returns true for a displaced sphere whose picture depends on its mesh only by the places of its points.
+bool is_shaded_by_place(const ObjectDescription& o) {
+  return o.shape == Shape::uv_sphere && is_map(o.height) && o.normals == NormalSource::pixel &&
+         (o.surface.shading == ShadingRate::phong || o.surface.shading == ShadingRate::none);
+}
+
 // The meshes of a file are simplified when the scene is prepared.
 ObjectDescription chosen_model(const ObjectDescription& authored, const std::string& path, double edge_px, std::optional<double> color,
                                std::vector<ApproximationChoice>& choices) {
@@ -136,12 +146,6 @@ ObjectDescription chosen_model(const ObjectDescription& authored, const std::str
 
 }  // namespace
 
-// Returns true for a displaced sphere whose picture depends on its mesh only by the places of its points.
-bool is_shaded_by_place(const ObjectDescription& o) {
-  return o.shape == Shape::uv_sphere && is_map(o.height) && o.normals == NormalSource::pixel && o.normal_lines == 0.0 &&
-         (o.surface.shading == ShadingRate::phong || o.surface.shading == ShadingRate::none);
-}
-
 // `authored` must be an element of the scene's objects, because width_for finds it by its address.
 ObjectDescription ApproximationChooser::chosen_object(const ObjectDescription& authored, const std::string& path, double edge_px,
                                                       std::optional<double> color, std::vector<ApproximationChoice>& choices) {
@@ -153,13 +157,6 @@ ObjectDescription ApproximationChooser::chosen_object(const ObjectDescription& a
     sphere.shape = Shape::sphere;
     choices.push_back({path + ".shape", "sphere", "ray traced per pixel: exact, without a mesh"});
     return sphere;
-  }
-  if (is_shaded_by_place(authored) && !color) {
-    ObjectDescription adaptive = authored;
-    adaptive.mesh_error = edge_px;
-    if (adaptive.mesh_error != authored.mesh_error)
-      choices.push_back({path + ".mesh_error", number_text(edge_px), "the mesh adapts to the view"});
-    return adaptive;
   }
   const ShapeKind& kind = kind_of(authored);
   const Presence presence = presence_of(scene_, authored, view_, scene_.shadow.method != ShadowMethod::none && authored.casts_shadow);
@@ -179,7 +176,19 @@ ObjectDescription ApproximationChooser::chosen_object(const ObjectDescription& a
     parts = std::min(part_step(parts + 1), kind.max_parts);
     o = with_parts(authored, parts, color.has_value());
   }
-  if (shades_by_vertex(authored) && kind.columns(o) <= kind.columns(authored)) return authored;
+  const bool adapts = is_shaded_by_place(authored) && !color && presence.is_seen && kind.vertices(o) > kMinAdaptiveVertices &&
+                      places_of(scene_, authored).size() <= kMaxAdaptiveCopies;
+  if (adapts) {
+    const std::string regular = fmt::format("the mesh adapts to the view; a regular one would have {} vertices", kind.vertices(o));
+    o = authored;
+    o.mesh_error = edge_px;
+    if (o.mesh_error != authored.mesh_error) choices.push_back({path + ".mesh_error", number_text(edge_px), regular});
+    return o;
+  }
+  if (shades_by_vertex(authored) && kind.columns(o) <= kind.columns(authored)) o = authored;
+  o.mesh_error = 0.0;
+  if (authored.mesh_error != 0.0)
+    choices.push_back({path + ".mesh_error", "0", "a regular mesh takes no longer, or shading depends on it"});
   const std::string why = !presence.is_seen ? "not in the image"
                           : !has_curves     ? "its faces are flat"
                           : is_enough(o)    ? "at most " + rounded_text(off_px(o)) + " px off"

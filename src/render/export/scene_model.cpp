@@ -256,6 +256,7 @@ Model scene_model(SceneDescription scene, SceneAssets& assets, bool with_lights,
   const FloatMode float_mode;
   scene.shadow.method = ShadowMethod::none;
   for (auto& [name, object] : scene.objects) {
+    object.mesh_error = 0.0;  // the model has no view
     if (object.shape != Shape::sphere) continue;
     object.shape = Shape::icosphere;
     object.level = kSphereLevel;

@@ -21,7 +21,7 @@ struct FittedMesh {
   FittedMesh(Mesh mesh, const SimplifiedObject& counts) : asset(std::move(mesh)), report(counts) {}
 
   MeshAsset asset;
-  SimplifiedObject report;  // of one copy, without the index of the object
+  SimplifiedObject report;  // without the index of the object
 };
 
 class AdaptiveMeshes {

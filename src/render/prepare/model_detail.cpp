@@ -56,15 +56,6 @@ struct MeshDetail {
   Indices indices;
 };
 
-// Returns an upper bound on how far a transform moves a point whose preimage moves by 1: the square root of the largest row sum of AᵀA,
-// which is at least its largest eigenvalue. For a rotation with a uniform scale, this is the scale.
-double stretch_of(const glm::dmat4& m) {
-  const glm::dmat3 a(m), squares = glm::transpose(a) * a;
-  double largest = 0.0;
-  for (int i = 0; i < 3; ++i) largest = std::max(largest, std::fabs(squares[0][i]) + std::fabs(squares[1][i]) + std::fabs(squares[2][i]));
-  return std::sqrt(largest);
-}
-
 }  // namespace
 
 std::shared_ptr<const Indices> all_indices(const std::shared_ptr<const ModelAsset>& model, int mesh) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "halfspace/render/prepare/scene_meshes.h"
 
-#include "halfspace/geometry/displaced_sphere.h"
 #include "halfspace/render/prepare/shape_mesh.h"
 #include "halfspace/scene/shapes.h"
 
@@ -20,7 +19,7 @@ Relief SceneMeshes::relief_of(const ObjectDescription& o, const std::string& pat
 // Returns a displaced uv_sphere. It does not use SurfaceMesh: rows are displaced in parallel, and per-pixel slopes match the
 // vertices.
 std::shared_ptr<const MeshAsset> SceneMeshes::sphere_of(const ObjectDescription& o, const Relief& relief) {
-  const ReliefNormals normals = o.normals == NormalSource::undisplaced ? ReliefNormals::undisplaced : ReliefNormals::displaced;
+  const ReliefNormals normals = relief_normals(o);
   const std::string words = recipe("displaced sphere", o.radius, o.latitudes, o.longitudes, relief.recipe, static_cast<int>(normals));
   return used_.asset<MeshAsset>(words, [&] {
     const HeightField filtered = relief.field->filtered(o.longitudes, workers_);

@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include "halfspace/geometry/displaced_sphere.h"
 #include "halfspace/geometry/height_field.h"
 #include "halfspace/geometry/mesh.h"
 #include "halfspace/raster/vertex_input.h"
@@ -26,6 +27,11 @@ struct Relief {
   std::shared_ptr<const HeightField> field;  // null: not displaced
   std::string recipe;
 };
+
+// Returns which normals the vertices of a displaced sphere have.
+inline ReliefNormals relief_normals(const ObjectDescription& o) {
+  return o.normals == NormalSource::undisplaced ? ReliefNormals::undisplaced : ReliefNormals::displaced;
+}
 
 class SceneMeshes {
  public:

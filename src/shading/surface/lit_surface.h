@@ -37,7 +37,8 @@ struct DetailMap {
   float strength = 1.0f;    ///< normal map: scale of the x and y components; bump map: height of map value 1, in world units
   bool flip_green = false;  ///< normal map: green points down
   bool difference = false;  ///< bump map: it stores heights, which are differenced within the 2x2 quad; otherwise it stores slopes
-  uint8_t mesh_level = 0;   ///< slopes of a displaced sphere: level of detail at which a texel is about as wide as a triangle
+  /// Slopes of a displaced sphere: level of detail at which a texel is about as wide as a triangle. 0 for meshes that adapt to the view.
+  uint8_t mesh_level = 0;
 };
 
 /// Uniforms of a lit surface. Shaders inherit from this struct.

@@ -192,7 +192,8 @@ struct SurfaceShader : LitSurface {
   }
 
   /// Sets the smooth surface above the triangle. The vertices of a displaced sphere have no normals. Instead, its normals are those of the
-  /// slope map, filtered to the size of a triangle, and its height is 0, because its triangles are small.
+  /// slope map, filtered to the size of a triangle (not filtered if the mesh adapts to the view), and its height is 0, because its
+  /// triangles are small.
   template <class R>
   HS_INLINE void set_smooth_surface(const Varyings<R>& in, const Pixel<R>& px, SurfacePoint<R>& p) const {
     using V = Varyings<R>;
