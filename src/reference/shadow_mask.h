@@ -63,7 +63,10 @@ struct ShadowMask {
   template <class R>
   vec3<R> shading_normal(const Pixel<R>& px, const vec3<R>& smooth_ws) const {
     if (shading_normals == nullptr) return smooth_ws;
-    const IntOf<R> first = ((IntOf<R>(height - 1) - truncate_to_int(px.y)) * IntOf<R>(width) + truncate_to_int(px.x)) * IntOf<R>(3);
+    // Lanes that are not covered can be outside of the picture.
+    const IntOf<R> x = truncate_to_int(clamp(px.x, R(0), R(static_cast<float>(width - 1))));
+    const IntOf<R> y = truncate_to_int(clamp(px.y, R(0), R(static_cast<float>(height - 1))));
+    const IntOf<R> first = ((IntOf<R>(height - 1) - y) * IntOf<R>(width) + x) * IntOf<R>(3);
     vec3<R> n;
     for (int k = 0; k < 3; ++k) n[k] = R(gather(shading_normals, IntOf<R>(first + IntOf<R>(k))));
     return select(dot(n, n) > R(0), n, smooth_ws);

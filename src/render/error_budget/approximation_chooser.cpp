@@ -155,6 +155,7 @@ ObjectDescription ApproximationChooser::chosen_object(const ObjectDescription& a
     // A sprite takes 0.76 ms, a mesh 0.54 ms with 8 bands and 1.03 ms with 64 bands (study sphere_model).
     ObjectDescription sphere = authored;
     sphere.shape = Shape::sphere;
+    sphere.mesh_error = 0.0;
     choices.push_back({path + ".shape", "sphere", "ray traced per pixel: exact, without a mesh"});
     return sphere;
   }
