@@ -10,6 +10,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "halfspace/render/prepare/adaptive_meshes.h"
 #include "halfspace/render/prepare/scene_particles.h"
 #include "halfspace/render/prepare/scene_places.h"
 #include "halfspace/scene/lights.h"
@@ -119,7 +120,6 @@ Presence presence_of(const SceneDescription& scene, const ObjectDescription& o, 
 
 // With fewer vertices, a regular mesh is drawn in less time than an adaptive one is made.
 constexpr int64_t kMinAdaptiveVertices = 1 << 17;
-constexpr std::size_t kMaxAdaptiveCopies = 64;
 
 // Returns true for a displaced sphere whose picture depends on its mesh only by the places of its points.
 bool is_shaded_by_place(const ObjectDescription& o) {

@@ -137,6 +137,10 @@ std::string bytes_of(const glm::dmat4& m) { return {reinterpret_cast<const char*
 
 std::shared_ptr<const FittedMesh> AdaptiveMeshes::mesh_of(const ObjectDescription& o, const Relief& relief,
                                                           const std::vector<glm::dmat4>& places, bool casts, const std::string& where) {
+  const std::string place = where + ".mesh_error";
+  if (places.size() > kMaxAdaptiveCopies)
+    throw InputError(fmt::format("{}: the object has {} copies; expected at most {}, or 0 for a regular mesh", place, places.size(),
+                                 kMaxAdaptiveCopies));
   const std::string surface_recipe =
       recipe("adaptive surface", static_cast<int>(o.shape), o.radius, o.tube, o.size, relief.recipe, static_cast<int>(o.normals));
   if (!used_.contains(surface_recipe)) used_.add(surface_recipe, std::make_shared<const MeasuredSurface>(o, relief.field));
@@ -158,7 +162,6 @@ std::shared_ptr<const FittedMesh> AdaptiveMeshes::mesh_of(const ObjectDescriptio
         return std::fabs(o.height_scale) * detail->error(std::min(static_cast<double>(columns), aspect * rows));
       };
     }
-    const std::string place = where + ".mesh_error";
     AdaptiveMesh mesh = surface->mesh(viewed, workers_, place);
     for (glm::vec2& uv : mesh.mesh.uvs) uv *= glm::vec2(o.tiles_u, o.tiles_v);
     const uint64_t copies_drawn = places.size(), triangles = mesh.mesh.indices.size() / 3 * copies_drawn;

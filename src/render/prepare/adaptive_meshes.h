@@ -16,6 +16,9 @@
 
 namespace halfspace::HS_LANES {
 
+// Each decision about a triangle looks at all copies of the object.
+inline constexpr std::size_t kMaxAdaptiveCopies = 64;
+
 // A mesh that was made for a view.
 struct FittedMesh {
   FittedMesh(Mesh mesh, const SimplifiedObject& counts) : asset(std::move(mesh)), report(counts) {}
@@ -31,7 +34,8 @@ class AdaptiveMeshes {
       : view_(view), maps_(maps), used_(used), workers_(workers) {}
 
   // Returns the mesh of a uv_sphere, plane, torus or torus_knot in which every copy is off by at most mesh_error pixels. places: the
-  // world-from-object transforms of its copies. casts: it casts shadows. where: the path of the object, for error messages.
+  // world-from-object transforms of its copies; InputError if there are more than kMaxAdaptiveCopies. casts: it casts shadows. where: the
+  // path of the object, for error messages.
   std::shared_ptr<const FittedMesh> mesh_of(const ObjectDescription& o, const Relief& relief, const std::vector<glm::dmat4>& places,
                                             bool casts, const std::string& where);
 
