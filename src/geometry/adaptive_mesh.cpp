@@ -36,7 +36,7 @@ uint64_t key_of(const SquarePlace& p) {
 class AdaptiveSurface::SplitFinder {
  public:
   SplitFinder(const ParametricSurface& surface, const PatchGrid& grid, Squares& measured, const ViewedError& viewed, int patch)
-      : surface_(surface), grid_(grid), measured_(measured), viewed_(viewed), root_{{.patch = patch}, nullptr, {}, false} {
+      : surface_(surface), grid_(grid), measured_(measured), viewed_(viewed), root_{.place = {.patch = patch}, .quarters = nullptr} {
     measure(root_);
     leaves_ = {&root_};
   }
@@ -70,6 +70,7 @@ class AdaptiveSurface::SplitFinder {
   // Finds the vertices. depth: of the deepest square of all patches.
   void find(int depth) {
     depth_ = depth;
+    set_errors(root_);
     visit(root_);
   }
 
@@ -82,31 +83,36 @@ class AdaptiveSurface::SplitFinder {
     const MeasuredSquare* measured = nullptr;
     std::unique_ptr<std::array<Square, 4>> quarters;  // null if it is not divided
     bool is_coarse = false;
+    double cells = 0.0;   // how far the surface may be from the triangles of the cells of the grid
+    double halves = 0.0;  // error of the halves of the square, not less than that of their parts
   };
 
   void measure(Square& s) { s.measured = &measured_.try_emplace(key_of(s.place), surface_, grid_, s.place).first->second; }
 
-  // Returns how far the surface may be from the triangles of the cells of a square: what its quarters measure there, or what may be between
-  // the vertices if it is not divided.
+  // Returns how far the surface may be from the grid of a square between its vertices.
   double between(const Square& s) const {
-    if (s.quarters == nullptr) return viewed_.between((grid_.columns * kCells) << s.place.depth, (grid_.rows * kCells) << s.place.depth);
-    double largest = 0.0;
-    for (const Square& q : *s.quarters) largest = std::max(largest, q.measured->coarse_cell_error() + between(q));
-    return largest;
+    return viewed_.between((grid_.columns * kCells) << s.place.depth, (grid_.rows * kCells) << s.place.depth);
   }
 
-  // Returns the error of the halves of a square, not less than that of their parts.
-  double error_of(const Square& s) const {
-    double error = s.measured->error(kCenter) + between(s);
-    if (s.quarters == nullptr) return error;
-    for (const Square& q : *s.quarters) error = std::max(error, error_of(q));
-    return error;
+  // Sets the errors of a square and of its parts.
+  void set_errors(Square& s) const {
+    if (s.quarters == nullptr) {
+      s.cells = between(s);
+      s.halves = s.measured->error(kCenter) + s.cells;
+      return;
+    }
+    for (Square& q : *s.quarters) {
+      set_errors(q);
+      s.cells = std::max(s.cells, q.measured->coarse_cell_error() + q.cells);
+      s.halves = std::max(s.halves, q.halves);
+    }
+    s.halves = std::max(s.halves, s.measured->error(kCenter) + s.cells);
   }
 
   // Returns the error of the triangle between the center and a side of a square that is divided.
   double error_at(const Square& s, const Side& side) const {
     const auto& [a, b] = side.corners;
-    return std::max({s.measured->error(side.middle) + between(s), error_of((*s.quarters)[a]), error_of((*s.quarters)[b])});
+    return std::max({s.measured->error(side.middle) + s.cells, (*s.quarters)[a].halves, (*s.quarters)[b].halves});
   }
 
   // Returns true if the triangles that a vertex bisects must be bisected. outer: their other vertices.
@@ -131,7 +137,7 @@ class AdaptiveSurface::SplitFinder {
       return;
     }
     double viewed = 0.0;
-    if (!must_split(s, kCenter, kCorners, error_of(s), viewed)) return;
+    if (!must_split(s, kCenter, kCorners, s.halves, viewed)) return;
     std::array<bool, 4> is_split{};  // quarters
     for (const Side& side : kSides) {
       const auto& [a, b] = side.corners;
@@ -145,7 +151,7 @@ class AdaptiveSurface::SplitFinder {
 
   void visit(const Square& s, const GridTriangle& t) {
     double viewed = 0.0;
-    if (!must_split(s, t.split(), std::array{t.apex, t.b, t.c}, s.measured->error(t.split()) + between(s), viewed)) return;
+    if (!must_split(s, t.split(), std::array{t.apex, t.b, t.c}, s.measured->error(t.split()) + s.cells, viewed)) return;
     if (!t.first().can_split()) {
       error_ = std::max(error_, 0.5 * viewed);
       return;

@@ -118,7 +118,7 @@ Presence presence_of(const SceneDescription& scene, const ObjectDescription& o, 
   return p;
 }
 
-// With fewer vertices, a regular mesh is drawn in less time than an adaptive one is made.
+// With fewer vertices, a frame with a regular mesh takes no longer than one with an adaptive mesh (study adaptive_tessellation).
 constexpr int64_t kMinAdaptiveVertices = 1 << 17;
 
 // Returns true for a displaced sphere whose picture depends on its mesh only by the places of its points.

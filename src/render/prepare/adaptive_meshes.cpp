@@ -17,7 +17,8 @@ namespace halfspace::HS_LANES {
 
 namespace {
 
-constexpr uint64_t kMaxAdaptiveTriangles = uint64_t{1} << 26;  // of all copies; regular meshes have twice their limit of vertices
+// Of all copies of an object: two per vertex that the regular meshes of a scene may have.
+constexpr uint64_t kMaxAdaptiveTriangles = uint64_t{1} << 26;
 
 // Patches are about square on a shape of default size.
 PatchGrid grid_of(Shape shape) {
@@ -30,9 +31,8 @@ PatchGrid grid_of(Shape shape) {
 }
 
 std::unique_ptr<const ParametricSurface> surface_of(const ObjectDescription& o, const HeightField* field) {
-  if (o.shape == Shape::uv_sphere) {
+  if (o.shape == Shape::uv_sphere)
     return std::make_unique<SphereSurface>(field, o.radius, o.height_scale, o.height_zero, relief_normals(o));
-  }
   std::optional<Displacement> displacement;
   if (field != nullptr) displacement = Displacement{field, o.height_scale, o.height_zero};
   const auto make = [&](auto point) { return std::make_unique<PointSurface>(point, displacement); };
