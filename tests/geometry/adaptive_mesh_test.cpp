@@ -166,6 +166,15 @@ TEST(AdaptiveMesh, FindsWhatMayBeBetweenTheVertices) {
   EXPECT_LT(m.indices.size(), 3u * 2 * 64 * 64 / 8) << "only the surroundings are fine";
 }
 
+// A roof with a peak of 0.8 on it, between the vertices of the coarsest grid. The peak is 1.55 above the whole square, but 0.8 above the
+// roof, and the ridge is 0.8 above the square. With 1 allowed, only the roof is needed.
+TEST(AdaptiveMesh, AddsWhatQuartersMeasure) {
+  const PointSurface roof =
+      sheet_of([](double u, double v) { return 0.8 * (1.0 - std::abs(2.0 * u - 1.0)) + (u == 15.0 / 32 && v == 15.0 / 32 ? 0.8 : 0.0); });
+  const AdaptiveMesh m = adapted(roof, {}, {exact_error, 1.0, [](int columns, int) { return columns < 32 ? 2.0 : 0.0; }});
+  EXPECT_EQ(m.mesh.indices.size(), 3u * 6);
+}
+
 TEST(AdaptiveMesh, ReportsTheErrorAtItsLimit) {
   const AdaptiveMesh m = adapted(bowl(), {}, {exact_error, 1e-9});
   const int cells = 16 << AdaptiveSurface::kMaxDepth;
