@@ -4,7 +4,8 @@
 # must be at most 1%.
 #
 # emitted_primitives removes what draws of emitted primitives need in a pass; geometry_stage, tessellation and layers_and_viewports remove
-# what only these stages need. There is no patch for transform feedback: capture() is a function of its own, which no pass calls.
+# what only these stages need. There is no patch for transform feedback and blits: capture() and blit() are functions of their own, which no
+# pass calls. A clear in a pass is recorded as a draw, and a target is always a view of texels.
 #
 #   scripts/dev/off_costs.sh [FEATURE...]     default: all patches in tests/off, which takes about an hour on two cores
 set -euo pipefail
