@@ -16,23 +16,42 @@ struct AnyTexture {
   const detail::TextureTable& table;
 };
 
-/// A lookup in layer 0 of a texture, for any sampler.
+/// A lookup for any sampler.
 template <class R, class Texels>
 struct AnyLookup {
-  const detail::TextureLookup<R, Texels>& lookup;
+  const detail::TextureLookup<R, Texels, detail::OnlyTwoD>& lookup;
 
-  HS_INLINE vec4<R> operator()(const vec2<R>& uv, const detail::LevelChoice<R>& levels) const {
-    return lookup(detail::LevelPlace<R>{vec3<R>(uv, R(0.0f)), IntOf<R>(0)}, levels);
-  }
+  HS_INLINE vec4<R> operator()(const vec2<R>& uv, const detail::LevelChoice<R>& levels) const { return lookup(place(uv), levels); }
   HS_INLINE vec4<R> finish(const vec4<R>& v) const { return lookup.finish(v); }
+  /// Returns the color of the nearest texel of level 0.
+  HS_INLINE vec4<R> nearest(const vec2<R>& uv) const { return finish(lookup.nearest_texel(lookup.table.level[0], place(uv))); }
+
+ private:
+  HS_INLINE static detail::LevelPlace<R> place(const vec2<R>& uv) { return {vec3<R>(uv, R(0.0f)), IntOf<R>(0)}; }
 };
+
+/// Returns whether a sampler always reads the nearest texel of level 0.
+bool reads_one_texel(const Sampler& sampler) {
+  return sampler.mag == Filter::nearest && sampler.min == Filter::nearest && sampler.anisotropy <= 1 &&
+         !detail::has_special_levels(sampler);
+}
 
 /// Not inlined, so that common lookups do not pay for its variables.
 template <class R, class Texels, class Function>
-__attribute__((noinline)) vec4<R> with_any_lookup(const AnyTexture& texture, const Sampler& sampler, const Function& function) {
+__attribute__((noinline)) vec4<R> call_with_lookup(const AnyTexture& texture, const Sampler& sampler, const Function& function) {
   const Texels texels;
-  const detail::TextureLookup<R, Texels> lookup{texture.base, texture.table, sampler, texels};
+  const detail::TextureLookup<R, Texels, detail::OnlyTwoD> lookup{texture.base, texture.table, sampler, texels};
   return function(AnyLookup<R, Texels>{lookup});
+}
+
+/// Calls function with an AnyLookup of the texture.
+template <class R, class Function>
+HS_INLINE vec4<R> with_any_lookup(const AnyTexture& texture, const Sampler& sampler, const Function& function) {
+  switch (texture.table.format) {
+    case TexelFormat::rgba8: return call_with_lookup<R, detail::FourBytes<R, TexelFormat::rgba8>>(texture, sampler, function);
+    case TexelFormat::srgb8a8: return call_with_lookup<R, detail::FourBytes<R, TexelFormat::srgb8a8>>(texture, sampler, function);
+    default: return call_with_lookup<R, detail::AllChannels<R>>(texture, sampler, function);
+  }
 }
 
 }  // namespace
@@ -49,12 +68,7 @@ HS_INLINE vec4<R> Texture2D::with_lookup(const Sampler& sampler, const Function&
       default: return function(CommonLookup<vec4<R>, TexelFormat::srgb8a8, R>{*this, sampler});
     }
   }
-  const AnyTexture any{reinterpret_cast<const std::byte*>(texels_.data()), table_};
-  switch (format_) {
-    case TexelFormat::rgba8: return with_any_lookup<R, detail::FourBytes<R, TexelFormat::rgba8>>(any, sampler, function);
-    case TexelFormat::srgb8a8: return with_any_lookup<R, detail::FourBytes<R, TexelFormat::srgb8a8>>(any, sampler, function);
-    default: return with_any_lookup<R, detail::AllChannels<R>>(any, sampler, function);
-  }
+  return with_any_lookup<R>(AnyTexture{reinterpret_cast<const std::byte*>(texels_.data()), table_}, sampler, function);
 }
 
 template <class R>
@@ -69,6 +83,9 @@ vec4<R> Texture2D::sample_level_any(const Sampler& sampler, const vec2<R>& uv, c
 
 template <class R>
 vec4<R> Texture2D::sample_any(const Sampler& sampler, const vec2<R>& uv, const vec2<R>& duv_dx, const vec2<R>& duv_dy) const {
+  if (reads_one_texel(sampler))
+    return with_any_lookup<R>(AnyTexture{reinterpret_cast<const std::byte*>(texels_.data()), table_}, sampler,
+                              [&](const auto& lookup) { return lookup.nearest(uv); });
   if (sampler.anisotropy <= 1) {
     if (detail::has_special_levels(sampler)) return sample_level_any(sampler, uv, level_of_detail(width(), height(), duv_dx, duv_dy));
     return sample_levels(sampler, uv, levels_of(sampler, duv_dx, duv_dy));

@@ -66,10 +66,23 @@ Value for_each_level(IntOf<R> index, const F& f) {
   return value;
 }
 
-/// Texels reads the value of a texel, given the reader of a level (texel_reader.h) and the index of the texel in units of the format:
-/// operator()(reader, i), to_linear(reader, value), which converts a value, filtered or not, to a linear one, and border(color), the value
-/// of the border.
-template <class R, class Texels>
+/// The kind of a texture and an offset, of which a lookup learns when it runs.
+struct AnyKind {
+  static constexpr bool has_layers = true;
+  TextureKind kind;
+  glm::ivec3 offset{0};  ///< in texels of the level that is read
+};
+/// A 2D texture without an offset: a lookup has no code for other kinds.
+struct OnlyTwoD {
+  static constexpr bool has_layers = false;
+  static constexpr TextureKind kind = TextureKind::two_d;
+  static constexpr glm::ivec3 offset{0};
+};
+
+/// Kind: AnyKind or OnlyTwoD. Texels reads the value of a texel, given the reader of a level (texel_reader.h) and the index of the texel in
+/// units of the format: operator()(reader, i), to_linear(reader, value), which converts a value, filtered or not, to a linear one, and
+/// border(color, format), the value of the border. is_one_unit: a texel of all its formats is one unit.
+template <class R, class Texels, class Kind = AnyKind>
 struct TextureLookup {
   using Value = typename Texels::Value;
   using I = IntOf<R>;
@@ -78,19 +91,19 @@ struct TextureLookup {
   const TextureTable& table;
   const Sampler& sampler;
   const Texels& texels;
-  glm::ivec3 offset{0};
+  [[no_unique_address]] Kind of{};
   int stride = texel_info(table.format).bytes / texel_unit(table.format);
-  bool has_border = uses_border(table, sampler);
-  Value border = has_border ? texels.border(clamped_border(sampler.border_color, table.format)) : Value{};
+  bool has_border = uses_border();
+  Value border = has_border ? texels.border(sampler.border_color, table.format) : Value{};
 
-  static bool uses_border(const TextureTable& table, const Sampler& sampler) {
-    if (is_cube(table.kind)) return false;
-    return sampler.wrap_s == Wrap::border || (has_rows(table.kind) && sampler.wrap_t == Wrap::border) ||
-           (table.kind == TextureKind::three_d && sampler.wrap_r == Wrap::border);
+  bool uses_border() const {
+    if (is_cube(of.kind)) return false;
+    return sampler.wrap_s == Wrap::border || (has_rows(of.kind) && sampler.wrap_t == Wrap::border) ||
+           (of.kind == TextureKind::three_d && sampler.wrap_r == Wrap::border);
   }
 
   HS_INLINE TexelAxis axis_of(int size, Wrap wrap) const {
-    return {size, table.kind == TextureKind::rectangle ? 1.0f : static_cast<float>(size), wrap};
+    return {size, of.kind == TextureKind::rectangle ? 1.0f : static_cast<float>(size), wrap};
   }
   HS_INLINE static WrappedCoordinate<R> wrapped_at(R coordinate, const TexelAxis& axis, int offset) {
     const R moved = offset == 0 ? coordinate : coordinate + R(static_cast<float>(offset) / axis.scale);
@@ -109,6 +122,22 @@ struct TextureLookup {
     return t;
   }
 
+  /// The distance of a texel from the first one of its row.
+  HS_INLINE I in_row(I x) const {
+    if constexpr (Texels::is_one_unit) {
+      return x;
+    } else {
+      return x * I(stride);
+    }
+  }
+  /// The index of the first texel of a layer.
+  HS_INLINE I start_of_layer(const TextureLevel& l, I layer) const {
+    if constexpr (Kind::has_layers) {
+      return layer * I(l.layer_pitch);
+    } else {
+      return I(0);
+    }
+  }
   HS_INLINE TexelReader<R> reader(const TextureLevel& level) const { return {table.format, base + level.offset}; }
 
   HS_INLINE Value texel(const TexelReader<R>& from, I index, MaskOf<R> inside) const {
@@ -121,7 +150,7 @@ struct TextureLookup {
                            bool single) const {
     const TexelReader<R> from = reader(l);
     const I row0 = layer + y.first * I(l.row_pitch), row1 = layer + y.second * I(l.row_pitch);
-    const I column0 = x.first * I(stride), column1 = x.second * I(stride);
+    const I column0 = in_row(x.first), column1 = in_row(x.second);
     const MaskOf<R> first_row = y.first_inside && inside, second_row = y.second_inside && inside;
     const Value first = texel(from, row0 + column0, x.first_inside && first_row);
     if (single) return first;
@@ -139,7 +168,7 @@ struct TextureLookup {
     const I last(l.width - 1);
     const auto read = [&](const I& i, const I& j) {
       const CubeTexel<I> t = cube_texel<R>(face, i, j, l.width);
-      return texels(from, (cube + t.face) * I(l.layer_pitch) + t.y * I(l.row_pitch) + t.x * I(stride));
+      return texels(from, (cube + t.face) * I(l.layer_pitch) + t.y * I(l.row_pitch) + in_row(t.x));
     };
     std::array<Value, 4> v{read(x, y), read(x + I(1), y), read(x, y + I(1)), read(x + I(1), y + I(1))};
     const MaskOf<R> left = x < I(0), right = x >= last, low = y < I(0), high = y >= last;
@@ -162,7 +191,7 @@ struct TextureLookup {
     const Axis<R> x = between_texels(wrap_coordinate(at.st.x, axis), axis, nearest),
                   y = between_texels(wrap_coordinate(at.st.y, axis), axis, nearest);
     if (single) {
-      return texels(reader(l), at.layer * I(l.layer_pitch) + y.i * I(l.row_pitch) + x.i * I(stride));
+      return texels(reader(l), at.layer * I(l.layer_pitch) + y.i * I(l.row_pitch) + in_row(x.i));
     }
     const std::array<Value, 4> v = cube_square(l, cube, face, x.i, y.i);
     return lerp(lerp(v[0], v[1], x.fraction), lerp(v[2], v[3], x.fraction), y.fraction);
@@ -171,10 +200,9 @@ struct TextureLookup {
 
   /// Reads the nearest texel of one level. Not for cubes and volumes.
   HS_INLINE Value nearest_texel(const TextureLevel& l, const LevelPlace<R>& at) const {
-    const TexelAxis columns = axis_of(l.width, sampler.wrap_s),
-                    rows = axis_of(l.height, has_rows(table.kind) ? sampler.wrap_t : Wrap::clamp);
-    const I x = texel_at(wrapped_at(at.st.x, columns, offset.x), columns), y = texel_at(wrapped_at(at.st.y, rows, offset.y), rows);
-    const I index = at.layer * I(l.layer_pitch) + clamped_index<R>(y, l.height) * I(l.row_pitch) + clamped_index<R>(x, l.width) * I(stride);
+    const TexelAxis columns = axis_of(l.width, sampler.wrap_s), rows = axis_of(l.height, has_rows(of.kind) ? sampler.wrap_t : Wrap::clamp);
+    const I x = texel_at(wrapped_at(at.st.x, columns, of.offset.x), columns), y = texel_at(wrapped_at(at.st.y, rows, of.offset.y), rows);
+    const I index = start_of_layer(l, at.layer) + clamped_index<R>(y, l.height) * I(l.row_pitch) + in_row(clamped_index<R>(x, l.width));
     const auto inside = [](I i, const TexelAxis& axis) { return axis.wrap == Wrap::border ? is_inside<R>(i, axis.size) : MaskOf<R>(true); };
     const MaskOf<R> is_texel = inside(x, columns) && inside(y, rows);
     if (has_border && !any(is_texel)) return border;
@@ -185,20 +213,19 @@ struct TextureLookup {
   Value filter(const LevelPlace<R>& at, int level, MaskOf<R> nearest) const {
     const TextureLevel& l = table.level[static_cast<std::size_t>(level)];
     const bool single = all(nearest);
-    if (is_cube(table.kind)) return in_cube(l, at, nearest, single);
-    if (single && table.kind != TextureKind::three_d) return nearest_texel(l, at);
-    const AxisTaps<R> x = taps_at(at.st.x, axis_of(l.width, sampler.wrap_s), offset.x, nearest),
-                      y = taps_at(at.st.y, axis_of(l.height, has_rows(table.kind) ? sampler.wrap_t : Wrap::clamp), offset.y, nearest);
-    const I pitch(l.layer_pitch);
-    if (table.kind != TextureKind::three_d) {
+    if (is_cube(of.kind)) return in_cube(l, at, nearest, single);
+    if (single && of.kind != TextureKind::three_d) return nearest_texel(l, at);
+    const AxisTaps<R> x = taps_at(at.st.x, axis_of(l.width, sampler.wrap_s), of.offset.x, nearest),
+                      y = taps_at(at.st.y, axis_of(l.height, has_rows(of.kind) ? sampler.wrap_t : Wrap::clamp), of.offset.y, nearest);
+    if (of.kind != TextureKind::three_d) {
       // Large areas outside the image are common, for example around a decal.
       if (has_border && !any((x.first_inside || x.second_inside) && (y.first_inside || y.second_inside))) return border;
-      return in_layer(l, x, y, at.layer * pitch, MaskOf<R>(true), false);
+      return in_layer(l, x, y, start_of_layer(l, at.layer), MaskOf<R>(true), false);
     }
-    const AxisTaps<R> z = taps_at(at.st.z, axis_of(l.depth, sampler.wrap_r), offset.z, nearest);
-    const Value front = in_layer(l, x, y, z.first * pitch, z.first_inside, single);
+    const AxisTaps<R> z = taps_at(at.st.z, axis_of(l.depth, sampler.wrap_r), of.offset.z, nearest);
+    const Value front = in_layer(l, x, y, start_of_layer(l, z.first), z.first_inside, single);
     if (single) return front;
-    return lerp(front, in_layer(l, x, y, z.second * pitch, z.second_inside, false), z.fraction);
+    return lerp(front, in_layer(l, x, y, start_of_layer(l, z.second), z.second_inside, false), z.fraction);
   }
 
   /// Filters the levels of a choice.
@@ -217,23 +244,30 @@ struct TextureLookup {
 template <class R>
 struct AllChannels {
   using Value = vec4<R>;
+  static constexpr bool is_one_unit = false;
   Value operator()(const TexelReader<R>& from, IntOf<R> i) const { return from(i); }
   HS_INLINE Value to_linear(const TexelReader<R>& from, const Value& v) const { return from.to_linear(v); }
-  HS_INLINE Value border(const glm::vec4& color) const { return {R(color.x), R(color.y), R(color.z), R(color.w)}; }
+  HS_INLINE Value border(const glm::vec4& color, TexelFormat format) const {
+    const glm::vec4 c = clamped_border(color, format);
+    return {R(c.x), R(c.y), R(c.z), R(c.w)};
+  }
 };
 
 /// Reads all channels of an 8-bit format, which is known at compile time.
 template <class R, TexelFormat format>
 struct FourBytes : AllChannels<R> {
   using Value = vec4<R>;
+  static constexpr bool is_one_unit = true;
   HS_INLINE Value operator()(const TexelReader<R>& from, IntOf<R> i) const { return decode_rgba8<Value, format, R>(from.word(i)); }
   HS_INLINE Value to_linear(const TexelReader<R>&, const Value& v) const { return rgba8_to_linear<format>(v); }
+  HS_INLINE Value border(const glm::vec4& color, TexelFormat) const { return AllChannels<R>::border(color, format); }
 };
 
 /// Reads the result of a comparison of a reference with red: 1 if it passes, else 0.
 template <class R>
 struct ComparedRed {
   using Value = R;
+  static constexpr bool is_one_unit = false;
   CompareOp op;
   R reference;
 
@@ -242,7 +276,7 @@ struct ComparedRed {
     return compared(is_depth(from.format) ? from.depth(i) : from.to_linear(from(i)).x);
   }
   HS_INLINE Value to_linear(const TexelReader<R>&, Value v) const { return v; }
-  HS_INLINE Value border(const glm::vec4& color) const { return compared(R(color.x)); }
+  HS_INLINE Value border(const glm::vec4& color, TexelFormat format) const { return compared(R(clamped_border(color, format).x)); }
 };
 
 /// Covers an elongated footprint with probes. probe(along) returns the value at the center plus along · area.span. The running mean stays

@@ -104,11 +104,12 @@ bool is_anisotropic(const TextureTable& table, const Sampler& sampler) {
 template <class R, class Texels>
 auto sample_with(const Texels& texels, const TextureSource& source, const Sampler& sampler, const TexturePlace<R>& place,
                  const TextureSlopes<R>& slopes, const LookupOptions& options) {
-  const TextureLookup<R, Texels> lookup{source.base, source.table, sampler, texels, options.offset};
+  const TextureLookup<R, Texels> lookup{source.base, source.table, sampler, texels, {source.table.kind, options.offset}};
   const Sampled<R> s = sampled(source, place, slopes);
   if (!is_anisotropic(source.table, sampler)) return lookup.finish(lookup(s.at, levels_at(source, sampler, s.lod + R(options.bias))));
   const TextureLevel& l = finest(source);
-  const Footprint<R> area = footprint(l.width, l.height, vec2<R>(slopes.dx), vec2<R>(slopes.dy), std::min(sampler.anisotropy, kMaxAnisotropy));
+  const Footprint<R> area =
+      footprint(l.width, l.height, vec2<R>(slopes.dx), vec2<R>(slopes.dy), std::min(sampler.anisotropy, kMaxAnisotropy));
   const LevelChoice<R> levels = levels_at(source, sampler, area.lod + R(options.bias));
   return lookup.finish(mean_of_probes<R>(area, [&](R along) {
     LevelPlace<R> at = s.at;
@@ -121,7 +122,7 @@ auto sample_with(const Texels& texels, const TextureSource& source, const Sample
 template <class R, class Texels>
 auto sample_level_with(const Texels& texels, const TextureSource& source, const Sampler& sampler, const TexturePlace<R>& place, R lod,
                        const glm::ivec3& offset) {
-  const TextureLookup<R, Texels> lookup{source.base, source.table, sampler, texels, offset};
+  const TextureLookup<R, Texels> lookup{source.base, source.table, sampler, texels, {source.table.kind, offset}};
   return lookup.finish(lookup(sampled_place(source, place), levels_at(source, sampler, lod)));
 }
 
@@ -142,7 +143,7 @@ auto gathered(const Texels& texels, const TextureSource& source, const Sampler& 
               const glm::ivec3& offset) {
   using Lookup = TextureLookup<R, Texels>;
   using Value = typename Texels::Value;
-  const Lookup lookup{source.base, source.table, sampler, texels, offset};
+  const Lookup lookup{source.base, source.table, sampler, texels, {source.table.kind, offset}};
   const LevelPlace<R> at = sampled_place(source, place);
   const TextureLevel& l = finest(source);
   const TexelReader<R> from = lookup.reader(l);
@@ -161,7 +162,7 @@ auto gathered(const Texels& texels, const TextureSource& source, const Sampler& 
                     y = Lookup::ordered_taps_at(at.st.y, lookup.axis_of(l.height, sampler.wrap_t), offset.y);
   const IntOf<R> layer = at.layer * IntOf<R>(l.layer_pitch);
   const auto texel = [&](IntOf<R> i, MaskOf<R> column_inside, IntOf<R> j, MaskOf<R> row_inside) {
-    const IntOf<R> index = layer + j * IntOf<R>(l.row_pitch) + i * IntOf<R>(lookup.stride);
+    const IntOf<R> index = layer + j * IntOf<R>(l.row_pitch) + lookup.in_row(i);
     return lookup.finish(lookup.texel(from, index, column_inside && row_inside));
   };
   return std::array<Value, 4>{
@@ -196,6 +197,7 @@ ivec4<R> read_integers(const TexelReader<R>& from, IntOf<R> i) {
 /// Integers that are never blended, as the Texels of a lookup that reads the nearest texel.
 template <class R>
 struct IntegerTexels {
+  static constexpr bool is_one_unit = false;
   struct Value {
     ivec4<R> v;
     friend HS_INLINE Value select(MaskOf<R> m, const Value& a, const Value& b) {
@@ -207,9 +209,10 @@ struct IntegerTexels {
   };
   HS_INLINE Value operator()(const TexelReader<R>& from, IntOf<R> i) const { return {read_integers(from, i)}; }
   HS_INLINE Value to_linear(const TexelReader<R>&, const Value& v) const { return v; }
-  HS_INLINE Value border(const glm::vec4& color) const {
+  HS_INLINE Value border(const glm::vec4& color, TexelFormat format) const {
+    const glm::vec4 c = clamped_border(color, format);
     const auto integer = [](float x) { return IntOf<R>(round_to_int(x)); };
-    return {ivec4<R>(integer(color.x), integer(color.y), integer(color.z), integer(color.w))};
+    return {ivec4<R>(integer(c.x), integer(c.y), integer(c.z), integer(c.w))};
   }
 };
 
@@ -264,7 +267,7 @@ template <class R>
 ivec4<R> sample_integer_texture(const TextureSource& source, const Sampler& sampler, const TexturePlace<R>& place, const R& lod,
                                 const glm::ivec3& offset) {
   const IntegerTexels<R> texels;
-  const TextureLookup<R, IntegerTexels<R>> lookup{source.base, source.table, sampler, texels, offset};
+  const TextureLookup<R, IntegerTexels<R>> lookup{source.base, source.table, sampler, texels, {source.table.kind, offset}};
   Sampler nearest = sampler;
   nearest.mag = Filter::nearest;
   nearest.min = sampler.min <= Filter::bilinear ? Filter::nearest : Filter::nearest_mipmap_nearest;
