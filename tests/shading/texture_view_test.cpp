@@ -513,6 +513,29 @@ TEST(TextureGather, ReturnsTheFourTexelsThatABilinearLookupBlends) {
   }
 }
 
+TEST(TextureGather, ReturnsIntegersWithoutRounding) {
+  TextureMemory memory(TextureKind::two_d, TexelFormat::rgba32ui, {3, 2});
+  const TexelView texels = memory.level(0);
+  for (uint32_t i = 0; i < 6; ++i) {
+    const uint32_t codes[] = {0xfffffff0u + i, i, 0x01000001u + i, 7};  // more bits than a float has
+    std::memcpy(texels.at(static_cast<int>(i % 3), static_cast<int>(i / 3)), codes, sizeof codes);
+  }
+  const Texture2DView view = memory.view<TextureKind::two_d>();
+  const auto expect_column = [&](int component, int column, const ivec4<float>& four) {
+    const auto code = [&](int x, int y) { return view.fetch_integers<float>(ivec3<float>(x, y, 0))[component]; };
+    const int expected[] = {code(column, 1), code(column + 1, 1), code(column + 1, 0), code(column, 0)};
+    for (int k = 0; k < 4; ++k) EXPECT_EQ(four[k], expected[k]) << component;
+  };
+  const vec2<float> left(0.4f, 0.5f), right(0.6f, 0.5f);  // between the columns 0 and 1, and 1 and 2
+  for (int component = 0; component < 4; ++component) {
+    expect_column(component, 0, view.gather_integers(Sampler{}, left, component));
+    expect_column(component, 1, view.gather_integers(Sampler{}, left, component, glm::ivec3(1, 0, 0)));
+    expect_column(component, 1, view.gather_integers(Sampler{}, right, component));
+  }
+  EXPECT_EQ(static_cast<uint32_t>(view.gather_integers(Sampler{}, right, 0).x), 0xfffffff4u);
+  EXPECT_EQ(view.gather_integers(Sampler{}, right, 2).w, 0x01000002);
+}
+
 TEST(TextureGather, KeepsItsOrderWhereTheImageIsMirrored) {
   TextureMemory memory(TextureKind::two_d, TexelFormat::r32f, {4, 4});
   for (int i = 0; i < 16; ++i) memory.set(i % 4, i / 4, 0, 0, glm::vec4(static_cast<float>(i)));
@@ -552,6 +575,22 @@ TEST(TextureViews, ProjectedLookupsDivideCoordinatesAndDerivatives) {
   const float lod =
       view.sample_projected(Sampler{}, vec2<float>(0.5f, 0.5f), vec2<float>(0.25f, 0.0f), vec2<float>(0.0f), 2.0f, 0.5f, 0.0f).x;
   EXPECT_EQ(lod, 2.5f);
+}
+
+TEST(TextureViews, ProjectedComparisonsDivideTheReferenceToo) {
+  TextureMemory memory(TextureKind::two_d, TexelFormat::d32f, {2, 2}, 2);
+  for (int i = 0; i < 4; ++i) memory.set(i % 2, i / 2, 0, 0, glm::vec4(0.25f));
+  memory.set(0, 0, 0, 1, glm::vec4(0.75f));
+  const Texture2DView view = memory.view<TextureKind::two_d>();
+  const vec2<float> p(1.0f, 1.0f), still(0.0f), whole(4.0f, 0.0f);  // with divisor 2, `whole` is 4 texels per pixel: level 1
+  const Sampler sampler{.min = Filter::nearest_mipmap_nearest, .compare = CompareOp::less};
+  const auto compare = [&](float reference, const vec2<float>& dx) {
+    return view.sample_compare_projected(sampler, p, reference, dx, still, 2.0f, 0.0f, 0.0f);
+  };
+  EXPECT_EQ(compare(0.4f, still), 1.0f);  // 0.2 < 0.25
+  EXPECT_EQ(compare(0.6f, still), 0.0f);  // 0.3 > 0.25
+  EXPECT_EQ(compare(0.6f, whole), 1.0f);  // 0.3 < 0.75
+  EXPECT_EQ(compare(1.6f, whole), 0.0f);
 }
 
 // ---- cubes ------------------------------------------------------------------------------------------------------------------------------

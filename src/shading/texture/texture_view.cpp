@@ -264,6 +264,14 @@ vec4<R> gather_compared(const TextureSource& source, const Sampler& sampler, con
 }
 
 template <class R>
+ivec4<R> gather_integer_texture(const TextureSource& source, const Sampler& sampler, const TexturePlace<R>& place, int component,
+                                const glm::ivec3& offset) {
+  const auto v = gathered(IntegerTexels<R>{}, source, sampler, place, offset);
+  const auto channel = [&](std::size_t k) { return swizzled(source.table, v[k].v, IntOf<R>(0), IntOf<R>(1))[component]; };
+  return {channel(0), channel(1), channel(2), channel(3)};
+}
+
+template <class R>
 ivec4<R> sample_integer_texture(const TextureSource& source, const Sampler& sampler, const TexturePlace<R>& place, const R& lod,
                                 const glm::ivec3& offset) {
   const IntegerTexels<R> texels;
@@ -303,8 +311,9 @@ vec2<R> query_texture_lod(const TextureSource& source, const Sampler& sampler, c
 template <class R>
 struct Instances {
   static constexpr auto kAll =
-      std::tuple{&sample_texture<R>,  &sample_texture_level<R>,   &compare_texture<R>, &compare_texture_level<R>, &gather_texture<R>,
-                 &gather_compared<R>, &sample_integer_texture<R>, &fetch_texel<R>,     &fetch_integer_texel<R>,   &query_texture_lod<R>};
+      std::tuple{&sample_texture<R>, &sample_texture_level<R>, &compare_texture<R>,        &compare_texture_level<R>,
+                 &gather_texture<R>, &gather_compared<R>,      &gather_integer_texture<R>, &sample_integer_texture<R>,
+                 &fetch_texel<R>,    &fetch_integer_texel<R>,  &query_texture_lod<R>};
 };
 template struct Instances<float>;
 template struct Instances<double>;

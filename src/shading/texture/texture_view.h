@@ -148,9 +148,8 @@ class TextureView {
                                                     std::type_identity_t<R> divisor, std::type_identity_t<R> divisor_dx,
                                                     std::type_identity_t<R> divisor_dy, const LookupOptions& options = {})
   const {
-    const R inverse = R(1.0f) / divisor;
-    const P q = p * inverse;
-    return sample(sampler, q, P((dp_dx - q * divisor_dx) * inverse), P((dp_dy - q * divisor_dy) * inverse), options);
+    const Quotients<P> q = quotients<R>(p, dp_dx, dp_dy, divisor, divisor_dx, divisor_dy);
+    return sample(sampler, q.at, q.dx, q.dy, options);
   }
 
   /// Lookups of GLSL's shadow samplers: compares `reference` with the red of each texel (Sampler::compare), and filters the results, 1
@@ -169,6 +168,17 @@ class TextureView {
                                                                                  const glm::ivec3& offset = glm::ivec3(0))
   const;
 
+  /// GLSL's textureProj() of shadow samplers: also divides the reference by `divisor`. Not for arrays and cubes.
+  template <class P, class R = CoordinateReal<P>>
+  requires(std::is_same_v<P, TextureCoordinates<kind, R>> && !is_array(kind) && !is_cube(kind)) R
+      sample_compare_projected(const Sampler& sampler, const P& p, std::type_identity_t<R> reference, const P& dp_dx, const P& dp_dy,
+                               std::type_identity_t<R> divisor, std::type_identity_t<R> divisor_dx, std::type_identity_t<R> divisor_dy,
+                               const LookupOptions& options = {})
+  const {
+    const Quotients<P> q = quotients<R>(p, dp_dx, dp_dy, divisor, divisor_dx, divisor_dy);
+    return sample_compare(sampler, q.at, reference / divisor, q.dx, q.dy, options);
+  }
+
   /// GLSL's textureGather(): returns one component of the four texels of level 0 that a bilinear lookup blends, in the order
   /// (s0, t1), (s1, t1), (s1, t0), (s0, t0). Only for kinds with layers of two dimensions.
   template <class P, class R = CoordinateReal<P>>
@@ -180,6 +190,12 @@ class TextureView {
   requires std::is_same_v<P, TextureCoordinates<kind, R>> vec4<R> gather_compare(const Sampler& sampler, const P& p,
                                                                                  std::type_identity_t<R> reference,
                                                                                  const glm::ivec3& offset = glm::ivec3(0))
+  const;
+
+  /// The same as gather() for integer formats. Unsigned values are returned as their bits.
+  template <class P, class R = CoordinateReal<P>>
+  requires std::is_same_v<P, TextureCoordinates<kind, R>> ivec4<R> gather_integers(const Sampler& sampler, const P& p, int component = 0,
+                                                                                   const glm::ivec3& offset = glm::ivec3(0))
   const;
 
   /// Reads the texel of an integer texture that contains the coordinates, in the nearest level. Unsigned values are returned as their bits.
@@ -205,6 +221,18 @@ class TextureView {
   const;
 
  private:
+  /// Projected coordinates and their derivatives.
+  template <class P>
+  struct Quotients {
+    P at, dx, dy;
+  };
+  template <class R, class P>
+  static HS_INLINE Quotients<P> quotients(const P& p, const P& dp_dx, const P& dp_dy, R divisor, R divisor_dx, R divisor_dy) {
+    const R inverse = R(1.0f) / divisor;
+    const P q = p * inverse;
+    return {q, P((dp_dx - q * divisor_dx) * inverse), P((dp_dy - q * divisor_dy) * inverse)};
+  }
+
   const detail::TextureLevel& of(int level) const { return table_.level[static_cast<std::size_t>(level)]; }
   detail::TextureSource source() const { return {base_, table_}; }
 
@@ -245,6 +273,9 @@ __attribute__((pure)) vec4<R> gather_texture(const TextureSource&, const Sampler
 template <class R>
 __attribute__((pure)) vec4<R> gather_compared(const TextureSource&, const Sampler&, const TexturePlace<R>&, const R& reference,
                                               const glm::ivec3& offset);
+template <class R>
+__attribute__((pure)) ivec4<R> gather_integer_texture(const TextureSource&, const Sampler&, const TexturePlace<R>&, int component,
+                                                      const glm::ivec3& offset);
 template <class R>
 __attribute__((pure)) ivec4<R> sample_integer_texture(const TextureSource&, const Sampler&, const TexturePlace<R>&, const R& lod,
                                                       const glm::ivec3& offset);
@@ -321,6 +352,12 @@ template <class P, class R>
 requires std::is_same_v<P, TextureCoordinates<kind, R>> HS_INLINE vec4<R> TextureView<kind>::gather_compare(
     const Sampler& sampler, const P& p, std::type_identity_t<R> reference, const glm::ivec3& offset)
 const { return detail::gather_compared<R>(source(), sampler, detail::texture_place<kind>(p), reference, offset); }
+template <TextureKind kind>
+template <class P, class R>
+requires std::is_same_v<P, TextureCoordinates<kind, R>> HS_INLINE ivec4<R> TextureView<kind>::gather_integers(const Sampler& sampler,
+                                                                                                              const P& p, int component,
+                                                                                                              const glm::ivec3& offset)
+const { return detail::gather_integer_texture<R>(source(), sampler, detail::texture_place<kind>(p), component, offset); }
 template <TextureKind kind>
 template <class P, class R>
 requires std::is_same_v<P, TextureCoordinates<kind, R>> HS_INLINE ivec4<R> TextureView<kind>::sample_integers(const Sampler& sampler,
