@@ -64,6 +64,10 @@ void fill_with_noise(TextureMemory& memory);
 /// level.
 std::vector<Point> points_of(const LookupCase& c, TextureMemory& memory);
 
+/// The color or the depth of a texel in double precision, from its bytes (OpenGL 4.6, sections 2.3.4 and 2.3.5), and its stencil.
+glm::dvec4 decoded(TexelFormat format, const std::byte* texel);
+double stencil_of(TexelFormat format, const std::byte* texel);
+
 /// The answer of a call, and the range of the texels that contribute to each of its components.
 struct Answer {
   glm::dvec4 value{0.0}, low{0.0}, high{0.0};

@@ -59,6 +59,8 @@ double channel(const TexelInfo& info, uint32_t code, int bits, int k) {
   return small_float(code, bits - 5);
 }
 
+}  // namespace
+
 glm::dvec4 decoded(TexelFormat format, const std::byte* texel) {
   const TexelInfo& info = texel_info(format);
   glm::dvec4 v(0.0, 0.0, 0.0, 1.0);
@@ -85,6 +87,8 @@ glm::dvec4 decoded(TexelFormat format, const std::byte* texel) {
 double stencil_of(TexelFormat format, const std::byte* texel) {
   return format == TexelFormat::d24s8 ? field(texel, 0, 8) : format == TexelFormat::d32fs8 ? field(texel, 32, 8) : 0;
 }
+
+namespace {
 
 // ---- cubes (section 8.13, table 8.19) ------------------------------------------------------------------------------
 

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <set>
 
 #include "conformance/texture_lookups.h"
@@ -113,12 +112,6 @@ std::string source_of(const LookupCase& c) {
          " image;\n    out " + output + "vec4 answer;\n    void main() { answer = " + call_of(c) + "; }";
 }
 
-// OpenGL has no upload of multisample textures, so a pass copies each sample from a layer.
-std::string sample_copy_of(const LookupCase& c) {
-  return "uniform " + prefix_of(c) + "sampler2DArray image;\n    out " + prefix_of(c) +
-         "vec4 color;\n    void main() { color = texelFetch(image, ivec3(gl_FragCoord.xy, gl_SampleID), 0); }";
-}
-
 // ---- drawing -------------------------------------------------------------------------------------------------------
 
 // Draws one pixel for each point.
@@ -157,7 +150,7 @@ class Renderer {
     const std::string prefix = c.function == Function::size ? "i" : prefix_of(c);
     const std::size_t target = prefix == "i" ? 1 : prefix == "u" ? 2 : 0;
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffers_[target]);
-    draw(kPoints + source_of(c), c, texture, kSide, kSide);
+    draw(kPoints + source_of(c), c, texture);
     std::vector<glm::dvec4> answers(points.size());
     const auto read = [&](auto pixels, GLenum format, GLenum type) {
       glGetTextureImage(targets_[target], 0, format, type, static_cast<GLsizei>(pixels.size() * sizeof(pixels[0])), pixels.data());
@@ -170,23 +163,8 @@ class Renderer {
     return answers;
   }
 
-  /// Draws the layers of a texture into the samples of another.
-  void copy_samples(const LookupCase& c, const TwinTexture& layers, const TwinTexture& samples) {
-    GLuint framebuffer = 0;
-    glCreateFramebuffers(1, &framebuffer);
-    glNamedFramebufferTexture(framebuffer, GL_COLOR_ATTACHMENT0, samples.mesa(), 0);
-    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-    glEnable(GL_MULTISAMPLE);
-    LookupCase fetch = c;
-    fetch.sampler = {.mag = Filter::nearest, .min = Filter::nearest};  // with others, textures of integers are incomplete
-    draw("#version 450 core\n    " + sample_copy_of(c), fetch, layers, c.size.width, c.size.height);
-    glBindFramebuffer(GL_FRAMEBUFFER, 0);
-    glDeleteFramebuffers(1, &framebuffer);
-    expect_no_error();
-  }
-
  private:
-  void draw(const std::string& source, const LookupCase& c, const TwinTexture& texture, int width, int height) {
+  void draw(const std::string& source, const LookupCase& c, const TwinTexture& texture) {
     const MesaDraw draw{"",
                         kVertex,
                         sources_.insert(source).first->c_str(),
@@ -194,7 +172,7 @@ class Renderer {
                         make_vertex_view(stream(triangle_)),
                         {0, 1, 2},
                         {}};
-    run(draw, TargetSpec{.width = width, .height = height}, programs_);
+    run(draw, TargetSpec{.width = kSide, .height = kSide}, programs_);
   }
 
   std::array<GLuint, 3> targets_{}, framebuffers_{};
@@ -342,14 +320,9 @@ TEST_F(MesaMultisampleTexture, SamplesAgree) {
         default: continue;
       }
       TwinTexture layers(TextureKind::two_d_array, c.format, c.size), samples(c.kind, c.format, c.size);
-      fill_with_noise(samples.ours());
-      for (int layer = 0; layer < c.size.depth; ++layer) {
-        for (int y = 0; y < c.size.height; ++y)
-          std::memcpy(layers.ours().level().at(0, y, layer), samples.ours().level().at(0, y, layer),
-                      static_cast<std::size_t>(c.size.width) * texel_info(c.format).bytes);
-      }
+      fill_with_noise(layers.ours());
       layers.upload();
-      renderer.copy_samples(c, layers, samples);
+      samples.copy_samples(layers);
       compare_with_mesa(c, samples, renderer, sum);
     }
   }

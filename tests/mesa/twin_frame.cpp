@@ -144,6 +144,66 @@ void TwinTexture::upload() {
   expect_no_error();
 }
 
+void TwinTexture::download(TextureMemory& texels) const {
+  const auto [format, type] = layout_of(format_);
+  const TexelView level = texels.level();
+  const std::size_t row_bytes = static_cast<std::size_t>(level.width) * texel_info(format_).bytes;
+  std::vector<std::byte> rows(row_bytes * static_cast<std::size_t>(level.height * level.layers));
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glGetTextureImage(id_, 0, format, type, static_cast<GLsizei>(rows.size()), rows.data());
+  expect_no_error();
+  const std::byte* row = rows.data();
+  for (int layer = 0; layer < level.layers; ++layer) {
+    for (int y = 0; y < level.height; ++y, row += row_bytes) {
+      std::memcpy(level.at(0, y, layer), row, row_bytes);
+      for (int x = 0; x < level.width && format_ == TexelFormat::d24; ++x) {  // see row_of
+        uint32_t word = 0;
+        std::memcpy(&word, level.at(x, y, layer), sizeof word);
+        word >>= 8;
+        std::memcpy(level.at(x, y, layer), &word, sizeof word);
+      }
+    }
+  }
+}
+
+void TwinTexture::copy_samples(TwinTexture& layers) {
+  for (int sample = 0; sample < size_.depth; ++sample) {
+    for (int y = 0; y < size_.height; ++y)
+      std::memcpy(memory_.level().at(0, y, sample), layers.ours().level().at(0, y, sample),
+                  static_cast<std::size_t>(size_.width) * texel_info(format_).bytes);
+  }
+  // OpenGL has no upload of multisample textures, so a pass copies each sample from a layer.
+  const std::string prefix = color_type(format_) == ColorType::signed_integer     ? "i"
+                             : color_type(format_) == ColorType::unsigned_integer ? "u"
+                                                                                  : "";
+  const std::string source = "#version 450 core\n    uniform " + prefix + "sampler2DArray image;\n    out " + prefix +
+                             "vec4 color;\n    void main() { color = texelFetch(image, ivec3(gl_FragCoord.xy, gl_SampleID), 0); }";
+  static constexpr const char* kVertex = R"(#version 450 core
+    layout(location = 0) in vec4 position;
+    void main() { gl_Position = position; })";
+  const std::vector<glm::vec4> triangle{{-1.0f, -1.0f, 0.0f, 1.0f}, {3.0f, -1.0f, 0.0f, 1.0f}, {-1.0f, 3.0f, 0.0f, 1.0f}};
+  GLuint framebuffer = 0;
+  glCreateFramebuffers(1, &framebuffer);
+  glNamedFramebufferTexture(framebuffer, GL_COLOR_ATTACHMENT0, id_, 0);
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+  glEnable(GL_MULTISAMPLE);
+  glEnable(GL_FRAMEBUFFER_SRGB);  // the shader reads linear colors
+  MesaPrograms programs;
+  const Sampler nearest{.mag = Filter::nearest, .min = Filter::nearest};  // with others, textures of integers are incomplete
+  test::run({"",
+             kVertex,
+             source.c_str(),
+             [&](const UniformSetter& set) { set("image", layers, nearest); },
+             make_vertex_view(stream(triangle)),
+             {0, 1, 2},
+             {}},
+            TargetSpec{.width = size_.width, .height = size_.height}, programs);
+  glDisable(GL_FRAMEBUFFER_SRGB);
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  glDeleteFramebuffers(1, &framebuffer);
+  expect_no_error();
+}
+
 namespace {
 
 void set_sampler(const TwinTexture& texture, const Sampler& sampler, bool compares) {

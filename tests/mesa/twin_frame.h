@@ -32,6 +32,10 @@ class TwinTexture {
 
   /// Copies all levels of ours() to Mesa. Not for multisample textures.
   void upload();
+  /// Copies level 0 of Mesa's texture to `texels`, which has the same kind, format and size. Not for multisample textures.
+  void download(TextureMemory& texels) const;
+  /// Copies the layers of a 2D array, which has been uploaded, to the samples of this texture, in both renderers.
+  void copy_samples(TwinTexture& layers);
   /// Sets the texels of level 0 in both: color(x, y, layer) returns a glm::vec4.
   template <class F>
   void fill(const F& color) {
