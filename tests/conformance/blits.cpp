@@ -22,8 +22,7 @@ Range range_of(TexelFormat format, int k) {
   const TexelInfo& info = texel_info(format);
   switch (info.kind) {
     case TexelKind::unorm:
-    case TexelKind::srgb:
-    case TexelKind::depth: return {0.0, 1.0};
+    case TexelKind::srgb: return {0.0, 1.0};
     case TexelKind::snorm: return {-1.0, 1.0};
     case TexelKind::sints: return {-std::ldexp(1.0, info.bits - 1), std::ldexp(1.0, info.bits - 1) - 1.0};
     case TexelKind::uints: return {0.0, std::ldexp(1.0, channel_bits(format, k)) - 1.0};
@@ -63,17 +62,16 @@ double step_of(TexelFormat format, int k, const glm::dvec4& value) {
       return largest > 511.5 * step ? 2.0 * step : step;
     }
     case TexelKind::floats: break;
-    default: return 0.0;  // integers and depth are not rounded
+    default: return 0.0;  // integers are not rounded
   }
   const int bits = channel_bits(format, k);
   return bits == 32 ? float_step(value[k], 23, -126) : float_step(value[k], bits == 16 ? 10 : bits - 5, -14);
 }
 
-/// Rounds a value to a format: sets the range, the step and the channels that the format does not have.
+/// A value that will be rounded to a format: within its range, and with its steps.
 Texel converted(TexelFormat format, const glm::dvec4& value, const glm::dvec4& error) {
   Texel texel{value, {}, error, true};
   for (int k = 0; k < compared_channels(format); ++k) {
-    if (is_depth(format)) continue;
     const Range range = range_of(format, k);
     texel.value[k] = std::clamp(value[k], range.low, range.high);
   }

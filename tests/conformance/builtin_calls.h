@@ -105,7 +105,7 @@ void store(typename T::Value& v, Words* answers, std::size_t& word) {
 
 template <class Out, class In, class F>
 struct Call;
-/// Calls F, which has no state: with references to the results and the arguments, or with the arguments if it returns the only result.
+/// Calls F with references to the results and with the arguments, or only with the arguments if it returns the only result.
 template <class... Out, class... In, class F>
 struct Call<Types<Out...>, Types<In...>, F> {
   static void run(const Words* calls, Words* answers) {
@@ -224,7 +224,7 @@ double exact_result(V v) {
 
 template <class Out, class In, class Reference>
 struct Evaluation;
-/// Evaluates a component in double precision: Reference has no state, and returns the result or a tuple of results.
+/// Evaluates a component in double precision. Reference returns the result or a tuple of results.
 template <class... Out, class... In, class Reference>
 struct Evaluation<Types<Out...>, Types<In...>, Reference> {
   static void run(const double* x, double* values) {

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The angle, trigonometry and exponential functions (GLSL 4.60, sections 8.1 and 8.2). GLSL gives no precision for trigonometric functions;
-// Mesa is compared within that of Vulkan (1.3, "Precision of GLSL.std.450 Instructions"), whose compilers are the same.
+// Mesa is compared within that of Vulkan (1.3, "Precision of GLSL.std.450 Instructions").
 #include <numbers>
 
 #include "conformance/builtin_calls.h"
+#include "support/constants.h"
 
 namespace halfspace::conformance::builtins {
 
 namespace {
 
-constexpr double kPiHere = std::numbers::pi;
 /// Vulkan's error of sin and cos, from −π to π.
 constexpr double kSineError = 0x1p-11;
 /// Vulkan's error of atan and atan2.
@@ -19,10 +19,10 @@ constexpr double kArcUlps = 4096.0;
 double exponential_error(double x, double value) { return (3.0 + 2.0 * std::fabs(x)) * ulp_of(value); }
 double logarithm_error(double x, double value) { return x >= 0.5 && x <= 2.0 ? 0x1p-21 : 3.0 * ulp_of(value); }
 
-double sine_error(double, const std::vector<double>& x) { return std::fabs(x[0]) <= kPiHere ? kSineError : kUnbounded; }
+double sine_error(double, const std::vector<double>& x) { return std::fabs(x[0]) <= kPi ? kSineError : kUnbounded; }
 double tangent_error(double value, const std::vector<double>& x) {
   const double cosine = std::fabs(std::cos(x[0])) - kSineError;  // at least
-  if (std::fabs(x[0]) > kPiHere || cosine <= kSineError) return kUnbounded;
+  if (std::fabs(x[0]) > kPi || cosine <= kSineError) return kUnbounded;
   return kSineError * (1.0 + std::fabs(value)) / cosine + 2.5 * ulp_of(value);
 }
 /// Vulkan derives asin and acos from the arc tangent of a quotient whose root cancels near ±1. Mesa's polynomial has an absolute error of
@@ -61,15 +61,15 @@ void add_unary(Cases& cases, const char* name, const Domain& domain, F f, Refere
 }
 
 void add_trigonometric(Cases& cases) {
-  const Domain angles = between(-2 * kPiHere, 2 * kPiHere,
-                                {0.0f, 1e4f, -1e4f, 100.0f, 3.14159265f, 1.57079633f, -1.57079633f, 0x1p-20f, 1e-30f, 0.78539816f});
+  const Domain angles =
+      between(-2 * kPi, 2 * kPi, {0.0f, 1e4f, -1e4f, 100.0f, 3.14159265f, 1.57079633f, -1.57079633f, 0x1p-20f, 1e-30f, 0.78539816f});
   const Domain degrees_of_all_sizes = magnitudes(-10, 20, {0.0f, 90.0f, -180.0f, 360.0f, 1e30f});
   const Domain unit = between(-1, 1, {0.0f, 1.0f, -1.0f, 0.5f, -0.5f, 0x1p-20f, 0.99999994f});
   add_unary(
-      cases, "radians", degrees_of_all_sizes, [](const auto& x) { return radians(x); }, [](double x) { return x * kPiHere / 180.0; },
+      cases, "radians", degrees_of_all_sizes, [](const auto& x) { return radians(x); }, [](double x) { return x * kPi / 180.0; },
       {ulps(0.63), ulps(2.0)});
   add_unary(
-      cases, "degrees", degrees_of_all_sizes, [](const auto& x) { return degrees(x); }, [](double x) { return x * 180.0 / kPiHere; },
+      cases, "degrees", degrees_of_all_sizes, [](const auto& x) { return degrees(x); }, [](double x) { return x * 180.0 / kPi; },
       {ulps(0.7), ulps(2.0)});
   add_unary(
       cases, "sin", angles, [](const auto& x) { return sin(x); }, [](double x) { return std::sin(x); }, {ulps(1.54), sine_error});

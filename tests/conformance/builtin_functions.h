@@ -70,15 +70,15 @@ std::string check(const Case& c);
 bool is_within(double seen, const Expected& expected, double allowed);
 std::string text_of(const Operands& operands);
 
-// The groups: sections 8.1 and 8.2, 8.3, 8.4 and 8.5, 8.4 (packing) and 8.8, 8.6, and chapter 5 of GLSL.
-Cases exponential_cases();
-Cases common_cases();
-Cases geometric_cases();
-Cases integer_cases();
-Cases relational_cases();
-Cases operator_cases();
-Cases matrix_operator_cases();
-Cases swizzle_cases();
+// The cases by sections of GLSL 4.60.
+Cases exponential_cases();      ///< 8.1 and 8.2
+Cases common_cases();           ///< 8.3
+Cases geometric_cases();        ///< 8.5 and 8.6
+Cases integer_cases();          ///< 8.4 and 8.8
+Cases relational_cases();       ///< 8.7
+Cases operator_cases();         ///< 5.4 and 5.9
+Cases matrix_operator_cases();  ///< 5.10
+Cases swizzle_cases();          ///< 5.5
 Cases all_cases();
 
 }  // namespace halfspace::conformance::builtins
