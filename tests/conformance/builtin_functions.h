@@ -57,7 +57,7 @@ struct Case {
 };
 using Cases = std::vector<Case>;
 
-/// The arguments of all calls of a case. They are the same on every machine.
+/// The arguments of all calls of a case, which are the same in every run.
 std::vector<Words> calls_of(const Case& c);
 Operands operands_of(const Case& c, const Words& call);
 /// The components of the results, as numbers.
