@@ -241,7 +241,7 @@ Picture restarted(Topology topology, int place, bool narrow, uint32_t instances)
   }
   d.vertices = scattered(p, kIndices, 31);
   d.restart = true;
-  d.narrow = narrow;
+  if (narrow) d.index_layout = IndexLayout::narrow;
   for (int i = 0; i <= kIndices; ++i) {
     const int times = !restarts_before(place, i) ? 0 : place == 3 ? 2 : 1;
     d.indices.insert(d.indices.end(), static_cast<std::size_t>(times), oracle::kRestart);

@@ -144,4 +144,8 @@ class ViewportArrays : public ConformanceOf {};
 TEST_P(ViewportArrays, DrawsPrimitivesIntoTheirViewports) { expect_no_error(); }
 INSTANTIATE_TEST_SUITE_P(Conformance, ViewportArrays, testing::ValuesIn(viewport_array_cases()), case_name);
 
+class VertexArrays : public ConformanceOf {};
+TEST_P(VertexArrays, ReachTheFragments) { expect_no_error(); }
+INSTANTIATE_TEST_SUITE_P(Conformance, VertexArrays, testing::ValuesIn(vertex_arrays_cases()), case_name);
+
 }  // namespace halfspace::conformance

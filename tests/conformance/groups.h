@@ -35,6 +35,7 @@ Cases sample_variables_cases();
 Cases conditional_rendering_cases();
 Cases smooth_primitives_cases();
 Cases viewport_array_cases();
+Cases vertex_arrays_cases();
 
 struct Group {
   const char* name;
@@ -67,6 +68,7 @@ inline constexpr Group kGroups[] = {{"FillRules", fill_rules_cases},
                                     {"SampleVariables", sample_variables_cases},
                                     {"ConditionalRendering", conditional_rendering_cases},
                                     {"SmoothPrimitives", smooth_primitives_cases},
-                                    {"ViewportArrays", viewport_array_cases}};
+                                    {"ViewportArrays", viewport_array_cases},
+                                    {"VertexArrays", vertex_arrays_cases}};
 
 }  // namespace halfspace::conformance

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "conformance/picture.h"
 
+#include <bit>
 #include <cstring>
 #include <numeric>
 #include <sstream>
 
+#include "conformance/attribute_arrays.h"
 #include "conformance/shaders.h"
-#include "halfspace/core/half.h"
+#include "oracle/texels.h"
 
 namespace halfspace::conformance {
 
@@ -27,7 +29,7 @@ SceneDraw draw_of(const S& shader, const char* name, const Drawing& d) {
   input.divisor = d.divisor;
   if (!d.rows.empty()) input.instance_components = 4;
   for (const glm::vec4& r : d.rows) input.instances.push_back(row({glm::vec4(0.0f), glm::vec4(0.0f), r}));
-  const IndexLayout layout = d.indices.empty() ? IndexLayout::none : d.narrow ? IndexLayout::narrow : IndexLayout::wide;
+  const IndexLayout layout = d.indices.empty() ? IndexLayout::none : d.index_layout;
   return make_draw(shader, name, input, d.state, VertexLayout::tight, layout);
 }
 
@@ -55,6 +57,36 @@ SceneDraw tessellation_draw_of(const Drawing& d, std::index_sequence<I...>) {
   return draw;
 }
 
+// The oracle receives the numbers that the arrays contain by their definition (attribute_arrays.h), and the tile path the arrays,
+// which must outlive the draw.
+SceneDraw arrays_draw_of(const Drawing& d) {
+  using Row = ArrayAttributes<float>;
+  const std::size_t count = vertex_count(d);
+  oracle::Input<ArraysShader> input;
+  std::size_t rows = 0;
+  for (const AttributeArray& a : d.arrays) {
+    if (a.stream.divisor == 0) continue;
+    input.instance_components += static_cast<std::size_t>(a.stream.components);
+    input.divisor = a.stream.divisor;
+    rows = a.stream.count;
+  }
+  for (std::size_t i = 0; i < count; ++i) input.vertices.push_back(row_of<Row>(d.arrays, i));
+  for (std::size_t i = 0; i < rows; ++i) input.instances.push_back(row_of<Row>(d.arrays, i));
+  input.indices = d.indices;
+  if (d.indices.empty()) {
+    input.indices.resize(count);
+    std::iota(input.indices.begin(), input.indices.end(), 0u);
+  }
+  input.restart = d.restart;
+  const auto memory = std::make_shared<draw_memory::DrawMemory>();
+  for (const AttributeArray& a : d.arrays) memory->streams.push_back(a.stream);
+  memory->view = detail::bind_streams(memory->streams, count);
+  const auto indexable = static_cast<std::size_t>(static_cast<int64_t>(count) - d.state.base_vertex);
+  draw_memory::lay_out_indices(input.indices, indexable, input.restart_at(), d.indices.empty() ? IndexLayout::none : d.index_layout,
+                               *memory);
+  return make_draw(ArraysShader{d.value}, "arrays", input, d.state, std::shared_ptr<const draw_memory::DrawMemory>(memory));
+}
+
 SceneDraw draw_of(const Drawing& d) {
   switch (d.kind) {
     case Kind::color: return draw_of(ColorShader{d.mode}, "color", d);
@@ -73,6 +105,7 @@ SceneDraw draw_of(const Drawing& d) {
     case Kind::sample_mask: return draw_of(SampleMaskShader{{}, static_cast<int32_t>(d.value)}, "sample_mask", d);
     case Kind::geometry: return geometry_draw_of(d, std::make_index_sequence<kGeometryLayouts.size()>());
     case Kind::viewport: return draw_of(ViewportShader{}, "viewport", d);
+    case Kind::attributes: return arrays_draw_of(d);
     case Kind::four_colors: break;
   }
   return draw_of(ColorsShader<4>{}, "four_colors", d);
@@ -121,18 +154,17 @@ std::size_t Seen::index(int x, int y) const {
   return static_cast<std::size_t>(height - 1 - y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
 }
 
-glm::vec4 Seen::color(int x, int y, std::size_t attachment) const {
+glm::vec4 Seen::texel(int x, int y, std::size_t attachment) const {
   const std::vector<std::byte>& from = attachment == 0 ? bytes.color : bytes.more[attachment - 1];
-  const std::size_t i = index(x, y);
-  switch (formats[attachment]) {
-    case ColorFormat::rgba32f: return read<glm::vec4>(from, i);
-    case ColorFormat::rgba16f: {
-      const auto h = read<U16Vec4>(from, i);
-      return {half_to_float(h.x), half_to_float(h.y), half_to_float(h.z), half_to_float(h.w)};
-    }
-    default: return glm::vec4(read<glm::u8vec4>(from, i)) / 255.0f;
-  }
+  const ColorFormat format = formats[attachment], stored = format == ColorFormat::srgb8a8 ? ColorFormat::rgba8
+                                                           : format == ColorFormat::srgb8 ? ColorFormat::rgb8
+                                                                                          : format;
+  return oracle::read_texel(stored, &from[index(x, y) * static_cast<std::size_t>(bytes_per_pixel(format))]);
 }
+
+glm::vec4 Seen::color(int x, int y, std::size_t attachment) const { return texel(x, y, attachment); }
+
+glm::ivec4 Seen::integers(int x, int y, std::size_t attachment) const { return std::bit_cast<glm::ivec4>(texel(x, y, attachment)); }
 
 double Seen::depth(int x, int y) const {
   const std::size_t i = index(x, y);
@@ -176,6 +208,14 @@ Seen draw_by_oracle(const Picture& picture) {
     queries[query] = samples;
   }
   return seen_of(picture, std::move(r.pictures), std::move(queries));
+}
+
+std::size_t vertex_count(const Drawing& d) {
+  std::size_t count = d.vertices.size();
+  for (const AttributeArray& a : d.arrays) {
+    if (a.stream.divisor == 0) count = a.stream.count;
+  }
+  return count;
 }
 
 std::string difference_from_oracle(const Picture& picture) {

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "halfspace/raster/vertex_input.h"
 #include "halfspace/shading/texture/texture.h"
 #include "property/scene.h"
 
@@ -33,7 +34,8 @@ enum class Kind : uint8_t {
   sample_inputs,
   sample_mask_in,
   sample_mask,
-  viewport
+  viewport,
+  attributes
 };
 
 /// Output of `color`: its varying with one of four interpolation qualifiers.
@@ -56,15 +58,22 @@ struct Vertex {
   glm::vec4 extra{0.0f};  ///< clip and cull distances, point size, texture coordinates, an offset or a viewport, depending on the shader
 };
 
+/// Attributes in memory that several draws can share.
+struct AttributeArray {
+  std::shared_ptr<const std::vector<std::byte>> memory;
+  VertexStream stream;  ///< in `memory`
+};
+
 struct Drawing {
   Kind kind = Kind::color;
   int mode = 0;
   float value = 0.0f;
   std::vector<Vertex> vertices;
-  std::vector<uint32_t> indices{};  ///< if empty, all vertices in order
-  bool restart = false;             ///< the index kRestart ends a primitive
-  bool narrow = false;              ///< 16-bit indices
-  std::vector<glm::vec4> rows{};    ///< if not empty, `extra` is read from here, with one row per `divisor` instances
+  std::vector<AttributeArray> arrays{};          ///< of `attributes`: one for each member of ArrayAttributes, in place of `vertices`
+  std::vector<uint32_t> indices{};               ///< if empty, all vertices in order
+  bool restart = false;                          ///< the index kRestart ends a primitive
+  IndexLayout index_layout = IndexLayout::wide;  ///< how indices are stored
+  std::vector<glm::vec4> rows{};                 ///< if not empty, `extra` is read from here, with one row per `divisor` instances
   uint32_t divisor = 1;
   std::shared_ptr<const Texture2D> texture{};
   Sampler sampler{};
@@ -95,8 +104,10 @@ struct Seen {
   Pictures bytes;
   std::vector<uint64_t> queries;
 
-  /// Returns the stored value: 8-bit values divided by 255 (for sRGB the encoded value, not the linear one), otherwise the floats.
+  /// Returns the stored value: codes divided by the largest one (for sRGB the encoded value, not the linear one), or floats.
   glm::vec4 color(int x, int y, std::size_t attachment = 0) const;
+  /// Returns the stored integers; unsigned ones keep their bits.
+  glm::ivec4 integers(int x, int y, std::size_t attachment = 0) const;
   /// Returns the stored integer or, for float formats, the depth.
   double depth(int x, int y) const;
   int stencil(int x, int y) const;
@@ -104,6 +115,7 @@ struct Seen {
 
  private:
   std::size_t index(int x, int y) const;
+  glm::vec4 texel(int x, int y, std::size_t attachment) const;
 };
 
 /// A test case.
@@ -118,6 +130,8 @@ struct Case {
 };
 using Cases = std::vector<Case>;
 
+/// Returns the number of vertices in the arrays or in `vertices`.
+std::size_t vertex_count(const Drawing& drawing);
 /// Draws with the tile path.
 Seen draw(const Picture& picture, const PassOptions& options = {}, int threads = 1);
 /// Draws with the oracle.

@@ -82,7 +82,7 @@ void random_primitives(Random& r, Drawing& d) {
   if (d.kind == Kind::instance) s.instances = static_cast<uint32_t>(r.between(1, 4));
   if (r.once_in(4)) {  // indices, possibly with primitive restart
     d.restart = r.once_in(2);
-    d.narrow = r.once_in(2);
+    if (r.once_in(2)) d.index_layout = IndexLayout::narrow;
     const int n = static_cast<int>(d.vertices.size());
     for (int i = 0; i < n; ++i) d.indices.push_back(d.restart && r.once_in(6) ? oracle::kRestart : static_cast<uint32_t>(r.below(n)));
   }

@@ -383,6 +383,41 @@ struct TessellationShader {
   }
 };
 
+/// Attributes of any format. `position` is in pixels, apart from w.
+template <class R>
+struct ArrayAttributes {
+  vec4<R> position;
+  vec4<R> color;
+  std::array<IntOf<R>, 4> integers;
+  vec4<R> last;
+};
+
+/// Outputs the attributes of the provoking vertex. Each instance is 8 px to the right of the one before.
+struct ArraysShader {
+  float value = 0.0f;  ///< the width of a pixel in NDC
+  template <class R>
+  using Attributes = ArrayAttributes<R>;
+  template <class R>
+  struct Varyings {
+    Flat<vec4<R>> color;
+    Flat<std::array<IntOf<R>, 4>> integers;
+    Flat<vec4<R>> last;
+  };
+  template <class R>
+  vec4<R> vertex(const Attributes<R>& in, const VertexId<R>& id, Varyings<R>& out) const {
+    out.color.value = in.color;
+    out.integers.value = in.integers;
+    out.last.value = in.last;
+    const vec4<R>& p = in.position;
+    return {(p.x + R(8.0f * static_cast<float>(id.instance))) * R(value) - p.w, p.y * R(value) - p.w, p.z, p.w};
+  }
+  template <class R>
+  TypedFragment<R, vec4<R>, ivec4<R>, vec4<R>> fragment(const Varyings<R>& in, const Pixel<R>&) const {
+    const std::array<IntOf<R>, 4>& i = in.integers.value;
+    return {{in.color.value, ivec4<R>(i[0], i[1], i[2], i[3]), in.last.value}};
+  }
+};
+
 /// Computes N colors from two, for several attachments or for dual-source blending.
 template <std::size_t N>
 struct ColorsShader {

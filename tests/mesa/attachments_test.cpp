@@ -7,6 +7,7 @@
 #include <epoxy/gl.h>
 
 #include "mesa/mesa_context.h"
+#include "mesa/texel_tolerance.h"
 #include "mesa/twin_frame.h"
 
 namespace halfspace::test {
@@ -70,18 +71,6 @@ struct EightColors {
     })";
 };
 
-// Returns the allowed difference of a channel: a code, since both round what they interpolate.
-double tolerance(TexelFormat format, int channel, double value) {
-  const TexelInfo& info = texel_info(format);
-  if (is_integer(format)) return 0.0;
-  const int bits = channel_bits(format, channel);
-  if (info.kind == TexelKind::unorm) return 1.01 / (std::ldexp(1.0, bits) - 1);
-  if (info.kind == TexelKind::snorm) return 1.01 / (std::ldexp(1.0, bits - 1) - 1);
-  // A unit in the last place of floats with a mantissa of 10 bits (16), 6 (11) or 5 (10), and roundings in between with 23.
-  const int mantissa = bits == 32 ? 20 : bits == 16 ? 10 : bits - 5;
-  return std::ldexp(std::max(std::fabs(value), 0x1p-14), -mantissa) * 1.01;
-}
-
 void expect_same_texels(const TwinTexture& texture) {
   const TexelFormat format = texture.format();
   const Texture2DView view = texture.view<TextureKind::two_d>();
@@ -111,7 +100,7 @@ void expect_same_texels(const TwinTexture& texture) {
       for (int k = 0; k < texel_info(format).channels; ++k) {
         const double difference = std::fabs(ours[k] - other[k]);
         worst = std::max(worst, difference);
-        differing += !(difference <= tolerance(format, k, ours[k]));
+        differing += !(difference <= texel_tolerance(format, k, ours[k]));
       }
       low = glm::min(low, ours);
       high = glm::max(high, ours);

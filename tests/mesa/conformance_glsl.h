@@ -231,6 +231,54 @@ inline constexpr const char* kEvaluationBody = R"(
       }
       gl_Position = p;
     })";
+// With the type of the integer attribute.
+inline constexpr const char* kSignedShared = R"(#version 450 core
+    #define IVEC ivec4
+    uniform float value;
+    )";
+inline constexpr const char* kUnsignedShared = R"(#version 450 core
+    #define IVEC uvec4
+    uniform float value;
+    )";
+inline constexpr const char* kArraysVertex = R"(
+    layout(location = 0) in vec4 position;
+    layout(location = 1) in vec4 in_color;
+    layout(location = 2) in IVEC in_integers;
+    layout(location = 3) in vec4 in_last;
+    flat out vec4 color;
+    flat out IVEC integers;
+    flat out vec4 last;
+    void main() {
+      color = in_color;
+      integers = in_integers;
+      last = in_last;
+      gl_Position = vec4((position.x + 8.0 * float(gl_InstanceID)) * value - position.w, position.y * value - position.w, position.zw);
+    })";
+inline constexpr const char* kArraysFragment = R"(
+    flat in vec4 color;
+    flat in IVEC integers;
+    flat in vec4 last;
+    layout(location = 0) out vec4 color_0;
+    layout(location = 1) out ivec4 color_1;
+    layout(location = 2) out vec4 color_2;
+    void main() {
+      color_0 = color;
+      color_1 = ivec4(integers);
+      color_2 = last;
+    })";
+inline constexpr const char* kFourFragment = R"(
+    in vec4 color;
+    in vec4 other;
+    layout(location = 0) out vec4 color_0;
+    layout(location = 1) out vec4 color_1;
+    layout(location = 2) out vec4 color_2;
+    layout(location = 3) out vec4 color_3;
+    void main() {
+      color_0 = color;
+      color_1 = other;
+      color_2 = color * 0.5 + other * 0.5;
+      color_3 = color * 0.75 + other * 0.25;
+    })";
 inline constexpr const char* kTwoFragment = R"(
     in vec4 color;
     in vec4 other;

@@ -13,6 +13,7 @@
 #include "mesa/conformance_glsl.h"
 #include "mesa/mesa_context.h"
 #include "mesa/mesa_draw.h"
+#include "mesa/texel_tolerance.h"
 #include "support/long_tests.h"
 
 namespace halfspace::test {
@@ -40,7 +41,8 @@ const char* geometry_glsl_of(const GeometryLayout& layout) {
   if (source.empty()) source = line + kGeometryBody;
   return source.c_str();
 }
-Glsl glsl_of(Kind kind) {
+// attachments: the number of color attachments.
+Glsl glsl_of(Kind kind, std::size_t attachments) {
   switch (kind) {
     case Kind::color: return {kColorVertex, kColorFragment};
     case Kind::clip: return {kClipVertex, kPlainFragment};
@@ -57,10 +59,11 @@ Glsl glsl_of(Kind kind) {
     case Kind::sample_mask: return {kVertex, kSampleMaskFragment};
     case Kind::geometry: return {kGeometryVertex, kGeometryFragment};
     case Kind::tessellation: return {kTessellationVertex, kGeometryFragment};
+    case Kind::attributes: return {kArraysVertex, kArraysFragment};
     case Kind::two_colors:
     case Kind::four_colors: break;
   }
-  return {kVertex, kTwoFragment};
+  return {kVertex, attachments == 1 ? kTwoFragment : kFourFragment};  // two colors are the sources of one attachment, or of one each
 }
 
 // Return the control and the evaluation shader with one of the layouts.
@@ -82,11 +85,34 @@ const char* evaluation_glsl_of(const TessellationLayout& layout) {
   return source.c_str();
 }
 
-MesaDraw mesa_draw_of(const Drawing& d) {
-  const auto [vertex, fragment] = glsl_of(d.kind);
+VertexView vertices_of(const Drawing& d) {
+  if (!d.arrays.empty()) {
+    std::vector<VertexStream> streams;
+    for (const conformance::AttributeArray& a : d.arrays) streams.push_back(a.stream);
+    return detail::bind_streams(streams, conformance::vertex_count(d));
+  }
   VertexStream extra = stream(d.vertices, &conformance::Vertex::extra);
   if (!d.rows.empty()) extra = per_instance(stream(d.rows), d.divisor);
-  MesaDraw m{d.kind == Kind::viewport ? kViewportShared : kShared,
+  return make_vertex_view(stream(d.vertices, &conformance::Vertex::pos_clip), stream(d.vertices, &conformance::Vertex::color), extra);
+}
+
+bool has_unsigned_attribute(const Drawing& d) {
+  return std::ranges::any_of(d.arrays, [](const conformance::AttributeArray& a) {
+    const ComponentType type = a.stream.type;
+    return a.stream.read_as == ReadAs::integers &&
+           (type == ComponentType::uint8 || type == ComponentType::uint16 || type == ComponentType::uint32);
+  });
+}
+
+const char* shared_glsl_of(const Drawing& d) {
+  if (d.kind == Kind::viewport) return kViewportShared;
+  if (d.kind == Kind::attributes) return has_unsigned_attribute(d) ? kUnsignedShared : kSignedShared;
+  return kShared;
+}
+
+MesaDraw mesa_draw_of(const Drawing& d, std::size_t attachments) {
+  const auto [vertex, fragment] = glsl_of(d.kind, attachments);
+  MesaDraw m{shared_glsl_of(d),
              vertex,
              fragment,
              [&d](const UniformSetter& set) {
@@ -94,7 +120,7 @@ MesaDraw mesa_draw_of(const Drawing& d) {
                set("value", d.value);
                if (d.texture) set("image", *d.texture, d.sampler);
              },
-             make_vertex_view(stream(d.vertices, &conformance::Vertex::pos_clip), stream(d.vertices, &conformance::Vertex::color), extra),
+             vertices_of(d),
              d.indices,
              d.state,
              d.restart,
@@ -107,7 +133,7 @@ MesaDraw mesa_draw_of(const Drawing& d) {
              d.kind == Kind::tessellation ? evaluation_glsl_of(d.tessellation) : nullptr,
              d.tessellation.patch_vertices,
              d.clear};
-  for (uint32_t i = 0; d.indices.empty() && i < d.vertices.size(); ++i) m.indices.push_back(i);
+  for (uint32_t i = 0; d.indices.empty() && i < conformance::vertex_count(d); ++i) m.indices.push_back(i);
   return m;
 }
 
@@ -126,12 +152,13 @@ bool is_inside(const conformance::Vertex& v) {
 // Returns the reason why an image cannot be compared with Mesa, or null if it can.
 const char* not_comparable(const conformance::Picture& p) {
   if (p.samples == 2 || p.samples == 8) return "llvmpipe supports only 1 or 4 samples";
-  if (p.colors.size() > 1) return "only one color attachment is compared";
   if (p.supersample) return "OpenGL has no supersampling";
   for (const Drawing& d : p.draws) {
     const DrawState& s = d.state;
     const bool lines = is_lines(s.topology) || s.polygon_mode == PolygonMode::line;
     const bool in_perspective = std::any_of(d.vertices.begin(), d.vertices.end(), [](const auto& v) { return v.pos_clip.w != 1.0f; });
+    if (std::ranges::any_of(s.attachments, [](const auto& own) { return own && own->blend; }))
+      return "only one blend state for all attachments is compared";
     if (p.samples == 1 && is_smooth(s)) return "OpenGL leaves the areas of smooth primitives to the implementation";
     for (const std::optional<DrawCondition>& c : {s.condition, d.clear ? d.clear->condition : std::nullopt}) {
       if (c && std::ranges::count(p.draws, c->query, [](const Drawing& o) { return o.state.query.value_or(~0u); }) != 1)
@@ -167,50 +194,81 @@ bool blends(const conformance::Picture& p) {
 
 float srgb_to_linear(float code) { return kSrgbToLinear[static_cast<std::size_t>(std::lround(code * 255.0f))]; }
 
-// Returns the allowed difference per channel.
-float tolerance(const conformance::Picture& p) {
-  constexpr float kCode = 1.01f / 255.0f;
+// Returns the allowed difference of a channel.
+double tolerance(const conformance::Picture& p, ColorFormat format, int channel, double value) {
+  constexpr double kCode = 1.01 / 255.0;
+  const double size = std::max(1.0, std::fabs(value));
   const bool textured = std::any_of(p.draws.begin(), p.draws.end(), [](const Drawing& d) { return d.texture != nullptr; });
-  if (textured) return 2.0f * kCode;  // llvmpipe's log2 has an error of 0.04, its sRGB conversion one of 0.001
-  const bool floats = p.colors[0] == ColorFormat::rgba16f || p.colors[0] == ColorFormat::rgba32f;
-  if (floats) return 0x1p-10f;
+  if (textured) return 2.0 * kCode * size;  // llvmpipe's log2 has an error of 0.04, its sRGB conversion one of 0.001
+  if (format == ColorFormat::rgba16f || format == ColorFormat::rgba32f) return 0x1p-10 * size;
   // Mesa blends 8-bit colors in integers and rounds each product; VK-GL-CTS allows a difference of 3/255.
-  return blends(p) ? 3.0f * kCode : kCode;
+  const double codes = blends(p) ? 3.0 : 1.0;
+  return format == ColorFormat::srgb8a8 ? codes * kCode : codes * texel_tolerance(format, channel, value);
 }
 
-void print_pixel(int x, int y, const glm::vec4& a, const glm::vec4& b) {
-  std::printf("    (%d, %d): Halfspace", x, y);
-  for (int k = 0; k < 4; ++k) std::printf(" %g", static_cast<double>(a[k]));
-  std::printf("  Mesa");
-  for (int k = 0; k < 4; ++k) std::printf(" %g", static_cast<double>(b[k]));
-  std::printf("\n");
+// The texels of a pixel in all attachments.
+using Texels = std::vector<glm::dvec4>;
+
+Texels texels_at(const conformance::Seen& seen, int x, int y) {
+  Texels texels;
+  for (std::size_t a = 0; a < seen.formats.size(); ++a) {
+    const glm::dvec4 real(is_integer(seen.formats[a]) ? glm::vec4(0.0f) : seen.color(x, y, a));
+    switch (color_type(seen.formats[a])) {
+      case ColorType::real: texels.push_back(real); break;
+      case ColorType::signed_integer: texels.emplace_back(seen.integers(x, y, a)); break;
+      case ColorType::unsigned_integer: texels.emplace_back(glm::uvec4(seen.integers(x, y, a))); break;
+    }
+  }
+  return texels;
+}
+
+bool are_near(const conformance::Picture& p, const Texels& ours, const Texels& mesa) {
+  for (std::size_t i = 0; i < ours.size(); ++i) {
+    const ColorFormat format = p.colors[i];
+    const bool in_light = format == ColorFormat::srgb8a8 && blends(p);  // llvmpipe decodes the destination less accurately
+    for (int k = 0; k < 4; ++k) {
+      if (k >= texel_info(format).channels) {
+        if (ours[i][k] != mesa[i][k]) return false;  // 0 or 1
+        continue;
+      }
+      const double allowed = tolerance(p, format, k, ours[i][k]);
+      if (std::fabs(ours[i][k] - mesa[i][k]) <= allowed) continue;
+      const auto light = [&](const Texels& t) { return srgb_to_linear(static_cast<float>(t[i][k])); };
+      if (!in_light || k == 3 || !(std::fabs(static_cast<double>(light(ours) - light(mesa))) <= allowed)) return false;
+    }
+  }
+  return true;
+}
+
+void print_pixel(int x, int y, const Texels& ours, const Texels& mesa) {
+  for (std::size_t i = 0; i < ours.size(); ++i) {
+    std::printf("    (%d, %d), attachment %zu: Halfspace", x, y, i);
+    for (int k = 0; k < 4; ++k) std::printf(" %g", ours[i][k]);
+    std::printf("  Mesa");
+    for (int k = 0; k < 4; ++k) std::printf(" %g", mesa[i][k]);
+    std::printf("\n");
+  }
 }
 
 // A pixel counts as covered if it differs from the clear color in either image.
 int64_t compare_with_mesa(const conformance::Picture& p, const std::string& name, Agreement& sum) {
-  const TargetSpec target{p.width, p.height, p.colors[0], p.clear_color, p.clear_depth, p.depth, p.clear_stencil, p.samples};
+  TargetSpec target{p.width, p.height, p.colors[0], p.clear_color, p.clear_depth, p.depth, p.clear_stencil, p.samples};
+  target.more_formats.assign(p.colors.begin() + 1, p.colors.end());
   std::vector<MesaDraw> draws;
-  for (const Drawing& d : p.draws) draws.push_back(mesa_draw_of(d));
-  const std::vector<glm::vec4> mesa = colors_by_mesa(target, draws, sum.programs);
+  for (const Drawing& d : p.draws) draws.push_back(mesa_draw_of(d, p.colors.size()));
+  const std::vector<Texels> mesa = colors_by_mesa(target, draws, sum.programs);
   const conformance::Seen seen = conformance::draw(p);
   conformance::Picture nothing = p;
   nothing.draws.clear();
-  const glm::vec4 clear = conformance::draw(nothing).color(0, 0);
-  const bool in_light = p.colors[0] == ColorFormat::srgb8a8 && blends(p);  // llvmpipe decodes the destination less accurately
-  const auto near = [in_light, max_error = tolerance(p)](const glm::vec4& a, const glm::vec4& b) {
-    for (int k = 0; k < 4; ++k) {
-      const bool near_by_code = std::fabs(a[k] - b[k]) <= max_error * std::max(1.0f, std::fabs(a[k]));
-      const bool near_in_light = in_light && k < 3 && std::fabs(srgb_to_linear(a[k]) - srgb_to_linear(b[k])) <= max_error;
-      if (!near_by_code && !near_in_light) return false;
-    }
-    return true;
-  };
+  const Texels clear = texels_at(conformance::draw(nothing), 0, 0);
   int64_t covered = 0, differing = 0;
   for (int y = 0; y < p.height; ++y) {
     for (int x = 0; x < p.width; ++x) {
-      const glm::vec4 a = seen.color(x, y), b = mesa[static_cast<std::size_t>(y * p.width + x)];
-      covered += p.draws.empty() || !near(a, clear) || !near(b, clear);
-      if (near(a, b)) continue;
+      const Texels a = texels_at(seen, x, y);
+      Texels b;
+      for (const Texels& attachment : mesa) b.push_back(attachment[static_cast<std::size_t>(y * p.width + x)]);
+      covered += p.draws.empty() || !are_near(p, a, clear) || !are_near(p, b, clear);
+      if (are_near(p, a, b)) continue;
       if (++differing <= 3 && std::getenv("HALFSPACE_MESA_PIXELS") != nullptr) print_pixel(x, y, a, b);
     }
   }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesa/mesa_draw.h"
 
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <map>
 #include <optional>
 #include <stdexcept>
@@ -79,12 +81,15 @@ void bind_stream(GLuint location, const Buffer& buffer, const VertexStream& s) {
   glBindBuffer(GL_ARRAY_BUFFER, buffer.id);
   glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(bytes), s.data, GL_STATIC_DRAW);
   glEnableVertexAttribArray(location);
+  const GLint components = s.bgra ? GL_BGRA : s.components - s.missing;
   if (s.read_as == ReadAs::integers) {
-    glVertexAttribIPointer(location, s.components, type_of(s), s.stride, nullptr);
+    glVertexAttribIFormat(location, components, type_of(s), 0);
   } else {
-    glVertexAttribPointer(location, s.components, type_of(s), s.read_as == ReadAs::normalized, s.stride, nullptr);
+    glVertexAttribFormat(location, components, type_of(s), s.read_as == ReadAs::normalized, 0);
   }
-  glVertexAttribDivisor(location, s.divisor);
+  glVertexAttribBinding(location, location);
+  glBindVertexBuffer(location, buffer.id, 0, s.stride);  // a stride of 0 is a constant here, but not in glVertexAttribPointer
+  glVertexBindingDivisor(location, s.divisor);
 }
 
 }  // namespace
@@ -109,23 +114,43 @@ void run(const MesaDraw& draw, const TargetSpec& target, MesaPrograms& programs)
                GL_STATIC_DRAW);
   set_state(draw, target);
   glPatchParameteri(GL_PATCH_VERTICES, draw.patch_vertices);
-  glDrawElementsInstancedBaseVertex(gl(draw.state.topology), static_cast<GLsizei>(draw.indices.size()), GL_UNSIGNED_INT, nullptr,
-                                    static_cast<GLsizei>(draw.state.instances), draw.state.base_vertex);
+  const DrawState& s = draw.state;
+  const std::size_t first = std::min<std::size_t>(s.first, draw.indices.size()), rest = draw.indices.size() - first;
+  glDrawElementsInstancedBaseVertexBaseInstance(gl(s.topology), static_cast<GLsizei>(std::min<std::size_t>(s.count.value_or(~0u), rest)),
+                                                GL_UNSIGNED_INT, reinterpret_cast<const void*>(first * sizeof(uint32_t)),
+                                                static_cast<GLsizei>(s.instances), s.base_vertex, s.base_instance);
 }
 
 namespace {
+
+std::vector<ColorFormat> formats_of(const TargetSpec& target) {
+  std::vector<ColorFormat> formats{target.format};
+  formats.insert(formats.end(), target.more_formats.begin(), target.more_formats.end());
+  return formats;
+}
 
 // A framebuffer with textures of the target's size and the given number of samples as attachments.
 class Attachments {
  public:
   Attachments(const TargetSpec& target, int samples) {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.id);
-    attach(color_, GL_COLOR_ATTACHMENT0, gl(target.format), target, samples);
+    std::vector<GLenum> places;
+    for (const ColorFormat format : formats_of(target)) {
+      places.push_back(GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(places.size()));
+      attach(colors_[places.size() - 1], places.back(), gl(format), target, samples);
+    }
+    glDrawBuffers(static_cast<GLsizei>(places.size()), places.data());
     const GLenum place = has_stencil(target.depth) ? GL_DEPTH_STENCIL_ATTACHMENT : GL_DEPTH_ATTACHMENT;
     if (target.depth != DepthFormat::none) attach(depth_, place, gl(target.depth), target, samples);
     if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) throw std::runtime_error("the framebuffer is incomplete");
   }
   GLuint framebuffer() const { return framebuffer_.id; }
+  // Selects one of the color attachments. The framebuffer must be bound.
+  void draw_into(GLenum attachment) const {
+    std::array<GLenum, 8> places{};
+    places[attachment] = GL_COLOR_ATTACHMENT0 + attachment;
+    glDrawBuffers(static_cast<GLsizei>(attachment + 1), places.data());
+  }
 
  private:
   static void attach(const GlTexture& texture, GLenum attachment, GLenum format, const TargetSpec& target, int samples) {
@@ -140,28 +165,44 @@ class Attachments {
   }
 
   Framebuffer framebuffer_;
-  GlTexture color_, depth_;
+  std::array<GlTexture, 8> colors_;
+  GlTexture depth_;
 };
+
+// Clears a color attachment of the bound framebuffer. Integers are the bits of floats.
+void clear_color(ColorFormat format, std::size_t attachment, const glm::vec4& color) {
+  const auto number = static_cast<GLint>(attachment);
+  const auto bits = std::bit_cast<glm::ivec4>(color);
+  const auto unsigned_bits = std::bit_cast<glm::uvec4>(color);
+  switch (color_type(format)) {
+    case ColorType::real: return glClearBufferfv(GL_COLOR, number, &color.x);
+    case ColorType::signed_integer: return glClearBufferiv(GL_COLOR, number, &bits.x);
+    case ColorType::unsigned_integer: return glClearBufferuiv(GL_COLOR, number, &unsigned_bits.x);
+  }
+}
 
 void clear(const TargetSpec& target) {
   glDisable(GL_SCISSOR_TEST);
   glDepthMask(GL_TRUE);
   glStencilMask(0xff);
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-  glClearColor(target.clear_color.x, target.clear_color.y, target.clear_color.z, target.clear_color.w);
   glClearDepth(static_cast<double>(target.clear_depth));
   glClearStencil(target.clear_stencil);
-  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
+  glClear(GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
+  const std::vector<ColorFormat> formats = formats_of(target);
+  for (std::size_t i = 0; i < formats.size(); ++i) clear_color(formats[i], i, target.clear_color);
 }
 
 // Clears a part of the bound framebuffer.
-void clear(const ClearValues& values) {
+void clear(const ClearValues& values, const std::vector<ColorFormat>& formats) {
   enable(GL_SCISSOR_TEST, values.rect.has_value());
   if (values.rect) glScissor(values.rect->x, values.rect->y, values.rect->width, values.rect->height);
   glColorMask(values.mask.r, values.mask.g, values.mask.b, values.mask.a);
   glDepthMask(GL_TRUE);
   glStencilMask(values.stencil_mask);
-  if (values.colors[0]) glClearBufferfv(GL_COLOR, 0, &values.colors[0]->x);
+  for (std::size_t i = 0; i < formats.size(); ++i) {
+    if (values.colors[i]) clear_color(formats[i], i, *values.colors[i]);
+  }
   if (values.depth) glClearBufferfv(GL_DEPTH, 0, &*values.depth);
   const GLint stencil = values.stencil.value_or(0);
   if (values.stencil) glClearBufferiv(GL_STENCIL, 0, &stencil);
@@ -169,7 +210,7 @@ void clear(const ClearValues& values) {
 
 // Draws to the bound framebuffer.
 void draw_all(const TargetSpec& target, const std::vector<MesaDraw>& draws, MesaPrograms& programs) {
-  enable(GL_FRAMEBUFFER_SRGB, target.format == ColorFormat::srgb8a8);
+  enable(GL_FRAMEBUFFER_SRGB, true);  // has no effect on other formats
   glDisable(GL_DITHER);
   enable(GL_MULTISAMPLE, true);
   clear(target);
@@ -181,7 +222,7 @@ void draw_all(const TargetSpec& target, const std::vector<MesaDraw>& draws, Mesa
     };
     if (draw.clear) {
       if (draw.clear->condition) begin(*draw.clear->condition);
-      clear(*draw.clear);
+      clear(*draw.clear, formats_of(target));
       if (draw.clear->condition) glEndConditionalRender();
     }
     if (s.condition) begin(*s.condition);
@@ -261,20 +302,46 @@ unsigned MesaPrograms::of(const MesaDraw& draw) {
   return program;
 }
 
-std::vector<glm::vec4> colors_by_mesa(const TargetSpec& target, const std::vector<MesaDraw>& draws, MesaPrograms& programs) {
+namespace {
+
+// Returns the colors of an attachment of the bound framebuffer.
+std::vector<glm::dvec4> read_colors(const TargetSpec& target, ColorFormat format, GLenum attachment) {
+  const std::size_t pixels = static_cast<std::size_t>(target.width) * static_cast<std::size_t>(target.height);
+  glReadBuffer(attachment);
+  const auto read_as = [&](auto values, GLenum layout, GLenum type) {
+    values.resize(pixels);
+    glReadPixels(0, 0, target.width, target.height, layout, type, values.data());
+    return std::vector<glm::dvec4>(values.begin(), values.end());
+  };
+  switch (color_type(format)) {
+    case ColorType::signed_integer: return read_as(std::vector<glm::ivec4>(), GL_RGBA_INTEGER, GL_INT);
+    case ColorType::unsigned_integer: return read_as(std::vector<glm::uvec4>(), GL_RGBA_INTEGER, GL_UNSIGNED_INT);
+    case ColorType::real: break;
+  }
+  return read_as(std::vector<glm::vec4>(), GL_RGBA, GL_FLOAT);
+}
+
+}  // namespace
+
+std::vector<std::vector<glm::dvec4>> colors_by_mesa(const TargetSpec& target, const std::vector<MesaDraw>& draws, MesaPrograms& programs) {
   const Attachments drawn(target, target.samples);
   draw_all(target, draws, programs);
+  const std::vector<ColorFormat> formats = formats_of(target);
   std::optional<Attachments> resolved;
   if (target.samples > 1) {
     resolved.emplace(target, 1);
     glBindFramebuffer(GL_READ_FRAMEBUFFER, drawn.framebuffer());
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved->framebuffer());
     glDisable(GL_SCISSOR_TEST);
-    glBlitFramebuffer(0, 0, target.width, target.height, 0, 0, target.width, target.height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    for (GLenum i = 0; i < formats.size(); ++i) {
+      glReadBuffer(GL_COLOR_ATTACHMENT0 + i);
+      resolved->draw_into(i);
+      glBlitFramebuffer(0, 0, target.width, target.height, 0, 0, target.width, target.height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    }
     glBindFramebuffer(GL_FRAMEBUFFER, resolved->framebuffer());
   }
-  std::vector<glm::vec4> colors(static_cast<std::size_t>(target.width) * static_cast<std::size_t>(target.height));
-  glReadPixels(0, 0, target.width, target.height, GL_RGBA, GL_FLOAT, colors.data());
+  std::vector<std::vector<glm::dvec4>> colors;
+  for (GLenum i = 0; i < formats.size(); ++i) colors.push_back(read_colors(target, formats[i], GL_COLOR_ATTACHMENT0 + i));
   expect_no_error();
   return colors;
 }

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <optional>
+#include <stdexcept>
 #include <utility>
 
 namespace halfspace::test {
@@ -147,12 +148,19 @@ void set_state(const DrawState& s, const TargetSpec& target) {
                                    : s.polygon_mode == PolygonMode::line ? GL_LINE
                                                                          : GL_POINT);
   glColorMask(s.color_mask.r, s.color_mask.g, s.color_mask.b, s.color_mask.a);
-  if (s.blend) glBlendColor(s.blend->constant.x, s.blend->constant.y, s.blend->constant.z, s.blend->constant.w);
+  enable(GL_COLOR_LOGIC_OP, s.logic_op.has_value());
+  if (s.logic_op) glLogicOp(GL_CLEAR + static_cast<GLenum>(*s.logic_op));  // the constants are consecutive
   enable(GL_BLEND, s.blend.has_value());
-  if (s.blend) {
-    glBlendEquationSeparate(gl(s.blend->color_equation), gl(s.blend->alpha_equation));
-    glBlendFuncSeparate(gl(s.blend->source_color), gl(s.blend->destination_color), gl(s.blend->source_alpha),
-                        gl(s.blend->destination_alpha));
+  const BlendState blend = s.blend.value_or(BlendState{});  // Mesa refuses two sources with several attachments even without blending
+  glBlendColor(blend.constant.x, blend.constant.y, blend.constant.z, blend.constant.w);
+  glBlendEquationSeparate(gl(blend.color_equation), gl(blend.alpha_equation));
+  glBlendFuncSeparate(gl(blend.source_color), gl(blend.destination_color), gl(blend.source_alpha), gl(blend.destination_alpha));
+  for (GLuint i = 0; i < s.attachments.size(); ++i) {
+    const std::optional<AttachmentState>& own = s.attachments[i];
+    if (!own) continue;
+    if (own->blend) throw std::invalid_argument("an attachment with a blend state of its own");
+    glDisablei(GL_BLEND, i);
+    glColorMaski(i, own->mask.r, own->mask.g, own->mask.b, own->mask.a);
   }
 }
 

@@ -130,6 +130,10 @@ Framebuffer Framebuffer::resolved() const {
   Framebuffer to(width_, height_, color_formats_, depth_format_);
   for_each_sample(to, [&](const Sample& pixel) {
     for (std::size_t a = 0; a < color_formats_.size(); ++a) {
+      if (is_integer(color_formats_[a])) {
+        to.set_color(a, pixel, color(a, pixel));
+        continue;
+      }
       std::vector<glm::vec4> c;
       for (int s = 0; s < samples_; ++s) c.push_back(color(a, {pixel.x, pixel.y, s}));
       while (c.size() > 1) {  // add adjacent pairs

@@ -47,7 +47,7 @@ class Framebuffer {
   void set_stencil(const Sample& s, uint8_t value);
   /// Returns the stored value for a window depth in [0, 1].
   double depth_value(float z) const;
-  /// Returns a framebuffer with one sample per pixel: the mean of the colors, and the depth and stencil of the first sample.
+  /// Returns a framebuffer with one sample per pixel: the mean of the colors, and the integers, depth and stencil of the first sample.
   Framebuffer resolved() const;
 
   std::vector<std::vector<std::byte>> color_bytes;

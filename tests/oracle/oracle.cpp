@@ -84,7 +84,10 @@ void Renderer::draw_pixel(const DrawState& state, const ShaderFacts& facts, cons
   const auto shaded = [&](const Place& place) {
     FragmentResult result = shade(t, surface, place);
     if (!t.smooth.empty()) {
-      for (glm::vec4& color : result.colors) color.w *= smooth_area(t.smooth, x, y);
+      const std::vector<ColorFormat>& formats = target_->color_formats();
+      for (std::size_t i = 0; i < result.colors.size(); ++i) {
+        if (i >= formats.size() || !is_integer(formats[i])) result.colors[i].w *= smooth_area(t.smooth, x, y);
+      }
     }
     return result;
   };
@@ -131,7 +134,8 @@ void Renderer::draw_sample(const DrawState& state, const ShaderFacts& facts, con
   const auto samples = static_cast<float>(target_->samples());
   bool is_drawn = result.keep;
   if (facts.has_fragment && samples > 1.0f) {
-    if (state.alpha_to_coverage) is_drawn &= result.colors[0].w * samples >= static_cast<float>(s.number) + 0.5f;
+    const bool has_alpha = target_->color_formats().empty() || !is_integer(target_->color_formats()[0]);
+    if (state.alpha_to_coverage && has_alpha) is_drawn &= result.colors[0].w * samples >= static_cast<float>(s.number) + 0.5f;
     is_drawn &= (result.sample_mask >> s.number) % 2 != 0;
   }
   if (!is_drawn && !facts.tests_early) return;

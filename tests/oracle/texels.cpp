@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "oracle/texels.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -24,7 +25,7 @@ Channel channel_of(TexelFormat format, int k) {
   if (format == TexelFormat::rgb565) return {TexelKind::unorm, k == 0 ? 11 : k == 1 ? 5 : 0, k == 1 ? 6 : 5};
   if (format == TexelFormat::rgb5_a1) return {TexelKind::unorm, k == 3 ? 0 : 11 - 5 * k, k == 3 ? 1 : 5};
   if (format == TexelFormat::rgba4) return {TexelKind::unorm, 12 - 4 * k, 4};
-  if (format == TexelFormat::rgb10_a2) return {TexelKind::unorm, 10 * k, k == 3 ? 2 : 10};
+  if (format == TexelFormat::rgb10_a2 || format == TexelFormat::rgb10_a2ui) return {info.kind, 10 * k, k == 3 ? 2 : 10};
   if (format == TexelFormat::r11f_g11f_b10f) return {TexelKind::floats, 11 * k, k == 2 ? 10 : 11};
   return {info.kind == TexelKind::srgb && k == 3 ? TexelKind::unorm : info.kind, info.bits * k, info.bits};
 }
@@ -70,6 +71,8 @@ float decode(const Channel& channel, uint32_t code) {
     case TexelKind::unorm: return static_cast<float>(static_cast<double>(code) / mask_of(channel.bits));
     case TexelKind::snorm: return static_cast<float>(std::fmax(static_cast<double>(signed_code) / mask_of(channel.bits - 1), -1.0));
     case TexelKind::srgb: return kSrgbToLinear[code];
+    case TexelKind::sints: return std::bit_cast<float>(signed_code);
+    case TexelKind::uints: return std::bit_cast<float>(code);
     default: return decode_float(code, channel.bits);
   }
 }
@@ -82,6 +85,11 @@ uint32_t encode(const Channel& channel, float x) {
       return static_cast<uint32_t>(
           static_cast<int32_t>(std::nearbyint(static_cast<double>(clamped(x, -1.0f, 1.0f)) * mask_of(channel.bits - 1))));
     case TexelKind::srgb: return static_cast<uint32_t>(linear_to_srgb(x));
+    case TexelKind::sints: {
+      const auto largest = static_cast<int32_t>(mask_of(channel.bits - 1));
+      return static_cast<uint32_t>(std::clamp(std::bit_cast<int32_t>(x), -largest - 1, largest));
+    }
+    case TexelKind::uints: return std::min(std::bit_cast<uint32_t>(x), mask_of(channel.bits));
     default: return encode_float(x, channel.bits);
   }
 }
@@ -89,7 +97,7 @@ uint32_t encode(const Channel& channel, float x) {
 }  // namespace
 
 glm::vec4 read_texel(TexelFormat format, const std::byte* texel) {
-  glm::vec4 color(0.0f, 0.0f, 0.0f, 1.0f);
+  glm::vec4 color(0.0f, 0.0f, 0.0f, is_integer(format) ? std::bit_cast<float>(1) : 1.0f);
   for (int k = 0; k < texel_info(format).channels; ++k) {
     const Channel channel = channel_of(format, k);
     uint64_t bits = 0;

@@ -11,7 +11,8 @@
 
 namespace halfspace::oracle {
 
-/// Return a texel as a color, and store the nearest one. Channels that the format does not have are 0, and alpha 1.
+/// Return a texel as a color, and store the nearest one. Channels that the format does not have are 0, and alpha 1. Integers are the bits
+/// of floats.
 glm::vec4 read_texel(TexelFormat format, const std::byte* texel);
 void write_texel(TexelFormat format, const glm::vec4& color, std::byte* texel);
 

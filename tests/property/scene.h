@@ -120,6 +120,29 @@ void lay_out_instances(const float* rows, std::size_t count, int components, std
 
 }  // namespace draw_memory
 
+/// Creates a draw of memory with the same vertices and indices as the input.
+template <class S>
+SceneDraw make_draw(const S& shader, const std::string& name, const oracle::Input<S>& input, const DrawState& state,
+                    const std::shared_ptr<const draw_memory::DrawMemory>& memory) {
+  SceneDraw d;
+  d.state = state;
+  d.shader = name;
+  d.triangles = oracle::assemble(oracle::selected(input.indices, state), input.restart_at(), state).size() * state.instances;
+  d.submit = [memory, shader, state](Pass& pass) {
+    if constexpr (HasFragmentFunction<S>) {
+      if (memory->indices) {
+        pass.draw(shader, memory->view, *memory->indices, state);
+      } else {
+        pass.draw(shader, memory->view, state);
+      }
+    } else {
+      pass.draw_depth(shader, memory->view, *memory->indices, state);
+    }
+  };
+  d.reference = [input, shader, state](oracle::Renderer& r) { r.draw(shader, input, state); };
+  return d;
+}
+
 template <class S>
 SceneDraw make_draw(const S& shader, const std::string& name, const oracle::Input<S>& input, const DrawState& state,
                     VertexLayout vertex_layout, IndexLayout index_layout, StreamFormat format) {
@@ -141,23 +164,7 @@ SceneDraw make_draw(const S& shader, const std::string& name, const oracle::Inpu
   memory->view = detail::bind_streams(memory->streams, input.vertices.size());
   const std::size_t indexable = input.vertices.size() + static_cast<std::size_t>(-std::min(state.base_vertex, 0));
   draw_memory::lay_out_indices(input.indices, indexable, input.restart_at(), index_layout, *memory);
-  SceneDraw d;
-  d.state = state;
-  d.shader = name;
-  d.triangles = oracle::assemble(oracle::selected(input.indices, state), input.restart_at(), state).size() * state.instances;
-  d.submit = [memory, shader, state](Pass& pass) {
-    if constexpr (HasFragmentFunction<S>) {
-      if (memory->indices) {
-        pass.draw(shader, memory->view, *memory->indices, state);
-      } else {
-        pass.draw(shader, memory->view, state);
-      }
-    } else {
-      pass.draw_depth(shader, memory->view, *memory->indices, state);
-    }
-  };
-  d.reference = [input, shader, state](oracle::Renderer& r) { r.draw(shader, input, state); };
-  return d;
+  return make_draw(shader, name, input, state, std::shared_ptr<const draw_memory::DrawMemory>(memory));
 }
 
 }  // namespace halfspace
