@@ -148,4 +148,12 @@ class VertexArrays : public ConformanceOf {};
 TEST_P(VertexArrays, ReachTheFragments) { expect_no_error(); }
 INSTANTIATE_TEST_SUITE_P(Conformance, VertexArrays, testing::ValuesIn(vertex_arrays_cases()), case_name);
 
+class FragmentOutputs : public ConformanceOf {};
+TEST_P(FragmentOutputs, AreStoredInTheirFormats) { expect_no_error(); }
+INSTANTIATE_TEST_SUITE_P(Conformance, FragmentOutputs, testing::ValuesIn(fragment_outputs_cases()), case_name);
+
+class LogicOps : public ConformanceOf {};
+TEST_P(LogicOps, CombineTheBits) { expect_no_error(); }
+INSTANTIATE_TEST_SUITE_P(Conformance, LogicOps, testing::ValuesIn(logic_ops_cases()), case_name);
+
 }  // namespace halfspace::conformance

@@ -36,6 +36,8 @@ Cases conditional_rendering_cases();
 Cases smooth_primitives_cases();
 Cases viewport_array_cases();
 Cases vertex_arrays_cases();
+Cases fragment_outputs_cases();
+Cases logic_ops_cases();
 
 struct Group {
   const char* name;
@@ -69,6 +71,8 @@ inline constexpr Group kGroups[] = {{"FillRules", fill_rules_cases},
                                     {"ConditionalRendering", conditional_rendering_cases},
                                     {"SmoothPrimitives", smooth_primitives_cases},
                                     {"ViewportArrays", viewport_array_cases},
-                                    {"VertexArrays", vertex_arrays_cases}};
+                                    {"VertexArrays", vertex_arrays_cases},
+                                    {"FragmentOutputs", fragment_outputs_cases},
+                                    {"LogicOps", logic_ops_cases}};
 
 }  // namespace halfspace::conformance

@@ -57,6 +57,13 @@ SceneDraw tessellation_draw_of(const Drawing& d, std::index_sequence<I...>) {
   return draw;
 }
 
+template <std::size_t... I>
+SceneDraw outputs_draw_of(const Drawing& d, std::index_sequence<I...>) {
+  SceneDraw draw;
+  (((d.outputs == kOutputTypes[I]) ? void(draw = draw_of(OutputsShader<I>{d.value}, "outputs", d)) : void()), ...);
+  return draw;
+}
+
 // The oracle receives the numbers that the arrays contain by their definition (attribute_arrays.h), and the tile path the arrays,
 // which must outlive the draw.
 SceneDraw arrays_draw_of(const Drawing& d) {
@@ -106,6 +113,7 @@ SceneDraw draw_of(const Drawing& d) {
     case Kind::geometry: return geometry_draw_of(d, std::make_index_sequence<kGeometryLayouts.size()>());
     case Kind::viewport: return draw_of(ViewportShader{}, "viewport", d);
     case Kind::attributes: return arrays_draw_of(d);
+    case Kind::outputs: return outputs_draw_of(d, std::make_index_sequence<kOutputTypes.size()>());
     case Kind::four_colors: break;
   }
   return draw_of(ColorsShader<4>{}, "four_colors", d);
@@ -154,12 +162,17 @@ std::size_t Seen::index(int x, int y) const {
   return static_cast<std::size_t>(height - 1 - y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
 }
 
-glm::vec4 Seen::texel(int x, int y, std::size_t attachment) const {
+std::span<const std::byte> Seen::texel_bytes(int x, int y, std::size_t attachment) const {
   const std::vector<std::byte>& from = attachment == 0 ? bytes.color : bytes.more[attachment - 1];
+  const auto size = static_cast<std::size_t>(bytes_per_pixel(formats[attachment]));
+  return std::span(from).subspan(index(x, y) * size, size);
+}
+
+glm::vec4 Seen::texel(int x, int y, std::size_t attachment) const {
   const ColorFormat format = formats[attachment], stored = format == ColorFormat::srgb8a8 ? ColorFormat::rgba8
                                                            : format == ColorFormat::srgb8 ? ColorFormat::rgb8
                                                                                           : format;
-  return oracle::read_texel(stored, &from[index(x, y) * static_cast<std::size_t>(bytes_per_pixel(format))]);
+  return oracle::read_texel(stored, texel_bytes(x, y, attachment).data());
 }
 
 glm::vec4 Seen::color(int x, int y, std::size_t attachment) const { return texel(x, y, attachment); }

@@ -4,9 +4,11 @@
 // and Mesa draw the same data, so every case is written only once.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -35,7 +37,8 @@ enum class Kind : uint8_t {
   sample_mask_in,
   sample_mask,
   viewport,
-  attributes
+  attributes,
+  outputs
 };
 
 /// Output of `color`: its varying with one of four interpolation qualifiers.
@@ -51,6 +54,10 @@ enum TessellationMode { kUniform, kPerEdge, kDiscardOdd };
 enum SampleMode { kSampleId, kSamplePosition };
 /// How `texture` selects the mip level: from the derivatives of its coordinates, or from `value`.
 enum TextureMode { kByDerivatives, kByLevel };
+
+inline constexpr std::size_t kOutputs = 4;
+/// The types of the colors of `outputs`, one for each attachment.
+using OutputTypes = std::array<ColorType, kOutputs>;
 
 struct Vertex {
   glm::vec4 pos_clip;
@@ -79,6 +86,7 @@ struct Drawing {
   Sampler sampler{};
   TessellationLayout tessellation{};                 ///< of `tessellation`: one of kTessellationLayouts
   GeometryLayout geometry{};                         ///< of `geometry`: one of kGeometryLayouts, with up to kGeometryVertices vertices
+  OutputTypes outputs{};                             ///< of `outputs`: one of kOutputTypes
   std::shared_ptr<const ViewportArray> viewports{};  ///< of `viewport`, which `state` refers to
   DrawState state{};
   std::optional<ClearValues> clear{};  ///< executed before the draw
@@ -108,6 +116,7 @@ struct Seen {
   glm::vec4 color(int x, int y, std::size_t attachment = 0) const;
   /// Returns the stored integers; unsigned ones keep their bits.
   glm::ivec4 integers(int x, int y, std::size_t attachment = 0) const;
+  std::span<const std::byte> texel_bytes(int x, int y, std::size_t attachment = 0) const;
   /// Returns the stored integer or, for float formats, the depth.
   double depth(int x, int y) const;
   int stencil(int x, int y) const;

@@ -418,6 +418,53 @@ struct ArraysShader {
   }
 };
 
+/// The types of the colors of `outputs`: all of one type, and some that mix them.
+inline constexpr std::array kOutputTypes = [] {
+  constexpr ColorType r = ColorType::real, s = ColorType::signed_integer, u = ColorType::unsigned_integer;
+  return std::array{OutputTypes{r, r, r, r}, OutputTypes{s, s, s, s}, OutputTypes{u, u, u, u}, OutputTypes{r, s, u, r},
+                    OutputTypes{s, r, r, u}, OutputTypes{u, u, s, r}, OutputTypes{s, u, r, s}};
+}();
+
+/// Colors of several types: fractions of a color, and the integers in `extra`, multiplied by `value`, plus small numbers.
+template <std::size_t kTypes>
+struct OutputsShader {
+  float value = 1.0f;
+  template <class R>
+  using Attributes = VertexAttributes<R>;
+  template <class R>
+  struct Varyings {
+    vec4<R> color;
+    Flat<vec4<R>> numbers;
+  };
+  template <class R, std::size_t kOutput>
+  using OutputOf = std::conditional_t<kOutputTypes[kTypes][kOutput] == ColorType::real, vec4<R>,
+                                      std::conditional_t<kOutputTypes[kTypes][kOutput] == ColorType::signed_integer, ivec4<R>, uvec4<R>>>;
+  template <class R>
+  vec4<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
+    out.color = in.color;
+    out.numbers.value = in.extra;
+    return in.pos_clip;
+  }
+  template <class R>
+  TypedFragment<R, OutputOf<R, 0>, OutputOf<R, 1>, OutputOf<R, 2>, OutputOf<R, 3>> fragment(const Varyings<R>& in,
+                                                                                            const Pixel<R>& px) const {
+    return {{output<0>(in, px), output<1>(in, px), output<2>(in, px), output<3>(in, px)}};
+  }
+
+ private:
+  template <std::size_t kOutput, class R>
+  OutputOf<R, kOutput> output(const Varyings<R>& in, const Pixel<R>& px) const {
+    if constexpr (kOutputTypes[kTypes][kOutput] == ColorType::real) {
+      return in.color * R(1.0f - 0.25f * static_cast<float>(kOutput));
+    } else {
+      const ivec4<R> n(in.numbers.value), factor(IntOf<R>(static_cast<int32_t>(value)));
+      const IntOf<R> x = truncate_to_int(px.x) + IntOf<R>(static_cast<int32_t>(kOutput));
+      const ivec4<R> small(x, x + IntOf<R>(1), x + IntOf<R>(2), x + IntOf<R>(3));
+      return OutputOf<R, kOutput>(n * factor + (small & ivec4<R>(IntOf<R>(3))));
+    }
+  }
+};
+
 /// Computes N colors from two, for several attachments or for dual-source blending.
 template <std::size_t N>
 struct ColorsShader {

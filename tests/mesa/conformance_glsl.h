@@ -266,6 +266,24 @@ inline constexpr const char* kArraysFragment = R"(
       color_1 = ivec4(integers);
       color_2 = last;
     })";
+inline constexpr const char* kOutputsVertex = R"(
+    layout(location = 0) in vec4 pos_clip;
+    layout(location = 1) in vec4 in_color;
+    layout(location = 2) in vec4 extra;
+    out vec4 color;
+    flat out vec4 numbers;
+    void main() {
+      color = in_color;
+      numbers = extra;
+      gl_Position = pos_clip;
+    })";
+// The outputs and a main function that calls these follow.
+inline constexpr const char* kOutputsFunctions = R"(
+    in vec4 color;
+    flat in vec4 numbers;
+    vec4 fraction(float i) { return color * (1.0 - 0.25 * i); }
+    ivec4 integers(float i) { return ivec4(numbers) * int(value) + ((ivec4(0, 1, 2, 3) + int(gl_FragCoord.x) + int(i)) & 3); }
+    )";
 inline constexpr const char* kFourFragment = R"(
     in vec4 color;
     in vec4 other;

@@ -41,9 +41,27 @@ const char* geometry_glsl_of(const GeometryLayout& layout) {
   if (source.empty()) source = line + kGeometryBody;
   return source.c_str();
 }
+// Returns the fragment shader with one of the lists of types.
+const char* outputs_glsl_of(const conformance::OutputTypes& types) {
+  static std::map<conformance::OutputTypes, std::string> sources;  // the addresses stay the same
+  constexpr std::array kTypes{"vec4", "ivec4", "uvec4"};
+  std::string& source = sources[types];
+  if (!source.empty()) return source.c_str();
+  source = kOutputsFunctions;
+  std::string body = "void main() {\n";
+  for (std::size_t i = 0; i < types.size(); ++i) {
+    const std::string type = kTypes[static_cast<std::size_t>(types[i])], number = std::to_string(i);
+    source += "layout(location = " + number + ") out " + type + " color_" + number + ";\n";
+    body += "color_" + number + " = " + (types[i] == ColorType::real ? "fraction" : type + "(integers") + "(" + number + ".0)" +
+            (types[i] == ColorType::real ? ";\n" : ");\n");
+  }
+  source += body + "}";
+  return source.c_str();
+}
+
 // attachments: the number of color attachments.
-Glsl glsl_of(Kind kind, std::size_t attachments) {
-  switch (kind) {
+Glsl glsl_of(const Drawing& d, std::size_t attachments) {
+  switch (d.kind) {
     case Kind::color: return {kColorVertex, kColorFragment};
     case Kind::clip: return {kClipVertex, kPlainFragment};
     case Kind::cutout: return {kVertex, kCutoutFragment};
@@ -59,6 +77,7 @@ Glsl glsl_of(Kind kind, std::size_t attachments) {
     case Kind::sample_mask: return {kVertex, kSampleMaskFragment};
     case Kind::geometry: return {kGeometryVertex, kGeometryFragment};
     case Kind::tessellation: return {kTessellationVertex, kGeometryFragment};
+    case Kind::outputs: return {kOutputsVertex, outputs_glsl_of(d.outputs)};
     case Kind::attributes: return {kArraysVertex, kArraysFragment};
     case Kind::two_colors:
     case Kind::four_colors: break;
@@ -111,7 +130,7 @@ const char* shared_glsl_of(const Drawing& d) {
 }
 
 MesaDraw mesa_draw_of(const Drawing& d, std::size_t attachments) {
-  const auto [vertex, fragment] = glsl_of(d.kind, attachments);
+  const auto [vertex, fragment] = glsl_of(d, attachments);
   MesaDraw m{shared_glsl_of(d),
              vertex,
              fragment,
@@ -153,6 +172,11 @@ bool is_inside(const conformance::Vertex& v) {
 const char* not_comparable(const conformance::Picture& p) {
   if (p.samples == 2 || p.samples == 8) return "llvmpipe supports only 1 or 4 samples";
   if (p.supersample) return "OpenGL has no supersampling";
+  for (const ColorFormat format : p.colors) {
+    if (p.samples > 1 && is_integer(format)) return "OpenGL does not specify which sample of integers is resolved";
+    const bool may_have_three = format == ColorFormat::rgb8 || texel_info(format).bits == 0;
+    if (texel_info(format).channels == 3 && !may_have_three) return "OpenGL implementations need not draw into three channels";
+  }
   for (const Drawing& d : p.draws) {
     const DrawState& s = d.state;
     const bool lines = is_lines(s.topology) || s.polygon_mode == PolygonMode::line;

@@ -308,6 +308,7 @@ namespace {
 std::vector<glm::dvec4> read_colors(const TargetSpec& target, ColorFormat format, GLenum attachment) {
   const std::size_t pixels = static_cast<std::size_t>(target.width) * static_cast<std::size_t>(target.height);
   glReadBuffer(attachment);
+  glClampColor(GL_CLAMP_READ_COLOR, GL_FALSE);  // signed normalized formats would be clamped to [0, 1]
   const auto read_as = [&](auto values, GLenum layout, GLenum type) {
     values.resize(pixels);
     glReadPixels(0, 0, target.width, target.height, layout, type, values.data());

@@ -78,8 +78,10 @@ void Framebuffer::combine_color(std::size_t attachment, const Sample& s, glm::ve
   std::array<std::byte, 16> source{};
   write_texel(format, value, source.data());
   std::byte* const stored = &color_bytes[attachment][texel(attachment, s)];
-  for (int k = 0, bit = 0; k < texel_info(format).channels; ++k) {
-    for (int end = bit + channel_bits(format, k); bit < end; ++bit) {
+  const TexelInfo& info = texel_info(format);
+  for (int k = 0; k < info.channels; ++k) {
+    const int first = info.bits == 0 ? channel_shift(format, k) : k * info.bits;
+    for (int bit = first; bit < first + channel_bits(format, k); ++bit) {
       const auto byte = static_cast<std::size_t>(bit / 8);
       const std::byte one = std::byte{1} << (bit % 8);
       const bool from_source = (source[byte] & one) != std::byte{0}, from_stored = (stored[byte] & one) != std::byte{0};
