@@ -14,7 +14,7 @@ namespace halfspace::conformance {
 namespace {
 
 // Returns the bytes of a number in memory, or of four packed ones.
-int size_of(ComponentType type) {
+int bytes_of(ComponentType type) {
   switch (type) {
     case ComponentType::uint8:
     case ComponentType::int8: return 1;
@@ -26,7 +26,7 @@ int size_of(ComponentType type) {
   }
 }
 
-int row_size(const AttributeFormat& f) { return is_packed(f.type) ? 4 : size_of(f.type) * f.components; }
+int row_size(const AttributeFormat& f) { return is_packed(f.type) ? 4 : bytes_of(f.type) * f.components; }
 
 bool is_signed(ComponentType type) {
   return type == ComponentType::int8 || type == ComponentType::int16 || type == ComponentType::int32 ||
@@ -40,11 +40,11 @@ uint64_t code_at(ComponentType type, const std::byte* row, int k) {
     std::memcpy(&code, row, 4);
     return code >> (10 * k) & (k == 3 ? 3u : 1023u);
   }
-  std::memcpy(&code, row + k * size_of(type), static_cast<std::size_t>(size_of(type)));
+  std::memcpy(&code, row + k * bytes_of(type), static_cast<std::size_t>(bytes_of(type)));
   return code;
 }
 
-int bits_of(ComponentType type, int k) { return !is_packed(type) ? 8 * size_of(type) : k == 3 ? 2 : 10; }
+int bits_of(ComponentType type, int k) { return !is_packed(type) ? 8 * bytes_of(type) : k == 3 ? 2 : 10; }
 
 double half_number(uint64_t code) {
   const auto exponent = static_cast<int>(code >> 10 & 31), significand = static_cast<int>(code & 1023);
@@ -114,7 +114,7 @@ AttributeArray position_array(const AttributeFormat& f, std::span<const glm::ive
       append(static_cast<uint64_t>(p.x | p.y << 10 | 1 << 30), 4, bytes);
       continue;
     }
-    for (int k = 0; k < f.components; ++k) append(code_of(f.type, coordinates[static_cast<std::size_t>(k)]), size_of(f.type), bytes);
+    for (int k = 0; k < f.components; ++k) append(code_of(f.type, coordinates[static_cast<std::size_t>(k)]), bytes_of(f.type), bytes);
   }
   return array_of(f, positions.size(), std::move(bytes));
 }
@@ -123,7 +123,7 @@ AttributeArray random_array(const AttributeFormat& f, std::size_t count, uint64_
   Random random(seed);
   std::vector<std::byte> bytes;
   for (std::size_t i = 0; i < count; ++i) {
-    for (int k = 0; k < (is_packed(f.type) ? 1 : f.components); ++k) append(random_code(f.type, random), size_of(f.type), bytes);
+    for (int k = 0; k < (is_packed(f.type) ? 1 : f.components); ++k) append(random_code(f.type, random), bytes_of(f.type), bytes);
   }
   return array_of(f, count, std::move(bytes));
 }

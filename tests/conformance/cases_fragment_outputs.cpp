@@ -24,7 +24,7 @@ std::vector<ColorFormat> formats_of(ColorType type) {
   return formats;
 }
 
-std::string name_of(ColorFormat f) { return std::string(texel_info(f).name); }
+std::string format_name(ColorFormat f) { return std::string(texel_info(f).name); }
 
 ColorMask mask_of(const DrawState& s, std::size_t attachment) {
   return s.attachments[attachment] ? s.attachments[attachment]->mask : s.color_mask;
@@ -108,7 +108,7 @@ constexpr ColorType kTypes[] = {ColorType::real, ColorType::signed_integer, Colo
 void add_basic(Cases& cases) {
   for (const ColorType type : kTypes) {
     for (const ColorFormat format : formats_of(type))
-      cases.push_back({"basic_" + name_of(format), [=] { return with_outputs({format}, all_of(type), 5); }, stored_in_their_formats});
+      cases.push_back({"basic_" + format_name(format), [=] { return with_outputs({format}, all_of(type), 5); }, stored_in_their_formats});
   }
 }
 
@@ -119,19 +119,19 @@ void add_arrays(Cases& cases) {
     for (std::size_t i = 0; i < formats.size(); ++i) {
       const ColorFormat format = formats[i];
       const std::size_t n = 2 + i % 3;
-      cases.push_back({"array_" + name_of(format) + "_" + std::to_string(n),
+      cases.push_back({"array_" + format_name(format) + "_" + std::to_string(n),
                        [=] { return with_outputs(std::vector(n, format), all_of(type), 6); }, stored_in_their_formats});
     }
   }
 }
 
 // Integers that are too large or too small are clamped.
-void add_ranges(Cases& cases) {
+void add_clamped(Cases& cases) {
   for (const ColorType type : {ColorType::signed_integer, ColorType::unsigned_integer}) {
     for (const ColorFormat format : formats_of(type)) {
       const int bits = channel_bits(format, 0);
       if (bits == 32) continue;
-      cases.push_back({"range_" + name_of(format),
+      cases.push_back({"range_" + format_name(format),
                        [=] {
                          Picture p = with_outputs({format}, all_of(type), 7);
                          p.draws[0].value *= 4.0f;
@@ -173,7 +173,7 @@ Cases fragment_outputs_cases() {
   Cases cases;
   add_basic(cases);
   add_arrays(cases);
-  add_ranges(cases);
+  add_clamped(cases);
   add_random(cases);
   return cases;
 }

@@ -116,8 +116,8 @@ constexpr OutputTypes all_of_type(ColorType type) { return {type, type, type, ty
 
 Cases logic_ops_cases() {
   using enum ColorFormat;
-  constexpr ColorFormat kFormats[] = {rg8,   rgba8, rgba16,  rgb565,   rgba4,    rgb10_a2,  rgba8i,
-                                      rg16i, r32i,  rgba8ui, rgba16ui, rgba32ui, rgb10_a2ui};
+  constexpr ColorFormat kCombined[] = {rg8,   rgba8, rgba16,  rgb565,   rgba4,    rgb10_a2,  rgba8i,
+                                       rg16i, r32i,  rgba8ui, rgba16ui, rgba32ui, rgb10_a2ui};
   Cases cases;
   for (std::size_t op = 0; op < std::size(kOperations); ++op) {
     const std::string name = kOperations[op].name;
@@ -126,7 +126,7 @@ Cases logic_ops_cases() {
       const char* not_by_mesa = inverts && formats[0] == rgb10_a2ui ? "llvmpipe clamps inverted integers of 10 bits" : nullptr;
       cases.push_back({name + "_" + of, [=] { return combined(formats, types, op, samples); }, combines_the_bits, false, not_by_mesa});
     };
-    for (const ColorFormat f : kFormats) add(std::string(texel_info(f).name), {f}, all_of_type(color_type(f)), 1);
+    for (const ColorFormat f : kCombined) add(std::string(texel_info(f).name), {f}, all_of_type(color_type(f)), 1);
     add("multisample", {rgba8}, all_of_type(ColorType::real), 4);
     add("three_attachments", {rgba8, rgba16i, rgba8ui}, kOutputTypes[3], 1);
   }

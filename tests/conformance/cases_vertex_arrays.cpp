@@ -221,7 +221,7 @@ void add_layouts(Builder& b) {
 
 // ---- instances -----------------------------------------------------------------------------------------------------
 
-void add_instances(Builder& b) {
+void add_instance_arrays(Builder& b) {
   for (const auto& [name, mix] : kMixes) {
     for (const uint32_t divisor : {1u, 2u, 3u}) {
       for (const uint32_t first : {0u, 3u}) {
@@ -254,7 +254,7 @@ void add_instances(Builder& b) {
 constexpr std::pair<const char*, IndexLayout> kIndexLayouts[] = {
     {"arrays", IndexLayout::none}, {"ubyte", IndexLayout::bytes}, {"ushort", IndexLayout::narrow}, {"uint", IndexLayout::wide}};
 
-void add_ranges(Builder& b) {
+void add_draw_ranges(Builder& b) {
   struct Range {
     uint32_t first;
     std::optional<uint32_t> count;
@@ -295,8 +295,8 @@ Cases vertex_arrays_cases() {
   add_formats(b);
   add_positions(b);
   add_layouts(b);
-  add_instances(b);
-  add_ranges(b);
+  add_instance_arrays(b);
+  add_draw_ranges(b);
   return b.cases;
 }
 

@@ -156,4 +156,8 @@ class LogicOps : public ConformanceOf {};
 TEST_P(LogicOps, CombineTheBits) { expect_no_error(); }
 INSTANTIATE_TEST_SUITE_P(Conformance, LogicOps, testing::ValuesIn(logic_ops_cases()), case_name);
 
+class LayeredRendering : public ConformanceOf {};
+TEST_P(LayeredRendering, DrawsEachLayerOnItsOwn) { expect_no_error(); }
+INSTANTIATE_TEST_SUITE_P(Conformance, LayeredRendering, testing::ValuesIn(layered_rendering_cases()), case_name);
+
 }  // namespace halfspace::conformance

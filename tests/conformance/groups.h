@@ -38,6 +38,7 @@ Cases viewport_array_cases();
 Cases vertex_arrays_cases();
 Cases fragment_outputs_cases();
 Cases logic_ops_cases();
+Cases layered_rendering_cases();
 
 struct Group {
   const char* name;
@@ -73,6 +74,7 @@ inline constexpr Group kGroups[] = {{"FillRules", fill_rules_cases},
                                     {"ViewportArrays", viewport_array_cases},
                                     {"VertexArrays", vertex_arrays_cases},
                                     {"FragmentOutputs", fragment_outputs_cases},
-                                    {"LogicOps", logic_ops_cases}};
+                                    {"LogicOps", logic_ops_cases},
+                                    {"LayeredRendering", layered_rendering_cases}};
 
 }  // namespace halfspace::conformance

@@ -38,6 +38,13 @@ bool same(const GeometryLayout& a, const GeometryLayout& b) {
 }
 
 template <std::size_t... I>
+SceneDraw layer_draw_of(const Drawing& d, std::index_sequence<I...>) {
+  SceneDraw draw;
+  ((same(d.geometry, kLayerLayouts[I]) ? void(draw = draw_of(LayerGeometryShader<I>{d.mode}, "layer_geometry", d)) : void()), ...);
+  return draw;
+}
+
+template <std::size_t... I>
 SceneDraw geometry_draw_of(const Drawing& d, std::index_sequence<I...>) {
   SceneDraw draw;
   ((same(d.geometry, kGeometryLayouts[I]) ? void(draw = draw_of(GeometryShader<I>{d.mode, d.value}, "geometry", d)) : void()), ...);
@@ -112,6 +119,8 @@ SceneDraw draw_of(const Drawing& d) {
     case Kind::sample_mask: return draw_of(SampleMaskShader{{}, static_cast<int32_t>(d.value)}, "sample_mask", d);
     case Kind::geometry: return geometry_draw_of(d, std::make_index_sequence<kGeometryLayouts.size()>());
     case Kind::viewport: return draw_of(ViewportShader{}, "viewport", d);
+    case Kind::layer: return draw_of(LayerShader{}, "layer", d);
+    case Kind::layer_geometry: return layer_draw_of(d, std::make_index_sequence<kLayerLayouts.size()>());
     case Kind::attributes: return arrays_draw_of(d);
     case Kind::outputs: return outputs_draw_of(d, std::make_index_sequence<kOutputTypes.size()>());
     case Kind::four_colors: break;
@@ -133,6 +142,7 @@ Scene scene_of(const Picture& p) {
   s.height = p.height;
   s.samples = p.samples;
   s.supersample = p.supersample;
+  s.layers = p.layers;
   for (const ColorFormat f : p.colors) s.more_colors.push_back({.format = f, .clear_value = p.clear_color});
   s.color = s.more_colors.front();
   s.more_colors.erase(s.more_colors.begin());
@@ -158,29 +168,29 @@ T read(const std::vector<std::byte>& bytes, std::size_t index) {
 
 }  // namespace
 
-std::size_t Seen::index(int x, int y) const {
-  return static_cast<std::size_t>(height - 1 - y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+std::size_t Seen::index(int x, int y, int layer) const {
+  return static_cast<std::size_t>(layer * height + height - 1 - y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
 }
 
-std::span<const std::byte> Seen::texel_bytes(int x, int y, std::size_t attachment) const {
+std::span<const std::byte> Seen::texel_bytes(int x, int y, std::size_t attachment, int layer) const {
   const std::vector<std::byte>& from = attachment == 0 ? bytes.color : bytes.more[attachment - 1];
   const auto size = static_cast<std::size_t>(bytes_per_pixel(formats[attachment]));
-  return std::span(from).subspan(index(x, y) * size, size);
+  return std::span(from).subspan(index(x, y, layer) * size, size);
 }
 
-glm::vec4 Seen::texel(int x, int y, std::size_t attachment) const {
+glm::vec4 Seen::texel(int x, int y, std::size_t attachment, int layer) const {
   const ColorFormat format = formats[attachment], stored = format == ColorFormat::srgb8a8 ? ColorFormat::rgba8
                                                            : format == ColorFormat::srgb8 ? ColorFormat::rgb8
                                                                                           : format;
-  return oracle::read_texel(stored, texel_bytes(x, y, attachment).data());
+  return oracle::read_texel(stored, texel_bytes(x, y, attachment, layer).data());
 }
 
-glm::vec4 Seen::color(int x, int y, std::size_t attachment) const { return texel(x, y, attachment); }
+glm::vec4 Seen::color(int x, int y, std::size_t attachment, int layer) const { return texel(x, y, attachment, layer); }
 
 glm::ivec4 Seen::integers(int x, int y, std::size_t attachment) const { return std::bit_cast<glm::ivec4>(texel(x, y, attachment)); }
 
-double Seen::depth(int x, int y) const {
-  const std::size_t i = index(x, y);
+double Seen::depth(int x, int y, int layer) const {
+  const std::size_t i = index(x, y, layer);
   switch (depth_format) {
     case DepthFormat::d16: return read<uint16_t>(bytes.depth, i);
     case DepthFormat::d24: return read<uint32_t>(bytes.depth, i);
@@ -211,6 +221,15 @@ bool Seen::is_constant() const {
 Seen draw(const Picture& picture, const PassOptions& options, int threads) {
   PassResult r = run_pass(scene_of(picture), options, threads);
   return seen_of(picture, std::move(r.pictures), std::move(r.statistics.queries));
+}
+
+void draw_into(const Picture& picture, TextureMemory& texture) {
+  const Scene scene = scene_of(picture);
+  ColorTarget target = layered_color_target(texture.level());
+  target.clear_value = picture.clear_color;
+  Pass pass(picture.width, picture.height, target, scene.depth, {.samples = picture.samples, .layers = picture.layers});
+  for (const SceneDraw& d : scene.draws) d.submit(pass);
+  pass.run(Workers(1));
 }
 
 Seen draw_by_oracle(const Picture& picture) {

@@ -14,6 +14,7 @@
 
 #include "halfspace/raster/vertex_input.h"
 #include "halfspace/shading/texture/texture.h"
+#include "halfspace/shading/texture/texture_memory.h"
 #include "property/scene.h"
 
 namespace halfspace::conformance {
@@ -38,7 +39,9 @@ enum class Kind : uint8_t {
   sample_mask,
   viewport,
   attributes,
-  outputs
+  outputs,
+  layer,
+  layer_geometry
 };
 
 /// Output of `color`: its varying with one of four interpolation qualifiers.
@@ -48,6 +51,8 @@ enum DerivativeMode { kDdx, kDdy, kFwidth, kQuadDdx, kQuadDdy, kQuadFwidth };
 /// What `geometry` emits: a strip of all vertices of a primitive; a small strip at each vertex, with `value` vertices and ends; or a strip
 /// that depends on the numbers of the primitive, the instance and the invocation.
 enum GeometryMode { kWhole, kAtVertices, kByNumber };
+/// The layers into which `layer_geometry` emits a primitive: the first kGeometryLayers, or some of them, depending on its number.
+enum LayerMode { kAllLayers, kSomeLayers };
 /// The levels of `tessellation`: `value` everywhere; different ones at each edge; the same, but odd patches are discarded.
 enum TessellationMode { kUniform, kPerEdge, kDiscardOdd };
 /// Output of `sample_inputs`: the number of the sample, divided by 8, or its position in the pixel.
@@ -62,7 +67,7 @@ using OutputTypes = std::array<ColorType, kOutputs>;
 struct Vertex {
   glm::vec4 pos_clip;
   glm::vec4 color{1.0f};
-  glm::vec4 extra{0.0f};  ///< clip and cull distances, point size, texture coordinates, an offset or a viewport, depending on the shader
+  glm::vec4 extra{0.0f};  ///< clip and cull distances, point size, texture coordinates, an offset, a viewport or a layer (by shader)
 };
 
 /// Attributes in memory that several draws can share.
@@ -85,7 +90,7 @@ struct Drawing {
   std::shared_ptr<const Texture2D> texture{};
   Sampler sampler{};
   TessellationLayout tessellation{};                 ///< of `tessellation`: one of kTessellationLayouts
-  GeometryLayout geometry{};                         ///< of `geometry`: one of kGeometryLayouts, with up to kGeometryVertices vertices
+  GeometryLayout geometry{};                         ///< of `geometry` or `layer_geometry`: one of kGeometryLayouts or kLayerLayouts
   OutputTypes outputs{};                             ///< of `outputs`: one of kOutputTypes
   std::shared_ptr<const ViewportArray> viewports{};  ///< of `viewport`, which `state` refers to
   DrawState state{};
@@ -96,6 +101,8 @@ struct Picture {
   int width = 32, height = 32;  ///< powers of two, so that positions on the 1/256 px grid are exact
   int samples = 1;
   bool supersample = false;
+  int layers = 1;
+  TextureKind kind = TextureKind::two_d;  ///< of a texture with these layers
   std::vector<ColorFormat> colors{ColorFormat::rgba8};
   DepthFormat depth = DepthFormat::d32fs8;
   glm::vec4 clear_color{0.0f};
@@ -113,18 +120,18 @@ struct Seen {
   std::vector<uint64_t> queries;
 
   /// Returns the stored value: codes divided by the largest one (for sRGB the encoded value, not the linear one), or floats.
-  glm::vec4 color(int x, int y, std::size_t attachment = 0) const;
+  glm::vec4 color(int x, int y, std::size_t attachment = 0, int layer = 0) const;
   /// Returns the stored integers; unsigned ones keep their bits.
   glm::ivec4 integers(int x, int y, std::size_t attachment = 0) const;
-  std::span<const std::byte> texel_bytes(int x, int y, std::size_t attachment = 0) const;
+  std::span<const std::byte> texel_bytes(int x, int y, std::size_t attachment = 0, int layer = 0) const;
   /// Returns the stored integer or, for float formats, the depth.
-  double depth(int x, int y) const;
+  double depth(int x, int y, int layer = 0) const;
   int stencil(int x, int y) const;
   bool is_constant() const;
 
  private:
-  std::size_t index(int x, int y) const;
-  glm::vec4 texel(int x, int y, std::size_t attachment) const;
+  std::size_t index(int x, int y, int layer = 0) const;
+  glm::vec4 texel(int x, int y, std::size_t attachment, int layer = 0) const;
 };
 
 /// A test case.
@@ -143,6 +150,8 @@ using Cases = std::vector<Case>;
 std::size_t vertex_count(const Drawing& drawing);
 /// Draws with the tile path.
 Seen draw(const Picture& picture, const PassOptions& options = {}, int threads = 1);
+/// Draws with the tile path into the layers of a texture. Depths are not stored.
+void draw_into(const Picture& picture, TextureMemory& texture);
 /// Draws with the oracle.
 Seen draw_by_oracle(const Picture& picture);
 /// Compares the tile path (deferred, and immediate in small tiles) with the oracle. Returns the difference; empty if there is none.

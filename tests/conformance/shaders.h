@@ -383,6 +383,84 @@ struct TessellationShader {
   }
 };
 
+inline constexpr float kLayerPointSize = 3.0f;
+/// What `layer` and `layer_geometry` add to blue for each layer.
+inline constexpr float kLayerCode = 16.0f / 255.0f;
+
+template <class R>
+struct LayerVaryings {
+  vec4<R> color;
+  Flat<R> layer;
+};
+template <class R>
+Fragment<R> layer_fragment(const LayerVaryings<R>& in) {
+  return {vec4<R>(in.color.x, in.color.y, in.layer.value * R(kLayerCode), in.color.w)};
+}
+
+/// The layer of `extra`.
+struct LayerShader {
+  template <class R>
+  using Attributes = VertexAttributes<R>;
+  template <class R>
+  using Varyings = LayerVaryings<R>;
+  template <class R>
+  LayeredVertex<R> vertex(const Attributes<R>& in, Varyings<R>& out) const {
+    out = {in.color, {in.extra.x}};
+    return {.position = in.pos_clip, .layer = truncate_to_int(in.extra.x), .point_size = R(kLayerPointSize)};
+  }
+  template <class R>
+  Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>&) const {
+    return layer_fragment(in);
+  }
+};
+
+inline constexpr int kGeometryLayers = 6;
+/// The layouts of `layer_geometry`: an invocation for each layer, and all layers in one invocation.
+inline constexpr std::array kLayerLayouts = [] {
+  using In = GeometryInputPrimitive;
+  using Out = GeometryOutputPrimitive;
+  return std::array{GeometryLayout{In::triangles, Out::triangle_strip, 3, kGeometryLayers},
+                    GeometryLayout{In::triangles, Out::triangle_strip, 3 * kGeometryLayers, 1},
+                    GeometryLayout{In::lines, Out::line_strip, 2 * kGeometryLayers, 1},
+                    GeometryLayout{In::points, Out::points, kGeometryLayers, 1}};
+}();
+
+/// Emits each primitive into several layers.
+template <std::size_t kLayout>
+struct LayerGeometryShader {
+  static constexpr GeometryLayout geometry_layout = kLayerLayouts[kLayout];
+  int mode = kAllLayers;
+  template <class R>
+  using Attributes = VertexAttributes<R>;
+  template <class R>
+  using VertexVaryings = ColorVaryings<R>;
+  template <class R>
+  using Varyings = LayerVaryings<R>;
+  template <class R>
+  using EmittedVertex = LayeredVertex<R>;
+  template <class R>
+  vec4<R> vertex(const Attributes<R>& in, VertexVaryings<R>& out) const {
+    out.color = in.color;
+    return in.pos_clip;
+  }
+  template <class R, std::size_t N>
+  void geometry(const GeometryInput<R, VertexVaryings<R>, N>& in, Emitter<R, Varyings<R>, LayeredVertex<R>>& out) const {
+    for (int32_t i = 0; i < kGeometryLayers / geometry_layout.invocations; ++i) {
+      const int32_t layer = in.invocation + i;
+      const MaskOf<R> emits = mode == kAllLayers ? MaskOf<R>(true) : ((in.primitive + IntOf<R>(layer)) & IntOf<R>(3)) != IntOf<R>(1);
+      for (std::size_t k = 0; k < N; ++k) {
+        const LayeredVertex<R> v{.position = in.position[k], .layer = IntOf<R>(layer), .point_size = R(kLayerPointSize)};
+        out.emit(v, {in.varyings[k].color, {R(static_cast<float>(layer))}}, emits);
+      }
+      out.end_primitive();
+    }
+  }
+  template <class R>
+  Fragment<R> fragment(const Varyings<R>& in, const Pixel<R>&) const {
+    return layer_fragment(in);
+  }
+};
+
 /// Attributes of any format. `position` is in pixels, apart from w.
 template <class R>
 struct ArrayAttributes {

@@ -231,6 +231,40 @@ inline constexpr const char* kEvaluationBody = R"(
       }
       gl_Position = p;
     })";
+inline constexpr const char* kLayerVertex = R"(
+    layout(location = 0) in vec4 pos_clip;
+    layout(location = 1) in vec4 in_color;
+    layout(location = 2) in vec4 extra;
+    out vec4 color;
+    void main() {
+      color = in_color;
+      gl_Position = pos_clip;
+      gl_PointSize = 3.0;
+      gl_Layer = int(extra.x);
+    })";
+inline constexpr const char* kLayerFragment = R"(
+    in vec4 color;
+    out vec4 fragment;
+    void main() { fragment = vec4(color.xy, float(gl_Layer) * (16.0 / 255.0), color.w); })";
+// The geometry function of conformance::LayerGeometryShader follows a line with its layout.
+inline constexpr const char* kLayerGeometryBody = R"(
+    in vec4 vertex_color[];
+    out vec4 color;
+    void main() {
+      int n = gl_in.length();
+      for (int i = 0; i < 6 / invocations; ++i) {
+        int layer = gl_InvocationID + i;
+        if (mode == 1.0 && ((gl_PrimitiveIDIn + layer) & 3) == 1) continue;
+        for (int k = 0; k < n; ++k) {
+          color = vertex_color[k];
+          gl_Position = gl_in[k].gl_Position;
+          gl_PointSize = 3.0;
+          gl_Layer = layer;
+          EmitVertex();
+        }
+        EndPrimitive();
+      }
+    })";
 // With the type of the integer attribute.
 inline constexpr const char* kSignedShared = R"(#version 450 core
     #define IVEC ivec4

@@ -28,17 +28,17 @@ struct Glsl {
   const char *vertex, *fragment;
 };
 
-// Returns the geometry shader with one of the layouts.
-const char* geometry_glsl_of(const GeometryLayout& layout) {
+// Returns the geometry shader with a layout and a body, or null.
+const char* geometry_glsl_of(const GeometryLayout& layout, const char* body) {
   static std::map<std::string, std::string> sources;  // by layout; the addresses stay the same
   constexpr std::array kInputs{"points", "lines", "lines_adjacency", "triangles", "triangles_adjacency"};
   constexpr std::array kOutputs{"points", "line_strip", "triangle_strip"};
   const std::string line = std::string("layout(") + kInputs[static_cast<std::size_t>(layout.input)] +
                            ", invocations = " + std::to_string(layout.invocations) + ") in; layout(" +
                            kOutputs[static_cast<std::size_t>(layout.output)] + ", max_vertices = " + std::to_string(layout.max_vertices) +
-                           ") out;";
-  std::string& source = sources[line];
-  if (source.empty()) source = line + kGeometryBody;
+                           ") out; const int invocations = " + std::to_string(layout.invocations) + ";";
+  std::string& source = sources[line + body];
+  if (source.empty()) source = line + body;
   return source.c_str();
 }
 // Returns the fragment shader with one of the lists of types.
@@ -77,6 +77,8 @@ Glsl glsl_of(const Drawing& d, std::size_t attachments) {
     case Kind::sample_mask: return {kVertex, kSampleMaskFragment};
     case Kind::geometry: return {kGeometryVertex, kGeometryFragment};
     case Kind::tessellation: return {kTessellationVertex, kGeometryFragment};
+    case Kind::layer: return {kLayerVertex, kLayerFragment};
+    case Kind::layer_geometry: return {kTessellationVertex, kLayerFragment};
     case Kind::outputs: return {kOutputsVertex, outputs_glsl_of(d.outputs)};
     case Kind::attributes: return {kArraysVertex, kArraysFragment};
     case Kind::two_colors:
@@ -123,8 +125,13 @@ bool has_unsigned_attribute(const Drawing& d) {
   });
 }
 
+bool has_own_point_size(Kind kind) {
+  constexpr std::array kKinds{Kind::point, Kind::clip, Kind::cull, Kind::viewport, Kind::layer, Kind::layer_geometry};
+  return std::ranges::find(kKinds, kind) != kKinds.end();
+}
+
 const char* shared_glsl_of(const Drawing& d) {
-  if (d.kind == Kind::viewport) return kViewportShared;
+  if (d.kind == Kind::viewport || d.kind == Kind::layer) return kViewportShared;
   if (d.kind == Kind::attributes) return has_unsigned_attribute(d) ? kUnsignedShared : kSignedShared;
   return kShared;
 }
@@ -143,11 +150,13 @@ MesaDraw mesa_draw_of(const Drawing& d, std::size_t attachments) {
              d.indices,
              d.state,
              d.restart,
-             d.kind == Kind::point || d.kind == Kind::clip || d.kind == Kind::cull || d.kind == Kind::viewport,
+             has_own_point_size(d.kind),
              d.kind == Kind::clip   ? 4
              : d.kind == Kind::cull ? 2
                                     : 0,
-             d.kind == Kind::geometry ? geometry_glsl_of(d.geometry) : nullptr,
+             d.kind == Kind::geometry         ? geometry_glsl_of(d.geometry, kGeometryBody)
+             : d.kind == Kind::layer_geometry ? geometry_glsl_of(d.geometry, kLayerGeometryBody)
+                                              : nullptr,
              d.kind == Kind::tessellation ? control_glsl_of(d.tessellation) : nullptr,
              d.kind == Kind::tessellation ? evaluation_glsl_of(d.tessellation) : nullptr,
              d.tessellation.patch_vertices,
@@ -172,6 +181,7 @@ bool is_inside(const conformance::Vertex& v) {
 const char* not_comparable(const conformance::Picture& p) {
   if (p.samples == 2 || p.samples == 8) return "llvmpipe supports only 1 or 4 samples";
   if (p.supersample) return "OpenGL has no supersampling";
+  if (p.samples > 1 && p.layers > 1) return "multisampled layers are not resolved by a blit";
   for (const ColorFormat format : p.colors) {
     if (p.samples > 1 && is_integer(format)) return "OpenGL does not specify which sample of integers is resolved";
     const bool may_have_three = format == ColorFormat::rgb8 || texel_info(format).bits == 0;
@@ -233,10 +243,10 @@ double tolerance(const conformance::Picture& p, ColorFormat format, int channel,
 // The texels of a pixel in all attachments.
 using Texels = std::vector<glm::dvec4>;
 
-Texels texels_at(const conformance::Seen& seen, int x, int y) {
+Texels texels_at(const conformance::Seen& seen, int x, int y, int layer) {
   Texels texels;
   for (std::size_t a = 0; a < seen.formats.size(); ++a) {
-    const glm::dvec4 real(is_integer(seen.formats[a]) ? glm::vec4(0.0f) : seen.color(x, y, a));
+    const glm::dvec4 real(is_integer(seen.formats[a]) ? glm::vec4(0.0f) : seen.color(x, y, a, layer));
     switch (color_type(seen.formats[a])) {
       case ColorType::real: texels.push_back(real); break;
       case ColorType::signed_integer: texels.emplace_back(seen.integers(x, y, a)); break;
@@ -277,6 +287,8 @@ void print_pixel(int x, int y, const Texels& ours, const Texels& mesa) {
 // A pixel counts as covered if it differs from the clear color in either image.
 int64_t compare_with_mesa(const conformance::Picture& p, const std::string& name, Agreement& sum) {
   TargetSpec target{p.width, p.height, p.colors[0], p.clear_color, p.clear_depth, p.depth, p.clear_stencil, p.samples};
+  target.layers = p.layers;
+  target.kind = p.kind;
   target.more_formats.assign(p.colors.begin() + 1, p.colors.end());
   std::vector<MesaDraw> draws;
   for (const Drawing& d : p.draws) draws.push_back(mesa_draw_of(d, p.colors.size()));
@@ -284,13 +296,14 @@ int64_t compare_with_mesa(const conformance::Picture& p, const std::string& name
   const conformance::Seen seen = conformance::draw(p);
   conformance::Picture nothing = p;
   nothing.draws.clear();
-  const Texels clear = texels_at(conformance::draw(nothing), 0, 0);
+  const Texels clear = texels_at(conformance::draw(nothing), 0, 0, 0);
   int64_t covered = 0, differing = 0;
-  for (int y = 0; y < p.height; ++y) {
+  for (int row = 0; row < p.height * p.layers; ++row) {
     for (int x = 0; x < p.width; ++x) {
-      const Texels a = texels_at(seen, x, y);
+      const int y = row % p.height;
+      const Texels a = texels_at(seen, x, y, row / p.height);
       Texels b;
-      for (const Texels& attachment : mesa) b.push_back(attachment[static_cast<std::size_t>(y * p.width + x)]);
+      for (const Texels& attachment : mesa) b.push_back(attachment[static_cast<std::size_t>(row * p.width + x)]);
       covered += p.draws.empty() || !are_near(p, a, clear) || !are_near(p, b, clear);
       if (are_near(p, a, b)) continue;
       if (++differing <= 3 && std::getenv("HALFSPACE_MESA_PIXELS") != nullptr) print_pixel(x, y, a, b);

@@ -145,6 +145,7 @@ class Attachments {
     if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) throw std::runtime_error("the framebuffer is incomplete");
   }
   GLuint framebuffer() const { return framebuffer_.id; }
+  GLuint color_texture(std::size_t attachment) const { return colors_[attachment].id; }
   // Selects one of the color attachments. The framebuffer must be bound.
   void draw_into(GLenum attachment) const {
     std::array<GLenum, 8> places{};
@@ -154,6 +155,7 @@ class Attachments {
 
  private:
   static void attach(const GlTexture& texture, GLenum attachment, GLenum format, const TargetSpec& target, int samples) {
+    if (target.layers > 1) return attach_layers(texture, attachment, format, target);
     const GLenum kind = samples > 1 ? GL_TEXTURE_2D_MULTISAMPLE : GL_TEXTURE_2D;
     glBindTexture(kind, texture.id);
     if (samples > 1) {
@@ -162,6 +164,17 @@ class Attachments {
       glTexStorage2D(kind, 1, format, target.width, target.height);
     }
     glFramebufferTexture2D(GL_FRAMEBUFFER, attachment, kind, texture.id, 0);
+  }
+
+  static void attach_layers(const GlTexture& texture, GLenum attachment, GLenum format, const TargetSpec& target) {
+    const GLenum kind = gl(target.kind);
+    glBindTexture(kind, texture.id);
+    if (target.kind == TextureKind::cube) {
+      glTexStorage2D(kind, 1, format, target.width, target.height);
+    } else {
+      glTexStorage3D(kind, 1, format, target.width, target.height, target.layers);
+    }
+    glFramebufferTexture(GL_FRAMEBUFFER, attachment, texture.id, 0);
   }
 
   Framebuffer framebuffer_;
@@ -322,6 +335,13 @@ std::vector<glm::dvec4> read_colors(const TargetSpec& target, ColorFormat format
   return read_as(std::vector<glm::vec4>(), GL_RGBA, GL_FLOAT);
 }
 
+// Returns the real colors of all layers of a texture.
+std::vector<glm::dvec4> read_layers(const TargetSpec& target, GLuint texture) {
+  std::vector<glm::vec4> colors(static_cast<std::size_t>(target.width) * static_cast<std::size_t>(target.height * target.layers));
+  glGetTextureImage(texture, 0, GL_RGBA, GL_FLOAT, static_cast<GLsizei>(colors.size() * sizeof(glm::vec4)), colors.data());
+  return {colors.begin(), colors.end()};
+}
+
 }  // namespace
 
 std::vector<std::vector<glm::dvec4>> colors_by_mesa(const TargetSpec& target, const std::vector<MesaDraw>& draws, MesaPrograms& programs) {
@@ -342,7 +362,9 @@ std::vector<std::vector<glm::dvec4>> colors_by_mesa(const TargetSpec& target, co
     glBindFramebuffer(GL_FRAMEBUFFER, resolved->framebuffer());
   }
   std::vector<std::vector<glm::dvec4>> colors;
-  for (GLenum i = 0; i < formats.size(); ++i) colors.push_back(read_colors(target, formats[i], GL_COLOR_ATTACHMENT0 + i));
+  for (std::size_t i = 0; target.layers > 1 && i < formats.size(); ++i) colors.push_back(read_layers(target, drawn.color_texture(i)));
+  for (GLenum i = 0; target.layers == 1 && i < formats.size(); ++i)
+    colors.push_back(read_colors(target, formats[i], GL_COLOR_ATTACHMENT0 + i));
   expect_no_error();
   return colors;
 }

@@ -31,6 +31,8 @@ struct TargetSpec {
   uint8_t clear_stencil = 0;
   int samples = 1;                          ///< 1 or 4
   std::vector<ColorFormat> more_formats{};  ///< of attachments 1 to 7
+  int layers = 1;                           ///< with one sample
+  TextureKind kind = TextureKind::two_d;    ///< of textures with these layers
 };
 
 /// 8-bit colors and window-space depths, top row first.
@@ -98,7 +100,7 @@ void run(const MesaDraw& draw, const TargetSpec& target, MesaPrograms& programs)
 /// Throws if OpenGL reports an error.
 void expect_no_error();
 /// Draws with the current context (see MesaContext) and returns the stored colors or integers of each attachment (codes are divided by the
-/// largest one), bottom row first. Multisampled targets are resolved.
+/// largest one), bottom row first, one layer after the other. Multisampled targets are resolved.
 std::vector<std::vector<glm::dvec4>> colors_by_mesa(const TargetSpec& target, const std::vector<MesaDraw>& draws, MesaPrograms& programs);
 /// Returns 8-bit colors and depth. The target must be rgba8 or srgb8a8 with d32f and a single sample.
 Picture draw_with_mesa(const TargetSpec& target, const std::vector<MesaDraw>& draws);

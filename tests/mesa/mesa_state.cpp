@@ -78,6 +78,19 @@ GLenum gl(TexelFormat f) {
   return k[static_cast<std::size_t>(f)];
 }
 
+GLenum gl(TextureKind kind) {
+  constexpr std::array<GLenum, 9> names{GL_TEXTURE_1D,
+                                        GL_TEXTURE_2D,
+                                        GL_TEXTURE_RECTANGLE,
+                                        GL_TEXTURE_3D,
+                                        GL_TEXTURE_1D_ARRAY,
+                                        GL_TEXTURE_2D_ARRAY,
+                                        GL_TEXTURE_CUBE_MAP,
+                                        GL_TEXTURE_CUBE_MAP_ARRAY,
+                                        GL_TEXTURE_2D_MULTISAMPLE};
+  return names[static_cast<std::size_t>(kind)];
+}
+
 namespace {
 
 void set_stencil_state(const std::optional<StencilState>& s) {

@@ -11,6 +11,7 @@
 namespace halfspace::test {
 
 GLenum gl(TexelFormat format);
+GLenum gl(TextureKind kind);
 
 /// Calls glEnable or glDisable.
 void enable(GLenum what, bool on);

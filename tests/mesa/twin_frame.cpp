@@ -18,19 +18,6 @@ namespace halfspace::test {
 
 namespace {
 
-GLenum gl_target(TextureKind kind) {
-  constexpr std::array<GLenum, 9> names{GL_TEXTURE_1D,
-                                        GL_TEXTURE_2D,
-                                        GL_TEXTURE_RECTANGLE,
-                                        GL_TEXTURE_3D,
-                                        GL_TEXTURE_1D_ARRAY,
-                                        GL_TEXTURE_2D_ARRAY,
-                                        GL_TEXTURE_CUBE_MAP,
-                                        GL_TEXTURE_CUBE_MAP_ARRAY,
-                                        GL_TEXTURE_2D_MULTISAMPLE};
-  return names[static_cast<std::size_t>(kind)];
-}
-
 // Format and type of texels in memory.
 struct Layout {
   GLenum format, type;
@@ -105,7 +92,7 @@ const TextureSize& size_of(const std::vector<TwinTarget>& colors, const std::opt
 
 TwinTexture::TwinTexture(TextureKind kind, TexelFormat format, const TextureSize& size, int levels)
     : memory_(kind, format, size, levels), format_(format), size_(size) {
-  glCreateTextures(gl_target(kind), 1, &id_);
+  glCreateTextures(test::gl(kind), 1, &id_);
   const GLenum f = test::gl(format);
   switch (kind) {
     case TextureKind::one_d: glTextureStorage1D(id_, levels, f, size.width); break;
