@@ -2,10 +2,13 @@
 #include "conformance/random_state.h"
 
 #include <algorithm>
+#include <bit>
 #include <charconv>
 #include <vector>
 
 #include "conformance/geometry.h"
+#include "conformance/outputs.h"
+#include "conformance/shaders.h"
 #include "support/random_state.h"
 
 namespace halfspace::conformance {
@@ -162,6 +165,37 @@ void add_later_state(Picture& p, Random random) {
   }
 }
 
+// Replaces the attachments of some pictures by integers, or by integers and colors, and the shaders of their draws.
+void add_integers(Picture& p, Random random) {
+  if (!random.once_in(8)) return;
+  using enum ColorFormat;
+  const OutputTypes& types = kOutputTypes[static_cast<std::size_t>(random.between(1, static_cast<int>(kOutputTypes.size()) - 1))];
+  for (std::size_t i = 0; i < p.colors.size(); ++i) {
+    const ColorFormat a = random.pick({r8i, rgba8i, rg16i, rgba16i, r32i, rgba32i}),
+                      b = random.pick({r8ui, rgba8ui, rg16ui, rgba16ui, r32ui, rgba32ui, rgb10_a2ui});
+    if (types[i] != ColorType::real) p.colors[i] = types[i] == ColorType::signed_integer ? a : b;
+  }
+  // Bits of small integers, which are numbers near 0 in other attachments.
+  const auto integers = [&] {
+    return std::bit_cast<glm::vec4>(glm::ivec4{random.below(4), random.below(4), random.below(4), random.below(4)});
+  };
+  const IntegerRange range = integer_range(p.colors);
+  p.clear_color = integers();
+  for (Drawing& d : p.draws) {
+    d.kind = Kind::outputs;
+    d.mode = 0;
+    d.outputs = types;
+    d.value = range.factor;
+    d.texture.reset();
+    d.state.blend.reset();
+    for (Vertex& v : d.vertices) v.extra = random_integers(range, random);
+    for (std::size_t i = 0; i < p.colors.size(); ++i) {
+      if (random.once_in(3)) d.state.attachments[i] = AttachmentState{{}, random_mask(random)};
+      if (d.clear && d.clear->colors[i] && is_integer(p.colors[i])) d.clear->colors[i] = integers();
+    }
+  }
+}
+
 // Drops the primitives whose number has the value `which` in bit k.
 void drop_primitives(Picture& p, int k, int which) {
   for (Drawing& d : p.draws) {
@@ -175,6 +209,15 @@ void drop_primitives(Picture& p, int k, int which) {
     }
     if (!left.empty()) d.indices = left;
   }
+}
+
+ColorFormat simplest_format(ColorFormat f) {
+  switch (color_type(f)) {
+    case ColorType::signed_integer: return ColorFormat::rgba8i;
+    case ColorType::unsigned_integer: return ColorFormat::rgba8ui;
+    case ColorType::real: break;
+  }
+  return ColorFormat::rgba8;
 }
 
 // Returns the simplifications in the order of their bits.
@@ -196,7 +239,7 @@ std::vector<std::function<void(Picture&)>> simplifications() {
   each([](DrawState& s) { s.depth = {}; });
   each([](DrawState& s) { s.scissor.reset(), s.viewport.reset(); });
   each([](DrawState& s) { s.cull = CullMode::none, s.front = Winding::counter_clockwise; });
-  each([](DrawState& s) { s.color_mask = {}, s.offset = {}, s.query.reset(); });
+  each([](DrawState& s) { s.color_mask = {}, s.attachments = {}, s.offset = {}, s.query.reset(); });
   each([](DrawState& s) { s.sample_shading = s.alpha_to_coverage = false, s.sample_mask = ~0u; });
   each([](DrawState& s) { s.polygon_mode = PolygonMode::fill, s.instances = 1; });
   each_drawing([](Drawing& d) {
@@ -207,12 +250,15 @@ std::vector<std::function<void(Picture&)>> simplifications() {
   each_drawing([](Drawing& d) { d.clear.reset(); });
   all.push_back([](Picture& p) {
     for (Drawing& d : p.draws) {
-      if (p.colors.size() == 1 && d.kind != Kind::two_colors) d.kind = Kind::color;  // not with two colors: blending may need both
+      // Not with two colors, because blending may need both, and not with integers.
+      if (p.colors.size() == 1 && d.kind != Kind::two_colors && d.kind != Kind::outputs) d.kind = Kind::color;
       d.mode = kSmooth;
     }
   });
   all.push_back([](Picture& p) { p.samples = 1, p.supersample = false; });
-  all.push_back([](Picture& p) { p.colors.assign(p.colors.size(), ColorFormat::rgba8); });
+  all.push_back([](Picture& p) {
+    for (ColorFormat& f : p.colors) f = simplest_format(f);
+  });
   all.push_back([](Picture& p) { p.depth = DepthFormat::d32fs8; });
   for (std::size_t i = 4; i-- > 0;) {  // draws are removed from last to first, so that the numbers above stay valid
     all.push_back([=](Picture& p) {
@@ -257,6 +303,7 @@ Picture random_picture(const RandomState& state) {
   const int draws = r.between(1, 4);
   for (int i = 0; i < draws; ++i) p.draws.push_back(random_drawing(p, r, i == 0));
   add_later_state(p, other_numbers(r));
+  add_integers(p, other_numbers(other_numbers(r)));
   const auto simplify = simplifications();
   for (std::size_t i = 0; i < simplify.size(); ++i) {
     if (state.simplified >> i & 1) simplify[i](p);
