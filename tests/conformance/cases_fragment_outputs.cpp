@@ -101,14 +101,13 @@ std::string stored_in_their_formats(const Picture& p, const Seen& seen) {
   });
 }
 
-constexpr OutputTypes all_of(ColorType type) { return {type, type, type, type}; }
-
 constexpr ColorType kTypes[] = {ColorType::real, ColorType::signed_integer, ColorType::unsigned_integer};
 
 void add_basic(Cases& cases) {
   for (const ColorType type : kTypes) {
     for (const ColorFormat format : formats_of(type))
-      cases.push_back({"basic_" + format_name(format), [=] { return with_outputs({format}, all_of(type), 5); }, stored_in_their_formats});
+      cases.push_back(
+          {"basic_" + format_name(format), [=] { return with_outputs({format}, all_of_type(type), 5); }, stored_in_their_formats});
   }
 }
 
@@ -120,7 +119,7 @@ void add_arrays(Cases& cases) {
       const ColorFormat format = formats[i];
       const std::size_t n = 2 + i % 3;
       cases.push_back({"array_" + format_name(format) + "_" + std::to_string(n),
-                       [=] { return with_outputs(std::vector(n, format), all_of(type), 6); }, stored_in_their_formats});
+                       [=] { return with_outputs(std::vector(n, format), all_of_type(type), 6); }, stored_in_their_formats});
     }
   }
 }
@@ -133,7 +132,7 @@ void add_clamped(Cases& cases) {
       if (bits == 32) continue;
       cases.push_back({"range_" + format_name(format),
                        [=] {
-                         Picture p = with_outputs({format}, all_of(type), 7);
+                         Picture p = with_outputs({format}, all_of_type(type), 7);
                          p.draws[0].value *= 4.0f;
                          return p;
                        },

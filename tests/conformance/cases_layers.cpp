@@ -3,7 +3,6 @@
 // Cases of layered targets, after the group geometry_shading.layered of VK-GL-CTS (GLES 3.1). The truth draws each layer on its own: the
 // primitives that are in it, in order. What is drawn into a texture of the kind must be the same.
 #include <cstring>
-#include <memory>
 
 #include "conformance/geometry.h"
 #include "conformance/groups.h"

@@ -110,12 +110,10 @@ std::string combines_the_bits(const Picture& p, const Seen& seen) {
   });
 }
 
-constexpr OutputTypes all_of_type(ColorType type) { return {type, type, type, type}; }
-
 }  // namespace
 
 Cases logic_ops_cases() {
-  using enum ColorFormat;
+  using enum TexelFormat;
   constexpr ColorFormat kCombined[] = {rg8,   rgba8, rgba16,  rgb565,   rgba4,    rgb10_a2,  rgba8i,
                                        rg16i, r32i,  rgba8ui, rgba16ui, rgba32ui, rgb10_a2ui};
   Cases cases;

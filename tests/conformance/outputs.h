@@ -23,6 +23,9 @@ struct IntegerRange {
 IntegerRange integer_range(const std::vector<ColorFormat>& formats);
 glm::vec4 random_integers(const IntegerRange& range, Random& random);
 
+/// Returns outputs of one type.
+constexpr OutputTypes all_of_type(ColorType type) { return {type, type, type, type}; }
+
 /// Draws into attachments of these formats, whose types must be the first ones of `types`. The quads are in the order of columns, each from
 /// the bottom up.
 Picture with_outputs(const std::vector<ColorFormat>& formats, const OutputTypes& types, uint64_t seed);

@@ -168,7 +168,7 @@ void add_later_state(Picture& p, Random random) {
 // Replaces the attachments of some pictures by integers, or by integers and colors, and the shaders of their draws.
 void add_integers(Picture& p, Random random) {
   if (!random.once_in(8)) return;
-  using enum ColorFormat;
+  using enum TexelFormat;
   const OutputTypes& types = kOutputTypes[static_cast<std::size_t>(random.between(1, static_cast<int>(kOutputTypes.size()) - 1))];
   for (std::size_t i = 0; i < p.colors.size(); ++i) {
     const ColorFormat a = random.pick({r8i, rgba8i, rg16i, rgba16i, r32i, rgba32i}),
