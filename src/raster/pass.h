@@ -20,6 +20,7 @@
 #include <span>
 
 #include "halfspace/core/parallel.h"
+#include "halfspace/raster/clear_values.h"
 #include "halfspace/raster/detail/pass_kernels.h"
 #include "halfspace/raster/draw_state.h"
 #include "halfspace/raster/pass_tuning.h"
@@ -42,18 +43,6 @@ struct PassOptions {
   /// a pass of its own; layers are drawn one after the other. Clears apply to all layers. There is no post step.
   int layers = 1;
   PassTuning tuning{};
-};
-
-/// What Pass::clear() sets (glClear and glClearBuffer, OpenGL 4.6, section 17.4.3). Everything else keeps its contents.
-struct ClearValues {
-  std::optional<Rect> rect{};  ///< window coordinates, as DrawState::scissor; default: the whole target
-  /// Colors of the attachments: linear, straight alpha; for integer formats, integers stored with std::bit_cast.
-  std::array<std::optional<glm::vec4>, kMaxColorTargets> colors{};
-  ColorMask mask{};
-  std::optional<float> depth{};  ///< in [0, 1]
-  std::optional<uint8_t> stencil{};
-  uint8_t stencil_mask = 0xff;               ///< bits of the stencil that are written
-  std::optional<DrawCondition> condition{};  ///< as DrawState::condition
 };
 
 /// A list of draws that render to the same attachments. draw() and draw_depth() record draws, and run() executes them. A Pass must only be

@@ -33,7 +33,8 @@ PLAIN_HEADERS = {"core/compare_op.h", "shading/texture/sampler.h", "shading/valu
 # its own row and of lower rows. The rooms of raster are the phases of the pipeline.
 ROOMS = {
     "raster": [
-        ["draw_state", "target", "vertex_stream", "vertex_input", "clusters", "depth_pyramid", "statistics", "pass_tuning"],
+        ["draw_state", "target", "vertex_stream", "vertex_input", "clusters", "depth_pyramid", "statistics", "pass_tuning",
+         "clear_values"],
         ["pipeline/"],
         ["primitives/"],
         ["amplify/"],

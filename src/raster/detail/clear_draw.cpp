@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "halfspace/raster/detail/clear_draw.h"
 
-#include "halfspace/raster/tile/attachments.h"
+#include "halfspace/raster/vertex_input.h"
 
 namespace halfspace::HS_LANES::detail {
 

@@ -3,7 +3,9 @@
 // Clears of a part of a target between the draws of a pass.
 #pragma once
 
-#include "halfspace/raster/pass.h"
+#include "halfspace/raster/clear_values.h"
+#include "halfspace/raster/detail/pass_kernels.h"
+#include "halfspace/raster/tile/attachments.h"
 
 namespace halfspace::HS_LANES::detail {
 
