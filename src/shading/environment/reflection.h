@@ -38,11 +38,10 @@ HS_INLINE Differential<R> reflected(const Differential<R>& d, const Differential
 }
 
 /// Returns the light of the environment reflected at a surface. from_eye_ws is the vector from the eye to the surface, of any
-/// length. normal_ws is the unit normal. Both include their derivatives. Not inlined: in shaders that look up no environment, its code
-/// would take registers from that of the light sources.
+/// length. normal_ws is the unit normal. Both include their derivatives.
 template <Number R>
-__attribute__((noinline)) vec3<R> environment_reflection(const EnvironmentBlend& environment, const Differential<R>& from_eye_ws,
-                                                         const Differential<R>& normal_ws) {
+HS_INLINE vec3<R> environment_reflection(const EnvironmentBlend& environment, const Differential<R>& from_eye_ws,
+                                         const Differential<R>& normal_ws) {
   const Differential<R> r = reflected(from_eye_ws, normal_ws);
   return environment.light(r.at, r.dx, r.dy);
 }
