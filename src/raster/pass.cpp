@@ -19,7 +19,6 @@
 #include "halfspace/raster/primitives/primitive_assembly.h"
 #include "halfspace/raster/primitives/vertex_stage.h"
 #include "halfspace/raster/tile/blend.h"
-#include "halfspace/raster/tile/logic_op.h"
 #include "halfspace/raster/tile/tile_format.h"
 
 namespace halfspace::HS_LANES {

@@ -66,13 +66,13 @@ Value for_each_level(IntOf<R> index, const F& f) {
   return value;
 }
 
-/// The kind of a texture and an offset, of which a lookup learns when it runs.
+/// The kind of a texture and an offset that are known only at run time.
 struct AnyKind {
   static constexpr bool has_layers = true;
   TextureKind kind;
   glm::ivec3 offset{0};  ///< in texels of the level that is read
 };
-/// A 2D texture without an offset: a lookup has no code for other kinds.
+/// A 2D texture without an offset, as Texture2D. The lookup contains no code for other kinds.
 struct OnlyTwoD {
   static constexpr bool has_layers = false;
   static constexpr TextureKind kind = TextureKind::two_d;
